@@ -1,0 +1,63 @@
+# The catalogue: every part of the house is declared by one of these calls, with its sources by name.
+#
+#   roci_library(NAME core_pddl HELP "..." SOURCES a.cpp b.cpp DEPENDS core_x PRIVATE_DEPENDS yaml-cpp)
+#   roci_program(NAME roci-plan HELP "..." SOURCES main.cpp DEPENDS planner_core)      installed to bin/
+#   roci_plugin (NAME roci_transport_inproc HELP "..." SOURCES ... DEPENDS ...)        installed to lib/rocinante/
+#   roci_test   (NAME unit_pddl SOURCES parser_test.cpp DEPENDS core_pddl [LABELS contract] [SERIAL])
+#
+# Headers are included from the top of the tree: #include "core/pddl/parser.hpp".
+
+set_property(GLOBAL PROPERTY ROCI_PARTS "")
+
+function(_roci_part target)
+  cmake_parse_arguments(PART "" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;LABELS" ${ARGN})
+  if(NOT PART_HELP)
+    message(FATAL_ERROR "${target}: every part says in HELP what it is for")
+  endif()
+  set_property(GLOBAL APPEND PROPERTY ROCI_PARTS "${target}: ${PART_HELP}")
+  target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${target} PUBLIC ${PART_DEPENDS} PRIVATE ${PART_PRIVATE_DEPENDS} roci_warnings)
+endfunction()
+
+function(roci_library)
+  cmake_parse_arguments(PART "" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  add_library(${PART_NAME} STATIC ${PART_SOURCES})
+  _roci_part(${PART_NAME} ${ARGN})
+endfunction()
+
+function(roci_program)
+  cmake_parse_arguments(PART "" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  add_executable(${PART_NAME} ${PART_SOURCES})
+  _roci_part(${PART_NAME} ${ARGN})
+  install(TARGETS ${PART_NAME} RUNTIME DESTINATION bin)
+endfunction()
+
+function(roci_plugin)
+  cmake_parse_arguments(PART "" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  add_library(${PART_NAME} MODULE ${PART_SOURCES})
+  _roci_part(${PART_NAME} ${ARGN})
+  set_target_properties(${PART_NAME} PROPERTIES
+    LIBRARY_OUTPUT_DIRECTORY "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/rocinante")
+  install(TARGETS ${PART_NAME} LIBRARY DESTINATION lib/rocinante)
+endfunction()
+
+find_package(GTest REQUIRED)
+include(GoogleTest)
+
+function(roci_test)
+  cmake_parse_arguments(PART "SERIAL" "NAME;HELP" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  add_executable(${PART_NAME} ${PART_SOURCES})
+  set_target_properties(${PART_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
+  target_include_directories(${PART_NAME} PRIVATE "${PROJECT_SOURCE_DIR}")
+  target_compile_definitions(${PART_NAME} PRIVATE ROCI_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                                                  ROCI_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  target_link_libraries(${PART_NAME} PRIVATE ${PART_DEPENDS} GTest::gtest_main GTest::gmock roci_warnings)
+  if(NOT PART_LABELS)
+    set(PART_LABELS unit)
+  endif()
+  set(properties LABELS "${PART_LABELS}" TIMEOUT 300)
+  if(PART_SERIAL)
+    list(APPEND properties RUN_SERIAL TRUE)
+  endif()
+  gtest_discover_tests(${PART_NAME} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
+endfunction()

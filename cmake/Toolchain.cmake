@@ -1,0 +1,36 @@
+# Compiler, warnings, sanitizers, output folders: the settings that hold for every part.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/static")
+
+option(ROCI_WERROR "Treat warnings as errors" OFF)
+set(ROCI_SANITIZE "" CACHE STRING "Sanitizers, as for -fsanitize= (empty: none)")
+
+find_program(ROCI_CCACHE ccache)
+if(ROCI_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_C_COMPILER_LAUNCHER "${ROCI_CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${ROCI_CCACHE}")
+endif()
+
+# Warnings are for our code; generated code is compiled without them (see Idl.cmake).
+add_library(roci_warnings INTERFACE)
+target_compile_options(roci_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                                               $<$<BOOL:${ROCI_WERROR}>:-Werror>)
+
+if(ROCI_SANITIZE)
+  add_compile_options(-fsanitize=${ROCI_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${ROCI_SANITIZE})
+endif()
+
+include(GNUInstallDirs)
+set(CMAKE_INSTALL_RPATH "$ORIGIN/../lib;$ORIGIN")
