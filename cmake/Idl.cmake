@@ -1,0 +1,34 @@
+# roci_idl(NAME idl FILES basic.idl ...): plain C++ structs by fastddsgen, generated into the build folder alone
+# and included as "roci_idl/basic.h".
+# They need only Fast CDR; no service sees a vendor. The PubSubTypes that fastddsgen writes beside them are compiled
+# by the contract tests' native peers and by nobody else.
+find_program(FASTDDSGEN fastddsgen REQUIRED)
+find_package(fastcdr REQUIRED)
+
+function(roci_idl)
+  cmake_parse_arguments(IDL "" "NAME;HELP" "FILES" ${ARGN})
+  set(include "${CMAKE_CURRENT_BINARY_DIR}/generated")
+  set(generated "${include}/roci_idl")
+  set(inputs)
+  set(outputs)
+  set(sources)
+  foreach(file ${IDL_FILES})
+    string(REGEX REPLACE "\\.idl$" "" stem "${file}")
+    list(APPEND inputs "${CMAKE_CURRENT_SOURCE_DIR}/${file}")
+    list(APPEND sources "${generated}/${stem}.cxx")
+    list(APPEND outputs "${generated}/${stem}.cxx" "${generated}/${stem}.h"
+         "${generated}/${stem}PubSubTypes.cxx" "${generated}/${stem}PubSubTypes.h")
+  endforeach()
+  file(MAKE_DIRECTORY "${generated}")
+  add_custom_command(
+    OUTPUT ${outputs}
+    COMMAND "${FASTDDSGEN}" -replace -I "${CMAKE_CURRENT_SOURCE_DIR}" -d "${generated}" ${inputs}
+    DEPENDS ${inputs}
+    WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}"
+    COMMENT "IDL to C++: ${IDL_NAME}"
+    VERBATIM)
+  add_library(${IDL_NAME} STATIC ${sources})
+  target_include_directories(${IDL_NAME} SYSTEM PUBLIC "${include}")
+  target_link_libraries(${IDL_NAME} PUBLIC fastcdr)
+  set_property(GLOBAL APPEND PROPERTY ROCI_PARTS "${IDL_NAME}: ${IDL_HELP}")
+endfunction()

@@ -1,0 +1,87 @@
+// A service's one door to the others: publishers, subscriptions, timers and calls, all on one event loop.
+//
+// Handlers run on the thread that calls run(), one at a time. Live, samples are handled as they come; under the
+// simulated clock a handler sees the samples of one micro-step in the order (topic, sender, incarnation, sequence),
+// so the same handlers give the same run on every transport. Handlers never block and never ask the system for time.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "services/time.hpp"
+#include "services/topics.hpp"
+#include "services/transport.hpp"
+
+namespace roci::services {
+
+enum class ClockMode {
+  live,       // system clock, times `live_scale`
+  simulated,  // follows the ClockStep of the run's master
+  master,     // simulated, and this node is the master (sim_svc)
+  observer,   // takes part in no barrier: consoles; clock follows the newest stamp seen
+};
+
+struct MasterOptions {
+  std::vector<std::string> roster;  // services that must be ready before time 0, this one included
+  double pace = 0;                  // simulated seconds per wall second; 0: as fast as possible
+  double hang_limit_s = 60;         // wall time after which a participant without progress counts as dead
+};
+
+struct NodeOptions {
+  std::string name;               // logical sender, e.g. "arm_svc"
+  std::uint32_t incarnation = 1;  // how often this service was started in this run, from 1
+  ClockMode clock = ClockMode::live;
+  double live_scale = 1;
+  MasterOptions master;
+  std::string vendor = "fastdds";  // reported in the heartbeat
+};
+
+// What a roster change looks like to a service; delivered in mission-time order like a sample.
+struct PeerChange {
+  std::string service;
+  std::uint32_t incarnation = 0;
+  bool alive = false;
+  std::string cause;  // e.g. "killed", "hung", "left"
+};
+
+// The untyped half that typed wrappers stand on; see publisher.hpp for Publisher<T> and subscribe<T>().
+class Node {
+ public:
+  Node(NodeOptions, std::unique_ptr<Transport>);
+  ~Node();
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
+  const NodeOptions& options() const;
+  Time now() const;
+
+  using TimerId = std::uint64_t;
+  TimerId at(Time, std::function<void()>);  // at a past time: in the next turn of the loop
+  TimerId after(Duration, std::function<void()>);
+  void cancel(TimerId);
+
+  void on_peer_change(std::function<void(const PeerChange&)>);
+  bool peer_alive(std::string_view service) const;
+
+  // Lets a worker thread hand a result to the loop. Under the simulated clock the loop does not answer its barrier
+  // between begin_work() and the end of the posted function, so that a worker's result has one place in mission time.
+  void begin_work();
+  void post_work_result(std::function<void()>);
+
+  // The master ends the run for every participant; elsewhere only this node's loop.
+  void stop();
+  // Until stop(), the master's last step, or SIGTERM/SIGINT (see service_main.hpp).
+  void run();
+  // Live and observer nodes: handles what is pending, waits at most `wait` of wall time for something to handle.
+  void spin_once(std::chrono::milliseconds wait);
+
+  class Impl;
+  Impl& impl() { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace roci::services

@@ -1,0 +1,71 @@
+// The one table of topics: type, name, QoS, and whether the topic takes part in the simulated clock's barrier.
+// Clocked types carry a SampleHeader named `header`, which the node fills in.
+#pragma once
+
+#include "roci_idl/clock.h"
+#include "roci_idl/command.h"
+#include "roci_idl/function.h"
+#include "roci_idl/goal.h"
+#include "roci_idl/health.h"
+#include "roci_idl/motion.h"
+#include "roci_idl/plan.h"
+#include "roci_idl/planner.h"
+#include "services/transport.hpp"
+
+namespace roci::services {
+
+enum class Clocking { clocked, wall };
+
+template <class T>
+struct Topic {
+  const char* name;
+  const char* type_name;
+  Qos qos;
+  Clocking clocking;
+};
+
+namespace topics {
+
+using enum Clocking;
+
+inline constexpr Topic<v1::ClockReady> clock_ready{"roci/clock/ready", "roci::v1::ClockReady", Qos::state, wall};
+inline constexpr Topic<v1::ClockStep> clock_step{"roci/clock/step", "roci::v1::ClockStep", Qos::state, wall};
+inline constexpr Topic<v1::ClockDone> clock_done{"roci/clock/done", "roci::v1::ClockDone", Qos::state, wall};
+inline constexpr Topic<v1::Heartbeat> heartbeat{"roci/heartbeat", "roci::v1::Heartbeat", Qos::state, wall};
+
+inline constexpr Topic<v1::Event> event{"roci/event", "roci::v1::Event", Qos::event, clocked};
+inline constexpr Topic<v1::Goal> goal{"roci/goal", "roci::v1::Goal", Qos::state, clocked};
+inline constexpr Topic<v1::GoalStatus> goal_status{"roci/goal/status", "roci::v1::GoalStatus", Qos::state, clocked};
+inline constexpr Topic<v1::Command> command{"roci/command", "roci::v1::Command", Qos::request, clocked};
+inline constexpr Topic<v1::CommandAck> command_ack{"roci/command/ack", "roci::v1::CommandAck", Qos::state, clocked};
+inline constexpr Topic<v1::Observation> observation{"roci/observation", "roci::v1::Observation", Qos::state, clocked};
+inline constexpr Topic<v1::DataProduct> data_product{"roci/product", "roci::v1::DataProduct", Qos::state, clocked};
+inline constexpr Topic<v1::Hazard> hazard{"roci/hazard", "roci::v1::Hazard", Qos::state, clocked};
+inline constexpr Topic<v1::Plan> plan{"roci/plan", "roci::v1::Plan", Qos::state, clocked};
+inline constexpr Topic<v1::StepStatus> step_status{"roci/plan/step", "roci::v1::StepStatus", Qos::state, clocked};
+inline constexpr Topic<v1::MissionStatus> mission_status{"roci/mission", "roci::v1::MissionStatus", Qos::state, clocked};
+inline constexpr Topic<v1::FunctionOffer> function_offer{"roci/function/offer", "roci::v1::FunctionOffer", Qos::state,
+                                                         clocked};
+
+// A remote procedure: a pair of topics with the DDS-RPC headers.
+template <class Request, class Reply>
+struct Procedure {
+  Topic<Request> request;
+  Topic<Reply> reply;
+};
+
+inline constexpr Procedure<v1::PlanRequest, v1::PlanReply> plan_request{
+    {"roci/planner/request", "roci::v1::PlanRequest", Qos::request, clocked},
+    {"roci/planner/reply", "roci::v1::PlanReply", Qos::request, clocked}};
+inline constexpr Procedure<v1::FunctionRequest, v1::FunctionReply> function_call{
+    {"roci/function/request", "roci::v1::FunctionRequest", Qos::request, clocked},
+    {"roci/function/reply", "roci::v1::FunctionReply", Qos::request, clocked}};
+inline constexpr Procedure<v1::PathRequest, v1::PathReply> path_request{
+    {"roci/path/request", "roci::v1::PathRequest", Qos::request, clocked},
+    {"roci/path/reply", "roci::v1::PathReply", Qos::request, clocked}};
+inline constexpr Procedure<v1::ArmMotionRequest, v1::ArmMotionReply> arm_motion{
+    {"roci/arm/request", "roci::v1::ArmMotionRequest", Qos::request, clocked},
+    {"roci/arm/reply", "roci::v1::ArmMotionReply", Qos::request, clocked}};
+
+}  // namespace topics
+}  // namespace roci::services

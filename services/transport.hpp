@@ -1,0 +1,126 @@
+// The vendor boundary: serialized samples in and out of named, typed topics. A DDS vendor is a shared object that
+// implements these classes (vendors/X); services link none of them. Types are known here by name and key alone.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace roci::services {
+
+// 4-byte encapsulation header + CDR, exactly as on the wire.
+using Payload = std::vector<std::uint8_t>;
+using Guid = std::array<std::uint8_t, 16>;
+
+// The only four QoS there are (architecture, "The wire"). `clocked` variants of a run under the simulated clock keep
+// enough history that no sample of a micro-step is ever overwritten; the transport gets the resolved settings.
+enum class Qos {
+  state,    // reliable, transient local, keep last 1: a late joiner sees the newest value of each key
+  event,    // reliable, volatile, bounded history
+  stream,   // best effort, keep last 5
+  request,  // reliable, volatile, keep all with limits
+};
+
+struct QosSettings {
+  bool reliable = true;
+  bool transient_local = false;
+  int history_depth = 1;         // 0: keep all, up to max_samples
+  int max_samples = 0;           // 0: no limit
+  int max_blocking_ms = 100;     // how long a write may wait for a slow reader before it fails
+};
+
+// Type-erased description of a type. `serialized_key` appends the big-endian CDR of the key members (no encapsulation)
+// of a payload, which is a whole sample or, with key_only, a key-only payload; false: the payload is malformed.
+struct TypeDescription {
+  std::string name;              // "roci::v1::Goal": matching is by name alone, so a foreign type never matches
+  bool keyed = false;
+  bool key_fits_hash = false;    // the largest serialized key takes at most 16 bytes: the key hash is the key itself
+  bool (*serialized_key)(std::span<const std::uint8_t> payload, bool key_only, Payload& out) = nullptr;
+};
+
+struct EndpointDescription {
+  std::string topic;
+  TypeDescription type;
+  QosSettings qos;
+};
+
+enum class SampleKind {
+  data,
+  disposed,    // the writer disposed the instance; payload holds at least the key
+  owner_lost,  // the instance has no live writer any more
+};
+
+struct Sample {
+  SampleKind kind = SampleKind::data;
+  Payload payload;
+  Guid writer{};
+};
+
+// Called from vendor threads: implementations only enqueue, they never write and never block.
+struct ReaderEvents {
+  std::function<void(Sample&&)> on_sample;
+  std::function<void(int current_writers)> on_matched;
+};
+
+struct WriterEvents {
+  std::function<void(int current_readers)> on_matched;
+};
+
+class Writer {
+ public:
+  virtual ~Writer() = default;
+  // False: a reliable reader's history stood full for longer than max_blocking_ms, or the payload is malformed.
+  virtual bool write(std::span<const std::uint8_t> payload) = 0;
+  // Disposes the instance whose key members the (whole) payload holds.
+  virtual bool dispose(std::span<const std::uint8_t> payload) = 0;
+  virtual Guid guid() const = 0;
+  virtual int matched_readers() const = 0;
+};
+
+// Destroying a Reader waits until no callback of it runs any more.
+class Reader {
+ public:
+  virtual ~Reader() = default;
+  virtual int matched_writers() const = 0;
+};
+
+struct TransportOptions {
+  int domain = 0;
+  std::string participant;                       // shown by vendor tools
+  std::string address = "127.0.0.1";             // the one interface address that is used; never any other
+  std::vector<std::string> peers = {"127.0.0.1"};  // hosts that are asked for participants, unicast
+  std::string partition;                         // empty: none
+  std::string vendor_xml;                        // path of a vendor's own XML, used instead of the defaults if not empty
+};
+
+class TransportError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// One DDS participant.
+class Transport {
+ public:
+  virtual ~Transport() = default;
+  virtual std::string_view vendor() const = 0;
+  virtual std::unique_ptr<Writer> create_writer(const EndpointDescription&, WriterEvents) = 0;
+  virtual std::unique_ptr<Reader> create_reader(const EndpointDescription&, ReaderEvents) = 0;
+};
+
+// Each plug-in exports this under the name roci_create_transport. It throws TransportError.
+using CreateTransport = std::unique_ptr<Transport>(const TransportOptions&);
+inline constexpr char kCreateTransportSymbol[] = "roci_create_transport";
+
+// Opens lib/rocinante/libroci_transport_<vendor>.so beside the running program's bin folder.
+// Throws TransportError naming the vendors that are installed when `vendor` is unknown or missing.
+std::unique_ptr<Transport> open_transport(std::string_view vendor, const TransportOptions&);
+std::vector<std::string> installed_transports();
+
+}  // namespace roci::services
