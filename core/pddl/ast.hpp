@@ -1,0 +1,295 @@
+// The syntax tree of a PDDL domain or problem: PDDL 2.1 level 3, timed initial literals and derived
+// predicates (2.2), timed initial fluents, and :modules of external functions (Stellar section 4.5, R35).
+//
+// Plain values. All names are lower case. A tree from the parser has its types, arities and names checked
+// only after check() (check.hpp). Equality compares what nodes say and ignores where they stand.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/pddl/box.hpp"
+#include "core/pddl/source.hpp"
+
+namespace roci::pddl {
+
+// ---- Names, terms, types
+
+// A variable ("?x", with its question mark) or the name of an object.
+struct Term {
+  std::string name;
+  SourceLocation where;
+
+  bool is_variable() const { return !name.empty() && name.front() == '?'; }
+};
+
+// A variable, object or type with its type(s): several alternatives for `(either a b)`, {"object"} if
+// untyped.
+struct TypedName {
+  std::string name;
+  std::vector<std::string> types = {"object"};
+  SourceLocation where;
+};
+
+// A predicate, fluent or external function applied to terms.
+struct Atom {
+  std::string symbol;
+  std::vector<Term> arguments;
+  SourceLocation where;
+};
+
+// Declaration of a predicate, fluent or external function.
+struct Signature {
+  std::string name;
+  std::vector<TypedName> parameters;
+  SourceLocation where;
+};
+
+// ---- Numeric expressions
+
+struct Expression;
+
+struct Number {
+  double value = 0;
+};
+
+struct DurationVariable {};  // ?duration
+struct TotalTime {};         // total-time, in metrics
+struct ContinuousTime {};    // #t: parsed so that it can be refused by name (forbidden.hpp)
+
+enum class ArithmeticOperator { kAdd, kSubtract, kMultiply, kDivide };
+
+// One operand with kSubtract is the negative; kAdd and kMultiply take two or more, the others two.
+struct Arithmetic {
+  ArithmeticOperator op = ArithmeticOperator::kAdd;
+  std::vector<Expression> operands;
+};
+
+// An Atom is the value of a fluent, or of an external function if a module declares its symbol.
+struct Expression {
+  std::variant<Number, Atom, DurationVariable, TotalTime, ContinuousTime, Arithmetic> node;
+  SourceLocation where;
+};
+
+// ---- Conditions
+
+struct Condition;
+
+struct And {  // empty: true
+  std::vector<Condition> parts;
+};
+
+struct Or {  // empty: false
+  std::vector<Condition> parts;
+};
+
+struct Not {
+  Box<Condition> body;
+};
+
+struct Imply {
+  Box<Condition> premise;
+  Box<Condition> conclusion;
+};
+
+struct Forall {
+  std::vector<TypedName> variables;
+  Box<Condition> body;
+};
+
+struct Exists {
+  std::vector<TypedName> variables;
+  Box<Condition> body;
+};
+
+struct TermEquality {  // (= ?x ?y): the same object
+  Term left;
+  Term right;
+};
+
+enum class ComparisonOperator { kLess, kLessEqual, kEqual, kGreaterEqual, kGreater };
+
+struct Comparison {
+  ComparisonOperator op = ComparisonOperator::kEqual;
+  Expression left;
+  Expression right;
+};
+
+struct Condition {
+  std::variant<And, Or, Not, Imply, Forall, Exists, Atom, TermEquality, Comparison> node;
+  SourceLocation where;
+};
+
+// The conditions of a durative action, sorted by time (`forall` and `and` around `at start` and the like are
+// distributed by the parser). What is not asked is the empty And. A plain action has only at_start.
+struct TimedCondition {
+  Condition at_start;
+  Condition over_all;
+  Condition at_end;
+};
+
+// ---- Effects
+
+struct Effect;
+
+struct Literal {
+  Atom atom;
+  bool negated = false;
+};
+
+enum class AssignmentOperator { kAssign, kIncrease, kDecrease, kScaleUp, kScaleDown };
+
+struct Assignment {
+  AssignmentOperator op = AssignmentOperator::kAssign;
+  Atom fluent;
+  Expression value;
+};
+
+// A conditional effect. The condition may look at another time than the effect's own: the end effect of
+// `(when (at start (p)) (at end (q)))` has p in condition.at_start. `(at end (when (p) (q)))` has it in
+// condition.at_end, and a plain action in condition.at_start.
+struct When {
+  TimedCondition condition;
+  std::vector<Effect> effects;
+};
+
+struct ForallEffect {
+  std::vector<TypedName> variables;
+  std::vector<Effect> effects;
+};
+
+// `and` in effects is dissolved into the vector that holds it.
+struct Effect {
+  std::variant<Literal, Assignment, When, ForallEffect> node;
+  SourceLocation where;
+};
+
+// ---- Actions
+
+struct Action {
+  std::string name;
+  std::vector<TypedName> parameters;
+  Condition precondition;
+  std::vector<Effect> effects;
+  SourceLocation where;
+};
+
+enum class TimePoint { kStart, kEnd };
+
+// ?duration OP bound, the bound being evaluated at the given point; OP is <=, = or >=.
+struct DurationConstraint {
+  ComparisonOperator op = ComparisonOperator::kEqual;
+  Expression bound;
+  TimePoint at = TimePoint::kStart;
+  SourceLocation where;
+};
+
+// ⟨pre⊢, eff⊢, pre↔, pre⊣, eff⊣⟩ with bounds on the duration (R2); no constraint at all: any duration ≥ 0.
+struct DurativeAction {
+  std::string name;
+  std::vector<TypedName> parameters;
+  std::vector<DurationConstraint> duration;
+  TimedCondition condition;
+  std::vector<Effect> start_effects;
+  std::vector<Effect> end_effects;
+  std::vector<Effect>
+      continuous_effects;  // `(increase (f) (* #t 2))`, outside of any `at`; see forbidden.hpp
+  SourceLocation where;
+};
+
+// (:derived (head ?x - t …) body)
+struct DerivedPredicate {
+  Signature head;
+  Condition body;
+};
+
+// ---- Domain
+
+struct Requirement {
+  std::string keyword;  // with its colon: ":typing"
+  SourceLocation where;
+};
+
+// External functions of one owner: objects to numbers, constant for a whole planning call.
+struct Module {
+  std::string name;
+  std::vector<Signature> functions;
+  SourceLocation where;
+};
+
+struct Domain {
+  std::string file;  // as given to the parser, for messages
+  std::string name;
+  std::vector<Requirement> requirements;
+  std::vector<TypedName> types;  // name and its supertype(s)
+  std::vector<TypedName> constants;
+  std::vector<Signature> predicates;
+  std::vector<Signature> functions;
+  std::vector<Module> modules;
+  std::vector<DerivedPredicate> derived;
+  std::vector<Action> actions;
+  std::vector<DurativeAction> durative_actions;
+  SourceLocation where;
+};
+
+// ---- Problem
+
+struct InitialValue {  // (= (f a) 3)
+  Atom fluent;
+  double value = 0;
+};
+
+struct TimedLiteral {  // (at 5 (p)), (at 7 (not (p)))
+  double time = 0;
+  Literal literal;
+  SourceLocation where;
+};
+
+struct TimedValue {  // (at 5 (= (f a) 3))
+  double time = 0;
+  Atom fluent;
+  double value = 0;
+  SourceLocation where;
+};
+
+struct Metric {
+  enum class Sense { kMinimize, kMaximize };
+  Sense sense = Sense::kMinimize;
+  Expression expression;
+  SourceLocation where;
+};
+
+struct Problem {
+  std::string file;  // as given to the parser, for messages
+  std::string name;
+  std::string domain_name;
+  std::vector<Requirement> requirements;
+  std::vector<TypedName> objects;
+  std::vector<Atom> facts;        // true at time 0; everything else is false
+  std::vector<Atom> false_facts;  // `(not (p))` in :init: says only what the closed world says anyway
+  std::vector<InitialValue> values;
+  std::vector<TimedLiteral> timed_literals;
+  std::vector<TimedValue> timed_values;
+  Condition goal;
+  std::optional<Metric> metric;
+  SourceLocation where;
+};
+
+// ---- Equality of what is said, wherever it stands (file names and locations are ignored)
+
+bool operator==(const Term&, const Term&);
+bool operator==(const TypedName&, const TypedName&);
+bool operator==(const Atom&, const Atom&);
+bool operator==(const Signature&, const Signature&);
+bool operator==(const Expression&, const Expression&);
+bool operator==(const Condition&, const Condition&);
+bool operator==(const TimedCondition&, const TimedCondition&);
+bool operator==(const Effect&, const Effect&);
+bool operator==(const Action&, const Action&);
+bool operator==(const DurativeAction&, const DurativeAction&);
+bool operator==(const Domain&, const Domain&);
+bool operator==(const Problem&, const Problem&);
+
+}  // namespace roci::pddl
