@@ -1,0 +1,14 @@
+// Mass properties of rigidly joined parts.
+#pragma once
+
+#include "core/kinematics/arm.hpp"
+
+namespace roci::kinematics {
+
+// `part`, given in a frame whose pose in the wanted frame is `pose`, expressed in the wanted frame.
+MassProperties moved(const MassProperties& part, const Eigen::Isometry3d& pose);
+
+// Two parts of the same frame as one (parallel-axis theorem). Massless parts add nothing.
+MassProperties joined(const MassProperties& a, const MassProperties& b);
+
+}  // namespace roci::kinematics

@@ -1,0 +1,36 @@
+// Reads a serial arm from URDF text: the chain from the document's root link to a named tip.
+//
+// Fixed joints, also of side branches (a camera bracket, the chassis), fold into the bodies they hold; a
+// movable joint off the chain is an error. `continuous` becomes revolute within ±2π. Beyond plain URDF,
+// <limit> may carry `acceleration` (as in URDF 1.2). Collision geometry: a box or sphere as it is; a cylinder
+// longer than wide becomes the capsule around the same axis segment, a flatter one the box around it: both
+// contain it. Meshes are refused.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "core/kinematics/arm.hpp"
+
+namespace roci::kinematics {
+
+struct UrdfOptions {
+  std::string tip;               // link that is the tool frame
+  double time_to_speed_s = 0.5;  // joints without an acceleration limit reach their speed limit in this time
+};
+
+struct UrdfError {
+  std::string file;
+  int line = 0;         // 1-based; 0: the document as a whole
+  std::string element;  // "joint 'elbow'", "robot", ...
+  std::string message;  // what is wrong and how to mend it
+};
+
+// "file:line: element: message"
+std::string to_string(const UrdfError& error);
+
+// `file` names the source in errors only.
+std::variant<Arm, UrdfError> parse_urdf(const std::string& text, const std::string& file,
+                                        const UrdfOptions& options);
+
+}  // namespace roci::kinematics

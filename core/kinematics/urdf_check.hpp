@@ -1,0 +1,26 @@
+// The checks that give URDF errors a line: urdfdom keeps no positions, so the document is read with tinyxml2
+// first.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "core/kinematics/urdf.hpp"
+
+namespace roci::kinematics {
+
+// What later stages need from the document and urdfdom does not keep.
+struct UrdfNotes {
+  std::map<std::string, int> link_line;
+  std::map<std::string, int> joint_line;
+  std::map<std::string, double> acceleration;  // joints whose <limit> gives one
+};
+
+// A document that passes has: unique names, known joint types, finite numbers, limits with lower < upper and
+// positive velocity and effort on every movable joint, no zero axis, no mesh in <collision>, positive sizes,
+// and links that form one tree.
+std::variant<UrdfNotes, UrdfError> check_urdf(const std::string& text, const std::string& file);
+
+}  // namespace roci::kinematics
