@@ -1,0 +1,135 @@
+#include "core/mission/entry.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace roci::mission {
+namespace {
+
+std::string place_of(const std::filesystem::path& file, const YAML::Mark& mark) {
+  if (mark.is_null()) return file.string();
+  return file.string() + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
+}
+
+std::string listed(std::initializer_list<std::string_view> names) {
+  std::string out;
+  for (std::string_view name : names) {
+    if (!out.empty()) out += ", ";
+    out += name;
+  }
+  return out;
+}
+
+}  // namespace
+
+Entry::Entry(std::shared_ptr<const std::filesystem::path> file, const YAML::Node& node)
+    : file_(std::move(file)), node_(std::make_shared<const YAML::Node>(node)) {}
+
+Entry Entry::load(const std::filesystem::path& file) {
+  auto path = std::make_shared<const std::filesystem::path>(file);
+  try {
+    YAML::Node root = YAML::LoadFile(file.string());
+    if (!root.IsMap()) throw FileError(file.string() + ":1:1: the file holds no 'key: value' pairs; see docs/missions.md");
+    return Entry(path, root);
+  } catch (const YAML::BadFile&) {
+    throw FileError(file.string() + ": cannot be read; check that the file exists");
+  } catch (const YAML::Exception& error) {
+    throw FileError(place_of(file, error.mark) + ": not valid YAML (" + error.msg + "); mend the syntax there");
+  }
+}
+
+Entry Entry::at(std::string_view key) const {
+  if (auto entry = find(key)) return *entry;
+  fail("'" + std::string(key) + "' is missing; add it");
+}
+
+std::optional<Entry> Entry::find(std::string_view key) const {
+  if (!node().IsMap()) fail("expected 'key: value' pairs");
+  const YAML::Node child = node()[std::string(key)];
+  if (!child.IsDefined() || child.IsNull()) return std::nullopt;
+  return Entry(file_, child);
+}
+
+std::vector<Entry> Entry::items() const {
+  if (!node().IsSequence()) fail("expected a list");
+  std::vector<Entry> out;
+  for (const YAML::Node& child : node()) out.push_back(Entry(file_, child));
+  return out;
+}
+
+std::vector<std::pair<std::string, Entry>> Entry::fields() const {
+  if (!node().IsMap()) fail("expected 'key: value' pairs");
+  std::vector<std::pair<std::string, Entry>> out;
+  for (const auto& child : node()) out.emplace_back(Entry(file_, child.first).text(), Entry(file_, child.second));
+  return out;
+}
+
+bool Entry::is_mapping() const { return node().IsMap(); }
+
+std::string Entry::text() const {
+  if (!node().IsScalar()) fail("expected a single value");
+  return node().Scalar();
+}
+
+double Entry::number() const {
+  double value = 0;
+  if (!node().IsScalar() || !YAML::convert<double>::decode(node(), value) || !std::isfinite(value)) {
+    fail("expected a finite number" + (node().IsScalar() ? ", not '" + node().Scalar() + "'" : std::string()));
+  }
+  return value;
+}
+
+std::int64_t Entry::integer() const {
+  std::int64_t value = 0;
+  if (!node().IsScalar() || !YAML::convert<std::int64_t>::decode(node(), value)) fail("expected a whole number");
+  return value;
+}
+
+bool Entry::truth() const {
+  bool value = false;
+  if (!node().IsScalar() || !YAML::convert<bool>::decode(node(), value)) fail("expected true or false");
+  return value;
+}
+
+std::vector<std::string> Entry::texts() const {
+  std::vector<std::string> out;
+  for (const Entry& item : items()) out.push_back(item.text());
+  return out;
+}
+
+std::string Entry::text_or(std::string_view key, std::string fallback) const {
+  const auto entry = find(key);
+  return entry ? entry->text() : fallback;
+}
+
+double Entry::number_or(std::string_view key, double fallback) const {
+  const auto entry = find(key);
+  return entry ? entry->number() : fallback;
+}
+
+bool Entry::truth_or(std::string_view key, bool fallback) const {
+  const auto entry = find(key);
+  return entry ? entry->truth() : fallback;
+}
+
+void Entry::allow_only(std::initializer_list<std::string_view> known) const {
+  if (!node().IsMap()) fail("expected 'key: value' pairs");
+  for (const auto& child : node()) {
+    const Entry key(file_, child.first);
+    if (std::find(known.begin(), known.end(), key.text()) == known.end()) {
+      key.fail("unknown key '" + key.text() + "'; known here: " + listed(known));
+    }
+  }
+}
+
+void Entry::fail(const std::string& what) const { throw FileError(place() + ": " + what); }
+
+std::string Entry::place() const { return place_of(*file_, node().Mark()); }
+
+const std::filesystem::path& Entry::file() const { return *file_; }
+
+std::filesystem::path Entry::resolve(const std::string& relative) const { return file_->parent_path() / relative; }
+
+}  // namespace roci::mission

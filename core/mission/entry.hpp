@@ -1,0 +1,66 @@
+// Mission files (YAML) read with errors that name file, line, column and remedy.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace YAML {
+class Node;
+}
+
+namespace roci::mission {
+
+// what() reads "file:line:column: what is wrong; remedy".
+class FileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// One value of a mission file with its place in it. Every accessor throws FileError when the value is not of the
+// kind asked for.
+class Entry {
+ public:
+  // The root of a file. Throws FileError if it cannot be read, is not YAML, or is not a mapping.
+  static Entry load(const std::filesystem::path& file);
+
+  Entry at(std::string_view key) const;  // a missing key is an error
+  std::optional<Entry> find(std::string_view key) const;
+  std::vector<Entry> items() const;                            // of a sequence
+  std::vector<std::pair<std::string, Entry>> fields() const;   // of a mapping, in file order
+  bool is_mapping() const;
+
+  std::string text() const;
+  double number() const;  // finite
+  std::int64_t integer() const;
+  bool truth() const;
+  std::vector<std::string> texts() const;
+
+  std::string text_or(std::string_view key, std::string fallback) const;
+  double number_or(std::string_view key, double fallback) const;
+  bool truth_or(std::string_view key, bool fallback) const;
+
+  // Rejects keys outside `known`, so that a misspelt key is an error and not a silent default.
+  void allow_only(std::initializer_list<std::string_view> known) const;
+
+  [[noreturn]] void fail(const std::string& what) const;
+  std::string place() const;                  // "file:line:column"
+  const std::filesystem::path& file() const;  // to resolve names relative to the file's folder
+  std::filesystem::path resolve(const std::string& relative) const;
+
+ private:
+  Entry(std::shared_ptr<const std::filesystem::path> file, const YAML::Node& node);
+  const YAML::Node& node() const { return *node_; }
+
+  std::shared_ptr<const std::filesystem::path> file_;
+  std::shared_ptr<const YAML::Node> node_;
+};
+
+}  // namespace roci::mission
