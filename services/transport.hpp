@@ -1,5 +1,6 @@
-// The vendor boundary: serialized samples in and out of named, typed topics. A DDS vendor is a shared object that
-// implements these classes (vendors/X); services link none of them. Types are known here by name and key alone.
+// The vendor boundary: serialized samples in and out of named, typed topics. A DDS vendor is a shared object
+// that implements these classes (vendors/X); services link none of them. Types are known here by name and key
+// alone.
 #pragma once
 
 #include <array>
@@ -19,8 +20,9 @@ namespace roci::services {
 using Payload = std::vector<std::uint8_t>;
 using Guid = std::array<std::uint8_t, 16>;
 
-// The only four QoS there are (architecture, "The wire"). `clocked` variants of a run under the simulated clock keep
-// enough history that no sample of a micro-step is ever overwritten; the transport gets the resolved settings.
+// The only four QoS there are (architecture, "The wire"). `clocked` variants of a run under the simulated
+// clock keep enough history that no sample of a micro-step is ever overwritten; the transport gets the
+// resolved settings.
 enum class Qos {
   state,    // reliable, transient local, keep last 1: a late joiner sees the newest value of each key
   event,    // reliable, volatile, bounded history
@@ -31,17 +33,19 @@ enum class Qos {
 struct QosSettings {
   bool reliable = true;
   bool transient_local = false;
-  int history_depth = 1;         // 0: keep all, up to max_samples
-  int max_samples = 0;           // 0: no limit
-  int max_blocking_ms = 100;     // how long a write may wait for a slow reader before it fails
+  int history_depth = 1;      // 0: keep all, up to max_samples
+  int max_samples = 0;        // 0: no limit
+  int max_blocking_ms = 100;  // how long a write may wait for a slow reader before it fails
 };
 
-// Type-erased description of a type. `serialized_key` appends the big-endian CDR of the key members (no encapsulation)
-// of a payload, which is a whole sample or, with key_only, a key-only payload; false: the payload is malformed.
+// Type-erased description of a type. `serialized_key` appends the big-endian CDR of the key members (no
+// encapsulation) of a payload, which is a whole sample or, with key_only, a key-only payload; false: the
+// payload is malformed.
 struct TypeDescription {
-  std::string name;              // "roci::v1::Goal": matching is by name alone, so a foreign type never matches
+  std::string name;  // "roci::v1::Goal": matching is by name alone, so a foreign type never matches
   bool keyed = false;
-  bool key_fits_hash = false;    // the largest serialized key takes at most 16 bytes: the key hash is the key itself
+  bool key_fits_hash =
+      false;  // the largest serialized key takes at most 16 bytes: the key hash is the key itself
   bool (*serialized_key)(std::span<const std::uint8_t> payload, bool key_only, Payload& out) = nullptr;
 };
 
@@ -53,8 +57,9 @@ struct EndpointDescription {
 
 enum class SampleKind {
   data,
-  disposed,    // the writer disposed the instance; payload holds at least the key
-  owner_lost,  // the instance has no live writer any more
+  disposed,    // keyed topics: the writer disposed the instance; payload holds at least the key
+               // (deserialize_key)
+  owner_lost,  // keyed topics: the instance has no live writer any more; payload as above
 };
 
 struct Sample {
@@ -76,7 +81,8 @@ struct WriterEvents {
 class Writer {
  public:
   virtual ~Writer() = default;
-  // False: a reliable reader's history stood full for longer than max_blocking_ms, or the payload is malformed.
+  // False: a reliable reader's history stood full for longer than max_blocking_ms, or the payload is
+  // malformed.
   virtual bool write(std::span<const std::uint8_t> payload) = 0;
   // Disposes the instance whose key members the (whole) payload holds.
   virtual bool dispose(std::span<const std::uint8_t> payload) = 0;
@@ -84,7 +90,7 @@ class Writer {
   virtual int matched_readers() const = 0;
 };
 
-// Destroying a Reader waits until no callback of it runs any more.
+// Destroying a Reader (or a Writer) waits until no callback of it runs any more; never do it in a callback.
 class Reader {
  public:
   virtual ~Reader() = default;
@@ -93,11 +99,11 @@ class Reader {
 
 struct TransportOptions {
   int domain = 0;
-  std::string participant;                       // shown by vendor tools
-  std::string address = "127.0.0.1";             // the one interface address that is used; never any other
+  std::string participant;                         // shown by vendor tools
+  std::string address = "127.0.0.1";               // the one interface address that is used; never any other
   std::vector<std::string> peers = {"127.0.0.1"};  // hosts that are asked for participants, unicast
-  std::string partition;                         // empty: none
-  std::string vendor_xml;                        // path of a vendor's own XML, used instead of the defaults if not empty
+  std::string partition;                           // empty: none
+  std::string vendor_xml;  // path of a vendor's own XML, used instead of the defaults if not empty
 };
 
 class TransportError : public std::runtime_error {
@@ -105,7 +111,7 @@ class TransportError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// One DDS participant.
+// One DDS participant. Its writers and readers are destroyed before it.
 class Transport {
  public:
   virtual ~Transport() = default;
@@ -118,8 +124,9 @@ class Transport {
 using CreateTransport = std::unique_ptr<Transport>(const TransportOptions&);
 inline constexpr char kCreateTransportSymbol[] = "roci_create_transport";
 
-// Opens lib/rocinante/libroci_transport_<vendor>.so beside the running program's bin folder.
-// Throws TransportError naming the vendors that are installed when `vendor` is unknown or missing.
+// Opens libroci_transport_<vendor>.so in a folder of ROCI_PLUGIN_PATH (colon-separated), else in
+// lib/rocinante beside the running program's bin folder; wraps it as ROCI_LOSS says (lossy_transport.hpp), if
+// set. Throws TransportError naming the vendors that are installed when `vendor` is unknown or missing.
 std::unique_ptr<Transport> open_transport(std::string_view vendor, const TransportOptions&);
 std::vector<std::string> installed_transports();
 

@@ -1,0 +1,42 @@
+// Where the inproc participants of one domain meet: matches writers with readers as DDS discovery does.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "services/transport.hpp"
+#include "services/vendors/inproc/reader_end.hpp"
+#include "services/vendors/inproc/writer_end.hpp"
+
+namespace roci::services::inproc {
+
+class Bus {
+ public:
+  void add(const std::string& partition, const std::shared_ptr<WriterEnd>&);
+  void add(const std::string& partition, const std::shared_ptr<ReaderEnd>&);
+  void remove(const std::shared_ptr<WriterEnd>&);
+  void remove(const std::shared_ptr<ReaderEnd>&);
+
+  // Unique in this process, from 1.
+  std::uint64_t next_id();
+
+ private:
+  template <class End>
+  struct Entry {
+    std::string partition;
+    std::shared_ptr<End> end;
+  };
+
+  std::mutex mutex_;
+  std::uint64_t last_id_ = 0;
+  std::vector<Entry<WriterEnd>> writers_;
+  std::vector<Entry<ReaderEnd>> readers_;
+};
+
+// The bus of a domain lives as long as one of its participants holds it.
+std::shared_ptr<Bus> bus_of_domain(int domain);
+
+}  // namespace roci::services::inproc

@@ -1,0 +1,73 @@
+// The receiving end of an inproc topic: a queue of samples and the life of each instance, as a DDS reader
+// keeps them.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <variant>
+
+#include "services/transport.hpp"
+#include "services/vendors/inproc/dispatcher.hpp"
+
+namespace roci::services::inproc {
+
+// Big-endian CDR of the key members; empty for types without key.
+using Key = std::string;
+
+class ReaderEnd : public std::enable_shared_from_this<ReaderEnd> {
+ public:
+  ReaderEnd(EndpointDescription, ReaderEvents, std::shared_ptr<Dispatcher>, Dispatcher::Endpoint);
+
+  const EndpointDescription& description() const { return description_; }
+  int matched_writers() const;
+
+  // Books a place in the queue; false when a reliable keep-all queue stayed full for so long.
+  bool reserve(std::chrono::milliseconds max_wait);
+  void release();
+  // Delivers a sample; `reserved`: it takes a booked place.
+  void push(Sample, const Key&, bool reserved);
+
+  void attach(const Guid& writer);
+  // Instances without any other writer are reported as owner_lost.
+  void detach(const Guid& writer);
+  // Returns when no callback runs any more; none follows.
+  void close();
+
+ private:
+  struct Arrived {
+    Sample sample;
+    Key key;
+  };
+  struct Matched {
+    int writers;
+  };
+  using Item = std::variant<Arrived, Matched>;
+
+  bool limited() const;
+  bool follow_instance(const Sample&, const Key&);
+  void drop_oldest_beyond_depth(const Key&);
+  void enqueue(Item);
+  void deliver_next();
+
+  const EndpointDescription description_;
+  const ReaderEvents events_;
+  const std::shared_ptr<Dispatcher> dispatcher_;
+  const Dispatcher::Endpoint id_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable space_;
+  bool closed_ = false;
+  std::set<Guid> writers_;
+  std::deque<Item> queue_;
+  int samples_ = 0;                                 // in queue_, and booked
+  std::unordered_map<Key, int> waiting_;            // samples in queue_ per instance, for keep last
+  std::unordered_map<Key, std::set<Guid>> owners_;  // of the instances that are alive
+};
+
+}  // namespace roci::services::inproc

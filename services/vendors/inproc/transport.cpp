@@ -1,0 +1,81 @@
+// The inproc transport: participants of one process, on any threads, that meet by domain id. No network.
+#include "services/transport.hpp"
+
+#include "services/vendors/inproc/bus.hpp"
+
+namespace roci::services::inproc {
+namespace {
+
+Guid guid_of(int domain, std::uint64_t id) {
+  Guid guid{};
+  for (std::size_t i = 0; i < 4; ++i) guid[i] = static_cast<std::uint8_t>(domain >> (24 - 8 * i));
+  for (std::size_t i = 0; i < 8; ++i) guid[8 + i] = static_cast<std::uint8_t>(id >> (56 - 8 * i));
+  return guid;
+}
+
+class InprocWriter : public Writer {
+ public:
+  InprocWriter(std::shared_ptr<Bus> bus, std::shared_ptr<WriterEnd> end)
+      : bus_(std::move(bus)), end_(std::move(end)) {}
+  ~InprocWriter() override { bus_->remove(end_); }
+  bool write(std::span<const std::uint8_t> payload) override { return end_->write(payload); }
+  bool dispose(std::span<const std::uint8_t> payload) override { return end_->dispose(payload); }
+  Guid guid() const override { return end_->guid(); }
+  int matched_readers() const override { return end_->matched_readers(); }
+
+ private:
+  std::shared_ptr<Bus> bus_;
+  std::shared_ptr<WriterEnd> end_;
+};
+
+class InprocReader : public Reader {
+ public:
+  InprocReader(std::shared_ptr<Bus> bus, std::shared_ptr<ReaderEnd> end)
+      : bus_(std::move(bus)), end_(std::move(end)) {}
+  ~InprocReader() override { bus_->remove(end_); }
+  int matched_writers() const override { return end_->matched_writers(); }
+
+ private:
+  std::shared_ptr<Bus> bus_;
+  std::shared_ptr<ReaderEnd> end_;
+};
+
+class InprocTransport : public Transport {
+ public:
+  explicit InprocTransport(const TransportOptions& options)
+      : domain_(options.domain), partition_(options.partition), bus_(bus_of_domain(options.domain)) {}
+
+  std::string_view vendor() const override { return "inproc"; }
+
+  std::unique_ptr<Writer> create_writer(const EndpointDescription& description,
+                                        WriterEvents events) override {
+    const auto id = bus_->next_id();
+    auto end =
+        std::make_shared<WriterEnd>(description, std::move(events), dispatcher_, id, guid_of(domain_, id));
+    auto writer = std::make_unique<InprocWriter>(bus_, end);
+    bus_->add(partition_, end);
+    return writer;
+  }
+
+  std::unique_ptr<Reader> create_reader(const EndpointDescription& description,
+                                        ReaderEvents events) override {
+    auto end = std::make_shared<ReaderEnd>(description, std::move(events), dispatcher_, bus_->next_id());
+    auto reader = std::make_unique<InprocReader>(bus_, end);
+    bus_->add(partition_, end);
+    return reader;
+  }
+
+ private:
+  const int domain_;
+  const std::string partition_;
+  const std::shared_ptr<Bus> bus_;
+  const std::shared_ptr<Dispatcher> dispatcher_ = std::make_shared<Dispatcher>();
+};
+
+}  // namespace
+}  // namespace roci::services::inproc
+
+extern "C" std::unique_ptr<roci::services::Transport> roci_create_transport(
+    const roci::services::TransportOptions& options) {
+  return std::make_unique<roci::services::inproc::InprocTransport>(options);
+}
