@@ -1,0 +1,73 @@
+// Where the planner's engines get the values of external functions (R35, R36): in batches, from whoever owns
+// them.
+//
+// The interface is synchronous and holds no clock: a source that asks another process waits there under its
+// own deadline and answers kLate for what did not come in time.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace roci::planner {
+
+// One tuple of one function of one module.
+struct FunctionCall {
+  std::string module;
+  std::string function;
+  std::vector<std::string> arguments;  // object names
+
+  bool operator==(const FunctionCall&) const = default;
+};
+
+enum class FunctionOutcome {
+  kValue,
+  kUnreachable,    // the owner says that no value exists: the action instance that needs it does not exist
+  kUnavailable,    // nobody owns the function
+  kLate,           // the owner did not answer within the source's deadline
+  kNotANumber,     // NaN or infinite
+  kWrongArity,     // the owner knows the function with another number of arguments
+  kUnknownObject,  // the owner does not know one of the objects
+};
+
+// "value", "unreachable", …: as written in reports and files.
+const char* to_string(FunctionOutcome outcome);
+
+// Who said so, from which model, and when: microseconds of mission time.
+struct Provenance {
+  std::string owner;
+  std::string model_version;
+  std::chrono::duration<std::int64_t, std::micro> time{0};
+
+  bool operator==(const Provenance&) const = default;
+};
+
+struct FunctionValue {
+  FunctionOutcome outcome = FunctionOutcome::kUnavailable;
+  double value = 0;  // with kValue: finite
+  Provenance provenance;
+  std::string detail;  // the owner's own words, may be empty
+};
+
+class FunctionSource {
+ public:
+  virtual ~FunctionSource() = default;
+
+  // One value per call, in the same order; an answer of another length counts as kUnavailable for all. All
+  // calls of a batch belong to one function. Returns early, with kLate for the rest, once `cancelled` returns
+  // true.
+  virtual std::vector<FunctionValue> evaluate(std::span<const FunctionCall> calls,
+                                              const std::function<bool()>& cancelled) = 0;
+};
+
+// For domains without modules: owns nothing.
+class NoFunctions final : public FunctionSource {
+ public:
+  std::vector<FunctionValue> evaluate(std::span<const FunctionCall> calls,
+                                      const std::function<bool()>& cancelled) override;
+};
+
+}  // namespace roci::planner

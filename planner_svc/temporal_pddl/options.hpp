@@ -1,0 +1,19 @@
+// Switches of the engine with their defaults. Every combination gives valid plans and the same verdicts.
+#pragma once
+
+#include <cstdint>
+
+#include "planner_svc/temporal_pddl/plan/result.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+struct Options {
+  Duration epsilon{1000};           // separation of interfering time points (R6, Z4)
+  bool compression_safety = true;   // R14, see task/compression.hpp
+  bool dominance = true;            // see search/dominance.hpp; off: R26 to the letter
+  bool preferred_operators = true;  // R21
+  bool one_off_windows = true;      // R33; off: every timed initial literal is a step of the search (R32)
+  std::uint64_t seed = 0;           // breaks ties among equally good successors; 0: in order of generation
+};
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,131 @@
+// What a planning call answers: verdict, reason, plan with its temporal network, statistics, function values
+// used.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/pddl/source.hpp"
+#include "planner_svc/function_source.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+// Integer microseconds: sums of durations are exact.
+using Duration = std::chrono::duration<std::int64_t, std::micro>;
+
+// Stands for "no upper bound".
+inline constexpr Duration kUnbounded = Duration::max();
+
+// One edge of the Simple Temporal Network: lower ≤ t(to) − t(from) ≤ upper.
+enum class ConstraintKind {
+  kOrdering,  // R22, R23: lower is 0 or ε, upper is kUnbounded
+  kDuration,  // R24: from the start to the end of one activity
+  kWindow,    // R32, R33: from the origin; a timed initial literal bounds the time point
+};
+
+struct TimeConstraint {
+  std::size_t from = 0;  // indices of Network::points
+  std::size_t to = 0;
+  Duration lower{0};
+  Duration upper = kUnbounded;
+  ConstraintKind kind = ConstraintKind::kOrdering;
+};
+
+enum class TimePointKind { kOrigin, kStart, kEnd, kTimedLiteral };
+
+// [earliest, latest] are shortest paths of the network from and to the origin (R48): every value between them
+// is taken in some schedule that obeys all constraints.
+struct TimePoint {
+  TimePointKind kind = TimePointKind::kOrigin;
+  std::size_t activity = 0;  // of kStart and kEnd: index of Plan::activities
+  Duration earliest{0};
+  Duration latest = kUnbounded;
+};
+
+struct Network {
+  std::vector<TimePoint> points;  // [0] is the origin, time 0 of the problem
+  std::vector<TimeConstraint> constraints;
+};
+
+// A condition with objects in place of parameters, as PDDL text; values of constant fluents and of external
+// functions stand in it as numbers. A disjunction is one kFormula.
+struct GroundCondition {
+  enum class Kind { kFact, kNegatedFact, kComparison, kFormula };
+  Kind kind = Kind::kFact;
+  std::string text;  // "(at w1)" also for kNegatedFact, "(>= (battery) 30)"
+};
+
+// An effect as PDDL text: "(at w2)", "(not (at w1))", "(decrease (battery) 12.5)".
+struct GroundEffect {
+  std::string text;
+};
+
+struct Activity {
+  std::string name;
+  std::vector<std::string> arguments;
+  bool durative = true;         // a plain PDDL action has one time point: start_point == end_point
+  std::size_t start_point = 0;  // indices of Network::points
+  std::size_t end_point = 0;
+  Duration start{0};  // in the schedule of earliest times
+  Duration end{0};
+  Duration min_duration{0};
+  Duration max_duration = kUnbounded;
+  std::vector<GroundCondition> at_start, over_all, at_end;
+  std::vector<GroundEffect> start_effects, end_effects;
+};
+
+struct Plan {
+  std::vector<Activity> activities;  // by start time
+  Network network;
+  Duration makespan{0};
+};
+
+enum class Verdict {
+  kSolved,
+  kUnsolvable,           // proved: a goal is unreachable even when relaxed, or the search space is exhausted
+  kTimeout,              // Budget::out_of_time said so, or the work is spent
+  kOutOfMemory,          // Budget::memory_bytes is spent
+  kUnsupported,          // the model uses what the engine does not take: see where
+  kFunctionUnavailable,  // an external function has no usable value for a tuple
+  kCancelled,
+  kInvalidInput,  // the model contradicts itself: see where
+};
+
+// "solved", "unsolvable", "timeout", "out_of_memory", "unsupported", "function_unavailable", "cancelled",
+// "invalid_input".
+const char* to_string(Verdict verdict);
+
+struct Statistics {
+  std::size_t facts = 0;
+  std::size_t variables = 0;  // finite-domain variables of the packed state
+  std::size_t numeric_variables = 0;
+  std::size_t actions = 0;    // ground
+  std::size_t generated = 0;  // successors put into the open list
+  std::size_t evaluated = 0;  // heuristic evaluations
+  std::size_t expanded = 0;
+  std::size_t temporally_inconsistent = 0;  // successors that the network pruned (R25)
+  std::size_t dominated = 0;                // successors that the dominance check pruned
+  double bytes_per_state =
+      0;  // mean over stored states: packed state, numbers, parent, operator, constraints
+  std::size_t peak_bytes = 0;  // as the engine counts its own memory
+};
+
+struct FunctionUse {
+  FunctionCall call;
+  FunctionValue answer;
+};
+
+struct Result {
+  Verdict verdict = Verdict::kInvalidInput;
+  std::string reason;                     // what blocks, in words; empty with kSolved
+  std::optional<pddl::Diagnostic> where;  // kUnsupported and kInvalidInput: the place in the model
+  std::optional<Plan> plan;               // with kSolved
+  Statistics statistics;
+  std::vector<FunctionUse> functions;  // every tuple that was asked for
+};
+
+}  // namespace roci::planner::temporal_pddl
