@@ -1,0 +1,73 @@
+// Conditions over timelines: a tree in prefix order in one flat array, evaluated in three-valued logic (R84).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/temporal/value.hpp"
+
+namespace roci::temporal {
+
+enum class ConditionOp {
+  always,    ///< CONDITION_TRUE
+  all_of,    ///< CONDITION_AND: followed by child_count subtrees
+  any_of,    ///< CONDITION_OR: followed by child_count subtrees
+  negation,  ///< CONDITION_NOT: followed by one subtree
+  eq,
+  ne,
+  lt,
+  le,
+  ge,
+  gt
+};
+
+struct ConditionNode {
+  ConditionOp op = ConditionOp::always;
+  std::uint32_t child_count = 0;
+  std::string timeline;
+  Value operand;
+  friend bool operator==(const ConditionNode&, const ConditionNode&) = default;
+};
+
+/// No nodes: always true.
+struct Condition {
+  std::vector<ConditionNode> nodes;
+  bool empty() const { return nodes.empty(); }
+  friend bool operator==(const Condition&, const Condition&) = default;
+};
+
+/// timeline op operand. eq and ne compare any kind; a state without arguments as operand stands for that
+/// state with any arguments. lt, le, ge, gt compare numbers.
+Condition compare(std::string timeline, ConditionOp op, Value operand);
+Condition all_of(const std::vector<Condition>& parts);
+Condition any_of(const std::vector<Condition>& parts);
+Condition negate(const Condition& part);
+
+enum class Truth { no, unknown, yes };
+
+/// The value of a timeline, or nothing where it was never observed.
+using Lookup = std::function<std::optional<Value>(const std::string& timeline)>;
+
+/// Kleene's strong logic. A timeline without a value, a comparison of unlike kinds and a malformed tree are
+/// unknown.
+Truth evaluate(const Condition& condition, const Lookup& lookup);
+
+/// In plain words: "rover.nav = idle-at(wp-1) and (battery >= 500 or not comm.window = true)"; "always" if
+/// empty.
+std::string describe(const Condition& condition);
+
+/// Why it does not hold: the comparisons that are false or unknown, with the values found:
+/// "battery >= 500 (is 120)", "rover.nav = idle (never observed)". Empty if it holds.
+std::string explain(const Condition& condition, const Lookup& lookup);
+
+/// What is wrong with the tree's form (child counts, missing operands, numbers wanted); empty if it is well
+/// formed.
+std::string check(const Condition& condition);
+
+/// Names of the timelines that it looks at, sorted, each once.
+std::vector<std::string> timelines_of(const Condition& condition);
+
+}  // namespace roci::temporal

@@ -1,0 +1,146 @@
+// The one plan type of all engines: activities + tokens + decision points + a simple temporal network.
+// idl/plan.idl is its wire form; the names there are the names here.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/temporal/condition.hpp"
+#include "core/temporal/duration.hpp"
+#include "core/temporal/stn.hpp"
+#include "core/temporal/value.hpp"
+
+namespace roci::temporal {
+
+enum class ConstraintKind { ordering, duration, window };
+
+/// lower <= t[to_point] - t[from_point] <= upper. Point 0 is the plan's origin. upper >= 0 (turn it round
+/// otherwise).
+struct TemporalConstraint {
+  TimePoint from_point = 0;
+  TimePoint to_point = 0;
+  ConstraintKind kind = ConstraintKind::ordering;
+  Duration lower{0};
+  Duration upper = no_bound;
+  friend bool operator==(const TemporalConstraint&, const TemporalConstraint&) = default;
+};
+
+enum class ImpactKind { assign, delta, rate };  ///< rate: per second
+enum class ImpactWhen { at_start, at_end, during };
+
+struct Impact {
+  std::string timeline;
+  ImpactKind kind = ImpactKind::assign;
+  ImpactWhen moment = ImpactWhen::at_start;
+  Value amount;
+  friend bool operator==(const Impact&, const Impact&) = default;
+};
+
+/// What happens when an activity's latest start has passed.
+enum class LatenessPolicy {
+  replan,  ///< the plan is broken (Stellar, R49)
+  push,    ///< wait on, until wait_timeout; success only after the shortest duration has elapsed (MEXEC, R86,
+           ///< R98)
+  deadline,  ///< as replan, and it must end before the latest next change of its timeline (SanchoExpress,
+             ///< R144)
+};
+
+enum class CommitState { planned, committed };
+
+enum class ActivityState { waiting, dispatched, running, succeeded, failed, skipped, cancelled };
+
+struct Property {
+  std::string name;
+  std::string value;
+  friend bool operator==(const Property&, const Property&) = default;
+};
+
+/// The executive sends (id, attempt) as a command's key: ids must not be used again in later plans for
+/// anything else.
+struct PlanActivity {
+  std::string id;
+  std::string name;   ///< action or task name
+  std::string owner;  ///< service that executes the command; empty: no command, internal states only
+  std::string subsystem;
+  std::string command_name;
+  std::vector<Property> arguments;
+  TimePoint start_point = 0;  ///< own points: no two activities share one, none is the origin
+  TimePoint end_point = 0;
+  Duration duration_lower{0};
+  Duration duration_upper = no_bound;
+  Condition pre;
+  Condition maintenance;
+  Condition post;
+  std::vector<Impact> impacts;
+  Duration wait_timeout = no_bound;  ///< how long it may wait after its earliest start; push needs one
+  std::uint32_t retries = 0;
+  bool may_skip = false;  ///< skipped instead of failed when it cannot start in time
+  Condition skip_if;      ///< not empty and true at the start: skipped
+  LatenessPolicy lateness = LatenessPolicy::replan;
+  CommitState commit = CommitState::planned;
+  std::string contingency;
+  std::string parent;
+  std::vector<std::string> goals_served;  ///< "issuer/id"
+  double utility = 0;
+  friend bool operator==(const PlanActivity&, const PlanActivity&) = default;
+};
+
+/// A timeline holds a value between two time points.
+struct Token {
+  std::string timeline;
+  Value held;
+  TimePoint start_point = 0;
+  TimePoint end_point = 0;
+  friend bool operator==(const Token&, const Token&) = default;
+};
+
+struct DecisionChoice {
+  std::string name;
+  std::vector<std::string> activities;  ///< ids; those of the other choices are skipped
+  friend bool operator==(const DecisionChoice&, const DecisionChoice&) = default;
+};
+
+/// An open choice that `resolver` makes at run time, before `decide_before` may happen (R131).
+struct DecisionPoint {
+  std::string id;
+  std::string resolver;
+  std::vector<DecisionChoice> choices;
+  TimePoint decide_before = 0;
+  friend bool operator==(const DecisionPoint&, const DecisionPoint&) = default;
+};
+
+/// Provenance of a value of an external function on which the plan stands.
+struct FunctionValueUse {
+  std::string function;
+  std::vector<std::string> arguments;
+  double number = 0;
+  std::string owner;
+  std::uint64_t model_version = 0;
+  friend bool operator==(const FunctionValueUse&, const FunctionValueUse&) = default;
+};
+
+struct FlexiblePlan {
+  std::string id;
+  std::uint32_t version = 0;
+  std::string engine;
+  Time origin{0};  ///< mission time of time point 0
+  std::uint32_t point_count = 1;
+  std::vector<PlanActivity> activities;
+  std::vector<Token> tokens;
+  std::vector<DecisionPoint> decisions;
+  std::vector<TemporalConstraint> constraints;
+  std::vector<FunctionValueUse> function_values;
+  friend bool operator==(const FlexiblePlan&, const FlexiblePlan&) = default;
+};
+
+/// Everything wrong with the plan's form, one plain sentence each; empty: it can be executed. Checks ids,
+/// indices, bounds, condition trees, references of parents and choices, and that the network has a solution
+/// in which no point lies before the origin.
+std::vector<std::string> check(const FlexiblePlan& plan);
+
+/// The constraints of the plan's network: its own, one of kind duration per activity, and "not before the
+/// origin" for every point.
+std::vector<TemporalConstraint> all_constraints(const FlexiblePlan& plan);
+
+}  // namespace roci::temporal

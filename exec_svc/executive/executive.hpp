@@ -1,0 +1,73 @@
+// The executive: runs any FlexiblePlan on the plan's own temporal network. A functional core: no clock, no
+// I/O, the same inputs give the same outputs.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/temporal/flexible_plan.hpp"
+#include "exec_svc/executive/messages.hpp"
+
+namespace roci::exec {
+
+/// Bounds of waits that no plan states.
+struct ExecutiveSettings {
+  temporal::Duration ack_timeout = temporal::seconds(5);  ///< command sent -> accepted, rejected or completed
+  temporal::Duration cancel_timeout = temporal::seconds(5);  ///< cancel sent -> any answer
+  temporal::Duration settle_time = temporal::seconds(2);     ///< for observations to follow a start or an end
+  temporal::Duration default_wait =
+      temporal::seconds(3600);  ///< for pre conditions, where nothing else bounds it
+  temporal::Duration decision_timeout = temporal::seconds(600);  ///< where decide_before has no latest time
+  double overrun_factor = 3.0;  ///< a command fails as hung after this many times its longest duration ...
+  temporal::Duration overrun_grace = temporal::seconds(600);  ///< ... plus this
+};
+
+/// Rules (docs in README.md): a start whose predecessors happened at t <= lb starts at lb, in (lb, ub] at
+/// once, after ub the plan is broken (R49). Observed ends replace durations: an activity that takes longer
+/// breaks nothing by itself.
+class Executive {
+ public:
+  explicit Executive(ExecutiveSettings settings = {});
+  ~Executive();
+  Executive(Executive&&) noexcept;
+  Executive& operator=(Executive&&) noexcept;
+
+  /// Takes a plan; the next step() acts on it. Activities of the plan before it that were started and stand
+  /// in the new plan under the same id go on; others that run are cancelled. Observed values are kept.
+  /// Returns check(plan); if that is not empty, nothing has changed.
+  std::vector<std::string> load(temporal::FlexiblePlan plan, temporal::Time now);
+
+  /// Advances to `now` (never before the time of the call before). Also without a plan: observations are
+  /// kept.
+  Outputs step(temporal::Time now, const Inputs& inputs);
+
+  /// First phase of the cancel: asks the owners of everything that runs; step() takes their answers.
+  Outputs cancel_all(temporal::Time now);
+
+  Outcome outcome() const;
+  const temporal::FlexiblePlan& plan() const;
+
+  /// All activities in plan order, with the windows of the plan's network as of the last event.
+  std::vector<StepStatus> steps() const;
+
+  /// Start and end of each token of the plan, in plan order, as far as they have happened.
+  struct TokenStatus {
+    std::optional<temporal::Time> started, ended;
+  };
+  std::vector<TokenStatus> tokens() const;
+
+  /// The value that conditions see: as observed, else as internal activities left it.
+  std::optional<temporal::Value> value_of(const std::string& timeline) const;
+
+  /// Acks and decision answers that matched nothing that is awaited.
+  std::uint64_t ignored_acks() const;
+  std::uint64_t ignored_answers() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace roci::exec

@@ -1,0 +1,112 @@
+// What goes into the executive and what comes out of it: plain values, no DDS.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/temporal/duration.hpp"
+#include "core/temporal/flexible_plan.hpp"
+#include "core/temporal/value.hpp"
+
+namespace roci::exec {
+
+enum class CommandAction { execute, cancel, query };
+
+enum class CommandStage { accepted, rejected, completed, failed, cancelled, cancel_failed, unknown };
+
+/// One timeline's newest value.
+struct Observation {
+  std::string timeline;
+  temporal::Value value;
+};
+
+/// An owner's answer to the command (activity, attempt).
+struct CommandAck {
+  std::string activity;
+  std::uint32_t attempt = 0;
+  CommandStage stage = CommandStage::accepted;
+  std::string code;
+  std::string reason;
+};
+
+struct DecisionAnswer {
+  std::string decision;
+  std::string choice;
+};
+
+/// What happened since the last step. Each list is in the order of events.
+struct Inputs {
+  std::vector<Observation> observations;
+  std::vector<CommandAck> acks;
+  std::vector<std::string> lost_owners;  ///< services found dead, hung or cut off
+  std::vector<DecisionAnswer> answers;
+};
+
+struct Command {
+  CommandAction action = CommandAction::execute;
+  std::string activity;
+  std::uint32_t attempt = 1;
+  std::string owner;
+  std::string subsystem;
+  std::string command_name;
+  std::vector<temporal::Property> arguments;
+  temporal::Duration expected{0};  ///< shortest duration of the activity
+};
+
+/// State of one activity; times are mission times.
+struct StepStatus {
+  std::string activity;
+  std::string name;
+  std::uint32_t attempt = 0;  ///< 0: no command sent yet
+  temporal::ActivityState state = temporal::ActivityState::waiting;
+  temporal::Time earliest_start{0};
+  temporal::Time latest_start = temporal::no_bound;
+  std::optional<temporal::Time> started;
+  std::optional<temporal::Time> ended;
+  std::string cause;  ///< why it is in this state, where that is not obvious
+};
+
+struct DecisionRequest {
+  std::string decision;
+  std::string resolver;
+  std::vector<std::string> choices;
+  temporal::Time answer_before = temporal::no_bound;  ///< later answers are ignored
+};
+
+enum class OutcomeKind {
+  idle,  ///< no plan loaded
+  running,
+  finished,    ///< every activity succeeded or was skipped
+  broken,      ///< nothing new is started; running activities are followed until they end or cancel_all()
+  cancelling,  ///< cancel_all(): answers are awaited, for a bounded time
+  cancelled,   ///< nothing of the plan runs any more, or its owner did not answer the cancel in time
+};
+
+enum class BreakReason {
+  none,
+  late_start,         ///< an activity's latest start has passed (R49)
+  activity_failed,    ///< its command, a condition, a wait or its owner failed; the retries are used up
+  deadline_passed,    ///< LatenessPolicy::deadline: still running at the latest next change of its timeline
+  ordering_violated,  ///< an end was observed before an event that the plan orders before it
+  decision_missing,   ///< no answer in time
+};
+
+struct Outcome {
+  OutcomeKind kind = OutcomeKind::idle;
+  BreakReason reason = BreakReason::none;  ///< of broken
+  std::string activity;                    ///< that broke it; for decision_missing the decision
+  std::string cause;                       ///< in plain words
+  std::string contingency;                 ///< the one that the activity names
+};
+
+struct Outputs {
+  std::vector<Command> commands;    ///< in the order of sending
+  std::vector<StepStatus> changes;  ///< every change of state, in the order of events
+  std::vector<DecisionRequest> decision_requests;
+  Outcome outcome;                          ///< after this step
+  std::optional<temporal::Time> next_wake;  ///< step again then, if nothing happens before
+};
+
+}  // namespace roci::exec
