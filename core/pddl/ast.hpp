@@ -267,9 +267,9 @@ struct Problem {
   std::string domain_name;
   std::vector<Requirement> requirements;
   std::vector<TypedName> objects;
-  std::vector<Atom> facts;        // true at time 0; everything else is false
-  std::vector<Atom> false_facts;  // `(not (p))` in :init: says only what the closed world says anyway
-  std::vector<InitialValue> values;
+  std::vector<Atom> facts;           // true at time 0; everything else is false
+  std::vector<Atom> false_facts;     // `(not (p))` in :init: says only what the closed world says anyway
+  std::vector<InitialValue> values;  // the last one of a fluent counts
   std::vector<TimedLiteral> timed_literals;
   std::vector<TimedValue> timed_values;
   Condition goal;

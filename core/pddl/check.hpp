@@ -1,0 +1,24 @@
+// What a parsed domain or problem must satisfy beyond grammar: names are used with their declared arity and
+// types; predicates, functions, modules and actions are declared once; variables are bound once; derived
+// predicates are stratified and nobody's effect; external functions are nobody's fluent; ?duration,
+// total-time and #t stand where they have a meaning. As IPC files need it, a type or object declared again
+// gains supertypes or types, and of two initial values of a fluent the last one counts.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/pddl/ast.hpp"
+
+namespace roci::pddl {
+
+// All findings in textual order of their discovery; empty: fine.
+std::vector<Diagnostic> check(const Domain& domain);
+// Takes a domain without findings.
+std::vector<Diagnostic> check(const Problem& problem, const Domain& domain);
+
+// Parse and check in one; throw the first finding as ParseError.
+Domain load_domain(std::string_view text, std::string_view file);
+Problem load_problem(std::string_view text, std::string_view file, const Domain& domain);
+
+}  // namespace roci::pddl

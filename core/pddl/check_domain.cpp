@@ -1,0 +1,127 @@
+#include "core/pddl/check.hpp"
+#include "core/pddl/check_parts.hpp"
+#include "core/pddl/parser.hpp"
+#include "core/pddl/stratify.hpp"
+
+namespace roci::pddl {
+
+namespace {
+
+class DomainChecker {
+ public:
+  explicit DomainChecker(const Domain& domain)
+      : domain_(domain), findings_(domain.file), symbols_(domain), formulas_(symbols_, findings_) {}
+
+  std::vector<Diagnostic> run() {
+    check_hierarchy();
+    check_types(domain_.constants, symbols_, findings_);
+    check_signatures();
+    check_derived();
+    std::set<std::string> names;
+    for (const Action& action : domain_.actions) {
+      check_unique(names, action.name, "action", action.where);
+      check_action(action);
+    }
+    for (const DurativeAction& action : domain_.durative_actions) {
+      check_unique(names, action.name, "action", action.where);
+      check_action(action);
+    }
+    return findings_.take();
+  }
+
+ private:
+  void check_unique(std::set<std::string>& seen, const std::string& name, std::string_view what,
+                    SourceLocation where) {
+    if (seen.insert(name).second) return;
+    findings_.add(where, std::string(what) + " '" + name + "' is declared twice", "rename or remove one");
+  }
+
+  void check_hierarchy() {
+    for (const TypedName& type : domain_.types) {
+      for (const std::string& parent : type.types) {
+        if (type.name == "object" || !symbols_.types().is_a(parent, type.name)) continue;
+        findings_.add(type.where, "type '" + type.name + "' is above itself", "break the circle in :types");
+      }
+    }
+  }
+
+  void check_signatures() {
+    std::set<std::string> predicates;
+    for (const Signature& predicate : domain_.predicates) {
+      check_unique(predicates, predicate.name, "predicate", predicate.where);
+      check_variables(predicate.parameters, symbols_, findings_);
+    }
+    std::set<std::string> functions;
+    const auto check_function = [&](const Signature& function) {
+      check_unique(functions, function.name, "function", function.where);
+      check_variables(function.parameters, symbols_, findings_);
+    };
+    for (const Signature& function : domain_.functions) check_function(function);
+    std::set<std::string> modules;
+    for (const Module& module : domain_.modules) {
+      check_unique(modules, module.name, "module", module.where);
+      for (const Signature& function : module.functions) check_function(function);
+    }
+  }
+
+  void check_derived() {
+    for (const DerivedPredicate& derived : domain_.derived) {
+      const Signature* declared = symbols_.find_predicate(derived.head.name);
+      if (!declared) {
+        findings_.add(derived.head.where, "unknown predicate '" + derived.head.name + "'",
+                      "declare it in :predicates");
+      } else if (declared->parameters.size() != derived.head.parameters.size()) {
+        findings_.add(derived.head.where,
+                      "derived predicate '" + derived.head.name + "' has another arity than declared",
+                      "use the parameters of its declaration");
+      }
+      formulas_.bind(derived.head.parameters);
+      formulas_.check_condition(derived.body);
+      formulas_.unbind(derived.head.parameters.size());
+    }
+    const Strata strata = stratify(domain_);
+    if (strata.cyclic.empty()) return;
+    for (const DerivedPredicate& derived : domain_.derived) {
+      if (derived.head.name != strata.cyclic) continue;
+      findings_.add(derived.head.where,
+                    "derived predicate '" + strata.cyclic + "' depends on its own negation",
+                    "derived predicates must be stratified");
+      return;
+    }
+  }
+
+  void check_action(const Action& action) {
+    formulas_.bind(action.parameters);
+    formulas_.check_condition(action.precondition);
+    formulas_.check_effects(action.effects, {});
+    formulas_.unbind(action.parameters.size());
+  }
+
+  void check_action(const DurativeAction& action) {
+    formulas_.bind(action.parameters);
+    for (const DurationConstraint& constraint : action.duration)
+      formulas_.check_expression(constraint.bound, {});
+    formulas_.check_timed(action.condition);
+    formulas_.check_effects(action.start_effects, {.duration = true});
+    formulas_.check_effects(action.end_effects, {.duration = true});
+    formulas_.check_effects(action.continuous_effects, {.duration = true, .continuous_time = true});
+    formulas_.unbind(action.parameters.size());
+  }
+
+  const Domain& domain_;
+  Findings findings_;
+  Symbols symbols_;
+  FormulaChecker formulas_;
+};
+
+}  // namespace
+
+std::vector<Diagnostic> check(const Domain& domain) { return DomainChecker(domain).run(); }
+
+Domain load_domain(std::string_view text, std::string_view file) {
+  Domain domain = parse_domain(text, file);
+  if (auto findings = check(domain); !findings.empty()) throw ParseError(std::move(findings.front()));
+  return domain;
+}
+
+}  // namespace roci::pddl

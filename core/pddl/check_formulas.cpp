@@ -1,0 +1,197 @@
+#include <algorithm>
+
+#include "core/pddl/check_parts.hpp"
+#include "core/pddl/overloaded.hpp"
+#include "core/pddl/printer.hpp"
+
+namespace roci::pddl {
+
+namespace {
+
+std::string join(const std::vector<std::string>& types) {
+  std::string text;
+  for (const std::string& type : types) text += (text.empty() ? "" : " or ") + type;
+  return text;
+}
+
+}  // namespace
+
+void FormulaChecker::bind(const std::vector<TypedName>& variables) {
+  check_variables(variables, symbols_, findings_);
+  for (const TypedName& variable : variables) {
+    if (variable.name == "?duration") {
+      findings_.add(variable.where, "?duration as the name of a variable", "it is reserved: rename it");
+    }
+    const bool again = std::any_of(bound_.begin(), bound_.end(),
+                                   [&](const TypedName* outer) { return outer->name == variable.name; });
+    if (again) {
+      findings_.add(variable.where, "variable '" + variable.name + "' hides an outer one", "rename it");
+    }
+  }
+  for (const TypedName& variable : variables) bound_.push_back(&variable);
+}
+
+const TypedName* FormulaChecker::find_variable(const std::string& name) const {
+  const auto it = std::find_if(bound_.begin(), bound_.end(),
+                               [&](const TypedName* variable) { return variable->name == name; });
+  return it == bound_.end() ? nullptr : *it;
+}
+
+// A variable must fit whichever object it takes; an object fits if one of its types does.
+void FormulaChecker::check_argument(const Term& term, const TypedName& parameter, const std::string& owner) {
+  const TypeTree& types = symbols_.types();
+  bool fits = false;
+  const std::vector<std::string>* given = nullptr;
+  if (term.is_variable()) {
+    const TypedName* variable = find_variable(term.name);
+    if (!variable) {
+      findings_.add(term.where, "unbound variable '" + term.name + "'",
+                    "add it to :parameters or a quantifier");
+      return;
+    }
+    given = &variable->types;
+    fits = types.accepts(parameter.types, *given);
+  } else {
+    given = symbols_.find_object_types(term.name);
+    if (!given) {
+      findings_.add(term.where, "unknown object '" + term.name + "'", "declare it in :objects or :constants");
+      return;
+    }
+    fits = std::any_of(given->begin(), given->end(),
+                       [&](const std::string& type) { return types.accepts(parameter.types, {type}); });
+  }
+  if (fits) return;
+  findings_.add(term.where,
+                "'" + term.name + "' is of type " + join(*given) + ", but " + owner + " takes " +
+                    join(parameter.types) + " here",
+                "use a term of that type");
+}
+
+void FormulaChecker::check_arguments(const Atom& atom, const Signature& signature, std::string_view what) {
+  const std::string owner = std::string(what) + " '" + atom.symbol + "'";
+  if (atom.arguments.size() != signature.parameters.size()) {
+    findings_.add(atom.where,
+                  owner + " has " + std::to_string(atom.arguments.size()) + " arguments, declared with " +
+                      std::to_string(signature.parameters.size()),
+                  "write it as " + signature.name + " is declared");
+    return;
+  }
+  for (std::size_t i = 0; i < atom.arguments.size(); ++i) {
+    check_argument(atom.arguments[i], signature.parameters[i], owner);
+  }
+}
+
+void FormulaChecker::check_fact(const Atom& atom) {
+  if (const Signature* signature = symbols_.find_predicate(atom.symbol)) {
+    check_arguments(atom, *signature, "predicate");
+  } else {
+    findings_.add(atom.where, "unknown predicate '" + atom.symbol + "'", "declare it in :predicates");
+  }
+}
+
+void FormulaChecker::check_basic_fact(const Atom& atom) {
+  check_fact(atom);
+  if (symbols_.is_derived(atom.symbol)) {
+    findings_.add(atom.where, "derived predicate '" + atom.symbol + "' is set directly",
+                  "set what it is derived from");
+  }
+}
+
+void FormulaChecker::check_fluent(const Atom& atom) {
+  if (const Signature* signature = symbols_.find_fluent(atom.symbol)) {
+    check_arguments(atom, *signature, "function");
+  } else if (symbols_.find_external(atom.symbol)) {
+    findings_.add(atom.where, "external function '" + atom.symbol + "' is set",
+                  "its module alone gives its values");
+  } else {
+    findings_.add(atom.where, "unknown function '" + atom.symbol + "'", "declare it in :functions");
+  }
+}
+
+void FormulaChecker::check_expression(const Expression& expression, ExpressionContext context) {
+  const auto require = [&](bool allowed, std::string_view what, std::string_view remedy) {
+    if (!allowed)
+      findings_.add(expression.where, std::string(what) + " has no meaning here", std::string(remedy));
+  };
+  std::visit(
+      Overloaded{[](const Number&) {},
+                 [&](const Atom& atom) {
+                   const Signature* signature = symbols_.find_fluent(atom.symbol);
+                   if (!signature) signature = symbols_.find_external(atom.symbol);
+                   if (signature) return check_arguments(atom, *signature, "function");
+                   findings_.add(atom.where, "unknown function '" + atom.symbol + "'",
+                                 "declare it in :functions or :modules");
+                 },
+                 [&](const DurationVariable&) {
+                   require(context.duration, "?duration", "it stands in effects of durative actions");
+                 },
+                 [&](const TotalTime&) { require(context.total_time, "total-time", "it stands in :metric"); },
+                 [&](const ContinuousTime&) {
+                   require(context.continuous_time, "#t", "it stands in continuous effects");
+                 },
+                 [&](const Arithmetic& arithmetic) {
+                   for (const Expression& operand : arithmetic.operands) check_expression(operand, context);
+                 }},
+      expression.node);
+}
+
+void FormulaChecker::check_condition(const Condition& condition) {
+  const auto check_all = [&](const std::vector<Condition>& parts) {
+    for (const Condition& part : parts) check_condition(part);
+  };
+  const auto check_quantified = [&](const auto& quantified) {
+    bind(quantified.variables);
+    check_condition(*quantified.body);
+    unbind(quantified.variables.size());
+  };
+  std::visit(
+      Overloaded{[&](const And& all) { check_all(all.parts); }, [&](const Or& any) { check_all(any.parts); },
+                 [&](const Not& negation) { check_condition(*negation.body); },
+                 [&](const Imply& imply) {
+                   check_condition(*imply.premise);
+                   check_condition(*imply.conclusion);
+                 },
+                 [&](const Forall& forall) { check_quantified(forall); },
+                 [&](const Exists& exists) { check_quantified(exists); },
+                 [&](const Atom& atom) { check_fact(atom); },
+                 [&](const TermEquality& equality) {
+                   for (const Term* term : {&equality.left, &equality.right}) {
+                     if (find_variable(term->name) || symbols_.find_object_types(term->name)) continue;
+                     findings_.add(term->where, "unknown '" + term->name + "'",
+                                   "bind the variable or declare the object; functions stand in parentheses");
+                   }
+                 },
+                 [&](const Comparison& comparison) {
+                   check_expression(comparison.left, {});
+                   check_expression(comparison.right, {});
+                 }},
+      condition.node);
+}
+
+void FormulaChecker::check_timed(const TimedCondition& condition) {
+  check_condition(condition.at_start);
+  check_condition(condition.over_all);
+  check_condition(condition.at_end);
+}
+
+void FormulaChecker::check_effects(const std::vector<Effect>& effects, ExpressionContext context) {
+  for (const Effect& effect : effects) {
+    std::visit(Overloaded{[&](const Literal& literal) { check_basic_fact(literal.atom); },
+                          [&](const Assignment& assignment) {
+                            check_fluent(assignment.fluent);
+                            check_expression(assignment.value, context);
+                          },
+                          [&](const When& when) {
+                            check_timed(when.condition);
+                            check_effects(when.effects, context);
+                          },
+                          [&](const ForallEffect& forall) {
+                            bind(forall.variables);
+                            check_effects(forall.effects, context);
+                            unbind(forall.variables.size());
+                          }},
+               effect.node);
+  }
+}
+
+}  // namespace roci::pddl

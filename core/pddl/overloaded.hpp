@@ -1,0 +1,14 @@
+// std::visit with one lambda per alternative.
+#pragma once
+
+namespace roci::pddl {
+
+template <typename... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+
+template <typename... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
+
+}  // namespace roci::pddl

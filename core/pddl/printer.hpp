@@ -1,0 +1,25 @@
+// Syntax tree to PDDL text. What parses back is equal to what was printed: parse_domain(print(d)) == d, if d
+// could have come from a text at all (no empty `when` or `forall` effect, no conjunction of one part as a
+// timed condition).
+#pragma once
+
+#include <string>
+
+#include "core/pddl/ast.hpp"
+
+namespace roci::pddl {
+
+std::string print(const Domain& domain);
+std::string print(const Problem& problem);
+
+// Fragments, for messages and reports: on one line.
+std::string print(const Atom& atom);
+std::string print(const Literal& literal);
+std::string print(const Expression& expression);
+std::string print(const Condition& condition);
+std::string print(ComparisonOperator op);
+
+// The shortest decimal without exponent that reads back as exactly this number.
+std::string print_number(double value);
+
+}  // namespace roci::pddl

@@ -1,0 +1,78 @@
+#include "core/pddl/types.hpp"
+
+#include <algorithm>
+
+namespace roci::pddl {
+
+TypeTree::TypeTree(const Domain& domain) {
+  std::map<std::string, std::vector<std::string>> parents;
+  parents["object"];
+  for (const TypedName& type : domain.types) {
+    auto& above = parents[type.name];
+    above.insert(above.end(), type.types.begin(), type.types.end());
+    for (const std::string& parent : type.types) parents[parent];
+  }
+  for (const auto& [type, above] : parents) {
+    auto& closure = ancestors_[type];
+    std::vector<std::string> open = {type};
+    while (!open.empty()) {
+      const std::string next = std::move(open.back());
+      open.pop_back();
+      if (!closure.insert(next).second) continue;
+      const auto& further = parents.at(next);
+      open.insert(open.end(), further.begin(), further.end());
+    }
+    closure.insert("object");
+  }
+}
+
+bool TypeTree::knows(std::string_view type) const { return ancestors_.contains(type); }
+
+bool TypeTree::is_a(std::string_view type, std::string_view ancestor) const {
+  const auto it = ancestors_.find(type);
+  return it != ancestors_.end() && it->second.contains(ancestor);
+}
+
+bool TypeTree::accepts(const std::vector<std::string>& wanted, const std::vector<std::string>& given) const {
+  return std::all_of(given.begin(), given.end(), [&](const std::string& type) {
+    return std::any_of(wanted.begin(), wanted.end(),
+                       [&](const std::string& ancestor) { return is_a(type, ancestor); });
+  });
+}
+
+ObjectTable::ObjectTable(const Domain& domain, const Problem& problem) : types_(domain) {
+  for (const auto* names : {&domain.constants, &problem.objects}) {
+    for (const TypedName& name : *names) {
+      const auto [it, first] = numbers_.emplace(name.name, static_cast<int>(objects_.size()));
+      if (first) {
+        objects_.push_back(name);
+      } else {
+        auto& types = objects_[it->second].types;
+        types.insert(types.end(), name.types.begin(), name.types.end());
+      }
+    }
+  }
+}
+
+int ObjectTable::find(std::string_view name) const {
+  const auto it = numbers_.find(name);
+  return it == numbers_.end() ? -1 : it->second;
+}
+
+bool ObjectTable::has_type(std::size_t object, const std::vector<std::string>& types) const {
+  const auto& own = objects_[object].types;
+  return std::any_of(own.begin(), own.end(), [&](const std::string& type) {
+    return std::any_of(types.begin(), types.end(),
+                       [&](const std::string& ancestor) { return types_.is_a(type, ancestor); });
+  });
+}
+
+std::vector<int> ObjectTable::of_types(const std::vector<std::string>& types) const {
+  std::vector<int> result;
+  for (std::size_t object = 0; object < objects_.size(); ++object) {
+    if (has_type(object, types)) result.push_back(static_cast<int>(object));
+  }
+  return result;
+}
+
+}  // namespace roci::pddl

@@ -1,0 +1,55 @@
+// The type hierarchy of a domain, and its objects by type.
+#pragma once
+
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/pddl/ast.hpp"
+
+namespace roci::pddl {
+
+// "object" is above every type. A type that is only named as a supertype exists too. Cycles are tolerated
+// here (their types are all above one another) and refused by check().
+class TypeTree {
+ public:
+  explicit TypeTree(const Domain& domain);
+
+  bool knows(std::string_view type) const;
+  // Is every `type` an `ancestor`? Reflexive; false for unknown types.
+  bool is_a(std::string_view type, std::string_view ancestor) const;
+  // May a thing of one of the types `given` stand where one of the types `wanted` is asked for, whichever of
+  // `given` it has?
+  bool accepts(const std::vector<std::string>& wanted, const std::vector<std::string>& given) const;
+
+ private:
+  std::map<std::string, std::set<std::string, std::less<>>, std::less<>> ancestors_;
+};
+
+// Constants of the domain and objects of the problem, numbered from 0 in the order of their first declaration
+// (constants first). An object that is declared again has the types of all its declarations. Holds no
+// reference to domain or problem.
+class ObjectTable {
+ public:
+  ObjectTable(const Domain& domain, const Problem& problem);
+
+  std::size_t size() const { return objects_.size(); }
+  const TypedName& operator[](std::size_t object) const { return objects_[object]; }
+  // -1 if there is none of this name
+  int find(std::string_view name) const;
+  // Does the object have one of the types?
+  bool has_type(std::size_t object, const std::vector<std::string>& types) const;
+  // All objects of one of the types, ascending.
+  std::vector<int> of_types(const std::vector<std::string>& types) const;
+  const TypeTree& types() const { return types_; }
+
+ private:
+  TypeTree types_;
+  std::vector<TypedName> objects_;
+  std::map<std::string, int, std::less<>> numbers_;
+};
+
+}  // namespace roci::pddl
