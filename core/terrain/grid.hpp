@@ -4,7 +4,7 @@
 
 namespace roci::terrain {
 
-/// Position in the map frame, metres: x east, y north.
+// Position in the map frame, metres: x east, y north.
 struct Point {
   double x = 0;
   double y = 0;
@@ -15,16 +15,16 @@ inline double distance(Point a, Point b) {
   return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
 }
 
-/// Column counts east and row counts north, both from the south-west corner.
+// Column counts east and row counts north, both from the south-west corner.
 struct Cell {
   int column = 0;
   int row = 0;
   bool operator==(const Cell&) const = default;
 };
 
-/// Where the square cells of a map lie. `origin` is the south-west corner of cell (0, 0), in metres;
-/// `resolution` is the side of a cell, in metres. Layers are stored by rows, index(cell) = row * columns +
-/// column.
+// Where the square cells of a map lie. `origin` is the south-west corner of cell (0, 0), in metres;
+// `resolution` is the side of a cell, in metres. Layers are stored by rows, index(cell) = row * columns +
+// column.
 struct Grid {
   int columns = 0;
   int rows = 0;
@@ -40,12 +40,14 @@ struct Grid {
   }
 
   bool contains(Cell c) const { return c.column >= 0 && c.row >= 0 && c.column < columns && c.row < rows; }
-  /// False for NaN, too.
+  // Exactly the points whose cell_of() lies on the map; false for NaN.
   bool contains(Point p) const {
-    return p.x >= origin.x && p.y >= origin.y && p.x < origin.x + width() && p.y < origin.y + height();
+    const double column = std::floor((p.x - origin.x) / resolution);
+    const double row = std::floor((p.y - origin.y) / resolution);
+    return column >= 0 && row >= 0 && column < columns && row < rows;
   }
 
-  /// Meaningful for finite points; a point outside the map gives a cell outside the map.
+  // For a point outside the map a cell outside the map; finite points within 2^31 cells only.
   Cell cell_of(Point p) const {
     return {static_cast<int>(std::floor((p.x - origin.x) / resolution)),
             static_cast<int>(std::floor((p.y - origin.y) / resolution))};

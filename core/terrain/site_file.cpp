@@ -1,113 +1,48 @@
 #include "core/terrain/site_file.hpp"
 
-#include <yaml-cpp/yaml.h>
-
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/terrain/map_error.hpp"
+#include "core/mission/entry.hpp"
 #include "core/terrain/pgm.hpp"
 
 namespace roci::terrain {
 namespace {
 
-/// A mapping of the description together with the file it stands in, so that every fault has a place.
-class Section {
- public:
-  Section(YAML::Node node, std::filesystem::path file, std::vector<std::string> keys)
-      : node_(std::move(node)), file_(std::move(file)), keys_(std::move(keys)) {
-    if (!node_.IsMap()) fail(node_, "expected keys " + known());
-    for (const auto& entry : node_) {
-      const auto key = entry.first.as<std::string>("");
-      if (std::find(keys_.begin(), keys_.end(), key) == keys_.end()) {
-        fail(entry.first, "unknown key '" + key + "'; known here: " + known());
-      }
-    }
-  }
+using mission::Entry;
 
-  [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const {
-    const YAML::Mark mark = node.Mark();
-    throw MapError(file_.string() + ":" + std::to_string(mark.line + 1) + ":" +
-                   std::to_string(mark.column + 1) + ": " + what);
-  }
-
-  bool has(const char* key) const { return node_[key].IsDefined(); }
-
-  YAML::Node at(const char* key) const {
-    YAML::Node value = node_[key];
-    if (!value.IsDefined()) fail(node_, std::string("key '") + key + "' is missing");
-    return value;
-  }
-
-  double number(const YAML::Node& value, const char* key) const {
-    double result = 0;
-    if (!value.IsScalar() || !YAML::convert<double>::decode(value, result) || !std::isfinite(result)) {
-      fail(value, std::string("'") + key + "' must be a finite number");
-    }
-    return result;
-  }
-  double number(const char* key) const { return number(at(key), key); }
-
-  std::filesystem::path image(const char* key) const {
-    const YAML::Node value = at(key);
-    if (!value.IsScalar() || value.Scalar().empty())
-      fail(value, std::string("'") + key + "' must name a PGM file");
-    const std::filesystem::path path = file_.parent_path() / value.Scalar();
-    if (!std::filesystem::is_regular_file(path)) {
-      fail(value, "image '" + value.Scalar() +
-                      "' is not there; it is looked for beside this file: " + path.string());
-    }
-    return path;
-  }
-
-  Section section(const char* key, std::vector<std::string> keys) const {
-    return {at(key), file_, std::move(keys)};
-  }
-
- private:
-  std::string known() const {
-    std::string list;
-    for (const auto& key : keys_) list += (list.empty() ? "" : ", ") + key;
-    return list;
-  }
-
-  YAML::Node node_;
-  std::filesystem::path file_;
-  std::vector<std::string> keys_;
-};
-
-double read_resolution(const Section& map) {
-  const YAML::Node value = map.at("resolution");
-  if (value.IsSequence())
-    map.fail(value, "cells must be square: 'resolution' is one number, metres per pixel");
-  const double resolution = map.number(value, "resolution");
-  if (resolution <= 0) map.fail(value, "'resolution' must be positive, metres per pixel");
+double read_resolution(const Entry& map) {
+  const Entry value = map.at("resolution");
+  const double resolution = value.number();
+  if (resolution <= 0) value.fail("'resolution' must be positive, metres per pixel");
   return resolution;
 }
 
-Point read_origin(const Section& map) {
-  const YAML::Node value = map.at("origin");
-  if (!value.IsSequence() || value.size() != 3)
-    map.fail(value, "'origin' must be [x, y, yaw] of the lower left corner");
-  if (map.number(value[2], "origin yaw") != 0) {
-    map.fail(value[2], "a rotated map (yaw not 0) is not supported; rotate the images instead");
-  }
-  return {map.number(value[0], "origin x"), map.number(value[1], "origin y")};
+Point read_origin(const Entry& map) {
+  const Entry value = map.at("origin");
+  const std::vector<Entry> pose = value.items();
+  if (pose.size() != 3) value.fail("'origin' must be [x, y, yaw] of the lower left corner");
+  if (pose[2].number() != 0)
+    pose[2].fail("a rotated map (yaw not 0) is not supported; rotate the images instead");
+  return {pose[0].number(), pose[1].number()};
 }
 
-bool read_flag(const Section& map, const char* key) {
-  const YAML::Node value = map.at(key);
-  const std::string text = value.IsScalar() ? value.Scalar() : "";
-  if (text != "0" && text != "1" && text != "false" && text != "true") {
-    map.fail(value, std::string("'") + key + "' must be 0 or 1");
-  }
+bool read_negate(const Entry& map) {
+  const Entry value = map.at("negate");
+  const std::string text = value.text();
+  if (text != "0" && text != "1" && text != "false" && text != "true") value.fail("'negate' must be 0 or 1");
   return text == "1" || text == "true";
 }
 
-/// Darkness (or brightness, if negated) at which a pixel is occupied or free.
+bool read_graded(const Entry& map) {
+  const auto mode = map.find("mode");
+  if (!mode) return false;
+  if (mode->text() != "trinary" && mode->text() != "scale") mode->fail("'mode' must be trinary or scale");
+  return mode->text() == "scale";
+}
+
+// Share of darkness (of brightness, if negated) above which a pixel is occupied, below which it is free.
 struct Thresholds {
   double occupied;
   double free;
@@ -115,21 +50,35 @@ struct Thresholds {
   bool graded;
 };
 
-Thresholds read_thresholds(const Section& map) {
-  Thresholds t{map.number("occupied_thresh"), map.number("free_thresh"), read_flag(map, "negate"), false};
+Thresholds read_thresholds(const Entry& map) {
+  const Thresholds t{map.at("occupied_thresh").number(), map.at("free_thresh").number(), read_negate(map),
+                     read_graded(map)};
   if (t.free < 0 || t.occupied > 1 || t.free > t.occupied) {
-    map.fail(map.at("free_thresh"), "thresholds must satisfy 0 <= free_thresh <= occupied_thresh <= 1");
-  }
-  if (map.has("mode")) {
-    const YAML::Node mode = map.at("mode");
-    const std::string text = mode.IsScalar() ? mode.Scalar() : "";
-    if (text != "trinary" && text != "scale") map.fail(mode, "'mode' must be trinary or scale");
-    t.graded = text == "scale";
+    map.at("free_thresh").fail("thresholds must satisfy 0 <= free_thresh <= occupied_thresh <= 1");
   }
   return t;
 }
 
-/// Pixel of the image (rows from the north) that shows a cell (rows from the south).
+double read_rock_height(const Entry& map) {
+  const auto rocks = map.find("rocks");
+  if (!rocks) return 1.0;
+  rocks->allow_only({"max_height"});
+  const Entry height = rocks->at("max_height");
+  if (height.number() <= 0) height.fail("'max_height' must be positive, metres");
+  return height.number();
+}
+
+GreyImage read_image(const Entry& owner) {
+  const Entry name = owner.at("image");
+  const std::filesystem::path path = owner.resolve(name.text());
+  if (!std::filesystem::is_regular_file(path)) {
+    name.fail("image '" + name.text() +
+              "' is not there; it is looked for beside this file: " + path.string());
+  }
+  return read_pgm(path);
+}
+
+// Pixel of the image (rows from the north) that shows a cell (rows from the south).
 std::size_t pixel_of(const Grid& grid, Cell c) { return grid.index({c.column, grid.rows - 1 - c.row}); }
 
 void fill_rocks(SiteLayers& layers, const Grid& grid, const GreyImage& image, const Thresholds& t,
@@ -147,16 +96,17 @@ void fill_rocks(SiteLayers& layers, const Grid& grid, const GreyImage& image, co
   }
 }
 
-void fill_elevation(SiteLayers& layers, const Grid& grid, const Section& section) {
-  const double low = section.number("min");
-  const double high = section.number("max");
-  if (high < low) section.fail(section.at("max"), "'max' must not be below 'min', metres");
-  const GreyImage image = read_pgm(section.image("image"));
+void fill_elevation(SiteLayers& layers, const Grid& grid, const Entry& section) {
+  section.allow_only({"image", "min", "max"});
+  const double low = section.at("min").number();
+  const double high = section.at("max").number();
+  if (high < low) section.at("max").fail("'max' must not be below 'min', metres");
+  const GreyImage image = read_image(section);
   if (image.width != grid.columns || image.height != grid.rows) {
-    section.fail(section.at("image"), "the elevation image has " + std::to_string(image.width) + " x " +
-                                          std::to_string(image.height) + " pixels, the map " +
-                                          std::to_string(grid.columns) + " x " + std::to_string(grid.rows) +
-                                          "; both must cover the same cells");
+    section.at("image").fail("the elevation image has " + std::to_string(image.width) + " x " +
+                             std::to_string(image.height) + " pixels, the map " +
+                             std::to_string(grid.columns) + " x " + std::to_string(grid.rows) +
+                             "; both must cover the same cells");
   }
   for (std::size_t i = 0; i < grid.cell_count(); ++i) {
     const double share = static_cast<double>(image.pixels[pixel_of(grid, grid.cell_at(i))]) / image.max_value;
@@ -164,42 +114,25 @@ void fill_elevation(SiteLayers& layers, const Grid& grid, const Section& section
   }
 }
 
-YAML::Node parse(const std::filesystem::path& description) {
-  try {
-    return YAML::LoadFile(description.string());
-  } catch (const YAML::BadFile&) {
-    throw MapError(description.string() +
-                   ": cannot open the map description; check the path and the permissions");
-  } catch (const YAML::ParserException& e) {
-    throw MapError(description.string() + ":" + std::to_string(e.mark.line + 1) + ":" +
-                   std::to_string(e.mark.column + 1) + ": not YAML: " + e.msg);
-  }
-}
-
 }  // namespace
 
 Site load_site(const std::filesystem::path& description) {
-  const Section map(parse(description), description,
-                    {"image", "mode", "resolution", "origin", "negate", "occupied_thresh", "free_thresh",
-                     "rocks", "elevation"});
+  const Entry map = Entry::load(description);
+  map.allow_only({"image", "mode", "resolution", "origin", "negate", "occupied_thresh", "free_thresh",
+                  "rocks", "elevation"});
   Grid grid;
   grid.resolution = read_resolution(map);
   grid.origin = read_origin(map);
   const Thresholds thresholds = read_thresholds(map);
-  double max_height = 1.0;
-  if (map.has("rocks")) {
-    const Section rocks = map.section("rocks", {"max_height"});
-    max_height = rocks.number("max_height");
-    if (max_height <= 0) rocks.fail(rocks.at("max_height"), "'max_height' must be positive, metres");
-  }
-  const GreyImage image = read_pgm(map.image("image"));
+  const double max_height = read_rock_height(map);
+  const GreyImage image = read_image(map);
   grid.columns = image.width;
   grid.rows = image.height;
 
   SiteLayers layers;
   fill_rocks(layers, grid, image, thresholds, max_height);
-  if (map.has("elevation")) {
-    fill_elevation(layers, grid, map.section("elevation", {"image", "min", "max"}));
+  if (const auto elevation = map.find("elevation")) {
+    fill_elevation(layers, grid, *elevation);
   } else {
     layers.elevation.assign(grid.cell_count(), 0.0F);
   }

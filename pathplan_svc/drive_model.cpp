@@ -1,0 +1,20 @@
+#include "pathplan_svc/drive_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roci::pathplan {
+
+Pace DriveModel::pace(double grade, double roughness) const {
+  const double slip = std::min(max_slip, slip_per_grade * std::max(0.0, grade));
+  const double ground_speed = speed * (1 - slip) * (1 - rough_slowdown * roughness);
+  const double seconds = std::sqrt(1 + grade * grade) / ground_speed;
+  const double work = mass * gravity * std::max(0.0, rolling_resistance + grade) / (1 - slip);
+  return {seconds, work / drive_efficiency + idle_power * seconds};
+}
+
+double DriveModel::turn_time(double angle) const { return std::abs(angle) / turn_rate; }
+
+double DriveModel::turn_energy(double angle) const { return turn_time(angle) * (idle_power + turn_power); }
+
+}  // namespace roci::pathplan
