@@ -33,6 +33,12 @@ bool TypeTree::is_a(std::string_view type, std::string_view ancestor) const {
   return it != ancestors_.end() && it->second.contains(ancestor);
 }
 
+std::set<std::string> TypeTree::ancestors(std::string_view type) const {
+  const auto it = ancestors_.find(type);
+  return it == ancestors_.end() ? std::set<std::string>()
+                                : std::set<std::string>(it->second.begin(), it->second.end());
+}
+
 bool TypeTree::accepts(const std::vector<std::string>& wanted, const std::vector<std::string>& given) const {
   return std::all_of(given.begin(), given.end(), [&](const std::string& type) {
     return std::any_of(wanted.begin(), wanted.end(),
@@ -52,6 +58,11 @@ ObjectTable::ObjectTable(const Domain& domain, const Problem& problem) : types_(
       }
     }
   }
+  for (std::size_t object = 0; object < objects_.size(); ++object) {
+    std::set<std::string> all;
+    for (const std::string& type : objects_[object].types) all.merge(types_.ancestors(type));
+    for (const std::string& type : all) by_type_[type].push_back(static_cast<int>(object));
+  }
 }
 
 int ObjectTable::find(std::string_view name) const {
@@ -69,8 +80,13 @@ bool ObjectTable::has_type(std::size_t object, const std::vector<std::string>& t
 
 std::vector<int> ObjectTable::of_types(const std::vector<std::string>& types) const {
   std::vector<int> result;
-  for (std::size_t object = 0; object < objects_.size(); ++object) {
-    if (has_type(object, types)) result.push_back(static_cast<int>(object));
+  for (const std::string& type : types) {
+    const auto it = by_type_.find(type);
+    if (it != by_type_.end()) result.insert(result.end(), it->second.begin(), it->second.end());
+  }
+  if (types.size() > 1) {
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
   }
   return result;
 }

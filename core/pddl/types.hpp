@@ -19,6 +19,8 @@ class TypeTree {
   explicit TypeTree(const Domain& domain);
 
   bool knows(std::string_view type) const;
+  // The type itself, all above it, and "object"; empty for unknown types.
+  std::set<std::string> ancestors(std::string_view type) const;
   // Is every `type` an `ancestor`? Reflexive; false for unknown types.
   bool is_a(std::string_view type, std::string_view ancestor) const;
   // May a thing of one of the types `given` stand where one of the types `wanted` is asked for, whichever of
@@ -50,6 +52,7 @@ class ObjectTable {
   TypeTree types_;
   std::vector<TypedName> objects_;
   std::map<std::string, int, std::less<>> numbers_;
+  std::map<std::string, std::vector<int>, std::less<>> by_type_;  // subtypes included
 };
 
 }  // namespace roci::pddl
