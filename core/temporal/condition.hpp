@@ -27,8 +27,8 @@ enum class ConditionOp {
 struct ConditionNode {
   ConditionOp op = ConditionOp::always;
   std::uint32_t child_count = 0;
-  std::string timeline;
-  Value operand;
+  std::string timeline{};
+  Value operand{};
   friend bool operator==(const ConditionNode&, const ConditionNode&) = default;
 };
 

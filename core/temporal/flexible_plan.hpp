@@ -139,8 +139,9 @@ struct FlexiblePlan {
 /// in which no point lies before the origin.
 std::vector<std::string> check(const FlexiblePlan& plan);
 
-/// The constraints of the plan's network: its own, one of kind duration per activity, and "not before the
-/// origin" for every point.
+/// The plan's whole network. First one constraint of kind duration per activity, at the activity's index
+/// (those of the plan between the same two points are merged into it); then "not before the origin" for every
+/// point, "start before end" for every token, and the plan's other constraints.
 std::vector<TemporalConstraint> all_constraints(const FlexiblePlan& plan);
 
 }  // namespace roci::temporal

@@ -1,0 +1,47 @@
+// Windows of a plan's time points while it is executed.
+#pragma once
+
+#include <vector>
+
+#include "core/temporal/bound_field.hpp"
+#include "core/temporal/flexible_plan.hpp"
+#include "core/temporal/stn.hpp"
+
+namespace roci::temporal {
+
+/// [earliest, latest] of every point that has not happened, from those that have and the constraints between
+/// them. An event replaces every constraint into its point by its real time, so an event that contradicts the
+/// network makes no inconsistency: it only moves the windows of others (a latest time may then lie in the
+/// past). Durations are contingent in just this sense. Times are mission times. Cost per event: the points
+/// whose window moves.
+class ExecutionWindows {
+ public:
+  /// The constraints must be consistent and bound every point from below by the origin, as all_constraints()
+  /// of a plan that passed check() does. The origin has happened, at `origin`.
+  ExecutionWindows(std::size_t point_count, const std::vector<TemporalConstraint>& constraints, Time origin);
+
+  Window window(TimePoint point) const;
+  bool happened(TimePoint point) const { return latest_.fixed(point); }
+
+  void happen(TimePoint point, Time at);
+  /// Takes back the happen() just made.
+  void undo_happen(TimePoint point);
+  /// New bounds for a constraint whose from point has happened and whose to point has not.
+  void set_bounds(std::size_t constraint, Duration lower, Duration upper);
+  /// The point will not happen: its constraints are gone.
+  void drop(TimePoint point);
+
+  /// Windows that the last operation moved; `before` of earliest changes is negated.
+  const std::vector<BoundField::Change>& latest_changes() const { return latest_.changes(); }
+  const std::vector<BoundField::Change>& earliest_changes() const { return earliest_.changes(); }
+
+ private:
+  ExecutionWindows(std::vector<BoundField::Edge> edges, const Stn& network, Time origin);
+
+  // Two edges per constraint: 2c is the upper bound, 2c + 1 the lower. The field of earliest times is the
+  // mirror: reversed edges, negated values.
+  BoundField latest_;
+  BoundField earliest_;
+};
+
+}  // namespace roci::temporal

@@ -1,0 +1,100 @@
+#include "core/temporal/stn.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace roci::temporal {
+namespace {
+
+/// Shortest paths between all points: the textbook consistency check.
+class FloydWarshall {
+ public:
+  explicit FloydWarshall(std::size_t n) : n_(n), d_(n * n, no_bound) {
+    for (std::size_t i = 0; i < n; ++i) at(i, i) = Duration{0};
+  }
+
+  bool add(std::size_t from, std::size_t to, Duration lower, Duration upper) {
+    const std::vector<Duration> before = d_;
+    at(from, to) = std::min(at(from, to), upper);
+    at(to, from) = std::min(at(to, from), -lower);
+    for (std::size_t k = 0; k < n_; ++k)
+      for (std::size_t i = 0; i < n_; ++i)
+        for (std::size_t j = 0; j < n_; ++j)
+          if (bounded(at(i, k)) && bounded(at(k, j))) at(i, j) = std::min(at(i, j), at(i, k) + at(k, j));
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (at(i, i) >= Duration{0}) continue;
+      d_ = before;
+      return false;
+    }
+    return true;
+  }
+
+  Window window(std::size_t point) { return {-at(point, 0), at(0, point)}; }
+
+ private:
+  Duration& at(std::size_t i, std::size_t j) { return d_[i * n_ + j]; }
+  std::size_t n_;
+  std::vector<Duration> d_;
+};
+
+TEST(Stn, WindowsOfAChain) {
+  Stn stn(4);
+  ASSERT_TRUE(stn.add(0, 1, Duration{10}, Duration{20}));
+  ASSERT_TRUE(stn.add(1, 2, Duration{5}));
+  ASSERT_TRUE(stn.add(0, 2, Duration{0}, Duration{22}));
+  EXPECT_EQ(stn.window(1), (Window{Duration{10}, Duration{17}}));
+  EXPECT_EQ(stn.window(2), (Window{Duration{15}, Duration{22}}));
+  EXPECT_EQ(stn.window(3), (Window{-no_bound, no_bound}));
+  EXPECT_EQ(stn.window(0), (Window{Duration{0}, Duration{0}}));
+}
+
+TEST(Stn, RefusesANegativeCycleAndStaysAsItWas) {
+  Stn stn(4);
+  ASSERT_TRUE(stn.add(1, 2, Duration{10}, Duration{12}));
+  ASSERT_TRUE(stn.add(2, 3, Duration{10}, Duration{12}));
+  EXPECT_FALSE(stn.add(1, 3, Duration{0}, Duration{19}));  // far from the origin: no window shows it
+  EXPECT_FALSE(stn.add(1, 1, Duration{1}));
+  EXPECT_FALSE(stn.add(0, 1, Duration{2}, Duration{1}));
+  EXPECT_TRUE(stn.add(1, 3, Duration{0}, Duration{20}));
+  EXPECT_TRUE(stn.add(0, 1, Duration{0}, Duration{0}));
+  EXPECT_EQ(stn.window(3), (Window{Duration{20}, Duration{20}}));
+}
+
+TEST(Stn, GrowsByPointsAndIsRestoredFromACopy) {
+  Stn stn;
+  const TimePoint a = stn.add_point();
+  ASSERT_TRUE(stn.add(origin_point, a, Duration{3}, Duration{9}));
+  const Stn checkpoint = stn;
+  ASSERT_TRUE(stn.add(origin_point, a, Duration{5}));
+  EXPECT_EQ(stn.window(a).lower, Duration{5});
+  stn = checkpoint;
+  EXPECT_EQ(stn.window(a), (Window{Duration{3}, Duration{9}}));
+}
+
+TEST(StnProperty, AgreesWithFloydWarshallAfterEveryConstraint) {
+  std::mt19937_64 random(11);
+  int refused = 0;
+  for (int run = 0; run < 4000; ++run) {
+    const std::size_t n = 2 + random() % 9;
+    Stn stn(n);
+    FloydWarshall oracle(n);
+    for (std::uint64_t c = random() % (4 * n); c > 0; --c) {
+      const auto from = static_cast<TimePoint>(random() % n);
+      const auto to = static_cast<TimePoint>(random() % n);
+      if (from == to) continue;
+      const Duration lower = random() % 8 == 0 ? -no_bound : Duration{static_cast<int>(random() % 40) - 15};
+      const Duration width{static_cast<int>(random() % 20)};
+      const Duration upper = random() % 3 == 0 || lower == -no_bound ? no_bound : lower + width;
+      const bool accepted = stn.add(from, to, lower, upper);
+      ASSERT_EQ(accepted, oracle.add(from, to, lower, upper)) << "run " << run;
+      refused += accepted ? 0 : 1;
+      for (TimePoint p = 0; p < n; ++p)
+        ASSERT_EQ(stn.window(p), oracle.window(p)) << "run " << run << " point " << p;
+    }
+  }
+  EXPECT_GT(refused, 1000);
+}
+
+}  // namespace
+}  // namespace roci::temporal
