@@ -1,0 +1,16 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "sim_svc/drive.hpp"
+
+namespace roci::sim {
+
+inline constexpr int kPreviewWidth = 24;
+inline constexpr int kPreviewHeight = 16;
+
+/// A thumbnail of what lies ahead, as seen from the mast: each pixel is a spot of ground between 2 and 20 m
+/// away within 60 degrees of view, shaded by a low sun in the west; rocks are dark. Grey, rows from the top.
+std::vector<std::uint8_t> render_preview(const Ground&, const Pose& from, double noise_share, RandomStream&);
+
+}  // namespace roci::sim
