@@ -14,7 +14,7 @@ struct DriveParameters {
   double slip = 0.04;           ///< mean on flat ground, as a share of the wheel speed
   double uphill_slip = 2.5;     ///< added slip is this times sin²(pitch)
   double slip_noise = 0.35;     ///< standard deviation as a share of the mean
-  double slope_slowdown = 0.6;  ///< the wheels turn slower by this times sin(slope)
+  double slope_slowdown = 0.3;  ///< the wheels turn slower by this times sin(slope)
   double heading_noise = 0.01;  ///< rad per square root of a second
   double max_slope_deg = 30;    ///< steeper ground holds the rover fast
   double rock_sight_m = 3;      ///< a rock on the way is seen this far ahead of the rover's edge
