@@ -168,13 +168,13 @@ void Costmap::mark_disc(const Disc& disc) {
   for (int row = clamp_cell(y - reach, grid_.rows); row <= clamp_cell(y + reach, grid_.rows); ++row) {
     for (int column = clamp_cell(x - reach, grid_.columns); column <= clamp_cell(x + reach, grid_.columns);
          ++column) {
-      const double gap_x =
-          std::max(std::abs((column + 0.5) * grid_.resolution - x) - grid_.resolution / 2, 0.0);
-      const double gap_y = std::max(std::abs((row + 0.5) * grid_.resolution - y) - grid_.resolution / 2, 0.0);
-      const double gap2 = square(gap_x) + square(gap_y);
-      if (gap2 <= square(disc.radius)) {
+      const double to_centre_x = std::abs((column + 0.5) * grid_.resolution - x);
+      const double to_centre_y = std::abs((row + 0.5) * grid_.resolution - y);
+      const double gap_x = std::max(to_centre_x - grid_.resolution / 2, 0.0);
+      const double gap_y = std::max(to_centre_y - grid_.resolution / 2, 0.0);
+      if (square(to_centre_x) + square(to_centre_y) <= square(disc.radius)) {
         raise({column, row}, CellState::disc);
-      } else if (gap2 < square(reach)) {
+      } else if (square(gap_x) + square(gap_y) < square(reach)) {
         raise({column, row}, CellState::margin);
       }
     }

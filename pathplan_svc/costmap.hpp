@@ -22,7 +22,7 @@ struct Disc {
 };
 
 // Why a cell may not be entered. `margin`: nearer than the rover's radius to a rock, a disc or the edge of
-// the map.
+// the map; `disc`: its centre lies in a disc.
 enum class CellState : std::uint8_t { free, margin, steep, rough, rock, unknown, disc };
 
 const char* to_string(CellState state);
