@@ -59,7 +59,7 @@ TEST(Urdf, ReadsTheRoverArm) {
   EXPECT_TRUE(std::holds_alternative<Capsule>(arm.bodies[2].shapes[0].form));
   EXPECT_DOUBLE_EQ(arm.bodies[2].mass.mass, 2.0);
   const JointVector zero = JointVector::Zero(5);
-  const Eigen::Vector3d stretched(0.42 + 0.50 + 0.45 + 0.13 + 0.12, -0.10 + 0.12, 0.08 + 0.06);
+  const Eigen::Vector3d stretched(0.42 + 0.50 + 0.45 + 0.13 + 0.12, -0.10 + 0.12, 0.08 + 0.10);
   EXPECT_LT((tool_pose(arm, zero).translation() - stretched).norm(), 1e-12);
 }
 

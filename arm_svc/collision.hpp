@@ -1,0 +1,47 @@
+// Does the arm touch itself, its carrier or the ground? Exact shape tests by FCL (Pan, Chitta, Manocha, ICRA
+// 2012).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/kinematics/arm.hpp"
+
+namespace roci::arm {
+
+struct CollisionRules {
+  std::optional<double> ground_z;  // level ground in the base frame, m; none: free space
+  double margin = 0.01;            // every surface is moved outwards by this, m
+  std::vector<std::pair<std::string, std::string>> may_touch;  // link pairs that are never tested
+};
+
+struct Contact {
+  std::string first;   // link
+  std::string second;  // link, or "ground"
+};
+
+// Tests bodies that are not joined by a joint (those that are may touch at it), and moving bodies against the
+// ground. Safe to use from several threads.
+class CollisionChecker {
+ public:
+  CollisionChecker(kinematics::Arm arm, CollisionRules rules);
+  ~CollisionChecker();
+  CollisionChecker(CollisionChecker&&) noexcept;
+  CollisionChecker& operator=(CollisionChecker&&) noexcept;
+
+  // The first contact in a fixed order of pairs, with surfaces moved out by the margin.
+  std::optional<Contact> contact(const kinematics::JointVector& q) const;
+
+  // No contact anywhere on the straight joint-space line between the two. Sampled so densely that no point of
+  // the arm moves more than twice the margin between samples: nothing can pass through unseen.
+  bool line_is_free(const kinematics::JointVector& from, const kinematics::JointVector& to) const;
+
+ private:
+  struct Scene;
+  std::unique_ptr<const Scene> scene_;
+};
+
+}  // namespace roci::arm

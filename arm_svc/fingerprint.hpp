@@ -1,0 +1,31 @@
+// A 64-bit fingerprint of values (FNV-1a over their bits): equal values, equal fingerprint, on every run and
+// host.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string_view>
+
+namespace roci::arm {
+
+class Fingerprint {
+ public:
+  Fingerprint& add(std::string_view text);
+  Fingerprint& add(double value);
+  Fingerprint& add(std::uint64_t value);
+
+  template <typename Derived>
+  Fingerprint& add(const Eigen::DenseBase<Derived>& values) {
+    for (Eigen::Index column = 0; column < values.cols(); ++column) {
+      for (Eigen::Index row = 0; row < values.rows(); ++row) add(static_cast<double>(values(row, column)));
+    }
+    return *this;
+  }
+
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325;
+};
+
+}  // namespace roci::arm

@@ -1,0 +1,33 @@
+// Joint-space paths by OMPL's RRTConnect (Kuffner, LaValle, ICRA 2000).
+//
+// Deterministic: every sample comes from a generator seeded by the query alone (OMPL's own seed is
+// process-wide), the nearest neighbour search is exact, and the budget is iterations, so that neither earlier
+// queries nor the speed of the machine change a path.
+#pragma once
+
+#include <functional>
+#include <variant>
+#include <vector>
+
+#include "arm_svc/collision.hpp"
+#include "core/kinematics/arm.hpp"
+
+namespace roci::arm {
+
+// Way-points joined by straight joint-space lines.
+using JointPath = std::vector<kinematics::JointVector>;
+
+enum class SearchFailure { budget_spent, cancelled };
+
+struct SearchBudget {
+  unsigned iterations = 2000;
+  std::function<bool()> cancelled;  // asked often; may be empty
+};
+
+// `from` and `to` must be within the limits and free of contact. The straight line is tried first.
+std::variant<JointPath, SearchFailure> find_path(const kinematics::Arm& arm, const CollisionChecker& checker,
+                                                 const kinematics::JointVector& from,
+                                                 const kinematics::JointVector& to,
+                                                 const SearchBudget& budget);
+
+}  // namespace roci::arm

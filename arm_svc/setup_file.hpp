@@ -1,0 +1,37 @@
+// Reads an ArmSetup from a mission's arm folder: arm.urdf and poses.yaml.
+//
+// poses.yaml (m, rad, W, m/s²; base frame = the URDF's root link):
+//   tip: scoop_tip                    link that is the tool frame
+//   tool_axis: [1, 0, 0]              axis of the tool frame that `approach` turns; default x
+//   time_to_speed: 0.5                s, for joints without an acceleration limit
+//   ground: -0.6                      height of level ground; left out in free space
+//   margin: 0.01                      clearance, 0.001 to 0.1
+//   may_touch: [[a, b]]               links (or a link and ground) whose contact is harmless
+//   motor: {gravity: [0, 0, -3.71], idle: 6, efficiency: 0.7, full_effort_loss: 60}      see energy.hpp
+//   search: {iterations: 2000, shortcuts: 60}
+//   poses:
+//     stow: {joints: [0, -2, 2, 0, 0]}
+//     pick: {position: [0.9, 0, -0.5], approach: [0, 0, -1]}     or rpy: [r, p, y], or position alone
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "arm_svc/setup.hpp"
+
+namespace roci::arm {
+
+struct ArmFiles {
+  std::string urdf_name;  // names serve error messages only
+  std::string urdf_text;
+  std::string poses_name;
+  std::string poses_text;
+};
+
+struct SetupError {
+  std::string message;  // "file:line:column: what is wrong and how to mend it" (a URDF has no column)
+};
+
+std::variant<ArmSetup, SetupError> parse_setup(const ArmFiles& files);
+
+}  // namespace roci::arm
