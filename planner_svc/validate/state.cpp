@@ -1,0 +1,51 @@
+#include "planner_svc/validate/state.hpp"
+
+#include <cmath>
+
+namespace roci::validate {
+
+using pddl::AssignmentOperator;
+
+bool is_additive(AssignmentOperator op) {
+  return op == AssignmentOperator::kIncrease || op == AssignmentOperator::kDecrease;
+}
+
+namespace {
+
+double changed(double value, const NumericChange& change) {
+  switch (change.op) {
+    case AssignmentOperator::kIncrease:
+      return value + change.operand;
+    case AssignmentOperator::kDecrease:
+      return value - change.operand;
+    case AssignmentOperator::kScaleUp:
+      return value * change.operand;
+    case AssignmentOperator::kScaleDown:
+      return value / change.operand;
+    case AssignmentOperator::kAssign:
+      break;
+  }
+  return change.operand;
+}
+
+}  // namespace
+
+bool apply(const Changes& changes, State& state, std::string& fluent) {
+  for (const std::string& fact : changes.deleted) state.facts.erase(fact);
+  for (const std::string& fact : changes.added) state.facts.insert(fact);
+  bool all = true;
+  for (const NumericChange& change : changes.numeric) {
+    const auto it = state.values.find(change.fluent);
+    const bool defined = it != state.values.end() || change.op == AssignmentOperator::kAssign;
+    const double value = defined ? changed(it == state.values.end() ? 0 : it->second, change) : 0;
+    if (defined && std::isfinite(value)) {
+      state.values[change.fluent] = value;
+    } else {
+      fluent = change.fluent;
+      all = false;
+    }
+  }
+  return all;
+}
+
+}  // namespace roci::validate
