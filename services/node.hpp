@@ -1,18 +1,21 @@
 // A service's one door to the others: publishers, subscriptions, timers and calls, all on one event loop.
 //
-// Handlers run on the thread that calls run(), one at a time. Live, samples are handled as they come; under the
-// simulated clock a handler sees the samples of one micro-step in the order (topic, sender, incarnation, sequence),
-// so the same handlers give the same run on every transport. Handlers never block and never ask the system for time.
+// Handlers run on the thread that calls run(), one at a time. Live, samples are handled as they come; under
+// the simulated clock a handler sees the samples of one micro-step in the order (topic, sender, incarnation,
+// sequence), so the same handlers give the same run on every transport. Handlers never block and never ask
+// the system for time.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "services/time.hpp"
-#include "services/topics.hpp"
-#include "services/transport.hpp"
 
 namespace roci::services {
 
@@ -20,7 +23,7 @@ enum class ClockMode {
   live,       // system clock, times `live_scale`
   simulated,  // follows the ClockStep of the run's master
   master,     // simulated, and this node is the master (sim_svc)
-  observer,   // takes part in no barrier: consoles; clock follows the newest stamp seen
+  observer,   // takes part in no barrier: consoles; now() is the newest stamp seen, timers run in wall time
 };
 
 struct MasterOptions {
@@ -34,6 +37,8 @@ struct NodeOptions {
   std::uint32_t incarnation = 1;  // how often this service was started in this run, from 1
   ClockMode clock = ClockMode::live;
   double live_scale = 1;
+  std::int64_t epoch_unix_us = 0;  // live: mission time 0, the same for all services of a run
+  double live_hang_limit_s = 5;    // live: a service without a heartbeat for this long counts as hung
   MasterOptions master;
   std::string vendor = "fastdds";  // reported in the heartbeat
 };
@@ -43,8 +48,16 @@ struct PeerChange {
   std::string service;
   std::uint32_t incarnation = 0;
   bool alive = false;
-  std::string cause;  // e.g. "killed", "hung", "left"
+  std::string cause;  // of a death: "killed", "hung", "left" or "restarted"
 };
+
+// Thrown by Node::run(): the clock's master died, it dropped this service, or it met a livelock.
+class ClockError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class Transport;
 
 // The untyped half that typed wrappers stand on; see publisher.hpp for Publisher<T> and subscribe<T>().
 class Node {
@@ -65,16 +78,21 @@ class Node {
   void on_peer_change(std::function<void(const PeerChange&)>);
   bool peer_alive(std::string_view service) const;
 
-  // Lets a worker thread hand a result to the loop. Under the simulated clock the loop does not answer its barrier
-  // between begin_work() and the end of the posted function, so that a worker's result has one place in mission time.
-  void begin_work();
-  void post_work_result(std::function<void()>);
+  // Lets a worker thread hand a result to the loop. Under the simulated clock the loop does not answer its
+  // barrier between begin_work() and the end of the posted function, and results run in the order in which
+  // their works began, so that a worker's result has one place in mission time. post_work_result may be
+  // called from any thread.
+  using WorkId = std::uint64_t;
+  WorkId begin_work();
+  void post_work_result(WorkId, std::function<void()>);
 
-  // The master ends the run for every participant; elsewhere only this node's loop.
+  // The master ends the run for every participant; elsewhere only this node's loop. Any thread may call it.
   void stop();
-  // Until stop(), the master's last step, or SIGTERM/SIGINT (see service_main.hpp).
+  // Until stop() or the master's last step. Under the simulated clock all subscriptions are made before
+  // run(). Throws ClockError; an exception of a handler passes through.
   void run();
-  // Live and observer nodes: handles what is pending, waits at most `wait` of wall time for something to handle.
+  // Live and observer nodes: handles what is pending, waits at most `wait` of wall time for something to
+  // handle.
   void spin_once(std::chrono::milliseconds wait);
 
   class Impl;

@@ -1,47 +1,129 @@
-// Calls to other services: request and reply topics with the OMG DDS-RPC headers. Every call ends exactly once, in
-// one of the outcomes below, at the latest at its deadline in mission time. Late and foreign replies are dropped and
-// counted. The table of pending calls is bounded (max_pending; the next call ends at once in `overloaded`).
+// Calls to other services: request and reply topics with the OMG DDS-RPC headers. Every call ends exactly
+// once, in one of the outcomes below, at the latest at its deadline in mission time (observers: wall time).
+// Late and foreign replies are dropped and counted. The table of pending calls is bounded.
+//
+// Live, a request is sent once both of its topics have matched and sent again, with the same id, until it is
+// answered; servers handle an id once. Under the simulated clock the barrier delivers, so it is sent at once,
+// once.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "services/node.hpp"
+#include "services/topics.hpp"
 
 namespace roci::services {
 
-enum class CallStatus { ok, timeout, no_owner, owner_lost, remote_error, overloaded };
+enum class CallStatus {
+  ok,
+  timeout,       // no answer before the deadline
+  no_owner,      // the service that should answer is not there, or nobody serves the procedure
+  owner_lost,    // it died while the call was under way
+  remote_error,  // it answered with an exception
+  overloaded,    // kMaxPendingCalls of this procedure are under way already
+};
+
+const char* to_string(CallStatus);
+
+inline constexpr std::size_t kMaxPendingCalls = 256;
 
 template <class Reply>
 struct CallResult {
   CallStatus status = CallStatus::timeout;
-  std::string message;
-  Reply reply;  // only with CallStatus::ok
+  std::string message;  // for people, empty with CallStatus::ok
+  Reply reply;          // only with CallStatus::ok
 };
 
+struct CallStatistics {
+  std::uint64_t sent = 0;     // repetitions included
+  std::uint64_t late = 0;     // replies to calls that had ended
+  std::uint64_t foreign = 0;  // replies to calls of other clients
+};
+
+class CallTable;
+class PendingReply;
+
+namespace detail {
+
+// Defined and instantiated in rpc.cpp, so that users of this header compile no serialization.
+template <class Request, class Reply>
+struct Calls {
+  using OnResult = std::function<void(const CallResult<Reply>&)>;
+  using Handler = std::function<void(const Request&, std::shared_ptr<PendingReply>)>;
+  static std::shared_ptr<CallTable> client(Node&, const topics::Procedure<Request, Reply>&);
+  static void call(Node&, const topics::Procedure<Request, Reply>&, CallTable&, Request&&,
+                   std::string&& owner, Duration deadline, OnResult&&);
+  static void serve(Node&, const topics::Procedure<Request, Reply>&, Handler&&);
+};
+
+template <class Reply>
+struct Answer {
+  static void reply(PendingReply&, Reply&&);
+  static void fail(PendingReply&, v1::RemoteException, std::string&& message);
+};
+
+CallStatistics statistics(const CallTable&);
+
+}  // namespace detail
+
+// Copyable; lives no longer than its node.
 template <class Request, class Reply>
 class Client {
  public:
-  // `on_result` runs on the node's loop. `owner`: the service that should answer; no_owner or owner_lost when it is
-  // not there or dies; empty: anybody.
-  void call(Request, std::string owner, Duration deadline, std::function<void(const CallResult<Reply>&)> on_result);
+  Client() = default;
+  Client(Node& node, const topics::Procedure<Request, Reply>& procedure)
+      : node_(&node), procedure_(procedure), table_(detail::Calls<Request, Reply>::client(node, procedure)) {}
+
+  // `on_result` runs on the node's loop, never inside call(). `owner`: the service that should answer; empty:
+  // anybody. The request's header members are filled in here.
+  void call(Request request, std::string owner, Duration deadline,
+            std::function<void(const CallResult<Reply>&)> on_result) const {
+    detail::Calls<Request, Reply>::call(*node_, procedure_, *table_, std::move(request), std::move(owner),
+                                        deadline, std::move(on_result));
+  }
+  CallStatistics statistics() const { return detail::statistics(*table_); }
+
+ private:
+  Node* node_ = nullptr;
+  topics::Procedure<Request, Reply> procedure_{};
+  std::shared_ptr<CallTable> table_;
 };
 
 template <class Request, class Reply>
-Client<Request, Reply> make_client(Node&, const topics::Procedure<Request, Reply>&);
+Client<Request, Reply> make_client(Node& node, const topics::Procedure<Request, Reply>& procedure) {
+  return {node, procedure};
+}
 
-// Answers later or at once, once. Copyable; dropping it without an answer leaves the caller to its deadline.
+// Answers later or at once, on the node's loop. Copyable; the first answer counts; dropping it without one
+// leaves the caller to its deadline.
 template <class Reply>
 class Responder {
  public:
-  void reply(Reply) const;
-  void fail(v1::RemoteException, std::string message) const;
+  explicit Responder(std::shared_ptr<PendingReply> pending) : pending_(std::move(pending)) {}
+  void reply(Reply reply) const { detail::Answer<Reply>::reply(*pending_, std::move(reply)); }
+  void fail(v1::RemoteException exception, std::string message) const {
+    detail::Answer<Reply>::fail(*pending_, exception, std::move(message));
+  }
+
+ private:
+  std::shared_ptr<PendingReply> pending_;
 };
 
-// A duplicate request (same id) gets the first answer again and is not handled twice.
+// A duplicate request (same id) gets the first answer again and is not handled twice. A request that names
+// another owner is left to that one.
 template <class Request, class Reply>
-void serve(Node&, const topics::Procedure<Request, Reply>&,
-           std::function<void(const Request&, Responder<Reply>)> handler);
+void serve(Node& node, const topics::Procedure<Request, Reply>& procedure,
+           std::type_identity_t<std::function<void(const Request&, Responder<Reply>)>> handler) {
+  detail::Calls<Request, Reply>::serve(
+      node, procedure,
+      [handler = std::move(handler)](const Request& request, std::shared_ptr<PendingReply> pending) {
+        handler(request, Responder<Reply>(std::move(pending)));
+      });
+}
 
 }  // namespace roci::services

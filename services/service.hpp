@@ -1,5 +1,6 @@
-// A service: built on a node, alive until the node's loop ends. Each X_svc offers `make_service` in x_service.hpp;
-// its main() is service_main(argc, argv, "x_svc", make_service); rehearsal runs the same functions in one process.
+// A service: built on a node, alive until the node's loop ends. Each X_svc offers `make_service` in
+// x_service.hpp; its main() is service_main(argc, argv, "x_svc", make_service); rehearsal runs the same
+// functions in one process.
 #pragma once
 
 #include <filesystem>
@@ -16,9 +17,9 @@ class Service {
   virtual ~Service() = default;
 };
 
-// What a run hands to each service. Files are read by the services themselves (see mission_file.hpp).
+// What a run hands to each service. Files are read by the services themselves (core/mission/entry.hpp).
 struct RunSettings {
-  std::filesystem::path mission;    // folder with mission.yaml
+  std::filesystem::path mission;     // folder with mission.yaml
   std::string scenario = "nominal";  // scenarios/<name>.yaml in the mission folder
   std::uint64_t seed = 1;
   std::filesystem::path run_folder;  // journal, summary.json, logs of this run
@@ -26,9 +27,9 @@ struct RunSettings {
 
 using MakeService = std::unique_ptr<Service>(Node&, const RunSettings&);
 
-// Reads the command line (--mission --scenario --seed --dds --domain --address --peers --clock --scale --roster
-// --pace --incarnation --run-folder; see docs/configuration.md), opens the transport, runs the service.
-// Returns a process exit code (docs/exit-codes.md); errors go to standard error with their remedy.
+// Reads the command line (`x_svc --help`), opens the transport, runs the service until it is stopped (SIGTERM
+// and SIGINT stop it cleanly). Returns a process exit code (docs/exit-codes.md); errors go to standard error
+// with their remedy.
 int service_main(int argc, char** argv, const std::string& name, MakeService* make);
 
 }  // namespace roci::services

@@ -1,0 +1,189 @@
+#include "services/clock/clock_master.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roci::services {
+
+ClockMaster::ClockMaster(std::string name, std::vector<std::string> roster, std::uint32_t micro_step_cap)
+    : name_(std::move(name)), roster_(std::move(roster)), cap_(micro_step_cap) {}
+
+void ClockMaster::ready(const v1::ClockReady& ready) {
+  const auto member = members_.find(ready.service());
+  if (member != members_.end()) {
+    if (ready.incarnation() <= member->second.incarnation) return;
+    lost(ready.service(), member->second.incarnation, "restarted");
+  }
+  const auto waiting = waiting_.find(ready.service());
+  if (waiting != waiting_.end() && waiting->second.incarnation() > ready.incarnation()) return;
+  waiting_[ready.service()] = ready;
+}
+
+void ClockMaster::done(const v1::ClockDone& done) {
+  const auto found = members_.find(done.service());
+  if (found == members_.end() || found->second.incarnation != done.incarnation()) return;
+  Member& member = found->second;
+  for (const v1::StreamCount& count : done.sent()) {
+    std::uint64_t& total = totals_[{count.topic(), count.sender(), count.incarnation()}];
+    if (count.total() <= total) continue;
+    total = count.total();
+    for (auto& [service, other] : members_) {
+      if (other.subscriptions.contains(count.topic())) other.input = true;
+    }
+  }
+  const bool answers = Time(done.time_us()) == time_ && done.micro_step() == micro_step_;
+  if (member.owes && !answers) return;
+  if (member.owes) {
+    member.owes = false;
+    member.wish = done.wish_us() < 0 ? std::nullopt : std::optional(Time(done.wish_us()));
+  } else {
+    member.outside = true;  // sent again although nothing was asked: input from outside came in
+  }
+}
+
+void ClockMaster::lost(const std::string& service, std::uint32_t incarnation, const std::string& cause) {
+  const auto waiting = waiting_.find(service);
+  if (waiting != waiting_.end() && waiting->second.incarnation() == incarnation) waiting_.erase(waiting);
+  const auto found = members_.find(service);
+  if (found == members_.end() || found->second.incarnation != incarnation) return;
+  if (found->second.owes) revise_ = true;
+  members_.erase(found);
+  std::erase(participants_, service);
+  v1::RosterLoss loss;
+  loss.service(service);
+  loss.incarnation(incarnation);
+  loss.cause(cause);
+  losses_.push_back(std::move(loss));
+  roster_changed_ = true;
+}
+
+std::vector<std::string> ClockMaster::missing() const {
+  std::vector<std::string> names;
+  if (started_) return names;
+  std::ranges::copy_if(roster_, std::back_inserter(names),
+                       [&](const std::string& service) { return !waiting_.contains(service); });
+  return names;
+}
+
+std::vector<std::string> ClockMaster::owing() const {
+  std::vector<std::string> names;
+  for (const auto& [service, member] : members_) {
+    if (member.owes) names.push_back(service);
+  }
+  return names;
+}
+
+std::optional<ClockMaster::Window> ClockMaster::window() const {
+  if (!missing().empty() || !owing().empty() || last_) return std::nullopt;
+  if (!started_ || roster_changed_ || !waiting_.empty()) return Window{time_, time_};
+  std::optional<Time> wish;
+  bool outside = false;
+  for (const auto& [service, member] : members_) {
+    if (member.input) return Window{time_, time_};
+    outside = outside || member.outside;
+    if (member.wish) wish = wish ? std::min(*wish, *member.wish) : *member.wish;
+  }
+  if (wish && *wish <= time_) return Window{time_, time_};
+  if (outside) return Window{time_, wish.value_or(Time::max())};
+  if (wish) return Window{*wish, *wish};
+  return std::nullopt;
+}
+
+void ClockMaster::admit() {
+  for (const auto& [service, ready] : waiting_) {
+    Member& member = members_[service];
+    member.incarnation = ready.incarnation();
+    member.subscriptions.insert(ready.subscriptions().begin(), ready.subscriptions().end());
+    roster_changed_ = true;
+  }
+  waiting_.clear();
+}
+
+bool ClockMaster::lives(const StreamKey& stream) const {
+  const auto member = members_.find(stream.sender);
+  return member != members_.end() && member->second.incarnation == stream.incarnation;
+}
+
+bool ClockMaster::wants_to_act(const Member& member, Time time) const {
+  return roster_changed_ || member.input || member.outside || (member.wish && *member.wish <= time);
+}
+
+void ClockMaster::begin_step(Time time) {
+  micro_step_ = started_ && time == time_ ? micro_step_ + 1 : 0;
+  time_ = time;
+  revision_ = 0;
+  revise_ = false;
+  started_ = true;
+}
+
+v1::ClockStep ClockMaster::issue(Time time) {
+  begin_step(time);
+  if (forget_dead_) std::erase_if(totals_, [&](const auto& stream) { return !lives(stream.first); });
+  admit();
+  forget_dead_ = roster_changed_;  // all have acted on this step's streams when the next is issued
+  participants_.clear();
+  for (auto& [service, member] : members_) {
+    if (!wants_to_act(member, time)) continue;
+    participants_.push_back(service);
+    member.owes = true;
+    member.input = false;
+    member.outside = false;
+    member.wish.reset();
+  }
+  roster_changed_ = false;
+  if (micro_step_ > cap_) throw ClockError(livelock());
+  return step();
+}
+
+std::optional<v1::ClockStep> ClockMaster::take_revision() {
+  if (!std::exchange(revise_, false) || owing().empty()) return std::nullopt;
+  ++revision_;
+  return step();
+}
+
+v1::ClockStep ClockMaster::issue_last() {
+  begin_step(time_);
+  last_ = true;
+  participants_.clear();
+  for (auto& [service, member] : members_) {
+    participants_.push_back(service);
+    member.owes = true;
+  }
+  return step();
+}
+
+v1::ClockStep ClockMaster::step() const {
+  v1::ClockStep step;
+  step.master(name_);
+  step.time_us(time_.count());
+  step.micro_step(micro_step_);
+  step.revision(revision_);
+  step.last(last_);
+  step.losses(losses_);
+  step.participants(participants_);
+  for (const auto& [service, member] : members_) {
+    v1::RosterEntry entry;
+    entry.service(service);
+    entry.incarnation(member.incarnation);
+    step.roster().push_back(std::move(entry));
+  }
+  step.totals().reserve(totals_.size());
+  for (const auto& [stream, total] : totals_) {
+    v1::StreamCount count;
+    count.topic(stream.topic);
+    count.sender(stream.sender);
+    count.incarnation(stream.incarnation);
+    count.total(total);
+    step.totals().push_back(std::move(count));
+  }
+  return step;
+}
+
+std::string ClockMaster::livelock() const {
+  std::string text = "livelock: " + std::to_string(cap_) + " micro-steps at mission time " +
+                     std::to_string(time_.count()) + " us, and these still act:";
+  for (const std::string& service : participants_) text += " " + service;
+  return text + "; look for services that answer each other without end, or timers that are set for now";
+}
+
+}  // namespace roci::services

@@ -1,0 +1,84 @@
+// The master of the simulated clock as a pure state machine: who acts next, and when. Conservative
+// discrete-event simulation in barriered micro-steps (architecture, "Time"): at one time t the micro-steps k
+// = 0, 1, … follow until no service has undelivered input or a due wish; then t jumps to the earliest wish.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "services/clock/follower.hpp"
+#include "services/node.hpp"
+
+namespace roci::services {
+
+inline constexpr std::uint32_t kMicroStepCap = 10'000;
+
+class ClockMaster {
+ public:
+  ClockMaster(std::string name, std::vector<std::string> roster,
+              std::uint32_t micro_step_cap = kMicroStepCap);
+
+  // What the participants say. Stale messages (of older incarnations or steps) change nothing.
+  void ready(const v1::ClockReady&);
+  void done(const v1::ClockDone&);
+  void lost(const std::string& service, std::uint32_t incarnation, const std::string& cause);
+
+  std::vector<std::string> missing() const;  // of the roster, before time 0
+  std::vector<std::string> owing() const;    // who must answer the open step
+  bool member(const std::string& service) const { return members_.contains(service); }
+  Time time() const { return time_; }
+
+  // When the next step may be issued: exactly at `earliest`, or, if only input from outside asks for it,
+  // anywhere up to `latest`. Nothing while a step is open, the roster incomplete or nobody wants to act.
+  struct Window {
+    Time earliest;
+    Time latest;
+  };
+  std::optional<Window> window() const;
+
+  // The next step at a time in window(). Throws ClockError when a time has more micro-steps than the cap.
+  v1::ClockStep issue(Time);
+  // The open step again, after a death in it.
+  std::optional<v1::ClockStep> take_revision();
+  // Ends the run; every member answers it.
+  v1::ClockStep issue_last();
+
+ private:
+  struct Member {
+    std::uint32_t incarnation = 0;
+    std::set<std::string> subscriptions;
+    bool input = false;    // samples that it has not been asked to deliver yet
+    bool outside = false;  // it holds input from an observer
+    bool owes = false;
+    std::optional<Time> wish;
+  };
+  void admit();
+  void begin_step(Time);
+  v1::ClockStep step() const;
+  bool lives(const StreamKey&) const;
+  bool wants_to_act(const Member&, Time) const;
+  std::string livelock() const;
+
+  std::string name_;
+  std::vector<std::string> roster_;
+  std::uint32_t cap_;
+  std::map<std::string, Member> members_;
+  std::map<std::string, v1::ClockReady> waiting_;
+  std::map<StreamKey, std::uint64_t> totals_;
+  std::vector<v1::RosterLoss> losses_;
+  std::vector<std::string> participants_;
+  bool started_ = false;
+  bool roster_changed_ = false;
+  bool forget_dead_ = false;
+  bool revise_ = false;
+  bool last_ = false;
+  Time time_{0};
+  std::uint32_t micro_step_ = 0;
+  std::uint32_t revision_ = 0;
+};
+
+}  // namespace roci::services

@@ -1,0 +1,32 @@
+#include "services/clock/pace.hpp"
+
+#include <algorithm>
+
+namespace roci::services {
+namespace {
+
+// A run that fell behind by more than this does not catch up: it would rush through what follows.
+constexpr double kForgivenLagS = 0.1;
+
+double to_seconds(Duration d) { return std::chrono::duration<double>(d).count(); }
+
+}  // namespace
+
+wall::Instant Pace::earliest(Time time) const {
+  if (rate_ <= 0) return reached_at_;
+  return reached_at_ + wall::seconds(to_seconds(time - time_) / rate_);
+}
+
+Time Pace::time_at(wall::Instant now) const {
+  if (rate_ <= 0) return time_;
+  const double passed = std::max(0.0, std::chrono::duration<double>(now - reached_at_).count());
+  return time_ + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(passed * rate_));
+}
+
+void Pace::reached(Time time, wall::Instant now) {
+  const wall::Instant planned = earliest(time);
+  reached_at_ = now - planned > wall::seconds(kForgivenLagS) ? now : planned;
+  time_ = time;
+}
+
+}  // namespace roci::services

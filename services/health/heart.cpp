@@ -1,0 +1,53 @@
+#include "services/health/heart.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+
+namespace roci::services {
+namespace {
+
+constexpr double kPeriodS = 0.25;
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  if (gethostname(name.data(), name.size() - 1) != 0) return "unknown";
+  return name.data();
+}
+
+std::uint32_t resident_kb() {
+  std::ifstream statm("/proc/self/statm");
+  std::uint64_t total = 0;
+  std::uint64_t resident = 0;
+  statm >> total >> resident;
+  return static_cast<std::uint32_t>(resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) / 1024);
+}
+
+}  // namespace
+
+Heart::Heart(Node& node) : publisher_(advertise(node, topics::heartbeat)) {
+  beat_.service(node.options().name);
+  beat_.incarnation(node.options().incarnation);
+  beat_.dds(node.options().vendor);
+  beat_.host(host_name());
+  beat_.process_id(getpid());
+}
+
+void Heart::beat(wall::Instant now) {
+  ++turns_;
+  if (now < next_) return;
+  next_ = now + wall::seconds(kPeriodS);
+  send(v1::SERVICE_RUNNING);
+}
+
+void Heart::leave() { send(v1::SERVICE_STOPPING); }
+
+void Heart::send(v1::ServiceState state) {
+  beat_.progress(turns_);
+  beat_.state(state);
+  beat_.resident_kb(resident_kb());
+  publisher_.write(beat_);
+}
+
+}  // namespace roci::services

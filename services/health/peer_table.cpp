@@ -1,0 +1,51 @@
+#include "services/health/peer_table.hpp"
+
+#include <utility>
+
+namespace roci::services {
+
+void PeerTable::heartbeat(const v1::Heartbeat& beat, wall::Instant now) {
+  Peer& peer = peers_[beat.service()];
+  if (beat.incarnation() < peer.incarnation) return;
+  if (beat.incarnation() > peer.incarnation && peer.alive) die(beat.service(), peer, "restarted");
+  const bool returned = !peer.alive && !(beat.incarnation() == peer.incarnation && peer.stopping);
+  peer.incarnation = beat.incarnation();
+  peer.stopping = beat.state() == v1::SERVICE_STOPPING;
+  peer.last_seen = now;
+  if (returned) {
+    peer.alive = true;
+    changes_.push_back({beat.service(), beat.incarnation(), true, ""});
+  }
+}
+
+void PeerTable::seen(const std::string& service, std::uint32_t incarnation, wall::Instant now) {
+  const auto found = peers_.find(service);
+  if (found != peers_.end() && found->second.incarnation == incarnation) found->second.last_seen = now;
+}
+
+void PeerTable::owner_lost(const std::string& service) {
+  const auto found = peers_.find(service);
+  if (found == peers_.end() || !found->second.alive) return;
+  die(service, found->second, found->second.stopping ? "left" : "killed");
+}
+
+void PeerTable::check(wall::Instant now) {
+  for (auto& [service, peer] : peers_) {
+    if (peer.alive && now - peer.last_seen > hang_limit_) die(service, peer, "hung");
+  }
+}
+
+PeerState PeerTable::state(std::string_view service) const {
+  const auto found = peers_.find(service);
+  if (found == peers_.end()) return PeerState::never_seen;
+  return found->second.alive ? PeerState::alive : PeerState::dead;
+}
+
+std::vector<PeerChange> PeerTable::take_changes() { return std::exchange(changes_, {}); }
+
+void PeerTable::die(const std::string& service, Peer& peer, std::string cause) {
+  peer.alive = false;
+  changes_.push_back({service, peer.incarnation, false, std::move(cause)});
+}
+
+}  // namespace roci::services

@@ -1,0 +1,45 @@
+// The codec of a generated type. Includes Fast CDR: for the few files that instantiate templates.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "services/node/endpoints.hpp"
+#include "services/type_support.hpp"
+
+namespace roci::services {
+
+template <class T>
+concept Headed = requires(T value) {
+  { value.header() } -> std::same_as<v1::SampleHeader&>;
+};
+
+template <class T>
+std::shared_ptr<const void> decode_as(std::span<const std::uint8_t> payload) {
+  auto value = std::make_shared<T>();
+  if (!deserialize(payload, *value)) return nullptr;
+  return value;
+}
+
+template <class T>
+Payload key_as(const void* value) {
+  Payload key;
+  if (T::isKeyDefined()) detail::serialized_key<T>(serialize(*static_cast<const T*>(value)), false, key);
+  return key;
+}
+
+template <class T>
+TopicSpec spec_of(const Topic<T>& topic) {
+  Codec codec;
+  codec.type = describe_type<T>(topic.type_name);
+  codec.decode = &decode_as<T>;
+  codec.key = &key_as<T>;
+  if constexpr (Headed<T>) {
+    codec.header = [](const void* value) -> const v1::SampleHeader& {
+      return static_cast<const T*>(value)->header();
+    };
+  }
+  return {topic.name, topic.qos, topic.clocking, std::move(codec)};
+}
+
+}  // namespace roci::services

@@ -1,0 +1,51 @@
+// Where other threads leave things for the loop: samples from vendor threads, results of workers, wake-ups.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "services/clock/wall.hpp"
+#include "services/transport.hpp"
+
+namespace roci::services {
+
+struct InTopic;
+
+struct Arrival {
+  InTopic* topic = nullptr;
+  Sample sample;
+};
+
+struct WorkResult {
+  std::uint64_t work = 0;
+  std::function<void()> run;
+};
+
+class Inbox {
+ public:
+  struct Batch {
+    std::vector<Arrival> arrivals;
+    std::vector<WorkResult> results;
+    bool matched = false;  // some endpoint's matches changed
+    bool stop = false;     // stays true once asked for
+  };
+
+  void push(Arrival);
+  void push(WorkResult);
+  void matched();
+  void stop();
+
+  // All that has come. Waits for something until `deadline`, not at all if that has passed.
+  Batch take(wall::Instant deadline);
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable filled_;
+  Batch waiting_;
+  bool news_ = false;
+};
+
+}  // namespace roci::services

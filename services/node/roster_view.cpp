@@ -1,0 +1,48 @@
+#include "services/node/roster_view.hpp"
+
+#include <algorithm>
+
+namespace roci::services {
+namespace {
+
+std::string cause_of(const v1::ClockStep& step, const std::string& service, std::uint32_t incarnation) {
+  for (const v1::RosterLoss& loss : step.losses()) {
+    if (loss.service() == service && loss.incarnation() == incarnation) return loss.cause();
+  }
+  return "left";
+}
+
+}  // namespace
+
+bool contains(const std::vector<v1::RosterEntry>& roster, std::string_view service,
+              std::uint32_t incarnation) {
+  return std::ranges::any_of(roster, [&](const v1::RosterEntry& entry) {
+    return entry.service() == service && entry.incarnation() == incarnation;
+  });
+}
+
+std::vector<PeerChange> RosterView::update(const v1::ClockStep& step, std::string_view self) {
+  std::vector<PeerChange> changes;
+  for (auto peer = alive_.begin(); peer != alive_.end();) {
+    const auto& [service, incarnation] = *peer;
+    if (contains(step.roster(), service, incarnation)) {
+      ++peer;
+      continue;
+    }
+    changes.push_back({service, incarnation, false, cause_of(step, service, incarnation)});
+    peer = alive_.erase(peer);
+  }
+  for (const v1::RosterEntry& entry : step.roster()) {
+    if (entry.service() == self || !alive_.emplace(entry.service(), entry.incarnation()).second) continue;
+    changes.push_back({entry.service(), entry.incarnation(), true, ""});
+  }
+  known_ = true;
+  return changes;
+}
+
+PeerState RosterView::state(std::string_view service) const {
+  if (alive_.contains(service)) return PeerState::alive;
+  return known_ ? PeerState::dead : PeerState::never_seen;
+}
+
+}  // namespace roci::services

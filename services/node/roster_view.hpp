@@ -1,0 +1,29 @@
+// The roster as one simulated node has surfaced it to its handlers. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "services/node.hpp"
+#include "services/node/loop.hpp"
+#include "services/topics.hpp"
+
+namespace roci::services {
+
+bool contains(const std::vector<v1::RosterEntry>&, std::string_view service, std::uint32_t incarnation);
+
+class RosterView {
+ public:
+  // What changed since the last step for a node of name `self`: deaths first, each by name.
+  std::vector<PeerChange> update(const v1::ClockStep&, std::string_view self);
+  PeerState state(std::string_view service) const;
+
+ private:
+  bool known_ = false;
+  std::map<std::string, std::uint32_t, std::less<>> alive_;
+};
+
+}  // namespace roci::services

@@ -1,0 +1,165 @@
+// The loop of nodes under the simulated clock: acts when the barrier says so, on exactly what the step
+// announces.
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "services/clock/barrier.hpp"
+#include "services/clock/follower.hpp"
+#include "services/health/heart.hpp"
+#include "services/node/impl.hpp"
+#include "services/node/roster_view.hpp"
+
+namespace roci::services {
+namespace {
+
+class SimLoop : public Loop {
+ public:
+  explicit SimLoop(Node& node) : node_(node) {}
+
+  Time now() const override { return now_; }
+  PeerState peer(std::string_view service) const override { return roster_.state(service); }
+
+  void take_clocked(InTopic& input, const v1::SampleHeader& header,
+                    std::shared_ptr<const void> value) override {
+    if (header.incarnation() == 0) {
+      outside_.push_back({&input, std::move(value)});
+    } else {
+      follower_.add(input.topic.name, header, std::move(value));
+    }
+  }
+
+  void spin_once(std::chrono::milliseconds) override {
+    throw std::logic_error("spin_once: under the simulated clock a node runs with run()");
+  }
+
+  void run() override {
+    open();
+    while (!over_) turn();
+    heart_->leave();
+  }
+
+ private:
+  struct OutsideInput {
+    InTopic* input;
+    std::shared_ptr<const void> value;
+  };
+
+  void open() {
+    const bool master = node_.options().clock == ClockMode::master;
+    barrier_ = master ? make_master_barrier(node_) : make_follower_barrier(node_);
+    heart_.emplace(node_);
+    v1::ClockReady ready;
+    ready.service(node_.options().name);
+    ready.incarnation(node_.options().incarnation);
+    for (const TopicSpec& topic : node_.impl().endpoints.clocked_inputs()) {
+      follower_.subscribe(topic.name, topic.qos, topic.codec.key);
+      ready.subscriptions().push_back(topic.name);
+    }
+    barrier_->open(ready);
+  }
+
+  void turn() {
+    auto& impl = node_.impl();
+    const wall::Instant before = wall::now();
+    Inbox::Batch batch = impl.inbox.take(std::min(heart_->next(), barrier_->next_turn(before)));
+    for (auto& arrival : batch.arrivals) impl.take_in(std::move(arrival));
+    for (auto& result : batch.results) impl.work.finish(result.work, std::move(result.run));
+    const wall::Instant now = wall::now();
+    heart_->beat(now);
+    if (batch.stop && !barrier_->stop()) over_ = true;
+    barrier_->turn(now);
+    if (const auto& step = barrier_->step()) follow(*step);
+    if (barrier_->step() && barrier_->step()->last()) over_ = over_ || barrier_->over(now);
+  }
+
+  void follow(const v1::ClockStep& step) {
+    if (!acting_ && awaits_me(step)) {
+      if (step.last()) return answer(step);
+      if (follower_.complete(step)) act(step);
+    }
+    if (acting_) {
+      node_.impl().work.run_finished();
+      if (!node_.impl().work.outstanding()) answer(step);
+    } else if (!outside_.empty() && !awaits_me(step)) {
+      ask_for_a_step();
+    }
+  }
+
+  bool awaits_me(const v1::ClockStep& step) const {
+    const NodeOptions& me = node_.options();
+    if (answered_ && answered_->time_us() == step.time_us() && answered_->micro_step() == step.micro_step())
+      return false;
+    return std::ranges::find(step.participants(), me.name) != step.participants().end() &&
+           contains(step.roster(), me.name, me.incarnation);
+  }
+
+  void act(const v1::ClockStep& step) {
+    acting_ = true;
+    now_ = Time(step.time_us());
+    // A death in the middle of a micro-step shows in its revisions, but everybody surfaces it in the next
+    // one.
+    if (step.revision() == 0) {
+      for (const PeerChange& change : roster_.update(step, node_.options().name))
+        node_.impl().announce(change);
+    }
+    for (const Delivery& delivery : follower_.take(step)) {
+      Node::Impl::handle(*node_.impl().endpoints.find_in(delivery.topic), delivery.value.get());
+    }
+    take_outside_input();
+    node_.impl().timers.run_due(now_);
+  }
+
+  void take_outside_input() {
+    for (const OutsideInput& input : std::exchange(outside_, {})) {
+      const bool stale =
+          !answered_ && input.input->topic.qos != Qos::state;  // said before this node took part
+      if (!stale) Node::Impl::handle(*input.input, input.value.get());
+    }
+  }
+
+  void answer(const v1::ClockStep& step) {
+    const NodeOptions& me = node_.options();
+    v1::ClockDone done;
+    done.service(me.name);
+    done.incarnation(me.incarnation);
+    done.time_us(step.time_us());
+    done.micro_step(step.micro_step());
+    done.sent(node_.impl().endpoints.take_growth());
+    const auto wish = node_.impl().timers.earliest();
+    done.wish_us(wish ? std::max(*wish, now_).count() : -1);
+    node_.impl().endpoints.begin_micro_step();
+    acting_ = false;
+    asked_ = false;
+    answered_ = done;
+    barrier_->answer(done);
+  }
+
+  void ask_for_a_step() {
+    if (asked_ || !answered_) return;
+    asked_ = true;
+    v1::ClockDone again = *answered_;
+    again.wish_us(now_.count());
+    barrier_->answer(again);
+  }
+
+  Node& node_;
+  std::unique_ptr<Barrier> barrier_;
+  std::optional<Heart> heart_;
+  Follower follower_;
+  RosterView roster_;
+  std::vector<OutsideInput> outside_;
+  std::optional<v1::ClockDone> answered_;
+  Time now_{0};
+  bool acting_ = false;
+  bool asked_ = false;
+  bool over_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Loop> make_sim_loop(Node& node) { return std::make_unique<SimLoop>(node); }
+
+}  // namespace roci::services

@@ -1,0 +1,97 @@
+#include "services/rpc.hpp"
+
+#include "services/node/codec.hpp"
+#include "services/node/impl.hpp"
+#include "services/publisher.hpp"
+#include "services/rpc/call_server.hpp"
+#include "services/rpc/call_table.hpp"
+
+namespace roci::services::detail {
+
+CallStatistics statistics(const CallTable& table) { return table.statistics(); }
+
+template <class Request, class Reply>
+std::shared_ptr<CallTable> Calls<Request, Reply>::client(Node& node,
+                                                         const topics::Procedure<Request, Reply>& procedure) {
+  auto& table = node.impl().calls[procedure.request.name];
+  if (table) return table;
+  const OutStream& requests = node.impl().endpoints.out(spec_of(procedure.request));
+  InTopic& replies = node.impl().subscribe(spec_of(procedure.reply));
+  table = std::make_shared<CallTable>(node, requests.guid(), procedure.request.name, [&requests, &replies] {
+    return requests.matched_readers() > 0 && replies.reader->matched_writers() > 0;
+  });
+  subscribe(node, procedure.reply,
+            [&calls = *table](const Reply& reply) { calls.on_reply(reply.reply(), &reply); });
+  node.on_peer_change([&calls = *table](const PeerChange& change) { calls.on_peer_change(change); });
+  node.impl().on_match.push_back([&calls = *table] { calls.on_match(); });
+  return table;
+}
+
+template <class Request, class Reply>
+void Calls<Request, Reply>::call(Node& node, const topics::Procedure<Request, Reply>& procedure,
+                                 CallTable& table, Request&& request, std::string&& owner, Duration deadline,
+                                 OnResult&& on_result) {
+  request.request().instance_name(owner);
+  CallTable::Call call;
+  call.owner = std::move(owner);
+  call.send = [publisher = advertise(node, procedure.request),
+               request = std::move(request)](const v1::SampleIdentity& id) mutable {
+    request.request().request_id(id);
+    return publisher.write(request);
+  };
+  call.finish = [on_result = std::move(on_result)](CallStatus status, std::string message,
+                                                   const void* reply) {
+    CallResult<Reply> result{status, std::move(message), {}};
+    if (reply != nullptr) result.reply = *static_cast<const Reply*>(reply);
+    on_result(result);
+  };
+  table.start(std::move(call), deadline);
+}
+
+template <class Request, class Reply>
+void Calls<Request, Reply>::serve(Node& node, const topics::Procedure<Request, Reply>& procedure,
+                                  Handler&& handler) {
+  auto& server = node.impl().servers[procedure.request.name];
+  if (server) throw std::logic_error(node.options().name + " serves " + procedure.request.name + " twice");
+  server = std::make_shared<CallServer>();
+  const PendingReply::Write write = [publisher = advertise(node, procedure.reply)](const void* reply) {
+    publisher.write(*static_cast<const Reply*>(reply));
+  };
+  subscribe(
+      node, procedure.request,
+      [&name = node.options().name, server, write, handler = std::move(handler)](const Request& request) {
+        const v1::RequestHeader& header = request.request();
+        if (!header.instance_name().empty() && header.instance_name() != name) return;
+        const v1::SampleIdentity& id = header.request_id();
+        if (!server->accept({id.writer_guid(), id.sequence_number()})) return;
+        handler(request, std::make_shared<PendingReply>(server, id, write));
+      });
+}
+
+template <class Reply>
+void Answer<Reply>::reply(PendingReply& pending, Reply&& reply) {
+  reply.reply().related_request_id(pending.request());
+  reply.reply().remote_ex(v1::REMOTE_EX_OK);
+  pending.answer(std::make_shared<const Reply>(std::move(reply)));
+}
+
+template <class Reply>
+void Answer<Reply>::fail(PendingReply& pending, v1::RemoteException exception, std::string&& message) {
+  Reply reply;
+  reply.reply().related_request_id(pending.request());
+  reply.reply().remote_ex(exception);
+  reply.reply().remote_message(std::move(message));
+  pending.answer(std::make_shared<const Reply>(std::move(reply)));
+}
+
+// Every procedure of topics.hpp.
+template struct Calls<v1::PlanRequest, v1::PlanReply>;
+template struct Calls<v1::FunctionRequest, v1::FunctionReply>;
+template struct Calls<v1::PathRequest, v1::PathReply>;
+template struct Calls<v1::ArmMotionRequest, v1::ArmMotionReply>;
+template struct Answer<v1::PlanReply>;
+template struct Answer<v1::FunctionReply>;
+template struct Answer<v1::PathReply>;
+template struct Answer<v1::ArmMotionReply>;
+
+}  // namespace roci::services::detail

@@ -1,0 +1,51 @@
+// One server of a procedure, without its types: knows which requests it has seen, and their answers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "roci_idl/rpc.h"
+
+namespace roci::services {
+
+inline constexpr std::size_t kRememberedAnswers = 256;
+
+class CallServer {
+ public:
+  using Id = std::pair<std::array<std::uint8_t, 16>, std::int64_t>;
+  using SendAgain = std::function<void()>;
+
+  // True: handle this request. False: it is a duplicate; if it was answered, the answer went out again.
+  bool accept(const Id&);
+  void answered(const Id&, SendAgain);
+
+ private:
+  std::map<Id, SendAgain> known_;  // empty: not answered yet
+  std::deque<Id> order_;           // oldest first; bounds known_
+};
+
+// The duty to answer one request, and the writer that does it.
+class PendingReply {
+ public:
+  using Write = std::function<void(const void* reply)>;
+
+  PendingReply(std::shared_ptr<CallServer> server, const v1::SampleIdentity& request, Write write)
+      : server_(std::move(server)), request_(request), write_(std::move(write)) {}
+
+  const v1::SampleIdentity& request() const { return request_; }
+  // The first answer is sent and remembered; others are ignored.
+  void answer(std::shared_ptr<const void> reply);
+
+ private:
+  std::shared_ptr<CallServer> server_;
+  v1::SampleIdentity request_;
+  Write write_;
+  bool answered_ = false;
+};
+
+}  // namespace roci::services

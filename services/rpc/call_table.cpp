@@ -1,0 +1,152 @@
+#include "services/rpc/call_table.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "services/node/impl.hpp"
+
+namespace roci::services {
+namespace {
+
+constexpr Duration kFirstRepetition = std::chrono::milliseconds(250);
+constexpr Duration kLongestRepetition = std::chrono::seconds(4);
+
+}  // namespace
+
+const char* to_string(CallStatus status) {
+  switch (status) {
+    case CallStatus::ok:
+      return "ok";
+    case CallStatus::timeout:
+      return "timeout";
+    case CallStatus::no_owner:
+      return "no_owner";
+    case CallStatus::owner_lost:
+      return "owner_lost";
+    case CallStatus::remote_error:
+      return "remote_error";
+    case CallStatus::overloaded:
+      return "overloaded";
+  }
+  return "unknown";
+}
+
+CallTable::CallTable(Node& node, Guid client, std::string procedure, std::function<bool()> reachable)
+    : node_(node), client_(client), procedure_(std::move(procedure)), reachable_(std::move(reachable)) {}
+
+bool CallTable::simulated() const {
+  const ClockMode mode = node_.options().clock;
+  return mode == ClockMode::simulated || mode == ClockMode::master;
+}
+
+v1::SampleIdentity CallTable::identity(std::int64_t number) const {
+  v1::SampleIdentity id;
+  id.writer_guid(client_);
+  id.sequence_number(number);
+  return id;
+}
+
+void CallTable::start(Call call, Duration deadline) {
+  if (pending_.size() >= kMaxPendingCalls) {
+    node_.after(Duration(0), [finish = std::move(call.finish), name = procedure_] {
+      finish(CallStatus::overloaded,
+             std::to_string(kMaxPendingCalls) + " calls of " + name + " are under way", nullptr);
+    });
+    return;
+  }
+  const std::int64_t number = ++last_number_;
+  Pending& pending = pending_[number];
+  pending.call = std::move(call);
+  pending.next_wait = kFirstRepetition;
+  if (!pending.call.owner.empty()) {
+    pending.owner_check = node_.after(Duration(0), [this, number] { check_owner(number); });
+  }
+  pending.deadline = node_.after(deadline, [this, number] { expire(number); });
+  if (simulated() || reachable_()) send(number, pending);
+}
+
+void CallTable::send(std::int64_t number, Pending& pending) {
+  pending.sent = true;
+  ++statistics_.sent;
+  pending.call.send(identity(number));
+  if (simulated()) return;
+  pending.repetition = node_.after(pending.next_wait, [this, number] { repeat(number); });
+  pending.next_wait = std::min(2 * pending.next_wait, kLongestRepetition);
+}
+
+void CallTable::repeat(std::int64_t number) {
+  const auto found = pending_.find(number);
+  if (found != pending_.end()) send(number, found->second);
+}
+
+void CallTable::on_match() {
+  if (simulated() || !reachable_()) return;
+  for (auto& [number, pending] : pending_) {
+    if (!pending.sent) send(number, pending);
+  }
+}
+
+void CallTable::check_owner(std::int64_t number) {
+  const auto found = pending_.find(number);
+  if (found == pending_.end()) return;
+  const std::string& owner = found->second.call.owner;
+  const PeerState state = owner == node_.options().name ? PeerState::alive : node_.impl().loop->peer(owner);
+  // Live, a service that nobody has seen yet may still be starting: the deadline decides.
+  if (state == PeerState::alive || (state == PeerState::never_seen && !simulated())) return;
+  finish(found, CallStatus::no_owner, owner + " is not there to answer " + procedure_);
+}
+
+void CallTable::on_reply(const v1::ReplyHeader& header, const void* reply) {
+  const v1::SampleIdentity& id = header.related_request_id();
+  if (id.writer_guid() != client_) {
+    ++statistics_.foreign;
+    return;
+  }
+  const auto found = pending_.find(id.sequence_number());
+  if (found == pending_.end()) {
+    ++statistics_.late;
+    return;
+  }
+  if (header.remote_ex() == v1::REMOTE_EX_OK) {
+    finish(found, CallStatus::ok, "", reply);
+  } else {
+    finish(found, CallStatus::remote_error, header.remote_message());
+  }
+}
+
+void CallTable::on_peer_change(const PeerChange& change) {
+  if (change.alive) return;
+  std::vector<std::int64_t> lost;
+  for (const auto& [number, pending] : pending_) {
+    if (pending.call.owner == change.service) lost.push_back(number);
+  }
+  for (const std::int64_t number : lost) {
+    const auto found = pending_.find(number);
+    if (found == pending_.end()) continue;
+    finish(found, CallStatus::owner_lost,
+           change.service + " (" + change.cause + ") while it answered " + procedure_);
+  }
+}
+
+void CallTable::expire(std::int64_t number) {
+  const auto found = pending_.find(number);
+  if (found == pending_.end()) return;
+  const std::string& owner = found->second.call.owner;
+  if (!found->second.sent) {
+    finish(found, CallStatus::no_owner, "nobody serves " + procedure_);
+  } else if (!owner.empty() && !node_.peer_alive(owner)) {
+    finish(found, CallStatus::no_owner, owner + " never appeared to answer " + procedure_);
+  } else {
+    finish(found, CallStatus::timeout, "no answer to " + procedure_ + " before the deadline");
+  }
+}
+
+void CallTable::finish(Pendings::iterator found, CallStatus status, std::string message, const void* reply) {
+  const Pending ended = std::move(pending_.extract(found).mapped());
+  node_.cancel(ended.deadline);
+  node_.cancel(ended.owner_check);
+  node_.cancel(ended.repetition);
+  ended.call.finish(status, std::move(message), reply);
+}
+
+}  // namespace roci::services

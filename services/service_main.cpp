@@ -1,0 +1,59 @@
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+
+#include "core/mission/entry.hpp"
+#include "services/lossy_transport.hpp"
+#include "services/service.hpp"
+#include "services/service_options.hpp"
+#include "services/stop_signals.hpp"
+#include "services/transport.hpp"
+
+namespace roci::services {
+namespace {
+
+// docs/exit-codes.md, "Services".
+enum ExitCode { kStopped = 0, kFailed = 1, kBadInput = 2, kNoTransport = 3 };
+
+std::unique_ptr<Transport> connect(const Connection& connection) {
+  if (connection.dds == "inproc") {
+    throw TransportError(
+        "inproc joins services inside one process: run roci-rehearse, or choose a DDS vendor with --dds");
+  }
+  return open_transport(connection.dds, connection.transport);
+}
+
+int run_service(const ServiceOptions& options, MakeService* make) {
+  StopSignals signals;
+  Node node(options.node, connect(options.connection));
+  const auto service = make(node, options.run);
+  signals.watch([&node] { node.stop(); });
+  node.run();
+  return kStopped;
+}
+
+int report(const std::string& name, const std::exception& error, int code) {
+  std::cerr << name << ": " << error.what() << '\n';
+  return code;
+}
+
+}  // namespace
+
+int service_main(int argc, char** argv, const std::string& name, MakeService* make) {
+  try {
+    return run_service(parse_service_options(argc, argv, name, process_environment()), make);
+  } catch (const CommandLineEnd& end) {
+    (end.exit_code == 0 ? std::cout : std::cerr) << end.what();
+    return end.exit_code;
+  } catch (const TransportError& error) {
+    return report(name, error, kNoTransport);
+  } catch (const mission::FileError& error) {
+    return report(name, error, kBadInput);
+  } catch (const std::invalid_argument& error) {
+    return report(name, error, kBadInput);
+  } catch (const std::exception& error) {
+    return report(name, error, kFailed);
+  }
+}
+
+}  // namespace roci::services

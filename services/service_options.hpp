@@ -1,0 +1,30 @@
+// The command line of every service process.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "services/connection.hpp"
+#include "services/node.hpp"
+#include "services/service.hpp"
+
+namespace roci::services {
+
+struct ServiceOptions {
+  RunSettings run;
+  NodeOptions node;
+  Connection connection;
+};
+
+// The command line ended the program: --help (code 0) or a mistake (code 2). what(): text for the user.
+class CommandLineEnd : public std::runtime_error {
+ public:
+  CommandLineEnd(int code, const std::string& text) : std::runtime_error(text), exit_code(code) {}
+  const int exit_code;
+};
+
+// Throws CommandLineEnd, and what resolve_connection throws.
+ServiceOptions parse_service_options(int argc, const char* const* argv, const std::string& name,
+                                     const Environment&);
+
+}  // namespace roci::services
