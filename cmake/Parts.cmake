@@ -9,6 +9,9 @@
 
 set_property(GLOBAL PROPERTY ROCI_PARTS "")
 
+# Everything that ./run needs: programs and plug-ins, no tests.
+add_custom_target(programs)
+
 function(_roci_part target)
   cmake_parse_arguments(PART "" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;LABELS" ${ARGN})
   if(NOT PART_HELP)
@@ -29,6 +32,7 @@ function(roci_program)
   cmake_parse_arguments(PART "" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   add_executable(${PART_NAME} ${PART_SOURCES})
   _roci_part(${PART_NAME} ${ARGN})
+  add_dependencies(programs ${PART_NAME})
   install(TARGETS ${PART_NAME} RUNTIME DESTINATION bin)
 endfunction()
 
@@ -38,6 +42,7 @@ function(roci_plugin)
   _roci_part(${PART_NAME} ${ARGN})
   set_target_properties(${PART_NAME} PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/rocinante")
+  add_dependencies(programs ${PART_NAME})
   install(TARGETS ${PART_NAME} LIBRARY DESTINATION lib/rocinante)
 endfunction()
 

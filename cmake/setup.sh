@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# Installs what is missing (Debian 12 packages) and builds. Called by ./run and ./check:
+#   cmake/setup.sh PRESET [TARGET ...]
+# Exits 0 when build/PRESET is up to date, 3 when a package is missing and cannot be installed.
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+preset=$1
+shift
+
+packages=(
+  g++ cmake ninja-build ccache git
+  libfastrtps-dev libfastcdr-dev fastddsgen default-jre-headless   # Fast DDS and its IDL compiler
+  cyclonedds-dev cyclonedds-tools                                  # Cyclone DDS and its IDL compiler
+  libeigen3-dev libompl-dev libfcl-dev liburdfdom-dev              # motion
+  libyaml-cpp-dev libsqlite3-dev libssl-dev                        # missions, journal, trace digest
+  nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
+  iproute2                                                         # network namespaces in the tests
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+done
+if ((${#missing[@]})); then
+  sudo=()
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null || { echo "setup: as root, run: apt-get install ${missing[*]}" >&2; exit 3; }
+    sudo=(sudo)
+  fi
+  echo "setup: installing ${missing[*]}" >&2
+  log=$(mktemp)
+  if ! { "${sudo[@]}" apt-get update && DEBIAN_FRONTEND=noninteractive "${sudo[@]}" apt-get install -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    echo "setup: apt-get failed (above); install by hand: ${missing[*]}" >&2
+    exit 3
+  fi
+  rm -f "$log"
+fi
+
+cd "$root"
+if [[ ! -f build/$preset/build.ninja ]]; then
+  cmake --preset "$preset" >&2
+fi
+if (($#)); then
+  ninja -C "build/$preset" "$@" >&2
+else
+  ninja -C "build/$preset" >&2
+fi

@@ -1,0 +1,47 @@
+// What is so, from observations alone (never from planned effects): the newest value of each timeline, and
+// the PDDL facts and fluents that the mission's metadata derives from them.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/temporal/value.hpp"
+#include "exec_svc/mission/mission_model.hpp"
+
+namespace roci::exec {
+
+class Beliefs {
+ public:
+  explicit Beliefs(const MissionModel& mission);
+
+  void observe(const std::string& timeline, temporal::Value value);
+  const temporal::Value* value(const std::string& timeline) const;
+
+  // Facts that observed states stand for, as text "(at place-1)", in a stable order.
+  std::set<std::string> component_facts() const;
+  std::set<std::string> family_facts() const;
+
+  // The value of a condition's timeline: an observed timeline by its name, a fluent "(battery)", or a fact
+  // "(at place-1)", which is false when its predicate is observable and nothing observed stands for it.
+  // Nothing for a fact that no metadata speaks of.
+  std::optional<temporal::Value> lookup(const std::string& name) const;
+
+  bool holds(const std::vector<std::string>& facts) const;
+
+  // Components that are in an active state now, and those never observed yet.
+  std::vector<const Component*> active() const;
+  std::vector<const Component*> unseen() const;
+
+ private:
+  const MissionModel* mission_;
+  std::map<std::string, temporal::Value> values_;
+  std::set<std::string> observable_predicates_;
+};
+
+// "(at place-1)" → {"at", "place-1"}.
+std::vector<std::string> words_of(const std::string& fact);
+
+}  // namespace roci::exec

@@ -1,0 +1,152 @@
+#include "exec_svc/exec_wire.hpp"
+
+#include <sstream>
+
+#include "services/wire/plan_wire.hpp"
+
+namespace roci::exec::wire {
+namespace {
+
+std::string properties_text(const std::vector<v1::Property>& properties) {
+  std::string out;
+  for (const v1::Property& property : properties) out += " " + property.name() + "=" + property.value();
+  return out;
+}
+
+}  // namespace
+
+GoalRequest from_wire(const v1::Goal& in) {
+  GoalRequest out;
+  out.key = {in.issuer(), in.id()};
+  out.kind = in.goal_kind();
+  for (const v1::Property& argument : in.arguments()) out.arguments[argument.name()] = argument.value();
+  out.importance = static_cast<GoalClass>(std::min<std::uint32_t>(in.importance(), v1::GOAL_OPPORTUNISTIC));
+  out.utility = in.utility();
+  out.priority = in.priority();
+  out.opens = temporal::Time(in.opens_us());
+  out.closes = temporal::Time(in.closes_us());
+  out.recalled = in.recalled();
+  return out;
+}
+
+Observation from_wire(const v1::Observation& in) {
+  return {in.timeline(), services::wire::from_wire(in.observed())};
+}
+
+CommandAck from_wire(const v1::CommandAck& in) {
+  const auto stage = static_cast<CommandStage>(std::min<std::uint32_t>(in.stage(), v1::COMMAND_UNKNOWN));
+  return {in.activity(), in.attempt(), stage, in.code(), in.reason()};
+}
+
+PlanAnswer from_wire(std::uint64_t call, const v1::PlanReply& in) {
+  PlanAnswer out;
+  out.call = call;
+  out.verdict = static_cast<PlanVerdict>(std::min<std::uint32_t>(in.verdict_code(), v1::VERDICT_CRASHED));
+  out.reason = in.reason();
+  if (out.verdict == PlanVerdict::solved) out.plan = services::wire::from_wire(in.solution());
+  return out;
+}
+
+v1::GoalStatus to_wire(const GoalRecord& in) {
+  v1::GoalStatus out;
+  out.issuer(in.request.key.issuer);
+  out.id(in.request.key.id);
+  out.goal_state(static_cast<v1::GoalState>(in.state));
+  out.importance(static_cast<v1::GoalClass>(in.request.importance));
+  out.goal_kind(in.request.kind);
+  out.reason(in.reason);
+  out.plan_version(in.plan_version);
+  return out;
+}
+
+v1::Command to_wire(const Command& in, std::uint32_t plan_version, std::uint64_t epoch) {
+  v1::Command out;
+  out.activity(in.activity);
+  out.attempt(in.attempt);
+  out.action(static_cast<v1::CommandAction>(in.action));
+  out.owner(in.owner);
+  out.subsystem(in.subsystem);
+  out.command_name(in.command_name);
+  for (const temporal::Property& argument : in.arguments)
+    out.arguments().push_back(services::wire::to_wire(argument));
+  out.plan_version(plan_version);
+  out.epoch(epoch);
+  out.expected_us(in.expected.count());
+  return out;
+}
+
+v1::StepStatus to_wire(const StepStatus& in, std::uint32_t plan_version) {
+  v1::StepStatus out;
+  out.activity(in.activity);
+  out.plan_version(plan_version);
+  out.attempt(in.attempt);
+  out.name(in.name);
+  out.state(static_cast<v1::ActivityState>(in.state));
+  out.earliest_start_us(in.earliest_start.count());
+  out.latest_start_us(in.latest_start == temporal::no_bound ? -1 : in.latest_start.count());
+  out.started_us(in.started ? in.started->count() : -1);
+  out.ended_us(in.ended ? in.ended->count() : -1);
+  out.cause(in.cause);
+  return out;
+}
+
+v1::PlanRequest to_wire(const PlanCall& in, const MissionModel& mission) {
+  v1::PlanRequest out;
+  out.engine(mission.planner.engine);
+  out.domain_text(mission.domain_text);
+  out.problem_text(in.problem.text);
+  for (const ProblemObject& object : in.problem.objects) {
+    v1::PlanObject wire;
+    wire.name(object.name);
+    wire.object_type(object.type);
+    for (const temporal::Property& property : object.properties)
+      wire.properties().push_back(services::wire::to_wire(property));
+    out.objects().push_back(std::move(wire));
+  }
+  out.budget().work(mission.planner.work);
+  out.budget().memory_mb(mission.planner.memory_mb);
+  out.budget().wall_us(mission.planner.wall.count());
+  return out;
+}
+
+v1::Event to_wire(const Note& in) {
+  v1::Event out;
+  out.severity_level(in.level == NoteLevel::info      ? v1::SEVERITY_INFO
+                     : in.level == NoteLevel::warning ? v1::SEVERITY_WARNING
+                                                      : v1::SEVERITY_ERROR);
+  out.code(in.code);
+  out.text(in.text);
+  return out;
+}
+
+std::string trace_line(const v1::Command& in) {
+  return "command " + in.activity() + " " + std::to_string(in.attempt()) +
+         " action=" + std::to_string(in.action()) + " " + in.owner() + " " + in.subsystem() + " " +
+         in.command_name() + properties_text(in.arguments());
+}
+
+std::string trace_line(const v1::CommandAck& in) {
+  return "ack " + in.activity() + " " + std::to_string(in.attempt()) +
+         " stage=" + std::to_string(in.stage()) + " " + in.owner() + " " + in.code() + " " + in.reason();
+}
+
+std::string trace_line(const v1::Observation& in) {
+  return "observation " + in.timeline() + " " + temporal::to_text(services::wire::from_wire(in.observed())) +
+         " sampled " + std::to_string(in.sampled_us());
+}
+
+std::string trace_line(const v1::Plan& in) {
+  std::ostringstream out;
+  out << "plan " << in.id() << " " << in.version() << " origin " << in.origin_us();
+  for (const v1::PlanActivity& activity : in.activities()) {
+    out << "; " << activity.id() << " [" << activity.duration_lower_us() << ","
+        << activity.duration_upper_us() << "]" << properties_text(activity.arguments());
+  }
+  for (const v1::TemporalConstraint& constraint : in.constraints()) {
+    out << "; " << constraint.from_point() << "-" << constraint.to_point() << " [" << constraint.lower_us()
+        << "," << constraint.upper_us() << "]";
+  }
+  return out.str();
+}
+
+}  // namespace roci::exec::wire

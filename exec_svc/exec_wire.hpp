@@ -1,0 +1,30 @@
+// The reactor's inputs and outputs in their wire form.
+#pragma once
+
+#include "exec_svc/reactor/reactor.hpp"
+#include "roci_idl/command.h"
+#include "roci_idl/goal.h"
+#include "roci_idl/health.h"
+#include "roci_idl/plan.h"
+#include "roci_idl/planner.h"
+
+namespace roci::exec::wire {
+
+GoalRequest from_wire(const v1::Goal&);
+Observation from_wire(const v1::Observation&);
+CommandAck from_wire(const v1::CommandAck&);
+PlanAnswer from_wire(std::uint64_t call, const v1::PlanReply&);
+
+v1::GoalStatus to_wire(const GoalRecord&);
+v1::Command to_wire(const Command&, std::uint32_t plan_version, std::uint64_t epoch);
+v1::StepStatus to_wire(const StepStatus&, std::uint32_t plan_version);
+v1::PlanRequest to_wire(const PlanCall&, const MissionModel&);
+v1::Event to_wire(const Note&);
+
+// One line of the trace each: all that a run decided or saw, nothing that depends on the machine.
+std::string trace_line(const v1::Command&);
+std::string trace_line(const v1::CommandAck&);
+std::string trace_line(const v1::Observation&);
+std::string trace_line(const v1::Plan&);
+
+}  // namespace roci::exec::wire

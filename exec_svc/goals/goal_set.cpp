@@ -1,0 +1,168 @@
+#include "exec_svc/goals/goal_set.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+namespace roci::exec {
+namespace {
+
+// Ids become parts of PDDL names.
+bool is_name(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::islower(c) || std::isdigit(c) || c == '-' || c == '_';
+  });
+}
+
+bool is_number(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+}
+
+template <class Map>
+std::string keys_of(const Map& map) {
+  std::string out;
+  for (const auto& [key, value] : map) out += (out.empty() ? "" : ", ") + key;
+  return out;
+}
+
+}  // namespace
+
+bool is_final(GoalState state) { return state != GoalState::pending && state != GoalState::planned; }
+
+std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) const {
+  if (!is_name(request.key.id))
+    return "id '" + request.key.id + "' is not a name; use lower-case letters, digits, - and _";
+  const auto kind = mission_->goal_kinds.find(request.kind);
+  if (kind == mission_->goal_kinds.end()) {
+    return "unknown goal kind '" + request.kind + "'; this mission knows: " + keys_of(mission_->goal_kinds);
+  }
+  for (const auto& [name, argument] : kind->second.arguments) {
+    const auto given = request.arguments.find(name);
+    if (given == request.arguments.end())
+      return "argument '" + name + "' is missing; a " + request.kind +
+             " needs: " + keys_of(kind->second.arguments);
+    if (argument == ArgumentKind::number && !is_number(given->second)) {
+      return "argument '" + name + "' is '" + given->second + "'; expected a number";
+    }
+    if (argument == ArgumentKind::text && !is_name(given->second)) {
+      return "argument '" + name + "' is '" + given->second + "'; use lower-case letters, digits, - and _";
+    }
+    if (argument == ArgumentKind::goal) {
+      const bool known = std::any_of(records_.begin(), records_.end(), [&](const auto& record) {
+        return record.first.id == given->second && record.second.state != GoalState::rejected;
+      });
+      if (!known)
+        return "argument '" + name + "' names goal '" + given->second +
+               "', which is not known; send that goal first";
+    }
+  }
+  for (const auto& [name, value] : request.arguments) {
+    if (!kind->second.arguments.contains(name)) {
+      return "unknown argument '" + name + "'; a " + request.kind +
+             " takes: " + keys_of(kind->second.arguments);
+    }
+  }
+  for (const auto& [key, record] : records_) {
+    if (key.id == request.key.id && key.issuer != request.key.issuer && record.state != GoalState::rejected) {
+      return "id '" + key.id + "' is in use by issuer '" + key.issuer + "'; choose another id";
+    }
+  }
+  if (request.closes.count() != 0 && request.closes <= std::max(request.opens, now)) {
+    return "the window closes before it opens or has passed; give a later end";
+  }
+  return "";
+}
+
+const GoalRecord* GoalSet::submit(const GoalRequest& request, temporal::Time now) {
+  const auto known = records_.find(request.key);
+  if (known != records_.end()) {
+    GoalRecord& record = known->second;
+    if (record.request == request) return nullptr;
+    if (request.recalled) {
+      record.request.recalled = true;
+      if (is_final(record.state)) return nullptr;
+      record.state = GoalState::recalled;
+      record.reason = "recalled by " + request.key.issuer;
+      return &record;
+    }
+    const std::string fault = fault_of(request, now);
+    if (!fault.empty()) {
+      record.reason = "change refused: " + fault;
+      return &record;
+    }
+    record.request = request;
+    record.state = GoalState::pending;
+    record.reason = "changed by " + request.key.issuer;
+    return &record;
+  }
+  GoalRecord record;
+  record.request = request;
+  record.arrival = next_arrival_++;
+  const std::string fault = request.recalled ? "there is no such goal to recall" : fault_of(request, now);
+  if (!fault.empty()) {
+    record.state = GoalState::rejected;
+    record.reason = fault;
+  }
+  return &records_.insert_or_assign(request.key, std::move(record)).first->second;
+}
+
+void GoalSet::restore(const GoalRecord& record) {
+  records_.insert_or_assign(record.request.key, record);
+  next_arrival_ = std::max(next_arrival_, record.arrival + 1);
+}
+
+void GoalSet::set_state(const GoalKey& key, GoalState state, std::string reason, std::uint32_t plan_version) {
+  const auto record = records_.find(key);
+  if (record == records_.end()) return;
+  record->second.state = state;
+  record->second.reason = std::move(reason);
+  if (plan_version != 0) record->second.plan_version = plan_version;
+}
+
+std::vector<const GoalRecord*> GoalSet::all() const {
+  std::vector<const GoalRecord*> out;
+  for (const auto& [key, record] : records_) out.push_back(&record);
+  std::sort(out.begin(), out.end(),
+            [](const GoalRecord* a, const GoalRecord* b) { return a->arrival < b->arrival; });
+  return out;
+}
+
+std::vector<const GoalRecord*> GoalSet::open() const {
+  auto out = all();
+  std::erase_if(out, [](const GoalRecord* record) { return is_final(record->state); });
+  return out;
+}
+
+std::vector<const GoalRecord*> GoalSet::present() const {
+  auto out = all();
+  std::erase_if(out, [](const GoalRecord* record) {
+    return record->state == GoalState::rejected || record->state == GoalState::dropped ||
+           record->state == GoalState::recalled;
+  });
+  return out;
+}
+
+const GoalRecord* GoalSet::find(const GoalKey& key) const {
+  const auto record = records_.find(key);
+  return record == records_.end() ? nullptr : &record->second;
+}
+
+std::optional<GoalKey> GoalSet::drop_candidate() const {
+  const GoalRecord* opportunistic = nullptr;
+  const GoalRecord* optional = nullptr;
+  for (const GoalRecord* record : open()) {
+    if (record->request.importance == GoalClass::opportunistic) opportunistic = record;
+    if (record->request.importance == GoalClass::optional &&
+        (optional == nullptr || record->request.utility <= optional->request.utility)) {
+      optional = record;
+    }
+  }
+  if (opportunistic != nullptr) return opportunistic->request.key;
+  if (optional != nullptr) return optional->request.key;
+  return std::nullopt;
+}
+
+}  // namespace roci::exec

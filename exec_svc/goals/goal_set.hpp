@@ -1,0 +1,82 @@
+// The goals of a mission: what was asked, by whom, in which order, and what became of each. Nothing is ever
+// removed.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/temporal/duration.hpp"
+#include "exec_svc/mission/mission_model.hpp"
+
+namespace roci::exec {
+
+enum class GoalClass { hard, optional, opportunistic };
+enum class GoalState { rejected, pending, planned, achieved, dropped, failed, recalled };
+
+struct GoalKey {
+  std::string issuer;
+  std::string id;
+  auto operator<=>(const GoalKey&) const = default;
+  std::string text() const { return issuer + "/" + id; }
+};
+
+struct GoalRequest {
+  GoalKey key;
+  std::string kind;
+  std::map<std::string, std::string> arguments;
+  GoalClass importance = GoalClass::hard;
+  double utility = 0;
+  std::int32_t priority = 0;
+  temporal::Time opens{0};   // 0: any time
+  temporal::Time closes{0};  // 0: never
+  bool recalled = false;
+  bool operator==(const GoalRequest&) const = default;
+};
+
+struct GoalRecord {
+  GoalRequest request;
+  GoalState state = GoalState::pending;
+  std::string reason;
+  std::uint64_t arrival = 0;  // rises with each goal
+  std::uint32_t plan_version = 0;
+};
+
+bool is_final(GoalState state);
+
+class GoalSet {
+ public:
+  explicit GoalSet(const MissionModel& mission) : mission_(&mission) {}
+
+  // Takes a request in: a new goal, a change, or a recall. A request that equals the stored one changes
+  // nothing. A bad request is stored as rejected, with a reason that names the remedy. Returns the record, or
+  // nullptr if nothing changed.
+  const GoalRecord* submit(const GoalRequest& request, temporal::Time now);
+
+  // Puts a goal back as the journal has it.
+  void restore(const GoalRecord& record);
+
+  void set_state(const GoalKey& key, GoalState state, std::string reason, std::uint32_t plan_version = 0);
+
+  // Goals not final yet, in order of arrival.
+  std::vector<const GoalRecord*> open() const;
+  // Every goal whose objects still exist: all but rejected, dropped and recalled ones.
+  std::vector<const GoalRecord*> present() const;
+  std::vector<const GoalRecord*> all() const;
+  const GoalRecord* find(const GoalKey& key) const;
+
+  // Which goal goes when not all fit: the newest opportunistic one, else the optional one of the lowest
+  // utility (the newest of equals), never a hard one (R52, R53; architecture, "Which goals go").
+  std::optional<GoalKey> drop_candidate() const;
+
+ private:
+  std::string fault_of(const GoalRequest& request, temporal::Time now) const;
+
+  const MissionModel* mission_;
+  std::map<GoalKey, GoalRecord> records_;
+  std::uint64_t next_arrival_ = 1;
+};
+
+}  // namespace roci::exec

@@ -1,0 +1,250 @@
+#include "exec_svc/mission/mission_model.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "core/mission/entry.hpp"
+
+namespace roci::exec {
+namespace {
+
+using mission::Entry;
+using temporal::Duration;
+
+Duration seconds(const Entry& entry) { return temporal::seconds(entry.number()); }
+
+Duration seconds_or(const Entry& parent, const char* key, double fallback_s) {
+  return temporal::seconds(parent.number_or(key, fallback_s));
+}
+
+std::vector<std::string> texts_or_none(const Entry& parent, const char* key) {
+  const auto entry = parent.find(key);
+  return entry ? entry->texts() : std::vector<std::string>{};
+}
+
+std::string whole_file(const Entry& name) {
+  const auto path = name.resolve(name.text());
+  std::ifstream in(path);
+  if (!in) name.fail("cannot read " + path.string() + "; check the name");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::vector<StateModel> read_states(const Entry& states) {
+  std::vector<StateModel> out;
+  for (const auto& [name, entry] : states.fields()) {
+    entry.allow_only({"active", "facts"});
+    out.push_back({name, entry.truth_or("active", false), texts_or_none(entry, "facts")});
+  }
+  return out;
+}
+
+Component read_component(const Entry& entry) {
+  entry.allow_only({"name", "timeline", "owner", "fallback", "states"});
+  Component out{entry.at("name").text(), entry.at("timeline").text(), entry.at("owner").text(),
+                entry.text_or("fallback", ""), read_states(entry.at("states"))};
+  bool has_inactive = false;
+  bool has_active = false;
+  for (const StateModel& state : out.states) (state.active ? has_active : has_inactive) = true;
+  if (!has_inactive)
+    entry.at("states").fail("component '" + out.name + "' has no inactive state; planning needs one (R43)");
+  if (has_active && out.fallback.empty()) {
+    entry.fail("component '" + out.name + "' has active states; name the 'fallback' command that ends them");
+  }
+  return out;
+}
+
+TimelineFamily read_family(const Entry& entry) {
+  entry.allow_only({"timeline", "states"});
+  std::string pattern = entry.at("timeline").text();
+  if (pattern.empty() || pattern.back() != '*')
+    entry.at("timeline").fail("expected a name that ends in *, e.g. image.*");
+  pattern.pop_back();
+  TimelineFamily out{pattern, read_states(entry.at("states"))};
+  for (const StateModel& state : out.states) {
+    if (state.active)
+      entry.fail("states of a family are inactive; make '" + state.name + "' a component's state");
+  }
+  return out;
+}
+
+FluentSource read_fluent(const Entry& entry) {
+  entry.allow_only({"fluent", "timeline", "value"});
+  FluentSource out;
+  out.fluent = entry.at("fluent").text();
+  if (const auto timeline = entry.find("timeline")) {
+    out.timeline = timeline->text();
+  } else {
+    out.value = entry.at("value").number();
+  }
+  return out;
+}
+
+WindowModel read_window(const Entry& entry) {
+  entry.allow_only({"fact", "timeline", "open"});
+  WindowModel out{entry.at("fact").text(), entry.text_or("timeline", ""), {}};
+  for (const Entry& item : entry.at("open").items()) {
+    const auto ends = item.items();
+    if (ends.size() != 2) item.fail("expected [from, to] in seconds");
+    const auto from = seconds(ends[0]);
+    const auto to = seconds(ends[1]);
+    if (to <= from) item.fail("the window ends before it begins; write [from, to] with from < to");
+    if (!out.open.empty() && from <= out.open.back().second) {
+      item.fail("windows must be in ascending order and must not touch; merge or reorder them");
+    }
+    out.open.emplace_back(from, to);
+  }
+  return out;
+}
+
+ObjectModel read_object(const Entry& entry) {
+  entry.allow_only({"name", "type", "dynamic", "properties"});
+  ObjectModel out{entry.at("name").text(), entry.at("type").text(), entry.truth_or("dynamic", false), {}};
+  if (const auto properties = entry.find("properties")) {
+    for (const auto& [name, value] : properties->fields()) {
+      PropertySource source{name, "", std::nullopt};
+      if (value.is_mapping()) {
+        value.allow_only({"timeline"});
+        source.timeline = value.at("timeline").text();
+      } else {
+        source.text = value.text();
+      }
+      out.properties.push_back(std::move(source));
+    }
+  }
+  return out;
+}
+
+std::vector<ObjectModel> read_objects(const Entry& parent) {
+  std::vector<ObjectModel> out;
+  if (const auto list = parent.find("objects")) {
+    for (const Entry& item : list->items()) out.push_back(read_object(item));
+  }
+  return out;
+}
+
+ArgumentKind read_argument_kind(const Entry& entry) {
+  const std::string text = entry.text();
+  if (text == "number") return ArgumentKind::number;
+  if (text == "text") return ArgumentKind::text;
+  if (text == "goal") return ArgumentKind::goal;
+  entry.fail("unknown kind of argument '" + text + "'; one of: number, text, goal");
+}
+
+GoalKind read_goal_kind(const std::string& name, const Entry& entry) {
+  entry.allow_only({"help", "arguments", "objects", "facts", "unobserved", "window", "goal"});
+  GoalKind out;
+  out.name = name;
+  out.help = entry.text_or("help", "");
+  if (const auto arguments = entry.find("arguments")) {
+    for (const auto& [argument, kind] : arguments->fields())
+      out.arguments[argument] = read_argument_kind(kind);
+  }
+  out.objects = read_objects(entry);
+  out.facts = texts_or_none(entry, "facts");
+  if (const auto unobserved = entry.find("unobserved")) {
+    for (const Entry& item : unobserved->items()) {
+      item.allow_only({"timeline", "facts"});
+      out.unobserved.emplace_back(item.at("timeline").text(), item.at("facts").texts());
+    }
+  }
+  out.window_fact = entry.text_or("window", "");
+  out.goal = entry.at("goal").texts();
+  if (out.goal.empty()) entry.at("goal").fail("a goal kind needs at least one goal fact");
+  return out;
+}
+
+temporal::LatenessPolicy read_lateness(const Entry& entry) {
+  const std::string text = entry.text();
+  if (text == "replan") return temporal::LatenessPolicy::replan;
+  if (text == "push") return temporal::LatenessPolicy::push;
+  if (text == "deadline") return temporal::LatenessPolicy::deadline;
+  entry.fail("unknown lateness policy '" + text + "'; one of: replan, push, deadline");
+}
+
+ActionBinding read_action(const Entry& entry, const std::vector<Component>& components) {
+  entry.allow_only({"owner", "component", "command", "arguments", "lateness", "retries", "wait_timeout_s"});
+  ActionBinding out;
+  out.owner = entry.at("owner").text();
+  out.component = entry.at("component").text();
+  out.command = entry.at("command").text();
+  bool known = false;
+  for (const Component& component : components) known = known || component.name == out.component;
+  if (!known)
+    entry.at("component")
+        .fail("no component '" + out.component + "' in this mission; declare it under 'components'");
+  if (const auto arguments = entry.find("arguments")) {
+    for (const auto& [name, value] : arguments->fields()) out.arguments.emplace_back(name, value.text());
+  }
+  if (const auto lateness = entry.find("lateness")) out.lateness = read_lateness(*lateness);
+  if (const auto retries = entry.find("retries"))
+    out.retries = static_cast<std::uint32_t>(retries->integer());
+  if (const auto timeout = entry.find("wait_timeout_s")) out.wait_timeout = seconds(*timeout);
+  return out;
+}
+
+PlannerSettings read_planner(const Entry& entry) {
+  PlannerSettings out;
+  out.engine = entry.text_or("engine", out.engine);
+  if (const auto budget = entry.find("budget")) {
+    budget->allow_only({"work", "memory_mb", "wall_s"});
+    out.work = static_cast<std::uint64_t>(budget->number_or("work", 0));
+    out.memory_mb = static_cast<std::uint32_t>(budget->number_or("memory_mb", 0));
+    out.wall = seconds_or(*budget, "wall_s", 0);
+  }
+  out.allowance = seconds_or(entry, "allowance_s", 5);
+  out.reply_timeout = seconds_or(entry, "reply_timeout_s", 120);
+  return out;
+}
+
+ReactorSettings read_executive(const Entry& entry) {
+  entry.allow_only({"ack_timeout_s", "fallback_timeout_s", "replan_limit", "call_retries"});
+  ReactorSettings out;
+  out.ack_timeout = seconds_or(entry, "ack_timeout_s", 5);
+  out.fallback_timeout = seconds_or(entry, "fallback_timeout_s", 60);
+  out.replan_limit = static_cast<std::uint32_t>(entry.number_or("replan_limit", 50));
+  out.call_retries = static_cast<std::uint32_t>(entry.number_or("call_retries", 5));
+  return out;
+}
+
+// The name in "(define (domain NAME)": the problem must repeat it.
+std::string domain_name(const std::string& text, const Entry& entry) {
+  const auto define = text.find("(domain");
+  const auto begin = define == std::string::npos ? define : text.find_first_not_of(" \t\r\n", define + 7);
+  const auto end = begin == std::string::npos ? begin : text.find_first_of(" \t\r\n)", begin);
+  if (end == std::string::npos) entry.fail("the file has no '(define (domain NAME)'; is it a PDDL domain?");
+  return text.substr(begin, end - begin);
+}
+
+}  // namespace
+
+MissionModel read_mission(const std::filesystem::path& mission_folder) {
+  const Entry root = Entry::load(mission_folder / "mission.yaml");
+  MissionModel out;
+  out.name = root.at("name").text();
+  out.domain_text = whole_file(root.at("domain"));
+  out.domain_name = domain_name(out.domain_text, root.at("domain"));
+  out.objects = read_objects(root);
+  for (const Entry& item : root.at("components").items()) out.components.push_back(read_component(item));
+  if (const auto list = root.find("families")) {
+    for (const Entry& item : list->items()) out.families.push_back(read_family(item));
+  }
+  if (const auto list = root.find("fluents")) {
+    for (const Entry& item : list->items()) out.fluents.push_back(read_fluent(item));
+  }
+  if (const auto list = root.find("windows")) {
+    for (const Entry& item : list->items()) out.windows.push_back(read_window(item));
+  }
+  for (const auto& [name, entry] : root.at("actions").fields()) {
+    out.actions[name] = read_action(entry, out.components);
+  }
+  for (const auto& [name, entry] : root.at("goal_kinds").fields()) {
+    out.goal_kinds[name] = read_goal_kind(name, entry);
+  }
+  out.planner = read_planner(root.at("planner"));
+  if (const auto executive = root.find("executive")) out.executive = read_executive(*executive);
+  return out;
+}
+
+}  // namespace roci::exec

@@ -1,0 +1,128 @@
+// A mission as the reactor sees it: metadata outside the PDDL that says how observations become facts, which
+// states are inactive, and what goals and actions mean (R43-R46). Read from mission.yaml; code never names a
+// mission.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/temporal/flexible_plan.hpp"
+
+namespace roci::exec {
+
+// A state of a component. `facts` may hold ?1, ?2, …: the observed state's arguments; * is a family's object.
+struct StateModel {
+  std::string name;
+  bool active = false;
+  std::vector<std::string> facts;
+};
+
+// A subsystem; planning starts only when it is in an inactive state, reached by its fallback command (R43,
+// R44).
+struct Component {
+  std::string name;
+  std::string timeline;
+  std::string owner;
+  std::string fallback;
+  std::vector<StateModel> states;
+};
+
+// One timeline per object: `prefix` + the object's name. Its states persist and are all inactive.
+struct TimelineFamily {
+  std::string prefix;
+  std::vector<StateModel> states;
+};
+
+struct FluentSource {
+  std::string fluent;                   // "(battery)"
+  std::optional<std::string> timeline;  // its newest observed value, or else
+  double value = 0;
+};
+
+// A fact that comes and goes by the clock, as predicted.
+struct WindowModel {
+  std::string fact;
+  std::string timeline;                                         // says whether it is open now
+  std::vector<std::pair<temporal::Time, temporal::Time>> open;  // in mission time, ascending, disjoint
+};
+
+struct PropertySource {
+  std::string name;
+  std::string text;                     // a number, or {argument} in a goal kind
+  std::optional<std::string> timeline;  // its newest observed value instead
+};
+
+struct ObjectModel {
+  std::string name;
+  std::string type;
+  bool dynamic = false;  // declared only while an observed state names it
+  std::vector<PropertySource> properties;
+};
+
+enum class ArgumentKind { number, text, goal };
+
+// Templates with {id} and {argument}.
+struct GoalKind {
+  std::string name;
+  std::string help;
+  std::map<std::string, ArgumentKind> arguments;
+  std::vector<ObjectModel> objects;
+  std::vector<std::string> facts;
+  std::vector<std::pair<std::string, std::vector<std::string>>>
+      unobserved;           // timeline → facts that hold until it is seen
+  std::string window_fact;  // empty: the kind has no window
+  std::vector<std::string> goal;
+};
+
+// What an action of the plan means as a command. Argument values may hold ?1, ?2.x (a property of that
+// object).
+struct ActionBinding {
+  std::string owner;
+  std::string component;
+  std::string command;
+  std::vector<std::pair<std::string, std::string>> arguments;
+  temporal::LatenessPolicy lateness = temporal::LatenessPolicy::replan;
+  std::uint32_t retries = 0;
+  temporal::Duration wait_timeout = temporal::no_bound;
+};
+
+struct PlannerSettings {
+  std::string engine = "temporal_pddl";
+  std::uint64_t work = 0;  // evaluations; 0: no bound
+  std::uint32_t memory_mb = 0;
+  temporal::Duration wall{0};
+  temporal::Duration allowance{0};      // a plan's origin lies this long after the request
+  temporal::Duration reply_timeout{0};  // mission time after which a call counts as lost
+};
+
+struct ReactorSettings {
+  temporal::Duration ack_timeout{0};
+  temporal::Duration fallback_timeout{0};  // for components to become inactive
+  std::uint32_t replan_limit = 50;
+  std::uint32_t call_retries = 5;  // planner calls that failed for want of a service
+};
+
+struct MissionModel {
+  std::string name;
+  std::string domain_text;
+  std::string domain_name;
+  std::vector<ObjectModel> objects;
+  std::vector<Component> components;
+  std::vector<TimelineFamily> families;
+  std::vector<FluentSource> fluents;
+  std::vector<WindowModel> windows;
+  std::map<std::string, ActionBinding> actions;
+  std::map<std::string, GoalKind> goal_kinds;
+  PlannerSettings planner;
+  ReactorSettings executive;
+};
+
+// Throws mission::FileError naming file, line, column and remedy.
+MissionModel read_mission(const std::filesystem::path& mission_folder);
+
+}  // namespace roci::exec

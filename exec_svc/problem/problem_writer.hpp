@@ -1,0 +1,33 @@
+// Writes the PDDL problem from observations and goals: one code path for planning and replanning (R42). The
+// domain file never changes (R8); everything that does change stands here.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/temporal/flexible_plan.hpp"
+#include "exec_svc/beliefs/beliefs.hpp"
+#include "exec_svc/goals/goal_set.hpp"
+#include "exec_svc/mission/mission_model.hpp"
+
+namespace roci::exec {
+
+struct ProblemObject {
+  std::string name;
+  std::string type;
+  std::vector<temporal::Property> properties;
+};
+
+struct Problem {
+  std::string text;
+  std::vector<ProblemObject> objects;
+};
+
+// `origin`: the mission time that the problem calls 0. Windows that ended before it are left out.
+Problem write_problem(const MissionModel& mission, const Beliefs& beliefs, const GoalSet& goals,
+                      const std::string& name, temporal::Time now, temporal::Time origin);
+
+// The goal's PDDL facts; it is achieved when all are observed.
+std::vector<std::string> goal_facts(const MissionModel& mission, const GoalRequest& goal);
+
+}  // namespace roci::exec

@@ -1,0 +1,158 @@
+// The task-planning reactor (Stellar, section 5): goals and observations in; planner calls, commands and
+// reports out. A functional core: the same inputs at the same times give the same outputs. It owns pause →
+// inactive → plan → execute, and decides which goal goes when not all fit.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/temporal/flexible_plan.hpp"
+#include "exec_svc/beliefs/beliefs.hpp"
+#include "exec_svc/executive/executive.hpp"
+#include "exec_svc/goals/goal_set.hpp"
+#include "exec_svc/problem/problem_writer.hpp"
+
+namespace roci::exec {
+
+struct PeerLoss {
+  std::string service;
+  std::string cause;
+};
+
+// A call to the planner; the answer comes back with the same id.
+struct PlanCall {
+  std::uint64_t id = 0;
+  std::string problem_name;
+  Problem problem;
+  temporal::Time origin{0};  // mission time of the problem's 0
+};
+
+// How a planner call ended. `no_reply` and `crashed` say nothing about the problem; they and
+// `function_unavailable` are tried again.
+enum class PlanVerdict {
+  solved,
+  unsolvable,
+  timeout,
+  out_of_memory,
+  unsupported,
+  function_unavailable,
+  cancelled,
+  invalid_input,
+  crashed,
+  no_reply
+};
+const char* to_string(PlanVerdict verdict);
+
+struct PlanAnswer {
+  std::uint64_t call = 0;
+  PlanVerdict verdict = PlanVerdict::no_reply;
+  std::string reason;
+  temporal::FlexiblePlan plan;  // with solved; activities not yet bound to owners
+};
+
+struct ReactorInputs {
+  std::vector<GoalRequest> goals;
+  std::vector<Observation> observations;
+  std::vector<CommandAck> acks;
+  std::vector<PeerLoss> losses;
+  std::vector<std::string> arrivals;  // services that came (back)
+  std::optional<PlanAnswer> answer;
+};
+
+enum class Phase { idle, pausing, planning, executing, safe, finished };
+const char* to_string(Phase phase);
+
+enum class NoteLevel { info, warning, error };
+
+// For operators: a stable code and plain words.
+struct Note {
+  NoteLevel level = NoteLevel::info;
+  std::string code;  // e.g. "goal.dropped"
+  std::string text;
+};
+
+struct ReactorOutputs {
+  std::vector<Command> commands;
+  std::vector<GoalRecord> goal_changes;
+  std::vector<StepStatus> steps;
+  std::vector<Note> notes;
+  std::optional<PlanCall> call;
+  std::optional<temporal::FlexiblePlan> adopted;  // a plan that now runs
+  std::optional<temporal::Time> wake;             // call step() again then, if nothing comes before
+};
+
+struct ReactorCounts {
+  std::uint32_t planner_calls = 0;
+  std::uint32_t replans = 0;  // times it went back to planning after a first plan was adopted
+  std::uint32_t achieved = 0, dropped = 0, failed = 0, open = 0;
+};
+
+class Reactor {
+ public:
+  explicit Reactor(const MissionModel& mission);
+
+  // Before the first step, after a restart: goals as the journal has them, the last plan version used.
+  void restore(const std::vector<GoalRecord>& goals, std::uint32_t last_plan_version);
+
+  ReactorOutputs step(temporal::Time now, const ReactorInputs& inputs);
+
+  Phase phase() const { return phase_; }
+  std::uint32_t plan_version() const { return plan_version_; }
+  ReactorCounts counts() const;
+  const GoalSet& goals() const { return goals_; }
+  // "achieved": every hard goal; "partial": some hard goal failed, robot safe; "failed": robot not safe;
+  // empty while open.
+  std::string outcome() const;
+
+ private:
+  void take_goals(temporal::Time now, const std::vector<GoalRequest>& requests);
+  void take_peers(const ReactorInputs& inputs);
+  void note_achieved();
+  void advance(temporal::Time now, const ReactorInputs& inputs);
+  void follow_plan(temporal::Time now);
+  void begin_pause(temporal::Time now);
+  void continue_pause(temporal::Time now);
+  void send_fallbacks(temporal::Time now);
+  void begin_planning(temporal::Time now);
+  void take_answer(temporal::Time now, const PlanAnswer& answer);
+  void adopt(temporal::Time now, const PlanAnswer& answer);
+  void give_way(const PlanAnswer& answer);
+  void try_again_later(temporal::Time now, const PlanAnswer& answer);
+  void run_executive(temporal::Time now, const ReactorInputs& inputs);
+  void make_safe(temporal::Time now, const std::string& why);
+  void finish_if_done();
+  void want_plan(const std::string& why);
+  void change_goal(const GoalKey& key, GoalState state, const std::string& reason);
+  void wake_at(temporal::Time time);
+  void note(NoteLevel level, std::string code, std::string text);
+  std::vector<Observation> changed_conditions();
+
+  const MissionModel* mission_;
+  Beliefs beliefs_;
+  GoalSet goals_;
+  Executive executive_;
+  ReactorOutputs out_;
+
+  Phase phase_ = Phase::idle;
+  bool wanted_ = false;  // a plan is wanted, for the reason below
+  std::string wanted_why_;
+  bool first_plan_ = true;
+  std::uint32_t plan_version_ = 0;
+  std::uint64_t call_id_ = 0;
+  PlanCall call_;
+  ReactorCounts counts_;
+
+  temporal::Time pause_deadline_{0};
+  std::uint32_t fallback_round_ = 0;
+  bool fallbacks_sent_ = false;
+  std::uint32_t failed_calls_ = 0;
+  temporal::Time not_before_{0};  // next planner call
+  bool unsafe_ = false;
+  std::map<std::string, temporal::Value>
+      condition_values_;  // timelines of the plan's conditions, as last told to the executive
+};
+
+}  // namespace roci::exec

@@ -1,0 +1,169 @@
+#include "planner_svc/plan_export.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string>
+
+namespace roci::planner {
+namespace {
+
+namespace engine = temporal_pddl;
+using temporal::Condition;
+using temporal::ConditionOp;
+using temporal::Duration;
+
+Duration minus(Duration a, Duration b) {
+  return temporal::plus(a, b == temporal::no_bound ? -temporal::no_bound : -b);
+}
+
+std::optional<ConditionOp> comparison_of(std::string_view symbol) {
+  if (symbol == "<") return ConditionOp::lt;
+  if (symbol == "<=") return ConditionOp::le;
+  if (symbol == "=") return ConditionOp::eq;
+  if (symbol == ">=") return ConditionOp::ge;
+  if (symbol == ">") return ConditionOp::gt;
+  return std::nullopt;
+}
+
+// "(>= (battery) 30)"; nothing for comparisons of more than one fluent.
+std::optional<Condition> single_fluent_comparison(const std::string& text) {
+  const auto fluent_begin = text.find('(', 1);
+  const auto fluent_end = text.find(')');
+  if (fluent_begin == std::string::npos || fluent_end == std::string::npos || fluent_end < fluent_begin)
+    return std::nullopt;
+  std::string symbol = text.substr(1, fluent_begin - 1);
+  symbol.erase(symbol.find_last_not_of(' ') + 1);
+  const auto op = comparison_of(symbol);
+  const auto number_begin = text.find_first_not_of(' ', fluent_end + 1);
+  if (!op || number_begin == std::string::npos) return std::nullopt;
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data() + number_begin, text.data() + text.size(), number);
+  if (error != std::errc() ||
+      std::string_view(end, static_cast<std::size_t>(text.data() + text.size() - end)) != ")")
+    return std::nullopt;
+  return temporal::compare(text.substr(fluent_begin, fluent_end - fluent_begin + 1), *op, number);
+}
+
+std::optional<Condition> exported(const engine::GroundCondition& condition) {
+  using Kind = engine::GroundCondition::Kind;
+  switch (condition.kind) {
+    case Kind::kFact:
+      return temporal::compare(condition.text, ConditionOp::eq, true);
+    case Kind::kNegatedFact:
+      return temporal::compare(condition.text, ConditionOp::eq, false);
+    case Kind::kComparison:
+      return single_fluent_comparison(condition.text);
+    case Kind::kFormula:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+bool achieved_by(const engine::GroundCondition& condition, const std::vector<engine::GroundEffect>& effects) {
+  const std::string wanted = condition.kind == engine::GroundCondition::Kind::kNegatedFact
+                                 ? "(not " + condition.text + ")"
+                                 : condition.text;
+  return std::any_of(effects.begin(), effects.end(),
+                     [&](const engine::GroundEffect& effect) { return effect.text == wanted; });
+}
+
+Condition conjunction(const std::vector<Condition>& parts) {
+  return parts.empty() ? Condition{} : temporal::all_of(parts);
+}
+
+temporal::PlanActivity exported(const engine::Activity& in, std::size_t index) {
+  temporal::PlanActivity out;
+  out.id = "a" + std::to_string(index + 1);
+  out.name = in.name;
+  for (std::size_t i = 0; i < in.arguments.size(); ++i)
+    out.arguments.push_back({std::to_string(i + 1), in.arguments[i]});
+  out.duration_lower = in.durative ? in.min_duration : Duration{0};
+  out.duration_upper = in.durative ? in.max_duration : Duration{0};
+  std::vector<Condition> pre, maintenance;
+  for (const engine::GroundCondition& condition : in.at_start) {
+    if (auto part = exported(condition)) pre.push_back(std::move(*part));
+  }
+  for (const engine::GroundCondition& condition : in.over_all) {
+    auto part = exported(condition);
+    if (!part) continue;
+    if (!achieved_by(condition, in.start_effects)) pre.push_back(*part);
+    maintenance.push_back(std::move(*part));
+  }
+  out.pre = conjunction(pre);
+  out.maintenance = conjunction(maintenance);
+  return out;
+}
+
+// Whether some activity is about all of the function's arguments: only such values can have shaped the plan.
+bool concerns(const engine::FunctionUse& use, const engine::Plan& plan) {
+  return std::any_of(plan.activities.begin(), plan.activities.end(), [&](const engine::Activity& activity) {
+    return std::all_of(use.call.arguments.begin(), use.call.arguments.end(),
+                       [&](const std::string& argument) {
+                         return std::find(activity.arguments.begin(), activity.arguments.end(), argument) !=
+                                activity.arguments.end();
+                       });
+  });
+}
+
+// The engine's time points renumbered: the origin and timed literals are time point 0, the latter with an
+// offset.
+struct Renumbered {
+  temporal::TimePoint point = 0;
+  Duration offset{0};
+};
+
+}  // namespace
+
+temporal::FlexiblePlan export_plan(const engine::Plan& plan,
+                                   const std::vector<engine::FunctionUse>& functions) {
+  temporal::FlexiblePlan out;
+  out.engine = "temporal_pddl";
+  std::vector<Renumbered> renumbered(plan.network.points.size());
+  for (std::size_t i = 0; i < plan.network.points.size(); ++i) {
+    const engine::TimePoint& point = plan.network.points[i];
+    if (point.kind == engine::TimePointKind::kTimedLiteral) renumbered[i].offset = point.earliest;
+    if (point.kind == engine::TimePointKind::kStart || point.kind == engine::TimePointKind::kEnd) {
+      renumbered[i].point = out.point_count++;
+    }
+  }
+  for (const engine::Activity& activity : plan.activities) {
+    temporal::PlanActivity exported_activity = exported(activity, out.activities.size());
+    exported_activity.start_point = renumbered[activity.start_point].point;
+    exported_activity.end_point =
+        activity.start_point == activity.end_point ? out.point_count++ : renumbered[activity.end_point].point;
+    out.activities.push_back(std::move(exported_activity));
+  }
+  for (const engine::TimeConstraint& constraint : plan.network.constraints) {
+    const Renumbered from = renumbered[constraint.from];
+    const Renumbered to = renumbered[constraint.to];
+    if (from.point == to.point) continue;  // between timed literals: true by construction
+    if (constraint.kind == engine::ConstraintKind::kDuration) continue;  // stands in the activity
+    Duration lower = temporal::plus(constraint.lower, from.offset - to.offset);
+    Duration upper = temporal::plus(constraint.upper, from.offset - to.offset);
+    temporal::TemporalConstraint exported_constraint{
+        from.point, to.point, static_cast<temporal::ConstraintKind>(constraint.kind), lower, upper};
+    if (to.point == 0) {  // turned round, so that the origin comes first
+      exported_constraint.from_point = to.point;
+      exported_constraint.to_point = from.point;
+      exported_constraint.lower = std::max(minus(Duration{0}, upper), Duration{0});
+      exported_constraint.upper = minus(Duration{0}, lower);
+    }
+    if (from.offset != to.offset) exported_constraint.kind = temporal::ConstraintKind::window;
+    exported_constraint.lower = exported_constraint.from_point == 0
+                                    ? std::max(exported_constraint.lower, Duration{0})
+                                    : exported_constraint.lower;
+    out.constraints.push_back(exported_constraint);
+  }
+  for (const engine::FunctionUse& use : functions) {
+    if (use.answer.outcome != FunctionOutcome::kValue || !concerns(use, plan)) continue;
+    std::uint64_t version = 0;
+    const std::string& text = use.answer.provenance.model_version;
+    std::from_chars(text.data(), text.data() + text.size(), version);
+    out.function_values.push_back(
+        {use.call.function, use.call.arguments, use.answer.value, use.answer.provenance.owner, version});
+  }
+  return out;
+}
+
+}  // namespace roci::planner

@@ -1,0 +1,104 @@
+#include "planner_svc/planning_call.hpp"
+
+#include <exception>
+#include <limits>
+
+#include "core/pddl/parser.hpp"
+#include "planner_svc/plan_export.hpp"
+#include "planner_svc/temporal_pddl/planner.hpp"
+
+namespace roci::planner {
+namespace {
+
+PlanningVerdict verdict_of(temporal_pddl::Verdict verdict) {
+  switch (verdict) {
+    case temporal_pddl::Verdict::kSolved:
+      return PlanningVerdict::kSolved;
+    case temporal_pddl::Verdict::kUnsolvable:
+      return PlanningVerdict::kUnsolvable;
+    case temporal_pddl::Verdict::kTimeout:
+      return PlanningVerdict::kTimeout;
+    case temporal_pddl::Verdict::kOutOfMemory:
+      return PlanningVerdict::kOutOfMemory;
+    case temporal_pddl::Verdict::kUnsupported:
+      return PlanningVerdict::kUnsupported;
+    case temporal_pddl::Verdict::kFunctionUnavailable:
+      return PlanningVerdict::kFunctionUnavailable;
+    case temporal_pddl::Verdict::kCancelled:
+      return PlanningVerdict::kCancelled;
+    case temporal_pddl::Verdict::kInvalidInput:
+      return PlanningVerdict::kInvalidInput;
+  }
+  return PlanningVerdict::kCrashed;
+}
+
+PlanningAnswer refused(PlanningVerdict verdict, std::string reason) {
+  PlanningAnswer out;
+  out.verdict = verdict;
+  out.reason = std::move(reason);
+  return out;
+}
+
+PlanningAnswer search(const PlanningCall& call, FunctionSource& functions) {
+  const pddl::Domain domain = pddl::parse_domain(call.domain_text, "domain");
+  const pddl::Problem problem = pddl::parse_problem(call.problem_text, "problem");
+  temporal_pddl::Budget budget;
+  if (call.evaluations != 0) budget.evaluations = call.evaluations;
+  if (call.memory_bytes != 0) budget.memory_bytes = call.memory_bytes;
+  budget.out_of_time = call.out_of_time;
+  temporal_pddl::Monitor monitor;
+  monitor.cancelled = call.cancelled;
+  const temporal_pddl::Result result = temporal_pddl::plan(domain, problem, functions, budget, monitor);
+  PlanningAnswer out;
+  out.verdict = verdict_of(result.verdict);
+  out.reason = result.where ? to_string(*result.where) : result.reason;
+  out.statistics = {result.statistics.expanded, result.statistics.evaluated,
+                    result.statistics.bytes_per_state};
+  if (result.plan) out.plan = export_plan(*result.plan, result.functions);
+  return out;
+}
+
+}  // namespace
+
+PlanningAnswer answer_call(const PlanningCall& call, FunctionSource& functions) {
+  if (call.engine != "temporal_pddl") {
+    return refused(PlanningVerdict::kUnsupported,
+                   "unknown engine '" + call.engine + "'; this planner has: temporal_pddl");
+  }
+  try {
+    return search(call, functions);
+  } catch (const pddl::ParseError& error) {
+    return refused(PlanningVerdict::kInvalidInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return refused(PlanningVerdict::kOutOfMemory,
+                   "memory ran out outside the search; give the call a larger budget");
+  } catch (const std::exception& error) {
+    return refused(PlanningVerdict::kCrashed, error.what());
+  }
+}
+
+const char* to_string(PlanningVerdict verdict) {
+  switch (verdict) {
+    case PlanningVerdict::kSolved:
+      return "solved";
+    case PlanningVerdict::kUnsolvable:
+      return "unsolvable";
+    case PlanningVerdict::kTimeout:
+      return "timeout";
+    case PlanningVerdict::kOutOfMemory:
+      return "out_of_memory";
+    case PlanningVerdict::kUnsupported:
+      return "unsupported";
+    case PlanningVerdict::kFunctionUnavailable:
+      return "function_unavailable";
+    case PlanningVerdict::kCancelled:
+      return "cancelled";
+    case PlanningVerdict::kInvalidInput:
+      return "invalid_input";
+    case PlanningVerdict::kCrashed:
+      return "crashed";
+  }
+  return "unknown";
+}
+
+}  // namespace roci::planner

@@ -1,0 +1,57 @@
+// One planning call, whatever the engine: PDDL texts and a budget in, a verdict and one plan out. Plain
+// values, no DDS.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/temporal/flexible_plan.hpp"
+#include "planner_svc/function_source.hpp"
+
+namespace roci::planner {
+
+// In the order of Verdict in idl/planner.idl.
+enum class PlanningVerdict {
+  kSolved,
+  kUnsolvable,
+  kTimeout,
+  kOutOfMemory,
+  kUnsupported,
+  kFunctionUnavailable,
+  kCancelled,
+  kInvalidInput,
+  kCrashed
+};
+const char* to_string(PlanningVerdict verdict);
+
+struct PlanningCall {
+  std::string engine;
+  std::string domain_text;
+  std::string problem_text;
+  std::uint64_t evaluations = 0;      // 0: no bound
+  std::size_t memory_bytes = 0;       // 0: no bound
+  std::function<bool()> out_of_time;  // empty: never
+  std::function<bool()> cancelled;    // empty: never
+};
+
+struct PlanningStatistics {
+  std::uint64_t expanded = 0;
+  std::uint64_t evaluated = 0;
+  double bytes_per_state = 0;
+};
+
+struct PlanningAnswer {
+  PlanningVerdict verdict = PlanningVerdict::kCrashed;
+  std::string reason;  // in words, with line and column where the input is at fault
+  std::optional<temporal::FlexiblePlan> plan;
+  PlanningStatistics statistics;
+};
+
+// Never throws: what goes wrong inside is kCrashed with its reason. A plan that the independent validator
+// rejects is not given out.
+PlanningAnswer answer_call(const PlanningCall& call, FunctionSource& functions);
+
+}  // namespace roci::planner

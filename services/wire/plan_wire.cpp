@@ -1,0 +1,271 @@
+#include "services/wire/plan_wire.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+namespace roci::services::wire {
+namespace {
+
+using temporal::Duration;
+
+std::int64_t bound_to_wire(Duration bound) { return bound == temporal::no_bound ? -1 : bound.count(); }
+Duration bound_from_wire(std::int64_t bound) { return bound < 0 ? temporal::no_bound : Duration(bound); }
+
+// Enumerations have the same order on both sides.
+template <class Wire, class Core>
+Wire enum_to_wire(Core value) {
+  return static_cast<Wire>(static_cast<std::uint32_t>(value));
+}
+
+template <class Core, class Wire>
+Core enum_from_wire(Wire value, Core last, const char* what) {
+  if (static_cast<std::uint32_t>(value) > static_cast<std::uint32_t>(last)) {
+    throw WireError(std::string(what) +
+                    " out of range: " + std::to_string(static_cast<std::uint32_t>(value)));
+  }
+  return static_cast<Core>(static_cast<std::uint32_t>(value));
+}
+
+template <class Out, class In, class F>
+std::vector<Out> each(const std::vector<In>& in, F&& translate) {
+  std::vector<Out> out;
+  out.reserve(in.size());
+  std::transform(in.begin(), in.end(), std::back_inserter(out), translate);
+  return out;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : " ") + word;
+  return out;
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> out;
+  std::string::size_type begin = 0;
+  while ((begin = text.find_first_not_of(' ', begin)) != std::string::npos) {
+    const auto end = std::min(text.find(' ', begin), text.size());
+    out.push_back(text.substr(begin, end - begin));
+    begin = end;
+  }
+  return out;
+}
+
+v1::PlanActivity activity_to_wire(const temporal::PlanActivity& in) {
+  v1::PlanActivity out;
+  out.id(in.id);
+  out.name(in.name);
+  out.owner(in.owner);
+  out.subsystem(in.subsystem);
+  out.command_name(in.command_name);
+  out.arguments(each<v1::Property>(in.arguments, [](const temporal::Property& p) { return to_wire(p); }));
+  out.start_point(in.start_point);
+  out.end_point(in.end_point);
+  out.duration_lower_us(in.duration_lower.count());
+  out.duration_upper_us(bound_to_wire(in.duration_upper));
+  out.pre(to_wire(in.pre));
+  out.maintenance(to_wire(in.maintenance));
+  out.post(to_wire(in.post));
+  out.impacts(each<v1::Impact>(in.impacts, [](const temporal::Impact& impact) {
+    v1::Impact wire;
+    wire.timeline(impact.timeline);
+    wire.kind(enum_to_wire<v1::ImpactKind>(impact.kind));
+    wire.moment(enum_to_wire<v1::ImpactWhen>(impact.moment));
+    wire.amount(to_wire(impact.amount));
+    return wire;
+  }));
+  out.wait_timeout_us(bound_to_wire(in.wait_timeout));
+  out.retries(in.retries);
+  out.may_skip(in.may_skip);
+  out.skip_if(to_wire(in.skip_if));
+  out.lateness(enum_to_wire<v1::LatenessPolicy>(in.lateness));
+  out.commit(enum_to_wire<v1::CommitState>(in.commit));
+  out.contingency(in.contingency);
+  out.parent(in.parent);
+  out.goals_served(in.goals_served);
+  out.utility(in.utility);
+  return out;
+}
+
+temporal::PlanActivity activity_from_wire(const v1::PlanActivity& in) {
+  temporal::PlanActivity out;
+  out.id = in.id();
+  out.name = in.name();
+  out.owner = in.owner();
+  out.subsystem = in.subsystem();
+  out.command_name = in.command_name();
+  out.arguments = each<temporal::Property>(in.arguments(), [](const v1::Property& p) {
+    return temporal::Property{p.name(), p.value()};
+  });
+  out.start_point = in.start_point();
+  out.end_point = in.end_point();
+  out.duration_lower = Duration(in.duration_lower_us());
+  out.duration_upper = bound_from_wire(in.duration_upper_us());
+  out.pre = from_wire(in.pre());
+  out.maintenance = from_wire(in.maintenance());
+  out.post = from_wire(in.post());
+  out.impacts = each<temporal::Impact>(in.impacts(), [](const v1::Impact& impact) {
+    return temporal::Impact{impact.timeline(),
+                            enum_from_wire(impact.kind(), temporal::ImpactKind::rate, "impact kind"),
+                            enum_from_wire(impact.moment(), temporal::ImpactWhen::during, "impact moment"),
+                            from_wire(impact.amount())};
+  });
+  out.wait_timeout = bound_from_wire(in.wait_timeout_us());
+  out.retries = in.retries();
+  out.may_skip = in.may_skip();
+  out.skip_if = from_wire(in.skip_if());
+  out.lateness = enum_from_wire(in.lateness(), temporal::LatenessPolicy::deadline, "lateness policy");
+  out.commit = enum_from_wire(in.commit(), temporal::CommitState::committed, "commit state");
+  out.contingency = in.contingency();
+  out.parent = in.parent();
+  out.goals_served = in.goals_served();
+  out.utility = in.utility();
+  return out;
+}
+
+v1::DecisionPoint decision_to_wire(const temporal::DecisionPoint& in) {
+  v1::DecisionPoint out;
+  out.id(in.id);
+  out.resolver(in.resolver);
+  out.choices(
+      each<std::string>(in.choices, [](const temporal::DecisionChoice& choice) { return choice.name; }));
+  out.activities(each<std::string>(
+      in.choices, [](const temporal::DecisionChoice& choice) { return joined(choice.activities); }));
+  out.decide_before(in.decide_before);
+  return out;
+}
+
+temporal::DecisionPoint decision_from_wire(const v1::DecisionPoint& in) {
+  if (in.choices().size() != in.activities().size())
+    throw WireError("decision " + in.id() + ": choices and activities differ in number");
+  temporal::DecisionPoint out{in.id(), in.resolver(), {}, in.decide_before()};
+  for (std::size_t i = 0; i < in.choices().size(); ++i)
+    out.choices.push_back({in.choices()[i], split(in.activities()[i])});
+  return out;
+}
+
+v1::FunctionValueUse use_to_wire(const temporal::FunctionValueUse& in) {
+  v1::FunctionValueUse out;
+  out.function(in.function);
+  out.arguments(in.arguments);
+  out.number(in.number);
+  out.owner(in.owner);
+  out.model_version(in.model_version);
+  return out;
+}
+
+}  // namespace
+
+v1::Property to_wire(const temporal::Property& in) {
+  v1::Property out;
+  out.name(in.name);
+  out.value(in.value);
+  return out;
+}
+
+v1::TimelineValue to_wire(const temporal::Value& in) {
+  v1::TimelineValue out;
+  out.kind(static_cast<v1::ValueKind>(in.index()));
+  if (const auto* truth = std::get_if<bool>(&in)) out.truth(*truth);
+  if (const auto* number = std::get_if<double>(&in)) out.number(*number);
+  if (const auto* state = std::get_if<temporal::State>(&in)) {
+    out.state(state->name);
+    out.arguments(state->arguments);
+  }
+  return out;
+}
+
+temporal::Value from_wire(const v1::TimelineValue& in) {
+  switch (in.kind()) {
+    case v1::VALUE_NONE:
+      return {};
+    case v1::VALUE_BOOLEAN:
+      return in.truth();
+    case v1::VALUE_NUMBER:
+      return in.number();
+    case v1::VALUE_STATE:
+      return temporal::state(in.state(), in.arguments());
+  }
+  throw WireError("value kind out of range: " + std::to_string(static_cast<std::uint32_t>(in.kind())));
+}
+
+v1::Condition to_wire(const temporal::Condition& in) {
+  v1::Condition out;
+  out.nodes(each<v1::ConditionNode>(in.nodes, [](const temporal::ConditionNode& node) {
+    v1::ConditionNode wire;
+    wire.op(enum_to_wire<v1::ConditionOp>(node.op));
+    wire.child_count(node.child_count);
+    wire.timeline(node.timeline);
+    wire.operand(to_wire(node.operand));
+    return wire;
+  }));
+  return out;
+}
+
+temporal::Condition from_wire(const v1::Condition& in) {
+  return {each<temporal::ConditionNode>(in.nodes(), [](const v1::ConditionNode& node) {
+    return temporal::ConditionNode{enum_from_wire(node.op(), temporal::ConditionOp::gt, "condition operator"),
+                                   node.child_count(), node.timeline(), from_wire(node.operand())};
+  })};
+}
+
+v1::Plan to_wire(const temporal::FlexiblePlan& in) {
+  v1::Plan out;
+  out.id(in.id);
+  out.version(in.version);
+  out.engine(in.engine);
+  out.origin_us(in.origin.count());
+  out.point_count(in.point_count);
+  out.activities(each<v1::PlanActivity>(in.activities, activity_to_wire));
+  out.tokens(each<v1::Token>(in.tokens, [](const temporal::Token& token) {
+    v1::Token wire;
+    wire.timeline(token.timeline);
+    wire.held(to_wire(token.held));
+    wire.start_point(token.start_point);
+    wire.end_point(token.end_point);
+    return wire;
+  }));
+  out.decisions(each<v1::DecisionPoint>(in.decisions, decision_to_wire));
+  out.constraints(
+      each<v1::TemporalConstraint>(in.constraints, [](const temporal::TemporalConstraint& constraint) {
+        v1::TemporalConstraint wire;
+        wire.from_point(constraint.from_point);
+        wire.to_point(constraint.to_point);
+        wire.kind(enum_to_wire<v1::ConstraintKind>(constraint.kind));
+        wire.lower_us(constraint.lower.count());
+        wire.upper_us(bound_to_wire(constraint.upper));
+        return wire;
+      }));
+  out.function_values(each<v1::FunctionValueUse>(in.function_values, use_to_wire));
+  return out;
+}
+
+temporal::FlexiblePlan from_wire(const v1::Plan& in) {
+  temporal::FlexiblePlan out;
+  out.id = in.id();
+  out.version = in.version();
+  out.engine = in.engine();
+  out.origin = Duration(in.origin_us());
+  out.point_count = in.point_count();
+  out.activities = each<temporal::PlanActivity>(in.activities(), activity_from_wire);
+  out.tokens = each<temporal::Token>(in.tokens(), [](const v1::Token& token) {
+    return temporal::Token{token.timeline(), from_wire(token.held()), token.start_point(), token.end_point()};
+  });
+  out.decisions = each<temporal::DecisionPoint>(in.decisions(), decision_from_wire);
+  out.constraints =
+      each<temporal::TemporalConstraint>(in.constraints(), [](const v1::TemporalConstraint& constraint) {
+        return temporal::TemporalConstraint{
+            constraint.from_point(), constraint.to_point(),
+            enum_from_wire(constraint.kind(), temporal::ConstraintKind::window, "constraint kind"),
+            Duration(constraint.lower_us()), bound_from_wire(constraint.upper_us())};
+      });
+  out.function_values =
+      each<temporal::FunctionValueUse>(in.function_values(), [](const v1::FunctionValueUse& use) {
+        return temporal::FunctionValueUse{use.function(), use.arguments(), use.number(), use.owner(),
+                                          use.model_version()};
+      });
+  return out;
+}
+
+}  // namespace roci::services::wire

@@ -1,0 +1,29 @@
+// Between core/temporal's values and plans and their wire form (idl/plan.idl): one translation for every
+// service.
+#pragma once
+
+#include <stdexcept>
+
+#include "core/temporal/flexible_plan.hpp"
+#include "roci_idl/basic.h"
+#include "roci_idl/plan.h"
+
+namespace roci::services::wire {
+
+// A sample that no conforming sender sends, e.g. an enumerator out of range.
+class WireError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+v1::TimelineValue to_wire(const temporal::Value&);
+v1::Condition to_wire(const temporal::Condition&);
+v1::Plan to_wire(const temporal::FlexiblePlan&);
+v1::Property to_wire(const temporal::Property&);
+
+temporal::Value from_wire(const v1::TimelineValue&);
+temporal::Condition from_wire(const v1::Condition&);
+// Throws WireError; the plan's inner consistency is temporal::check()'s business.
+temporal::FlexiblePlan from_wire(const v1::Plan&);
+
+}  // namespace roci::services::wire

@@ -1,0 +1,95 @@
+#include "exec_svc/goals/goal_set.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/exec_svc/planetary_fixture.hpp"
+
+namespace roci::exec {
+namespace {
+
+using temporal::seconds;
+using ::testing::HasSubstr;
+using testing::photo;
+
+class GoalSetTest : public ::testing::Test {
+ protected:
+  std::string fault(const GoalRequest& goal) {
+    const GoalRecord* record = goals.submit(goal, seconds(100));
+    return record == nullptr                      ? "nothing changed"
+           : record->state == GoalState::rejected ? record->reason
+                                                  : "accepted";
+  }
+  MissionModel mission = testing::planetary();
+  GoalSet goals{mission};
+};
+
+TEST_F(GoalSetTest, AcceptsAndRepeatsNothing) {
+  EXPECT_EQ(fault(photo("a")), "accepted");
+  EXPECT_EQ(fault(photo("a")), "nothing changed");
+  ASSERT_EQ(goals.open().size(), 1U);
+}
+
+TEST_F(GoalSetTest, RejectsWithAReasonThatNamesTheRemedy) {
+  GoalRequest goal = photo("a");
+  goal.kind = "photograph";
+  EXPECT_THAT(
+      fault(goal),
+      HasSubstr("unknown goal kind 'photograph'; this mission knows: drop_sample, photo, pick_sample"));
+  goal = photo("b");
+  goal.arguments["x"] = "far";
+  EXPECT_THAT(fault(goal), HasSubstr("argument 'x' is 'far'; expected a number"));
+  goal = photo("c");
+  goal.arguments.erase("y");
+  EXPECT_THAT(fault(goal), HasSubstr("argument 'y' is missing"));
+  goal = photo("d");
+  goal.arguments["z"] = "1";
+  EXPECT_THAT(fault(goal), HasSubstr("unknown argument 'z'"));
+  EXPECT_THAT(fault(photo("Has Space")), HasSubstr("is not a name"));
+  goal = photo("e");
+  goal.opens = seconds(50);
+  goal.closes = seconds(90);
+  EXPECT_THAT(fault(goal), HasSubstr("has passed"));
+  goal = photo("f");
+  goal.kind = "drop_sample";
+  goal.arguments["sample"] = "nowhere";
+  EXPECT_THAT(fault(goal), HasSubstr("names goal 'nowhere', which is not known"));
+  EXPECT_TRUE(goals.open().empty());
+}
+
+TEST_F(GoalSetTest, TwoIssuersCannotShareAnId) {
+  EXPECT_EQ(fault(photo("a")), "accepted");
+  GoalRequest other = photo("a");
+  other.key.issuer = "science_svc";
+  EXPECT_THAT(fault(other), HasSubstr("in use by issuer 'ground'"));
+}
+
+TEST_F(GoalSetTest, RecallEndsAGoalAndChangeReopensIt) {
+  fault(photo("a"));
+  GoalRequest recall = photo("a");
+  recall.recalled = true;
+  EXPECT_EQ(goals.submit(recall, seconds(200))->state, GoalState::recalled);
+  EXPECT_TRUE(goals.open().empty());
+  GoalRequest changed = photo("a");
+  changed.arguments["x"] = "50";
+  EXPECT_EQ(goals.submit(changed, seconds(300))->state, GoalState::pending);
+}
+
+TEST_F(GoalSetTest, DropsNewestOpportunisticThenOptionalOfLowestUtilityNeverHard) {
+  fault(photo("hard"));
+  fault(photo("opt-2", GoalClass::optional, 2));
+  fault(photo("opt-1", GoalClass::optional, 1));
+  fault(photo("opt-3", GoalClass::optional, 3));
+  fault(photo("old", GoalClass::opportunistic, 1));
+  fault(photo("new", GoalClass::opportunistic, 9));
+  std::vector<std::string> order;
+  while (const auto victim = goals.drop_candidate()) {
+    order.push_back(victim->id);
+    goals.set_state(*victim, GoalState::dropped, "test");
+  }
+  EXPECT_THAT(order, ::testing::ElementsAre("new", "old", "opt-1", "opt-2", "opt-3"));
+  EXPECT_EQ(goals.open().front()->request.key.id, "hard");
+}
+
+}  // namespace
+}  // namespace roci::exec

@@ -1,0 +1,90 @@
+#include "exec_svc/journal/journal.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "exec_svc/journal/trace.hpp"
+#include "tests/unit/exec_svc/planetary_fixture.hpp"
+
+namespace roci::exec {
+namespace {
+
+using temporal::seconds;
+
+class JournalTest : public ::testing::Test {
+ protected:
+  JournalTest() {
+    file = std::filesystem::temp_directory_path() /
+           (std::string("roci_journal_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() +
+            ".sqlite");
+    remove();
+  }
+  ~JournalTest() override { remove(); }
+  void remove() const {
+    for (const char* suffix : {"", "-wal", "-shm"}) std::filesystem::remove(file.string() + suffix);
+  }
+  std::filesystem::path file;
+};
+
+TEST_F(JournalTest, GoalsComeBackAsTheyWere) {
+  GoalRecord record;
+  record.request = testing::photo("ridge", GoalClass::optional, 2.5);
+  record.request.opens = seconds(10);
+  record.request.priority = -3;
+  record.state = GoalState::dropped;
+  record.reason = "it's 100 % \"full\"";
+  record.arrival = 7;
+  record.plan_version = 3;
+  {
+    Journal journal(file, Durability::power);
+    journal.put_goal(record);
+    journal.commit();
+  }
+  const auto goals = Journal(file, Durability::power).goals();
+  ASSERT_EQ(goals.size(), 1U);
+  EXPECT_EQ(goals[0].request, record.request);
+  EXPECT_EQ(goals[0].state, record.state);
+  EXPECT_EQ(goals[0].reason, record.reason);
+  EXPECT_EQ(goals[0].arrival, record.arrival);
+  EXPECT_EQ(goals[0].plan_version, record.plan_version);
+}
+
+TEST_F(JournalTest, EachStartHasALaterEpoch) {
+  EXPECT_EQ(Journal(file, Durability::process).next_epoch(), 1U);
+  EXPECT_EQ(Journal(file, Durability::process).next_epoch(), 2U);
+}
+
+TEST_F(JournalTest, RecordsKeepTheirOrder) {
+  Journal journal(file, Durability::process);
+  journal.append(seconds(2), "command", "b");
+  journal.append(seconds(1), "ack", "a");
+  journal.commit();
+  std::vector<std::string> seen;
+  journal.for_each([&](temporal::Time time, std::string_view kind, std::string_view text) {
+    seen.push_back(std::to_string(time.count()) + " " + std::string(kind) + " " + std::string(text));
+  });
+  EXPECT_THAT(seen, ::testing::ElementsAre("2000000 command b", "1000000 ack a"));
+}
+
+TEST_F(JournalTest, AForeignFileIsRefusedByName) {
+  std::ofstream(file) << "this is no database, and long enough to be looked at as one";
+  try {
+    Journal journal(file, Durability::process);
+    FAIL() << "opened";
+  } catch (const JournalError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(file.string()));
+  }
+}
+
+TEST(TraceTest, IsTheSha256OfItsLines) {
+  Trace trace;
+  EXPECT_EQ(trace.sha256(), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  trace.add("abc");  // printf 'abc\n' | sha256sum
+  EXPECT_EQ(trace.sha256(), "edeaaff3f1774ad2888673770c6d64097e391bc362d7d6fb34982ddf0efd18cb");
+}
+
+}  // namespace
+}  // namespace roci::exec

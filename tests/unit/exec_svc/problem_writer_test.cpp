@@ -1,0 +1,105 @@
+#include "exec_svc/problem/problem_writer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/pddl/parser.hpp"
+#include "tests/unit/exec_svc/planetary_fixture.hpp"
+
+namespace roci::exec {
+namespace {
+
+using temporal::seconds;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::photo;
+
+class ProblemWriterTest : public ::testing::Test {
+ protected:
+  Problem write(double now_s = 0) {
+    return write_problem(mission, beliefs, goals, "p-1", seconds(now_s), seconds(now_s + 5));
+  }
+  void submit(const GoalRequest& goal) {
+    ASSERT_EQ(goals.submit(goal, seconds(0))->state, GoalState::pending);
+  }
+
+  MissionModel mission = testing::planetary();
+  Beliefs beliefs = testing::standing_beliefs(mission);
+  GoalSet goals{mission};
+};
+
+TEST_F(ProblemWriterTest, StateComesFromObservations) {
+  submit(photo("ridge"));
+  const Problem problem = write();
+  EXPECT_THAT(problem.text, HasSubstr("(:domain planetary)"));
+  EXPECT_THAT(problem.text, HasSubstr("(at here)"));
+  EXPECT_THAT(problem.text, HasSubstr("(arm-at stow)"));
+  EXPECT_THAT(problem.text, HasSubstr("(= (battery) 900000.000000)"));
+  EXPECT_THAT(problem.text, HasSubstr("(target image-ridge place-ridge)"));
+  EXPECT_THAT(problem.text, HasSubstr("(sent image-ridge)"));
+  EXPECT_THAT(problem.text, Not(HasSubstr("arm-here")));
+}
+
+TEST_F(ProblemWriterTest, PassesTheProjectsOwnParser) {
+  submit(photo("ridge"));
+  EXPECT_NO_THROW(pddl::parse_problem(write().text, "problem"));
+  EXPECT_NO_THROW(pddl::parse_domain(mission.domain_text, "domain"));
+}
+
+TEST_F(ProblemWriterTest, ObjectsCarryTheirPlaces) {
+  submit(photo("ridge"));
+  const Problem problem = write();
+  const auto place = std::find_if(problem.objects.begin(), problem.objects.end(),
+                                  [](const ProblemObject& object) { return object.name == "place-ridge"; });
+  ASSERT_NE(place, problem.objects.end());
+  EXPECT_EQ(place->type, "location");
+  EXPECT_EQ(place->properties, (std::vector<temporal::Property>{{"x", "110"}, {"y", "60"}}));
+}
+
+TEST_F(ProblemWriterTest, WindowsAreRelativeToTheOrigin) {
+  submit(photo("ridge"));
+  EXPECT_THAT(write(0).text, HasSubstr("(at 1495.000000 (comm-window))"));
+  EXPECT_THAT(write(0).text, HasSubstr("(at 2695.000000 (not (comm-window)))"));
+  beliefs.observe("comm.window", true);
+  EXPECT_THAT(write(2000).text, HasSubstr("    (comm-window)\n"));
+  EXPECT_THAT(write(2000).text, HasSubstr("(at 695.000000 (not (comm-window)))"));
+}
+
+TEST_F(ProblemWriterTest, AWindowThatShouldBeOpenAndIsNotIsLeftOut) {
+  submit(photo("ridge"));
+  EXPECT_THAT(write(2000).text, Not(HasSubstr("    (comm-window)\n")));
+  EXPECT_THAT(write(1498).text,
+              HasSubstr("    (comm-window)\n"));  // opens between the request and the origin
+}
+
+TEST_F(ProblemWriterTest, GoalWindowsBecomeTimedLiterals) {
+  GoalRequest goal = photo("ridge");
+  goal.opens = seconds(100);
+  goal.closes = seconds(200);
+  submit(goal);
+  EXPECT_THAT(write().text, HasSubstr("(at 95.000000 (available image-ridge))"));
+  EXPECT_THAT(write().text, HasSubstr("(at 195.000000 (not (available image-ridge)))"));
+}
+
+TEST_F(ProblemWriterTest, AchievedGoalsLeaveTheProblemUnlessTheRobotStandsThere) {
+  submit(photo("ridge"));
+  submit(photo("valley"));
+  goals.set_state({"ground", "ridge"}, GoalState::achieved, "observed");
+  EXPECT_THAT(write().text, Not(HasSubstr("ridge")));
+  beliefs.observe("rover.nav", temporal::state("idle-at", {"place-ridge"}));
+  EXPECT_THAT(write().text, HasSubstr("(at place-ridge)"));
+  EXPECT_THAT(write().text, Not(HasSubstr("image-ridge")));
+}
+
+TEST_F(ProblemWriterTest, UnobservedFactsEndWithTheFirstObservation) {
+  GoalRequest pick = photo("soil");
+  pick.kind = "pick_sample";
+  submit(pick);
+  EXPECT_THAT(write().text, HasSubstr("(sample-at sample-soil place-soil)"));
+  beliefs.observe("sample.sample-soil", temporal::state("held"));
+  EXPECT_THAT(write().text, Not(HasSubstr("(sample-at")));
+  EXPECT_THAT(write().text, HasSubstr("(picked sample-soil)"));
+}
+
+}  // namespace
+}  // namespace roci::exec
