@@ -12,9 +12,9 @@
 
 namespace roci::arm {
 
-struct PoseTuple {
-  std::string from;
-  std::string to;
+struct PlacePair {
+  Place from;
+  Place to;
 };
 
 struct Estimate {
@@ -24,18 +24,20 @@ struct Estimate {
   double energy_j = 0;
 };
 
-// What was computed for one model version; a model of another version empties it.
+// What was computed for one model version, by the joint values at both ends; a model of another version
+// empties it.
 class EstimateCache {
  public:
-  // One estimate per tuple, in order. A cancelled tuple is not kept, so that it is computed when asked again.
-  std::vector<Estimate> estimate(const MotionModel& model, std::span<const PoseTuple> tuples,
+  // One estimate per pair, in order. A cancelled one is not kept, so that it is computed when asked again.
+  std::vector<Estimate> estimate(const MotionModel& model, std::span<const PlacePair> pairs,
                                  const std::function<bool()>& cancelled = {});
 
   std::size_t size() const { return known_.size(); }
 
  private:
+  using Key = std::pair<std::vector<double>, std::vector<double>>;
   std::uint64_t version_ = 0;
-  std::map<std::pair<std::string, std::string>, Estimate> known_;
+  std::map<Key, Estimate> known_;
 };
 
 }  // namespace roci::arm

@@ -12,6 +12,7 @@ namespace {
 using kinematics::JointVector;
 
 constexpr double kSensorNoise = 0.01;       // rad or m
+constexpr double kCloseMargin = 0.1;        // of the full margin
 constexpr std::size_t kPoseSolutions = 16;  // tried per tool position before one is chosen
 
 Motion failed(MotionStatus status, std::string detail) {
@@ -61,6 +62,22 @@ std::vector<JointVector> tool_candidates(const ArmSetup& setup, const ToolTarget
   return candidates;
 }
 
+CollisionRules with_close_margin(CollisionRules rules) {
+  rules.margin *= kCloseMargin;
+  return rules;
+}
+
+Motion costed(const ArmSetup& setup, Trajectory trajectory) {
+  const EnergyUse use = energy_of(setup.arm, trajectory, setup.motor);
+  if (use.peak_load > 1.0) {
+    return failed(MotionStatus::overloaded, "joint '" + setup.arm.joints[use.peak_joint].name +
+                                                "' would need " + std::to_string(use.peak_load) +
+                                                " times its effort limit");
+  }
+  const double duration = trajectory.duration_s();
+  return {MotionStatus::found, {}, std::move(trajectory), duration, use.energy_j};
+}
+
 }  // namespace
 
 std::string_view name_of(MotionStatus status) {
@@ -84,13 +101,16 @@ std::string_view name_of(MotionStatus status) {
 }
 
 MotionModel::MotionModel(ArmSetup setup)
-    : setup_(std::move(setup)), checker_(setup_.arm, setup_.collision), version_(model_version(setup_)) {
+    : setup_(std::move(setup)),
+      checker_(setup_.arm, setup_.collision),
+      close_checker_(setup_.arm, with_close_margin(setup_.collision)),
+      version_(model_version(setup_)) {
   const JointVector reference = reference_of(setup_);
   for (const NamedPose& pose : setup_.poses) poses_.push_back(resolve(pose, reference));
 }
 
-ResolvedPose MotionModel::resolve(const NamedPose& pose, const JointVector& reference) const {
-  ResolvedPose resolved{pose.name, MotionStatus::found, {}, {}};
+ResolvedPlace MotionModel::resolve(const NamedPose& pose, const JointVector& reference) const {
+  ResolvedPlace resolved{pose.name, MotionStatus::found, {}, {}};
   std::vector<JointVector> candidates;
   if (const auto* joints = std::get_if<JointVector>(&pose.where)) {
     if (kinematics::within_limits(setup_.arm, *joints)) candidates.push_back(*joints);
@@ -118,59 +138,43 @@ ResolvedPose MotionModel::resolve(const NamedPose& pose, const JointVector& refe
   return resolved;
 }
 
-const ResolvedPose* MotionModel::find(std::string_view name) const {
-  const auto pose = std::find_if(poses_.begin(), poses_.end(), [&](const auto& p) { return p.name == name; });
-  return pose == poses_.end() ? nullptr : &*pose;
+ResolvedPlace MotionModel::resolve(const Place& place) const {
+  if (!place.joints) {
+    const auto pose =
+        std::find_if(poses_.begin(), poses_.end(), [&](const auto& p) { return p.name == place.name; });
+    if (pose != poses_.end()) return *pose;
+    return {place.name, MotionStatus::unknown_pose, "no pose '" + place.name + "' in the arm's data", {}};
+  }
+  if (!kinematics::within_limits(setup_.arm, *place.joints, kSensorNoise)) {
+    return {place.name,
+            MotionStatus::unreachable,
+            "the joint values of '" + place.name + "' are beyond the limits or of the wrong number",
+            {}};
+  }
+  const JointVector joints = kinematics::clamp_to_limits(setup_.arm, *place.joints);
+  if (const auto contact = close_checker_.contact(joints)) {
+    return {place.name, MotionStatus::in_collision, touching("'" + place.name + "'", *contact), {}};
+  }
+  return {place.name, MotionStatus::found, {}, joints};
 }
 
-Motion MotionModel::motion(std::string_view from, std::string_view to, const Cancelled& cancelled) const {
-  for (const std::string_view name : {from, to}) {
-    const ResolvedPose* pose = find(name);
-    if (pose == nullptr) {
-      return failed(MotionStatus::unknown_pose, "no pose '" + std::string(name) + "' in the arm's data");
-    }
-    if (pose->status != MotionStatus::found) return failed(pose->status, pose->detail);
+Motion MotionModel::motion(const Place& from, const Place& to, const std::function<bool()>& cancelled) const {
+  const ResolvedPlace start = resolve(from), goal = resolve(to);
+  for (const ResolvedPlace* end : {&start, &goal}) {
+    if (end->status != MotionStatus::found) return failed(end->status, end->detail);
   }
-  return between(find(from)->joints, find(to)->joints, cancelled);
-}
-
-Motion MotionModel::motion(const JointVector& from, std::string_view to, const Cancelled& cancelled) const {
-  const ResolvedPose* goal = find(to);
-  if (goal == nullptr) {
-    return failed(MotionStatus::unknown_pose, "no pose '" + std::string(to) + "' in the arm's data");
-  }
-  if (goal->status != MotionStatus::found) return failed(goal->status, goal->detail);
-  if (!kinematics::within_limits(setup_.arm, from, kSensorNoise)) {
-    return failed(MotionStatus::unreachable, "the start is beyond the joint limits or has the wrong size");
-  }
-  const JointVector start = kinematics::clamp_to_limits(setup_.arm, from);
-  if (const auto contact = checker_.contact(start)) {
-    return failed(MotionStatus::in_collision, touching("the start", *contact));
-  }
-  return between(start, goal->joints, cancelled);
-}
-
-Motion MotionModel::between(const JointVector& from, const JointVector& to,
-                            const Cancelled& cancelled) const {
-  const auto found = find_path(setup_.arm, checker_, from, to, {setup_.search_iterations, cancelled});
+  const bool roomy = !checker_.contact(start.joints) && !checker_.contact(goal.joints);
+  const CollisionChecker& checker = roomy ? checker_ : close_checker_;
+  const auto found =
+      find_path(setup_.arm, checker, start.joints, goal.joints, {setup_.search_iterations, cancelled});
   if (const auto* failure = std::get_if<SearchFailure>(&found)) {
     if (*failure == SearchFailure::cancelled) return failed(MotionStatus::cancelled, "cancelled");
     return failed(MotionStatus::no_path,
                   "no path within " + std::to_string(setup_.search_iterations) + " search iterations");
   }
-  const JointPath path = shortened(setup_.arm, checker_, std::get<JointPath>(found), setup_.shortcut_trials,
-                                   query_seed(from, to));
-  Motion motion;
-  motion.trajectory = time_path(setup_.arm, path);
-  motion.duration_s = motion.trajectory.duration_s();
-  const EnergyUse use = energy_of(setup_.arm, motion.trajectory, setup_.motor);
-  motion.energy_j = use.energy_j;
-  if (use.peak_load > 1.0) {
-    return failed(MotionStatus::overloaded, "joint '" + setup_.arm.joints[use.peak_joint].name +
-                                                "' would need " + std::to_string(use.peak_load) +
-                                                " times its effort limit");
-  }
-  return motion;
+  const JointPath path = shortened(setup_.arm, checker, std::get<JointPath>(found), setup_.shortcut_trials,
+                                   query_seed(start.joints, goal.joints));
+  return costed(setup_, time_path(setup_.arm, path));
 }
 
 }  // namespace roci::arm

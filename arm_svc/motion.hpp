@@ -34,10 +34,17 @@ struct Motion {
   double energy_j = 0;
 };
 
-// A pose of the mission as joint values, or why it has none.
-struct ResolvedPose {
+// Where a motion starts or ends: a pose of the mission by name or, if joints are given, wherever they put the
+// arm.
+struct Place {
   std::string name;
-  MotionStatus status = MotionStatus::found;  // found, unreachable or in_collision
+  std::optional<kinematics::JointVector> joints = std::nullopt;
+};
+
+// A place as joint values, or why it has none.
+struct ResolvedPlace {
+  std::string name;
+  MotionStatus status = MotionStatus::found;  // or unknown_pose, unreachable, in_collision
   std::string detail;
   kinematics::JointVector joints;
 };
@@ -49,27 +56,24 @@ class MotionModel {
   // from the first pose given by joint values (the middle of the limits if there is none).
   explicit MotionModel(ArmSetup setup);
 
-  using Cancelled = std::function<bool()>;
-  Motion motion(std::string_view from, std::string_view to, const Cancelled& cancelled = {}) const;
+  // Joints off a limit by no more than sensor noise (0.01 rad or m) are clamped to it.
+  ResolvedPlace resolve(const Place& place) const;
 
-  // From where the arm stands; the joint values may be off a limit by sensor noise (0.01 rad or m).
-  Motion motion(const kinematics::JointVector& from, std::string_view to,
-                const Cancelled& cancelled = {}) const;
+  // `cancelled` is asked often; may be empty.
+  Motion motion(const Place& from, const Place& to, const std::function<bool()>& cancelled = {}) const;
 
   const ArmSetup& setup() const { return setup_; }
-  const std::vector<ResolvedPose>& poses() const { return poses_; }
+  const std::vector<ResolvedPlace>& poses() const { return poses_; }  // in the order of the setup
   std::uint64_t version() const { return version_; }
 
  private:
-  ResolvedPose resolve(const NamedPose& pose, const kinematics::JointVector& reference) const;
-  const ResolvedPose* find(std::string_view name) const;
-  Motion between(const kinematics::JointVector& from, const kinematics::JointVector& to,
-                 const Cancelled& cancelled) const;
+  ResolvedPlace resolve(const NamedPose& pose, const kinematics::JointVector& reference) const;
 
   ArmSetup setup_;
   CollisionChecker checker_;
+  CollisionChecker close_checker_;  // for ends that an imprecise arm left within the margin
   std::uint64_t version_;
-  std::vector<ResolvedPose> poses_;
+  std::vector<ResolvedPlace> poses_;
 };
 
 }  // namespace roci::arm

@@ -1,145 +1,151 @@
 #include "arm_svc/setup_file.hpp"
 
+#include <fstream>
 #include <set>
+#include <sstream>
 
-#include "arm_svc/yaml_reader.hpp"
 #include "core/kinematics/urdf.hpp"
+#include "core/mission/entry.hpp"
 
 namespace roci::arm {
 namespace {
 
 using kinematics::JointVector;
+using mission::Entry;
 
-ToolTarget target_of(const YAML::Node& node, const std::string& what, const Eigen::Vector3d& tool_axis) {
+double bounded(const Entry& entry, double low, double high) {
+  const double value = entry.number();
+  if (value >= low && value <= high) return value;
+  std::ostringstream message;
+  message << "must be between " << low << " and " << high;
+  entry.fail(message.str());
+}
+
+double bounded_or(const Entry& map, const char* key, double low, double high, double fallback) {
+  const auto entry = map.find(key);
+  return entry ? bounded(*entry, low, high) : fallback;
+}
+
+std::vector<double> numbers(const Entry& entry, std::size_t count, const std::string& what) {
+  std::vector<double> values;
+  for (const Entry& item : entry.items()) values.push_back(item.number());
+  if (values.size() != count) {
+    entry.fail("gives " + std::to_string(values.size()) + " numbers; " + what + " has " +
+               std::to_string(count));
+  }
+  return values;
+}
+
+Eigen::Vector3d vector3(const Entry& entry) {
+  const std::vector<double> values = numbers(entry, 3, "a vector");
+  return {values[0], values[1], values[2]};
+}
+
+Eigen::Vector3d direction(const Entry& entry) {
+  const Eigen::Vector3d vector = vector3(entry);
+  if (!(vector.norm() > 1e-9)) entry.fail("a direction must not be zero; give one such as [0, 0, -1]");
+  return vector.stableNormalized();
+}
+
+JointVector joints(const Entry& entry, std::size_t count) {
+  const std::vector<double> values = numbers(entry, count, "the arm");
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(count));
+}
+
+Eigen::Quaterniond rotation(const Eigen::Vector3d& rpy) {
+  return Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX());
+}
+
+ToolTarget target(const Entry& place, const Eigen::Vector3d& tool_axis) {
   ToolTarget target;
-  target.position = yaml::vector3(node["position"], "the position of " + what);
-  if (node["approach"] && node["rpy"]) {
-    throw yaml::Failure{node.Mark(), what + " gives both approach and rpy; choose one"};
-  }
-  if (node["approach"]) {
-    target.approach = Approach{tool_axis, yaml::direction(node["approach"], "the approach of " + what)};
-  }
-  if (node["rpy"]) {
-    const Eigen::Vector3d rpy = yaml::vector3(node["rpy"], "the rpy of " + what);
-    target.orientation = Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
-                         Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
-                         Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX());
-  }
+  target.position = vector3(place.at("position"));
+  const auto approach = place.find("approach"), rpy = place.find("rpy");
+  if (approach && rpy) rpy->fail("the pose gives both approach and rpy; choose one");
+  if (approach) target.approach = Approach{tool_axis, direction(*approach)};
+  if (rpy) target.orientation = rotation(vector3(*rpy));
   return target;
 }
 
-JointVector joints_of(const YAML::Node& node, const std::string& what, std::size_t joints) {
-  const std::vector<double> values = yaml::numbers(node, "the joints of " + what);
-  if (values.size() != joints) {
-    throw yaml::Failure{node.Mark(), what + " gives " + std::to_string(values.size()) +
-                                         " joint values; the arm has " + std::to_string(joints) + " joints"};
-  }
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(joints));
-}
-
-std::vector<NamedPose> poses_of(const YAML::Node& node, std::size_t joints,
-                                const Eigen::Vector3d& tool_axis) {
-  if (!node.IsMap()) throw yaml::Failure{node.Mark(), "poses must be a map from names to places"};
+std::vector<NamedPose> poses(const Entry& entry, std::size_t joint_count, const Eigen::Vector3d& tool_axis) {
   std::vector<NamedPose> poses;
   std::set<std::string> names;
-  for (const auto& entry : node) {
-    const std::string name = yaml::text(entry.first, "a pose's name"), what = "pose '" + name + "'";
-    const YAML::Node& place = entry.second;
-    if (!names.insert(name).second) throw yaml::Failure{entry.first.Mark(), what + " stands twice"};
-    yaml::require_map(place, what, {"joints", "position", "approach", "rpy"});
-    if (place["joints"] && place.size() == 1) {
-      poses.push_back({name, joints_of(place["joints"], what, joints)});
-    } else if (place["position"] && !place["joints"]) {
-      poses.push_back({name, target_of(place, what, tool_axis)});
+  for (const auto& [name, place] : entry.fields()) {
+    if (!names.insert(name).second) place.fail("pose '" + name + "' stands twice; give it another name");
+    place.allow_only({"joints", "position", "approach", "rpy"});
+    const auto values = place.find("joints");
+    if (values.has_value() == place.find("position").has_value()) {
+      place.fail("pose '" + name + "' needs either joints or a position");
+    }
+    if (values) {
+      poses.push_back({name, joints(*values, joint_count)});
     } else {
-      throw yaml::Failure{place.Mark(), what + " needs either joints or a position"};
+      poses.push_back({name, target(place, tool_axis)});
     }
   }
   return poses;
 }
 
-CollisionRules collision_of(const YAML::Node& root) {
+CollisionRules collision(const Entry& root) {
   CollisionRules rules;
-  if (root["ground"]) rules.ground_z = yaml::number(root["ground"], "ground", -100, 100);
-  if (root["margin"]) rules.margin = yaml::number(root["margin"], "margin", 0.001, 0.1);
-  if (const YAML::Node pairs = root["may_touch"]) {
-    if (!pairs.IsSequence()) throw yaml::Failure{pairs.Mark(), "may_touch must be a list of pairs of links"};
-    for (const auto& pair : pairs) {
-      if (!pair.IsSequence() || pair.size() != 2) {
-        throw yaml::Failure{pair.Mark(), "each entry of may_touch must be a pair of links"};
-      }
-      rules.may_touch.emplace_back(yaml::text(pair[0], "a link"), yaml::text(pair[1], "a link"));
+  if (const auto ground = root.find("ground")) rules.ground_z = bounded(*ground, -100, 100);
+  rules.margin = bounded_or(root, "margin", 0.001, 0.1, rules.margin);
+  if (const auto pairs = root.find("may_touch")) {
+    for (const Entry& pair : pairs->items()) {
+      const std::vector<std::string> links = pair.texts();
+      if (links.size() != 2) pair.fail("expected a pair of links such as [forearm, scoop]");
+      rules.may_touch.emplace_back(links[0], links[1]);
     }
   }
   return rules;
 }
 
-MotorModel motor_of(const YAML::Node& node) {
+MotorModel motor(const Entry& root) {
   MotorModel motor;
-  if (!node) return motor;
-  yaml::require_map(node, "motor", {"gravity", "idle", "efficiency", "full_effort_loss"});
-  if (node["gravity"]) motor.gravity = yaml::vector3(node["gravity"], "gravity");
-  if (node["idle"]) motor.idle_w = yaml::number(node["idle"], "idle", 0, 1e6);
-  if (node["efficiency"]) motor.efficiency = yaml::number(node["efficiency"], "efficiency", 0.01, 1);
-  if (const YAML::Node loss = node["full_effort_loss"]) {
-    motor.full_effort_loss_w = yaml::number(loss, "full_effort_loss", 0, 1e6);
-  }
+  const auto entry = root.find("motor");
+  if (!entry) return motor;
+  entry->allow_only({"gravity", "idle", "efficiency", "full_effort_loss"});
+  if (const auto gravity = entry->find("gravity")) motor.gravity = vector3(*gravity);
+  motor.idle_w = bounded_or(*entry, "idle", 0, 1e6, motor.idle_w);
+  motor.efficiency = bounded_or(*entry, "efficiency", 0.01, 1, motor.efficiency);
+  motor.full_effort_loss_w = bounded_or(*entry, "full_effort_loss", 0, 1e6, motor.full_effort_loss_w);
   return motor;
 }
 
-void read_search(const YAML::Node& node, ArmSetup& setup) {
-  if (!node) return;
-  yaml::require_map(node, "search", {"iterations", "shortcuts"});
-  if (const YAML::Node n = node["iterations"]) {
-    setup.search_iterations = static_cast<unsigned>(yaml::number(n, "iterations", 1, 1e6));
-  }
-  if (const YAML::Node n = node["shortcuts"]) {
-    setup.shortcut_trials = static_cast<int>(yaml::number(n, "shortcuts", 0, 1e4));
-  }
-}
-
-std::variant<ArmSetup, SetupError> read(const ArmFiles& files) {
-  const YAML::Node root = YAML::Load(files.poses_text);
-  yaml::require_map(
-      root, "the file",
-      {"tip", "tool_axis", "time_to_speed", "ground", "margin", "may_touch", "motor", "search", "poses"});
-  for (const char* key : {"tip", "poses"}) {
-    if (!root[key]) throw yaml::Failure{root.Mark(), std::string("the file needs the key '") + key + "'"};
-  }
-  kinematics::UrdfOptions options{yaml::text(root["tip"], "tip")};
-  if (const YAML::Node time = root["time_to_speed"]) {
-    options.time_to_speed_s = yaml::number(time, "time_to_speed", 0.001, 1000);
-  }
-  auto arm = kinematics::parse_urdf(files.urdf_text, files.urdf_name, options);
-  if (const auto* error = std::get_if<kinematics::UrdfError>(&arm)) return SetupError{to_string(*error)};
-
-  ArmSetup setup;
-  setup.arm = std::get<kinematics::Arm>(std::move(arm));
-  const YAML::Node axis = root["tool_axis"];
-  const Eigen::Vector3d tool_axis = axis ? yaml::direction(axis, "tool_axis") : Eigen::Vector3d::UnitX();
-  setup.poses = poses_of(root["poses"], setup.arm.joints.size(), tool_axis);
-  setup.collision = collision_of(root);
-  setup.motor = motor_of(root["motor"]);
-  read_search(root["search"], setup);
-  return setup;
-}
-
-SetupError error_at(const std::string& file, const YAML::Mark& mark, const std::string& message) {
-  if (mark.is_null()) return {file + ": " + message};
-  return {file + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1) + ": " +
-          message};
+kinematics::Arm arm(const std::filesystem::path& urdf, const Entry& root) {
+  std::ifstream file(urdf, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw mission::FileError(urdf.string() + ": cannot be read; check that the file exists");
+  kinematics::UrdfOptions options{root.at("tip").text()};
+  options.time_to_speed_s = bounded_or(root, "time_to_speed", 0.001, 1000, options.time_to_speed_s);
+  auto result = kinematics::parse_urdf(text.str(), urdf.string(), options);
+  if (const auto* error = std::get_if<kinematics::UrdfError>(&result))
+    throw mission::FileError(to_string(*error));
+  return std::get<kinematics::Arm>(std::move(result));
 }
 
 }  // namespace
 
-std::variant<ArmSetup, SetupError> parse_setup(const ArmFiles& files) {
-  try {
-    return read(files);
-  } catch (const yaml::Failure& failure) {
-    return error_at(files.poses_name, failure.mark, failure.message);
-  } catch (const YAML::Exception& error) {
-    return error_at(files.poses_name, error.mark, error.msg);
+ArmSetup load_setup(const std::filesystem::path& urdf, const std::filesystem::path& poses_file) {
+  const Entry root = Entry::load(poses_file);
+  root.allow_only(
+      {"tip", "tool_axis", "time_to_speed", "ground", "margin", "may_touch", "motor", "search", "poses"});
+  ArmSetup setup;
+  setup.arm = arm(urdf, root);
+  const auto axis = root.find("tool_axis");
+  setup.poses =
+      poses(root.at("poses"), setup.arm.joints.size(), axis ? direction(*axis) : Eigen::Vector3d::UnitX());
+  setup.collision = collision(root);
+  setup.motor = motor(root);
+  if (const auto search = root.find("search")) {
+    search->allow_only({"iterations", "shortcuts"});
+    setup.search_iterations =
+        static_cast<unsigned>(bounded_or(*search, "iterations", 1, 1e6, setup.search_iterations));
+    setup.shortcut_trials = static_cast<int>(bounded_or(*search, "shortcuts", 0, 1e4, setup.shortcut_trials));
   }
+  return setup;
 }
 
 }  // namespace roci::arm

@@ -1,6 +1,6 @@
-// Reads an ArmSetup from a mission's arm folder: arm.urdf and poses.yaml.
+// Reads an ArmSetup from mission data: a URDF and a file of poses.
 //
-// poses.yaml (m, rad, W, m/s²; base frame = the URDF's root link):
+// The file of poses (m, rad, W, m/s²; base frame = the URDF's root link):
 //   tip: scoop_tip                    link that is the tool frame
 //   tool_axis: [1, 0, 0]              axis of the tool frame that `approach` turns; default x
 //   time_to_speed: 0.5                s, for joints without an acceleration limit
@@ -14,24 +14,13 @@
 //     pick: {position: [0.9, 0, -0.5], approach: [0, 0, -1]}     or rpy: [r, p, y], or position alone
 #pragma once
 
-#include <string>
-#include <variant>
+#include <filesystem>
 
 #include "arm_svc/setup.hpp"
 
 namespace roci::arm {
 
-struct ArmFiles {
-  std::string urdf_name;  // names serve error messages only
-  std::string urdf_text;
-  std::string poses_name;
-  std::string poses_text;
-};
-
-struct SetupError {
-  std::string message;  // "file:line:column: what is wrong and how to mend it" (a URDF has no column)
-};
-
-std::variant<ArmSetup, SetupError> parse_setup(const ArmFiles& files);
+// Throws mission::FileError: file, line (and column in YAML), what is wrong and the remedy.
+ArmSetup load_setup(const std::filesystem::path& urdf, const std::filesystem::path& poses);
 
 }  // namespace roci::arm

@@ -3,7 +3,8 @@
 #include <fstream>
 #include <numbers>
 #include <sstream>
-#include <stdexcept>
+
+#include "arm_svc/setup_file.hpp"
 
 namespace roci::arm::test {
 namespace {
@@ -11,13 +12,6 @@ namespace {
 using kinematics::Arm;
 using kinematics::Joint;
 using kinematics::JointType;
-
-std::string read_file(const std::string& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 Joint joint(JointType type, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, double lower,
             double upper) {
@@ -46,16 +40,16 @@ const Eigen::Vector3d X = Eigen::Vector3d::UnitX(), Y = Eigen::Vector3d::UnitY()
 
 }  // namespace
 
-ArmFiles rover_files() {
-  const std::string folder = ROCI_SOURCE_DIR "/missions/planetary/arm/";
-  return {"arm.urdf", read_file(folder + "arm.urdf"), "poses.yaml", read_file(folder + "poses.yaml")};
+std::filesystem::path rover_folder() { return ROCI_SOURCE_DIR "/missions/planetary/arm"; }
+
+std::string rover_file(const std::string& name) {
+  std::ifstream file(rover_folder() / name);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
 }
 
-ArmSetup rover_setup() {
-  auto setup = parse_setup(rover_files());
-  if (const auto* error = std::get_if<SetupError>(&setup)) throw std::runtime_error(error->message);
-  return std::get<ArmSetup>(std::move(setup));
-}
+ArmSetup rover_setup() { return load_setup(rover_folder() / "arm.urdf", rover_folder() / "poses.yaml"); }
 
 std::vector<NamedArm> all_arms() {
   constexpr double kPi = std::numbers::pi;

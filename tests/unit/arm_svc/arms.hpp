@@ -2,16 +2,16 @@
 // ones.
 #pragma once
 
-#include <random>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "arm_svc/setup.hpp"
-#include "arm_svc/setup_file.hpp"
 
 namespace roci::arm::test {
 
-ArmFiles rover_files();
+std::filesystem::path rover_folder();  // with arm.urdf and poses.yaml
+std::string rover_file(const std::string& name);
 ArmSetup rover_setup();
 
 struct NamedArm {

@@ -7,10 +7,10 @@
 namespace roci::arm {
 namespace {
 
-std::vector<PoseTuple> all_pairs(const MotionModel& model) {
-  std::vector<PoseTuple> tuples;
+std::vector<PlacePair> all_pairs(const MotionModel& model) {
+  std::vector<PlacePair> tuples;
   for (const auto& from : model.poses()) {
-    for (const auto& to : model.poses()) tuples.push_back({from.name, to.name});
+    for (const auto& to : model.poses()) tuples.push_back({{from.name}, {to.name}});
   }
   return tuples;
 }
@@ -19,7 +19,7 @@ TEST(Estimate, AnswersEachTupleInOrderWithItsMotion) {
   const MotionModel model(test::rover_setup());
   EstimateCache cache;
   auto tuples = all_pairs(model);
-  tuples.push_back({"stow", "nowhere"});
+  tuples.push_back({{"stow"}, {"nowhere"}});
   const auto estimates = cache.estimate(model, tuples);
   ASSERT_EQ(estimates.size(), tuples.size());
   for (std::size_t i = 0; i < tuples.size(); ++i) {
@@ -51,10 +51,23 @@ TEST(Estimate, KeepsEachMotionOnceAndForgetsThemWithTheModel) {
   EXPECT_GT(third[1].duration_s, first[1].duration_s);
 }
 
+TEST(Estimate, KnowsAPlaceByItsJointsWhateverItsName) {
+  const MotionModel model(test::rover_setup());
+  EstimateCache cache;
+  const kinematics::JointVector ready = model.poses()[1].joints;
+  const auto named = cache.estimate(model, std::vector<PlacePair>{{{"ready"}, {"sampling"}}});
+  const auto given = cache.estimate(model, std::vector<PlacePair>{{{"arm-here", ready}, {"sampling"}}});
+  EXPECT_EQ(cache.size(), 1u);
+  EXPECT_EQ(named[0].duration_s, given[0].duration_s);
+  const kinematics::JointVector moved = ready + kinematics::JointVector::Constant(5, 0.05);
+  const auto other = cache.estimate(model, std::vector<PlacePair>{{{"arm-here", moved}, {"sampling"}}});
+  EXPECT_NE(named[0].duration_s, other[0].duration_s);
+}
+
 TEST(Estimate, CancelledAndUnknownTuplesAreNotKept) {
   const MotionModel model(test::rover_setup());
   EstimateCache cache;
-  const std::vector<PoseTuple> tuples = {{"stow", "pick"}, {"stow", "nowhere"}};
+  const std::vector<PlacePair> tuples = {{{"stow"}, {"sampling"}}, {{"stow"}, {"nowhere"}}};
   EXPECT_EQ(cache.estimate(model, tuples, [] { return true; })[0].status, MotionStatus::cancelled);
   EXPECT_EQ(cache.size(), 0u);
   EXPECT_EQ(cache.estimate(model, tuples)[0].status, MotionStatus::found);
