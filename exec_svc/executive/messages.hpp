@@ -38,10 +38,10 @@ struct DecisionAnswer {
 
 /// What happened since the last step. Each list is in the order of events.
 struct Inputs {
-  std::vector<Observation> observations;
-  std::vector<CommandAck> acks;
-  std::vector<std::string> lost_owners;  ///< services found dead, hung or cut off
-  std::vector<DecisionAnswer> answers;
+  std::vector<Observation> observations{};
+  std::vector<CommandAck> acks{};
+  std::vector<std::string> lost_owners{};  ///< services found dead, hung or cut off
+  std::vector<DecisionAnswer> answers{};
 };
 
 struct Command {
@@ -102,11 +102,11 @@ struct Outcome {
 };
 
 struct Outputs {
-  std::vector<Command> commands;    ///< in the order of sending
-  std::vector<StepStatus> changes;  ///< every change of state, in the order of events
-  std::vector<DecisionRequest> decision_requests;
-  Outcome outcome;                          ///< after this step
-  std::optional<temporal::Time> next_wake;  ///< step again then, if nothing happens before
+  std::vector<Command> commands{};    ///< in the order of sending
+  std::vector<StepStatus> changes{};  ///< every change of state, in the order of events
+  std::vector<DecisionRequest> decision_requests{};
+  Outcome outcome{};                          ///< after this step
+  std::optional<temporal::Time> next_wake{};  ///< step again then, if nothing happens before
 };
 
 }  // namespace roci::exec

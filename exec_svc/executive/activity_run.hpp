@@ -1,0 +1,40 @@
+// How far one activity of the running plan has come.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "exec_svc/executive/messages.hpp"
+
+namespace roci::exec {
+
+enum class Phase {
+  waiting,
+  sent,        ///< command sent, no answer yet
+  running,     ///< accepted, or without a command
+  settling,    ///< completed by its owner; shortest duration or post condition still to come
+  cancelling,  ///< cancel sent
+  done,
+};
+
+enum class AfterCancel { retry, fail, withdraw };
+
+struct ActivityRun {
+  Phase phase = Phase::waiting;
+  temporal::ActivityState state = temporal::ActivityState::waiting;
+  std::uint32_t attempt = 0;  ///< part of the command's key: never reset
+  std::uint32_t retries_used = 0;
+  std::optional<temporal::Time> started, ended;
+  temporal::Time attempt_started{0};
+  temporal::Time phase_since{0};
+  std::optional<temporal::Time> wait_until;  ///< its wait has begun and ends then
+  bool maintenance_held = false;             ///< seen true since the start: from then on it must stay true
+  bool overrun_noted = false;                ///< its longest duration has passed and no longer bounds its end
+  AfterCancel after_cancel = AfterCancel::fail;
+  std::string cause;
+
+  bool active() const { return phase != Phase::waiting && phase != Phase::done; }
+};
+
+}  // namespace roci::exec

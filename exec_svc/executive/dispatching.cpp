@@ -1,0 +1,191 @@
+// Points that may happen now: starts, ends without command, free points; and starts that may not.
+#include <algorithm>
+
+#include "exec_svc/executive/plan_run.hpp"
+
+namespace roci::exec {
+
+using temporal::ActivityState;
+using temporal::bounded;
+using temporal::Duration;
+using temporal::LatenessPolicy;
+using temporal::PlanActivity;
+using temporal::plus;
+using temporal::Time;
+using temporal::TimePoint;
+using temporal::to_text;
+using temporal::Truth;
+
+bool PlanRun::dispatch(Time now) {
+  bool progress = false;
+  for (const TimePoint point : points_.advance(now))
+    if (points_.owner(point).role == PointRole::start) consider_wait(points_.owner(point).activity, now);
+  const std::vector<TimePoint> ready(points_.ready().begin(), points_.ready().end());
+  for (const TimePoint point : ready)
+    if (points_.ready().contains(point)) progress = attempt(point, now) || progress;
+  return progress;
+}
+
+bool PlanRun::attempt(TimePoint point, Time now) {
+  const PointOwner& owner = points_.owner(point);
+  if (owner.role == PointRole::start) return starting() && try_start(owner.activity, now);
+  if (owner.role == PointRole::internal_end) return try_internal_end(owner.activity, now);
+  return points_.try_happen(point, now);
+}
+
+bool PlanRun::try_start(Index activity, Time now) {
+  const PlanActivity& planned = plan_.activities[activity];
+  ActivityRun& run = runs_[activity];
+  if (run.phase != Phase::waiting) return false;
+  if (!planned.skip_if.empty() && evaluate(planned.skip_if, lookup()) == Truth::yes) {
+    skip(activity, "skipped: " + describe(planned.skip_if));
+    return true;
+  }
+  if (evaluate(planned.pre, lookup()) != Truth::yes) {
+    run.cause = "waits for " + explain(planned.pre, lookup());
+    begin_wait(activity, now, bounded(planned.wait_timeout) ? planned.wait_timeout : settings_.default_wait);
+    return false;
+  }
+  if (!points_.try_happen(planned.start_point, now)) return false;
+  start(activity, now);
+  return true;
+}
+
+void PlanRun::start(Index activity, Time now) {
+  const PlanActivity& planned = plan_.activities[activity];
+  ActivityRun& run = runs_[activity];
+  run.started = run.attempt_started = now;
+  run.maintenance_held = evaluate(planned.maintenance, lookup()) == Truth::yes;
+  if (planned.owner.empty()) {
+    enter(activity, Phase::running, now);
+    store_.begin(planned);
+    change(activity, ActivityState::running, "");
+  } else {
+    ++run.attempt;
+    enter(activity, Phase::sent, now);
+    send(activity, CommandAction::execute);
+    change(activity, ActivityState::dispatched, "");
+  }
+  consider_waits_after(activity, now);
+}
+
+bool PlanRun::try_internal_end(Index activity, Time now) {
+  const PlanActivity& planned = plan_.activities[activity];
+  ActivityRun& run = runs_[activity];
+  if (run.phase != Phase::running && run.phase != Phase::settling) return false;
+  if (evaluate(planned.post, lookup()) != Truth::yes) {
+    if (run.phase == Phase::running) enter(activity, Phase::settling, now);
+    return false;
+  }
+  if (!points_.try_happen(planned.end_point, now)) return false;
+  succeed(activity, now);
+  return true;
+}
+
+void PlanRun::skip(Index activity, const std::string& cause) {
+  const PlanActivity& planned = plan_.activities[activity];
+  enter(activity, Phase::done, {});
+  points_.drop(planned.start_point);
+  points_.drop(planned.end_point);
+  change(activity, ActivityState::skipped, cause);
+}
+
+/// A stated wait timeout counts from the earliest start on, also while a predecessor that runs is late (R98),
+/// but not while a predecessor has not even begun: that one's own wait bounds this one.
+void PlanRun::consider_wait(Index activity, Time now) {
+  const PlanActivity& planned = plan_.activities[activity];
+  if (runs_[activity].phase != Phase::waiting || !bounded(planned.wait_timeout)) return;
+  const auto begun = [&](TimePoint point) {
+    if (points_.happened_at(point) || points_.dropped(point)) return true;
+    const PointOwner& owner = points_.owner(point);
+    return owner.role != PointRole::free && owner.role != PointRole::start && runs_[owner.activity].active();
+  };
+  const auto& before = points_.precedence().predecessors[planned.start_point];
+  const bool undecided = points_.held(planned.start_point);
+  if (points_.due(planned.start_point) && !undecided && std::all_of(before.begin(), before.end(), begun))
+    begin_wait(activity, now, planned.wait_timeout);
+}
+
+void PlanRun::begin_wait(Index activity, Time now, Duration bound) {
+  ActivityRun& run = runs_[activity];
+  if (run.wait_until) return;
+  run.wait_until = plus(now, bound);
+  waits_.emplace(*run.wait_until, activity);
+}
+
+void PlanRun::consider_waits_after(Index started, Time now) {
+  const PlanActivity& planned = plan_.activities[started];
+  for (const TimePoint point : {planned.start_point, planned.end_point})
+    for (const TimePoint successor : points_.precedence().successors[point])
+      if (points_.owner(successor).role == PointRole::start)
+        consider_wait(points_.owner(successor).activity, now);
+}
+
+bool PlanRun::expire_waits(Time now) {
+  bool progress = false;
+  while (starting() && !waits_.empty() && waits_.begin()->first <= now) {
+    const Index activity = waits_.begin()->second;
+    waits_.erase(waits_.begin());
+    const PlanActivity& planned = plan_.activities[activity];
+    const std::string unmet = explain(planned.pre, lookup());
+    const std::string cause =
+        "could not start within its wait timeout: " + (unmet.empty() ? "a predecessor has not ended" : unmet);
+    if (planned.may_skip) {
+      skip(activity, cause);
+    } else {
+      fail(activity, now, BreakReason::activity_failed, cause, false);
+    }
+    progress = true;
+  }
+  return progress;
+}
+
+/// An activity whose longest duration has passed breaks nothing: from then on that duration no longer bounds
+/// its end (nor, through it, the latest times of others). Under LatenessPolicy::deadline it does.
+void PlanRun::note_overruns(Time now) {
+  for (const Index i : active_) {
+    ActivityRun& run = runs_[i];
+    const temporal::Window planned = points_.duration(i);
+    if (run.overrun_noted || now <= plus(run.attempt_started, planned.upper)) continue;
+    if (plan_.activities[i].lateness == LatenessPolicy::deadline) continue;
+    run.overrun_noted = true;
+    points_.set_duration(i, run.attempt_started - *run.started + planned.lower, temporal::no_bound);
+  }
+}
+
+/// R49: a start whose latest time has passed breaks the plan.
+void PlanRun::break_if_late(Time now) {
+  if (!starting()) return;
+  const auto late = points_.late_start(now);
+  if (!late) return;
+  const Index activity = points_.owner(*late).activity;
+  const PlanActivity& planned = plan_.activities[activity];
+  std::string cause = "latest start " + to_text(points_.window(*late).upper) + " has passed";
+  if (const std::string unmet = explain(planned.pre, lookup()); !unmet.empty())
+    cause += "; it needs " + unmet;
+  for (const TimePoint point : points_.precedence().predecessors[planned.start_point]) {
+    const PointOwner& owner = points_.owner(point);
+    if (owner.role == PointRole::free || points_.happened_at(point) || points_.dropped(point)) continue;
+    cause += "; it waits for " + plan_.activities[owner.activity].id;
+  }
+  break_plan(BreakReason::late_start, planned.id, cause, planned.contingency);
+}
+
+/// Ends come as they come; two that came in the wrong order cannot be mended by waiting.
+void PlanRun::break_if_disordered() {
+  for (const Index ended : ended_now_) {
+    const PlanActivity& planned = plan_.activities[ended];
+    for (const TimePoint point : points_.precedence().predecessors[planned.end_point]) {
+      const PointOwner& owner = points_.owner(point);
+      if (owner.role != PointRole::observed_end || points_.happened_at(point) || points_.dropped(point))
+        continue;
+      if (runs_[owner.activity].phase == Phase::settling) continue;
+      break_plan(BreakReason::ordering_violated, planned.id,
+                 "it ended before " + plan_.activities[owner.activity].id + " had ended",
+                 planned.contingency);
+    }
+  }
+  ended_now_.clear();
+}
+
+}  // namespace roci::exec

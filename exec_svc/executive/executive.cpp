@@ -1,0 +1,91 @@
+#include "exec_svc/executive/executive.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "exec_svc/executive/plan_run.hpp"
+#include "exec_svc/executive/timeline_store.hpp"
+
+namespace roci::exec {
+
+struct Executive::Impl {
+  ExecutiveSettings settings;
+  TimelineStore store;
+  std::optional<PlanRun> run;
+  temporal::FlexiblePlan no_plan;
+  temporal::Time now{0};
+  std::uint64_t ignored_acks = 0;
+  std::uint64_t ignored_answers = 0;
+
+  /// Time does not run backwards here, whatever the caller's clock does.
+  void move_to(temporal::Time time) {
+    now = std::max(now, time);
+    store.advance(now);
+  }
+};
+
+Executive::Executive(ExecutiveSettings settings) : impl_(std::make_unique<Impl>()) {
+  impl_->settings = settings;
+}
+Executive::~Executive() = default;
+Executive::Executive(Executive&&) noexcept = default;
+Executive& Executive::operator=(Executive&&) noexcept = default;
+
+std::vector<std::string> Executive::load(temporal::FlexiblePlan plan, temporal::Time now) {
+  std::vector<std::string> faults = check(plan);
+  if (!faults.empty()) return faults;
+  impl_->move_to(now);
+  std::optional<PlanRun> before = std::exchange(impl_->run, std::nullopt);
+  impl_->run.emplace(std::move(plan), impl_->settings, impl_->store);
+  if (before) impl_->run->adopt(*before);
+  return {};
+}
+
+Outputs Executive::step(temporal::Time now, const Inputs& inputs) {
+  impl_->move_to(now);
+  for (const Observation& observation : inputs.observations)
+    impl_->store.observe(observation.timeline, observation.value);
+  std::optional<PlanRun>& run = impl_->run;
+  for (const CommandAck& ack : inputs.acks)
+    if (!run || !run->take_ack(ack, impl_->now)) ++impl_->ignored_acks;
+  for (const DecisionAnswer& answer : inputs.answers)
+    if (!run || !run->take_answer(answer, impl_->now)) ++impl_->ignored_answers;
+  if (!run) return {};
+  for (const std::string& owner : inputs.lost_owners) run->lose_owner(owner, impl_->now);
+  run->advance(impl_->now);
+  return run->take_outputs(impl_->now);
+}
+
+Outputs Executive::cancel_all(temporal::Time now) {
+  impl_->move_to(now);
+  if (!impl_->run) return {};
+  impl_->run->cancel_all(impl_->now);
+  return impl_->run->take_outputs(impl_->now);
+}
+
+Outcome Executive::outcome() const { return impl_->run ? impl_->run->outcome() : Outcome{}; }
+
+const temporal::FlexiblePlan& Executive::plan() const {
+  return impl_->run ? impl_->run->plan() : impl_->no_plan;
+}
+
+std::vector<StepStatus> Executive::steps() const {
+  std::vector<StepStatus> all;
+  if (!impl_->run) return all;
+  for (std::size_t i = 0; i < impl_->run->plan().activities.size(); ++i) all.push_back(impl_->run->status(i));
+  return all;
+}
+
+std::vector<Executive::TokenStatus> Executive::tokens() const {
+  return impl_->run ? impl_->run->tokens() : std::vector<TokenStatus>{};
+}
+
+std::optional<temporal::Value> Executive::value_of(const std::string& timeline) const {
+  return impl_->store.value_of(timeline);
+}
+
+std::uint64_t Executive::ignored_acks() const { return impl_->ignored_acks; }
+std::uint64_t Executive::ignored_answers() const { return impl_->ignored_answers; }
+
+}  // namespace roci::exec

@@ -1,0 +1,172 @@
+#include "exec_svc/executive/point_dispatcher.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roci::exec {
+
+using temporal::bounded;
+using temporal::Duration;
+using temporal::Time;
+using temporal::TimePoint;
+
+PointDispatcher::PointDispatcher(const temporal::FlexiblePlan& plan)
+    : owners_(point_owners(plan)),
+      constraints_(all_constraints(plan)),
+      precedence_(precedence_of(constraints_, owners_)),
+      windows_(plan.point_count, constraints_, plan.origin),
+      points_(plan.point_count) {
+  points_[temporal::origin_point].happened = plan.origin;
+  for (const temporal::PlanActivity& activity : plan.activities)
+    points_[activity.start_point].may_be_late = activity.lateness == temporal::LatenessPolicy::push;
+  for (TimePoint p = 1; p < points_.size(); ++p) {
+    points_[p].pending = static_cast<std::uint32_t>(precedence_.predecessors[p].size());
+    enter_times(p);
+  }
+}
+
+std::optional<Time> PointDispatcher::happened_at(TimePoint point) const { return points_[point].happened; }
+
+void PointDispatcher::hold(TimePoint point) {
+  ++points_[point].holds;
+  ++points_[point].pending;
+  ready_.erase(point);
+}
+
+void PointDispatcher::release(TimePoint point) {
+  --points_[point].holds;
+  satisfied(point);
+}
+
+std::vector<TimePoint> PointDispatcher::advance(Time now) {
+  std::vector<TimePoint> newly_due;
+  while (const auto entry = first_earliest()) {
+    const TimePoint point = entry->second;
+    if (entry->first > now) break;
+    earliest_.pop();
+    points_[point].due = true;
+    newly_due.push_back(point);
+    if (points_[point].pending == 0) ready_.insert(point);
+  }
+  return newly_due;
+}
+
+bool PointDispatcher::try_happen(TimePoint point, Time now) {
+  windows_.happen(point, now);
+  std::vector<TimePoint> first;
+  for (const auto& [other, before] : windows_.latest_changes())
+    if (open(other) && other != point && before >= now && windows_.window(other).upper < now)
+      first.push_back(other);
+  if (first.empty()) {
+    note_changes();
+    points_[point].happened = now;
+    ready_.erase(point);
+    pass(point);
+    return true;
+  }
+  windows_.undo_happen(point);
+  ready_.erase(point);
+  for (const TimePoint other : first) {
+    precedence_.successors[other].push_back(point);
+    precedence_.predecessors[point].push_back(other);
+    ++points_[point].pending;
+  }
+  return false;
+}
+
+void PointDispatcher::happen(TimePoint point, Time at) {
+  windows_.happen(point, at);
+  note_changes();
+  points_[point].happened = at;
+  ready_.erase(point);
+  pass(point);
+}
+
+void PointDispatcher::drop(TimePoint point) {
+  windows_.drop(point);
+  points_[point].dropped = true;
+  note_changes();
+  ready_.erase(point);
+  if (points_[point].pending == 0) pass(point);
+}
+
+void PointDispatcher::set_duration(std::size_t activity, Duration lower, Duration upper) {
+  windows_.set_bounds(activity, lower, upper);
+  note_changes();
+}
+
+std::optional<TimePoint> PointDispatcher::late_start(Time now) {
+  const auto entry = first_latest();
+  return entry && entry->first < now ? std::optional(entry->second) : std::nullopt;
+}
+
+Time PointDispatcher::next_time(Time now) {
+  Time next = temporal::no_bound;
+  if (const auto earliest = first_earliest(); earliest && earliest->first > now) next = earliest->first;
+  if (const auto latest = first_latest(); latest && latest->first >= now)
+    next = std::min(next, latest->first + Duration{1});
+  return next;
+}
+
+void PointDispatcher::enter_times(TimePoint point) {
+  const temporal::Window window = windows_.window(point);
+  if (commanded(point) && bounded(window.lower)) earliest_.enter(window.lower, point);
+  if (owners_[point].role == PointRole::start && bounded(window.upper)) latest_.enter(window.upper, point);
+}
+
+void PointDispatcher::note_changes() {
+  const auto note = [&](const std::vector<temporal::BoundField::Change>& changes, bool earliest) {
+    for (const auto& change : changes) {
+      if (!open(change.point) || windows_.happened(change.point)) continue;
+      if (earliest) {
+        points_[change.point].due = false;
+        ready_.erase(change.point);
+      }
+      enter_times(change.point);
+    }
+  };
+  note(windows_.earliest_changes(), true);
+  note(windows_.latest_changes(), false);
+}
+
+void PointDispatcher::satisfied(TimePoint point) {
+  PointState& state = points_[point];
+  if (--state.pending > 0) return;
+  if (state.dropped) {
+    pass(point);
+  } else if (state.due && !state.happened && commanded(point)) {
+    ready_.insert(point);
+  }
+}
+
+/// Tells the successors; dropped ones among them pass it on. A loop, since chains of dropped points may be
+/// long.
+void PointDispatcher::pass(TimePoint point) {
+  std::vector<TimePoint> passing{point};
+  while (!passing.empty()) {
+    const TimePoint passed = passing.back();
+    passing.pop_back();
+    if (std::exchange(points_[passed].passed, true)) continue;
+    for (const TimePoint successor : precedence_.successors[passed]) {
+      if (!points_[successor].dropped) {
+        satisfied(successor);
+      } else if (--points_[successor].pending == 0) {
+        passing.push_back(successor);
+      }
+    }
+  }
+}
+
+std::optional<Agenda::Entry> PointDispatcher::first_earliest() {
+  return earliest_.first([&](Time at, TimePoint point) {
+    return open(point) && !points_[point].due && windows_.window(point).lower == at;
+  });
+}
+
+std::optional<Agenda::Entry> PointDispatcher::first_latest() {
+  return latest_.first([&](Time at, TimePoint point) {
+    return open(point) && !points_[point].may_be_late && windows_.window(point).upper == at;
+  });
+}
+
+}  // namespace roci::exec

@@ -1,0 +1,88 @@
+// Decides which time points of a plan may happen now, by the plan's network alone.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "core/temporal/execution_windows.hpp"
+#include "exec_svc/executive/agenda.hpp"
+#include "exec_svc/executive/precedence.hpp"
+
+namespace roci::exec {
+
+class PointDispatcher {
+ public:
+  /// The plan has passed check().
+  explicit PointDispatcher(const temporal::FlexiblePlan& plan);
+
+  temporal::Window window(temporal::TimePoint point) const { return windows_.window(point); }
+  const PointOwner& owner(temporal::TimePoint point) const { return owners_[point]; }
+  /// As planned.
+  temporal::Window duration(std::size_t activity) const {
+    return {constraints_[activity].lower, constraints_[activity].upper};
+  }
+  const Precedence& precedence() const { return precedence_; }
+  std::optional<temporal::Time> happened_at(temporal::TimePoint point) const;
+  bool dropped(temporal::TimePoint point) const { return points_[point].dropped; }
+
+  /// Makes a point wait for something that is not in the network; as often as it is held it must be released.
+  void hold(temporal::TimePoint point);
+  void release(temporal::TimePoint point);
+  /// Its predecessors have happened: only holds, if any, are in its way.
+  bool held(temporal::TimePoint point) const { return points_[point].holds > 0; }
+  bool only_held(temporal::TimePoint point) const { return points_[point].pending == points_[point].holds; }
+
+  /// Moves the points whose earliest time has come on; returns them. They may still wait for predecessors.
+  std::vector<temporal::TimePoint> advance(temporal::Time now);
+  bool due(temporal::TimePoint point) const { return points_[point].due; }
+  /// Points other than observed ends that wait for nothing any more, in order of index.
+  const std::set<temporal::TimePoint>& ready() const { return ready_; }
+
+  /// Lets a ready point happen. False if some other point had to come before it by constraints that lead
+  /// around several points: it then waits for that one. (So dispatch is exact on networks that are not
+  /// minimal.)
+  bool try_happen(temporal::TimePoint point, temporal::Time now);
+  /// An event that nobody can refuse.
+  void happen(temporal::TimePoint point, temporal::Time at);
+  /// The point will never happen. What waited for it waits for its predecessors instead.
+  void drop(temporal::TimePoint point);
+  /// New duration bounds of a started activity.
+  void set_duration(std::size_t activity, temporal::Duration lower, temporal::Duration upper);
+
+  /// A start that has to happen before its latest time, which lies before now; the earliest such.
+  std::optional<temporal::TimePoint> late_start(temporal::Time now);
+  /// When, after now, advance() or late_start() will next have something new; no_bound: never.
+  temporal::Time next_time(temporal::Time now);
+
+ private:
+  struct PointState {
+    std::optional<temporal::Time> happened;
+    std::uint32_t pending = 0;  ///< predecessors that have not happened, and holds
+    std::uint32_t holds = 0;
+    bool due = false;
+    bool dropped = false;
+    bool passed = false;       ///< successors have been told
+    bool may_be_late = false;  ///< its latest time does not matter
+  };
+
+  bool open(temporal::TimePoint point) const { return !points_[point].happened && !points_[point].dropped; }
+  bool commanded(temporal::TimePoint point) const { return owners_[point].role != PointRole::observed_end; }
+  void enter_times(temporal::TimePoint point);
+  void note_changes();
+  void satisfied(temporal::TimePoint point);
+  void pass(temporal::TimePoint point);
+  std::optional<Agenda::Entry> first_earliest();
+  std::optional<Agenda::Entry> first_latest();
+
+  std::vector<PointOwner> owners_;
+  std::vector<temporal::TemporalConstraint> constraints_;
+  Precedence precedence_;
+  temporal::ExecutionWindows windows_;
+  std::vector<PointState> points_;
+  std::set<temporal::TimePoint> ready_;
+  Agenda earliest_, latest_;
+};
+
+}  // namespace roci::exec

@@ -1,0 +1,70 @@
+#include "exec_svc/executive/timeline_store.hpp"
+
+namespace roci::exec {
+
+using temporal::Impact;
+using temporal::ImpactKind;
+using temporal::ImpactWhen;
+using temporal::Value;
+
+void TimelineStore::observe(const std::string& timeline, const Value& value) { observed_[timeline] = value; }
+
+std::optional<Value> TimelineStore::value_of(const std::string& timeline) const {
+  if (const auto found = observed_.find(timeline); found != observed_.end()) return found->second;
+  if (const auto found = internal_.find(timeline); found != internal_.end()) return found->second;
+  return std::nullopt;
+}
+
+void TimelineStore::advance(temporal::Time now) {
+  const double elapsed = now_ ? temporal::to_seconds(now - *now_) : 0.0;
+  now_ = now;
+  if (elapsed <= 0) return;
+  for (const auto& [activity, impacts] : lasting_)
+    for (const Lasting& impact : impacts)
+      if (impact.kind == ImpactKind::rate) add(impact.timeline, impact.amount * elapsed);
+}
+
+void TimelineStore::begin(const temporal::PlanActivity& activity) {
+  std::vector<Lasting> lasting;
+  for (const Impact& impact : activity.impacts) {
+    if (impact.moment == ImpactWhen::at_start) apply(impact);
+    if (impact.moment != ImpactWhen::during) continue;
+    const auto* amount = std::get_if<double>(&impact.amount);
+    const auto before = internal_.find(impact.timeline);
+    lasting.push_back({impact.timeline, impact.kind, amount ? *amount : 0.0,
+                       before == internal_.end() ? std::nullopt : std::optional(before->second)});
+    if (impact.kind != ImpactKind::rate) apply(impact);
+  }
+  if (!lasting.empty()) lasting_[activity.id] = std::move(lasting);
+}
+
+void TimelineStore::end(const temporal::PlanActivity& activity, bool succeeded) {
+  if (const auto found = lasting_.find(activity.id); found != lasting_.end()) {
+    for (const Lasting& impact : found->second) {
+      if (impact.kind == ImpactKind::delta) add(impact.timeline, -impact.amount);
+      if (impact.kind != ImpactKind::assign) continue;
+      internal_.erase(impact.timeline);
+      if (impact.before) internal_[impact.timeline] = *impact.before;
+    }
+    lasting_.erase(found);
+  }
+  if (!succeeded) return;
+  for (const Impact& impact : activity.impacts)
+    if (impact.moment == ImpactWhen::at_end) apply(impact);
+}
+
+void TimelineStore::apply(const Impact& impact) {
+  if (impact.kind == ImpactKind::assign) {
+    internal_[impact.timeline] = impact.amount;
+  } else if (const auto* amount = std::get_if<double>(&impact.amount)) {
+    add(impact.timeline, *amount);
+  }
+}
+
+void TimelineStore::add(const std::string& timeline, double amount) {
+  Value& value = internal_[timeline];
+  const auto* number = std::get_if<double>(&value);
+  value = (number ? *number : 0.0) + amount;
+}
+
+}  // namespace roci::exec

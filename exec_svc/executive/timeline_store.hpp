@@ -1,0 +1,47 @@
+// Values of timelines as conditions see them.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "core/temporal/flexible_plan.hpp"
+
+namespace roci::exec {
+
+/// External states are observed; internal states are what activities without a command make of them (R73). A
+/// timeline that was observed once is external for ever: planned impacts are never taken for the world.
+/// Deltas and rates start from 0 where nothing was assigned.
+class TimelineStore {
+ public:
+  void observe(const std::string& timeline, const temporal::Value& value);
+  std::optional<temporal::Value> value_of(const std::string& timeline) const;
+
+  /// Lets the rates of running activities act up to now.
+  void advance(temporal::Time now);
+
+  /// Impacts at the start, and those that last while the activity runs.
+  void begin(const temporal::PlanActivity& activity);
+  /// Ends the lasting ones (a delta is taken back, an assignment gives way to the value before it) and, if
+  /// the activity succeeded, adds those at the end.
+  void end(const temporal::PlanActivity& activity, bool succeeded);
+
+ private:
+  struct Lasting {
+    std::string timeline;
+    temporal::ImpactKind kind;
+    double amount = 0;
+    std::optional<temporal::Value> before;
+  };
+
+  void apply(const temporal::Impact& impact);
+  void add(const std::string& timeline, double amount);
+
+  std::unordered_map<std::string, temporal::Value> observed_, internal_;
+  std::map<std::string, std::vector<Lasting>> lasting_;  // by activity id
+  std::optional<temporal::Time> now_;
+};
+
+}  // namespace roci::exec

@@ -1,0 +1,59 @@
+// A world that answers an executive by a script, and writes down what happened.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "exec_svc/executive/executive.hpp"
+
+namespace roci::exec::testing {
+
+/// How an owner answers one attempt of a command. Times in seconds.
+struct Answer {
+  bool accepts = true;
+  double lasts = -1;  ///< until the end; negative: as long as the command expects
+  CommandStage ends_with = CommandStage::completed;
+  std::string reason{};
+  bool answers_cancel = true;
+};
+
+/// Answers come by the way: accepted at once, the end when it has lasted. Runs the executive from wake to
+/// wake.
+class ScriptedWorld {
+ public:
+  explicit ScriptedWorld(temporal::FlexiblePlan plan, ExecutiveSettings settings = {});
+
+  /// Answers of an activity's attempts in their order; the last one stands for all further ones.
+  void answers(const std::string& activity, std::vector<Answer> answers) {
+    answers_[activity] = std::move(answers);
+  }
+  void at(double seconds, Inputs inputs);
+  void observe(double seconds, const std::string& timeline, temporal::Value value);
+  void cancel_at(double seconds);
+  void load_at(double seconds, temporal::FlexiblePlan plan);
+
+  /// Until nothing more can happen, or the plan has ended, or `until` has passed. Returns the trace.
+  const std::vector<std::string>& run(double until = 1e6);
+
+  Executive executive;
+  std::vector<std::string> trace;
+
+ private:
+  struct Event {
+    Inputs inputs{};
+    std::function<Outputs(temporal::Time)> act{};
+  };
+
+  void note(const Outputs& outputs);
+  void answer(const Command& command);
+
+  std::map<std::string, std::vector<Answer>> answers_;
+  std::multimap<temporal::Time, Event> events_;
+  std::map<std::string, std::multimap<temporal::Time, Event>::iterator> ends_;  // of commands that run
+  temporal::Time now_{0};
+  OutcomeKind outcome_ = OutcomeKind::running;
+};
+
+}  // namespace roci::exec::testing
