@@ -1,0 +1,21 @@
+#pragma once
+#include <vector>
+
+#include "core/mission/entry.hpp"
+#include "pathplan_svc/costmap.hpp"
+#include "pathplan_svc/drive_model.hpp"
+
+namespace roci::pathplan {
+
+// What a mission says of its rover and of the ground it must not enter.
+struct Rover {
+  RoverLimits limits;
+  DriveModel drive;
+  std::vector<Disc> keep_out;
+};
+
+// Reads the section `rover` of mission.yaml (README.md lists its keys; each is optional). Throws
+// mission::FileError with place and remedy.
+Rover read_rover(const mission::Entry& section);
+
+}  // namespace roci::pathplan
