@@ -58,10 +58,14 @@ const char* to_string(PathStatus status) {
       return "found";
     case PathStatus::unreachable:
       return "unreachable";
-    case PathStatus::outside_map:
-      return "outside_map";
-    case PathStatus::inside_obstacle:
-      return "inside_obstacle";
+    case PathStatus::start_outside:
+      return "start_outside";
+    case PathStatus::goal_outside:
+      return "goal_outside";
+    case PathStatus::start_blocked:
+      return "start_blocked";
+    case PathStatus::goal_blocked:
+      return "goal_blocked";
   }
   return "invalid";
 }
@@ -79,7 +83,8 @@ bool PathPlanner::set_discs(const std::vector<Disc>& discs) {
 }
 
 PathOutcome PathPlanner::path(terrain::Point from, terrain::Point to) {
-  if (!map_.grid().contains(from) || !map_.grid().contains(to)) return refusal(PathStatus::outside_map);
+  if (!map_.grid().contains(from)) return refusal(PathStatus::start_outside);
+  if (!map_.grid().contains(to)) return refusal(PathStatus::goal_outside);
   const auto key = std::pair{std::pair{from.x, from.y}, std::pair{to.x, to.y}};
   const auto known = answers_.find(key);
   if (known != answers_.end()) return known->second;
@@ -98,9 +103,9 @@ const SearchTree& PathPlanner::tree_from(terrain::Cell source) {
 PathOutcome PathPlanner::plan(terrain::Point from, terrain::Point to) {
   const terrain::Grid& grid = map_.grid();
   const std::optional<terrain::Point> start = leave_margin(map_, from);
-  if (!start) return refusal(PathStatus::inside_obstacle, map_.state(grid.cell_of(from)));
+  if (!start) return refusal(PathStatus::start_blocked, map_.state(grid.cell_of(from)));
   if (from == to) return finish({from});
-  if (!map_.is_free(to)) return refusal(PathStatus::inside_obstacle, map_.state(grid.cell_of(to)));
+  if (!map_.is_free(to)) return refusal(PathStatus::goal_blocked, map_.state(grid.cell_of(to)));
   const terrain::Cell source = grid.cell_of(*start);
   const terrain::Cell target = grid.cell_of(to);
   if (regions_.region(grid.index(source)) != regions_.region(grid.index(target))) {

@@ -12,9 +12,11 @@ namespace roci::pathplan {
 
 enum class PathStatus : std::uint8_t {
   found,
-  unreachable,     // proved: the ends lie in regions of free cells that do not meet
-  outside_map,     // an end is not on the map
-  inside_obstacle  // an end is blocked; `blocked_by` says by what
+  unreachable,    // proved: the ends lie in regions of free cells that do not meet
+  start_outside,  // of the map
+  goal_outside,
+  start_blocked,  // PathOutcome::blocked_by says by what
+  goal_blocked,
 };
 
 const char* to_string(PathStatus status);

@@ -144,7 +144,7 @@ TEST(PathPlanner, TheSitesPlacesAreAsItsReadmeSays) {
   }
   for (const Point tight : {Point{60, 220}, Point{175, 180}}) {
     const PathOutcome outcome = planner.path({40, 40}, tight);
-    EXPECT_EQ(outcome.status, PathStatus::inside_obstacle);
+    EXPECT_EQ(outcome.status, PathStatus::goal_blocked);
     EXPECT_EQ(outcome.blocked_by, CellState::margin);
     EXPECT_EQ(planner.path(tight, {40, 40}).status, PathStatus::found) << "a margin may be left";
   }
@@ -170,7 +170,7 @@ TEST(PathPlanner, AWallOfObstaclesIsProvedToSeparate) {
   for (double y = 0; y <= 40; y += 2) wall.push_back({{20, y}, 1});
   planner.set_discs(wall);
   EXPECT_EQ(planner.path({5, 20}, {35, 20}).status, PathStatus::unreachable);
-  EXPECT_EQ(planner.path({5, 20}, {20, 20}).status, PathStatus::inside_obstacle);
+  EXPECT_EQ(planner.path({5, 20}, {20, 20}).status, PathStatus::goal_blocked);
   EXPECT_EQ(planner.path({5, 20}, {20, 20}).blocked_by, CellState::disc);
 }
 
@@ -184,18 +184,18 @@ TEST(PathPlanner, AnObstacleBesideTheRoverIsLeftBehindInside) {
   EXPECT_EQ(away.waypoints.front(), beside);
   EXPECT_EQ(planner.path(beside, beside).time, 0);
   const PathOutcome within = planner.path({20, 20}, {35, 20});
-  EXPECT_EQ(within.status, PathStatus::inside_obstacle);
+  EXPECT_EQ(within.status, PathStatus::start_blocked);
   EXPECT_EQ(within.blocked_by, CellState::disc);
 }
 
 TEST(PathPlanner, EndsOffTheMapAreNamed) {
   PathPlanner planner = planetary();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(planner.path({40, 40}, {240, 40}).status, PathStatus::outside_map);
-  EXPECT_EQ(planner.path({-1, 40}, {40, 40}).status, PathStatus::outside_map);
-  EXPECT_EQ(planner.path({40, 40}, {nan, 40}).status, PathStatus::outside_map);
+  EXPECT_EQ(planner.path({40, 40}, {240, 40}).status, PathStatus::goal_outside);
+  EXPECT_EQ(planner.path({-1, 40}, {40, 40}).status, PathStatus::start_outside);
+  EXPECT_EQ(planner.path({40, 40}, {nan, 40}).status, PathStatus::goal_outside);
   EXPECT_EQ(planner.path({40, std::numeric_limits<double>::infinity()}, {40, 40}).status,
-            PathStatus::outside_map);
+            PathStatus::start_outside);
 }
 
 TEST(PathPlanner, StandingStillCostsNothing) {

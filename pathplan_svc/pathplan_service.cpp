@@ -1,0 +1,138 @@
+#include "pathplan_svc/pathplan_service.hpp"
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/mission/entry.hpp"
+#include "core/terrain/site_file.hpp"
+#include "pathplan_svc/job_queue.hpp"
+#include "pathplan_svc/rover_file.hpp"
+#include "pathplan_svc/wire_service.hpp"
+#include "services/publisher.hpp"
+#include "services/rpc.hpp"
+
+namespace roci::pathplan {
+namespace {
+
+namespace topics = services::topics;
+
+// The planner belongs to the job thread: questions and changes of the map reach it in the order of the loop, so each
+// answer stands on the map as it was when the question came.
+class PathplanService : public services::Service {
+ public:
+  PathplanService(services::Node& node, const terrain::Site& site, const Rover& rover)
+      : node_(node),
+        keep_out_(rover.keep_out),
+        planner_(site, rover.limits, rover.drive),
+        offers_(services::advertise(node, topics::function_offer)),
+        events_(services::advertise(node, topics::event)) {
+    planner_.set_discs(keep_out_);
+    offers_.write(function_offer(node.options().name, planner_.map().version()));
+    services::subscribe(node, topics::hazard, [this](const v1::Hazard& hazard) { on_hazard(hazard); });
+    services::serve(node, topics::function_call, [this](const v1::FunctionRequest& request, auto responder) {
+      if (request.module_name() == kModule) on_function_call(request, responder);
+    });
+    services::serve(node, topics::path_request, [this](const v1::PathRequest& request, auto responder) {
+      compute([this, request](const std::stop_token&) { return find_path(planner_, request); },
+              [responder](v1::PathReply reply) { responder.reply(std::move(reply)); });
+    });
+  }
+
+ private:
+  // `work` runs on the job thread, then `deliver` with its result on the loop.
+  template <class Work, class Deliver>
+  void compute(Work work, Deliver deliver) {
+    const auto id = node_.begin_work();
+    jobs_.push([this, id, work = std::move(work), deliver = std::move(deliver)](const std::stop_token& stop) {
+      auto result = work(stop);
+      node_.post_work_result(id, [deliver, result = std::move(result)]() mutable { deliver(std::move(result)); });
+    });
+  }
+
+  void on_function_call(const v1::FunctionRequest& request, services::Responder<v1::FunctionReply> responder) {
+    compute([this, request](const std::stop_token& stop) { return evaluate(planner_, request, stop); },
+            [this, responder](FunctionAnswer answer) {
+              for (const auto& [place, why] : answer.unusable_places) {
+                report(v1::SEVERITY_WARNING, "map.place-unusable", place + ": " + why, {{"place", place}});
+              }
+              answer.reply.owner(node_.options().name);
+              answer.reply.computed_us(node_.now().count());
+              responder.reply(std::move(answer.reply));
+            });
+  }
+
+  void on_hazard(const v1::Hazard& hazard) {
+    const Disc disc{{hazard.x_m(), hazard.y_m()}, hazard.radius_m()};
+    const bool usable = std::isfinite(disc.centre.x) && std::isfinite(disc.centre.y) && std::isfinite(disc.radius) &&
+                        disc.radius >= 0;
+    if (!usable && !hazard.cleared()) {
+      report(v1::SEVERITY_WARNING, "map.hazard-refused",
+             "hazard " + hazard.id() + " has no finite place and radius; send x_m, y_m and radius_m in metres",
+             {{"hazard", hazard.id()}});
+      return;
+    }
+    if (hazard.cleared()) {
+      hazards_.erase(hazard.id());
+    } else {
+      hazards_[hazard.id()] = disc;
+    }
+    update_map();
+  }
+
+  void update_map() {
+    std::vector<Disc> discs = keep_out_;
+    for (const auto& [id, disc] : hazards_) discs.push_back(disc);
+    const std::size_t count = hazards_.size();
+    compute(
+        [this, discs = std::move(discs)](const std::stop_token&) {
+          const bool changed = planner_.set_discs(discs);
+          return std::pair{changed, planner_.map().version()};
+        },
+        [this, count](std::pair<bool, std::uint64_t> update) {
+          const auto [changed, version] = update;
+          if (!changed) return;
+          offers_.write(function_offer(node_.options().name, version));
+          report(v1::SEVERITY_INFO, "map.changed",
+                 "the map has version " + std::to_string(version) + " with " + std::to_string(count) + " hazards",
+                 {{"map_version", std::to_string(version)}});
+        });
+  }
+
+  void report(v1::Severity severity, const std::string& code, const std::string& text,
+              const std::vector<std::pair<std::string, std::string>>& properties) {
+    v1::Event event;
+    event.severity_level(severity);
+    event.code(code);
+    event.text(text);
+    for (const auto& [name, value] : properties) {
+      v1::Property property;
+      property.name(name);
+      property.value(value);
+      event.properties().push_back(property);
+    }
+    events_.write(event);
+  }
+
+  services::Node& node_;
+  std::vector<Disc> keep_out_;
+  std::map<std::string, Disc> hazards_;
+  PathPlanner planner_;  // from the constructor's end on: the job thread's alone
+  services::Publisher<v1::FunctionOffer> offers_;
+  services::Publisher<v1::Event> events_;
+  JobQueue jobs_;  // last: its thread ends before the planner does
+};
+
+}  // namespace
+
+std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
+  const mission::Entry mission = mission::Entry::load(settings.mission / "mission.yaml");
+  const mission::Entry site = mission.at("site");
+  const auto rover = mission.find("rover");
+  return std::make_unique<PathplanService>(node, terrain::load_site(site.resolve(site.text())),
+                                           rover ? read_rover(*rover) : Rover{});
+}
+
+}  // namespace roci::pathplan
