@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,8 +20,8 @@ namespace {
 
 namespace topics = services::topics;
 
-// The planner belongs to the job thread: questions and changes of the map reach it in the order of the loop, so each
-// answer stands on the map as it was when the question came.
+// The planner belongs to the job thread: questions and changes of the map reach it in the order of the loop,
+// so each answer stands on the map as it was when the question came.
 class PathplanService : public services::Service {
  public:
   PathplanService(services::Node& node, const terrain::Site& site, const Rover& rover)
@@ -48,30 +49,39 @@ class PathplanService : public services::Service {
     const auto id = node_.begin_work();
     jobs_.push([this, id, work = std::move(work), deliver = std::move(deliver)](const std::stop_token& stop) {
       auto result = work(stop);
-      node_.post_work_result(id, [deliver, result = std::move(result)]() mutable { deliver(std::move(result)); });
+      node_.post_work_result(id,
+                             [deliver, result = std::move(result)]() mutable { deliver(std::move(result)); });
     });
   }
 
-  void on_function_call(const v1::FunctionRequest& request, services::Responder<v1::FunctionReply> responder) {
+  void on_function_call(const v1::FunctionRequest& request,
+                        services::Responder<v1::FunctionReply> responder) {
     compute([this, request](const std::stop_token& stop) { return evaluate(planner_, request, stop); },
             [this, responder](FunctionAnswer answer) {
-              for (const auto& [place, why] : answer.unusable_places) {
-                report(v1::SEVERITY_WARNING, "map.place-unusable", place + ": " + why, {{"place", place}});
-              }
+              report_unusable(answer.unusable_places);
               answer.reply.owner(node_.options().name);
               answer.reply.computed_us(node_.now().count());
               responder.reply(std::move(answer.reply));
             });
   }
 
+  // Each place once per map, although every replanning asks again.
+  void report_unusable(const std::map<std::string, std::string>& places) {
+    for (const auto& [place, why] : places) {
+      if (!reported_.insert(place + ": " + why).second) continue;
+      report(v1::SEVERITY_WARNING, "place.unusable", place + ": " + why, {{"place", place}});
+    }
+  }
+
   void on_hazard(const v1::Hazard& hazard) {
     const Disc disc{{hazard.x_m(), hazard.y_m()}, hazard.radius_m()};
-    const bool usable = std::isfinite(disc.centre.x) && std::isfinite(disc.centre.y) && std::isfinite(disc.radius) &&
-                        disc.radius >= 0;
+    const bool usable = std::isfinite(disc.centre.x) && std::isfinite(disc.centre.y) &&
+                        std::isfinite(disc.radius) && disc.radius >= 0;
     if (!usable && !hazard.cleared()) {
-      report(v1::SEVERITY_WARNING, "map.hazard-refused",
-             "hazard " + hazard.id() + " has no finite place and radius; send x_m, y_m and radius_m in metres",
-             {{"hazard", hazard.id()}});
+      report(
+          v1::SEVERITY_WARNING, "hazard.refused",
+          "hazard " + hazard.id() + " has no finite place and radius; send x_m, y_m and radius_m in metres",
+          {{"hazard", hazard.id()}});
       return;
     }
     if (hazard.cleared()) {
@@ -94,9 +104,11 @@ class PathplanService : public services::Service {
         [this, count](std::pair<bool, std::uint64_t> update) {
           const auto [changed, version] = update;
           if (!changed) return;
+          reported_.clear();
           offers_.write(function_offer(node_.options().name, version));
           report(v1::SEVERITY_INFO, "map.changed",
-                 "the map has version " + std::to_string(version) + " with " + std::to_string(count) + " hazards",
+                 "the map has version " + std::to_string(version) + " with " + std::to_string(count) +
+                     " hazards",
                  {{"map_version", std::to_string(version)}});
         });
   }
@@ -119,6 +131,7 @@ class PathplanService : public services::Service {
   services::Node& node_;
   std::vector<Disc> keep_out_;
   std::map<std::string, Disc> hazards_;
+  std::set<std::string> reported_;
   PathPlanner planner_;  // from the constructor's end on: the job thread's alone
   services::Publisher<v1::FunctionOffer> offers_;
   services::Publisher<v1::Event> events_;

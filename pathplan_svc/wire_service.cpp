@@ -25,7 +25,8 @@ std::optional<double> number(const v1::PlanObject& object, const std::string& na
     const std::string& text = property.value();
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+      return std::nullopt;
     return value;
   }
   return std::nullopt;
@@ -58,7 +59,8 @@ std::string explain(const PathOutcome& outcome) {
 
 class Evaluation {
  public:
-  Evaluation(PathPlanner& planner, const v1::FunctionRequest& request) : planner_(planner), request_(request) {}
+  Evaluation(PathPlanner& planner, const v1::FunctionRequest& request)
+      : planner_(planner), request_(request) {}
 
   v1::FunctionValues batch(const v1::FunctionBatch& batch, const std::stop_token& stop) {
     v1::FunctionValues values;
@@ -93,7 +95,8 @@ class Evaluation {
       return v1::FUNCTION_VALUE;
     }
     if (outcome.status != PathStatus::unreachable) {
-      const bool at_start = outcome.status == PathStatus::start_outside || outcome.status == PathStatus::start_blocked;
+      const bool at_start =
+          outcome.status == PathStatus::start_outside || outcome.status == PathStatus::start_blocked;
       unusable_[request_.objects()[at_start ? from_object : to_object].name()] = explain(outcome);
     }
     return v1::FUNCTION_UNREACHABLE;
@@ -139,7 +142,8 @@ v1::FunctionOffer function_offer(const std::string& owner, std::uint64_t map_ver
   return offer;
 }
 
-FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request, const std::stop_token& stop) {
+FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request,
+                        const std::stop_token& stop) {
   FunctionAnswer answer;
   Evaluation evaluation(planner, request);
   for (const v1::FunctionBatch& batch : request.batches()) {

@@ -13,7 +13,8 @@ namespace roci::pathplan {
 
 inline constexpr const char* kModule = "pathplan";
 
-// What module `pathplan` offers on this version of the map: traverse_time [s] and traverse_energy [J] of (from, to).
+// What module `pathplan` offers on this version of the map: traverse_time [s] and traverse_energy [J] of
+// (from, to).
 v1::FunctionOffer function_offer(const std::string& owner, std::uint64_t map_version);
 
 struct FunctionAnswer {
@@ -21,9 +22,10 @@ struct FunctionAnswer {
   std::map<std::string, std::string> unusable_places;  // object -> why no path can begin or end there
 };
 
-// Every tuple gets an outcome. An object is a place if it has properties x and y, finite numbers in metres. A place
-// off the map or inside an obstacle is unreachable. Ends early, with what there is, when stopped.
-FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request, const std::stop_token& stop);
+// Every tuple gets an outcome. An object is a place if it has properties x and y, finite numbers in metres. A
+// place off the map or inside an obstacle is unreachable. Ends early, with what there is, when stopped.
+FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request,
+                        const std::stop_token& stop);
 
 v1::PathReply find_path(PathPlanner& planner, const v1::PathRequest& request);
 
