@@ -99,11 +99,11 @@ class Reader {
 
 struct TransportOptions {
   int domain = 0;
-  std::string participant;                         // shown by vendor tools
+  std::string participant{};                       // shown by vendor tools
   std::string address = "127.0.0.1";               // the one interface address that is used; never any other
   std::vector<std::string> peers = {"127.0.0.1"};  // hosts that are asked for participants, unicast
-  std::string partition;                           // empty: none
-  std::string vendor_xml;  // path of a vendor's own XML, used instead of the defaults if not empty
+  std::string partition{};                         // empty: none
+  std::string vendor_xml{};  // path of a vendor's own XML, used instead of the defaults if not empty
 };
 
 class TransportError : public std::runtime_error {
@@ -111,7 +111,8 @@ class TransportError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// One DDS participant. Its writers and readers are destroyed before it.
+// One DDS participant. Its writers and readers are destroyed before it. A topic has one type in it; asking
+// for another is a TransportError, like everything that the vendor refuses.
 class Transport {
  public:
   virtual ~Transport() = default;

@@ -4,17 +4,6 @@
 #include <utility>
 
 namespace roci::services::inproc {
-namespace {
-
-// What owner_lost carries: a big-endian encapsulation header and the key.
-Payload key_only_payload(const Key& key) {
-  Payload payload(4 + key.size());
-  std::copy(key.begin(), key.end(), payload.begin() + 4);
-  return payload;
-}
-
-}  // namespace
-
 ReaderEnd::ReaderEnd(EndpointDescription description, ReaderEvents events,
                      std::shared_ptr<Dispatcher> dispatcher, Dispatcher::Endpoint id)
     : description_(std::move(description)),
@@ -54,11 +43,17 @@ void ReaderEnd::push(Sample sample, const Key& key, bool reserved) {
 }
 
 // False: the reader has nothing to learn from the sample (it disposes an instance that is not alive here).
-bool ReaderEnd::follow_instance(const Sample& sample, const Key& key) {
+bool ReaderEnd::follow_instance(Sample& sample, const Key& key) {
   if (!description_.type.keyed) return true;
-  if (sample.kind == SampleKind::disposed) return owners_.erase(key) > 0;
-  owners_[key].insert(sample.writer);
-  return true;
+  if (sample.kind == SampleKind::data) {
+    if (instances_.wrote(key, sample.writer)) return true;
+    const std::span bytes(reinterpret_cast<const std::uint8_t*>(key.data()), key.size());
+    instances_.introduce(key, sample.writer, key_only_payload(bytes));
+    return true;
+  }
+  auto key_payload = instances_.ended(key);
+  if (key_payload) sample.payload = std::move(*key_payload);
+  return key_payload.has_value();
 }
 
 void ReaderEnd::drop_oldest_beyond_depth(const Key& key) {
@@ -108,15 +103,9 @@ void ReaderEnd::attach(const Guid& writer) {
 void ReaderEnd::detach(const Guid& writer) {
   const std::lock_guard lock(mutex_);
   if (closed_ || writers_.erase(writer) == 0) return;
-  for (auto it = owners_.begin(); it != owners_.end();) {
-    auto& [key, owners] = *it;
-    if (owners.erase(writer) > 0 && owners.empty()) {
-      Sample lost{SampleKind::owner_lost, key_only_payload(key), writer};
-      enqueue(Arrived{std::move(lost), key});
-      it = owners_.erase(it);
-    } else {
-      ++it;
-    }
+  for (auto& key_payload : instances_.writer_left(writer)) {
+    Sample lost{SampleKind::owner_lost, std::move(key_payload), writer};
+    enqueue(Arrived{std::move(lost), {}});
   }
   enqueue(Matched{static_cast<int>(writers_.size())});
 }

@@ -14,11 +14,12 @@
 
 #include "services/transport.hpp"
 #include "services/vendors/inproc/dispatcher.hpp"
+#include "services/vendors/instance_table.hpp"
 
 namespace roci::services::inproc {
 
 // Big-endian CDR of the key members; empty for types without key.
-using Key = std::string;
+using Key = InstanceTable::Key;
 
 class ReaderEnd : public std::enable_shared_from_this<ReaderEnd> {
  public:
@@ -50,7 +51,7 @@ class ReaderEnd : public std::enable_shared_from_this<ReaderEnd> {
   using Item = std::variant<Arrived, Matched>;
 
   bool limited() const;
-  bool follow_instance(const Sample&, const Key&);
+  bool follow_instance(Sample&, const Key&);
   void drop_oldest_beyond_depth(const Key&);
   void enqueue(Item);
   void deliver_next();
@@ -65,9 +66,9 @@ class ReaderEnd : public std::enable_shared_from_this<ReaderEnd> {
   bool closed_ = false;
   std::set<Guid> writers_;
   std::deque<Item> queue_;
-  int samples_ = 0;                                 // in queue_, and booked
-  std::unordered_map<Key, int> waiting_;            // samples in queue_ per instance, for keep last
-  std::unordered_map<Key, std::set<Guid>> owners_;  // of the instances that are alive
+  int samples_ = 0;                       // in queue_, and booked
+  std::unordered_map<Key, int> waiting_;  // samples in queue_ per instance, for keep last
+  InstanceTable instances_;
 };
 
 }  // namespace roci::services::inproc

@@ -1,6 +1,9 @@
 // The inproc transport: participants of one process, on any threads, that meet by domain id. No network.
 #include "services/transport.hpp"
 
+#include <map>
+#include <mutex>
+
 #include "services/vendors/inproc/bus.hpp"
 
 namespace roci::services::inproc {
@@ -49,6 +52,7 @@ class InprocTransport : public Transport {
 
   std::unique_ptr<Writer> create_writer(const EndpointDescription& description,
                                         WriterEvents events) override {
+    check_type(description);
     const auto id = bus_->next_id();
     auto end =
         std::make_shared<WriterEnd>(description, std::move(events), dispatcher_, id, guid_of(domain_, id));
@@ -59,6 +63,7 @@ class InprocTransport : public Transport {
 
   std::unique_ptr<Reader> create_reader(const EndpointDescription& description,
                                         ReaderEvents events) override {
+    check_type(description);
     auto end = std::make_shared<ReaderEnd>(description, std::move(events), dispatcher_, bus_->next_id());
     auto reader = std::make_unique<InprocReader>(bus_, end);
     bus_->add(partition_, end);
@@ -66,9 +71,20 @@ class InprocTransport : public Transport {
   }
 
  private:
+  void check_type(const EndpointDescription& description) {
+    const std::lock_guard lock(mutex_);
+    const auto& name = types_.try_emplace(description.topic, description.type.name).first->second;
+    if (name != description.type.name) {
+      throw TransportError("topic " + description.topic + " has the type " + name +
+                           " in this participant, so it cannot have " + description.type.name + " too");
+    }
+  }
+
   const int domain_;
   const std::string partition_;
   const std::shared_ptr<Bus> bus_;
+  std::mutex mutex_;
+  std::map<std::string, std::string> types_;  // of the topics
   const std::shared_ptr<Dispatcher> dispatcher_ = std::make_shared<Dispatcher>();
 };
 

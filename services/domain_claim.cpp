@@ -1,0 +1,58 @@
+#include "services/domain_claim.hpp"
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdint>
+
+#include "services/transport.hpp"
+
+namespace roci::services {
+namespace {
+
+constexpr int kLastDomain =
+    100;  // the ports of higher ones are in the range that the system hands out freely
+
+// RTPS 2.2, 9.6.1.1: the ports of domain d start at 7400 + 250 d; participant p listens at + 10 + 2 p and +
+// 11 + 2 p.
+std::uint16_t first_participant_port(int domain) {
+  return static_cast<std::uint16_t>(7400 + 250 * domain + 10);
+}
+std::uint16_t claim_port(int domain) { return static_cast<std::uint16_t>(7400 + 250 * domain + 249); }
+
+// A UDP socket that has the port for itself, or -1.
+int bind_alone(std::uint16_t port) {
+  const int udp = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (udp >= 0 && bind(udp, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return udp;
+  if (udp >= 0) close(udp);
+  return -1;
+}
+
+}  // namespace
+
+DomainClaim::DomainClaim() {
+  // Start at another place in each process, so that many at once seldom collide.
+  const int start = static_cast<int>(getpid()) % kLastDomain;
+  for (int i = 0; i < kLastDomain; ++i) {
+    id_ = 1 + (start + i) % kLastDomain;
+    socket_ = bind_alone(claim_port(id_));
+    if (socket_ < 0) continue;
+    const int probe = bind_alone(first_participant_port(id_));
+    if (probe >= 0) {
+      close(probe);
+      return;
+    }
+    close(socket_);
+  }
+  throw TransportError(
+      "no free DDS domain id from 1 to 100 on this host; end other missions or give one with --domain");
+}
+
+DomainClaim::~DomainClaim() { close(socket_); }
+
+}  // namespace roci::services

@@ -1,0 +1,37 @@
+// Cyclone DDS configures a domain, not a participant: the domains of this process.
+#pragma once
+
+extern "C" {
+#include <dds/dds.h>
+}
+
+#include <memory>
+#include <string>
+
+#include "services/transport.hpp"
+
+namespace roci::services::cyclonedds {
+
+// The XML that our settings come to: UDP unicast on options.address alone.
+std::string configuration(const TransportOptions&);
+
+class Domain {
+ public:
+  // `config`: XML or the path of a file with it.
+  Domain(int id, std::string config);
+  ~Domain();
+  Domain(const Domain&) = delete;
+  Domain& operator=(const Domain&) = delete;
+
+  const std::string& config() const { return config_; }
+
+ private:
+  const std::string config_;
+  const dds_entity_t handle_;
+};
+
+// Shared by the participants of this process that are in the same domain; they must agree on its
+// configuration. Throws TransportError.
+std::shared_ptr<Domain> join_domain(const TransportOptions&);
+
+}  // namespace roci::services::cyclonedds

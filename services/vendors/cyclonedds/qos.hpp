@@ -1,0 +1,34 @@
+// Our settings in the terms of Cyclone DDS, and owners for its handles.
+#pragma once
+
+extern "C" {
+#include <dds/dds.h>
+}
+
+#include <memory>
+
+#include "services/transport.hpp"
+
+namespace roci::services::cyclonedds {
+
+struct DeleteQos {
+  void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
+};
+using QosPtr = std::unique_ptr<dds_qos_t, DeleteQos>;
+
+struct DeleteListener {
+  void operator()(dds_listener_t* listener) const { dds_delete_listener(listener); }
+};
+using ListenerPtr = std::unique_ptr<dds_listener_t, DeleteListener>;
+
+// For writers and readers alike.
+QosPtr endpoint_qos(const QosSettings&);
+
+// `entity` if it is a handle; throws TransportError "Cyclone DDS refused <what>: <why>" if it is an error
+// code.
+dds_entity_t checked(dds_entity_t entity, const std::string& what);
+
+// What the vendor's GUID looks like at our boundary.
+Guid to_guid(const dds_guid_t&);
+
+}  // namespace roci::services::cyclonedds

@@ -1,0 +1,78 @@
+#include "services/vendors/cyclonedds/reader.hpp"
+
+#include <array>
+
+namespace roci::services::cyclonedds {
+
+CycloneReader::CycloneReader(dds_entity_t subscriber, const TopicHandle& topic,
+                             const EndpointDescription& endpoint, ReaderEvents events)
+    : type_(endpoint.type), events_(std::move(events)) {
+  const ListenerPtr listener(dds_create_listener(this));
+  dds_lset_data_available(listener.get(), &CycloneReader::on_data);
+  dds_lset_subscription_matched(listener.get(), &CycloneReader::on_matched);
+  reader_ =
+      checked(dds_create_reader(subscriber, topic.topic, endpoint_qos(endpoint.qos).get(), listener.get()),
+              "a reader on " + endpoint.topic);
+}
+
+CycloneReader::~CycloneReader() { dds_delete(reader_); }
+
+void CycloneReader::on_data(dds_entity_t reader, void* self) {
+  static_cast<CycloneReader*>(self)->take_all(reader);
+}
+
+void CycloneReader::take_all(dds_entity_t reader) {
+  constexpr std::uint32_t kBatch = 32;
+  std::array<ddsi_serdata*, kBatch> samples;
+  std::array<dds_sample_info_t, kBatch> infos;
+  const std::lock_guard lock(mutex_);
+  dds_return_t count = 0;
+  do {
+    count = dds_takecdr(reader, samples.data(), kBatch, infos.data(), DDS_ANY_STATE);
+    for (dds_return_t i = 0; i < count; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      take(*static_cast<const Serdata*>(samples[at]), infos[at],
+           writer_of(reader, infos[at].publication_handle));
+      ddsi_serdata_unref(samples[at]);
+    }
+  } while (count == static_cast<dds_return_t>(kBatch));
+}
+
+void CycloneReader::take(const Serdata& data, const dds_sample_info_t& info, const Guid& writer) {
+  if (!events_.on_sample) return;
+  const auto payload = data.payload();
+  if (info.valid_data) {
+    if (type_.keyed && !instances_.wrote(data.instance(), writer)) {
+      Payload key;
+      if (!type_.serialized_key(payload, false, key)) return;
+      instances_.introduce(data.instance(), writer, key_only_payload(key));
+    }
+    events_.on_sample({SampleKind::data, Payload(payload.begin(), payload.end()), writer});
+  }
+  const bool more_of_instance_follow = info.sample_rank > 0;
+  if (!type_.keyed || info.instance_state == DDS_IST_ALIVE || more_of_instance_follow) return;
+  if (auto key_payload = instances_.ended(data.instance())) {
+    const bool disposed = info.instance_state == DDS_IST_NOT_ALIVE_DISPOSED;
+    events_.on_sample(
+        {disposed ? SampleKind::disposed : SampleKind::owner_lost, std::move(*key_payload), writer});
+  }
+}
+
+Guid CycloneReader::writer_of(dds_entity_t reader, dds_instance_handle_t publication) {
+  if (const auto known = writers_.find(publication); known != writers_.end()) return known->second;
+  auto* endpoint = dds_get_matched_publication_data(reader, publication);
+  if (!endpoint) return {};
+  const Guid guid = to_guid(endpoint->key);
+  dds_builtintopic_free_endpoint(endpoint);
+  return writers_[publication] = guid;
+}
+
+void CycloneReader::on_matched(dds_entity_t entity, dds_subscription_matched_status_t status, void* self) {
+  auto& reader = *static_cast<CycloneReader*>(self);
+  const std::lock_guard lock(reader.mutex_);
+  reader.writer_of(entity, status.last_publication_handle);
+  reader.matched_ = static_cast<int>(status.current_count);
+  if (reader.events_.on_matched) reader.events_.on_matched(reader.matched_);
+}
+
+}  // namespace roci::services::cyclonedds

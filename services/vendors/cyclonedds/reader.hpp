@@ -1,0 +1,38 @@
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <unordered_map>
+
+#include "services/transport.hpp"
+#include "services/vendors/cyclonedds/writer.hpp"
+#include "services/vendors/instance_table.hpp"
+
+namespace roci::services::cyclonedds {
+
+class CycloneReader : public Reader {
+ public:
+  CycloneReader(dds_entity_t subscriber, const TopicHandle&, const EndpointDescription&, ReaderEvents);
+  ~CycloneReader() override;
+
+  int matched_writers() const override { return matched_; }
+
+ private:
+  static void on_data(dds_entity_t, void* self);
+  static void on_matched(dds_entity_t, dds_subscription_matched_status_t, void* self);
+
+  void take_all(dds_entity_t reader);
+  void take(const Serdata&, const dds_sample_info_t&, const Guid& writer);
+  Guid writer_of(dds_entity_t reader, dds_instance_handle_t publication);
+
+  const TypeDescription type_;
+  const ReaderEvents events_;
+  std::atomic<int> matched_ = 0;
+  std::mutex mutex_;  // one callback at a time
+  InstanceTable instances_;
+  std::unordered_map<dds_instance_handle_t, Guid>
+      writers_;  // all that ever matched: ends come after a writer left
+  dds_entity_t reader_;
+};
+
+}  // namespace roci::services::cyclonedds

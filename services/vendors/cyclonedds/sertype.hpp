@@ -1,0 +1,40 @@
+// A Cyclone DDS type whose samples are serialized already: it carries the bytes of any type of ours. It
+// stands on private headers of Cyclone DDS 0.10 (ddsi/), which is why CMake asks for exactly that series.
+#pragma once
+
+extern "C" {
+#include <dds/dds.h>
+#include <dds/ddsi/ddsi_keyhash.h>
+#include <dds/ddsi/ddsi_serdata.h>
+#include <dds/ddsi/ddsi_sertype.h>
+}
+
+#include <span>
+
+#include "services/transport.hpp"
+#include "services/vendors/instance_table.hpp"
+
+namespace roci::services::cyclonedds {
+
+struct Sertype : ddsi_sertype {
+  TypeDescription type;
+};
+
+// One sample. Immutable and counted by Cyclone DDS, which shares it between writer history, readers and
+// network.
+struct Serdata : ddsi_serdata {
+  Payload bytes;         // zero-padded to a multiple of 4, as the network code reads it
+  std::size_t size = 0;  // of the payload in `bytes`; 0: only the key hash is known
+  ddsi_keyhash_t key_hash{};
+
+  std::span<const std::uint8_t> payload() const { return {bytes.data(), size}; }
+  InstanceTable::Key instance() const;
+};
+
+// The caller owns it until dds_create_topic_sertype takes it over.
+ddsi_sertype* make_sertype(const TypeDescription&);
+
+// A whole sample, or the key of one (SDK_KEY). Null if the payload is malformed.
+Serdata* make_serdata(const Sertype&, ddsi_serdata_kind, std::span<const std::uint8_t> payload);
+
+}  // namespace roci::services::cyclonedds

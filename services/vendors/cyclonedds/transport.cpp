@@ -1,0 +1,83 @@
+// The Cyclone DDS transport: one participant whose types are all Sertype.
+#include "services/transport.hpp"
+
+#include <map>
+#include <mutex>
+
+#include "services/vendors/cyclonedds/domain.hpp"
+#include "services/vendors/cyclonedds/qos.hpp"
+#include "services/vendors/cyclonedds/reader.hpp"
+#include "services/vendors/cyclonedds/writer.hpp"
+
+namespace roci::services::cyclonedds {
+namespace {
+
+QosPtr participant_qos(const TransportOptions& options) {
+  QosPtr qos(dds_create_qos());
+  dds_qset_entity_name(qos.get(), options.participant.c_str());
+  return qos;
+}
+
+QosPtr partition_qos(const TransportOptions& options) {
+  QosPtr qos(dds_create_qos());
+  if (!options.partition.empty()) dds_qset_partition1(qos.get(), options.partition.c_str());
+  return qos;
+}
+
+class CycloneTransport : public Transport {
+ public:
+  explicit CycloneTransport(const TransportOptions& options)
+      : domain_(join_domain(options)),
+        participant_(checked(dds_create_participant(static_cast<dds_domainid_t>(options.domain),
+                                                    participant_qos(options).get(), nullptr),
+                             "a participant in domain " + std::to_string(options.domain))),
+        publisher_(checked(dds_create_publisher(participant_, partition_qos(options).get(), nullptr),
+                           "a publisher")),
+        subscriber_(checked(dds_create_subscriber(participant_, partition_qos(options).get(), nullptr),
+                            "a subscriber")) {}
+
+  ~CycloneTransport() override { dds_delete(participant_); }
+
+  std::string_view vendor() const override { return "cyclonedds"; }
+
+  std::unique_ptr<Writer> create_writer(const EndpointDescription& endpoint, WriterEvents events) override {
+    return std::make_unique<CycloneWriter>(publisher_, topic_of(endpoint), endpoint, std::move(events));
+  }
+
+  std::unique_ptr<Reader> create_reader(const EndpointDescription& endpoint, ReaderEvents events) override {
+    return std::make_unique<CycloneReader>(subscriber_, topic_of(endpoint), endpoint, std::move(events));
+  }
+
+ private:
+  // Topics live as long as the participant; both ends of a topic share it.
+  TopicHandle topic_of(const EndpointDescription& endpoint) {
+    const std::lock_guard lock(mutex_);
+    auto& topic = topics_[endpoint.topic];
+    if (topic.type && topic.type->type.name != endpoint.type.name) {
+      throw TransportError("topic " + endpoint.topic + " has the type " + topic.type->type.name +
+                           " in this participant, so it cannot have " + endpoint.type.name + " too");
+    }
+    if (topic.type) return topic;
+    ddsi_sertype* type = make_sertype(endpoint.type);
+    const dds_entity_t handle =
+        dds_create_topic_sertype(participant_, endpoint.topic.c_str(), &type, nullptr, nullptr, nullptr);
+    if (handle < 0) ddsi_sertype_unref(type);
+    topic = {checked(handle, "the topic " + endpoint.topic), static_cast<const Sertype*>(type)};
+    return topic;
+  }
+
+  const std::shared_ptr<Domain> domain_;
+  const dds_entity_t participant_;
+  const dds_entity_t publisher_;
+  const dds_entity_t subscriber_;
+  std::mutex mutex_;
+  std::map<std::string, TopicHandle> topics_;
+};
+
+}  // namespace
+}  // namespace roci::services::cyclonedds
+
+extern "C" std::unique_ptr<roci::services::Transport> roci_create_transport(
+    const roci::services::TransportOptions& options) {
+  return std::make_unique<roci::services::cyclonedds::CycloneTransport>(options);
+}

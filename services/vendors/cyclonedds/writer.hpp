@@ -1,0 +1,38 @@
+#pragma once
+
+#include <atomic>
+
+#include "services/transport.hpp"
+#include "services/vendors/cyclonedds/qos.hpp"
+#include "services/vendors/cyclonedds/sertype.hpp"
+
+namespace roci::services::cyclonedds {
+
+struct TopicHandle {
+  dds_entity_t topic = 0;
+  const Sertype* type = nullptr;  // owned by the vendor as long as the topic lives
+};
+
+class CycloneWriter : public Writer {
+ public:
+  CycloneWriter(dds_entity_t publisher, const TopicHandle&, const EndpointDescription&, WriterEvents);
+  // Waits a moment for what the readers have not acknowledged yet.
+  ~CycloneWriter() override;
+
+  bool write(std::span<const std::uint8_t> payload) override;
+  bool dispose(std::span<const std::uint8_t> payload) override;
+  Guid guid() const override { return guid_; }
+  int matched_readers() const override { return matched_; }
+
+ private:
+  static void on_matched(dds_entity_t, dds_publication_matched_status_t, void* self);
+
+  const Sertype& type_;
+  const bool reliable_;
+  const WriterEvents events_;
+  std::atomic<int> matched_ = 0;
+  dds_entity_t writer_;
+  Guid guid_{};
+};
+
+}  // namespace roci::services::cyclonedds

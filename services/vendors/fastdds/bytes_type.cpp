@@ -1,0 +1,76 @@
+#include "services/vendors/fastdds/bytes_type.hpp"
+
+#include <algorithm>
+
+namespace roci::services::fastdds {
+
+using eprosima::fastrtps::rtps::InstanceHandle_t;
+using eprosima::fastrtps::rtps::SerializedPayload_t;
+
+namespace {
+
+// First allocation of a sample; the history grows it when a sample is larger.
+constexpr std::uint32_t kInitialSize = 512;
+
+}  // namespace
+
+std::optional<KeyHash> key_hash_of(const TypeDescription& type, std::span<const std::uint8_t> payload,
+                                   bool force_md5) {
+  Payload key;
+  if (!type.serialized_key(payload, true, key)) return std::nullopt;
+  KeyHash hash{};
+  if (type.key_fits_hash && !force_md5) {
+    std::copy(key.begin(), key.end(), hash.begin());
+    return hash;
+  }
+  MD5 md5;
+  md5.init();
+  md5.update(key.data(), static_cast<MD5::size_type>(key.size()));
+  md5.finalize();
+  std::copy(std::begin(md5.digest), std::end(md5.digest), hash.begin());
+  return hash;
+}
+
+BytesType::BytesType(const TypeDescription& type) : type_(type) {
+  setName(type.name.c_str());
+  m_typeSize = kInitialSize;
+  m_isGetKeyDefined = type.keyed;
+  auto_fill_type_object(false);
+  auto_fill_type_information(false);
+}
+
+bool BytesType::serialize(void* data, SerializedPayload_t* payload) {
+  const auto& bytes = static_cast<const Bytes*>(data)->view;
+  if (bytes.size() < 4 || bytes.size() > payload->max_size) return false;
+  payload->encapsulation = bytes[1];
+  std::copy(bytes.begin(), bytes.end(), payload->data);
+  payload->length = static_cast<std::uint32_t>(bytes.size());
+  return true;
+}
+
+bool BytesType::deserialize(SerializedPayload_t* payload, void* data) {
+  auto& bytes = *static_cast<Bytes*>(data);
+  bytes.owned.assign(payload->data, payload->data + payload->length);
+  bytes.view = bytes.owned;
+  return true;
+}
+
+std::function<std::uint32_t()> BytesType::getSerializedSizeProvider(void* data) {
+  const auto size = static_cast<std::uint32_t>(static_cast<const Bytes*>(data)->view.size());
+  return [size] { return size; };
+}
+
+void* BytesType::createData() { return new Bytes; }
+
+void BytesType::deleteData(void* data) { delete static_cast<Bytes*>(data); }
+
+bool BytesType::getKey(void* data, InstanceHandle_t* handle, bool force_md5) {
+  const auto& bytes = *static_cast<const Bytes*>(data);
+  if (!type_.keyed) return false;
+  const auto hash = bytes.key_hash && !force_md5 ? bytes.key_hash : key_hash_of(type_, bytes.view, force_md5);
+  if (!hash) return false;
+  for (std::size_t i = 0; i < hash->size(); ++i) handle->value[i] = (*hash)[i];
+  return true;
+}
+
+}  // namespace roci::services::fastdds

@@ -1,0 +1,119 @@
+#include "services/vendors/fastdds/qos.hpp"
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+
+#include <algorithm>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+
+#include "services/vendors/peers.hpp"
+
+namespace roci::services::fastdds {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+using eprosima::fastrtps::Duration_t;
+using eprosima::fastrtps::rtps::Locator_t;
+
+namespace {
+
+constexpr std::uint32_t kSocketBuffer = 4 * 1024 * 1024;  // bytes; the host may grant less
+constexpr int kMillisecond = 1'000'000;                   // in nanoseconds
+
+Locator_t udp_locator(const std::string& address) {
+  Locator_t locator;
+  locator.kind = LOCATOR_KIND_UDPv4;
+  locator.port = 0;  // the well-known ports of the domain
+  rtps::IPLocator::setIPv4(locator, address);
+  return locator;
+}
+
+dds::DomainParticipantQos profile_of(const std::string& xml) {
+  auto* factory = dds::DomainParticipantFactory::get_instance();
+  factory->load_profiles();
+  if (factory->load_XML_profiles_file(xml) != ReturnCode_t::RETCODE_OK) {
+    throw TransportError("Fast DDS cannot use the profiles in " + xml +
+                         "; see its messages on standard error");
+  }
+  factory->set_default_participant_qos(dds::PARTICIPANT_QOS_DEFAULT);
+  dds::DomainParticipantQos qos;
+  factory->get_default_participant_qos(qos);
+  return qos;
+}
+
+void set_history(const QosSettings& settings, dds::HistoryQosPolicy& history,
+                 dds::ResourceLimitsQosPolicy& limits) {
+  history.kind = settings.history_depth > 0 ? dds::KEEP_LAST_HISTORY_QOS : dds::KEEP_ALL_HISTORY_QOS;
+  if (settings.history_depth > 0) history.depth = settings.history_depth;
+  limits.max_samples = 0;               // no limit: Fast DDS allows none together with unlimited instances
+  limits.max_instances = 0;             // the default is 10
+  limits.max_samples_per_instance = 0;  // no limit
+  limits.allocated_samples = 16;
+}
+
+}  // namespace
+
+dds::DomainParticipantQos participant_qos(const TransportOptions& options) {
+  auto qos = options.vendor_xml.empty() ? dds::DomainParticipantQos() : profile_of(options.vendor_xml);
+  qos.name(options.participant.c_str());
+  if (!options.vendor_xml.empty()) return qos;
+
+  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  udp->interfaceWhiteList = {options.address};
+  udp->sendBufferSize = kSocketBuffer;
+  udp->receiveBufferSize = kSocketBuffer;
+  udp->maxInitialPeersRange = kMaxParticipantsPerHost;
+  qos.transport().use_builtin_transports = false;
+  qos.transport().user_transports = {udp};
+
+  auto& wire = qos.wire_protocol();
+  auto& discovery = wire.builtin.discovery_config;
+  discovery.leaseDuration = Duration_t(kLeaseSeconds, 0);
+  discovery.leaseDuration_announcementperiod = Duration_t(0, 500 * kMillisecond);
+  discovery.initial_announcements.count = 10;
+  discovery.initial_announcements.period = Duration_t(0, 100 * kMillisecond);
+  // Naming unicast locators keeps Fast DDS from adding the multicast one.
+  wire.builtin.metatrafficUnicastLocatorList.push_back(udp_locator(options.address));
+  wire.default_unicast_locator_list.push_back(udp_locator(options.address));
+  for (const auto& peer : peers_of(options)) wire.builtin.initialPeersList.push_back(udp_locator(peer));
+  return qos;
+}
+
+Duration_t blocking_time(const QosSettings& settings) {
+  return {settings.max_blocking_ms / 1000,
+          static_cast<std::uint32_t>(settings.max_blocking_ms % 1000 * kMillisecond)};
+}
+
+dds::DataWriterQos writer_qos(const QosSettings& settings) {
+  dds::DataWriterQos qos;
+  qos.reliability().kind =
+      settings.reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
+  qos.reliability().max_blocking_time = blocking_time(settings);
+  qos.durability().kind =
+      settings.transient_local ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  set_history(settings, qos.history(), qos.resource_limits());
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
+  qos.data_sharing().off();
+  qos.writer_data_lifecycle().autodispose_unregistered_instances = false;
+  // The default of 3 s would delay the first samples and every repair by as much.
+  qos.reliable_writer_qos().times.heartbeatPeriod = Duration_t(0, 100 * kMillisecond);
+  qos.reliable_writer_qos().times.nackResponseDelay = Duration_t(0, kMillisecond);
+  return qos;
+}
+
+dds::DataReaderQos reader_qos(const QosSettings& settings) {
+  dds::DataReaderQos qos;
+  qos.reliability().kind =
+      settings.reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
+  qos.durability().kind =
+      settings.transient_local ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  set_history(settings, qos.history(), qos.resource_limits());
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.data_sharing().off();
+  qos.reliable_reader_qos().times.initialAcknackDelay = Duration_t(0, 10 * kMillisecond);
+  qos.reliable_reader_qos().times.heartbeatResponseDelay = Duration_t(0, 2 * kMillisecond);
+  return qos;
+}
+
+}  // namespace roci::services::fastdds

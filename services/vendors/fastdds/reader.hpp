@@ -1,0 +1,42 @@
+#pragma once
+
+#include <atomic>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <mutex>
+
+#include "services/transport.hpp"
+#include "services/vendors/fastdds/bytes_type.hpp"
+#include "services/vendors/instance_table.hpp"
+
+namespace roci::services::fastdds {
+
+class FastReader : public Reader, private eprosima::fastdds::dds::DataReaderListener {
+ public:
+  FastReader(eprosima::fastdds::dds::Subscriber&, eprosima::fastdds::dds::Topic&, const EndpointDescription&,
+             ReaderEvents);
+  ~FastReader() override;
+
+  int matched_writers() const override { return matched_; }
+
+ private:
+  void on_data_available(eprosima::fastdds::dds::DataReader*) override;
+  void on_subscription_matched(eprosima::fastdds::dds::DataReader*,
+                               const eprosima::fastdds::dds::SubscriptionMatchedStatus&) override;
+
+  void take_value(Bytes&&, const eprosima::fastdds::dds::SampleInfo&);
+  void take_end(const eprosima::fastdds::dds::SampleInfo&);
+
+  eprosima::fastdds::dds::Subscriber& subscriber_;
+  const TypeDescription type_;
+  const ReaderEvents events_;
+  std::atomic<int> matched_ = 0;
+  std::mutex mutex_;  // one callback at a time
+  bool closed_ = false;
+  InstanceTable instances_;  // by the vendor's instance handle
+  eprosima::fastdds::dds::DataReader* reader_;
+};
+
+}  // namespace roci::services::fastdds

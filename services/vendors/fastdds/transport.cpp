@@ -1,0 +1,103 @@
+// The Fast DDS transport: one DomainParticipant whose types are all BytesType.
+#include "services/transport.hpp"
+
+#include <fastrtps/xmlparser/XMLProfileManager.h>
+
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <map>
+#include <mutex>
+
+#include "services/vendors/fastdds/bytes_type.hpp"
+#include "services/vendors/fastdds/qos.hpp"
+#include "services/vendors/fastdds/reader.hpp"
+#include "services/vendors/fastdds/writer.hpp"
+#include "services/vendors/peers.hpp"
+
+namespace roci::services::fastdds {
+
+namespace dds = eprosima::fastdds::dds;
+
+namespace {
+
+// Inside one process Fast DDS would call readers on the writing thread; participants here always use the
+// network.
+void switch_intraprocess_delivery_off() {
+  eprosima::fastrtps::LibrarySettingsAttributes settings;
+  settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
+  eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+}
+
+dds::PartitionQosPolicy partition_of(const TransportOptions& options) {
+  dds::PartitionQosPolicy partition;
+  if (!options.partition.empty()) partition.push_back(options.partition.c_str());
+  return partition;
+}
+
+class FastTransport : public Transport {
+ public:
+  explicit FastTransport(const TransportOptions& options) {
+    if (options.vendor_xml.empty()) require_usable_addresses(options);
+    switch_intraprocess_delivery_off();
+    auto* factory = dds::DomainParticipantFactory::get_instance();
+    participant_ =
+        factory->create_participant(static_cast<std::uint32_t>(options.domain), participant_qos(options));
+    if (!participant_) {
+      throw TransportError("Fast DDS cannot join domain " + std::to_string(options.domain) +
+                           "; the domain id must be from 0 to 232, its UDP ports must be free");
+    }
+    dds::PublisherQos publisher_qos;
+    publisher_qos.partition() = partition_of(options);
+    publisher_ = participant_->create_publisher(publisher_qos);
+    dds::SubscriberQos subscriber_qos;
+    subscriber_qos.partition() = partition_of(options);
+    subscriber_ = participant_->create_subscriber(subscriber_qos);
+  }
+
+  ~FastTransport() override {
+    participant_->delete_contained_entities();
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+
+  std::string_view vendor() const override { return "fastdds"; }
+
+  std::unique_ptr<Writer> create_writer(const EndpointDescription& endpoint, WriterEvents events) override {
+    return std::make_unique<FastWriter>(*publisher_, topic_of(endpoint), endpoint, std::move(events));
+  }
+
+  std::unique_ptr<Reader> create_reader(const EndpointDescription& endpoint, ReaderEvents events) override {
+    return std::make_unique<FastReader>(*subscriber_, topic_of(endpoint), endpoint, std::move(events));
+  }
+
+ private:
+  // Topics live as long as the participant; both ends of a topic share it.
+  dds::Topic& topic_of(const EndpointDescription& endpoint) {
+    const std::lock_guard lock(mutex_);
+    auto& topic = topics_[endpoint.topic];
+    if (topic && topic->get_type_name() != endpoint.type.name) {
+      throw TransportError("topic " + endpoint.topic + " has the type " + topic->get_type_name() +
+                           " in this participant, so it cannot have " + endpoint.type.name + " too");
+    }
+    if (topic) return *topic;
+    if (!participant_->find_type(endpoint.type.name)) {
+      dds::TypeSupport(new BytesType(endpoint.type)).register_type(participant_);
+    }
+    topic = participant_->create_topic(endpoint.topic, endpoint.type.name, dds::TOPIC_QOS_DEFAULT);
+    if (!topic) throw TransportError("Fast DDS refused the topic " + endpoint.topic);
+    return *topic;
+  }
+
+  dds::DomainParticipant* participant_ = nullptr;
+  dds::Publisher* publisher_ = nullptr;
+  dds::Subscriber* subscriber_ = nullptr;
+  std::mutex mutex_;
+  std::map<std::string, dds::Topic*> topics_;
+};
+
+}  // namespace
+}  // namespace roci::services::fastdds
+
+extern "C" std::unique_ptr<roci::services::Transport> roci_create_transport(
+    const roci::services::TransportOptions& options) {
+  return std::make_unique<roci::services::fastdds::FastTransport>(options);
+}

@@ -1,0 +1,58 @@
+#include "services/vendors/fastdds/writer.hpp"
+
+#include "services/vendors/fastdds/bytes_type.hpp"
+#include "services/vendors/fastdds/guid.hpp"
+#include "services/vendors/fastdds/qos.hpp"
+
+namespace roci::services::fastdds {
+
+namespace dds = eprosima::fastdds::dds;
+using eprosima::fastrtps::Duration_t;
+
+FastWriter::FastWriter(dds::Publisher& publisher, dds::Topic& topic, const EndpointDescription& endpoint,
+                       WriterEvents events)
+    : publisher_(publisher),
+      type_(endpoint.type),
+      qos_(endpoint.qos),
+      events_(std::move(events)),
+      writer_(publisher.create_datawriter(&topic, writer_qos(endpoint.qos), this,
+                                          dds::StatusMask::publication_matched())) {
+  if (!writer_) throw TransportError("Fast DDS refused a writer on " + endpoint.topic);
+}
+
+FastWriter::~FastWriter() {
+  if (qos_.reliable && matched_ > 0) writer_->wait_for_acknowledgments(Duration_t(0, 100'000'000));
+  writer_->set_listener(nullptr);
+  publisher_.delete_datawriter(writer_);
+}
+
+bool FastWriter::write(std::span<const std::uint8_t> payload) {
+  Bytes bytes{payload, {}, {}};
+  if (payload.size() < 4) return false;
+  if (type_.keyed && !(bytes.key_hash = key_hash_of(type_, payload, false))) return false;
+  return has_space() && writer_->write(&bytes);
+}
+
+bool FastWriter::dispose(std::span<const std::uint8_t> payload) {
+  Bytes bytes{payload, {}, {}};
+  if (!type_.keyed || !(bytes.key_hash = key_hash_of(type_, payload, false))) return false;
+  return has_space() && writer_->dispose(&bytes, dds::HANDLE_NIL) == ReturnCode_t::RETCODE_OK;
+}
+
+// Bounds a keep-all history itself, because Fast DDS cannot limit samples without limiting instances.
+bool FastWriter::has_space() {
+  const bool bounded = qos_.reliable && qos_.history_depth == 0 && qos_.max_samples > 0;
+  if (!bounded || ++unconfirmed_ <= qos_.max_samples) return true;
+  const bool confirmed = writer_->wait_for_acknowledgments(blocking_time(qos_)) == ReturnCode_t::RETCODE_OK;
+  unconfirmed_ = confirmed ? 1 : qos_.max_samples;
+  return confirmed;
+}
+
+Guid FastWriter::guid() const { return to_guid(writer_->guid()); }
+
+void FastWriter::on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) {
+  matched_ = status.current_count;
+  if (events_.on_matched) events_.on_matched(status.current_count);
+}
+
+}  // namespace roci::services::fastdds

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <atomic>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+
+#include "services/transport.hpp"
+
+namespace roci::services::fastdds {
+
+class FastWriter : public Writer, private eprosima::fastdds::dds::DataWriterListener {
+ public:
+  FastWriter(eprosima::fastdds::dds::Publisher&, eprosima::fastdds::dds::Topic&, const EndpointDescription&,
+             WriterEvents);
+  // Waits a moment for what the readers have not acknowledged yet.
+  ~FastWriter() override;
+
+  bool write(std::span<const std::uint8_t> payload) override;
+  bool dispose(std::span<const std::uint8_t> payload) override;
+  Guid guid() const override;
+  int matched_readers() const override { return matched_; }
+
+ private:
+  bool has_space();
+  void on_publication_matched(eprosima::fastdds::dds::DataWriter*,
+                              const eprosima::fastdds::dds::PublicationMatchedStatus&) override;
+
+  eprosima::fastdds::dds::Publisher& publisher_;
+  const TypeDescription type_;
+  const QosSettings qos_;
+  const WriterEvents events_;
+  std::atomic<int> matched_ = 0;
+  std::atomic<int> unconfirmed_ = 0;  // samples written since all were known to be acknowledged
+  eprosima::fastdds::dds::DataWriter* writer_;
+};
+
+}  // namespace roci::services::fastdds

@@ -1,0 +1,46 @@
+#include "services/vendors/instance_table.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roci::services {
+
+Payload key_only_payload(std::span<const std::uint8_t> serialized_key) {
+  Payload payload(4 + serialized_key.size());
+  std::copy(serialized_key.begin(), serialized_key.end(), payload.begin() + 4);
+  return payload;
+}
+
+bool InstanceTable::wrote(const Key& key, const Guid& writer) {
+  const auto found = alive_.find(key);
+  if (found == alive_.end()) return false;
+  auto& writers = found->second.writers;
+  if (std::find(writers.begin(), writers.end(), writer) == writers.end()) writers.push_back(writer);
+  return true;
+}
+
+void InstanceTable::introduce(const Key& key, const Guid& writer, Payload key_payload) {
+  alive_[key] = {std::move(key_payload), {writer}};
+}
+
+std::optional<Payload> InstanceTable::ended(const Key& key) {
+  auto node = alive_.extract(key);
+  if (node.empty()) return std::nullopt;
+  return std::move(node.mapped().key_payload);
+}
+
+std::vector<Payload> InstanceTable::writer_left(const Guid& writer) {
+  std::vector<Payload> orphans;
+  for (auto it = alive_.begin(); it != alive_.end();) {
+    auto& instance = it->second;
+    if (std::erase(instance.writers, writer) > 0 && instance.writers.empty()) {
+      orphans.push_back(std::move(instance.key_payload));
+      it = alive_.erase(it);
+    } else {
+      ++it;
+    }
+  }
+  return orphans;
+}
+
+}  // namespace roci::services

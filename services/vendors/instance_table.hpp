@@ -1,0 +1,42 @@
+// The instances of a keyed topic that are alive at one reader, and who writes them. Every vendor reports the
+// end of an instance in its own way, and some without its key; readers ask this table, so that all of them
+// report alike.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "services/transport.hpp"
+
+namespace roci::services {
+
+// 4-byte big-endian encapsulation header and the serialized key.
+Payload key_only_payload(std::span<const std::uint8_t> serialized_key);
+
+class InstanceTable {
+ public:
+  using Key = std::string;  // whatever identifies the instance at the vendor: its key or the hash of it
+
+  // Notes that `writer` wrote the instance. False: the instance is new and must be introduced.
+  bool wrote(const Key&, const Guid& writer);
+  void introduce(const Key&, const Guid& writer, Payload key_payload);
+
+  // The instance was disposed or lost its last writer: its key-only payload; nothing if it was not alive
+  // here.
+  std::optional<Payload> ended(const Key&);
+
+  // Key-only payloads of the instances that nobody writes any more, now that `writer` has gone.
+  std::vector<Payload> writer_left(const Guid& writer);
+
+ private:
+  struct Instance {
+    Payload key_payload;
+    std::vector<Guid> writers;
+  };
+
+  std::unordered_map<Key, Instance> alive_;
+};
+
+}  // namespace roci::services

@@ -1,0 +1,24 @@
+// What the network transports share: whom they ask for participants, and how fast they notice that one has
+// died.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "services/transport.hpp"
+
+namespace roci::services {
+
+inline constexpr int kMaxParticipantsPerHost = 40;  // of one domain
+inline constexpr int kLeaseSeconds = 3;             // a killed participant is noticed after at most this time
+
+bool is_loopback(const std::string& address);
+
+// options.peers and options.address itself, each once. On a network the loopback default is left out.
+std::vector<std::string> peers_of(const TransportOptions&);
+
+// Throws TransportError when no interface of this host has options.address, or it or a peer is no IPv4
+// address.
+void require_usable_addresses(const TransportOptions&);
+
+}  // namespace roci::services

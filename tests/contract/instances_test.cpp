@@ -1,0 +1,143 @@
+// The life of keyed instances: many of them, disposed, and left by their writers.
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "roci_idl/command.h"
+#include "tests/contract/support/inbox.hpp"
+#include "tests/contract/support/pairing.hpp"
+#include "tests/contract/support/profiles.hpp"
+
+namespace roci::services::contract {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+class Instances : public PairingTest {};
+
+TEST_P(Instances, AThousandKeysLiveAndLate) {
+  constexpr int kCount = 1000;
+  const auto sender = open_writing();
+  const auto receiver = open_reading();
+  Inbox live, late;
+  const auto writer = sender->create_writer(goal_endpoint(latched(1)), {});
+  const auto live_reader = receiver->create_reader(goal_endpoint(latched(1)), live.reader_events());
+  ASSERT_TRUE(live.wait_for_match());
+  std::set<std::string> expected;
+  for (int i = 0; i < kCount; ++i) {
+    ASSERT_TRUE(writer->write(goal("goal-" + std::to_string(i), i)));
+    expected.insert("goal-" + std::to_string(i) + "=" + std::to_string(i));
+  }
+  ASSERT_TRUE(live.wait_for_samples(kCount));
+  const auto late_reader = receiver->create_reader(goal_endpoint(latched(1)), late.reader_events());
+  ASSERT_TRUE(late.wait_for_samples(kCount));
+  for (const auto* inbox : {&live, &late}) {
+    const auto goals = inbox->goals();
+    EXPECT_EQ(std::set<std::string>(goals.begin(), goals.end()), expected);
+    EXPECT_EQ(goals.size(), expected.size());
+  }
+}
+
+TEST_P(Instances, DisposeCarriesTheKeyAndClearsTheState) {
+  const auto sender = open_writing();
+  const auto receiver = open_reading();
+  Inbox inbox, late;
+  const auto writer = sender->create_writer(goal_endpoint(latched(1)), {});
+  const auto reader = receiver->create_reader(goal_endpoint(latched(1)), inbox.reader_events());
+  ASSERT_TRUE(writer->write(goal("photo", 1)));
+  ASSERT_TRUE(writer->write(goal("sample", 2)));
+  ASSERT_TRUE(inbox.wait_for_samples(2));
+  ASSERT_TRUE(writer->dispose(goal("photo", 99)));
+  ASSERT_TRUE(inbox.wait_for_samples(3));
+  EXPECT_THAT(inbox.ended(SampleKind::disposed), ElementsAre("ground/photo"));
+
+  const auto late_reader = receiver->create_reader(goal_endpoint(latched(1)), late.reader_events());
+  ASSERT_TRUE(late.wait_until([&late] { return !late.goals().empty(); }));
+  ASSERT_TRUE(writer->write(goal("last", 3)));
+  ASSERT_TRUE(late.wait_until([&late] { return late.goals().size() >= 2; }));
+  EXPECT_THAT(late.goals(), ElementsAre("sample=2", "last=3"));
+}
+
+TEST_P(Instances, ADisposedInstanceLivesAgainWhenWritten) {
+  const auto sender = open_writing();
+  const auto receiver = open_reading();
+  Inbox inbox;
+  const auto writer = sender->create_writer(goal_endpoint(latched(1)), {});
+  const auto reader = receiver->create_reader(goal_endpoint(latched(1)), inbox.reader_events());
+  for (int round = 1; round <= 3; ++round) {
+    const auto before = inbox.samples().size();
+    ASSERT_TRUE(writer->write(goal("photo", round)));
+    ASSERT_TRUE(inbox.wait_for_samples(before + 1));
+    ASSERT_TRUE(writer->dispose(goal("photo", 0)));
+    ASSERT_TRUE(inbox.wait_for_samples(before + 2));
+  }
+  EXPECT_THAT(inbox.goals(), ElementsAre("photo=1", "photo=2", "photo=3"));
+  EXPECT_EQ(inbox.ended(SampleKind::disposed).size(), 3U);
+}
+
+TEST_P(Instances, OwnerLostForWhatTheLastWriterLeaves) {
+  const auto sender = open_writing();
+  const auto other_sender = open_writing();
+  const auto receiver = open_reading();
+  Inbox inbox;
+  auto writer = sender->create_writer(goal_endpoint(latched(1)), {});
+  auto other = other_sender->create_writer(goal_endpoint(latched(1)), {});
+  const auto reader = receiver->create_reader(goal_endpoint(latched(1)), inbox.reader_events());
+  ASSERT_TRUE(inbox.wait_for_match(2));
+  ASSERT_TRUE(writer->write(goal("mine", 1)));
+  ASSERT_TRUE(writer->write(goal("ours", 1)));
+  ASSERT_TRUE(writer->write(goal("gone", 1)));
+  ASSERT_TRUE(other->write(goal("ours", 2)));
+  ASSERT_TRUE(inbox.wait_for_samples(4));
+  ASSERT_TRUE(writer->dispose(goal("gone", 1)));
+  ASSERT_TRUE(inbox.wait_for_samples(5));
+  writer.reset();
+  ASSERT_TRUE(inbox.wait_for_match(1));
+  ASSERT_TRUE(inbox.wait_for_samples(6));
+  EXPECT_THAT(inbox.ended(SampleKind::owner_lost), ElementsAre("ground/mine"));
+  other.reset();
+  ASSERT_TRUE(inbox.wait_for_samples(7));
+  EXPECT_THAT(inbox.ended(SampleKind::owner_lost), ElementsAre("ground/mine", "ground/ours"));
+}
+
+// Keys with a number beside the string: activity and attempt.
+TEST_P(Instances, KeysOfSeveralMembers) {
+  const auto sender = open_writing();
+  const auto receiver = open_reading();
+  const auto description = endpoint<v1::Command>("roci/command", "roci::v1::Command", latched(1));
+  Inbox inbox;
+  const auto writer = sender->create_writer(description, {});
+  const auto reader = receiver->create_reader(description, inbox.reader_events());
+  v1::Command command;
+  command.activity("drive-1");
+  for (std::uint32_t attempt = 1; attempt <= 2; ++attempt) {
+    command.attempt(attempt);
+    ASSERT_TRUE(writer->write(serialize(command)));
+  }
+  ASSERT_TRUE(inbox.wait_for_samples(2));
+  ASSERT_TRUE(writer->dispose(serialize(command)));
+  ASSERT_TRUE(inbox.wait_for_samples(3));
+  v1::Command key;
+  ASSERT_EQ(inbox.samples()[2].kind, SampleKind::disposed);
+  ASSERT_TRUE(deserialize_key(inbox.samples()[2].payload, key));
+  EXPECT_EQ(key.activity(), "drive-1");
+  EXPECT_EQ(key.attempt(), 2U);
+}
+
+TEST_P(Instances, AMalformedSampleIsRefusedAtTheWriter) {
+  const auto sender = open_writing();
+  const auto writer = sender->create_writer(goal_endpoint(latched(1)), {});
+  auto truncated = goal("photo", 1);
+  truncated.resize(10);
+  EXPECT_FALSE(writer->write(truncated));
+  EXPECT_FALSE(writer->write({}));
+  EXPECT_FALSE(writer->dispose(truncated));
+  EXPECT_TRUE(writer->write(goal("photo", 1)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Transports, Instances, kEveryPairing, pairing_name);
+
+}  // namespace
+}  // namespace roci::services::contract
