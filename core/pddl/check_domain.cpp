@@ -80,15 +80,30 @@ class DomainChecker {
       formulas_.unbind(derived.head.parameters.size());
     }
     const Strata strata = stratify(domain_);
-    if (strata.cyclic.empty()) return;
     for (const DerivedPredicate& derived : domain_.derived) {
-      if (derived.head.name != strata.cyclic) continue;
+      if (derived.head.name != strata.failed) continue;
       findings_.add(derived.head.where,
-                    "derived predicate '" + strata.cyclic + "' depends on its own negation",
+                    "derived predicate '" + strata.failed + "' depends on its own negation, or on " +
+                        std::to_string(kMaxLayers) + " negations in a row",
                     "derived predicates must be stratified");
       return;
     }
   }
+
+  // An effect cannot wait for what is known only after it.
+  void check_foresight(const std::vector<Effect>& effects) {
+    for (const Effect& effect : effects) {
+      if (const auto* forall = std::get_if<ForallEffect>(&effect.node)) check_foresight(forall->effects);
+      const auto* when = std::get_if<When>(&effect.node);
+      if (!when) continue;
+      check_foresight(when->effects);
+      if (is_true(when->condition.over_all) && is_true(when->condition.at_end)) continue;
+      findings_.add(effect.where, "an effect at start depends on a condition of a later time",
+                    "put the effect at the end, or the condition at the start");
+    }
+  }
+
+  static bool is_true(const Condition& condition) { return condition == Condition{}; }
 
   void check_action(const Action& action) {
     formulas_.bind(action.parameters);
@@ -102,6 +117,7 @@ class DomainChecker {
     for (const DurationConstraint& constraint : action.duration)
       formulas_.check_expression(constraint.bound, {});
     formulas_.check_timed(action.condition);
+    check_foresight(action.start_effects);
     formulas_.check_effects(action.start_effects, {.duration = true});
     formulas_.check_effects(action.end_effects, {.duration = true});
     formulas_.check_effects(action.continuous_effects, {.duration = true, .continuous_time = true});

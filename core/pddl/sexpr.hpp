@@ -11,7 +11,7 @@
 namespace roci::pddl {
 
 // Deepest accepted nesting of parentheses; everything that walks a syntax tree may recurse this deep.
-inline constexpr int kMaxNesting = 400;
+inline constexpr int kMaxNesting = 200;
 
 // A lower-cased word (name, keyword, variable, number, operator) or a list.
 struct Sexpr {

@@ -45,7 +45,6 @@ Strata stratify(const Domain& domain) {
   }
   Strata strata;
   for (const auto& [name, ignored] : dependencies) strata.layer[name] = 0;
-  const int highest = static_cast<int>(dependencies.size());
   for (bool changed = true; changed;) {
     changed = false;
     for (const auto& [name, needs] : dependencies) {
@@ -57,8 +56,8 @@ Strata stratify(const Domain& domain) {
         if (least <= layer) continue;
         layer = least;
         changed = true;
-        if (layer >= highest) {
-          strata.cyclic = name;
+        if (layer >= kMaxLayers) {
+          strata.failed = name;
           return strata;
         }
       }

@@ -8,12 +8,16 @@
 
 namespace roci::pddl {
 
+// Evaluation may recurse once per layer.
+inline constexpr int kMaxLayers = 16;
+
 struct Strata {
   // Derived predicate to its layer, from 0. A body depends negatively on lower layers only, positively on
   // lower ones or its own.
   std::map<std::string, int> layer;
-  // A predicate that depends on its own negation; empty if there is none. Then the layers mean nothing.
-  std::string cyclic;
+  // A predicate that depends on its own negation, or needs more than kMaxLayers; then the layers mean
+  // nothing. Empty if there is none.
+  std::string failed;
 };
 
 Strata stratify(const Domain& domain);
