@@ -6,6 +6,7 @@
 #include "core/pddl/parser.hpp"
 #include "planner_svc/plan_export.hpp"
 #include "planner_svc/temporal_pddl/planner.hpp"
+#include "planner_svc/validate/validator.hpp"
 
 namespace roci::planner {
 namespace {
@@ -39,6 +40,30 @@ PlanningAnswer refused(PlanningVerdict verdict, std::string reason) {
   return out;
 }
 
+// What the independent validator has against the plan, empty if nothing. It sees the printed steps and the
+// function values alone.
+std::string fault_of(const pddl::Domain& domain, const pddl::Problem& problem,
+                     const temporal_pddl::Result& result) {
+  std::vector<pddl::PlanStep> steps;
+  for (const temporal_pddl::Activity& activity : result.plan->activities) {
+    pddl::PlanStep step;
+    step.start = activity.start;
+    step.action.symbol = activity.name;
+    for (const std::string& object : activity.arguments) step.action.arguments.push_back({object, {}});
+    if (activity.durative) step.duration = activity.end - activity.start;
+    steps.push_back(std::move(step));
+  }
+  pddl::FunctionTable table;
+  for (const temporal_pddl::FunctionUse& use : result.functions) {
+    std::string application = "(" + use.call.function;
+    for (const std::string& argument : use.call.arguments) application += " " + argument;
+    const bool has_value = use.answer.outcome == FunctionOutcome::kValue;
+    table[application + ")"] = has_value ? std::optional(use.answer.value) : std::nullopt;
+  }
+  const validate::Report report = validate::validate(domain, problem, steps, table);
+  return report.valid ? "" : validate::to_text(report, steps, "plan");
+}
+
 PlanningAnswer search(const PlanningCall& call, FunctionSource& functions) {
   const pddl::Domain domain = pddl::parse_domain(call.domain_text, "domain");
   const pddl::Problem problem = pddl::parse_problem(call.problem_text, "problem");
@@ -54,7 +79,12 @@ PlanningAnswer search(const PlanningCall& call, FunctionSource& functions) {
   out.reason = result.where ? to_string(*result.where) : result.reason;
   out.statistics = {result.statistics.expanded, result.statistics.evaluated,
                     result.statistics.bytes_per_state};
-  if (result.plan) out.plan = export_plan(*result.plan, result.functions);
+  if (result.plan) {
+    const std::string fault = fault_of(domain, problem, result);
+    if (!fault.empty())
+      return refused(PlanningVerdict::kCrashed, "the validator rejects the engine's plan: " + fault);
+    out.plan = export_plan(*result.plan, result.functions);
+  }
   return out;
 }
 

@@ -1,0 +1,115 @@
+// roci-rehearse: flies a mission N times with all services in one process and reports each flight and the
+// totals.
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "rehearsal/flight.hpp"
+#include "services/clock/wall.hpp"
+#include "services/launch/mission_folder.hpp"
+
+namespace {
+
+using roci::rehearsal::FlightOptions;
+
+struct Arguments {
+  std::string mission = "planetary";
+  std::string scenario = "nominal";
+  std::uint64_t seed = 1;
+  int runs = 1;
+  std::string speed = "max";
+  bool json = false;
+  std::string folder;
+};
+
+// docs/exit-codes.md, "Runs".
+enum ExitCode { kAchieved = 0, kNotAchieved = 1, kBadInput = 2, kServiceFailed = 3 };
+
+nlohmann::json summary_of(const std::filesystem::path& run_folder) {
+  std::ifstream in(run_folder / "summary.json");
+  return in ? nlohmann::json::parse(in) : nlohmann::json{{"result", "failed"}};
+}
+
+nlohmann::json fly_once(const Arguments& arguments, std::uint64_t seed,
+                        const std::filesystem::path& run_folder, int domain) {
+  std::filesystem::create_directories(run_folder);
+  FlightOptions options;
+  options.run = {roci::services::mission_folder(arguments.mission), arguments.scenario, seed, run_folder};
+  options.domain = domain;
+  options.pace = arguments.speed == "max" ? 0 : std::stod(arguments.speed);
+  const auto begun = roci::services::wall::now();
+  roci::rehearsal::fly(options);
+  auto summary = summary_of(run_folder);
+  summary["dds"] = "inproc";
+  summary["wall_s"] = std::chrono::duration<double>(roci::services::wall::now() - begun).count();
+  return summary;
+}
+
+void print(const nlohmann::json& summary) {
+  std::cout << "seed " << summary.value("seed", std::uint64_t{0}) << ": " << summary.value("result", "failed")
+            << ", " << summary["goals"].dump() << ", replans " << summary.value("replans", 0) << ", "
+            << summary.value("sim_s", 0.0) << " s of mission in " << summary.value("wall_s", 0.0) << " s\n";
+}
+
+int rehearse(const Arguments& arguments) {
+  const std::filesystem::path base =
+      arguments.folder.empty()
+          ? std::filesystem::temp_directory_path() / ("rocinante-rehearsal-" + std::to_string(::getpid()))
+          : std::filesystem::path(arguments.folder);
+  int achieved = 0;
+  nlohmann::json last;
+  for (int i = 0; i < arguments.runs; ++i) {
+    const std::uint64_t seed = arguments.seed + static_cast<std::uint64_t>(i);
+    const auto run_folder =
+        arguments.runs == 1 && !arguments.folder.empty() ? base : base / ("seed-" + std::to_string(seed));
+    last = fly_once(arguments, seed, run_folder, i + 1);
+    achieved += last.value("result", "failed") == "achieved";
+    if (!arguments.json) print(last);
+    if (arguments.json && arguments.runs > 1) std::cout << last.dump() << "\n";
+  }
+  if (arguments.folder.empty()) std::filesystem::remove_all(base);
+  if (arguments.json && arguments.runs == 1) {
+    std::cout << last.dump() << "\n";
+  } else if (arguments.json) {
+    std::cout << nlohmann::json{{"runs", arguments.runs}, {"achieved", achieved}}.dump() << "\n";
+  } else if (arguments.runs > 1) {
+    std::cout << achieved << " of " << arguments.runs << " flights achieved every hard goal\n";
+  }
+  return achieved == arguments.runs ? kAchieved : kNotAchieved;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Flies a mission with all services in one process, on the simulated clock");
+  app.add_option("mission", arguments.mission, "Mission folder, or the name of an installed mission")
+      ->capture_default_str();
+  app.add_option("--scenario", arguments.scenario, "Scenario of the mission")->capture_default_str();
+  app.add_option("--runs", arguments.runs, "Number of flights, with seeds counted up")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--seed", arguments.seed, "Seed of the first flight")->capture_default_str();
+  app.add_option("--speed", arguments.speed, "Simulated seconds per second, or max")
+      ->check(CLI::PositiveNumber | CLI::IsMember({"max"}));
+  app.add_option("--run-folder", arguments.folder,
+                 "Where journals and summaries are kept (default: nowhere)");
+  app.add_flag("--json", arguments.json,
+               "Summaries as JSON, a line each; the last line is the total of several runs");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kAchieved : kBadInput;
+  }
+  try {
+    return rehearse(arguments);
+  } catch (const std::runtime_error& error) {
+    std::cerr << "roci-rehearse: " << error.what() << "\n";
+    return kBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << "roci-rehearse: " << error.what() << "\n";
+    return kServiceFailed;
+  }
+}
