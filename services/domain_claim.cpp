@@ -14,12 +14,9 @@ namespace {
 constexpr int kLastDomain =
     100;  // the ports of higher ones are in the range that the system hands out freely
 
-// RTPS 2.2, 9.6.1.1: the ports of domain d start at 7400 + 250 d; participant p listens at + 10 + 2 p and +
-// 11 + 2 p.
-std::uint16_t first_participant_port(int domain) {
-  return static_cast<std::uint16_t>(7400 + 250 * domain + 10);
+std::uint16_t claim_port(int domain) {
+  return static_cast<std::uint16_t>(first_participant_port(domain) + 239);
 }
-std::uint16_t claim_port(int domain) { return static_cast<std::uint16_t>(7400 + 250 * domain + 249); }
 
 // A UDP socket that has the port for itself, or -1.
 int bind_alone(std::uint16_t port) {
@@ -42,7 +39,7 @@ DomainClaim::DomainClaim() {
     id_ = 1 + (start + i) % kLastDomain;
     socket_ = bind_alone(claim_port(id_));
     if (socket_ < 0) continue;
-    const int probe = bind_alone(first_participant_port(id_));
+    const int probe = bind_alone(static_cast<std::uint16_t>(first_participant_port(id_)));
     if (probe >= 0) {
       close(probe);
       return;

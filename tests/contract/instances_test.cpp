@@ -89,6 +89,7 @@ TEST_P(Instances, OwnerLostForWhatTheLastWriterLeaves) {
   ASSERT_TRUE(writer->write(goal("mine", 1)));
   ASSERT_TRUE(writer->write(goal("ours", 1)));
   ASSERT_TRUE(writer->write(goal("gone", 1)));
+  ASSERT_TRUE(inbox.wait_for_samples(3));
   ASSERT_TRUE(other->write(goal("ours", 2)));
   ASSERT_TRUE(inbox.wait_for_samples(4));
   ASSERT_TRUE(writer->dispose(goal("gone", 1)));

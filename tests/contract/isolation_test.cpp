@@ -140,6 +140,24 @@ TEST_P(Isolation, EitherSideMayRestart) {
   EXPECT_THAT(inbox.goals(), ElementsAre("photo=1", "photo=2", "photo=2"));
 }
 
+TEST_P(Isolation, FortyParticipantsFindEachOtherAndSoDoTheNext) {
+  constexpr int kCount = 40;
+  for (int round = 0; round < 2; ++round) {
+    Inbox inbox;
+    const auto receiver = open_reading();
+    const auto reader = receiver->create_reader(goal_endpoint(latched(1)), inbox.reader_events());
+    std::vector<std::unique_ptr<Transport>> senders;
+    std::vector<std::unique_ptr<Writer>> writers;
+    for (int i = 1; i < kCount; ++i) {
+      senders.push_back(open_writing());
+      writers.push_back(senders.back()->create_writer(goal_endpoint(latched(1)), {}));
+      ASSERT_TRUE(writers.back()->write(goal("goal-" + std::to_string(i), i)));
+    }
+    EXPECT_TRUE(inbox.wait_for_samples(kCount - 1)) << "round " << round << ": " << inbox.samples().size();
+    writers.clear();
+  }
+}
+
 TEST_P(Isolation, OneTopicHasOneTypeInAParticipant) {
   const auto transport = open_writing();
   const auto writer = transport->create_writer(goal_endpoint(latched(1)), {});

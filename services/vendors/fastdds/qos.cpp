@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
+#include "services/domain_claim.hpp"
 #include "services/vendors/peers.hpp"
 
 namespace roci::services::fastdds {
@@ -20,10 +21,11 @@ namespace {
 constexpr std::uint32_t kSocketBuffer = 4 * 1024 * 1024;  // bytes; the host may grant less
 constexpr int kMillisecond = 1'000'000;                   // in nanoseconds
 
-Locator_t udp_locator(const std::string& address) {
+// Port 0 as a peer: the first kMaxParticipantsPerHost ports of the domain.
+Locator_t udp_locator(const std::string& address, int port = 0) {
   Locator_t locator;
   locator.kind = LOCATOR_KIND_UDPv4;
-  locator.port = 0;  // the well-known ports of the domain
+  locator.port = static_cast<std::uint32_t>(port);
   rtps::IPLocator::setIPv4(locator, address);
   return locator;
 }
@@ -72,9 +74,12 @@ dds::DomainParticipantQos participant_qos(const TransportOptions& options) {
   discovery.leaseDuration_announcementperiod = Duration_t(0, 500 * kMillisecond);
   discovery.initial_announcements.count = 10;
   discovery.initial_announcements.period = Duration_t(0, 100 * kMillisecond);
-  // Naming unicast locators keeps Fast DDS from adding the multicast one.
-  wire.builtin.metatrafficUnicastLocatorList.push_back(udp_locator(options.address));
-  wire.default_unicast_locator_list.push_back(udp_locator(options.address));
+  // Naming unicast locators keeps Fast DDS from adding the multicast one. It goes on from these ports to the
+  // first that are free; left to itself it would count on with each participant that this process ever had,
+  // out of sight of peers.
+  const int first_port = first_participant_port(options.domain);
+  wire.builtin.metatrafficUnicastLocatorList.push_back(udp_locator(options.address, first_port));
+  wire.default_unicast_locator_list.push_back(udp_locator(options.address, first_port + 1));
   for (const auto& peer : peers_of(options)) wire.builtin.initialPeersList.push_back(udp_locator(peer));
   return qos;
 }
