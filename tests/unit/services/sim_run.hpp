@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -22,8 +23,8 @@ inline int next_domain() {
 
 class SimRun {
  public:
-  explicit SimRun(std::vector<std::string> roster, std::string vendor = "inproc", int domain = next_domain())
-      : roster_(std::move(roster)), vendor_(std::move(vendor)), domain_(domain) {}
+  explicit SimRun(std::vector<std::string> roster, int domain = next_domain())
+      : roster_(std::move(roster)), domain_(domain) {}
 
   ~SimRun() {
     for (auto& member : members_) member->node->stop();
@@ -31,24 +32,32 @@ class SimRun {
   }
 
   // The first service of the roster is the master.
-  Node& add(const std::string& name, std::uint32_t incarnation = 1) {
+  Node& add(const std::string& name, std::uint32_t incarnation = 1, const std::string& vendor = "inproc") {
     NodeOptions options;
     options.name = name;
     options.incarnation = incarnation;
     options.clock = name == roster_.front() ? ClockMode::master : ClockMode::simulated;
     options.master = master;
     options.master.roster = roster_;
-    options.vendor = vendor_;
+    options.vendor = vendor;
     members_.push_back(std::make_unique<Member>());
-    members_.back()->node = std::make_unique<Node>(options, transport());
+    members_.back()->node = std::make_unique<Node>(options, transport(vendor));
     return *members_.back()->node;
   }
 
-  std::unique_ptr<Transport> transport() const {
+  // The newest incarnation.
+  Node& node(const std::string& name) {
+    for (auto member = members_.rbegin(); member != members_.rend(); ++member) {
+      if ((*member)->node->options().name == name) return *(*member)->node;
+    }
+    throw std::out_of_range(name);
+  }
+
+  std::unique_ptr<Transport> transport(const std::string& vendor = "inproc") const {
     TransportOptions options;
     options.domain = domain_;
     options.participant = "test";
-    return open_transport(vendor_, options);
+    return open_transport(vendor, options);
   }
 
   // Starts the nodes that were added since the last start.
@@ -91,7 +100,6 @@ class SimRun {
     std::exception_ptr error;
   };
   std::vector<std::string> roster_;
-  std::string vendor_;
   int domain_;
   std::vector<std::unique_ptr<Member>> members_;
 };
