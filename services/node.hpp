@@ -57,6 +57,12 @@ class ClockError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The master is gone, and with it the run.
+class ClockGone : public ClockError {
+ public:
+  using ClockError::ClockError;
+};
+
 class Transport;
 
 // The untyped half that typed wrappers stand on; see publisher.hpp for Publisher<T> and subscribe<T>().

@@ -13,7 +13,7 @@ namespace roci::services {
 namespace {
 
 // docs/exit-codes.md, "Services".
-enum ExitCode { kStopped = 0, kFailed = 1, kBadInput = 2, kNoTransport = 3 };
+enum ExitCode { kStopped = 0, kFailed = 1, kBadInput = 2, kNoTransport = 3, kClockGone = 4 };
 
 std::unique_ptr<Transport> connect(const Connection& connection) {
   if (connection.dds == "inproc") {
@@ -51,6 +51,8 @@ int service_main(int argc, char** argv, const std::string& name, MakeService* ma
     return report(name, error, kBadInput);
   } catch (const std::invalid_argument& error) {
     return report(name, error, kBadInput);
+  } catch (const ClockGone& error) {
+    return report(name, error, kClockGone);
   } catch (const std::exception& error) {
     return report(name, error, kFailed);
   }

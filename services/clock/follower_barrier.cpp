@@ -36,7 +36,7 @@ class FollowerBarrier : public Barrier {
   void turn(wall::Instant now) override {
     const bool last = step_ && step_->last();
     if (master_lost_ && !last)
-      throw ClockError("the simulated clock's master " + step_->master() + " is gone");
+      throw ClockGone("the simulated clock's master " + step_->master() + " is gone");
     check_roster();
     if (admitted_ || now < next_ready_) return;
     next_ready_ = now + wall::seconds(kReadyPeriodS);

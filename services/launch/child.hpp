@@ -1,0 +1,39 @@
+// One child process: its output goes to a log file, and it dies with this process.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace roci::launch {
+
+struct Ending {
+  bool exited = false;  // by itself, with `code`; otherwise by signal `code`
+  int code = 0;
+};
+
+std::string to_string(const Ending&);
+
+class Child {
+ public:
+  // Runs `program` with `arguments` (the name first); appends its output to `log`. Throws std::system_error.
+  // To be called on the main thread, with whose end the child dies.
+  Child(const std::filesystem::path& program, std::vector<std::string> arguments,
+        const std::filesystem::path& log);
+  ~Child();  // kills it if it still runs
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  std::optional<Ending> ending();  // nothing while it runs
+  void signal(int number);
+  pid_t pid() const { return pid_; }
+
+ private:
+  pid_t pid_ = -1;
+  std::optional<Ending> ending_;
+};
+
+}  // namespace roci::launch

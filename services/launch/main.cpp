@@ -1,0 +1,60 @@
+// roci-launch: flies a mission with every service in its own process; see README.md in this folder.
+#include <unistd.h>
+
+#include <atomic>
+#include <iostream>
+#include <system_error>
+
+#include "core/mission/entry.hpp"
+#include "services/launch/options.hpp"
+#include "services/launch/process_plan.hpp"
+#include "services/launch/run.hpp"
+#include "services/service_options.hpp"
+#include "services/stop_signals.hpp"
+#include "services/transport.hpp"
+
+namespace {
+
+using namespace roci::launch;
+
+// All services in one process is another program: this one becomes it.
+int rehearse(const Options& options) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "roci-rehearse";
+  auto arguments = rehearsal_arguments(options);
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  execv(program.c_str(), pointers.data());
+  throw std::system_error(errno, std::generic_category(), "cannot start " + program.string());
+}
+
+int launch(int argc, char** argv) {
+  const Options options = parse_options(argc, argv, roci::services::process_environment());
+  if (options.connection.dds == "inproc") return rehearse(options);
+  roci::services::StopSignals signals;
+  std::atomic<int> stops{0};
+  signals.watch([&stops] { ++stops; });
+  return fly(options, [&stops] { return stops.load(); });
+}
+
+int report(const std::exception& error, ExitCode code) {
+  std::cerr << "roci-launch: " << error.what() << "\n";
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return launch(argc, argv);
+  } catch (const roci::services::CommandLineEnd& end) {
+    (end.exit_code == 0 ? std::cout : std::cerr) << end.what();
+    return end.exit_code;
+  } catch (const roci::mission::FileError& error) {
+    return report(error, kBadInput);
+  } catch (const std::invalid_argument& error) {
+    return report(error, kBadInput);
+  } catch (const std::exception& error) {
+    return report(error, kServiceFailed);
+  }
+}

@@ -1,0 +1,36 @@
+// The command line of roci-launch.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/connection.hpp"
+
+namespace roci::launch {
+
+struct Options {
+  std::filesystem::path mission;  // folder
+  std::string scenario = "nominal";
+  std::uint64_t seed = 1;
+  bool live = false;
+  std::optional<double> speed;  // mission seconds per second; 0: as fast as possible; nothing: not given
+  bool headless = false;
+  bool json = false;
+  std::vector<std::string> services;  // started here
+  std::vector<std::string> roster;    // of the whole run
+  std::filesystem::path run_folder;   // empty: choose one
+  bool domain_given = false;
+  services::Connection connection;  // dds may be "mixed" or "inproc"
+};
+
+inline const std::vector<std::string> kAllServices{"arm_svc",     "exec_svc",    "pathplan_svc",
+                                                   "planner_svc", "science_svc", "sim_svc"};
+inline constexpr char kClockMaster[] = "sim_svc";
+
+// Throws services::CommandLineEnd, std::invalid_argument, mission::FileError.
+Options parse_options(int argc, const char* const* argv, const services::Environment&);
+
+}  // namespace roci::launch

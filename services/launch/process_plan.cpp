@@ -1,0 +1,90 @@
+#include "services/launch/process_plan.hpp"
+
+#include <sstream>
+
+namespace roci::launch {
+namespace {
+
+constexpr double kDefaultPace = 60;
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const auto& part : parts) text += (text.empty() ? "" : ",") + part;
+  return text;
+}
+
+std::string to_text(double number) {
+  std::ostringstream text;
+  text.precision(17);
+  text << number;
+  return text.str();
+}
+
+void add_clock(const Options& options, const std::string& service, std::int64_t epoch_unix_us,
+               std::vector<std::string>& arguments) {
+  const auto add = [&](const char* option, const std::string& value) {
+    arguments.emplace_back(option);
+    arguments.push_back(value);
+  };
+  if (options.live) {
+    add("--clock", "live");
+    add("--scale", to_text(options.speed.value_or(1)));
+    add("--epoch", to_text(static_cast<double>(epoch_unix_us) / 1e6));
+  } else if (service == kClockMaster) {
+    add("--clock", "master");
+    add("--roster", joined(options.roster));
+    add("--pace", to_text(pace_of(options)));
+  } else {
+    add("--clock", "simulated");
+  }
+}
+
+}  // namespace
+
+double pace_of(const Options& options) { return options.speed.value_or(kDefaultPace); }
+
+std::string vendor_of(const std::string& program, const std::string& dds) {
+  if (dds != "mixed") return dds;
+  return program == "planner_svc" || program == kConsole ? "cyclonedds" : "fastdds";
+}
+
+std::vector<std::string> service_arguments(const Options& options, const std::string& service,
+                                           std::uint32_t incarnation, std::int64_t epoch_unix_us) {
+  const auto& transport = options.connection.transport;
+  std::vector<std::string> arguments{service,
+                                     "--mission",
+                                     options.mission.string(),
+                                     "--scenario",
+                                     options.scenario,
+                                     "--seed",
+                                     std::to_string(options.seed),
+                                     "--run-folder",
+                                     options.run_folder.string(),
+                                     "--dds",
+                                     vendor_of(service, options.connection.dds),
+                                     "--domain",
+                                     std::to_string(transport.domain),
+                                     "--address",
+                                     transport.address,
+                                     "--peers",
+                                     joined(transport.peers),
+                                     "--incarnation",
+                                     std::to_string(incarnation)};
+  add_clock(options, service, epoch_unix_us, arguments);
+  return arguments;
+}
+
+std::vector<std::string> rehearsal_arguments(const Options& options) {
+  const double pace = pace_of(options);
+  std::vector<std::string> arguments{
+      "roci-rehearse", options.mission.string(),     "--scenario", options.scenario,
+      "--seed",        std::to_string(options.seed), "--speed",    pace == 0 ? "max" : to_text(pace)};
+  if (!options.run_folder.empty()) {
+    arguments.emplace_back("--run-folder");
+    arguments.push_back(options.run_folder.string());
+  }
+  if (options.json) arguments.emplace_back("--json");
+  return arguments;
+}
+
+}  // namespace roci::launch

@@ -1,0 +1,76 @@
+#include "services/launch/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <iostream>
+
+namespace roci::launch {
+namespace {
+
+namespace topics = services::topics;
+
+const char* phase_name(v1::MissionPhase phase) {
+  constexpr std::array names{"idle", "pausing", "planning", "executing", "safe", "finished"};
+  const auto index = static_cast<std::size_t>(phase);
+  return index < names.size() ? names[index] : "unknown";
+}
+
+std::string clock_text(services::Time time) {
+  const auto s = std::chrono::duration_cast<std::chrono::seconds>(time).count();
+  return fmt::format("{:02}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+}
+
+}  // namespace
+
+Progress::Progress(services::Node& node, bool shown)
+    : node_(node),
+      events_(services::advertise(node, topics::event)),
+      shown_(shown),
+      terminal_(isatty(STDERR_FILENO) == 1) {
+  services::subscribe(node, topics::mission_status,
+                      [this](const v1::MissionStatus& status) { status_ = status; });
+  services::subscribe(node, topics::event, [this](const v1::Event& event) { take(event); });
+}
+
+Progress::~Progress() {
+  if (shown_ && terminal_ && !drawn_.empty()) std::cerr << '\n';
+}
+
+void Progress::take(const v1::Event& event) {
+  if (event.severity_level() == v1::SEVERITY_DEBUG) return;
+  last_event_ = event.code() + ": " + event.text();
+}
+
+void Progress::report(v1::Severity severity, const std::string& code, const std::string& text) {
+  v1::Event event;
+  event.severity_level(severity);
+  event.code(code);
+  event.text(text);
+  events_.write(event);
+  take(event);
+}
+
+std::string Progress::line() const {
+  return fmt::format("{}  goals: {} achieved, {} open, {} dropped, {} failed  plan {}  {}",
+                     phase_name(status_.phase()), status_.goals_achieved(), status_.goals_open(),
+                     status_.goals_dropped(), status_.goals_failed(), status_.plan_version(), last_event_);
+}
+
+void Progress::show() {
+  if (!shown_) return;
+  const std::string time = clock_text(node_.now());
+  std::string text = line();
+  if (terminal_) {
+    text = time + "  " + text;
+    if (text == drawn_) return;
+    std::cerr << '\r' << text << "\x1b[K" << std::flush;
+  } else {
+    if (text == drawn_) return;
+    std::cerr << time << "  " << text << '\n';
+  }
+  drawn_ = std::move(text);
+}
+
+}  // namespace roci::launch

@@ -1,0 +1,39 @@
+// What the user sees of a run while it flies, from an observer node: mission time, phase, goals, the last
+// event.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "services/node.hpp"
+#include "services/publisher.hpp"
+
+namespace roci::launch {
+
+class Progress {
+ public:
+  // `shown`: on standard error, one line that is rewritten on a terminal, else a line for each change.
+  Progress(services::Node&, bool shown);
+  ~Progress();  // ends the line
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void show();  // draws what changed
+  // An event of the launcher itself, to all consoles and to the line.
+  void report(v1::Severity, const std::string& code, const std::string& text);
+
+ private:
+  void take(const v1::Event&);
+  std::string line() const;
+
+  services::Node& node_;
+  services::Publisher<v1::Event> events_;
+  bool shown_;
+  bool terminal_;
+  v1::MissionStatus status_;
+  std::string last_event_;
+  std::string drawn_;
+};
+
+}  // namespace roci::launch

@@ -1,0 +1,131 @@
+#include "services/launch/run.hpp"
+
+#include <unistd.h>
+
+#include <ctime>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "services/clock/wall.hpp"
+#include "services/domain_claim.hpp"
+#include "services/launch/process_plan.hpp"
+#include "services/launch/progress.hpp"
+#include "services/launch/run_record.hpp"
+#include "services/launch/summary.hpp"
+#include "services/launch/supervisor.hpp"
+#include "services/transport.hpp"
+
+namespace roci::launch {
+namespace {
+
+namespace fs = std::filesystem;
+namespace wall = services::wall;
+
+constexpr std::chrono::milliseconds kTurn{20};
+constexpr std::size_t kShownLogLines = 8;
+
+fs::path program_of(const std::string& service) {
+  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / service;
+  if (access(program.c_str(), X_OK) == 0) return program;
+  throw std::system_error(errno, std::generic_category(), "cannot start " + program.string());
+}
+
+fs::path state_folder() {
+  if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state != '\0') return state;
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+    return fs::path(home) / ".local/state";
+  return fs::temp_directory_path();
+}
+
+fs::path choose_run_folder(const Options& options, std::int64_t started_unix_us) {
+  const std::time_t seconds = started_unix_us / 1'000'000;
+  char stamp[32];
+  std::strftime(stamp, sizeof stamp, "%Y%m%dT%H%M%SZ", std::gmtime(&seconds));
+  const std::string name = std::string(stamp) + "-" + options.mission.filename().string() + "-" +
+                           options.scenario + "-" + std::to_string(getpid());
+  return state_folder() / "rocinante" / "runs" / name;
+}
+
+services::NodeOptions observer_options(const std::string& vendor) {
+  services::NodeOptions options;
+  options.name = "launcher";
+  options.clock = services::ClockMode::observer;
+  options.vendor = vendor;
+  return options;
+}
+
+services::RunRecord record_of(const Options& options, std::int64_t started_unix_us) {
+  const auto& transport = options.connection.transport;
+  return {getpid(),         transport.domain,       options.mission,
+          options.scenario, options.connection.dds, transport.address,
+          transport.peers,  options.run_folder,     options.live ? "live" : "simulated",
+          started_unix_us};
+}
+
+void print_failure(const RunFailure& failure, const fs::path& run_folder) {
+  std::cerr << "roci-launch: " << failure.service << " " << failure.what << "\n";
+  const fs::path log = run_folder / (failure.service + ".log");
+  std::ifstream in(log);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  const std::size_t first = lines.size() > kShownLogLines ? lines.size() - kShownLogLines : 0;
+  for (std::size_t i = first; i < lines.size(); ++i) std::cerr << "  " << lines[i] << "\n";
+  std::cerr << "  (" << log.string() << ")\n";
+}
+
+ExitCode exit_code(const std::optional<RunFailure>& failure, bool achieved) {
+  if (failure) return failure->bad_input ? kBadInput : kServiceFailed;
+  return achieved ? kAchieved : kNotAchieved;
+}
+
+}  // namespace
+
+ExitCode fly(Options options, const std::function<int()>& stop_asked) {
+  const auto begun = wall::now();
+  const std::int64_t started_unix_us = wall::unix_us();
+  std::optional<services::DomainClaim> claim;
+  auto& transport = options.connection.transport;
+  if (!options.domain_given) transport.domain = claim.emplace().id();
+  if (options.run_folder.empty()) options.run_folder = choose_run_folder(options, started_unix_us);
+  options.run_folder = fs::absolute(options.run_folder);
+  fs::create_directories(options.run_folder);
+  fs::remove(options.run_folder / "summary.json");
+
+  const std::string vendor = vendor_of(kConsole, options.connection.dds);
+  transport.participant = "launcher";
+  services::Node node(observer_options(vendor), services::open_transport(vendor, transport));
+  Progress progress(node, !options.headless);
+  const services::PublishedRun published(services::runtime_folder(), record_of(options, started_unix_us));
+
+  Supervisor::Hooks hooks;
+  hooks.start = [&](const std::string& service, std::uint32_t incarnation) {
+    return std::make_unique<Child>(program_of(service),
+                                   service_arguments(options, service, incarnation, started_unix_us),
+                                   options.run_folder / (service + ".log"));
+  };
+  hooks.on_death = [&](const std::string& service, const std::string& what) {
+    progress.report(v1::SEVERITY_WARNING, "service.died", service + " " + what);
+  };
+  Supervisor supervisor(options.services, kClockMaster, !options.live, std::move(hooks));
+  supervisor.start(wall::now());
+  for (int stops = 0; !supervisor.finished();) {
+    node.spin_once(kTurn);
+    if (stop_asked() > stops) {
+      ++stops;
+      supervisor.stop(wall::now());
+    }
+    supervisor.turn(wall::now());
+    progress.show();
+  }
+
+  if (supervisor.failure()) print_failure(*supervisor.failure(), options.run_folder);
+  const Summary summary =
+      complete_summary(options, std::chrono::duration<double>(wall::now() - begun).count());
+  std::cout << (options.json ? summary.json + "\n" : summary.text) << std::flush;
+  return exit_code(supervisor.failure(), summary.achieved);
+}
+
+}  // namespace roci::launch

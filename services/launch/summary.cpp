@@ -1,0 +1,58 @@
+#include "services/launch/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace roci::launch {
+namespace {
+
+using nlohmann::json;
+
+json read_or_failed(const Options& options) {
+  std::ifstream in(options.run_folder / "summary.json");
+  json summary = json::parse(in, nullptr, false);
+  if (!summary.is_object()) summary = json::object();
+  const json failed{{"mission", options.mission.filename().string()},
+                    {"scenario", options.scenario},
+                    {"seed", options.seed},
+                    {"result", "failed"},
+                    {"goals", {{"achieved", 0}, {"dropped", 0}, {"failed", 0}}},
+                    {"planner", {{"calls", 0}, {"max_s", 0.0}, {"max_rss_mb", 0.0}}},
+                    {"replans", 0},
+                    {"sim_s", 0.0},
+                    {"trace_sha256", ""}};
+  for (const auto& [key, value] : failed.items()) {
+    if (!summary.contains(key)) summary[key] = value;
+  }
+  return summary;
+}
+
+std::string to_text(const json& summary, const Options& options) {
+  const json& goals = summary["goals"];
+  const json& planner = summary["planner"];
+  return fmt::format(
+      "{} {} (seed {}, {}): {}\n"
+      "  goals     {} achieved, {} dropped, {} failed\n"
+      "  planner   {} calls, slowest {:.2f} s, {:.0f} MB; {} replans\n"
+      "  time      {:.0f} s of mission in {:.1f} s\n"
+      "  run       {}\n",
+      summary.value("mission", ""), summary.value("scenario", ""), summary.value("seed", std::uint64_t{0}),
+      summary.value("dds", ""), summary.value("result", ""), goals.value("achieved", 0),
+      goals.value("dropped", 0), goals.value("failed", 0), planner.value("calls", 0),
+      planner.value("max_s", 0.0), planner.value("max_rss_mb", 0.0), summary.value("replans", 0),
+      summary.value("sim_s", 0.0), summary.value("wall_s", 0.0), options.run_folder.string());
+}
+
+}  // namespace
+
+Summary complete_summary(const Options& options, double wall_s) {
+  json summary = read_or_failed(options);
+  summary["dds"] = options.connection.dds;
+  summary["wall_s"] = wall_s;
+  std::ofstream(options.run_folder / "summary.json") << summary.dump(2) << '\n';
+  return {summary.value("result", "") == "achieved", summary.dump(), to_text(summary, options)};
+}
+
+}  // namespace roci::launch

@@ -1,0 +1,108 @@
+#include "services/launch/supervisor.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <utility>
+
+namespace roci::launch {
+
+namespace wall = services::wall;
+
+namespace {
+
+constexpr double kLeaveS = 5;      // for services to leave by themselves after the clock's last step
+constexpr double kTerminateS = 5;  // from SIGTERM to SIGKILL
+
+}  // namespace
+
+Supervisor::Supervisor(const std::vector<std::string>& services, std::string master, bool master_is_clock,
+                       Hooks hooks)
+    : master_(std::move(master)), master_is_clock_(master_is_clock), hooks_(std::move(hooks)) {
+  for (const std::string& name : services) services_[name];
+}
+
+void Supervisor::start(wall::Instant now) {
+  for (auto& [name, service] : services_) launch(name, service, now);
+}
+
+void Supervisor::launch(const std::string& name, Service& service, wall::Instant now) {
+  service.restart.reset();
+  service.started = now;
+  service.child = hooks_.start(name, ++service.incarnation);
+}
+
+void Supervisor::turn(wall::Instant now) {
+  for (auto& [name, service] : services_) {
+    if (service.child) {
+      if (const auto ending = service.child->ending()) {
+        service.child.reset();
+        after_end(name, service, *ending, now);
+      }
+    } else if (service.restart && *service.restart <= now) {
+      launch(name, service, now);
+    }
+  }
+  wind_up(now);
+}
+
+void Supervisor::after_end(const std::string& name, Service& service, const Ending& ending,
+                           wall::Instant now) {
+  const bool clean = ending.exited && ending.code == kServiceStopped;
+  if (clean && name == master_ && !terminate_at_) {
+    // The others were told by the clock; live ones must be asked.
+    terminate_at_ = master_is_clock_ ? now + wall::seconds(kLeaveS) : now;
+  }
+  if (clean || terminate_at_) return;
+  const std::string what = to_string(ending);
+  if (name == master_ && master_is_clock_)
+    return fail(name, what + "; it is the clock of the run", false, now);
+  if (ending.exited && ending.code == kServiceClockGone)
+    return fail(name, "lost the clock of the run", false, now);
+  if (ending.exited && ending.code == kServiceBadInput) return fail(name, what, true, now);
+  if (ending.exited && ending.code == kServiceNoTransport) return fail(name, what, false, now);
+  const auto pause = service.policy.died(RestartPolicy::Duration(now - service.started));
+  if (!pause) {
+    return fail(name, what + ", the " + std::to_string(RestartPolicy::kDeathsInARow) + "th time in a row",
+                false, now);
+  }
+  service.restart = now + wall::seconds(pause->count());
+  hooks_.on_death(name, what + "; starting it again");
+}
+
+void Supervisor::fail(const std::string& name, std::string what, bool bad_input, wall::Instant now) {
+  hooks_.on_death(name, what);
+  failure_ = RunFailure{name, std::move(what), bad_input};
+  terminate_at_ = now;
+}
+
+void Supervisor::stop(wall::Instant now) {
+  if (terminate_at_ || !services_.contains(master_) || !services_[master_].child) {
+    terminate_at_ = now;
+    return;
+  }
+  terminate_at_ = now + wall::seconds(kLeaveS);
+  services_[master_].child->signal(SIGTERM);
+}
+
+void Supervisor::wind_up(wall::Instant now) {
+  if (!terminate_at_) return;
+  for (auto& [name, service] : services_) service.restart.reset();
+  if (!kill_at_ && now >= *terminate_at_) {
+    signal_all(SIGTERM);
+    kill_at_ = now + wall::seconds(kTerminateS);
+  }
+  if (kill_at_ && now >= *kill_at_) signal_all(SIGKILL);
+}
+
+void Supervisor::signal_all(int number) {
+  for (auto& [name, service] : services_) {
+    if (service.child) service.child->signal(number);
+  }
+}
+
+bool Supervisor::finished() const {
+  return std::ranges::none_of(services_,
+                              [](const auto& entry) { return entry.second.child || entry.second.restart; });
+}
+
+}  // namespace roci::launch

@@ -1,0 +1,73 @@
+// Keeps the service processes of one host running until the run is over.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/clock/wall.hpp"
+#include "services/launch/child.hpp"
+#include "services/launch/restart_policy.hpp"
+
+namespace roci::launch {
+
+// Exit codes of services (docs/exit-codes.md) that a new start does not mend.
+enum ServiceExit {
+  kServiceStopped = 0,
+  kServiceBadInput = 2,
+  kServiceNoTransport = 3,
+  kServiceClockGone = 4
+};
+
+// Why a run cannot go on.
+struct RunFailure {
+  std::string service;
+  std::string what;
+  bool bad_input = false;  // of the user: mission file or command line
+};
+
+class Supervisor {
+ public:
+  struct Hooks {
+    std::function<std::unique_ptr<Child>(const std::string& service, std::uint32_t incarnation)> start;
+    std::function<void(const std::string& service, const std::string& what)> on_death;
+  };
+  // `master`: with its clean end the run is over; if `master_is_clock`, with any end.
+  Supervisor(const std::vector<std::string>& services, std::string master, bool master_is_clock, Hooks);
+
+  void start(services::wall::Instant now);  // throws what Hooks::start throws
+  void turn(services::wall::Instant now);  // looks after ended children, due restarts, and the end of the run
+  void stop(services::wall::Instant now);  // asks the run to end; a second time: less politely
+
+  bool finished() const;
+  const std::optional<RunFailure>& failure() const { return failure_; }
+
+ private:
+  struct Service {
+    std::unique_ptr<Child> child;
+    std::uint32_t incarnation = 0;
+    services::wall::Instant started;
+    std::optional<services::wall::Instant> restart;
+    RestartPolicy policy;
+  };
+  void launch(const std::string& name, Service&, services::wall::Instant now);
+  void after_end(const std::string& name, Service&, const Ending&, services::wall::Instant now);
+  void fail(const std::string& name, std::string what, bool bad_input, services::wall::Instant now);
+  void wind_up(services::wall::Instant now);
+  void signal_all(int number);
+
+  std::map<std::string, Service> services_;
+  std::string master_;
+  bool master_is_clock_;
+  Hooks hooks_;
+  std::optional<RunFailure> failure_;
+  // The end of the run in three stages: services leave by themselves, then SIGTERM, then SIGKILL.
+  std::optional<services::wall::Instant> terminate_at_;
+  std::optional<services::wall::Instant> kill_at_;
+};
+
+}  // namespace roci::launch
