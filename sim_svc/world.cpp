@@ -116,7 +116,6 @@ void World::advance_to(Time now) {
 
 void World::happen(Time t) {
   settle(t);
-  bool ended = false;
   each([&](auto& component) {
     if (component.next_change() != t) return;
     const RobotView seen = view();
@@ -129,9 +128,9 @@ void World::happen(Time t) {
     } else {
       acknowledge(key, Stage::completed, "done", "", t);
     }
-    ended = true;
+    task_ended_ = true;
   });
-  publish(t, ended || t == next_report_);
+  publish(t, task_ended_ || t == next_report_);
 }
 
 // Energy of [now_, t], with the tasks as they run; at most a tick long.
@@ -149,7 +148,7 @@ void World::settle(Time t) {
 }
 
 std::vector<Output> World::done(Time now) {
-  publish(now, !moving());
+  publish(now, task_ended_);
   if (moving()) next_report_ = std::min(next_report_, now + seconds(robot_.telemetry.moving_s));
   advance_to(now);
   return std::exchange(out_, {});
@@ -164,6 +163,7 @@ void World::publish(Time t, bool numbers) {
     reporter_.report("image." + id, State{image.sent ? "sent" : "stored", {}}, t, out_);
   }
   for (const auto& [id, state] : gripper_.samples()) reporter_.report("sample." + id, state, t, out_);
+  task_ended_ = false;
   if (!numbers) return;
   reporter_.report_number("rover.x", nav_.pose().x, kMillimetre, t, out_);
   reporter_.report_number("rover.y", nav_.pose().y, kMillimetre, t, out_);

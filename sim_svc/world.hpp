@@ -113,8 +113,9 @@ class World {
   std::map<std::string, Time, std::less<>> faults_;          // by component: until when
   CommandLedger ledger_;
   Reporter reporter_;
-  Time now_{};          // of the last event
-  Time next_report_{};  // of the numbers
+  bool task_ended_ = false;  // since the last publish()
+  Time now_{};               // of the last event
+  Time next_report_{};       // of the numbers
   std::vector<Output> out_;
 };
 
@@ -136,6 +137,7 @@ void World::break_off(Component& component, Time now, Stage stage, Failure why) 
   component.halt(now);
   acknowledge(running->second, stage, std::move(why.code), std::move(why.reason), now);
   running_.erase(running);
+  task_ended_ = true;
 }
 
 }  // namespace roci::sim
