@@ -15,7 +15,7 @@ Ending ArmUnit::begin(const Task& task, Time, Surroundings& around) {
   }
   if (around.view.nav.name != "idle-at") return Failure{"driving", "the rover drives; stop it first"};
   target_ = task.arguments.at("to");
-  around.out.push_back(MotionWanted{task.key, from, *target_});
+  around.out.push_back(MotionWanted{task.key, from, joints_, *target_});
   return std::nullopt;
 }
 

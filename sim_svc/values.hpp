@@ -98,6 +98,7 @@ struct PathWanted {
 struct MotionWanted {
   ActivityKey key;
   std::string from;
+  std::vector<double> joints;  ///< where the arm stands
   std::string to;
   bool operator==(const MotionWanted&) const = default;
 };

@@ -1,0 +1,168 @@
+#include "sim_svc/sim_service.hpp"
+
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "services/publisher.hpp"
+#include "services/rpc.hpp"
+#include "sim_svc/setup_file.hpp"
+#include "sim_svc/wire_service.hpp"
+
+namespace roci::sim {
+namespace {
+
+namespace topics = services::topics;
+
+constexpr char kPathPlanner[] = "pathplan_svc";
+constexpr char kArmPlanner[] = "arm_svc";
+constexpr Duration kCallDeadline = std::chrono::seconds(30);
+constexpr Duration kFarewell = std::chrono::seconds(1);  // from the mission's outcome to the end of the run
+
+template <class... Cases>
+struct Match : Cases... {
+  using Cases::operator()...;
+};
+
+class SimService final : public services::Service {
+ public:
+  SimService(services::Node& node, RunSetup run, std::uint64_t seed)
+      : node_(node),
+        scenario_(std::move(run.scenario)),
+        world_(std::move(run.world), seed),
+        paths_(services::make_client(node, topics::path_request)),
+        motions_(services::make_client(node, topics::arm_motion)),
+        acks_(services::advertise(node, topics::command_ack)),
+        observations_(services::advertise(node, topics::observation)),
+        products_(services::advertise(node, topics::data_product)),
+        hazards_(services::advertise(node, topics::hazard)),
+        goals_(services::advertise(node, topics::goal)),
+        events_(services::advertise(node, topics::event)) {
+    services::subscribe(node, topics::command, [this](const v1::Command& command) {
+      if (command.owner() == node_.options().name)
+        tell(world_.command(node_.now(), wire::from_wire(command)));
+    });
+    services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
+      mission_over_ = !status.outcome().empty();
+      end_if_over();
+    });
+    node.at(Time{}, [this] { tell(world_.advance(node_.now())); });
+    for (const Stimulus& stimulus : scenario_.stimuli) {
+      node.at(stimulus.at, [this, &stimulus] { stimulate(stimulus); });
+    }
+    node.at(scenario_.duration, [this] { end("scenario.time-up", "the scenario's time is up"); });
+  }
+
+ private:
+  // Sends what the world says and wakes up again when it may say more.
+  void tell(const std::vector<Output>& outputs) {
+    for (const Output& output : outputs) {
+      std::visit(Match{[this](const Ack& ack) { acks_.write(wire::to_wire(ack, node_.options().name)); },
+                       [this](const Observed& observed) { observations_.write(wire::to_wire(observed)); },
+                       [this](const Image& image) { products_.write(wire::to_wire(image)); },
+                       [this](const RockSeen& rock) { warn_of(rock); },
+                       [this](const PathWanted& path) { ask(path); },
+                       [this](const MotionWanted& motion) { ask(motion); }},
+                 output);
+    }
+    if (wake_) node_.cancel(*wake_);
+    wake_.reset();
+    const auto next = world_.next_change();
+    if (!next) return;
+    wake_ = node_.at(*next, [this] {
+      wake_.reset();
+      tell(world_.advance(node_.now()));
+    });
+  }
+
+  void warn_of(const RockSeen& rock) {
+    hazards_.write(wire::to_wire(rock));
+    events_.write(wire::event(v1::SEVERITY_WARNING, "hazard.seen",
+                              "a rock that the map does not show lies on the way (" + rock.id + ")"));
+  }
+
+  void ask(const PathWanted& path) {
+    paths_.call(wire::to_wire(path), kPathPlanner, kCallDeadline,
+                [this, key = path.key](const services::CallResult<v1::PathReply>& result) {
+                  const auto refused = refusal(result, "path");
+                  tell(refused ? world_.path_refused(node_.now(), key, *refused)
+                               : world_.path_found(node_.now(), key, wire::way_of(result.reply)));
+                });
+  }
+
+  void ask(const MotionWanted& motion) {
+    motions_.call(wire::to_wire(motion), kArmPlanner, kCallDeadline,
+                  [this, key = motion.key](const services::CallResult<v1::ArmMotionReply>& result) {
+                    const auto refused = refusal(result, "motion");
+                    tell(refused ? world_.motion_refused(node_.now(), key, *refused)
+                                 : world_.motion_found(node_.now(), key, wire::trajectory_of(result.reply)));
+                  });
+  }
+
+  // Why a call gave nothing to follow: "no-path" when there is none, "path-call" when nobody said so.
+  template <class Reply>
+  static std::optional<Failure> refusal(const services::CallResult<Reply>& result, const std::string& what) {
+    if (result.status != services::CallStatus::ok) {
+      return Failure{what + "-call", std::string(services::to_string(result.status)) + ": " + result.message};
+    }
+    if (result.reply.outcome() != v1::MOTION_FOUND) return Failure{"no-" + what, result.reply.reason()};
+    return std::nullopt;
+  }
+
+  void stimulate(const Stimulus& stimulus) {
+    ++stimuli_done_;
+    std::visit(
+        Match{[this](const GoalStimulus& goal) {
+                uploaded_[{goal.issuer, goal.id}] = &goal;
+                goals_.write(wire::to_wire(goal, false));
+              },
+              [this](const RecallStimulus& recall) {
+                goals_.write(wire::to_wire(*uploaded_.at({recall.issuer, recall.id}), true));
+              },
+              [this](const Disturbance& disturbance) { tell(world_.disturb(node_.now(), disturbance)); }},
+        stimulus.what);
+    end_if_over();
+  }
+
+  // The mission may go on when a goal arrives in the meantime.
+  void end_if_over() {
+    const bool over = mission_over_ && stimuli_done_ == scenario_.stimuli.size();
+    if (over == farewell_.has_value()) return;
+    if (over) {
+      farewell_ = node_.after(kFarewell,
+                              [this] { end("scenario.over", "the mission is over and nothing is to come"); });
+    } else {
+      node_.cancel(*std::exchange(farewell_, std::nullopt));
+    }
+  }
+
+  void end(const std::string& code, const std::string& text) {
+    events_.write(wire::event(v1::SEVERITY_INFO, code, text));
+    node_.stop();
+  }
+
+  services::Node& node_;
+  const Scenario scenario_;
+  World world_;
+  services::Client<v1::PathRequest, v1::PathReply> paths_;
+  services::Client<v1::ArmMotionRequest, v1::ArmMotionReply> motions_;
+  services::Publisher<v1::CommandAck> acks_;
+  services::Publisher<v1::Observation> observations_;
+  services::Publisher<v1::DataProduct> products_;
+  services::Publisher<v1::Hazard> hazards_;
+  services::Publisher<v1::Goal> goals_;
+  services::Publisher<v1::Event> events_;
+  std::map<std::pair<std::string, std::string>, const GoalStimulus*> uploaded_;  // by issuer and id
+  std::size_t stimuli_done_ = 0;
+  bool mission_over_ = false;
+  std::optional<services::Node::TimerId> wake_;
+  std::optional<services::Node::TimerId> farewell_;
+};
+
+}  // namespace
+
+std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
+  return std::make_unique<SimService>(node, load_run(settings.mission, settings.scenario), settings.seed);
+}
+
+}  // namespace roci::sim

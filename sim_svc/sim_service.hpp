@@ -1,0 +1,13 @@
+// The simulated robot as a process: commands in, acknowledgements, observations, products and hazards out, on
+// the topics that a real robot would serve; and the scenario's stimuli.
+#pragma once
+
+#include <memory>
+
+#include "services/service.hpp"
+
+namespace roci::sim {
+
+std::unique_ptr<services::Service> make_service(services::Node&, const services::RunSettings&);
+
+}  // namespace roci::sim
