@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/pddl/check.hpp"
 #include "core/pddl/forbidden.hpp"
@@ -18,11 +18,13 @@ enum ExitCode { kValid = 0, kInvalid = 1, kUnreadable = 2 };
 
 std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file || std::filesystem::is_directory(path)) {
+  std::error_code error;
+  if (!file || std::filesystem::is_directory(path, error)) {
     throw pddl::ParseError({path, {}, "cannot be read", "check the path and its permissions"});
   }
-  return text;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
 }
 
 nlohmann::json to_json(const validate::Report& report, const std::vector<pddl::PlanStep>& plan) {
