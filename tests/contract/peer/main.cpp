@@ -1,0 +1,132 @@
+// peer ROLE VENDOR DOMAIN [ADDRESS PEER]
+//   ROLE: goal-writer, goal-reader, path-server, path-client
+// Standard input: write ISSUER ID PRIORITY | dispose ISSUER ID | call SEQUENCE X Y; it ends with the input.
+// Standard output, one line each: ready | matched N | goal ISSUER ID PRIORITY | disposed ISSUER ID | lost
+// ISSUER ID |
+//   call SEQUENCE X Y | answer SEQUENCE EXCEPTION MESSAGE LENGTH WAYPOINTS SAME_CLIENT | refused
+#include <cmath>
+#include <condition_variable>
+#include <deque>
+#include <iostream>
+#include <mutex>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "tests/contract/peer/backend.hpp"
+
+namespace roci::contract_peer {
+namespace {
+
+// Work for the main thread: no vendor thread ever writes.
+class Loop {
+ public:
+  void post(std::function<void()> job) {
+    const std::lock_guard lock(mutex_);
+    jobs_.push_back(std::move(job));
+    changed_.notify_one();
+  }
+  void stop() { post(nullptr); }
+  void run() {
+    for (;;) {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [this] { return !jobs_.empty(); });
+      const auto job = std::move(jobs_.front());
+      jobs_.pop_front();
+      lock.unlock();
+      if (!job) return;
+      job();
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::function<void()>> jobs_;
+};
+
+constexpr std::array<std::uint8_t, 16> kClient{0xC1, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 0xFF};
+
+void say(const std::string& line) { std::cout << line << std::endl; }
+
+Handlers handlers(Loop& loop, std::unique_ptr<Backend>& backend) {
+  const auto later = [&loop](auto function) {
+    return [&loop, function](auto... values) { loop.post([=] { function(values...); }); };
+  };
+  return {
+      .matched = later([](int count) { say("matched " + std::to_string(count)); }),
+      .goal = later([](const Goal& goal) {
+        say("goal " + goal.issuer + " " + goal.id + " " + std::to_string(goal.priority));
+      }),
+      .goal_ended = later(
+          [](const char* how, const Goal& key) { say(std::string(how) + " " + key.issuer + " " + key.id); }),
+      .call = later([&backend](const Call& call) {
+        std::ostringstream line;
+        line << "call " << call.sequence << " " << call.x_m << " " << call.y_m;
+        say(line.str());
+        if (!backend->answer({call.client, call.sequence, 0, "found", std::hypot(call.x_m, call.y_m), 2})) {
+          say("refused");
+        }
+      }),
+      .answer = later([](const Answer& answer) {
+        std::ostringstream line;
+        line << "answer " << answer.sequence << " " << answer.remote_exception << " " << answer.message << " "
+             << answer.length_m << " " << answer.waypoints << " "
+             << (answer.client == kClient ? "yes" : "no");
+        say(line.str());
+      }),
+  };
+}
+
+void obey(Backend& backend, const std::string& line) {
+  std::istringstream words(line);
+  std::string verb;
+  Goal goal;
+  Call call{.client = kClient};
+  words >> verb;
+  bool done = false;
+  if (verb == "write" && words >> goal.issuer >> goal.id >> goal.priority) done = backend.write(goal);
+  if (verb == "dispose" && words >> goal.issuer >> goal.id) done = backend.dispose(goal);
+  if (verb == "call" && words >> call.sequence >> call.x_m >> call.y_m) done = backend.call(call);
+  if (!done) say("refused");
+}
+
+void open_role(Backend& backend, const std::string& role) {
+  if (role == "goal-writer") return backend.open_goal_writer();
+  if (role == "goal-reader") return backend.open_goal_reader();
+  if (role == "path-server") return backend.open_path_server();
+  if (role == "path-client") return backend.open_path_client();
+  throw std::invalid_argument("unknown role " + role);
+}
+
+int run(int argc, char** argv) {
+  if (argc != 4 && argc != 6) throw std::invalid_argument("usage: peer ROLE VENDOR DOMAIN [ADDRESS PEER]");
+  Settings settings{.vendor = argv[2], .domain = std::stoi(argv[3])};
+  if (argc == 6) settings.address = argv[4], settings.peer = argv[5];
+
+  Loop loop;
+  std::unique_ptr<Backend> backend;
+  backend = make_backend(settings, handlers(loop, backend));
+  open_role(*backend, argv[1]);
+  say("ready");
+  std::jthread input([&loop, &backend] {
+    std::string line;
+    while (std::getline(std::cin, line)) loop.post([&backend, line] { obey(*backend, line); });
+    loop.stop();
+  });
+  loop.run();
+  backend.reset();
+  return 0;
+}
+
+}  // namespace
+}  // namespace roci::contract_peer
+
+int main(int argc, char** argv) {
+  try {
+    return roci::contract_peer::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << std::endl;
+    return 2;
+  }
+}

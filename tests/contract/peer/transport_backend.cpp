@@ -1,0 +1,118 @@
+// The peer on services/transport.hpp: what a process of ours does.
+#include "roci_idl/goal.h"
+#include "roci_idl/motion.h"
+#include "services/transport.hpp"
+#include "services/type_support.hpp"
+#include "tests/contract/peer/backend.hpp"
+#include "tests/contract/support/profiles.hpp"
+
+namespace roci::contract_peer {
+namespace {
+
+namespace contract = services::contract;
+using services::Sample;
+using services::SampleKind;
+
+services::TransportOptions options_of(const Settings& settings) {
+  return {.domain = settings.domain,
+          .participant = "peer",
+          .address = settings.address,
+          .peers = {settings.peer}};
+}
+
+services::EndpointDescription requests() {
+  return contract::endpoint<v1::PathRequest>("roci/path/request", "roci::v1::PathRequest",
+                                             contract::request());
+}
+
+services::EndpointDescription replies() {
+  return contract::endpoint<v1::PathReply>("roci/path/reply", "roci::v1::PathReply", contract::request());
+}
+
+class TransportBackend : public Backend {
+ public:
+  TransportBackend(const Settings& settings, Handlers handlers)
+      : handlers_(std::move(handlers)),
+        transport_(services::open_transport(settings.vendor, options_of(settings))) {}
+
+  void open_goal_writer() override {
+    writer_ = transport_->create_writer(contract::goal_endpoint(contract::latched(1)), {handlers_.matched});
+  }
+  void open_goal_reader() override {
+    reader_ = transport_->create_reader(contract::goal_endpoint(contract::latched(1)),
+                                        {[this](Sample&& sample) { take_goal(sample); }, handlers_.matched});
+  }
+  void open_path_server() override {
+    writer_ = transport_->create_writer(replies(), {handlers_.matched});
+    reader_ = transport_->create_reader(requests(), {[this](Sample&& sample) { take_call(sample); }, {}});
+  }
+  void open_path_client() override {
+    writer_ = transport_->create_writer(requests(), {handlers_.matched});
+    reader_ = transport_->create_reader(replies(), {[this](Sample&& sample) { take_answer(sample); }, {}});
+  }
+
+  bool write(const Goal& goal) override {
+    return writer_->write(contract::goal(goal.id, goal.priority, goal.issuer));
+  }
+  bool dispose(const Goal& goal) override {
+    return writer_->dispose(contract::goal(goal.id, 0, goal.issuer));
+  }
+
+  bool call(const Call& call) override {
+    v1::PathRequest request;
+    request.request().request_id().writer_guid(call.client);
+    request.request().request_id().sequence_number(call.sequence);
+    request.goal_pose().x_m(call.x_m);
+    request.goal_pose().y_m(call.y_m);
+    return writer_->write(services::serialize(request));
+  }
+
+  bool answer(const Answer& answer) override {
+    v1::PathReply reply;
+    reply.reply().related_request_id().writer_guid(answer.client);
+    reply.reply().related_request_id().sequence_number(answer.sequence);
+    reply.reply().remote_ex(static_cast<v1::RemoteException>(answer.remote_exception));
+    reply.reply().remote_message(answer.message);
+    reply.length_m(answer.length_m);
+    reply.waypoints().resize(answer.waypoints);
+    return writer_->write(services::serialize(reply));
+  }
+
+ private:
+  void take_goal(const Sample& sample) {
+    v1::Goal goal;
+    if (sample.kind == SampleKind::data && services::deserialize(sample.payload, goal)) {
+      handlers_.goal({goal.issuer(), goal.id(), goal.priority()});
+    } else if (sample.kind != SampleKind::data && services::deserialize_key(sample.payload, goal)) {
+      handlers_.goal_ended(sample.kind == SampleKind::disposed ? "disposed" : "lost",
+                           {goal.issuer(), goal.id()});
+    }
+  }
+  void take_call(const Sample& sample) {
+    v1::PathRequest request;
+    if (!services::deserialize(sample.payload, request)) return;
+    const auto& id = request.request().request_id();
+    handlers_.call(
+        {id.writer_guid(), id.sequence_number(), request.goal_pose().x_m(), request.goal_pose().y_m()});
+  }
+  void take_answer(const Sample& sample) {
+    v1::PathReply reply;
+    if (!services::deserialize(sample.payload, reply)) return;
+    const auto& id = reply.reply().related_request_id();
+    handlers_.answer({id.writer_guid(), id.sequence_number(), static_cast<int>(reply.reply().remote_ex()),
+                      reply.reply().remote_message(), reply.length_m(), reply.waypoints().size()});
+  }
+
+  Handlers handlers_;
+  std::unique_ptr<services::Transport> transport_;
+  std::unique_ptr<services::Writer> writer_;
+  std::unique_ptr<services::Reader> reader_;
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_backend(const Settings& settings, Handlers handlers) {
+  return std::make_unique<TransportBackend>(settings, std::move(handlers));
+}
+
+}  // namespace roci::contract_peer
