@@ -39,7 +39,7 @@ bool PlanRun::take_answer(const DecisionAnswer& answer, Time now) {
   return true;
 }
 
-/// Asks as soon as every predecessor of some point that waits for the decision has happened.
+/// Asks as soon as every predecessor of some activity of the choices has happened.
 bool PlanRun::decide(Time now) {
   if (!starting()) return false;
   bool progress = false;
@@ -52,8 +52,9 @@ bool PlanRun::decide(Time now) {
                    "no answer from " + decision.resolver + " in time", "");
       continue;
     }
-    const auto& held = held_by_[d];
-    if (!std::any_of(held.begin(), held.end(), [&](TimePoint p) { return points_.only_held(p); })) continue;
+    const auto& asked_by = asked_by_[d];
+    if (std::none_of(asked_by.begin(), asked_by.end(), [&](TimePoint p) { return points_.only_held(p); }))
+      continue;
     decisions_[d] = now;
     DecisionRequest request{decision.id, decision.resolver, {}, answer_before(d)};
     for (const DecisionChoice& choice : decision.choices) request.choices.push_back(choice.name);

@@ -41,8 +41,15 @@ bool PlanRun::try_start(Index activity, Time now) {
     skip(activity, "skipped: " + describe(planned.skip_if));
     return true;
   }
-  if (evaluate(planned.pre, lookup()) != Truth::yes) {
-    run.cause = "waits for " + explain(planned.pre, lookup());
+  std::string unmet = explain(planned.pre, lookup());
+  for (const TimePoint point : points_.precedence().together[planned.start_point]) {
+    const Index other = points_.owner(point).activity;
+    if (!unmet.empty() || runs_[other].phase != Phase::waiting) continue;
+    unmet = explain(plan_.activities[other].pre, lookup());
+    if (!unmet.empty()) unmet = plan_.activities[other].id + " at the same time, which needs " + unmet;
+  }
+  if (!unmet.empty()) {
+    run.cause = "waits for " + unmet;
     begin_wait(activity, now, bounded(planned.wait_timeout) ? planned.wait_timeout : settings_.default_wait);
     return false;
   }

@@ -18,6 +18,7 @@ PlanRun::PlanRun(temporal::FlexiblePlan plan, const ExecutiveSettings& settings,
       runs_(plan_.activities.size()),
       decisions_(plan_.decisions.size()),
       held_by_(plan_.decisions.size()),
+      asked_by_(plan_.decisions.size()),
       tokens_from_(plan_.activities.size()),
       unfinished_(plan_.activities.size()) {
   outcome_.kind = OutcomeKind::running;
@@ -28,10 +29,17 @@ PlanRun::PlanRun(temporal::FlexiblePlan plan, const ExecutiveSettings& settings,
   }
   for (Index d = 0; d < plan_.decisions.size(); ++d) {
     open_decisions_.insert(d);
-    std::set<TimePoint> held{plan_.decisions[d].decide_before};
+    std::set<TimePoint> held;
     for (const temporal::DecisionChoice& choice : plan_.decisions[d].choices)
       for (const std::string& id : choice.activities)
         held.insert(plan_.activities[index_of_.at(id)].start_point);
+    if (held.empty()) held.insert(plan_.decisions[d].decide_before);
+    asked_by_[d].assign(held.begin(), held.end());
+    held.insert(plan_.decisions[d].decide_before);
+    for (const TimePoint point : asked_by_[d]) {
+      const auto& together = points_.precedence().together[point];
+      held.insert(together.begin(), together.end());
+    }
     held_by_[d].assign(held.begin(), held.end());
     for (const TimePoint point : held) points_.hold(point);
   }
@@ -137,7 +145,8 @@ std::optional<Time> PlanRun::next_wake(Time now) {
     if (time > now) next = std::min(next, time);
   };
   for (const Index i : active_) consider(next_timer(i, now));
-  if (starting() || outcome_.kind == OutcomeKind::broken) consider(points_.next_time(now));
+  if (outcome_.kind != OutcomeKind::cancelling && outcome_.kind != OutcomeKind::cancelled)
+    consider(points_.next_time(now));
   if (starting()) {
     if (!waits_.empty()) consider(waits_.begin()->first);
     for (const Index d : open_decisions_)

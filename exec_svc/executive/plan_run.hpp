@@ -98,8 +98,9 @@ class PlanRun {
   TimelineStore& store_;
   PointDispatcher points_;
   std::vector<ActivityRun> runs_;
-  std::vector<std::optional<temporal::Time>> decisions_;   // when their resolver was asked
-  std::vector<std::vector<temporal::TimePoint>> held_by_;  // by decision
+  std::vector<std::optional<temporal::Time>> decisions_;    // when their resolver was asked
+  std::vector<std::vector<temporal::TimePoint>> held_by_;   // by decision
+  std::vector<std::vector<temporal::TimePoint>> asked_by_;  // of these, those that make it be asked for
   std::unordered_map<std::string, Index> index_of_;
   std::vector<std::vector<std::size_t>> tokens_from_;  // by activity: tokens that begin with it
   std::set<Index> active_;

@@ -71,10 +71,12 @@ class Components {
   std::uint32_t visited_ = 0;
 };
 
-void add_group(const std::vector<TimePoint>& group, const std::vector<PointOwner>& owners,
-               Links& predecessors) {
+void join_group(const std::vector<TimePoint>& group, const std::vector<PointOwner>& owners,
+                Precedence& precedence) {
+  Links& predecessors = precedence.predecessors;
   std::vector<TimePoint> outside;
   std::vector<TimePoint> observed;
+  std::vector<TimePoint> starts;
   const auto member = [&](TimePoint p) { return std::find(group.begin(), group.end(), p) != group.end(); };
   const auto started_inside = [&](TimePoint end) {
     return std::any_of(group.begin(), group.end(), [&](TimePoint p) {
@@ -85,11 +87,18 @@ void add_group(const std::vector<TimePoint>& group, const std::vector<PointOwner
     for (const TimePoint q : predecessors[p])
       if (!member(q)) outside.push_back(q);
     if (owners[p].role == PointRole::observed_end && !started_inside(p)) observed.push_back(p);
+    if (owners[p].role == PointRole::start) starts.push_back(p);
   }
   for (const TimePoint p : group) {
     predecessors[p] = outside;
     if (owners[p].role != PointRole::observed_end)
       predecessors[p].insert(predecessors[p].end(), observed.begin(), observed.end());
+    if (owners[p].role == PointRole::free || owners[p].role == PointRole::internal_end)
+      predecessors[p].insert(predecessors[p].end(), starts.begin(), starts.end());
+  }
+  for (const TimePoint p : starts) {
+    precedence.together[p] = starts;
+    std::erase(precedence.together[p], p);
   }
 }
 
@@ -113,7 +122,7 @@ std::vector<PointOwner> point_owners(const temporal::FlexiblePlan& plan) {
 
 Precedence precedence_of(const std::vector<temporal::TemporalConstraint>& constraints,
                          const std::vector<PointOwner>& owners) {
-  Precedence precedence{Links(owners.size()), Links(owners.size())};
+  Precedence precedence{Links(owners.size()), Links(owners.size()), Links(owners.size())};
   const auto precede = [&](TimePoint first, TimePoint second) {
     if (first != temporal::origin_point && second != temporal::origin_point)
       precedence.predecessors[second].push_back(first);
@@ -123,7 +132,7 @@ Precedence precedence_of(const std::vector<temporal::TemporalConstraint>& constr
     if (c.upper == temporal::Duration{0}) precede(c.to_point, c.from_point);
   }
   for (const auto& group : Components(precedence.predecessors).groups)
-    if (group.size() > 1) add_group(group, owners, precedence.predecessors);
+    if (group.size() > 1) join_group(group, owners, precedence);
   for (TimePoint p = 0; p < owners.size(); ++p) {
     sort_once(precedence.predecessors[p]);
     for (const TimePoint q : precedence.predecessors[p]) precedence.successors[q].push_back(p);

@@ -25,11 +25,13 @@ std::vector<PointOwner> point_owners(const temporal::FlexiblePlan& plan);
 
 /// q precedes p if the network holds t[p] >= t[q] by one constraint (ordering, duration or window; the origin
 /// precedes nothing, it has happened). Points that such constraints hold together at one time, in a circle,
-/// form a group: each waits for the predecessors of all, and all wait for the observed ends among them, which
-/// nobody can command.
+/// form a group: each waits for the predecessors of all; all wait for the observed ends among them, which
+/// nobody can command; free points and internal ends wait for the starts among them, which may have
+/// conditions.
 struct Precedence {
   std::vector<std::vector<temporal::TimePoint>> predecessors;  ///< by point, sorted
   std::vector<std::vector<temporal::TimePoint>> successors;
+  std::vector<std::vector<temporal::TimePoint>> together;  ///< the other starts in the group of a start
 };
 
 Precedence precedence_of(const std::vector<temporal::TemporalConstraint>& constraints,

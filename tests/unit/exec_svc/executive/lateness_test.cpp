@@ -166,8 +166,9 @@ TEST(Lateness, DeadlineIsTheLatestNextChangeOfTheTimeline) {
   late.answers("traverse", {{.lasts = 121}});
   EXPECT_THAT(
       late.run(),
-      ElementsAre("0 execute traverse#1", "0 traverse running", "120.000001 cancel traverse#1",
+      ElementsAre("0 execute traverse#1", "0 traverse running",
                   "120.000001 traverse running (still running at its deadline 120 s)",
+                  "120.000001 cancel traverse#1",
                   "120.000001 plan broken: deadline_passed, traverse, still running at its deadline 120 s",
                   "120.000001 traverse failed (still running at its deadline 120 s)"));
 }

@@ -85,16 +85,16 @@ const std::vector<std::string>& ScriptedWorld::run(double until) {
 
 void ScriptedWorld::note(const Outputs& outputs) {
   const std::string at = clock_text(now_) + " ";
+  for (const StepStatus& change : outputs.changes)
+    if (change.state != temporal::ActivityState::dispatched)
+      trace.push_back(at + change.activity + " " + name_of(change.state) +
+                      (change.cause.empty() ? "" : " (" + change.cause + ")"));
   for (const Command& command : outputs.commands) {
     const bool execute = command.action == CommandAction::execute;
     trace.push_back(at + (execute ? "execute " : "cancel ") + command.activity + "#" +
                     std::to_string(command.attempt));
     answer(command);
   }
-  for (const StepStatus& change : outputs.changes)
-    if (change.state != temporal::ActivityState::dispatched)
-      trace.push_back(at + change.activity + " " + name_of(change.state) +
-                      (change.cause.empty() ? "" : " (" + change.cause + ")"));
   for (const DecisionRequest& request : outputs.decision_requests) {
     std::string line = at + "ask " + request.resolver + ": " + request.decision + "?";
     for (const std::string& choice : request.choices) line += " " + choice;
