@@ -1,0 +1,89 @@
+// roci: the ground tool. `roci --help` lists the verbs.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "ground_console/cli/verbs.hpp"
+
+namespace {
+
+using namespace roci::console;
+
+struct Line {
+  roci::services::ConnectionFlags connection;
+  bool json = false;
+  GoalArguments goal;
+  std::size_t count = 0;
+  int (*verb)(Client&, const Line&) = nullptr;
+};
+
+CLI::App* add_verb(CLI::App& parent, Line& line, const char* name, const char* help,
+                   int (*verb)(Client&, const Line&)) {
+  CLI::App* command = parent.add_subcommand(name, help);
+  command->add_flag("--json", line.json, "Print JSON");
+  command->callback([&line, verb] { line.verb = verb; });
+  return command;
+}
+
+void add_goal_verbs(CLI::App& app, Line& line) {
+  CLI::App* goal = app.add_subcommand("goal", "Ask for something, take it back, list what was asked");
+  goal->require_subcommand(1);
+  CLI::App* add = add_verb(*goal, line, "add", "Send a goal and wait until it stands in the robot's journal",
+                           [](Client& client, const Line& l) { return add_goal(client, l.goal, l.json); });
+  add->add_option("id", line.goal.id, "A name of your choice")->required();
+  add->add_option("kind", line.goal.kind, "One of the mission's goal kinds, e.g. photo")->required();
+  add->add_option("arguments", line.goal.arguments, "name=value …, e.g. x=110 y=60");
+  add->add_option("--class", line.goal.importance, "hard, optional or opportunistic")->capture_default_str();
+  add->add_option("--utility", line.goal.utility, "Among optional goals the lowest goes first");
+  add->add_option("--priority", line.goal.priority, "For people and later engines; higher is more");
+  add->add_option("--opens", line.goal.opens_s, "Earliest mission time in seconds");
+  add->add_option("--closes", line.goal.closes_s, "Latest mission time in seconds");
+  add->add_option("--issuer", line.goal.issuer, "Who asks")->capture_default_str();
+  CLI::App* cancel = add_verb(*goal, line, "cancel", "Take a goal back", [](Client& client, const Line& l) {
+    return cancel_goal(client, l.goal.issuer, l.goal.id, l.json);
+  });
+  cancel->add_option("id", line.goal.id, "The goal's id")->required();
+  cancel->add_option("--issuer", line.goal.issuer, "Who asked")->capture_default_str();
+  add_verb(*goal, line, "list", "All goals with their states and reasons",
+           [](Client& client, const Line& l) { return list_goals(client, l.json); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Line line;
+  CLI::App app("Ground tool of Rocinante");
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.add_option("--domain", line.connection.domain,
+                 "DDS domain of the mission (default: the one that runs here)");
+  app.add_option("--dds", line.connection.dds, "fastdds or cyclonedds");
+  app.add_option("--address", line.connection.address, "This host's address");
+  app.add_option("--peers", line.connection.peers, "Addresses of the hosts, separated by commas");
+  app.add_option("--network", line.connection.network, "Network file of this host");
+  add_goal_verbs(app, line);
+  add_verb(app, line, "status", "Mission, goals, services, newest values",
+           [](Client& client, const Line& l) { return show_status(client, l.json); });
+  add_verb(app, line, "plan", "The running plan and the state of each activity",
+           [](Client& client, const Line& l) { return show_plan(client, l.json); });
+  CLI::App* events =
+      add_verb(app, line, "events", "What happens, as it happens",
+               [](Client& client, const Line& l) { return follow_events(client, l.count, l.json); });
+  events->add_option("--count", line.count, "End after so many events");
+  add_verb(app, line, "watch", "Live view of the mission in the terminal",
+           [](Client& client, const Line& l) { return watch(client, l.json); });
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kBadUsage;
+  }
+  try {
+    Client client(choose_run(line.connection));
+    return line.verb(client, line);
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "roci: " << error.what() << "\n";
+    return kBadUsage;
+  } catch (const std::exception& error) {
+    std::cerr << "roci: " << error.what() << "\n";
+    return kNoMission;
+  }
+}

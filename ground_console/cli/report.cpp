@@ -1,0 +1,112 @@
+#include "ground_console/cli/report.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace roci::console {
+namespace {
+
+using nlohmann::json;
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(width, text.size()), ' ');
+  return text;
+}
+
+}  // namespace
+
+json to_json(const v1::GoalStatus& status) {
+  return {{"issuer", status.issuer()},
+          {"id", status.id()},
+          {"kind", status.goal_kind()},
+          {"class", name_of(status.importance())},
+          {"state", name_of(status.goal_state())},
+          {"reason", status.reason()},
+          {"plan_version", status.plan_version()}};
+}
+
+json to_json(const v1::Event& event) {
+  return {{"time_s", static_cast<double>(event.header().stamp_us()) / 1e6},
+          {"source", event.header().sender()},
+          {"severity", name_of(event.severity_level())},
+          {"code", event.code()},
+          {"text", event.text()}};
+}
+
+json status_json(const MissionView& view) {
+  json out{{"time_s", static_cast<double>(view.now_us()) / 1e6},
+           {"goals", json::array()},
+           {"services", json::array()},
+           {"timelines", json::object()}};
+  if (const auto& mission = view.mission()) {
+    out["mission"] = mission->mission();
+    out["phase"] = name_of(mission->phase());
+    out["plan_version"] = mission->plan_version();
+    out["replans"] = mission->replans();
+    out["outcome"] = mission->outcome();
+  }
+  for (const auto& [key, status] : view.goals()) out["goals"].push_back(to_json(status));
+  for (const auto& [name, heartbeat] : view.services()) {
+    out["services"].push_back({{"name", name},
+                               {"incarnation", heartbeat.incarnation()},
+                               {"state", name_of(heartbeat.state())},
+                               {"dds", heartbeat.dds()},
+                               {"progress", heartbeat.progress()},
+                               {"resident_kb", heartbeat.resident_kb()}});
+  }
+  for (const auto& [name, observation] : view.timelines())
+    out["timelines"][name] = value_text(observation.observed());
+  return out;
+}
+
+json plan_json(const MissionView& view) {
+  if (!view.plan()) return nullptr;
+  json out{{"version", view.plan()->version()}, {"activities", json::array()}};
+  for (const v1::PlanActivity& activity : view.plan()->activities()) {
+    json entry{{"id", activity.id()}, {"name", activity.name()}, {"goals", activity.goals_served()}};
+    if (const v1::StepStatus* step = view.step(activity.id())) {
+      entry["state"] = name_of(step->state());
+      entry["started_us"] = step->started_us();
+      entry["ended_us"] = step->ended_us();
+      entry["earliest_start_us"] = step->earliest_start_us();
+      entry["latest_start_us"] = step->latest_start_us();
+      entry["cause"] = step->cause();
+    }
+    out["activities"].push_back(std::move(entry));
+  }
+  return out;
+}
+
+std::string goal_line(const v1::GoalStatus& status) {
+  return padded(status.issuer() + "/" + status.id(), 24) + " " + padded(status.goal_kind(), 12) + " " +
+         padded(name_of(status.importance()), 14) + " " + padded(name_of(status.goal_state()), 9) + " " +
+         status.reason();
+}
+
+std::string event_line(const v1::Event& event) {
+  const bool plain =
+      event.severity_level() == v1::SEVERITY_INFO || event.severity_level() == v1::SEVERITY_DEBUG;
+  return clock_text(event.header().stamp_us()) + "  " + padded(event.header().sender(), 13) +
+         (plain ? "" : std::string(name_of(event.severity_level())) + ": ") + event.text();
+}
+
+std::string status_text(const MissionView& view) {
+  std::string out;
+  if (const auto& mission = view.mission()) {
+    out += mission->mission() + "  " + clock_text(view.now_us()) + "  " + name_of(mission->phase()) +
+           ", plan " + std::to_string(mission->plan_version()) + ", " + std::to_string(mission->replans()) +
+           " replans" + (mission->outcome().empty() ? "" : ", " + mission->outcome()) + "\n";
+  } else {
+    out += "no status from exec_svc\n";
+  }
+  out += "\nGoals\n";
+  for (const auto& [key, status] : view.goals()) out += "  " + goal_line(status) + "\n";
+  out += "\nServices\n";
+  for (const auto& [name, heartbeat] : view.services()) {
+    out += "  " + padded(name, 14) + padded(name_of(heartbeat.state()), 10) + padded(heartbeat.dds(), 12) +
+           "start " + std::to_string(heartbeat.incarnation()) + ", " +
+           std::to_string(heartbeat.resident_kb() / 1024) + " MB\n";
+  }
+  return out;
+}
+
+}  // namespace roci::console

@@ -1,0 +1,24 @@
+// What roci prints: as text for people, as JSON for scripts.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "ground_console/lib/mission_view.hpp"
+
+namespace roci::console {
+
+nlohmann::json to_json(const v1::GoalStatus& status);
+nlohmann::json to_json(const v1::Event& event);
+nlohmann::json status_json(const MissionView& view);
+nlohmann::json plan_json(const MissionView& view);
+
+std::string goal_line(const v1::GoalStatus& status);
+std::string event_line(const v1::Event& event);
+std::string status_text(const MissionView& view);
+
+// The whole screen of `roci watch`, `width` columns by at most `height` lines, without control codes.
+std::string watch_screen(const MissionView& view, std::size_t width, std::size_t height);
+
+}  // namespace roci::console

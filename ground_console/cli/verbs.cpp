@@ -1,0 +1,139 @@
+#include "ground_console/cli/verbs.hpp"
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "ground_console/cli/report.hpp"
+
+namespace roci::console {
+namespace {
+
+using nlohmann::json;
+
+v1::GoalClass importance_of(const std::string& text) {
+  if (text == "hard") return v1::GOAL_HARD;
+  if (text == "optional") return v1::GOAL_OPTIONAL;
+  if (text == "opportunistic") return v1::GOAL_OPPORTUNISTIC;
+  throw std::invalid_argument("unknown class '" + text + "'; one of: hard, optional, opportunistic");
+}
+
+v1::Property property_of(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw std::invalid_argument("argument '" + text + "' is not of the form name=value, e.g. x=110");
+  }
+  v1::Property out;
+  out.name(text.substr(0, equals));
+  out.value(text.substr(equals + 1));
+  return out;
+}
+
+int no_mission() {
+  std::cerr << "roci: exec_svc did not answer within " << kAnswerLimit.count() / 1000
+            << " s; is the mission running there (roci status)?\n";
+  return kNoMission;
+}
+
+int report_goal(const std::optional<v1::GoalStatus>& status, bool as_json) {
+  if (!status) return no_mission();
+  if (as_json) {
+    std::cout << to_json(*status).dump() << "\n";
+  } else {
+    std::cout << goal_line(*status) << "\n";
+  }
+  return status->goal_state() == v1::GOAL_REJECTED ? kRefused : kDone;
+}
+
+}  // namespace
+
+int add_goal(Client& client, const GoalArguments& arguments, bool as_json) {
+  v1::Goal goal;
+  goal.issuer(arguments.issuer);
+  goal.id(arguments.id);
+  goal.goal_kind(arguments.kind);
+  for (const std::string& argument : arguments.arguments) goal.arguments().push_back(property_of(argument));
+  goal.importance(importance_of(arguments.importance));
+  goal.utility(arguments.utility);
+  goal.priority(arguments.priority);
+  goal.opens_us(static_cast<std::int64_t>(arguments.opens_s * 1e6));
+  goal.closes_us(static_cast<std::int64_t>(arguments.closes_s * 1e6));
+  return report_goal(client.send_goal(goal, kAnswerLimit), as_json);
+}
+
+int cancel_goal(Client& client, const std::string& issuer, const std::string& id, bool as_json) {
+  if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
+  const MissionView::GoalKey key{issuer, id};
+  if (!client.wait([&] { return client.view().goals().contains(key); }, std::chrono::seconds(2))) {
+    std::cerr << "roci: there is no goal " << issuer << "/" << id << "; see roci goal list\n";
+    return kRefused;
+  }
+  v1::Goal goal;
+  if (const v1::Goal* known = client.view().goal(key)) goal = *known;
+  goal.issuer(issuer);
+  goal.id(id);
+  goal.recalled(true);
+  return report_goal(client.send_goal(goal, kAnswerLimit), as_json);
+}
+
+int list_goals(Client& client, bool as_json) {
+  if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
+  client.wait([] { return false; }, std::chrono::milliseconds(300));  // the other goals come right behind
+  json list = json::array();
+  for (const auto& [key, status] : client.view().goals()) {
+    if (as_json) {
+      list.push_back(to_json(status));
+    } else {
+      std::cout << goal_line(status) << "\n";
+    }
+  }
+  if (as_json) std::cout << list.dump() << "\n";
+  return kDone;
+}
+
+int show_status(Client& client, bool as_json) {
+  if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
+  client.wait([] { return false; }, std::chrono::milliseconds(300));
+  std::cout << (as_json ? status_json(client.view()).dump() + "\n" : status_text(client.view()));
+  return kDone;
+}
+
+int show_plan(Client& client, bool as_json) {
+  if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
+  client.wait([&] { return client.view().plan().has_value(); }, std::chrono::milliseconds(1000));
+  client.wait([] { return false; }, std::chrono::milliseconds(300));
+  if (as_json) {
+    std::cout << plan_json(client.view()).dump() << "\n";
+    return kDone;
+  }
+  if (!client.view().plan()) {
+    std::cout << "no plan yet\n";
+    return kDone;
+  }
+  for (const v1::PlanActivity& activity : client.view().plan()->activities()) {
+    const v1::StepStatus* step = client.view().step(activity.id());
+    std::cout << activity.id() << "  " << (step == nullptr ? "waiting" : name_of(step->state())) << "\n";
+  }
+  return kDone;
+}
+
+int follow_events(Client& client, std::size_t count, bool as_json) {
+  std::uint64_t printed = 0;
+  const auto ended = [&] { return client.view().mission() && !client.view().mission()->outcome().empty(); };
+  for (bool last = false; !last;) {
+    last = client.wait([&] { return client.view().events_seen() > printed || ended(); },
+                       std::chrono::hours(24)) &&
+           ended();
+    const auto& events = client.view().events();
+    std::size_t fresh = std::min<std::size_t>(events.size(), client.view().events_seen() - printed);
+    for (; fresh > 0; --fresh) {
+      const v1::Event& event = events[events.size() - fresh];
+      std::cout << (as_json ? to_json(event).dump() : event_line(event)) << std::endl;
+      if (++printed == count && count != 0) return kDone;
+    }
+    printed = client.view().events_seen();
+  }
+  return kDone;
+}
+
+}  // namespace roci::console

@@ -1,0 +1,41 @@
+// The verbs of roci. Each returns an exit code (docs/exit-codes.md, "Ground tool").
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ground_console/lib/client.hpp"
+
+namespace roci::console {
+
+enum ExitCode { kDone = 0, kRefused = 1, kBadUsage = 2, kNoMission = 3 };
+
+struct GoalArguments {
+  std::string issuer = "ground";
+  std::string id;
+  std::string kind;
+  std::vector<std::string> arguments;  // "x=110"
+  std::string importance = "hard";
+  double utility = 0;
+  std::int32_t priority = 0;
+  double opens_s = 0;   // 0: any time
+  double closes_s = 0;  // 0: never
+};
+
+// How long a verb waits for the mission's answer, in wall time.
+inline constexpr std::chrono::milliseconds kAnswerLimit{15000};
+
+int add_goal(Client& client, const GoalArguments& arguments, bool json);
+int cancel_goal(Client& client, const std::string& issuer, const std::string& id, bool json);
+int list_goals(Client& client, bool json);
+int show_status(Client& client, bool json);
+int show_plan(Client& client, bool json);
+// Prints events as they come; `count`: ends after so many, 0: never, unless the mission ends.
+int follow_events(Client& client, std::size_t count, bool json);
+// The live view on a terminal, until the mission ends or Ctrl-C. With json: a line of status each second.
+int watch(Client& client, bool json);
+
+}  // namespace roci::console

@@ -1,0 +1,75 @@
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "ground_console/cli/report.hpp"
+#include "ground_console/cli/verbs.hpp"
+
+namespace roci::console {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+// The alternate screen, left again however the view ends.
+class Screen {
+ public:
+  Screen() { std::cout << "\x1b[?1049h\x1b[?25l" << std::flush; }
+  ~Screen() { std::cout << "\x1b[?25h\x1b[?1049l" << std::flush; }
+  Screen(const Screen&) = delete;
+  Screen& operator=(const Screen&) = delete;
+
+  static std::pair<std::size_t, std::size_t> size() {
+    winsize window{};
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) != 0 || window.ws_col == 0) return {100, 40};
+    return {window.ws_col, window.ws_row};
+  }
+
+  static void draw(const std::string& text) {
+    std::string out = "\x1b[H";
+    for (char c : text) {
+      if (c == '\n') {
+        out += "\x1b[K\r\n";
+      } else {
+        out += c;
+      }
+    }
+    std::cout << out << "\x1b[J" << std::flush;
+  }
+};
+
+bool over(const MissionView& view) { return view.mission() && !view.mission()->outcome().empty(); }
+
+int watch_as_json(Client& client) {
+  while (!over(client.view()) && interrupted == 0) {
+    client.wait([&] { return over(client.view()) || interrupted != 0; }, std::chrono::seconds(1));
+    std::cout << status_json(client.view()).dump() << std::endl;
+  }
+  return kDone;
+}
+
+}  // namespace
+
+int watch(Client& client, bool json) {
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  if (json) return watch_as_json(client);
+  const auto draw = [&] {
+    const auto [width, height] = Screen::size();
+    return watch_screen(client.view(), width, height - 1);
+  };
+  std::string last;
+  {
+    Screen screen;
+    while (!over(client.view()) && interrupted == 0) {
+      client.wait([&] { return interrupted != 0 || over(client.view()); }, std::chrono::milliseconds(250));
+      last = draw();
+      Screen::draw(last);
+    }
+  }
+  std::cout << last;  // the last picture stays
+  return kDone;
+}
+
+}  // namespace roci::console

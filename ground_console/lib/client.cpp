@@ -1,0 +1,104 @@
+#include "ground_console/lib/client.hpp"
+
+#include <unistd.h>
+
+#include <stdexcept>
+
+#include "services/clock/wall.hpp"
+#include "services/launch/run_record.hpp"
+#include "services/topics.hpp"
+
+namespace roci::console {
+namespace {
+
+namespace topics = services::topics;
+using std::chrono::milliseconds;
+
+services::NodeOptions observer(const services::Connection& connection) {
+  services::NodeOptions options;
+  options.name = "roci-" + std::to_string(::getpid());
+  options.incarnation = 0;
+  options.clock = services::ClockMode::observer;
+  options.vendor = connection.dds;
+  return options;
+}
+
+std::string described(const services::RunRecord& run) {
+  return "  --domain " + std::to_string(run.domain) + "   " + run.mission.filename().string() + " (" +
+         run.scenario + ", " + run.dds + ")";
+}
+
+}  // namespace
+
+services::Connection choose_run(const services::ConnectionFlags& flags) {
+  const auto environment = services::process_environment();
+  services::ConnectionFlags chosen = flags;
+  if (!flags.domain && !flags.network && !environment("ROCI_DOMAIN") && !environment("ROCI_NETWORK")) {
+    const auto runs = services::find_runs(services::runtime_folder());
+    if (runs.empty())
+      throw std::runtime_error("no mission runs on this machine; start one with ./run, or name its --domain");
+    if (runs.size() > 1) {
+      std::string text = "several missions run on this machine; name one:";
+      for (const services::RunRecord& run : runs) text += "\n" + described(run);
+      throw std::runtime_error(text);
+    }
+    chosen.domain = runs.front().domain;
+    if (!chosen.dds) chosen.dds = runs.front().dds;
+    if (!chosen.address) chosen.address = runs.front().address;
+    if (!chosen.peers) {
+      std::string peers;
+      for (const std::string& peer : runs.front().peers) peers += (peers.empty() ? "" : ",") + peer;
+      chosen.peers = peers;
+    }
+  }
+  services::Connection connection = services::resolve_connection(chosen, environment, {});
+  if (connection.dds == "mixed") connection.dds = "cyclonedds";
+  return connection;
+}
+
+Client::Client(const services::Connection& connection)
+    : node_(observer(connection), services::open_transport(connection.dds, connection.transport)),
+      goals_(services::advertise(node_, topics::goal)) {
+  follow(topics::mission_status);
+  follow(topics::goal);
+  follow(topics::goal_status);
+  follow(topics::plan);
+  follow(topics::step_status);
+  follow(topics::observation);
+  follow(topics::data_product);
+  follow(topics::event);
+  follow(topics::heartbeat);
+}
+
+template <class T>
+void Client::follow(const services::Topic<T>& topic) {
+  services::subscribe(node_, topic, [this](const T& value) { view_.take(value); });
+}
+
+bool Client::wait(const std::function<bool()>& done, milliseconds limit) {
+  const auto end = services::wall::now() + limit;
+  while (!done()) {
+    if (services::wall::now() >= end) return false;
+    node_.spin_once(milliseconds(50));
+  }
+  return true;
+}
+
+std::optional<v1::GoalStatus> Client::send_goal(const v1::Goal& goal, milliseconds limit) {
+  const MissionView::GoalKey key{goal.issuer(), goal.id()};
+  const auto answered = [&] {
+    const auto status = view_.goals().find(key);
+    if (status == view_.goals().end()) return false;
+    const v1::GoalState state = status->second.goal_state();
+    return !goal.recalled() || (state != v1::GOAL_PENDING && state != v1::GOAL_PLANNED);
+  };
+  goals_.write(goal);
+  if (!wait(answered, limit)) return std::nullopt;
+  return view_.goals().at(key);
+}
+
+bool Client::wait_for_mission(milliseconds limit) {
+  return wait([this] { return view_.mission().has_value(); }, limit);
+}
+
+}  // namespace roci::console

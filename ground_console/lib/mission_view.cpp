@@ -1,0 +1,147 @@
+#include "ground_console/lib/mission_view.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <tuple>
+
+namespace roci::console {
+namespace {
+
+// Senders number their samples; a restarted sender begins again with a higher incarnation.
+bool newer(const v1::SampleHeader& a, const v1::SampleHeader& b) {
+  return std::make_tuple(a.incarnation(), a.seq()) >= std::make_tuple(b.incarnation(), b.seq());
+}
+
+template <class Key, class T>
+void keep_newest(std::map<Key, T>& table, Key key, const T& value) {
+  const auto [entry, added] = table.try_emplace(std::move(key), value);
+  if (!added && (entry->second.header().sender() != value.header().sender() ||
+                 newer(value.header(), entry->second.header()))) {
+    entry->second = value;
+  }
+}
+
+template <class Table, class Key>
+auto* found_or_null(const Table& table, const Key& key) {
+  const auto entry = table.find(key);
+  return entry == table.end() ? nullptr : &entry->second;
+}
+
+template <std::size_t N, class Enum>
+const char* name_in(const std::array<const char*, N>& names, Enum value) {
+  const auto index = static_cast<std::size_t>(value);
+  return index < N ? names[index] : "unknown";
+}
+
+}  // namespace
+
+void MissionView::note_time(const v1::SampleHeader& header) {
+  now_us_ = std::max<std::int64_t>(now_us_, header.stamp_us());
+}
+
+void MissionView::take(const v1::MissionStatus& status) {
+  note_time(status.header());
+  if (!mission_ || newer(status.header(), mission_->header())) mission_ = status;
+}
+
+void MissionView::take(const v1::Goal& goal) { keep_newest(goals_, GoalKey{goal.issuer(), goal.id()}, goal); }
+
+void MissionView::take(const v1::GoalStatus& status) {
+  note_time(status.header());
+  keep_newest(goal_statuses_, GoalKey{status.issuer(), status.id()}, status);
+}
+
+void MissionView::take(const v1::Plan& plan) {
+  note_time(plan.header());
+  if (!plan_ || plan.version() >= plan_->version()) plan_ = plan;
+}
+
+void MissionView::take(const v1::StepStatus& step) {
+  note_time(step.header());
+  keep_newest(steps_, step.activity(), step);
+}
+
+void MissionView::take(const v1::Observation& observation) {
+  note_time(observation.header());
+  keep_newest(observations_, observation.timeline(), observation);
+}
+
+void MissionView::take(const v1::DataProduct& product) {
+  note_time(product.header());
+  keep_newest(products_, product.id(), product);
+}
+
+void MissionView::take(const v1::Event& event) {
+  note_time(event.header());
+  events_.push_back(event);
+  ++events_seen_;
+  if (events_.size() > kEvents) events_.pop_front();
+}
+
+void MissionView::take(const v1::Heartbeat& heartbeat) { heartbeats_[heartbeat.service()] = heartbeat; }
+
+const v1::Goal* MissionView::goal(const GoalKey& key) const { return found_or_null(goals_, key); }
+
+const v1::StepStatus* MissionView::step(const std::string& activity) const {
+  return found_or_null(steps_, activity);
+}
+
+const v1::TimelineValue* MissionView::timeline(const std::string& name) const {
+  const auto* observation = found_or_null(observations_, name);
+  return observation == nullptr ? nullptr : &observation->observed();
+}
+
+const char* name_of(v1::MissionPhase phase) {
+  return name_in(std::array{"idle", "pausing", "planning", "executing", "safe", "finished"}, phase);
+}
+
+const char* name_of(v1::GoalState state) {
+  return name_in(std::array{"rejected", "pending", "planned", "achieved", "dropped", "failed", "recalled"},
+                 state);
+}
+
+const char* name_of(v1::GoalClass importance) {
+  return name_in(std::array{"hard", "optional", "opportunistic"}, importance);
+}
+
+const char* name_of(v1::ActivityState state) {
+  return name_in(
+      std::array{"waiting", "dispatched", "running", "succeeded", "failed", "skipped", "cancelled"}, state);
+}
+
+const char* name_of(v1::Severity severity) {
+  return name_in(std::array{"debug", "info", "warning", "error"}, severity);
+}
+
+const char* name_of(v1::ServiceState state) {
+  return name_in(std::array{"starting", "running", "degraded", "stopping"}, state);
+}
+
+std::string value_text(const v1::TimelineValue& value) {
+  std::array<char, 32> buffer{};
+  switch (value.kind()) {
+    case v1::VALUE_NONE:
+      return "none";
+    case v1::VALUE_BOOLEAN:
+      return value.truth() ? "true" : "false";
+    case v1::VALUE_NUMBER:
+      std::snprintf(buffer.data(), buffer.size(), "%.6g", value.number());
+      return buffer.data();
+    case v1::VALUE_STATE:
+      break;
+  }
+  std::string out = value.state();
+  for (const std::string& argument : value.arguments()) out += " " + argument;
+  return out;
+}
+
+std::string clock_text(std::int64_t time_us) {
+  const std::int64_t s = time_us / 1'000'000;
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%02lld:%02lld:%02lld", static_cast<long long>(s / 3600),
+                static_cast<long long>(s / 60 % 60), static_cast<long long>(s % 60));
+  return buffer.data();
+}
+
+}  // namespace roci::console

@@ -1,0 +1,75 @@
+// What the ground knows of a mission: the newest of everything that came down. Plain values, no DDS.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "roci_idl/command.h"
+#include "roci_idl/goal.h"
+#include "roci_idl/health.h"
+#include "roci_idl/plan.h"
+
+namespace roci::console {
+
+class MissionView {
+ public:
+  // Late or repeated samples never replace newer ones.
+  void take(const v1::MissionStatus& status);
+  void take(const v1::Goal& goal);
+  void take(const v1::GoalStatus& status);
+  void take(const v1::Plan& plan);
+  void take(const v1::StepStatus& step);
+  void take(const v1::Observation& observation);
+  void take(const v1::DataProduct& product);
+  void take(const v1::Event& event);
+  void take(const v1::Heartbeat& heartbeat);
+
+  using GoalKey = std::pair<std::string, std::string>;  // issuer, id
+
+  const std::optional<v1::MissionStatus>& mission() const { return mission_; }
+  const std::map<GoalKey, v1::GoalStatus>& goals() const { return goal_statuses_; }
+  const v1::Goal* goal(const GoalKey& key) const;                // as it was asked for; null if not seen
+  const std::optional<v1::Plan>& plan() const { return plan_; }  // of the highest version
+  const v1::StepStatus* step(const std::string& activity) const;
+  const v1::TimelineValue* timeline(const std::string& name) const;
+  const std::map<std::string, v1::Observation>& timelines() const { return observations_; }
+  const std::map<std::string, v1::DataProduct>& products() const { return products_; }
+  const std::map<std::string, v1::Heartbeat>& services() const { return heartbeats_; }
+  const std::deque<v1::Event>& events() const { return events_; }  // oldest first, at most kEvents
+  std::uint64_t events_seen() const { return events_seen_; }
+  // Mission time of the newest sample seen, in microseconds.
+  std::int64_t now_us() const { return now_us_; }
+
+  static constexpr std::size_t kEvents = 1000;
+
+ private:
+  void note_time(const v1::SampleHeader& header);
+
+  std::optional<v1::MissionStatus> mission_;
+  std::map<GoalKey, v1::Goal> goals_;
+  std::map<GoalKey, v1::GoalStatus> goal_statuses_;
+  std::optional<v1::Plan> plan_;
+  std::map<std::string, v1::StepStatus> steps_;
+  std::map<std::string, v1::Observation> observations_;
+  std::map<std::string, v1::DataProduct> products_;
+  std::map<std::string, v1::Heartbeat> heartbeats_;
+  std::deque<v1::Event> events_;
+  std::uint64_t events_seen_ = 0;
+  std::int64_t now_us_ = 0;
+};
+
+const char* name_of(v1::MissionPhase phase);
+const char* name_of(v1::GoalState state);
+const char* name_of(v1::GoalClass importance);
+const char* name_of(v1::ActivityState state);
+const char* name_of(v1::Severity severity);
+const char* name_of(v1::ServiceState state);
+std::string value_text(const v1::TimelineValue& value);
+std::string clock_text(std::int64_t time_us);  // "01:23:45"
+
+}  // namespace roci::console
