@@ -16,7 +16,7 @@ namespace {
 using roci::rehearsal::FlightOptions;
 
 struct Arguments {
-  std::string mission = "planetary";
+  std::string mission;
   std::string scenario = "nominal";
   std::uint64_t seed = 1;
   int runs = 1;
@@ -86,8 +86,7 @@ int rehearse(const Arguments& arguments) {
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("Flies a mission with all services in one process, on the simulated clock");
-  app.add_option("mission", arguments.mission, "Mission folder, or the name of an installed mission")
-      ->capture_default_str();
+  app.add_option("mission", arguments.mission, "Mission folder, or the name of an installed mission")->required();
   app.add_option("--scenario", arguments.scenario, "Scenario of the mission")->capture_default_str();
   app.add_option("--runs", arguments.runs, "Number of flights, with seeds counted up")
       ->check(CLI::PositiveNumber);

@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <array>
+
+#include "tests/architecture/source_tree.hpp"
+
+namespace roci::architecture {
+namespace {
+
+constexpr std::size_t kLongestFile = 600;
+const std::vector<std::string> kProcesses = {"planner_svc", "exec_svc", "pathplan_svc",  "arm_svc",
+                                             "science_svc", "sim_svc",  "ground_console"};
+
+bool any_prefix(const std::string& text, const std::vector<std::string>& prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](const std::string& prefix) { return text.starts_with(prefix); });
+}
+
+std::string folder_of(const std::string& path) { return path.substr(0, path.find('/')); }
+
+bool is_process(const std::string& folder) {
+  return std::find(kProcesses.begin(), kProcesses.end(), folder) != kProcesses.end();
+}
+
+// The door of a service, where wire types are translated.
+bool is_door(const SourceFile& file) {
+  if (file.under("ground_console")) return true;
+  const std::string name = file.name();
+  const std::string stem = name.substr(0, name.find_last_of('.'));
+  return stem == "main" || stem.ends_with("_service") || stem.ends_with("_wire");
+}
+
+using Complaints = std::vector<std::string>;
+
+void check_floors(const SourceFile& file, Complaints& out) {
+  const std::string here = folder_of(file.path);
+  for (const std::string& include : file.includes) {
+    const std::string there = folder_of(include);
+    const auto complain = [&](const std::string& why) {
+      out.push_back(file.path + ": includes " + include + "; " + why);
+    };
+    if (here == "core" && (there == "services" || there == "roci_idl" || is_process(there))) {
+      complain("core/ knows no process, no DDS");
+    }
+    if (here == "services" && is_process(there)) complain("services/ knows no process");
+    if (is_process(here) && is_process(there) && here != there)
+      complain("no process includes another; talk over idl/");
+    if (is_process(here) && (there == "services" || there == "roci_idl") && !is_door(file)) {
+      complain("only *_service, *_wire and main see services/ and idl/; translate at the door");
+    }
+  }
+}
+
+void check_vendors(const SourceFile& file, Complaints& out) {
+  static const std::vector<std::string> vendor_headers = {"fastdds/", "fastrtps/", "dds/", "ddsc/"};
+  if (file.under("services/vendors")) return;
+  for (const std::string& include : file.includes) {
+    if (any_prefix(include, vendor_headers)) {
+      out.push_back(file.path + ": includes " + include +
+                    "; vendor headers belong to services/vendors/ alone");
+    }
+  }
+}
+
+void check_planner(const SourceFile& file, Complaints& out) {
+  for (const std::string& include : file.includes) {
+    const bool validator_sees_engine = file.under("planner_svc/validate") &&
+                                       include.starts_with("planner_svc/") &&
+                                       !include.starts_with("planner_svc/validate/");
+    if (validator_sees_engine)
+      out.push_back(file.path + ": includes " + include + "; the validator shares only core/pddl");
+    const bool engine_sees_validator =
+        file.under("planner_svc/temporal_pddl") && include.starts_with("planner_svc/validate/");
+    if (engine_sees_validator)
+      out.push_back(file.path + ": includes " + include + "; engines never see the validator");
+    const bool search_sees_pddl = (file.under("planner_svc/temporal_pddl/search") ||
+                                   file.under("planner_svc/temporal_pddl/heuristics") ||
+                                   file.under("planner_svc/temporal_pddl/constraints")) &&
+                                  include.starts_with("core/pddl/");
+    if (search_sees_pddl)
+      out.push_back(file.path + ": includes " + include + "; the search never sees PDDL text");
+  }
+}
+
+// The simulator must not be right by construction.
+void check_simulator(const SourceFile& file, Complaints& out) {
+  if (!file.under("sim_svc")) return;
+  for (const std::string& include : file.includes) {
+    if (include.starts_with("pathplan_svc/") || include.starts_with("arm_svc/")) {
+      out.push_back(file.path + ": includes " + include + "; the simulator integrates physics of its own");
+    }
+  }
+}
+
+void check_clock(const SourceFile& file, Complaints& out) {
+  if (file.under("services/clock") || file.under("services/vendors")) return;
+  for (const std::string& line : file.lines) {
+    if (line.find("_clock::now") != std::string::npos) {
+      out.push_back(file.path + ": asks the system for the time; nothing but services/clock does");
+    }
+  }
+}
+
+void check_size_and_names(const SourceFile& file, Complaints& out) {
+  if (file.lines.size() > kLongestFile) {
+    out.push_back(file.path + ": " + std::to_string(file.lines.size()) + " lines; no file is longer than " +
+                  std::to_string(kLongestFile));
+  }
+  for (const char* name : {"/utils/", "/util/", "/common/", "/misc/", "/helpers/"}) {
+    if (("/" + file.path).find(name) != std::string::npos)
+      out.push_back(file.path + ": a shared thing has a name");
+  }
+  for (const std::string& line : file.lines) {
+    if (file.name().ends_with(".hpp") && line.starts_with("using namespace")) {
+      out.push_back(file.path + ": 'using namespace' in a header");
+    }
+  }
+}
+
+void check_missions(const SourceFile& file, Complaints& out) {
+  for (const std::string& line : file.lines) {
+    for (const char* mission : {"\"planetary\"", "\"orbital\"", "\"europa\"", "\"faster\""}) {
+      if (line.find(mission) != std::string::npos)
+        out.push_back(file.path + ": names the mission " + mission + "; missions are data");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> broken_rules(const std::vector<SourceFile>& files) {
+  Complaints out;
+  for (const SourceFile& file : files) {
+    check_floors(file, out);
+    check_vendors(file, out);
+    check_planner(file, out);
+    check_simulator(file, out);
+    check_clock(file, out);
+    check_size_and_names(file, out);
+    check_missions(file, out);
+  }
+  return out;
+}
+
+}  // namespace roci::architecture
