@@ -9,10 +9,12 @@
 #include <stop_token>
 #include <thread>
 
+#include "services/clock/wall.hpp"
+
 namespace roci::services {
 namespace {
 
-using WallTime = std::chrono::steady_clock::time_point;
+using WallTime = wall::Instant;
 
 // FNV-1a: the same on every machine, unlike std::hash.
 std::uint64_t hash_of(std::string_view text, std::uint64_t seed) {
@@ -46,7 +48,7 @@ class DelayedReader : public Reader {
     auto& fate = fates_.try_emplace(sample.writer, topic_seed_).first->second;
     const double draw = static_cast<double>(fate() >> 11) * 0x1.0p-53;
     if (sample.kind == SampleKind::data && draw < loss_.fraction) return;
-    late_.push_back({std::chrono::steady_clock::now() + loss_.delay, std::move(sample)});
+    late_.push_back({wall::now() + loss_.delay, std::move(sample)});
     changed_.notify_one();
   }
 

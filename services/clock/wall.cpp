@@ -2,8 +2,6 @@
 
 namespace roci::services::wall {
 
-Instant now() { return Clock::now(); }
-
 std::int64_t unix_us() {
   const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::microseconds>(since_epoch).count();

@@ -9,7 +9,7 @@ namespace roci::services::wall {
 using Clock = std::chrono::steady_clock;
 using Instant = Clock::time_point;
 
-Instant now();
+inline Instant now() { return Clock::now(); }
 std::int64_t unix_us();  // system clock, microseconds since 1970
 
 inline Clock::duration seconds(double s) {

@@ -43,14 +43,14 @@ std::vector<std::string> checked_services(const std::string& list) {
 Options parse_options(int argc, const char* const* argv, const services::Environment& environment) {
   Options options;
   services::ConnectionFlags flags;
-  std::string mission = "planetary";
+  std::string mission;
   std::string speed;
   std::string clock = "simulated";
   std::string service_list;
   std::string roster;
   CLI::App app("Flies a mission: starts every service, watches them, and reports the outcome", "roci-launch");
   app.add_option("mission", mission, "Mission folder, or the name of an installed mission")
-      ->capture_default_str();
+      ->required();
   app.add_option("--scenario", options.scenario, "Scenario of the mission")->capture_default_str();
   app.add_option("--dds", flags.dds, "fastdds, cyclonedds, mixed, or inproc (one process)");
   app.add_option("--speed", speed, "Mission seconds per second, or max (default: 60 simulated, 1 live)");
