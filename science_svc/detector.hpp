@@ -1,0 +1,59 @@
+// Finds, in images, what nobody asked for. For now a stand-in for a classifier: the score of an image is
+// drawn from the seed and the square metre where it was taken, not from its pixels; everything after the
+// score is real.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/temporal/duration.hpp"
+#include "core/terrain/grid.hpp"
+
+namespace roci::science {
+
+struct DetectorSettings {
+  bool enabled = true;
+  double threshold = 0.85;            ///< scores of at least this raise a goal; 0 … 1
+  std::string goal_kind = "photo";    ///< of mission.yaml, with arguments x and y
+  double offset_m = 12;               ///< from where the image was taken to where the goal is
+  temporal::Duration min_interval{};  ///< between two goals
+  double merge_m = 10;                ///< a place this near to an earlier goal is the same find
+  int limit = 5;                      ///< goals in one run
+};
+
+struct Photo {
+  std::string id;
+  terrain::Point taken_from;
+};
+
+struct Find {
+  std::string id;
+  terrain::Point place;
+  double score = 0;  ///< 0 … 1
+};
+
+class Detector {
+ public:
+  /// Goals lie inside `map`.
+  Detector(DetectorSettings settings, terrain::Grid map, std::uint64_t seed);
+
+  /// In [0, 1), the same for the same seed and square metre.
+  double score(terrain::Point taken_from) const;
+  /// Each photo is looked at once; nothing where it shows nothing new.
+  std::optional<Find> look(const Photo&, temporal::Time now);
+
+ private:
+  std::optional<terrain::Point> place_near(terrain::Point) const;
+
+  DetectorSettings settings_;
+  terrain::Grid map_;
+  std::uint64_t seed_;
+  std::set<std::string> seen_;
+  std::vector<Find> finds_;
+  temporal::Time last_find_{};
+};
+
+}  // namespace roci::science

@@ -1,0 +1,12 @@
+// The detector as a process: images in, opportunistic goals out (R54).
+#pragma once
+
+#include <memory>
+
+#include "services/service.hpp"
+
+namespace roci::science {
+
+std::unique_ptr<services::Service> make_service(services::Node&, const services::RunSettings&);
+
+}  // namespace roci::science
