@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "arm_svc/sampling.hpp"
 #include "core/kinematics/forward.hpp"
@@ -111,7 +112,15 @@ TEST(Collision, GroundAndAllowedPairsAreParameters) {
 // A line that the margin-wide sampling calls free has no contact of the true shapes at a hundred times its
 // density.
 TEST(Collision, FreeLinesAreFreeAtAnyDensity) {
-  const ArmSetup setup = test::rover_setup();
+  ArmSetup setup = test::rover_setup();
+  for (double bearing : {-1.5, -0.7, 0.2, 1.1}) {  // wires that a coarse sampling jumps over
+    kinematics::CollisionShape wire{"wire", Eigen::Isometry3d::Identity(), Capsule{0.001, 0.6}};
+    wire.pose.translation() = Eigen::Vector3d(0.42 + 0.8 * std::cos(bearing), 0.8 * std::sin(bearing), 0.1);
+    setup.arm.bodies[0].shapes.push_back(wire);
+  }
+  for (std::size_t body = 2; body < setup.arm.bodies.size(); ++body) {
+    for (auto& shape : setup.arm.bodies[body].shapes) shape.form = Capsule{0.001, 0.4};
+  }
   const CollisionChecker checker(setup.arm, setup.collision);
   CollisionRules bare = setup.collision;
   bare.margin = 1e-9;

@@ -107,6 +107,13 @@ TEST(DisplacementBounds, HoldForRandomArmsAndSteps) {
   }
 }
 
+TEST(DisplacementBounds, AreReachedByAStretchedArm) {
+  const JointVector bounds = displacement_bounds(textbook_arm());
+  EXPECT_DOUBLE_EQ(bounds[0], 1.1);
+  EXPECT_DOUBLE_EQ(bounds[1], 1.1);
+  EXPECT_DOUBLE_EQ(bounds[3], 0.2);
+}
+
 TEST(Limits, ClampedCoordinatesAreWithinAndNanIsNot) {
   const Arm arm = textbook_arm();
   const JointVector wild = coordinates({9, -9, 0, 2});
