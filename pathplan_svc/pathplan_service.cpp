@@ -9,9 +9,9 @@
 
 #include "core/mission/entry.hpp"
 #include "core/terrain/site_file.hpp"
-#include "pathplan_svc/job_queue.hpp"
 #include "pathplan_svc/rover_file.hpp"
 #include "pathplan_svc/wire_service.hpp"
+#include "services/job_queue.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 
@@ -135,7 +135,7 @@ class PathplanService : public services::Service {
   PathPlanner planner_;  // from the constructor's end on: the job thread's alone
   services::Publisher<v1::FunctionOffer> offers_;
   services::Publisher<v1::Event> events_;
-  JobQueue jobs_;  // last: its thread ends before the planner does
+  services::JobQueue jobs_;  // last: its thread ends before the planner does
 };
 
 }  // namespace

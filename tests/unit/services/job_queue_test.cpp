@@ -1,4 +1,4 @@
-#include "pathplan_svc/job_queue.hpp"
+#include "services/job_queue.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace roci::pathplan {
+namespace roci::services {
 namespace {
 
 TEST(JobQueue, RunsJobsInTheirOrder) {
@@ -39,4 +39,4 @@ TEST(JobQueue, DestructionStopsTheRunningJobAndDropsTheRest) {
 }
 
 }  // namespace
-}  // namespace roci::pathplan
+}  // namespace roci::services

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-namespace roci::pathplan {
+namespace roci::services {
 
 // One thread that runs jobs in the order in which they were given. Destruction stops the running job through
 // its token, drops the waiting ones and joins.
@@ -29,4 +29,4 @@ class JobQueue {
   std::jthread thread_;
 };
 
-}  // namespace roci::pathplan
+}  // namespace roci::services

@@ -1,8 +1,8 @@
-#include "pathplan_svc/job_queue.hpp"
+#include "services/job_queue.hpp"
 
 #include <utility>
 
-namespace roci::pathplan {
+namespace roci::services {
 
 JobQueue::JobQueue() : thread_([this](std::stop_token stop) { run(std::move(stop)); }) {}
 
@@ -32,4 +32,4 @@ void JobQueue::run(std::stop_token stop) {
   }
 }
 
-}  // namespace roci::pathplan
+}  // namespace roci::services
