@@ -76,7 +76,7 @@ void Flight::drive(Time now, const std::string& activity, const std::string& pla
 }
 
 void Flight::move_arm(Time now, const std::string& activity, const std::string& from, const std::string& to,
-                   std::vector<double> target, double duration_s) {
+                      std::vector<double> target, double duration_s) {
   command(now, execute(activity, "arm", "move", {{"from", from}, {"to", to}}));
   append(said, world.motion_found(now, {activity, 1}, {{0, joints}, {duration_s, target}}));
   joints = std::move(target);

@@ -1,0 +1,246 @@
+#include "sim_svc/sim_service.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "core/mission/entry.hpp"
+#include "services/publisher.hpp"
+#include "services/rpc.hpp"
+#include "tests/unit/services/sim_run.hpp"
+
+namespace roci::sim {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::HasSubstr;
+namespace topics = services::topics;
+
+// The simulator on a flat mission of its own, with planners that answer straight lines, and an executive's
+// seat.
+class SimService : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("roci_sim_") + test->name());
+    std::filesystem::create_directories(folder_ / "scenarios");
+    write("mission.yaml", "site: site.yaml\narm: {poses: poses.yaml}\n");
+    write("poses.yaml", "poses:\n  stow: {joints: [0, 1]}\n  sampling: {position: [1, 0, 0]}\n");
+    write("site.yaml",
+          "image: rocks.pgm\nresolution: 100\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
+          "free_thresh: 0.2\n");
+    write("rocks.pgm", "P2\n2 2\n255\n255 255\n255 255\n");
+    scenario("stimuli: []\n");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
+  void scenario(const std::string& rest) {
+    write("scenarios/nominal.yaml",
+          "duration_s: 2000\nstart: {x: 20, y: 20, arm: stow, battery: 500000}\n" + rest);
+  }
+
+  struct Heard {
+    std::vector<v1::CommandAck> acks;
+    std::vector<v1::Goal> goals;
+    std::vector<v1::Hazard> hazards;
+    std::vector<std::string> observations;  // "us timeline = value"
+    services::Time end{};
+  };
+
+  // Flies with these commands, each at its time; `outcome_at`: when the executive says that the mission is
+  // over.
+  Heard fly(const std::map<services::Duration, v1::Command>& commands, services::Duration outcome_at = 0s,
+            std::uint64_t seed = 1) {
+    services::SimRun run({"sim_svc", "exec_svc", "pathplan_svc", "arm_svc"});
+    services::RunSettings settings;
+    settings.mission = folder_;
+    settings.seed = seed;
+    services::Node& simulator = run.add("sim_svc");
+    const auto service = make_service(simulator, settings);
+    services::Node& executive = run.add("exec_svc");
+    serve_planners(run.add("pathplan_svc"), run.add("arm_svc"));
+    Heard heard;
+    listen(executive, heard);
+    const auto sender = services::advertise(executive, topics::command);
+    for (const auto& [at, command] : commands) {
+      executive.at(at, [&sender, &command] { sender.write(command); });
+    }
+    const auto missions = services::advertise(executive, topics::mission_status);
+    v1::MissionStatus over;
+    over.mission("m");
+    over.outcome("achieved");
+    if (outcome_at > 0s) executive.at(outcome_at, [&] { missions.write(over); });
+    run.run();
+    heard.end = simulator.now();
+    return heard;
+  }
+
+  static void serve_planners(services::Node& paths, services::Node& arms) {
+    services::serve(paths, topics::path_request, [](const v1::PathRequest& request, auto responder) {
+      v1::PathReply reply;
+      const bool reachable = request.goal_pose().x_m() < 150;
+      reply.outcome(reachable ? v1::MOTION_FOUND : v1::MOTION_UNREACHABLE);
+      reply.reason(reachable ? "" : "too far for this test");
+      reply.waypoints({request.origin(), request.goal_pose()});
+      responder.reply(reply);
+    });
+    services::serve(arms, topics::arm_motion, [](const v1::ArmMotionRequest& request, auto responder) {
+      v1::ArmMotionReply reply;
+      reply.outcome(v1::MOTION_FOUND);
+      v1::JointState from;
+      from.positions(request.from_positions());
+      v1::JointState to;
+      to.time_s(4);
+      to.positions({1, 0});
+      reply.trajectory({from, to});
+      responder.reply(reply);
+    });
+  }
+
+  static void listen(services::Node& node, Heard& heard) {
+    services::subscribe(node, topics::command_ack,
+                        [&](const v1::CommandAck& ack) { heard.acks.push_back(ack); });
+    services::subscribe(node, topics::goal, [&](const v1::Goal& goal) { heard.goals.push_back(goal); });
+    services::subscribe(node, topics::hazard, [&](const v1::Hazard& rock) { heard.hazards.push_back(rock); });
+    services::subscribe(node, topics::observation, [&](const v1::Observation& seen) {
+      EXPECT_EQ(seen.sampled_us(), node.now().count()) << "said when it happens, not later";
+      const v1::TimelineValue& value = seen.observed();
+      std::string text = std::to_string(seen.sampled_us()) + " " + seen.timeline() + " = " + value.state();
+      for (const std::string& argument : value.arguments()) text += " " + argument;
+      if (value.kind() == v1::VALUE_NUMBER) text += std::to_string(value.number());
+      heard.observations.push_back(text);
+    });
+  }
+
+  static v1::Command command(const std::string& activity, const std::string& component,
+                             const std::string& name,
+                             const std::vector<std::pair<std::string, std::string>>& arguments) {
+    v1::Command out;
+    out.activity(activity);
+    out.attempt(1);
+    out.owner("sim_svc");
+    out.subsystem(component);
+    out.command_name(name);
+    out.epoch(1);
+    for (const auto& [key, value] : arguments) {
+      v1::Property property;
+      property.name(key);
+      property.value(value);
+      out.arguments().push_back(property);
+    }
+    return out;
+  }
+  static v1::Command drive(const std::string& activity, const std::string& x) {
+    return command(activity, "nav", "drive", {{"to", "there"}, {"x", x}, {"y", "20"}});
+  }
+  static std::vector<v1::CommandStage> stages(const Heard& heard, const std::string& activity) {
+    std::vector<v1::CommandStage> out;
+    for (const v1::CommandAck& ack : heard.acks) {
+      if (ack.activity() == activity) out.push_back(ack.stage());
+    }
+    return out;
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(SimService, ADriveGoesByThePathPlannersWay) {
+  const Heard heard = fly({{5s, drive("d", "40")}}, 400s);
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_COMPLETED));
+  EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.nav = going-to there")));
+  EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.nav = idle-at there")));
+  EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.x = 40.0")));
+}
+
+TEST_F(SimService, AnArmMoveTracksTheArmPlannersTrajectory) {
+  const Heard heard = fly({{5s, command("m", "arm", "move", {{"from", "stow"}, {"to", "sampling"}})}}, 100s);
+  EXPECT_THAT(stages(heard, "m"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_COMPLETED));
+  EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.arm = idle-pose sampling")));
+}
+
+TEST_F(SimService, AnUnreachablePlaceFailsTheDriveWithThePlannersReason) {
+  const Heard heard = fly({{5s, drive("d", "190")}}, 100s);
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_FAILED));
+  EXPECT_EQ(heard.acks.back().code(), "no-path");
+  EXPECT_EQ(heard.acks.back().reason(), "too far for this test");
+}
+
+TEST_F(SimService, CommandsOfOtherOwnersAreLeftAlone) {
+  v1::Command other = drive("d", "40");
+  other.owner("arm_svc");
+  EXPECT_TRUE(fly({{5s, other}}, 10s).acks.empty());
+}
+
+TEST_F(SimService, UploadsAndRecallsTheScenariosGoals) {
+  scenario(
+      "stimuli:\n"
+      "  - {at_s: 10, goal: {id: g, kind: photo, importance: hard, closes_s: 50, arguments: {x: 1, y: 2}}}\n"
+      "  - {at_s: 20, recall: {id: g}}\n");
+  const Heard heard = fly({}, 30s);
+  ASSERT_EQ(heard.goals.size(), 2u);
+  EXPECT_EQ(heard.goals[0].issuer(), "ground");
+  EXPECT_EQ(heard.goals[0].importance(), v1::GOAL_HARD);
+  EXPECT_EQ(heard.goals[0].closes_us(), 50'000'000);
+  EXPECT_EQ(heard.goals[0].arguments().size(), 2u);
+  EXPECT_FALSE(heard.goals[0].recalled());
+  EXPECT_TRUE(heard.goals[1].recalled());
+  EXPECT_EQ(heard.goals[1].goal_kind(), "photo");
+}
+
+TEST_F(SimService, AHiddenRockOnTheWayIsAHazard) {
+  scenario("world: {rocks: [{x: 35, y: 20, radius: 1}]}\n");
+  const Heard heard = fly({{5s, drive("d", "60")}}, 300s);
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_FAILED));
+  ASSERT_EQ(heard.hazards.size(), 1u);
+  EXPECT_EQ(heard.hazards[0].x_m(), 35);
+  EXPECT_EQ(heard.hazards[0].radius_m(), 1);
+}
+
+TEST_F(SimService, EndsOnceTheMissionIsOverAndNoStimulusIsLeft) {
+  EXPECT_EQ(fly({}, 100s).end, 101s);
+  scenario("stimuli: [{at_s: 500, battery_loss_j: 1}]\n");
+  EXPECT_EQ(fly({}, 100s).end, 501s);
+}
+
+TEST_F(SimService, EndsAtTheLatestWhenTheTimeIsUp) { EXPECT_EQ(fly({}).end, 2000s); }
+
+TEST_F(SimService, TheSameSeedIsTheSameRun) {
+  const std::map<services::Duration, v1::Command> commands{{5s, drive("d", "40")}};
+  const Heard first = fly(commands, 400s, 3);
+  EXPECT_EQ(first.observations, fly(commands, 400s, 3).observations);
+  EXPECT_NE(first.observations, fly(commands, 400s, 4).observations);
+}
+
+TEST_F(SimService, BadFilesAreRefusedByPlaceAndRemedy) {
+  services::SimRun run({"sim_svc"});
+  services::Node& node = run.add("sim_svc");
+  services::RunSettings settings;
+  settings.mission = folder_;
+  const auto error = [&]() -> std::string {
+    try {
+      make_service(node, settings);
+    } catch (const mission::FileError& fault) {
+      return fault.what();
+    }
+    return "no error";
+  };
+  scenario("stimuli: [{at_s: 5000, battery_loss_j: 1}]\n");
+  EXPECT_THAT(error(), HasSubstr("nominal.yaml:3:18: lies after the end of the run"));
+  write("scenarios/nominal.yaml", "duration_s: 9\nstart: {x: 20, y: 20, arm: sampling, battery: 5}\n");
+  EXPECT_THAT(error(), HasSubstr("nominal.yaml:2:28: no pose 'sampling' with joints"));
+  write("scenarios/nominal.yaml", "duration_s: 9\nstart: {x: 900, y: 20, arm: stow, battery: 5}\n");
+  EXPECT_THAT(error(), HasSubstr("nominal.yaml:2:8: the rover would start outside the map"));
+  write("rocks.pgm", "P2\nhello\n");
+  scenario("");
+  EXPECT_THAT(error(), HasSubstr("rocks.pgm"));
+  settings.scenario = "nominl";
+  EXPECT_THAT(error(), HasSubstr("choose one of: nominal"));
+}
+
+}  // namespace
+}  // namespace roci::sim
