@@ -99,9 +99,15 @@ void ClockMaster::admit() {
   waiting_.clear();
 }
 
-bool ClockMaster::lives(const StreamKey& stream) const {
-  const auto member = members_.find(stream.sender);
-  return member != members_.end() && member->second.incarnation == stream.incarnation;
+// Everyone acts in the step that announces a loss; after it nobody asks for the streams of the lost.
+void ClockMaster::forget_dead_streams() {
+  for (; forgotten_ < announced_; ++forgotten_) {
+    const v1::RosterLoss& loss = losses_[forgotten_];
+    std::erase_if(totals_, [&](const auto& stream) {
+      return stream.first.sender == loss.service() && stream.first.incarnation == loss.incarnation();
+    });
+  }
+  announced_ = losses_.size();
 }
 
 bool ClockMaster::wants_to_act(const Member& member, Time time) const {
@@ -118,9 +124,8 @@ void ClockMaster::begin_step(Time time) {
 
 v1::ClockStep ClockMaster::issue(Time time) {
   begin_step(time);
-  if (forget_dead_) std::erase_if(totals_, [&](const auto& stream) { return !lives(stream.first); });
+  forget_dead_streams();
   admit();
-  forget_dead_ = roster_changed_;  // all have acted on this step's streams when the next is issued
   participants_.clear();
   for (auto& [service, member] : members_) {
     if (!wants_to_act(member, time)) continue;

@@ -59,7 +59,7 @@ class ClockMaster {
   void admit();
   void begin_step(Time);
   v1::ClockStep step() const;
-  bool lives(const StreamKey&) const;
+  void forget_dead_streams();
   bool wants_to_act(const Member&, Time) const;
   std::string livelock() const;
 
@@ -70,10 +70,11 @@ class ClockMaster {
   std::map<std::string, v1::ClockReady> waiting_;
   std::map<StreamKey, std::uint64_t> totals_;
   std::vector<v1::RosterLoss> losses_;
+  std::size_t announced_ = 0;  // of losses_, in a step that all members act in
+  std::size_t forgotten_ = 0;  // of losses_, with their streams
   std::vector<std::string> participants_;
   bool started_ = false;
   bool roster_changed_ = false;
-  bool forget_dead_ = false;
   bool revise_ = false;
   bool last_ = false;
   Time time_{0};

@@ -8,14 +8,15 @@ void PeerTable::heartbeat(const v1::Heartbeat& beat, wall::Instant now) {
   Peer& peer = peers_[beat.service()];
   if (beat.incarnation() < peer.incarnation) return;
   if (beat.incarnation() > peer.incarnation && peer.alive) die(beat.service(), peer, "restarted");
-  const bool returned = !peer.alive && !(beat.incarnation() == peer.incarnation && peer.stopping);
+  const bool leaving = beat.state() == v1::SERVICE_STOPPING;
+  const bool left = peer.left && beat.incarnation() == peer.incarnation;
   peer.incarnation = beat.incarnation();
-  peer.stopping = beat.state() == v1::SERVICE_STOPPING;
   peer.last_seen = now;
-  if (returned) {
-    peer.alive = true;
-    changes_.push_back({beat.service(), beat.incarnation(), true, ""});
-  }
+  peer.left = left || leaving;
+  if (peer.alive && leaving) die(beat.service(), peer, "left");
+  if (peer.alive || peer.left) return;
+  peer.alive = true;
+  changes_.push_back({beat.service(), beat.incarnation(), true, ""});
 }
 
 void PeerTable::seen(const std::string& service, std::uint32_t incarnation, wall::Instant now) {
@@ -26,7 +27,7 @@ void PeerTable::seen(const std::string& service, std::uint32_t incarnation, wall
 void PeerTable::owner_lost(const std::string& service) {
   const auto found = peers_.find(service);
   if (found == peers_.end() || !found->second.alive) return;
-  die(service, found->second, found->second.stopping ? "left" : "killed");
+  die(service, found->second, "killed");
 }
 
 void PeerTable::check(wall::Instant now) {

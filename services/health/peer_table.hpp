@@ -31,7 +31,7 @@ class PeerTable {
   struct Peer {
     std::uint32_t incarnation = 0;
     bool alive = false;
-    bool stopping = false;
+    bool left = false;  // it said that it stops
     wall::Instant last_seen;
   };
   void die(const std::string& service, Peer&, std::string cause);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -21,13 +22,18 @@ inline int next_domain() {
   return ++last;
 }
 
+// Thrown by a handler: the service dies without a word.
+struct Crash {};
+
 class SimRun {
  public:
   explicit SimRun(std::vector<std::string> roster, int domain = next_domain())
       : roster_(std::move(roster)), domain_(domain) {}
 
   ~SimRun() {
-    for (auto& member : members_) member->node->stop();
+    for (auto& member : members_) {
+      if (member->thread.joinable() && member->node) member->node->stop();
+    }
     join();
   }
 
@@ -40,15 +46,19 @@ class SimRun {
     options.master = master;
     options.master.roster = roster_;
     options.vendor = vendor;
-    members_.push_back(std::make_unique<Member>());
-    members_.back()->node = std::make_unique<Node>(options, transport(vendor));
-    return *members_.back()->node;
+    auto member = std::make_unique<Member>();
+    member->name = name;
+    member->node = std::make_unique<Node>(options, transport(vendor));
+    Node& node = *member->node;
+    const std::scoped_lock lock(mutex_);
+    members_.push_back(std::move(member));
+    return node;
   }
 
   // The newest incarnation.
   Node& node(const std::string& name) {
     for (auto member = members_.rbegin(); member != members_.rend(); ++member) {
-      if ((*member)->node->options().name == name) return *(*member)->node;
+      if ((*member)->name == name) return *(*member)->node;
     }
     throw std::out_of_range(name);
   }
@@ -62,12 +72,15 @@ class SimRun {
 
   // Starts the nodes that were added since the last start.
   void start() {
+    const std::scoped_lock lock(mutex_);
     for (auto& member : members_) {
       if (member->thread.joinable() || member->ran) continue;
       member->ran = true;
       member->thread = std::thread([m = member.get()] {
         try {
           m->node->run();
+        } catch (const Crash&) {
+          m->node.reset();  // as the end of its process would
         } catch (...) {
           m->error = std::current_exception();
         }
@@ -75,8 +88,9 @@ class SimRun {
     }
   }
 
+  // Handlers may add and start services meanwhile.
   void join() {
-    for (auto& member : members_) {
+    for (std::size_t i = 0; Member* member = at(i); ++i) {
       if (member->thread.joinable()) member->thread.join();
     }
   }
@@ -94,13 +108,20 @@ class SimRun {
 
  private:
   struct Member {
+    std::string name;
     std::unique_ptr<Node> node;
     std::thread thread;
     bool ran = false;
     std::exception_ptr error;
   };
+  Member* at(std::size_t index) {
+    const std::scoped_lock lock(mutex_);
+    return index < members_.size() ? members_[index].get() : nullptr;
+  }
+
   std::vector<std::string> roster_;
   int domain_;
+  std::mutex mutex_;
   std::vector<std::unique_ptr<Member>> members_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 const std::vector<std::string> kRoster{"alpha", "beta", "delta", "gamma"};
-constexpr Time kEnd = 20s;
+constexpr Time kEnd = 3s;
 
 class Toy {
  public:
