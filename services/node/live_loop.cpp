@@ -44,15 +44,15 @@ class LiveLoop : public Loop {
     stopped_ = batch.stop;
     if (batch.matched) impl.announce_match();
     for (auto& arrival : batch.arrivals) impl.take_in(std::move(arrival));
-    for (auto& result : batch.results) impl.work.finish(result.work, std::move(result.run));
-    impl.work.run_finished();
-    impl.timers.run_due(timer_now());
     const wall::Instant now = wall::now();
     if (heart_) heart_->beat(now);
     peers_.check(now);
     for (const PeerChange& change : peers_.take_changes()) {
       if (change.service != node_.options().name) impl.announce(change);
     }
+    for (auto& result : batch.results) impl.work.finish(result.work, std::move(result.run));
+    impl.work.run_finished();
+    impl.timers.run_due(timer_now());
   }
 
  private:
