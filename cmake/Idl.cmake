@@ -23,7 +23,8 @@ function(roci_idl)
   add_custom_command(
     OUTPUT ${outputs}
     COMMAND "${FASTDDSGEN}" -replace -I "${CMAKE_CURRENT_SOURCE_DIR}" -d "${generated}" ${inputs}
-    DEPENDS ${inputs}
+    COMMAND "${CMAKE_COMMAND}" "-DFILES=${sources}" -P "${PROJECT_SOURCE_DIR}/cmake/BoundEnumSequences.cmake"
+    DEPENDS ${inputs} "${PROJECT_SOURCE_DIR}/cmake/BoundEnumSequences.cmake"
     WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}"
     COMMENT "IDL to C++: ${IDL_NAME}"
     VERBATIM)

@@ -1,26 +1,31 @@
 #include "services/vendors/peers.hpp"
 
 #include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 
 namespace roci::services {
 namespace {
 
-bool parse(const std::string& address, sockaddr_in& out) {
-  out = {};
-  out.sin_family = AF_INET;
-  return inet_pton(AF_INET, address.c_str(), &out.sin_addr) == 1;
+bool parse(const std::string& text, in_addr& address) {
+  return inet_pton(AF_INET, text.c_str(), &address) == 1;
 }
 
-bool is_local(const sockaddr_in& address) {
-  const int probe = socket(AF_INET, SOCK_DGRAM, 0);
-  if (probe < 0) return false;
-  const bool bound = bind(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
-  close(probe);
-  return bound;
+// Asking to bind would not do: the vendors look for an interface that has this very address.
+bool is_local(const in_addr& address) {
+  ifaddrs* interfaces = nullptr;
+  if (getifaddrs(&interfaces) != 0) return false;
+  bool found = false;
+  for (const ifaddrs* entry = interfaces; entry; entry = entry->ifa_next) {
+    if (!entry->ifa_addr || entry->ifa_addr->sa_family != AF_INET) continue;
+    const auto* own = reinterpret_cast<const sockaddr_in*>(entry->ifa_addr);
+    found = found || own->sin_addr.s_addr == address.s_addr;
+  }
+  freeifaddrs(interfaces);
+  return found;
 }
 
 }  // namespace
@@ -37,7 +42,7 @@ std::vector<std::string> peers_of(const TransportOptions& options) {
 }
 
 void require_usable_addresses(const TransportOptions& options) {
-  sockaddr_in address;
+  in_addr address;
   for (const auto& peer : options.peers) {
     if (!parse(peer, address))
       throw TransportError("peer \"" + peer + "\" is no IPv4 address; correct --peers");

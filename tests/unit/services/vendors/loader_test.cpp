@@ -1,0 +1,97 @@
+// Opening transports: which are there, and what is said when one is not or when its options make no sense.
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "services/domain_claim.hpp"
+#include "services/lossy_transport.hpp"
+#include "services/transport.hpp"
+#include "services/vendors/peers.hpp"
+
+namespace roci::services {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string refusal(const std::function<void()>& open) {
+  try {
+    open();
+  } catch (const TransportError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Loader, NamesWhatIsInstalledWhenAskedForSomethingElse) {
+  EXPECT_THAT(installed_transports(), AllOf(Contains("inproc"), Contains("fastdds"), Contains("cyclonedds")));
+  for (const auto* vendor : {"opendds", "", "../inproc", "inproc/"}) {
+    EXPECT_THAT(refusal([vendor] { open_transport(vendor, {}); }),
+                AllOf(HasSubstr("cyclonedds, fastdds, inproc"), HasSubstr("--dds"), HasSubstr(vendor)));
+  }
+}
+
+TEST(Loader, LooksIntoThePluginPathFirst) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "roci_plugins";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "libroci_transport_broken.so") << "no shared object";
+  setenv("ROCI_PLUGIN_PATH", (":/nowhere:" + folder.string()).c_str(), 1);
+  EXPECT_THAT(installed_transports(), AllOf(Contains("broken"), Contains("inproc")));
+  EXPECT_THAT(refusal([] { open_transport("broken", {}); }), HasSubstr("libroci_transport_broken.so"));
+  EXPECT_EQ(open_transport("inproc", {})->vendor(), "inproc");
+  unsetenv("ROCI_PLUGIN_PATH");
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Loader, RefusesAddressesThatAreNotThisHosts) {
+  for (const auto* vendor : {"fastdds", "cyclonedds"}) {
+    EXPECT_THAT(refusal([vendor] { open_transport(vendor, {.address = "192.0.2.1"}); }),
+                AllOf(HasSubstr("192.0.2.1"), HasSubstr("--address")));
+    EXPECT_THAT(refusal([vendor] { open_transport(vendor, {.address = "127.0.0.2"}); }),
+                HasSubstr("--address"));
+    EXPECT_THAT(refusal([vendor] { open_transport(vendor, {.address = "localhost"}); }),
+                HasSubstr("--address"));
+    EXPECT_THAT(refusal([vendor] { open_transport(vendor, {.peers = {"ground"}}); }), HasSubstr("--peers"));
+    EXPECT_THAT(refusal([vendor] { open_transport(vendor, {.vendor_xml = "/nowhere.xml"}); }),
+                HasSubstr("/nowhere.xml"));
+  }
+}
+
+TEST(Loader, PeersStayOnTheirSideOfTheLoopback) {
+  EXPECT_THAT(peers_of({}), ElementsAre("127.0.0.1"));
+  EXPECT_THAT(peers_of({.address = "10.77.0.1"}), ElementsAre("10.77.0.1"));
+  EXPECT_THAT(peers_of({.address = "10.77.0.1", .peers = {"10.77.0.2", "10.77.0.1", "10.77.0.2"}}),
+              ElementsAre("10.77.0.1", "10.77.0.2"));
+  EXPECT_THAT(peers_of({.address = "127.0.0.2", .peers = {"10.77.0.2", "127.0.0.1"}}),
+              ElementsAre("127.0.0.2", "127.0.0.1"));
+}
+
+TEST(Loader, ReadsTheLossFromItsText) {
+  const auto loss = parse_loss("0.2:7:30");
+  EXPECT_DOUBLE_EQ(loss.fraction, 0.2);
+  EXPECT_EQ(loss.seed, 7U);
+  EXPECT_EQ(loss.delay, std::chrono::milliseconds(30));
+  for (const auto* text :
+       {"", "0.2", "0.2:7", "1.5:7:30", "-0.1:7:30", "0.2:7:-1", "0.2:x:30", "0.2:7:30ms", "nan:1:1"}) {
+    EXPECT_THAT(refusal([text] { parse_loss(text); }), HasSubstr("ROCI_LOSS")) << text;
+  }
+}
+
+TEST(DomainClaim, ClaimsAreDistinctAndEnd) {
+  int freed = 0;
+  {
+    const DomainClaim first, second;
+    EXPECT_NE(first.id(), second.id());
+    EXPECT_GE(first.id(), 1);
+    EXPECT_LE(first.id(), 100);
+    freed = first.id();
+  }
+  EXPECT_EQ(DomainClaim().id(), freed);
+}
+
+}  // namespace
+}  // namespace roci::services
