@@ -1,0 +1,7 @@
+(define (problem x)
+  (:domain d)
+  (:objects a1 a2 - a b1 - b both - (either a b))
+  (:init (p) (q a1) (r a1 b1) (not (q a2)) (= (f) 0.5) (= (g a1) -3)
+    (at 5 (p)) (at 7.25 (not (p))) (at 9 (= (f) 1e2)))
+  (:goal (and (q b1) (or (p) (> (f) 2)) (exists (?x - t) (not (s ?x)))))
+  (:metric maximize (+ (* 2 (total-time)) (f))))
