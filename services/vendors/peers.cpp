@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <ifaddrs.h>
+#include <net/if.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
@@ -14,15 +15,16 @@ bool parse(const std::string& text, in_addr& address) {
   return inet_pton(AF_INET, text.c_str(), &address) == 1;
 }
 
-// Asking to bind would not do: the vendors look for an interface that has this very address.
-bool is_local(const in_addr& address) {
+// Asking to bind would not do: the vendors look for a running interface that has this very address, and Fast
+// DDS goes on in silence without one.
+bool is_on_running_interface(const in_addr& address) {
   ifaddrs* interfaces = nullptr;
   if (getifaddrs(&interfaces) != 0) return false;
   bool found = false;
   for (const ifaddrs* entry = interfaces; entry; entry = entry->ifa_next) {
     if (!entry->ifa_addr || entry->ifa_addr->sa_family != AF_INET) continue;
     const auto* own = reinterpret_cast<const sockaddr_in*>(entry->ifa_addr);
-    found = found || own->sin_addr.s_addr == address.s_addr;
+    found = found || (own->sin_addr.s_addr == address.s_addr && (entry->ifa_flags & IFF_RUNNING));
   }
   freeifaddrs(interfaces);
   return found;
@@ -50,9 +52,9 @@ void require_usable_addresses(const TransportOptions& options) {
   if (!parse(options.address, address)) {
     throw TransportError("\"" + options.address + "\" is no IPv4 address; correct --address");
   }
-  if (!is_local(address)) {
-    throw TransportError("no network interface of this host has the address " + options.address +
-                         "; give one of its own with --address (see: ip -4 address)");
+  if (!is_on_running_interface(address)) {
+    throw TransportError("no running network interface of this host has the address " + options.address +
+                         "; bring it up, or give another with --address (see: ip -4 address)");
   }
 }
 

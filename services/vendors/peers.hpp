@@ -17,8 +17,8 @@ bool is_loopback(const std::string& address);
 // options.peers and options.address itself, each once. On a network the loopback default is left out.
 std::vector<std::string> peers_of(const TransportOptions&);
 
-// Throws TransportError when no interface of this host has options.address, or it or a peer is no IPv4
-// address.
+// Throws TransportError when no running interface of this host has options.address, or it or a peer is no
+// IPv4 address.
 void require_usable_addresses(const TransportOptions&);
 
 }  // namespace roci::services

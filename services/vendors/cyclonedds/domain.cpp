@@ -1,6 +1,11 @@
 #include "services/vendors/cyclonedds/domain.hpp"
 
+extern "C" {
+#include <dds/ddsrt/log.h>
+}
+
 #include <filesystem>
+#include <iostream>
 #include <map>
 #include <mutex>
 
@@ -17,6 +22,13 @@ dds_entity_t create(int id, const std::string& config) {
                          "; the domain id must be from 0 to 230, its configuration must be valid: " + config);
   }
   return handle;
+}
+
+// While a link is cut, every datagram to every port of every peer that cannot be sent would be a line of its
+// own.
+void log_to_standard_error(void*, const dds_log_data_t* entry) {
+  const std::string_view message(entry->message, entry->size);
+  if (message.find("conn_write") == message.npos) std::cerr << "cyclonedds: " << message;
 }
 
 }  // namespace
@@ -58,6 +70,7 @@ std::shared_ptr<Domain> join_domain(const TransportOptions& options) {
         " is open in this process with another address, other peers or another configuration; "
         "Cyclone DDS keeps one per domain and process");
   }
+  dds_set_log_sink(log_to_standard_error, nullptr);
   if (!domain) domains[options.domain] = domain = std::make_shared<Domain>(options.domain, config);
   return domain;
 }
