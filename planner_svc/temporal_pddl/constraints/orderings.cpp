@@ -1,0 +1,75 @@
+#include "planner_svc/temporal_pddl/constraints/orderings.hpp"
+
+#include <algorithm>
+
+namespace roci::planner::temporal_pddl {
+
+Orderings::Orderings(const Task& task, Duration epsilon)
+    : task_(task), epsilon_(epsilon), interests_(task.variables(), 0) {}
+
+void Orderings::mark(VariableId variable, std::uint8_t interest) {
+  if (interests_[variable] == 0) marked_.push_back(variable);
+  interests_[variable] |= interest;
+}
+
+void Orderings::mark_new_step(SnapId next, std::span<const ActionId> running) {
+  for (const VariableId variable : task_.reads[next]) mark(variable, kRead);
+  for (const VariableId variable : task_.writes[next]) mark(variable, kChange);
+  for (const FactId added : task_.adds[next]) {
+    std::uint8_t& interest = interests_[task_.variable(added)];
+    if (interest & kChange) interest = static_cast<std::uint8_t>((interest & ~kChange) | kAdd);
+  }
+  const Snap& snap = task_.snaps[next];
+  if (snap.kind == SnapKind::kStart) {
+    for (const VariableId variable : task_.invariant_reads[snap.action]) mark(variable, kInvariant);
+  }
+  for (const ActionId action : running) {
+    for (const auto& invariant : task_.numeric_invariants[action]) {
+      const auto& terms = task_.expressions[invariant.expression].terms;
+      const auto changed = [&](const auto& term) {
+        return (interests_[task_.variable(term.variable)] & kChange) != 0;
+      };
+      if (terms.size() < 2 || std::ranges::none_of(terms, changed)) continue;
+      for (const auto& term : terms) mark(task_.variable(term.variable), kRead);
+    }
+  }
+}
+
+bool Orderings::only_adds(SnapId step, VariableId variable) const {
+  return std::ranges::any_of(task_.adds[step], [&](FactId added) { return task_.variable(added) == variable; });
+}
+
+void Orderings::add(std::span<const SnapId> steps, SnapId next, std::span<const ActionId> running,
+                    std::vector<StepConstraint>& constraints) {
+  marked_.clear();
+  mark_new_step(next, running);
+  std::size_t open = marked_.size();
+  for (std::size_t i = steps.size(); i-- > 0 && open > 0;) {
+    const SnapId step = steps[i];
+    bool separated = false;
+    bool after = false;
+    for (const VariableId variable : task_.reads[step]) {
+      separated = separated || (interests_[variable] & (kAdd | kChange)) != 0;
+    }
+    if (task_.snaps[step].kind == SnapKind::kEnd) {
+      for (const VariableId variable : task_.invariant_reads[task_.snaps[step].action]) {
+        after = after || (interests_[variable] & (kChange | kEnds)) != 0;
+      }
+    }
+    for (const VariableId variable : task_.writes[step]) {
+      std::uint8_t& interest = interests_[variable];
+      if (interest == 0) continue;
+      if (interest != kEnds) (interest == kInvariant ? after : separated) = true;
+      // What lies before this step is ordered through it; except that an adding step is before no invariant's end.
+      const bool ends_open = (interest & (kChange | kEnds)) != 0 && only_adds(step, variable);
+      interest = ends_open ? kEnds : 0;
+      if (!ends_open) --open;
+    }
+    if (!separated && !after) continue;
+    constraints.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(steps.size()),
+                           separated ? epsilon_ : Duration{0}, kUnbounded});
+  }
+  for (const VariableId variable : marked_) interests_[variable] = 0;
+}
+
+}  // namespace roci::planner::temporal_pddl

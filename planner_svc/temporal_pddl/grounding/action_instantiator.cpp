@@ -1,0 +1,215 @@
+#include "planner_svc/temporal_pddl/grounding/action_instantiator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+void append(GroundEffects& to, const GroundEffects& more) {
+  to.adds.insert(to.adds.end(), more.adds.begin(), more.adds.end());
+  to.deletes.insert(to.deletes.end(), more.deletes.begin(), more.deletes.end());
+  to.numeric.insert(to.numeric.end(), more.numeric.begin(), more.numeric.end());
+}
+
+// Sorts; what is both deleted and added is added.
+void normalise(GroundEffects& effects) {
+  for (auto* list : {&effects.adds, &effects.deletes}) {
+    std::ranges::sort(*list);
+    list->erase(std::unique(list->begin(), list->end()), list->end());
+  }
+  std::vector<std::uint32_t> deletes;
+  std::ranges::set_difference(effects.deletes, effects.adds, std::back_inserter(deletes));
+  effects.deletes = std::move(deletes);
+}
+
+// Rounds to microseconds so that no allowed duration is lost by more than the rounding of the numbers themselves.
+Duration microseconds(double seconds, double (*round)(double)) {
+  constexpr double kLargest = 9e18;
+  const double scaled = seconds * 1e6;
+  if (scaled >= kLargest) return kUnbounded;
+  const double nearest = std::round(scaled);
+  return Duration(static_cast<std::int64_t>(std::abs(scaled - nearest) < 1e-3 ? nearest : round(scaled)));
+}
+
+}  // namespace
+
+void ActionInstantiator::instantiate(SchemaId schema, const LiftedAction& action, Binding& binding,
+                                     std::vector<GroundAction>& result) {
+  GroundAction ground;
+  ground.schema = schema;
+  ground.arguments.assign(binding.begin(), binding.begin() + static_cast<std::ptrdiff_t>(action.parameters.size()));
+  ground.durative = action.durative;
+  if (!set_duration(action, binding, ground)) return;
+  const Disjunction at_start = formulas_.ground(action.at_start, binding);
+  const Disjunction over_all = formulas_.ground(action.over_all, binding);
+  const Disjunction at_end = formulas_.ground(action.at_end, binding);
+  if (at_start.empty() || over_all.empty() || at_end.empty()) return;
+  if (!collect_effects(action, binding)) return;
+  const std::vector<Draft> drafts = choose_conditionals();
+  const std::size_t variants = at_start.size() * over_all.size() * at_end.size() * drafts.size();
+  if (variants > kMaxAlternatives) {
+    formulas_.refuse(action.where,
+                     "action " + action.name + " has over " + std::to_string(kMaxAlternatives) +
+                         " combinations of alternatives and conditional effects",
+                     "split the action");
+  }
+  for (const auto& draft : drafts) {
+    for (const auto& start : at_start) {
+      const auto start_condition = merged(start, draft.at_start);
+      if (!start_condition) continue;
+      for (const auto& end : at_end) {
+        const auto end_condition = merged(end, draft.at_end);
+        if (!end_condition) continue;
+        for (const auto& invariant : over_all) {
+          ground.at_start = *start_condition;
+          ground.over_all = invariant;
+          ground.at_end = *end_condition;
+          ground.start_effects = draft.start_effects;
+          ground.end_effects = draft.end_effects;
+          normalise(ground.start_effects);
+          normalise(ground.end_effects);
+          result.push_back(ground);
+        }
+      }
+    }
+  }
+}
+
+bool ActionInstantiator::set_duration(const LiftedAction& action, const Binding& binding, GroundAction& ground) {
+  ground.max_duration = action.durative ? kUnbounded : Duration{0};
+  for (const auto& rule : action.duration) {
+    const auto bound = formulas_.linear(rule.bound, binding);
+    if (!bound) return false;
+    if (!bound->is_constant()) {
+      ground.duration_rules.push_back({rule.op, formulas_.intern(*bound), rule.at});
+      continue;
+    }
+    using enum pddl::ComparisonOperator;
+    if (rule.op == kEqual) {
+      const Duration fixed = microseconds(bound->constant, std::round);
+      ground.min_duration = std::max(ground.min_duration, fixed);
+      ground.max_duration = std::min(ground.max_duration, fixed);
+    } else if (rule.op == kGreaterEqual || rule.op == kGreater) {
+      ground.min_duration = std::max(ground.min_duration, microseconds(bound->constant, std::ceil));
+    } else {
+      ground.max_duration = std::min(ground.max_duration, microseconds(bound->constant, std::floor));
+    }
+  }
+  return ground.min_duration <= ground.max_duration;
+}
+
+bool ActionInstantiator::collect_effects(const LiftedAction& action, Binding& binding) {
+  unconditional_ = {};
+  conditionals_.clear();
+  bool defined = true;
+  for (const bool at_end : {false, true}) {
+    for (const auto& effect : at_end ? action.end_effects : action.start_effects) {
+      for_each_value(effect.quantified, binding,
+                     [&] { defined = defined && collect_effect(effect, at_end, binding); });
+    }
+  }
+  return defined;
+}
+
+bool ActionInstantiator::collect_effect(const LiftedEffect& effect, bool at_end, Binding& binding) {
+  const auto effects_of = [&](auto& draft) -> GroundEffects& {
+    return at_end ? draft.end_effects : draft.start_effects;
+  };
+  if (!effect.conditional()) return add_effect(effect, binding, effects_of(unconditional_));
+
+  const Disjunction at_start = formulas_.ground(effect.start_condition, binding);
+  const Disjunction before_end = formulas_.ground(effect.end_condition, binding);
+  Conditional conditional;
+  for (const auto& start : at_start) {
+    for (const auto& end : before_end) conditional.fires.emplace_back(start, end);
+  }
+  if (conditional.fires.empty()) return true;
+  if (std::ranges::any_of(conditional.fires, [](const auto& c) { return c.first.empty() && c.second.empty(); })) {
+    return add_effect(effect, binding, effects_of(unconditional_));
+  }
+  for (auto& same : conditionals_) {
+    if (same.fires == conditional.fires) return add_effect(effect, binding, effects_of(same));
+  }
+  if (!effect.start_condition.is_true()) {
+    for (const auto& start : formulas_.ground(effect.start_otherwise, binding)) {
+      conditional.otherwise.emplace_back(start, Conjunction{});
+    }
+  }
+  if (!effect.end_condition.is_true()) {
+    for (const auto& end : formulas_.ground(effect.end_otherwise, binding)) {
+      conditional.otherwise.emplace_back(Conjunction{}, end);
+    }
+  }
+  if (!add_effect(effect, binding, effects_of(conditional))) return false;
+  conditionals_.push_back(std::move(conditional));
+  return true;
+}
+
+bool ActionInstantiator::add_effect(const LiftedEffect& effect, const Binding& binding, GroundEffects& effects) {
+  if (effect.kind != LiftedEffect::Kind::kNumeric) {
+    const auto atom = formulas_.reached_atom(effect.atom, binding);
+    if (atom) (effect.kind == LiftedEffect::Kind::kAdd ? effects.adds : effects.deletes).push_back(*atom);
+    return true;
+  }
+  auto value = formulas_.linear(effect.value, binding);
+  if (!value) return false;
+  const NumberId number = formulas_.number(effect.function, objects_of(effect.atom.arguments, binding));
+  bool assigns = false;
+  switch (effect.op) {
+    case pddl::AssignmentOperator::kAssign:
+      assigns = true;
+      break;
+    case pddl::AssignmentOperator::kIncrease:
+      break;
+    case pddl::AssignmentOperator::kDecrease:
+      value = scaled(*value, -1);
+      break;
+    case pddl::AssignmentOperator::kScaleUp:
+    case pddl::AssignmentOperator::kScaleDown: {
+      if (!value->is_constant()) {
+        formulas_.refuse(effect.where, "scaling by a number that changes is not linear", "scale by a constant");
+      }
+      const bool up = effect.op == pddl::AssignmentOperator::kScaleUp;
+      if (!up && value->constant == 0) return false;
+      LinearExpression product;
+      product.terms.push_back({number, up ? value->constant : 1 / value->constant});
+      if (product.terms.front().weight == 0) product.terms.clear();
+      value = product;
+      assigns = true;
+      break;
+    }
+  }
+  effects.numeric.push_back({number, assigns, formulas_.intern(*value)});
+  return true;
+}
+
+// Every way to let each group of conditional effects happen or not.
+std::vector<ActionInstantiator::Draft> ActionInstantiator::choose_conditionals() const {
+  std::vector<Draft> drafts{unconditional_};
+  for (const auto& conditional : conditionals_) {
+    std::vector<Draft> longer;
+    for (const auto& draft : drafts) {
+      for (const bool fires : {true, false}) {
+        for (const auto& [start, end] : fires ? conditional.fires : conditional.otherwise) {
+          const auto at_start = merged(draft.at_start, start);
+          const auto at_end = merged(draft.at_end, end);
+          if (!at_start || !at_end) continue;
+          Draft next{*at_start, *at_end, draft.start_effects, draft.end_effects};
+          if (fires) {
+            append(next.start_effects, conditional.start_effects);
+            append(next.end_effects, conditional.end_effects);
+          }
+          longer.push_back(std::move(next));
+        }
+      }
+    }
+    drafts = std::move(longer);
+    if (drafts.size() > kMaxAlternatives) break;  // refused by the caller
+  }
+  return drafts;
+}
+
+}  // namespace roci::planner::temporal_pddl

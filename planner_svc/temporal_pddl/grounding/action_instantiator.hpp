@@ -1,0 +1,44 @@
+// One action instance to its ground actions.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/grounding/formula_grounder.hpp"
+#include "planner_svc/temporal_pddl/grounding/ground_actions.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+class ActionInstantiator {
+ public:
+  explicit ActionInstantiator(FormulaGrounder& formulas) : formulas_(formulas) {}
+
+  // Appends the ground actions of the instance: none if its conditions contradict each other, a constant that it
+  // needs is undefined or unreachable, or no duration is possible.
+  void instantiate(SchemaId schema, const LiftedAction& action, Binding& binding, std::vector<GroundAction>& result);
+
+ private:
+  // An action under construction: what is common to all variants, then one variant.
+  struct Draft {
+    Conjunction at_start, at_end;
+    GroundEffects start_effects, end_effects;
+  };
+  // Effects that happen together, if `condition` does, and what else may be the case.
+  struct Conditional {
+    std::vector<std::pair<Conjunction, Conjunction>> fires, otherwise;  // conditions at start, at end
+    GroundEffects start_effects, end_effects;
+  };
+
+  bool set_duration(const LiftedAction& action, const Binding& binding, GroundAction& ground);
+  bool collect_effects(const LiftedAction& action, Binding& binding);
+  bool collect_effect(const LiftedEffect& effect, bool at_end, Binding& binding);
+  bool add_effect(const LiftedEffect& effect, const Binding& binding, GroundEffects& effects);
+  std::vector<Draft> choose_conditionals() const;
+
+  FormulaGrounder& formulas_;
+  Draft unconditional_;
+  std::vector<Conditional> conditionals_;
+};
+
+}  // namespace roci::planner::temporal_pddl

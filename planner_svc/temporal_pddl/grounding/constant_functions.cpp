@@ -1,0 +1,104 @@
+#include "planner_svc/temporal_pddl/grounding/constant_functions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner_svc/temporal_pddl/grounding/refusal.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+// All tuples of the product, the last position running fastest.
+std::vector<std::vector<ObjectId>> all_tuples(const std::vector<std::vector<ObjectId>>& domains) {
+  std::vector<std::vector<ObjectId>> tuples{{}};
+  for (const auto& domain : domains) {
+    std::vector<std::vector<ObjectId>> longer;
+    longer.reserve(tuples.size() * domain.size());
+    for (const auto& tuple : tuples) {
+      for (const ObjectId object : domain) {
+        longer.push_back(tuple);
+        longer.back().push_back(object);
+      }
+    }
+    tuples = std::move(longer);
+  }
+  return tuples;
+}
+
+std::string describe(const FunctionCall& call) {
+  std::string text = "(" + call.function;
+  for (const auto& argument : call.arguments) text += " " + argument;
+  return text + ") of module " + call.module;
+}
+
+void require_usable(const FunctionCall& call, const FunctionValue& answer) {
+  if (answer.outcome == FunctionOutcome::kValue || answer.outcome == FunctionOutcome::kUnreachable) return;
+  std::string reason = "external function " + describe(call) + ": " + to_string(answer.outcome);
+  if (!answer.provenance.owner.empty()) reason += ", says " + answer.provenance.owner;
+  if (!answer.detail.empty()) reason += " (" + answer.detail + ")";
+  throw Refusal(Verdict::kFunctionUnavailable, reason);
+}
+
+}  // namespace
+
+ConstantFunctions::ConstantFunctions(const pddl::Problem& problem, const std::vector<LiftedAction>& actions,
+                                     const Symbols& symbols)
+    : constant_(symbols.functions(), true) {
+  for (const auto& action : actions) {
+    for (const auto* effects : {&action.start_effects, &action.end_effects}) {
+      for (const auto& effect : *effects) {
+        if (effect.kind == LiftedEffect::Kind::kNumeric) constant_[effect.function] = false;
+      }
+    }
+  }
+  for (const auto& timed : problem.timed_values) constant_[symbols.function(timed.fluent.symbol)] = false;
+  for (const auto& initial : problem.values) {
+    const FunctionId function = symbols.function(initial.fluent.symbol);
+    if (!constant_[function]) continue;
+    std::vector<ObjectId> objects;
+    for (const auto& term : initial.fluent.arguments) objects.push_back(symbols.object(term.name));
+    define(function, objects, initial.value);
+  }
+}
+
+void ConstantFunctions::load_external(FunctionSource& source, const std::function<bool()>& cancelled,
+                                      const Symbols& symbols, std::vector<FunctionUse>& used) {
+  for (std::size_t i = 0; i < symbols.functions(); ++i) {
+    const FunctionId function(i);
+    const FunctionSymbol& symbol = symbols[function];
+    if (symbol.module.empty()) continue;
+    const auto tuples = all_tuples(symbol.parameters);
+    std::vector<FunctionCall> calls;
+    for (const auto& tuple : tuples) {
+      FunctionCall call{symbol.module, symbol.name, {}};
+      for (const ObjectId object : tuple) call.arguments.push_back(symbols.name(object));
+      calls.push_back(std::move(call));
+    }
+    auto answers = source.evaluate(calls, cancelled);
+    if (cancelled()) throw Refusal(Verdict::kCancelled, "cancelled while waiting for external functions");
+    if (answers.size() != calls.size()) answers.assign(calls.size(), FunctionValue{});
+    for (std::size_t k = 0; k < calls.size(); ++k) {
+      FunctionValue& answer = answers[k];
+      if (answer.outcome == FunctionOutcome::kValue && !std::isfinite(answer.value)) {
+        answer.outcome = FunctionOutcome::kNotANumber;
+      }
+      used.push_back({calls[k], answer});
+      if (answer.outcome == FunctionOutcome::kValue) define(function, tuples[k], answer.value);
+    }
+    for (std::size_t k = 0; k < calls.size(); ++k) require_usable(calls[k], answers[k]);
+  }
+}
+
+std::optional<double> ConstantFunctions::value(FunctionId function, std::span<const ObjectId> objects) const {
+  const auto tuple = tuples_.find(function.value, objects);
+  return tuple ? std::optional(values_[*tuple]) : std::nullopt;
+}
+
+void ConstantFunctions::define(FunctionId function, std::span<const ObjectId> objects, double value) {
+  const std::uint32_t tuple = tuples_.intern(function.value, objects);
+  values_.resize(tuples_.size());
+  values_[tuple] = value;
+}
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,211 @@
+#include "planner_svc/temporal_pddl/grounding/formula_grounder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "planner_svc/temporal_pddl/grounding/refusal.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+using Kind = LiftedFormula::Kind;
+
+bool implies(const Conjunction& stronger, const Conjunction& weaker) {
+  return std::ranges::includes(stronger.literals, weaker.literals) &&
+         std::ranges::includes(stronger.comparisons, weaker.comparisons);
+}
+
+// Drops alternatives that another one makes superfluous.
+Disjunction simplified(Disjunction alternatives) {
+  std::ranges::sort(alternatives);
+  alternatives.erase(std::unique(alternatives.begin(), alternatives.end()), alternatives.end());
+  Disjunction result;
+  for (const auto& candidate : alternatives) {
+    const bool superfluous = std::ranges::any_of(alternatives, [&](const Conjunction& other) {
+      return &other != &candidate && implies(candidate, other);
+    });
+    if (!superfluous) result.push_back(candidate);
+  }
+  return result;
+}
+
+}  // namespace
+
+Disjunction always() { return {Conjunction{}}; }
+
+std::optional<Conjunction> merged(const Conjunction& a, const Conjunction& b) {
+  Conjunction result;
+  std::ranges::set_union(a.literals, b.literals, std::back_inserter(result.literals));
+  std::ranges::set_union(a.comparisons, b.comparisons, std::back_inserter(result.comparisons));
+  for (std::size_t i = 1; i < result.literals.size(); ++i) {
+    if (result.literals[i - 1].atom == result.literals[i].atom) return std::nullopt;
+  }
+  return result;
+}
+
+Disjunction both(const Disjunction& a, const Disjunction& b) {
+  Disjunction result;
+  for (const auto& left : a) {
+    for (const auto& right : b) {
+      if (auto conjunction = merged(left, right)) result.push_back(std::move(*conjunction));
+    }
+  }
+  return result.size() > 1 ? simplified(std::move(result)) : result;
+}
+
+Disjunction either(Disjunction a, const Disjunction& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a.size() > 1 ? simplified(std::move(a)) : a;
+}
+
+Disjunction FormulaGrounder::ground(const LiftedFormula& formula, Binding& binding) {
+  Disjunction result;
+  const auto conjoin = [&](const LiftedFormula& part) {
+    if (!result.empty()) result = both(result, ground(part, binding));
+    if (result.size() > kMaxAlternatives) {
+      refuse(part.where, "the condition has over " + std::to_string(kMaxAlternatives) + " alternatives",
+             "split the action or replace the disjunction by a predicate");
+    }
+  };
+  const auto disjoin = [&](const LiftedFormula& part) { result = either(std::move(result), ground(part, binding)); };
+  switch (formula.kind) {
+    case Kind::kAnd:
+      result = always();
+      for (const auto& part : formula.parts) conjoin(part);
+      return result;
+    case Kind::kOr:
+      for (const auto& part : formula.parts) disjoin(part);
+      return result;
+    case Kind::kForall:
+      result = always();
+      for_each_value(formula.quantified, binding, [&] { conjoin(formula.parts.front()); });
+      return result;
+    case Kind::kExists:
+      for_each_value(formula.quantified, binding, [&] { disjoin(formula.parts.front()); });
+      return result;
+    case Kind::kAtom:
+    case Kind::kNotAtom:
+      return ground_atom(formula, binding);
+    case Kind::kEqual:
+    case Kind::kNotEqual:
+      return world_.possible(formula, binding) ? always() : Disjunction{};
+    case Kind::kComparison:
+      return ground_comparison(formula, binding);
+  }
+  return result;
+}
+
+Disjunction FormulaGrounder::ground_atom(const LiftedFormula& formula, const Binding& binding) const {
+  const bool positive = formula.kind == Kind::kAtom;
+  const auto atom = reached_atom(formula.atom, binding);
+  if (!atom) return positive ? Disjunction{} : always();
+  const PredicateId predicate = formula.atom.predicate;
+  const auto objects = reachability_.atoms.objects(*atom);
+  if (world_.holds_initially(predicate, objects) && !deletable_.find(predicate.value, objects)) {
+    return positive ? always() : Disjunction{};
+  }
+  return {Conjunction{{{*atom, !positive}}, {}}};
+}
+
+Disjunction FormulaGrounder::ground_comparison(const LiftedFormula& formula, const Binding& binding) {
+  const auto left = linear(formula.sides[0], binding);
+  const auto right = linear(formula.sides[1], binding);
+  if (!left || !right) return {};
+  const auto difference = [&](const LinearExpression& a, const LinearExpression& b) { return sum(a, scaled(b, -1)); };
+  LinearExpression expression = difference(*left, *right);
+  Comparator comparator = Comparator::kEqual;
+  switch (formula.comparison) {
+    case pddl::ComparisonOperator::kLess:
+    case pddl::ComparisonOperator::kLessEqual:
+      expression = difference(*right, *left);
+      [[fallthrough]];
+    case pddl::ComparisonOperator::kGreater:
+    case pddl::ComparisonOperator::kGreaterEqual:
+      comparator = formula.comparison == pddl::ComparisonOperator::kLess ||
+                           formula.comparison == pddl::ComparisonOperator::kGreater
+                       ? Comparator::kGreater
+                       : Comparator::kGreaterEqual;
+      break;
+    case pddl::ComparisonOperator::kEqual:
+      break;
+  }
+  if (expression.is_constant()) return holds(comparator, expression.constant) ? always() : Disjunction{};
+  return {Conjunction{{}, {{expressions_.intern(expression), comparator}}}};
+}
+
+std::optional<LinearExpression> FormulaGrounder::linear(const LiftedExpression& expression, const Binding& binding) {
+  LinearExpression result;
+  switch (expression.kind) {
+    case LiftedExpression::Kind::kNumber:
+      result.constant = expression.number;
+      return result;
+    case LiftedExpression::Kind::kDuration:
+      result.duration_weight = 1;
+      return result;
+    case LiftedExpression::Kind::kFunction: {
+      if (world_.constants().is_constant(expression.function)) {
+        const auto value = world_.constant_value(expression, binding);
+        if (!value) return std::nullopt;
+        result.constant = *value;
+      } else {
+        result.terms.push_back({number(expression.function, objects_of(expression.arguments, binding)), 1});
+      }
+      return result;
+    }
+    case LiftedExpression::Kind::kArithmetic:
+      break;
+  }
+  for (std::size_t i = 0; i < expression.operands.size(); ++i) {
+    const auto operand = linear(expression.operands[i], binding);
+    if (!operand) return std::nullopt;
+    if (i == 0) {
+      const bool negation = expression.op == pddl::ArithmeticOperator::kSubtract && expression.operands.size() == 1;
+      result = negation ? scaled(*operand, -1) : *operand;
+      continue;
+    }
+    switch (expression.op) {
+      case pddl::ArithmeticOperator::kAdd:
+        result = sum(result, *operand);
+        break;
+      case pddl::ArithmeticOperator::kSubtract:
+        result = sum(result, scaled(*operand, -1));
+        break;
+      case pddl::ArithmeticOperator::kMultiply:
+        if (!result.is_constant() && !operand->is_constant()) {
+          refuse(expression.where, "a product of numbers that change is not linear", "make one factor a constant");
+        }
+        result = operand->is_constant() ? scaled(result, operand->constant) : scaled(*operand, result.constant);
+        break;
+      case pddl::ArithmeticOperator::kDivide:
+        if (!operand->is_constant()) {
+          refuse(expression.where, "division by a number that changes is not linear", "make the divisor a constant");
+        }
+        if (operand->constant == 0) return std::nullopt;
+        {
+          const double quotient = result.constant / operand->constant;
+          result = scaled(result, 1 / operand->constant);
+          result.constant = quotient;
+        }
+        break;
+    }
+  }
+  if (!std::isfinite(result.constant)) return std::nullopt;
+  return result;
+}
+
+std::optional<std::uint32_t> FormulaGrounder::reached_atom(const LiftedAtom& atom, const Binding& binding) const {
+  const auto found = reachability_.atoms.find(atom.predicate.value, objects_of(atom.arguments, binding));
+  return found && reachability_.reached[*found] ? found : std::nullopt;
+}
+
+NumberId FormulaGrounder::number(FunctionId function, const std::vector<ObjectId>& objects) {
+  return NumberId(numbers_.intern(function.value, objects));
+}
+
+void FormulaGrounder::refuse(pddl::SourceLocation where, const std::string& message, const std::string& remedy) const {
+  throw Refusal(Verdict::kUnsupported, pddl::Diagnostic{file_, where, message, remedy});
+}
+
+}  // namespace roci::planner::temporal_pddl

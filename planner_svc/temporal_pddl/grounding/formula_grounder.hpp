@@ -1,0 +1,63 @@
+// Formulas and expressions under a full binding: disjunctions of ground conjunctions, linear expressions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/grounding/ground_actions.hpp"
+#include "planner_svc/temporal_pddl/grounding/reachability.hpp"
+#include "planner_svc/temporal_pddl/grounding/world.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+// How many alternatives a ground condition may have.
+inline constexpr std::size_t kMaxAlternatives = 256;
+
+class FormulaGrounder {
+ public:
+  // `deletable`: the atoms that something may delete. Atoms that hold at first and are not among them are true for
+  // ever; what is not reached is false for ever.
+  FormulaGrounder(const World& world, const Reachability& reachability, const TupleTable& deletable,
+                  TupleTable& numbers, ExpressionPool& expressions, const std::string& file)
+      : world_(world),
+        reachability_(reachability),
+        deletable_(deletable),
+        numbers_(numbers),
+        expressions_(expressions),
+        file_(file) {}
+
+  // Throws Refusal (kUnsupported) for more than kMaxAlternatives, and for products of numbers that change.
+  Disjunction ground(const LiftedFormula& formula, Binding& binding);
+
+  // None: a constant in it is undefined, or a division by 0.
+  std::optional<LinearExpression> linear(const LiftedExpression& expression, const Binding& binding);
+
+  std::optional<std::uint32_t> reached_atom(const LiftedAtom& atom, const Binding& binding) const;
+  NumberId number(FunctionId function, const std::vector<ObjectId>& objects);
+  ExpressionId intern(const LinearExpression& expression) { return expressions_.intern(expression); }
+
+  [[noreturn]] void refuse(pddl::SourceLocation where, const std::string& message, const std::string& remedy) const;
+
+  const World& world() const { return world_; }
+
+ private:
+  Disjunction ground_atom(const LiftedFormula& formula, const Binding& binding) const;
+  Disjunction ground_comparison(const LiftedFormula& formula, const Binding& binding);
+
+  const World& world_;
+  const Reachability& reachability_;
+  const TupleTable& deletable_;
+  TupleTable& numbers_;
+  ExpressionPool& expressions_;
+  const std::string& file_;
+};
+
+Disjunction always();
+// All ways to satisfy both; contradictions and alternatives that another one implies are dropped.
+Disjunction both(const Disjunction& a, const Disjunction& b);
+Disjunction either(Disjunction a, const Disjunction& b);
+// None if the two contradict each other.
+std::optional<Conjunction> merged(const Conjunction& a, const Conjunction& b);
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,69 @@
+// Ground actions as instantiation leaves them: over atoms of the reachability analysis, before facts are numbered.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/grounding/tuple_table.hpp"
+#include "planner_svc/temporal_pddl/task/numbers.hpp"
+#include "planner_svc/temporal_pddl/task/task.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+// An atom or its negation.
+struct GroundLiteral {
+  std::uint32_t atom = 0;
+  bool negated = false;
+  auto operator<=>(const GroundLiteral&) const = default;
+};
+
+// All of it must hold. Both lists are sorted and without duplicates.
+struct Conjunction {
+  std::vector<GroundLiteral> literals;
+  std::vector<NumericCondition> comparisons;
+
+  bool empty() const { return literals.empty() && comparisons.empty(); }
+  auto operator<=>(const Conjunction&) const = default;
+};
+
+// Alternatives; none: false; an empty one: true.
+using Disjunction = std::vector<Conjunction>;
+
+struct GroundEffects {
+  std::vector<std::uint32_t> adds, deletes;  // atoms, sorted; no atom is in both
+  std::vector<NumericEffect> numeric;
+  auto operator<=>(const GroundEffects&) const = default;
+};
+
+struct GroundAction {
+  SchemaId schema;
+  std::vector<ObjectId> arguments;
+  bool durative = true;
+  Duration min_duration{0};
+  Duration max_duration = kUnbounded;
+  std::vector<DurationRule> duration_rules;
+  Conjunction at_start, over_all, at_end;
+  GroundEffects start_effects, end_effects;
+  TimeWindow start_window, end_window;  // see one_off_windows.hpp
+};
+
+struct TimedChange {
+  Duration time{0};
+  GroundEffects effects;
+};
+
+struct GroundModel {
+  TupleTable atoms;
+  TupleTable numbers;  // fluents that change; their index is the NumberId
+  ExpressionPool expressions;
+  std::vector<std::uint32_t> initial_atoms;
+  std::vector<double> initial_numbers;  // NaN: undefined
+  std::vector<GroundAction> actions;
+  std::vector<TimedChange> timed;  // by time, one per instant
+  Disjunction goal;
+  std::vector<std::string> unreachable_goals;  // as text, if `goal` has no alternative from the beginning
+};
+
+}  // namespace roci::planner::temporal_pddl

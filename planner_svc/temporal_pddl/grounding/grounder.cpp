@@ -1,0 +1,71 @@
+#include "planner_svc/temporal_pddl/grounding/grounder.hpp"
+
+#include <string>
+#include <utility>
+
+#include "core/pddl/printer.hpp"
+#include "planner_svc/temporal_pddl/grounding/compression.hpp"
+#include "planner_svc/temporal_pddl/grounding/constant_functions.hpp"
+#include "planner_svc/temporal_pddl/grounding/instantiate.hpp"
+#include "planner_svc/temporal_pddl/grounding/lowering.hpp"
+#include "planner_svc/temporal_pddl/grounding/mutex_groups.hpp"
+#include "planner_svc/temporal_pddl/grounding/one_off_windows.hpp"
+#include "planner_svc/temporal_pddl/grounding/prune.hpp"
+#include "planner_svc/temporal_pddl/grounding/reachability.hpp"
+#include "planner_svc/temporal_pddl/grounding/refusal.hpp"
+#include "planner_svc/temporal_pddl/grounding/relevance.hpp"
+#include "planner_svc/temporal_pddl/grounding/symbols.hpp"
+#include "planner_svc/temporal_pddl/grounding/task_builder.hpp"
+#include "planner_svc/temporal_pddl/grounding/world.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+std::string literal_text(const GroundModel& model, const Symbols& symbols, GroundLiteral literal) {
+  std::string text = "(" + symbols.name(PredicateId(std::size_t{model.atoms.symbol(literal.atom)}));
+  for (const ObjectId object : model.atoms.objects(literal.atom)) text += " " + symbols.name(object);
+  text += ")";
+  return literal.negated ? "(not " + text + ")" : text;
+}
+
+// Throws if no alternative of the goal survives pruning, naming what stands in the way.
+void require_reachable_goal(const pddl::Problem& problem, const Disjunction& before, const GroundModel& model,
+                            const std::vector<bool>& reached, const Symbols& symbols) {
+  if (!model.goal.empty()) return;
+  std::string blocked;
+  for (const auto& goal : model.unreachable_goals) blocked += " " + goal;
+  for (const auto& goal : before) {
+    for (const auto literal : goal.literals) {
+      if (!reached[literal_index(literal)]) blocked += " " + literal_text(model, symbols, literal);
+    }
+  }
+  if (blocked.empty()) blocked = " " + pddl::print(problem.goal);
+  throw Refusal(Verdict::kUnsolvable,
+                "no sequence of actions reaches, even if nothing were ever deleted and numbers did not count:" + blocked);
+}
+
+}  // namespace
+
+Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
+            const Options& options, Watch& watch, std::vector<FunctionUse>& used) {
+  Symbols symbols(domain, problem);
+  const std::vector<LiftedAction> actions = lower_actions(domain, symbols);
+  ConstantFunctions constants(problem, actions, symbols);
+  constants.load_external(functions, [&] { return watch.cancelled(); }, symbols, used);
+  const World world(problem, actions, symbols, constants);
+
+  GroundModel model = instantiate(domain, problem, actions, world, explore(actions, world, watch), watch);
+  if (options.one_off_windows) extract_one_off_windows(model, options.epsilon);
+  const Disjunction goal = model.goal;
+  const std::vector<bool> reached = prune(model);
+  require_reachable_goal(problem, goal, model, reached, symbols);
+  drop_irrelevant_effects(model);
+  const auto groups = find_mutex_groups(model, reached, symbols.predicates(), actions.size(), watch);
+  std::vector<Compression> compression(model.actions.size());
+  if (options.compression_safety) compression = find_compression(model, groups);
+  Task task = build_task(model, symbols, actions, groups, compression);
+  return {std::move(symbols), std::move(constants), std::move(task)};
+}
+
+}  // namespace roci::planner::temporal_pddl

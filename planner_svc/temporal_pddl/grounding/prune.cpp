@@ -1,0 +1,122 @@
+#include "planner_svc/temporal_pddl/grounding/prune.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+bool achieves(const GroundEffects& effects, GroundLiteral literal) {
+  return std::ranges::binary_search(literal.negated ? effects.deletes : effects.adds, literal.atom);
+}
+
+class RelaxedReach {
+ public:
+  explicit RelaxedReach(const GroundModel& model)
+      : model_(model),
+        reached_(2 * model.atoms.size(), false),
+        waiting_(2 * model.atoms.size()),
+        missing_(2 * model.actions.size(), 0) {}
+
+  void run() {
+    std::vector<bool> initially(model_.atoms.size(), false);
+    for (const std::uint32_t atom : model_.initial_atoms) initially[atom] = true;
+    for (std::uint32_t atom = 0; atom < initially.size(); ++atom) reach({atom, !initially[atom]});
+    for (const auto& timed : model_.timed) take_effects(timed.effects);
+    for (std::size_t i = 0; i < model_.actions.size(); ++i) {
+      const GroundAction& action = model_.actions[i];
+      std::vector<GroundLiteral> end;
+      std::ranges::set_union(action.over_all.literals, action.at_end.literals, std::back_inserter(end));
+      await(2 * i + 1, end, 1);  // and the start
+      await(2 * i, start_requirements(action), 0);
+    }
+    while (!queue_.empty()) {
+      const std::size_t literal = queue_.back();
+      queue_.pop_back();
+      for (const std::size_t snap : waiting_[literal]) count_down(snap);
+    }
+  }
+
+  const std::vector<bool>& reached() const { return reached_; }
+  bool ends(std::size_t action) const { return missing_[2 * action + 1] == 0; }
+
+ private:
+  void reach(GroundLiteral literal) {
+    const std::size_t index = literal_index(literal);
+    if (reached_[index]) return;
+    reached_[index] = true;
+    queue_.push_back(index);
+  }
+
+  // Literals that are queued still count as missing until they are taken.
+  void await(std::size_t snap, const std::vector<GroundLiteral>& literals, std::size_t more) {
+    missing_[snap] = literals.size() + more;
+    for (const auto literal : literals) waiting_[literal_index(literal)].push_back(snap);
+    if (missing_[snap] == 0) happen(snap);
+  }
+
+  void count_down(std::size_t snap) {
+    if (--missing_[snap] == 0) happen(snap);
+  }
+
+  void happen(std::size_t snap) {
+    const GroundAction& action = model_.actions[snap / 2];
+    take_effects(snap % 2 == 0 ? action.start_effects : action.end_effects);
+    if (snap % 2 == 0) count_down(snap + 1);
+  }
+
+  void take_effects(const GroundEffects& effects) {
+    for (const std::uint32_t atom : effects.adds) reach({atom, false});
+    for (const std::uint32_t atom : effects.deletes) reach({atom, true});
+  }
+
+  const GroundModel& model_;
+  std::vector<bool> reached_;
+  std::vector<std::vector<std::size_t>> waiting_;
+  std::vector<std::size_t> missing_;
+  std::vector<std::size_t> queue_;
+};
+
+}  // namespace
+
+std::vector<GroundLiteral> start_requirements(const GroundAction& action) {
+  std::vector<GroundLiteral> result = action.at_start.literals;
+  for (const auto literal : action.over_all.literals) {
+    if (!achieves(action.start_effects, literal)) result.push_back(literal);
+  }
+  std::ranges::sort(result);
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+std::vector<bool> prune(GroundModel& model) {
+  while (true) {
+    RelaxedReach reach(model);
+    reach.run();
+    const std::size_t before = model.actions.size();
+    std::vector<GroundAction> kept;
+    for (std::size_t i = 0; i < before; ++i) {
+      if (reach.ends(i)) kept.push_back(std::move(model.actions[i]));
+    }
+    model.actions = std::move(kept);
+    if (model.actions.size() < before) continue;
+
+    const auto& reached = reach.reached();
+    const auto drop_certain = [&](Conjunction& conjunction) {
+      std::erase_if(conjunction.literals, [&](GroundLiteral literal) {
+        return !reached[literal_index({literal.atom, !literal.negated})];
+      });
+    };
+    for (auto& action : model.actions) {
+      for (auto* conjunction : {&action.at_start, &action.over_all, &action.at_end}) drop_certain(*conjunction);
+    }
+    std::erase_if(model.goal, [&](const Conjunction& goal) {
+      return !std::ranges::all_of(goal.literals, [&](auto literal) { return reached[literal_index(literal)]; });
+    });
+    for (auto& goal : model.goal) drop_certain(goal);
+    return reached;
+  }
+}
+
+}  // namespace roci::planner::temporal_pddl

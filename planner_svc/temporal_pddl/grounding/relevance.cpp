@@ -1,0 +1,79 @@
+#include "planner_svc/temporal_pddl/grounding/relevance.hpp"
+
+#include <vector>
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+template <typename Visit>
+void for_each_effects(GroundModel& model, const Visit& visit) {
+  for (auto& action : model.actions) {
+    visit(action.start_effects);
+    visit(action.end_effects);
+  }
+  for (auto& timed : model.timed) visit(timed.effects);
+}
+
+template <typename Visit>
+void for_each_condition(const GroundModel& model, const Visit& visit) {
+  for (const auto& action : model.actions) {
+    visit(action.at_start);
+    visit(action.over_all);
+    visit(action.at_end);
+  }
+  for (const auto& goal : model.goal) visit(goal);
+}
+
+std::vector<bool> relevant_numbers(GroundModel& model) {
+  std::vector<bool> relevant(model.numbers.size(), false);
+  const auto mark = [&](ExpressionId expression) {
+    bool changed = false;
+    for (const auto& term : model.expressions[expression].terms) {
+      changed = changed || !relevant[term.variable.index()];
+      relevant[term.variable.index()] = true;
+    }
+    return changed;
+  };
+  for_each_condition(model, [&](const Conjunction& conjunction) {
+    for (const auto& comparison : conjunction.comparisons) mark(comparison.expression);
+  });
+  for (const auto& action : model.actions) {
+    for (const auto& rule : action.duration_rules) mark(rule.bound);
+  }
+  for (bool changed = true; changed;) {
+    changed = false;
+    for_each_effects(model, [&](GroundEffects& effects) {
+      for (const auto& effect : effects.numeric) {
+        if (relevant[effect.variable.index()]) changed = mark(effect.expression) || changed;
+      }
+    });
+  }
+  return relevant;
+}
+
+}  // namespace
+
+void drop_irrelevant_effects(GroundModel& model) {
+  const std::size_t atoms = model.atoms.size();
+  std::vector<bool> read(atoms, false), added(atoms, false), deleted(atoms, false);
+  for_each_condition(model, [&](const Conjunction& conjunction) {
+    for (const auto literal : conjunction.literals) read[literal.atom] = true;
+  });
+  for_each_effects(model, [&](GroundEffects& effects) {
+    for (const std::uint32_t atom : effects.adds) added[atom] = true;
+    for (const std::uint32_t atom : effects.deletes) deleted[atom] = true;
+  });
+  const std::vector<bool> relevant = relevant_numbers(model);
+  const auto irrelevant_atom = [&](std::uint32_t atom) { return !read[atom] && !(added[atom] && deleted[atom]); };
+  for_each_effects(model, [&](GroundEffects& effects) {
+    std::erase_if(effects.adds, irrelevant_atom);
+    std::erase_if(effects.deletes, irrelevant_atom);
+    std::erase_if(effects.numeric, [&](const NumericEffect& effect) { return !relevant[effect.variable.index()]; });
+  });
+  std::erase_if(model.timed, [](const TimedChange& timed) {
+    return timed.effects.adds.empty() && timed.effects.deletes.empty() && timed.effects.numeric.empty();
+  });
+}
+
+}  // namespace roci::planner::temporal_pddl

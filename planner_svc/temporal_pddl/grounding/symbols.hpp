@@ -1,0 +1,45 @@
+// Names of the model and their numbers.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/pddl/ast.hpp"
+#include "core/pddl/types.hpp"
+#include "planner_svc/temporal_pddl/task/ids.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+struct FunctionSymbol {
+  std::string name;
+  std::string module;  // empty: a fluent of the domain
+  std::vector<std::vector<ObjectId>> parameters;  // the objects that each may be
+};
+
+// Built from a checked model: every name that is looked up is there.
+class Symbols {
+ public:
+  Symbols(const pddl::Domain& domain, const pddl::Problem& problem);
+
+  ObjectId object(const std::string& name) const { return ObjectId(static_cast<std::size_t>(objects_.find(name))); }
+  PredicateId predicate(const std::string& name) const { return predicates_.at(name); }
+  FunctionId function(const std::string& name) const { return function_ids_.at(name); }
+  std::vector<ObjectId> of_types(const std::vector<std::string>& types) const;
+
+  std::size_t objects() const { return objects_.size(); }
+  std::size_t predicates() const { return predicate_names_.size(); }
+  std::size_t functions() const { return functions_.size(); }
+  const std::string& name(ObjectId id) const { return objects_[id.index()].name; }
+  const std::string& name(PredicateId id) const { return predicate_names_[id]; }
+  const FunctionSymbol& operator[](FunctionId id) const { return functions_[id]; }
+
+ private:
+  pddl::ObjectTable objects_;
+  std::map<std::string, PredicateId> predicates_;
+  IdVector<PredicateId, std::string> predicate_names_;
+  std::map<std::string, FunctionId> function_ids_;
+  IdVector<FunctionId, FunctionSymbol> functions_;
+};
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,169 @@
+#include "planner_svc/temporal_pddl/grounding/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+using Kind = LiftedFormula::Kind;
+
+std::vector<ObjectId> objects_of(const pddl::Atom& atom, const Symbols& symbols) {
+  std::vector<ObjectId> result;
+  for (const auto& term : atom.arguments) result.push_back(symbols.object(term.name));
+  return result;
+}
+
+}  // namespace
+
+World::World(const pddl::Problem& problem, const std::vector<LiftedAction>& actions, const Symbols& symbols,
+             const ConstantFunctions& constants)
+    : symbols_(symbols), constants_(constants), static_(symbols.predicates(), true) {
+  for (const auto& action : actions) {
+    for (const auto* effects : {&action.start_effects, &action.end_effects}) {
+      for (const auto& effect : *effects) {
+        if (effect.kind != LiftedEffect::Kind::kNumeric) static_[effect.atom.predicate] = false;
+      }
+    }
+  }
+  TupleTable deleted_at_zero;
+  for (const auto& timed : problem.timed_literals) {
+    const auto& atom = timed.literal.atom;
+    if (timed.time <= 0 && timed.literal.negated) {
+      deleted_at_zero.intern(symbols.predicate(atom.symbol).value, objects_of(atom, symbols));
+    }
+  }
+  for (const auto& fact : problem.facts) {
+    const std::uint32_t predicate = symbols.predicate(fact.symbol).value;
+    const auto objects = objects_of(fact, symbols);
+    if (!deleted_at_zero.find(predicate, objects)) initial_.intern(predicate, objects);
+  }
+  for (const auto& timed : problem.timed_literals) {
+    const PredicateId predicate = symbols.predicate(timed.literal.atom.symbol);
+    static_[predicate] = false;
+    auto objects = objects_of(timed.literal.atom, symbols);
+    if (timed.time > 0) {
+      timed_.push_back({timed.time, predicate, std::move(objects), timed.literal.negated});
+    } else if (!timed.literal.negated) {
+      initial_.intern(predicate.value, objects);
+    }
+  }
+  std::stable_sort(timed_.begin(), timed_.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+}
+
+bool World::possible(const LiftedFormula& formula, Binding& binding) const {
+  const auto part_possible = [&](const LiftedFormula& part) { return possible(part, binding); };
+  switch (formula.kind) {
+    case Kind::kAnd:
+      return std::ranges::all_of(formula.parts, part_possible);
+    case Kind::kOr:
+      return std::ranges::any_of(formula.parts, part_possible);
+    case Kind::kForall: {
+      bool all = true;
+      for_each_value(formula.quantified, binding, [&] { all = all && part_possible(formula.parts.front()); });
+      return all;
+    }
+    case Kind::kExists: {
+      bool any = false;
+      for_each_value(formula.quantified, binding, [&] { any = any || part_possible(formula.parts.front()); });
+      return any;
+    }
+    case Kind::kAtom:
+    case Kind::kNotAtom: {
+      if (!is_static(formula.atom.predicate)) return true;
+      const auto objects = temporal_pddl::objects_of(formula.atom.arguments, binding);
+      return holds_initially(formula.atom.predicate, objects) == (formula.kind == Kind::kAtom);
+    }
+    case Kind::kEqual:
+    case Kind::kNotEqual: {
+      const auto& arguments = formula.atom.arguments;
+      return (resolve(arguments[0], binding) == resolve(arguments[1], binding)) == (formula.kind == Kind::kEqual);
+    }
+    case Kind::kComparison: {
+      if (!defined(formula.sides[0], binding) || !defined(formula.sides[1], binding)) return false;
+      const auto left = constant_value(formula.sides[0], binding);
+      const auto right = constant_value(formula.sides[1], binding);
+      return !left || !right || compare(formula.comparison, *left, *right);
+    }
+  }
+  return true;
+}
+
+bool World::defined(const LiftedExpression& expression, const Binding& binding) const {
+  if (expression.kind == LiftedExpression::Kind::kFunction && constants_.is_constant(expression.function)) {
+    return constants_.value(expression.function, temporal_pddl::objects_of(expression.arguments, binding)).has_value();
+  }
+  return std::ranges::all_of(expression.operands,
+                             [&](const LiftedExpression& operand) { return defined(operand, binding); });
+}
+
+std::optional<double> World::constant_value(const LiftedExpression& expression, const Binding& binding) const {
+  switch (expression.kind) {
+    case LiftedExpression::Kind::kNumber:
+      return expression.number;
+    case LiftedExpression::Kind::kDuration:
+      return std::nullopt;
+    case LiftedExpression::Kind::kFunction:
+      if (!constants_.is_constant(expression.function)) return std::nullopt;
+      return constants_.value(expression.function, temporal_pddl::objects_of(expression.arguments, binding));
+    case LiftedExpression::Kind::kArithmetic: {
+      std::vector<double> operands;
+      for (const auto& operand : expression.operands) {
+        const auto value = constant_value(operand, binding);
+        if (!value) return std::nullopt;
+        operands.push_back(*value);
+      }
+      const double value = apply(expression.op, operands);
+      return std::isfinite(value) ? std::optional(value) : std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<ObjectId> objects_of(const std::vector<Argument>& arguments, const Binding& binding) {
+  std::vector<ObjectId> result;
+  result.reserve(arguments.size());
+  for (const Argument argument : arguments) result.push_back(resolve(argument, binding));
+  return result;
+}
+
+bool compare(pddl::ComparisonOperator op, double left, double right) {
+  switch (op) {
+    case pddl::ComparisonOperator::kLess:
+      return left < right;
+    case pddl::ComparisonOperator::kLessEqual:
+      return left <= right;
+    case pddl::ComparisonOperator::kEqual:
+      return std::abs(left - right) <= 1e-9;
+    case pddl::ComparisonOperator::kGreaterEqual:
+      return left >= right;
+    case pddl::ComparisonOperator::kGreater:
+      return left > right;
+  }
+  return false;
+}
+
+double apply(pddl::ArithmeticOperator op, const std::vector<double>& operands) {
+  double result = operands.front();
+  if (op == pddl::ArithmeticOperator::kSubtract && operands.size() == 1) return -result;
+  for (std::size_t i = 1; i < operands.size(); ++i) {
+    switch (op) {
+      case pddl::ArithmeticOperator::kAdd:
+        result += operands[i];
+        break;
+      case pddl::ArithmeticOperator::kSubtract:
+        result -= operands[i];
+        break;
+      case pddl::ArithmeticOperator::kMultiply:
+        result *= operands[i];
+        break;
+      case pddl::ArithmeticOperator::kDivide:
+        result /= operands[i];
+        break;
+    }
+  }
+  return result;
+}
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,148 @@
+#include "planner_svc/temporal_pddl/heuristics/ff.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace roci::planner::temporal_pddl {
+
+FfHeuristic::FfHeuristic(const Task& task)
+    : task_(task),
+      relaxed_(task),
+      reached_at_(relaxed_.propositions(), kUnreached),
+      supporter_(relaxed_.propositions()),
+      needed_(relaxed_.propositions(), false),
+      initially_open_(relaxed_.operators(), 0),
+      costs_(relaxed_.operators(), 0),
+      in_plan_(relaxed_.operators(), false) {
+  for (std::size_t i = 0; i < relaxed_.operators(); ++i) {
+    initially_open_[SnapId(i)] = static_cast<std::uint32_t>(relaxed_.needs(SnapId(i)).size());
+  }
+}
+
+void FfHeuristic::evaluate(StateView state, std::span<const ActionId> running, std::uint32_t timed_done,
+                           Estimate& estimate) {
+  estimate = {};
+  reset();
+  explore(state, running, timed_done);
+  const Goal* goal = cheapest_goal();
+  const bool ends_reached = std::ranges::all_of(
+      running, [&](ActionId action) { return open_[task_.actions[action].end] == 0; });
+  if (!goal || !ends_reached) {
+    estimate.dead_end = true;
+    return;
+  }
+  for (const FactId fact : goal->facts) need(relaxed_.proposition(fact));
+  for (const ActionId action : running) include(task_.actions[action].end);
+  extract();
+  collect(timed_done, estimate);
+}
+
+void FfHeuristic::reset() {
+  std::ranges::fill(reached_at_, kUnreached);
+  std::ranges::fill(supporter_, SnapId());
+  std::ranges::fill(needed_, false);
+  open_ = initially_open_;
+  for (std::size_t i = 0; i < costs_.size(); ++i) costs_[SnapId(i)] = relaxed_.cost(SnapId(i));
+  std::ranges::fill(in_plan_, false);
+  queue_.clear();
+  to_support_.clear();
+  plan_.clear();
+}
+
+void FfHeuristic::reach(PropositionId proposition, std::int64_t cost, SnapId supporter) {
+  std::int64_t& known = reached_at_[proposition];
+  if (known != kUnreached && known <= cost) return;
+  known = cost;
+  supporter_[proposition] = supporter;
+  queue_.emplace_back(cost, proposition);
+  std::ranges::push_heap(queue_, std::greater{});
+}
+
+void FfHeuristic::explore(StateView state, std::span<const ActionId> running, std::uint32_t timed_done) {
+  const auto variables = task_.layout.variables();
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const std::uint32_t value = task_.layout.value(state, i);
+    if (value > 0) reach(relaxed_.proposition(variables[i].facts[value - 1]), 0, SnapId());
+  }
+  for (const FactId fact : task_.layout.negations()) {
+    if (task_.layout.holds(state, fact)) reach(relaxed_.proposition(fact), 0, SnapId());
+  }
+  for (const ActionId action : running) reach(relaxed_.running(action), 0, SnapId());
+  for (std::size_t i = timed_done; i < task_.timed_steps.size(); ++i) fire(task_.timed_steps[i].snap);
+  for (const SnapId op : relaxed_.free()) fire(op);
+  while (!queue_.empty()) {
+    std::ranges::pop_heap(queue_, std::greater{});
+    const auto [cost, proposition] = queue_.back();
+    queue_.pop_back();
+    if (cost > reached_at_[proposition]) continue;
+    for (const SnapId op : relaxed_.needed_by(proposition)) {
+      costs_[op] += cost;
+      if (--open_[op] == 0) fire(op);
+    }
+  }
+}
+
+void FfHeuristic::fire(SnapId op) {
+  for (const PropositionId added : relaxed_.adds(op)) reach(added, costs_[op], op);
+}
+
+const Goal* FfHeuristic::cheapest_goal() const {
+  const Goal* best = nullptr;
+  std::int64_t best_cost = 0;
+  for (const Goal& goal : task_.goals) {
+    std::int64_t cost = 0;
+    bool reached = true;
+    for (const FactId fact : goal.facts) {
+      const std::int64_t at = reached_at_[relaxed_.proposition(fact)];
+      reached = reached && at != kUnreached;
+      cost += at;
+    }
+    if (!reached || (best && cost >= best_cost)) continue;
+    best = &goal;
+    best_cost = cost;
+  }
+  return best;
+}
+
+void FfHeuristic::need(PropositionId proposition) {
+  if (needed_[proposition]) return;
+  needed_[proposition] = true;
+  to_support_.push_back(proposition);
+}
+
+void FfHeuristic::include(SnapId op) {
+  if (in_plan_[op]) return;
+  in_plan_[op] = true;
+  plan_.push_back(op);
+  for (const PropositionId proposition : relaxed_.needs(op)) need(proposition);
+  const Snap& snap = task_.snaps[op];
+  if (snap.kind != SnapKind::kStart) return;
+  const SnapId end = task_.actions[snap.action].end;
+  if (open_[end] == 0) include(end);
+}
+
+void FfHeuristic::extract() {
+  while (!to_support_.empty()) {
+    const SnapId supporter = supporter_[to_support_.back()];
+    to_support_.pop_back();
+    if (!supporter.is_none()) include(supporter);
+  }
+}
+
+void FfHeuristic::collect(std::uint32_t timed_done, Estimate& estimate) const {
+  bool waits_for_timed = false;
+  for (const SnapId op : plan_) {
+    estimate.cost += relaxed_.cost(op);
+    ++estimate.steps;
+    if (task_.snaps[op].kind == SnapKind::kTimedLiteral) {
+      waits_for_timed = true;
+      continue;
+    }
+    const bool applicable = std::ranges::all_of(
+        relaxed_.needs(op), [&](PropositionId proposition) { return supporter_[proposition].is_none(); });
+    if (applicable) estimate.preferred.push_back(op);
+  }
+  if (waits_for_timed) estimate.preferred.push_back(task_.timed_steps[timed_done].snap);
+}
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,54 @@
+// The FF heuristic (Hoffmann and Nebel 2001) on the relaxed task: a relaxed plan made of the cheapest supporters by
+// h_add, after Stellar section 4.2.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
+#include "planner_svc/temporal_pddl/heuristics/relaxed_task.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+class FfHeuristic final : public Heuristic {
+ public:
+  explicit FfHeuristic(const Task& task);
+
+  // The state is extended by r_a of the running actions (R19). Ends of actions that run or that the relaxed plan
+  // starts belong to the relaxed plan (R20), with what they need. A dead end: a goal or the end of a running action
+  // is out of reach.
+  void evaluate(StateView state, std::span<const ActionId> running, std::uint32_t timed_done,
+                Estimate& estimate) override;
+
+ private:
+  static constexpr std::int64_t kUnreached = -1;
+
+  void reset();
+  void reach(PropositionId proposition, std::int64_t cost, SnapId supporter);
+  void explore(StateView state, std::span<const ActionId> running, std::uint32_t timed_done);
+  void fire(SnapId op);
+  const Goal* cheapest_goal() const;
+  void need(PropositionId proposition);
+  void include(SnapId op);
+  void extract();
+  void collect(std::uint32_t timed_done, Estimate& estimate) const;
+
+  const Task& task_;
+  RelaxedTask relaxed_;
+
+  // By proposition, for the state at hand. A proposition of the state has no supporter.
+  IdVector<PropositionId, std::int64_t> reached_at_;
+  IdVector<PropositionId, SnapId> supporter_;
+  IdVector<PropositionId, bool> needed_;
+  // By operator.
+  IdVector<SnapId, std::uint32_t> initially_open_, open_;  // needs that are not reached
+  IdVector<SnapId, std::int64_t> costs_;                    // own cost and that of the reached needs
+  IdVector<SnapId, bool> in_plan_;
+
+  std::vector<std::pair<std::int64_t, PropositionId>> queue_;  // a heap, cheapest first
+  std::vector<PropositionId> to_support_;
+  std::vector<SnapId> plan_;
+};
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,29 @@
+// What a heuristic tells the search about a state. See README.md for how to add one.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/task/task.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+struct Estimate {
+  bool dead_end = false;         // proved: no plan goes through this state
+  std::int64_t cost = 0;          // microseconds of the actions still to come, one after the other
+  std::int64_t steps = 0;         // snap actions still to come
+  std::vector<SnapId> preferred;  // applicable in the state and useful, as far as the heuristic sees (R21)
+};
+
+class Heuristic {
+ public:
+  virtual ~Heuristic() = default;
+
+  // running: actions that have started and not ended; timed_done: how many timed literals have happened. The
+  // estimate's memory is reused.
+  virtual void evaluate(StateView state, std::span<const ActionId> running, std::uint32_t timed_done,
+                        Estimate& estimate) = 0;
+};
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,46 @@
+// The task without time and numbers (R15): what the FF heuristic computes on.
+//
+// Propositions are the facts and, for each durative action a, r_a: "a is running" (R18). Operators are the snap
+// actions:
+//   start of a   cost: least duration of a    needs pre⊢ and what of pre↔ the start does not add (R16)   adds eff⊢, r_a
+//   end of a     cost: 0                      needs pre⊣ and r_a (R17)                                    adds eff⊣
+//   timed literal  cost: 0                    needs nothing                                               adds its facts
+// Deletes do not exist.
+#pragma once
+
+#include <cstdint>
+
+#include "planner_svc/temporal_pddl/task/flat_lists.hpp"
+#include "planner_svc/temporal_pddl/task/task.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+using PropositionId = Id<struct PropositionTag>;
+
+class RelaxedTask {
+ public:
+  explicit RelaxedTask(const Task& task);
+
+  std::size_t propositions() const { return facts_ + running_; }
+  std::size_t operators() const { return costs_.size(); }
+  PropositionId proposition(FactId fact) const { return PropositionId(fact.index()); }
+  PropositionId running(ActionId action) const { return PropositionId(facts_ + action.index()); }
+
+  // Operators are numbered as the snap actions. Costs in microseconds.
+  std::int64_t cost(SnapId op) const { return costs_[op]; }
+  std::span<const PropositionId> needs(SnapId op) const { return needs_[op]; }
+  std::span<const PropositionId> adds(SnapId op) const { return adds_[op]; }
+  std::span<const SnapId> needed_by(PropositionId proposition) const { return needed_by_[proposition]; }
+  // Needs nothing and is no timed literal.
+  const std::vector<SnapId>& free() const { return free_; }
+
+ private:
+  std::size_t facts_;
+  std::size_t running_;
+  IdVector<SnapId, std::int64_t> costs_;
+  FlatLists<PropositionId> needs_, adds_;
+  FlatLists<SnapId> needed_by_;
+  std::vector<SnapId> free_;
+};
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,15 @@
+// A plan in the form of the planning competitions: "0.001: (drive a b) [12.500]", one line per activity.
+#pragma once
+
+#include <string>
+
+#include "planner_svc/temporal_pddl/plan/result.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+std::string to_ipc(const Plan& plan);
+
+// Seconds with three decimals, or six where microseconds matter.
+std::string seconds_text(Duration duration);
+
+}  // namespace roci::planner::temporal_pddl

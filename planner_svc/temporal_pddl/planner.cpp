@@ -1,0 +1,68 @@
+#include "planner_svc/temporal_pddl/planner.hpp"
+
+#include <new>
+#include <utility>
+
+#include "core/pddl/check.hpp"
+#include "core/pddl/forbidden.hpp"
+#include "planner_svc/temporal_pddl/grounding/grounder.hpp"
+#include "planner_svc/temporal_pddl/grounding/refusal.hpp"
+#include "planner_svc/temporal_pddl/heuristics/ff.hpp"
+#include "planner_svc/temporal_pddl/plan/plan_builder.hpp"
+#include "planner_svc/temporal_pddl/search/best_first_search.hpp"
+#include "planner_svc/temporal_pddl/watch.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+void require_model(const pddl::Domain& domain, const pddl::Problem& problem) {
+  for (const auto& finding : pddl::check(domain)) throw Refusal(Verdict::kInvalidInput, finding);
+  for (const auto& finding : pddl::check(problem, domain)) throw Refusal(Verdict::kInvalidInput, finding);
+  for (const auto& finding : pddl::forbidden_effects(domain, problem)) throw Refusal(Verdict::kUnsupported, finding);
+}
+
+void describe(const Task& task, Statistics& statistics) {
+  statistics.facts = task.fact_names.size();
+  statistics.variables = task.layout.variables().size();
+  statistics.numeric_variables = task.layout.numbers();
+  statistics.actions = task.actions.size();
+}
+
+void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
+           const Options& options, Watch& watch, Result& result) {
+  require_model(domain, problem);
+  const Grounding grounding = ground(domain, problem, functions, options, watch, result.functions);
+  describe(grounding.task, result.statistics);
+  FfHeuristic heuristic(grounding.task);
+  SearchOutcome outcome = search(grounding.task, heuristic, options, watch, result.statistics);
+  if (outcome.plan) {
+    result.plan = build_plan(domain, grounding, *outcome.plan, options.epsilon);
+    result.verdict = Verdict::kSolved;
+  } else {
+    result.verdict = Verdict::kUnsolvable;
+    result.reason = std::move(outcome.reason);
+  }
+}
+
+}  // namespace
+
+Result plan(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions, const Budget& budget,
+            const Monitor& monitor, const Options& options) {
+  Result result;
+  Watch watch(budget, monitor);
+  try {
+    solve(domain, problem, functions, options, watch, result);
+  } catch (const Refusal& refusal) {
+    result.verdict = refusal.verdict();
+    result.reason = refusal.reason();
+    result.where = refusal.where();
+  } catch (const std::bad_alloc&) {
+    result.verdict = Verdict::kOutOfMemory;
+    result.reason = "the system has no more memory";
+  }
+  result.statistics.peak_bytes = watch.peak_bytes();
+  return result;
+}
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,143 @@
+#include "planner_svc/temporal_pddl/search/best_first_search.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include "planner_svc/temporal_pddl/grounding/refusal.hpp"
+#include "planner_svc/temporal_pddl/search/dominance.hpp"
+#include "planner_svc/temporal_pddl/search/goal_test.hpp"
+#include "planner_svc/temporal_pddl/search/open_list.hpp"
+#include "planner_svc/temporal_pddl/search/state_store.hpp"
+#include "planner_svc/temporal_pddl/search/successor_builder.hpp"
+#include "planner_svc/temporal_pddl/search/successor_tree.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+class BestFirstSearch {
+ public:
+  BestFirstSearch(const Task& task, Heuristic& heuristic, const Options& options, Watch& watch, Statistics& statistics)
+      : task_(task),
+        heuristic_(heuristic),
+        options_(options),
+        watch_(watch),
+        statistics_(statistics),
+        store_(task.layout.words()),
+        check_(task, options.epsilon),
+        builder_(task, store_, check_, options.epsilon),
+        dominance_(task, store_, bounds_, check_, options.epsilon),
+        tree_(task),
+        goal_(task),
+        random_(options.seed) {}
+
+  SearchOutcome run() {
+    Successor& first = successor_;
+    first.state = task_.initial_state;
+    if (take_up(NodeId(), Transition{})) return found();
+    while (const auto entry = open_.pop()) {
+      watch_.step();
+      if (prefix_.node != entry->parent) {
+        rebuild(task_, store_, bounds_, options_.epsilon, entry->parent, prefix_);
+      }
+      const Rejection rejection = builder_.build(prefix_, entry->snap, successor_);
+      if (rejection == Rejection::kTemporal) ++statistics_.temporally_inconsistent;
+      if (rejection != Rejection::kNone) continue;
+      if (options_.dominance && dominance_.dominated(successor_.state, successor_.prefix)) {
+        ++statistics_.dominated;
+        continue;
+      }
+      if (take_up(entry->parent, successor_.transition)) return found();
+    }
+    if (too_long_) throw Refusal(Verdict::kOutOfMemory, "a plan may have at most 32767 steps, and none so short was found");
+    return {std::nullopt, {}, goal_.explain_failure(store_.size())};
+  }
+
+ private:
+  SearchOutcome found() { return {std::move(successor_.prefix), std::move(successor_.state), {}}; }
+
+  // Stores the state in successor_, evaluates it and queues what can follow. True: it is a goal state.
+  bool take_up(NodeId parent, Transition transition) {
+    PlanPrefix& prefix = successor_.prefix;
+    if (prefix.steps.size() + 2 > kMaxSteps) {
+      too_long_ = true;
+      return false;
+    }
+    code_.clear();
+    const auto fresh = std::span(prefix.constraints).last(successor_.new_constraints);
+    for (const StepConstraint& constraint : fresh) encode(constraint, options_.epsilon, bounds_, code_);
+    const NodeId node = store_.add(successor_.state, parent, transition, code_);
+    prefix.node = node;
+    if (options_.dominance) dominance_.insert(node, successor_.state, prefix);
+    if (goal_.reached(successor_.state, prefix)) return true;
+
+    watch_.poll();
+    watch_.evaluations(++statistics_.evaluated);
+    heuristic_.evaluate(successor_.state, prefix.running_actions, prefix.timed_done, estimate_);
+    if (!estimate_.dead_end) expand(prefix);
+    account();
+    return false;
+  }
+
+  void expand(const PlanPrefix& prefix) {
+    ++statistics_.expanded;
+    const Priority priority{estimate_.steps, estimate_.cost};
+    if (!best_ || priority < *best_) {
+      best_ = priority;
+      open_.boost();
+    }
+    candidates_.clear();
+    for (const ActionId action : prefix.running_actions) candidates_.push_back(task_.actions[action].end);
+    tree_.collect(store_.state(prefix.node), candidates_);
+    if (prefix.timed_done < task_.timed_steps.size()) {
+      candidates_.push_back(task_.timed_steps[prefix.timed_done].snap);
+    }
+    if (options_.seed != 0) std::ranges::shuffle(candidates_, random_);
+    std::ranges::sort(estimate_.preferred);
+    for (const SnapId snap : candidates_) {
+      if (!builder_.applicable(prefix, snap)) continue;
+      const bool preferred =
+          options_.preferred_operators && std::ranges::binary_search(estimate_.preferred, snap);
+      open_.push(priority, preferred, {prefix.node, snap});
+      ++statistics_.generated;
+    }
+  }
+
+  void account() {
+    statistics_.bytes_per_state = store_.mean_bytes_per_state();
+    watch_.memory(store_.bytes() + open_.bytes() + dominance_.bytes());
+    if (statistics_.expanded % 1024 == 0) watch_.progress(statistics_);
+  }
+
+  const Task& task_;
+  Heuristic& heuristic_;
+  const Options& options_;
+  Watch& watch_;
+  Statistics& statistics_;
+  StateStore store_;
+  BoundTable bounds_;
+  TemporalCheck check_;
+  SuccessorBuilder builder_;
+  Dominance dominance_;
+  SuccessorTree tree_;
+  GoalTest goal_;
+  OpenList open_;
+  std::mt19937_64 random_;
+
+  PlanPrefix prefix_;  // of the entry's parent
+  Successor successor_;
+  Estimate estimate_;
+  std::optional<Priority> best_;
+  std::vector<SnapId> candidates_;
+  std::vector<std::uint8_t> code_;
+  bool too_long_ = false;
+};
+
+}  // namespace
+
+SearchOutcome search(const Task& task, Heuristic& heuristic, const Options& options, Watch& watch,
+                     Statistics& statistics) {
+  return BestFirstSearch(task, heuristic, options, watch, statistics).run();
+}
+
+}  // namespace roci::planner::temporal_pddl

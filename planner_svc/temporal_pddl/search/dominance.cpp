@@ -1,0 +1,166 @@
+#include "planner_svc/temporal_pddl/search/dominance.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+std::uint64_t mix(std::uint64_t h) {
+  h ^= h >> 33;
+  h *= 0xff51afd7ed558ccdull;
+  h ^= h >> 33;
+  h *= 0xc4ceb9fe1a85ec53ull;
+  return h ^ h >> 33;
+}
+
+Ticks plus(Ticks time, Ticks more) { return time == kNoPath ? kNoPath : time + more; }
+
+// Positions in prefix.running, ascending by action.
+std::vector<std::size_t> by_action(const PlanPrefix& prefix) {
+  std::vector<std::size_t> order(prefix.running.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return prefix.running[i].action; });
+  return order;
+}
+
+bool same_running(const PlanPrefix& a, const PlanPrefix& b) {
+  return std::ranges::is_permutation(a.running_actions, b.running_actions);
+}
+
+}  // namespace
+
+Dominance::Dominance(const Task& task, const StateStore& store, const BoundTable& bounds, TemporalCheck& check,
+                     Duration epsilon)
+    : task_(task),
+      store_(store),
+      bounds_(bounds),
+      check_(check),
+      epsilon_(epsilon),
+      slots_(1024),
+      scratch_(task.variables()) {}
+
+std::uint32_t Dominance::hash(StateView state, const PlanPrefix& prefix) {
+  std::uint64_t h = prefix.timed_done;
+  for (const Word word : state) h = mix(h ^ word);
+  for (const ActionId action : prefix.running_actions) h += mix(action.value + 0x9e3779b97f4a7c15ull);
+  return static_cast<std::uint32_t>(mix(h));
+}
+
+bool Dominance::dominated(StateView state, const PlanPrefix& prefix) {
+  const std::uint32_t h = hash(state, prefix);
+  const std::size_t mask = slots_.size() - 1;
+  Profile fresh;
+  std::size_t compared = 0;
+  for (std::size_t slot = h & mask; !slots_[slot].node.is_none(); slot = (slot + 1) & mask) {
+    const NodeId node = slots_[slot].node;
+    if (slots_[slot].hash != h || !std::ranges::equal(store_.state(node), state)) continue;
+    rebuild(task_, store_, bounds_, epsilon_, node, other_);
+    if (other_.timed_done != prefix.timed_done || !same_running(other_, prefix)) continue;
+    if (compared == 0) fresh = profile(prefix);
+    if (no_worse(profile(other_), fresh)) return true;
+    if (++compared == kMaxComparisons) return false;
+  }
+  return false;
+}
+
+void Dominance::insert(NodeId node, StateView state, const PlanPrefix& prefix) {
+  if (2 * (size_ + 1) > slots_.size()) {
+    const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(slots_.size() * 2));
+    for (const Slot& slot : old) {
+      if (!slot.node.is_none()) place(slot);
+    }
+  }
+  place({node, hash(state, prefix)});
+  ++size_;
+}
+
+void Dominance::place(Slot slot) {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = slot.hash & mask;
+  while (!slots_[at].node.is_none()) at = (at + 1) & mask;
+  slots_[at] = slot;
+}
+
+Dominance::Profile Dominance::profile(const PlanPrefix& prefix) {
+  Profile result;
+  for (const SnapId step : prefix.steps) {
+    for (const VariableId variable : task_.reads[step]) result.touched.push_back(variable);
+    for (const VariableId variable : task_.writes[step]) result.touched.push_back(variable);
+    if (task_.snaps[step].kind != SnapKind::kEnd) continue;
+    for (const VariableId variable : task_.invariant_reads[task_.snaps[step].action]) {
+      result.touched.push_back(variable);
+    }
+  }
+  std::ranges::sort(result.touched);
+  result.touched.erase(std::unique(result.touched.begin(), result.touched.end()), result.touched.end());
+
+  const auto order = by_action(prefix);
+  const auto add_source = [&](const std::vector<Ticks>& distances) {
+    result.freedoms.push_back(freedoms(prefix, distances, result.touched));
+    auto& starts = result.starts.emplace_back();
+    for (const std::size_t i : order) starts.push_back(distances[prefix.running[i].step]);
+  };
+  add_source(*check_.earliest(prefix));
+  if (prefix.running.empty()) return result;
+  const Stn network = TemporalCheck::network(prefix);
+  for (const std::size_t i : order) add_source(*network.longest_from(prefix.running[i].step));
+  const auto latest = check_.latest(prefix);
+  for (const std::size_t i : order) result.latest.push_back(latest[prefix.running[i].step]);
+  return result;
+}
+
+std::vector<Dominance::Freedom> Dominance::freedoms(const PlanPrefix& prefix, const std::vector<Ticks>& distances,
+                                                    const std::vector<VariableId>& touched) {
+  for (const VariableId variable : touched) scratch_[variable] = {};
+  const Ticks epsilon = epsilon_.count();
+  for (std::size_t i = 0; i < prefix.steps.size(); ++i) {
+    const SnapId step = prefix.steps[i];
+    const Ticks at = distances[i];
+    for (const VariableId variable : task_.reads[step]) {
+      Freedom& freedom = scratch_[variable];
+      freedom.change = std::max(freedom.change, plus(at, epsilon));
+      freedom.erase = std::max(freedom.erase, plus(at, epsilon));
+    }
+    if (task_.snaps[step].kind == SnapKind::kEnd) {
+      for (const VariableId variable : task_.invariant_reads[task_.snaps[step].action]) {
+        scratch_[variable].erase = std::max(scratch_[variable].erase, at);
+      }
+    }
+    for (const VariableId variable : task_.writes[step]) {
+      Freedom& freedom = scratch_[variable];
+      freedom.read = std::max(freedom.read, at);
+      freedom.change = std::max(freedom.change, plus(at, epsilon));
+      freedom.erase = std::max(freedom.erase, plus(at, epsilon));
+    }
+  }
+  std::vector<Freedom> result;
+  for (const VariableId variable : touched) result.push_back(scratch_[variable]);
+  return result;
+}
+
+bool Dominance::no_worse(const Profile& stored, const Profile& fresh) {
+  for (std::size_t i = 0; i < stored.latest.size(); ++i) {
+    if (stored.latest[i] < fresh.latest[i]) return false;
+  }
+  for (std::size_t source = 0; source < stored.starts.size(); ++source) {
+    for (std::size_t i = 0; i < stored.starts[source].size(); ++i) {
+      if (stored.starts[source][i] > fresh.starts[source][i]) return false;
+    }
+  }
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < stored.touched.size(); ++i) {
+    while (j < fresh.touched.size() && fresh.touched[j] < stored.touched[i]) ++j;
+    const bool both = j < fresh.touched.size() && fresh.touched[j] == stored.touched[i];
+    for (std::size_t source = 0; source < stored.freedoms.size(); ++source) {
+      const Freedom& a = stored.freedoms[source][i];
+      const Freedom b = both ? fresh.freedoms[source][j] : Freedom{};
+      if (a.read > b.read || a.change > b.change || a.erase > b.erase) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,64 @@
+// The states that the search has stored: packed state, parent, operator, and the few constraints of the last steps.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/task/ids.hpp"
+#include "planner_svc/temporal_pddl/task/state_layout.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+using NodeId = Id<struct NodeTag>;
+
+// How a state was reached: by a snap action, and, if it is compressed, the end of the same action at once.
+struct Transition {
+  SnapId snap;
+  bool compressed = false;
+};
+
+// Nodes live in blocks, so that nothing is ever copied to a larger place and no memory is held in reserve for more
+// than one block.
+class StateStore {
+ public:
+  explicit StateStore(std::size_t words_per_state) : words_(words_per_state) {}
+
+  // `code`: the serialized constraints of the transition's steps. The first node is the root: its parent is none.
+  NodeId add(StateView state, NodeId parent, Transition transition, std::span<const std::uint8_t> code);
+
+  StateView state(NodeId node) const;
+  NodeId parent(NodeId node) const { return head(node).parent; }
+  Transition transition(NodeId node) const;
+  std::span<const std::uint8_t> code(NodeId node) const;
+
+  std::size_t size() const { return size_; }
+  std::size_t bytes() const;             // allocated
+  double mean_bytes_per_state() const;  // used
+
+ private:
+  struct Head {
+    NodeId parent;
+    std::uint32_t operation = 0;  // 2 · snap + (compressed ? 1 : 0)
+    std::uint32_t code_block = 0;
+    std::uint16_t code_offset = 0;
+    std::uint16_t code_length = 0;
+  };
+  static constexpr std::size_t kNodesPerBlock = 4096;
+  static constexpr std::size_t kCodeBlockBytes = 65536;
+
+  const Head& head(NodeId node) const {
+    return heads_[node.index() / kNodesPerBlock][node.index() % kNodesPerBlock];
+  }
+
+  std::size_t words_;
+  std::size_t size_ = 0;
+  std::size_t code_bytes_ = 0;
+  std::size_t open_code_ = kCodeBlockBytes;  // bytes used of the last block
+  std::vector<std::unique_ptr<Head[]>> heads_;
+  std::vector<std::unique_ptr<Word[]>> states_;
+  std::vector<std::unique_ptr<std::uint8_t[]>> codes_;
+};
+
+}  // namespace roci::planner::temporal_pddl

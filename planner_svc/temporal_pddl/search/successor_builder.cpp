@@ -1,0 +1,99 @@
+#include "planner_svc/temporal_pddl/search/successor_builder.hpp"
+
+#include <algorithm>
+
+namespace roci::planner::temporal_pddl {
+
+double SuccessorBuilder::seconds_of(const Running& running) const {
+  const auto bounds = semantics_.duration(running.action, store_.state(running.before), std::nullopt);
+  return bounds ? bounds->seconds : 0;
+}
+
+bool SuccessorBuilder::applicable(const PlanPrefix& prefix, SnapId snap_id) const {
+  const Snap& snap = task_.snaps[snap_id];
+  const StateView state = store_.state(prefix.node);
+  switch (snap.kind) {
+    case SnapKind::kTimedLiteral:
+      return prefix.timed_done < task_.timed_steps.size() && task_.timed_steps[prefix.timed_done].snap == snap_id;
+    case SnapKind::kInstant:
+      return semantics_.applicable(snap_id, state, 0);
+    case SnapKind::kStart: {
+      if (std::ranges::count(prefix.running_actions, snap.action) > 0) return false;
+      const auto bounds = semantics_.duration(snap.action, state, std::nullopt);
+      return bounds && semantics_.applicable(snap_id, state, bounds->seconds);
+    }
+    case SnapKind::kEnd: {
+      const auto running = std::ranges::find(prefix.running, snap.action, &Running::action);
+      return running != prefix.running.end() && semantics_.applicable(snap_id, state, seconds_of(*running));
+    }
+  }
+  return false;
+}
+
+Rejection SuccessorBuilder::build(const PlanPrefix& prefix, SnapId snap_id, Successor& successor) {
+  const Snap& snap = task_.snaps[snap_id];
+  const StateView before = store_.state(prefix.node);
+  successor.transition = {snap_id, false};
+  successor.state.assign(before.begin(), before.end());
+  successor.prefix = prefix;
+  const std::size_t constraints = prefix.constraints.size();
+  bool possible = false;
+  switch (snap.kind) {
+    case SnapKind::kTimedLiteral:
+    case SnapKind::kInstant:
+      possible = take(snap_id, 0, successor);
+      break;
+    case SnapKind::kStart:
+      possible = start(snap.action, prefix.node, successor);
+      break;
+    case SnapKind::kEnd: {
+      const auto running = std::ranges::find(prefix.running, snap.action, &Running::action);
+      possible = end(snap.action, store_.state(running->before), successor);
+      break;
+    }
+  }
+  if (!possible) return Rejection::kLogical;
+  successor.new_constraints = successor.prefix.constraints.size() - constraints;
+  return check_.earliest(successor.prefix) ? Rejection::kNone : Rejection::kTemporal;
+}
+
+// One step: orderings, effects, invariants of what runs then.
+bool SuccessorBuilder::take(SnapId snap, double seconds, Successor& successor) {
+  PlanPrefix& prefix = successor.prefix;
+  orderings_.add(prefix.steps, snap, prefix.running_actions, prefix.constraints);
+  append_step(task_, snap, prefix.node, prefix);
+  semantics_.apply(snap, seconds, successor.state);
+  return running_invariants_hold(successor);
+}
+
+bool SuccessorBuilder::start(ActionId id, NodeId before, Successor& successor) {
+  const Action& action = task_.actions[id];
+  const StateView state = store_.state(before);
+  const bool compressed =
+      action.compression_safe && std::ranges::none_of(task_.absent_for_compression[id], [&](FactId fact) {
+        return task_.layout.holds(state, fact);
+      });
+  const auto bounds = semantics_.duration(id, state, std::nullopt);
+  if (!bounds || !take(action.start, bounds->seconds, successor)) return false;
+  if (!compressed) return true;
+  successor.transition.compressed = true;
+  return semantics_.applicable(action.end, successor.state, bounds->seconds) && end(id, state, successor);
+}
+
+bool SuccessorBuilder::end(ActionId id, StateView before_start, Successor& successor) {
+  const auto bounds = semantics_.duration(id, before_start, StateView(successor.state));
+  if (!bounds || !take(task_.actions[id].end, bounds->seconds, successor)) return false;
+  PlanPrefix& prefix = successor.prefix;
+  prefix.constraints.push_back(
+      {prefix.start_of.back(), static_cast<std::uint32_t>(prefix.steps.size() - 1), bounds->min, bounds->max});
+  return true;
+}
+
+bool SuccessorBuilder::running_invariants_hold(const Successor& successor) const {
+  return std::ranges::all_of(successor.prefix.running, [&](const Running& running) {
+    const bool measured = !task_.numeric_invariants[running.action].empty();
+    return semantics_.invariants_hold(running.action, successor.state, measured ? seconds_of(running) : 0);
+  });
+}
+
+}  // namespace roci::planner::temporal_pddl

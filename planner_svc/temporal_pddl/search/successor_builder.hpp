@@ -1,0 +1,50 @@
+// From a state and a snap action to the next state, if there is one.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/constraints/orderings.hpp"
+#include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
+#include "planner_svc/temporal_pddl/task/semantics.hpp"
+#include "planner_svc/temporal_pddl/search/state_store.hpp"
+#include "planner_svc/temporal_pddl/search/temporal_check.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+enum class Rejection { kNone, kLogical, kTemporal };
+
+struct Successor {
+  Transition transition;
+  std::vector<Word> state;
+  PlanPrefix prefix;            // of the new state; its node is not set
+  std::size_t new_constraints = 0;  // how many of prefix.constraints the transition added, at their end
+};
+
+class SuccessorBuilder {
+ public:
+  SuccessorBuilder(const Task& task, const StateStore& store, TemporalCheck& check, Duration epsilon)
+      : task_(task), store_(store), check_(check), semantics_(task), orderings_(task, epsilon) {}
+
+  // Is it worth a try? Conditions hold, and an end belongs to a running action (R11), a start does not, the timed
+  // literal is the next one.
+  bool applicable(const PlanPrefix& prefix, SnapId snap) const;
+  // The state after an applicable snap action: all invariants hold (R13) and the plan can be scheduled (R25). A
+  // compression safe action is ended at once (R14).
+  Rejection build(const PlanPrefix& prefix, SnapId snap, Successor& successor);
+
+ private:
+  bool take(SnapId snap, double seconds, Successor& successor);
+  bool start(ActionId action, NodeId before, Successor& successor);
+  bool end(ActionId action, StateView before_start, Successor& successor);
+  bool running_invariants_hold(const Successor& successor) const;
+  double seconds_of(const Running& running) const;
+
+  const Task& task_;
+  const StateStore& store_;
+  TemporalCheck& check_;
+  Semantics semantics_;
+  Orderings orderings_;
+};
+
+}  // namespace roci::planner::temporal_pddl

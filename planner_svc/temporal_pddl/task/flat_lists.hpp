@@ -1,0 +1,40 @@
+// Many short lists in two vectors: no allocation and no pointer per list.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace roci::planner::temporal_pddl {
+
+// Lists are appended in order and never change. T is a plain value.
+template <typename T>
+class FlatLists {
+ public:
+  // Appends one list; its index is the number of lists before.
+  void push_back(std::span<const T> list) {
+    items_.insert(items_.end(), list.begin(), list.end());
+    ends_.push_back(static_cast<std::uint32_t>(items_.size()));
+  }
+
+  std::span<const T> operator[](std::size_t list) const {
+    const std::size_t begin = list == 0 ? 0 : ends_[list - 1];
+    return std::span<const T>(items_).subspan(begin, ends_[list] - begin);
+  }
+  template <typename IdType>
+  std::span<const T> operator[](IdType list) const
+    requires requires { list.index(); }
+  {
+    return (*this)[list.index()];
+  }
+
+  std::size_t size() const { return ends_.size(); }
+  std::size_t bytes() const { return items_.capacity() * sizeof(T) + ends_.capacity() * sizeof(std::uint32_t); }
+
+ private:
+  std::vector<T> items_;
+  std::vector<std::uint32_t> ends_;
+};
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,82 @@
+// Linear expressions over numeric state variables, and the conditions and effects made of them (R3, R4).
+#pragma once
+
+#include <bit>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/task/ids.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+// Σ weight · value(variable) + duration_weight · ?duration + constant. Terms are sorted by variable, none is 0.
+struct LinearExpression {
+  struct Term {
+    NumberId variable;
+    double weight = 0;
+    auto operator<=>(const Term&) const = default;
+  };
+  std::vector<Term> terms;
+  double duration_weight = 0;
+  double constant = 0;
+
+  bool is_constant() const { return terms.empty() && duration_weight == 0; }
+  auto operator<=>(const LinearExpression&) const = default;
+};
+
+LinearExpression sum(const LinearExpression& a, const LinearExpression& b);
+LinearExpression scaled(const LinearExpression& a, double factor);
+
+using Word = std::uint64_t;
+
+// The values of the numeric variables of one state, as they lie in it: one word each.
+class NumbersView {
+ public:
+  explicit NumbersView(std::span<const Word> words) : words_(words) {}
+  double operator[](NumberId number) const { return std::bit_cast<double>(words_[number.index()]); }
+  std::size_t size() const { return words_.size(); }
+
+ private:
+  std::span<const Word> words_;
+};
+
+// `duration` in seconds. NaN if a variable that it needs has no value yet.
+double evaluate(const LinearExpression& expression, NumbersView values, double duration);
+
+// expression ∘ 0
+enum class Comparator : std::uint8_t { kGreaterEqual, kGreater, kEqual };
+
+struct NumericCondition {
+  ExpressionId expression;
+  Comparator comparator = Comparator::kGreaterEqual;
+  auto operator<=>(const NumericCondition&) const = default;
+};
+
+// `difference` ∘ 0. kEqual allows for rounding by 1e-9; a NaN satisfies nothing.
+bool holds(Comparator comparator, double difference);
+
+// variable := expression, or variable += expression.
+struct NumericEffect {
+  NumberId variable;
+  bool assigns = false;
+  ExpressionId expression;
+  auto operator<=>(const NumericEffect&) const = default;
+};
+
+// Each distinct expression once: actions of one schema mostly share theirs.
+class ExpressionPool {
+ public:
+  ExpressionId intern(const LinearExpression& expression);
+  const LinearExpression& operator[](ExpressionId id) const { return expressions_[id]; }
+  std::size_t size() const { return expressions_.size(); }
+
+ private:
+  IdVector<ExpressionId, LinearExpression> expressions_;
+  std::map<LinearExpression, ExpressionId> ids_;
+};
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,40 @@
+// What a snap action asks of a state and does to it.
+#pragma once
+
+#include <optional>
+
+#include "planner_svc/temporal_pddl/task/task.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+struct DurationBounds {
+  Duration min{0};
+  Duration max = kUnbounded;
+  double seconds = 0;  // exact ?duration where it is fixed, else the least one
+};
+
+class Semantics {
+ public:
+  explicit Semantics(const Task& task) : task_(task) {}
+
+  // pre⊢ or pre⊣. seconds: the value of ?duration.
+  bool applicable(SnapId snap, StateView state, double seconds) const;
+  // pre↔
+  bool invariants_hold(ActionId action, StateView state, double seconds) const;
+  // All effects at once, seen from the state before.
+  void apply(SnapId snap, double seconds, MutableState state) const;
+  // None: no duration satisfies all bounds. A bound measured at the end needs the state before the end; without one
+  // it is left out.
+  std::optional<DurationBounds> duration(ActionId action, StateView before_start,
+                                         std::optional<StateView> before_end) const;
+  bool satisfied(const Goal& goal, StateView state) const;
+  bool goal_satisfied(StateView state) const;
+
+ private:
+  bool holds_all(std::span<const FactId> facts, StateView state) const;
+  bool holds_all(std::span<const NumericCondition> conditions, StateView state, double seconds) const;
+
+  const Task& task_;
+};
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,26 @@
+#include "planner_svc/temporal_pddl/task/task.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+std::string application(const Task& task, const std::string& symbol, std::span<const ObjectId> arguments) {
+  std::string text = "(" + symbol;
+  for (const ObjectId argument : arguments) text += " " + task.objects[argument.index()];
+  return text + ")";
+}
+
+}  // namespace
+
+std::string name(const Task& task, FactId fact) {
+  const FactName& fact_name = task.fact_names[fact];
+  const std::string text = application(task, task.predicates[fact_name.predicate.index()],
+                                       task.atom_arguments[std::size_t{fact_name.atom}]);
+  return fact_name.negated ? "(not " + text + ")" : text;
+}
+
+std::string name(const Task& task, ActionId action) {
+  return application(task, task.schemas[task.actions[action].schema.index()], task.action_arguments[action]);
+}
+
+}  // namespace roci::planner::temporal_pddl

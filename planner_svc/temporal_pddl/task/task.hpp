@@ -1,0 +1,115 @@
+// The ground planning task: ⟨P, V, A, I, TILs, G⟩ of Stellar section 2.1 as flat, immutable tables.
+//
+// Each durative action is split into two snap actions, its start and its end (R10). Static facts and constant fluents
+// are gone; a negative condition is a condition on a fact of its own.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/pddl/ast.hpp"
+#include "planner_svc/temporal_pddl/plan/result.hpp"
+#include "planner_svc/temporal_pddl/task/flat_lists.hpp"
+#include "planner_svc/temporal_pddl/task/ids.hpp"
+#include "planner_svc/temporal_pddl/task/numbers.hpp"
+#include "planner_svc/temporal_pddl/task/state_layout.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+// What temporal constraints are about (v of R22, R23): a fact or a number.
+using VariableId = Id<struct VariableTag>;
+
+enum class SnapKind : std::uint8_t { kStart, kEnd, kInstant, kTimedLiteral };
+
+struct Snap {
+  SnapKind kind = SnapKind::kStart;
+  ActionId action;  // none for kTimedLiteral
+};
+
+// The times at which a snap action may happen at all, from one-off windows (R33, R34).
+struct TimeWindow {
+  Duration open{0};
+  Duration close = kUnbounded;
+  bool operator==(const TimeWindow&) const = default;
+};
+
+// ?duration OP expression (in seconds), evaluated in the state before the start or before the end.
+struct DurationRule {
+  pddl::ComparisonOperator op = pddl::ComparisonOperator::kEqual;
+  ExpressionId bound;
+  pddl::TimePoint at = pddl::TimePoint::kStart;
+};
+
+struct Action {
+  SchemaId schema;
+  SnapId start;
+  SnapId end;                          // == start: a plain PDDL action
+  Duration min_duration{0};            // constant bounds; DurationRules may narrow them
+  Duration max_duration = kUnbounded;
+  bool compression_safe = false;       // see grounding/compression.hpp
+
+  bool instantaneous() const { return start == end; }
+};
+
+struct TimedStep {
+  SnapId snap;
+  Duration time{0};
+};
+
+struct Goal {
+  std::vector<FactId> facts;
+  std::vector<NumericCondition> comparisons;
+};
+
+// A ground atom, for names in reports.
+struct FactName {
+  std::uint32_t atom = 0;  // index of Task::atom_arguments
+  PredicateId predicate;
+  bool negated = false;
+};
+
+struct Task {
+  // ---- Names
+  std::vector<std::string> objects, predicates, functions, schemas;
+  IdVector<FactId, FactName> fact_names;
+  FlatLists<ObjectId> atom_arguments;
+  FlatLists<ObjectId> action_arguments;  // by ActionId, the parameters of the schema
+  std::vector<std::string> number_names;
+
+  // ---- Snap actions, by SnapId
+  IdVector<SnapId, Snap> snaps;
+  FlatLists<FactId> conditions;                  // pre⊢ or pre⊣
+  FlatLists<NumericCondition> comparisons;       // likewise
+  FlatLists<FactId> adds, deletes;               // deletes first, then adds
+  FlatLists<NumericEffect> numeric_effects;      // all evaluated in the state before
+  FlatLists<VariableId> reads, writes;           // for R22, R23
+  IdVector<SnapId, TimeWindow> windows;
+
+  // ---- Actions, by ActionId
+  IdVector<ActionId, Action> actions;
+  FlatLists<FactId> invariants;                        // pre↔
+  FlatLists<NumericCondition> numeric_invariants;
+  FlatLists<VariableId> invariant_reads;
+  FlatLists<DurationRule> duration_rules;
+  FlatLists<FactId> absent_for_compression;  // must be false before the start; see Action::compression_safe
+
+  // ---- The rest
+  std::vector<TimedStep> timed_steps;  // by time; those that one-off windows replace are not among them
+  std::vector<Goal> goals;             // alternatives
+  ExpressionPool expressions;
+  StateLayout layout;
+  std::vector<Word> initial_state;
+
+  std::size_t variables() const { return fact_names.size() + number_names.size(); }
+  VariableId variable(FactId fact) const { return VariableId(fact.index()); }
+  VariableId variable(NumberId number) const { return VariableId(fact_names.size() + number.index()); }
+};
+
+// "(at rover w1)", "(not (open door))"
+std::string name(const Task& task, FactId fact);
+// "(drive rover w1 w2)"
+std::string name(const Task& task, ActionId action);
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,23 @@
+#include "planner_svc/temporal_pddl/watch.hpp"
+
+#include <algorithm>
+
+#include "planner_svc/temporal_pddl/grounding/refusal.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+void Watch::poll() const {
+  if (cancelled()) throw Refusal(Verdict::kCancelled, "cancelled by the caller");
+  if (budget_.out_of_time && budget_.out_of_time()) throw Refusal(Verdict::kTimeout, "the time limit is reached");
+}
+
+void Watch::memory(std::size_t bytes) {
+  peak_bytes_ = std::max(peak_bytes_, bytes);
+  if (bytes > budget_.memory_bytes) throw Refusal(Verdict::kOutOfMemory, "the memory limit is reached");
+}
+
+void Watch::evaluations(std::size_t count) const {
+  if (count > budget_.evaluations) throw Refusal(Verdict::kTimeout, "the limit of heuristic evaluations is reached");
+}
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,38 @@
+// Polls budget and cancellation from inside long loops.
+#pragma once
+
+#include <cstddef>
+
+#include "planner_svc/temporal_pddl/planner.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+class Watch {
+ public:
+  Watch(const Budget& budget, const Monitor& monitor) : budget_(budget), monitor_(monitor) {}
+
+  // Throws Refusal: kCancelled, kTimeout.
+  void poll() const;
+  // As poll(), but only once in a few hundred calls: for steps of about a microsecond.
+  void step() {
+    if (++steps_ % 256 == 0) poll();
+  }
+  // Throws Refusal (kOutOfMemory) if the engine's memory would exceed the budget; keeps the peak.
+  void memory(std::size_t bytes);
+  // Throws Refusal (kTimeout) if that many heuristic evaluations exceed the budget.
+  void evaluations(std::size_t count) const;
+
+  void progress(const Statistics& statistics) const {
+    if (monitor_.progress) monitor_.progress(statistics);
+  }
+  bool cancelled() const { return monitor_.cancelled && monitor_.cancelled(); }
+  std::size_t peak_bytes() const { return peak_bytes_; }
+
+ private:
+  const Budget& budget_;
+  const Monitor& monitor_;
+  std::size_t steps_ = 0;
+  std::size_t peak_bytes_ = 0;
+};
+
+}  // namespace roci::planner::temporal_pddl
