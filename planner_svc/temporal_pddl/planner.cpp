@@ -19,7 +19,8 @@ namespace {
 void require_model(const pddl::Domain& domain, const pddl::Problem& problem) {
   for (const auto& finding : pddl::check(domain)) throw Refusal(Verdict::kInvalidInput, finding);
   for (const auto& finding : pddl::check(problem, domain)) throw Refusal(Verdict::kInvalidInput, finding);
-  for (const auto& finding : pddl::forbidden_effects(domain, problem)) throw Refusal(Verdict::kUnsupported, finding);
+  for (const auto& finding : pddl::forbidden_effects(domain, problem))
+    throw Refusal(Verdict::kUnsupported, finding);
 }
 
 void describe(const Task& task, Statistics& statistics) {
@@ -47,8 +48,8 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
 
 }  // namespace
 
-Result plan(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions, const Budget& budget,
-            const Monitor& monitor, const Options& options) {
+Result plan(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
+            const Budget& budget, const Monitor& monitor, const Options& options) {
   Result result;
   Watch watch(budget, monitor);
   try {

@@ -8,7 +8,8 @@ namespace roci::planner::temporal_pddl {
 
 void Watch::poll() const {
   if (cancelled()) throw Refusal(Verdict::kCancelled, "cancelled by the caller");
-  if (budget_.out_of_time && budget_.out_of_time()) throw Refusal(Verdict::kTimeout, "the time limit is reached");
+  if (budget_.out_of_time && budget_.out_of_time())
+    throw Refusal(Verdict::kTimeout, "the time limit is reached");
 }
 
 void Watch::memory(std::size_t bytes) {
@@ -17,7 +18,8 @@ void Watch::memory(std::size_t bytes) {
 }
 
 void Watch::evaluations(std::size_t count) const {
-  if (count > budget_.evaluations) throw Refusal(Verdict::kTimeout, "the limit of heuristic evaluations is reached");
+  if (count > budget_.evaluations)
+    throw Refusal(Verdict::kTimeout, "the limit of heuristic evaluations is reached");
 }
 
 }  // namespace roci::planner::temporal_pddl

@@ -36,13 +36,15 @@ std::uint32_t BoundTable::intern(Duration bound) {
   return place->second;
 }
 
-void encode(const StepConstraint& constraint, Duration epsilon, BoundTable& bounds, std::vector<std::uint8_t>& code) {
+void encode(const StepConstraint& constraint, Duration epsilon, BoundTable& bounds,
+            std::vector<std::uint8_t>& code) {
   if (constraint.from >= kMaxSteps || constraint.to >= kMaxSteps) {
     throw std::length_error("a plan has at most 32767 steps");
   }
   const Kind kind = kind_of(constraint, epsilon);
   const std::uint32_t head = constraint.to << 17 | constraint.from << 2 | kind;
-  for (std::uint32_t shift = 0; shift < 32; shift += 8) code.push_back(static_cast<std::uint8_t>(head >> shift));
+  for (std::uint32_t shift = 0; shift < 32; shift += 8)
+    code.push_back(static_cast<std::uint8_t>(head >> shift));
   if (kind == kExact || kind == kBetween) put_varint(bounds.intern(constraint.lower), code);
   if (kind == kBetween) put_varint(bounds.intern(constraint.upper), code);
 }

@@ -36,7 +36,8 @@ void Orderings::mark_new_step(SnapId next, std::span<const ActionId> running) {
 }
 
 bool Orderings::only_adds(SnapId step, VariableId variable) const {
-  return std::ranges::any_of(task_.adds[step], [&](FactId added) { return task_.variable(added) == variable; });
+  return std::ranges::any_of(task_.adds[step],
+                             [&](FactId added) { return task_.variable(added) == variable; });
 }
 
 void Orderings::add(std::span<const SnapId> steps, SnapId next, std::span<const ActionId> running,
@@ -60,7 +61,8 @@ void Orderings::add(std::span<const SnapId> steps, SnapId next, std::span<const 
       std::uint8_t& interest = interests_[variable];
       if (interest == 0) continue;
       if (interest != kEnds) (interest == kInvariant ? after : separated) = true;
-      // What lies before this step is ordered through it; except that an adding step is before no invariant's end.
+      // What lies before this step is ordered through it; except that an adding step is before no invariant's
+      // end.
       const bool ends_open = (interest & (kChange | kEnds)) != 0 && only_adds(step, variable);
       interest = ends_open ? kEnds : 0;
       if (!ends_open) --open;

@@ -1,13 +1,14 @@
 // Which earlier steps a new step must follow (R22, R23).
 //
-// Nothing is stored for this: the last modifiers and users of each variable are found by walking the plan backwards
-// (R27). For a new step j at the end of a plan:
+// Nothing is stored for this: the last modifiers and users of each variable are found by walking the plan
+// backwards (R27). For a new step j at the end of a plan:
 //  - a condition or effect on v: ε after the last step with an effect on v;
-//  - an effect on v: also ε after the steps with a condition on v since then, and, unless it only adds a fact, not
+//  - an effect on v: also ε after the steps with a condition on v since then, and, unless it only adds a
+//  fact, not
 //    before the ends of actions with an invariant on v (adding what holds anyway never hurts an invariant);
 //  - an invariant on v of an action that starts at j: not before the last step with an effect on v.
-// While an action with an invariant over several numbers runs, an effect on one of them counts as a condition on the
-// others too: every order that the constraints allow must keep the invariant.
+// While an action with an invariant over several numbers runs, an effect on one of them counts as a condition
+// on the others too: every order that the constraints allow must keep the invariant.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +29,8 @@ class Orderings {
            std::vector<StepConstraint>& constraints);
 
  private:
-  // What the new step does with a variable. kEnds: it changes it, and a later step that only adds the fact was met.
+  // What the new step does with a variable. kEnds: it changes it, and a later step that only adds the fact
+  // was met.
   enum Interest : std::uint8_t { kInvariant = 1, kRead = 2, kAdd = 4, kChange = 8, kEnds = 16 };
 
   void mark(VariableId variable, std::uint8_t interest);

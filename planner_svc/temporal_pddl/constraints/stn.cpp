@@ -25,7 +25,8 @@ std::optional<std::vector<Ticks>> Stn::longest_from(std::size_t source) const {
 
 std::optional<std::vector<Ticks>> Stn::longest_to(std::size_t target) const {
   Stn reversed(points_);
-  for (auto edge = edges_.rbegin(); edge != edges_.rend(); ++edge) reversed.require(edge->to, edge->from, edge->least);
+  for (auto edge = edges_.rbegin(); edge != edges_.rend(); ++edge)
+    reversed.require(edge->to, edge->from, edge->least);
   return reversed.longest_from(target);
 }
 

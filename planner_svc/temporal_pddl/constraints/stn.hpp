@@ -27,8 +27,8 @@ class Stn {
   }
   std::size_t points() const { return points_; }
 
-  // Raises `times` to the least values that obey all constraints and are no lower than given; points at kNoPath are
-  // free until an edge reaches them. False if there are none: a cycle of positive length.
+  // Raises `times` to the least values that obey all constraints and are no lower than given; points at
+  // kNoPath are free until an edge reaches them. False if there are none: a cycle of positive length.
   bool raise(std::vector<Ticks>& times) const;
 
   // Longest paths from `source` (itself 0), or to `target`; kNoPath where there is none. None: inconsistent.

@@ -6,7 +6,8 @@ namespace roci::planner::temporal_pddl {
 
 namespace {
 
-std::uint32_t first_from(const std::vector<std::uint32_t>& steps, std::uint32_t from, std::uint32_t otherwise) {
+std::uint32_t first_from(const std::vector<std::uint32_t>& steps, std::uint32_t from,
+                         std::uint32_t otherwise) {
   const auto found = std::ranges::lower_bound(steps, from);
   return found == steps.end() ? otherwise : std::min(*found, otherwise);
 }
@@ -33,11 +34,13 @@ TimeBounds::TimeBounds(const Task& task, Duration epsilon)
   const auto touched = [&](VariableId variable) { return !timed_[variable].empty(); };
   for (std::size_t i = 0; i < task.snaps.size(); ++i) {
     const SnapId snap(i);
-    touched_[snap] = std::ranges::any_of(task.reads[snap], touched) || std::ranges::any_of(task.writes[snap], touched);
+    touched_[snap] =
+        std::ranges::any_of(task.reads[snap], touched) || std::ranges::any_of(task.writes[snap], touched);
   }
   for (const Action& action : task.actions) {
     const ActionId id = task.snaps[action.start].action;
-    if (std::ranges::any_of(task.invariant_reads[id], touched)) touched_[action.start] = touched_[action.end] = true;
+    if (std::ranges::any_of(task.invariant_reads[id], touched))
+      touched_[action.start] = touched_[action.end] = true;
     auto& start = windows_[action.start];
     const auto& end = windows_[action.end];
     if (end.close != kUnbounded) start.close = std::min(start.close, end.close - action.min_duration);

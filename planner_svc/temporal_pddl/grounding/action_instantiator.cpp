@@ -25,7 +25,8 @@ void normalise(GroundEffects& effects) {
   effects.deletes = std::move(deletes);
 }
 
-// Rounds to microseconds so that no allowed duration is lost by more than the rounding of the numbers themselves.
+// Rounds to microseconds so that no allowed duration is lost by more than the rounding of the numbers
+// themselves.
 Duration microseconds(double seconds, double (*round)(double)) {
   constexpr double kLargest = 9e18;
   const double scaled = seconds * 1e6;
@@ -40,7 +41,8 @@ void ActionInstantiator::instantiate(SchemaId schema, const LiftedAction& action
                                      std::vector<GroundAction>& result) {
   GroundAction ground;
   ground.schema = schema;
-  ground.arguments.assign(binding.begin(), binding.begin() + static_cast<std::ptrdiff_t>(action.parameters.size()));
+  ground.arguments.assign(binding.begin(),
+                          binding.begin() + static_cast<std::ptrdiff_t>(action.parameters.size()));
   ground.durative = action.durative;
   if (!set_duration(action, binding, ground)) return;
   const Disjunction at_start = formulas_.ground(action.at_start, binding);
@@ -78,7 +80,8 @@ void ActionInstantiator::instantiate(SchemaId schema, const LiftedAction& action
   }
 }
 
-bool ActionInstantiator::set_duration(const LiftedAction& action, const Binding& binding, GroundAction& ground) {
+bool ActionInstantiator::set_duration(const LiftedAction& action, const Binding& binding,
+                                      GroundAction& ground) {
   ground.max_duration = action.durative ? kUnbounded : Duration{0};
   for (const auto& rule : action.duration) {
     const auto bound = formulas_.linear(rule.bound, binding);
@@ -127,7 +130,8 @@ bool ActionInstantiator::collect_effect(const LiftedEffect& effect, bool at_end,
     for (const auto& end : before_end) conditional.fires.emplace_back(start, end);
   }
   if (conditional.fires.empty()) return true;
-  if (std::ranges::any_of(conditional.fires, [](const auto& c) { return c.first.empty() && c.second.empty(); })) {
+  if (std::ranges::any_of(conditional.fires,
+                          [](const auto& c) { return c.first.empty() && c.second.empty(); })) {
     return add_effect(effect, binding, effects_of(unconditional_));
   }
   for (auto& same : conditionals_) {
@@ -148,7 +152,8 @@ bool ActionInstantiator::collect_effect(const LiftedEffect& effect, bool at_end,
   return true;
 }
 
-bool ActionInstantiator::add_effect(const LiftedEffect& effect, const Binding& binding, GroundEffects& effects) {
+bool ActionInstantiator::add_effect(const LiftedEffect& effect, const Binding& binding,
+                                    GroundEffects& effects) {
   if (effect.kind != LiftedEffect::Kind::kNumeric) {
     const auto atom = formulas_.reached_atom(effect.atom, binding);
     if (atom) (effect.kind == LiftedEffect::Kind::kAdd ? effects.adds : effects.deletes).push_back(*atom);
@@ -170,7 +175,8 @@ bool ActionInstantiator::add_effect(const LiftedEffect& effect, const Binding& b
     case pddl::AssignmentOperator::kScaleUp:
     case pddl::AssignmentOperator::kScaleDown: {
       if (!value->is_constant()) {
-        formulas_.refuse(effect.where, "scaling by a number that changes is not linear", "scale by a constant");
+        formulas_.refuse(effect.where, "scaling by a number that changes is not linear",
+                         "scale by a constant");
       }
       const bool up = effect.op == pddl::AssignmentOperator::kScaleUp;
       if (!up && value->constant == 0) return false;

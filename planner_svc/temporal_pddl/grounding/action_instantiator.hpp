@@ -14,9 +14,10 @@ class ActionInstantiator {
  public:
   explicit ActionInstantiator(FormulaGrounder& formulas) : formulas_(formulas) {}
 
-  // Appends the ground actions of the instance: none if its conditions contradict each other, a constant that it
-  // needs is undefined or unreachable, or no duration is possible.
-  void instantiate(SchemaId schema, const LiftedAction& action, Binding& binding, std::vector<GroundAction>& result);
+  // Appends the ground actions of the instance: none if its conditions contradict each other, a constant that
+  // it needs is undefined or unreachable, or no duration is possible.
+  void instantiate(SchemaId schema, const LiftedAction& action, Binding& binding,
+                   std::vector<GroundAction>& result);
 
  private:
   // An action under construction: what is common to all variants, then one variant.

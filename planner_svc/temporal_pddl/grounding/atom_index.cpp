@@ -13,7 +13,8 @@ void AtomIndex::add(std::uint32_t atom, PredicateId predicate, std::span<const O
   }
 }
 
-std::span<const std::uint32_t> AtomIndex::of(PredicateId predicate, std::size_t position, ObjectId object) const {
+std::span<const std::uint32_t> AtomIndex::of(PredicateId predicate, std::size_t position,
+                                             ObjectId object) const {
   const Lists& lists = predicates_[predicate];
   if (lists.by_place.empty()) return {};
   return lists.by_place[position * objects_ + object.index()];

@@ -25,7 +25,8 @@ class AtomIndex {
  private:
   struct Lists {
     std::vector<std::uint32_t> all;
-    std::vector<std::vector<std::uint32_t>> by_place;  // position · objects + object; empty until the first atom
+    std::vector<std::vector<std::uint32_t>>
+        by_place;  // position · objects + object; empty until the first atom
   };
 
   std::size_t objects_;

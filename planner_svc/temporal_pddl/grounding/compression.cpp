@@ -77,7 +77,8 @@ class Analysis {
     }
     for (const std::uint32_t atom : action.end_effects.adds) {
       if (atoms_[atom].isolated(running) || only_goals_ask_[atom]) continue;
-      if (facts_[atom].deleted || facts_[atom].negated || contains(action.start_effects.adds, atom)) return result;
+      if (facts_[atom].deleted || facts_[atom].negated || contains(action.start_effects.adds, atom))
+        return result;
       if (!adders_[atom].isolated(running)) return result;
       result.absent.push_back(atom);
     }
@@ -105,7 +106,8 @@ class Analysis {
     const GroundAction& action = model_.actions[index];
     const auto start_literals = start_requirements(action);
     std::vector<GroundLiteral> end_literals;
-    std::ranges::set_union(action.at_end.literals, action.over_all.literals, std::back_inserter(end_literals));
+    std::ranges::set_union(action.at_end.literals, action.over_all.literals,
+                           std::back_inserter(end_literals));
     const Groups start_needs = needs(start_literals);
     touch_by_conditions(action.at_start, start_needs);
     touch_by_snap(action.start_effects, start_needs, start_literals);
@@ -132,15 +134,19 @@ class Analysis {
     for (const auto& comparison : conditions.comparisons) touch_by_expression(comparison.expression, needed);
   }
 
-  void touch_by_snap(const GroundEffects& effects, const Groups& needed, const std::vector<GroundLiteral>& literals) {
+  void touch_by_snap(const GroundEffects& effects, const Groups& needed,
+                     const std::vector<GroundLiteral>& literals) {
     for (const std::uint32_t atom : effects.adds) {
       atoms_[atom].by(needed);
       adders_[atom].by(needed);
       const bool only_while_false =
-          std::ranges::any_of(literals, [&](GroundLiteral literal) {
-            return literal.atom == atom ? literal.negated
-                                        : !literal.negated && intersect(groups_of_[literal.atom], groups_of_[atom]);
-          }) ||
+          std::ranges::any_of(literals,
+                              [&](GroundLiteral literal) {
+                                return literal.atom == atom
+                                           ? literal.negated
+                                           : !literal.negated &&
+                                                 intersect(groups_of_[literal.atom], groups_of_[atom]);
+                              }) ||
           (intersect(needed, groups_of_[atom]) &&
            std::ranges::none_of(literals, [&](GroundLiteral literal) { return literal.atom == atom; }));
       facts_[atom].redundantly_added = facts_[atom].redundantly_added || !only_while_false;
@@ -148,7 +154,8 @@ class Analysis {
     for (const std::uint32_t atom : effects.deletes) {
       atoms_[atom].by(needed);
       facts_[atom].deleted = true;
-      if (!std::ranges::binary_search(literals, GroundLiteral{atom, false})) facts_[atom].redundantly_deleted = true;
+      if (!std::ranges::binary_search(literals, GroundLiteral{atom, false}))
+        facts_[atom].redundantly_deleted = true;
     }
     for (const auto& effect : effects.numeric) {
       numbers_[effect.variable.index()].by(needed);

@@ -18,11 +18,12 @@ namespace roci::planner::temporal_pddl {
 class ConstantFunctions {
  public:
   // The fluents that are constant in this model, with their initial values.
-  ConstantFunctions(const pddl::Problem& problem, const std::vector<LiftedAction>& actions, const Symbols& symbols);
+  ConstantFunctions(const pddl::Problem& problem, const std::vector<LiftedAction>& actions,
+                    const Symbols& symbols);
 
-  // Asks `source` for all external functions on all typed tuples, one batch per function (R37), and appends every
-  // tuple with its answer to `used`. Throws Refusal: kFunctionUnavailable, naming function and tuple, if an answer is
-  // neither a value nor "unreachable"; kCancelled.
+  // Asks `source` for all external functions on all typed tuples, one batch per function (R37), and appends
+  // every tuple with its answer to `used`. Throws Refusal: kFunctionUnavailable, naming function and tuple,
+  // if an answer is neither a value nor "unreachable"; kCancelled.
   void load_external(FunctionSource& source, const std::function<bool()>& cancelled, const Symbols& symbols,
                      std::vector<FunctionUse>& used);
 

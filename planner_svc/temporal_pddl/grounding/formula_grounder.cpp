@@ -69,7 +69,9 @@ Disjunction FormulaGrounder::ground(const LiftedFormula& formula, Binding& bindi
              "split the action or replace the disjunction by a predicate");
     }
   };
-  const auto disjoin = [&](const LiftedFormula& part) { result = either(std::move(result), ground(part, binding)); };
+  const auto disjoin = [&](const LiftedFormula& part) {
+    result = either(std::move(result), ground(part, binding));
+  };
   switch (formula.kind) {
     case Kind::kAnd:
       result = always();
@@ -113,7 +115,9 @@ Disjunction FormulaGrounder::ground_comparison(const LiftedFormula& formula, con
   const auto left = linear(formula.sides[0], binding);
   const auto right = linear(formula.sides[1], binding);
   if (!left || !right) return {};
-  const auto difference = [&](const LinearExpression& a, const LinearExpression& b) { return sum(a, scaled(b, -1)); };
+  const auto difference = [&](const LinearExpression& a, const LinearExpression& b) {
+    return sum(a, scaled(b, -1));
+  };
   LinearExpression expression = difference(*left, *right);
   Comparator comparator = Comparator::kEqual;
   switch (formula.comparison) {
@@ -135,7 +139,8 @@ Disjunction FormulaGrounder::ground_comparison(const LiftedFormula& formula, con
   return {Conjunction{{}, {{expressions_.intern(expression), comparator}}}};
 }
 
-std::optional<LinearExpression> FormulaGrounder::linear(const LiftedExpression& expression, const Binding& binding) {
+std::optional<LinearExpression> FormulaGrounder::linear(const LiftedExpression& expression,
+                                                        const Binding& binding) {
   LinearExpression result;
   switch (expression.kind) {
     case LiftedExpression::Kind::kNumber:
@@ -161,7 +166,8 @@ std::optional<LinearExpression> FormulaGrounder::linear(const LiftedExpression& 
     const auto operand = linear(expression.operands[i], binding);
     if (!operand) return std::nullopt;
     if (i == 0) {
-      const bool negation = expression.op == pddl::ArithmeticOperator::kSubtract && expression.operands.size() == 1;
+      const bool negation =
+          expression.op == pddl::ArithmeticOperator::kSubtract && expression.operands.size() == 1;
       result = negation ? scaled(*operand, -1) : *operand;
       continue;
     }
@@ -174,13 +180,16 @@ std::optional<LinearExpression> FormulaGrounder::linear(const LiftedExpression& 
         break;
       case pddl::ArithmeticOperator::kMultiply:
         if (!result.is_constant() && !operand->is_constant()) {
-          refuse(expression.where, "a product of numbers that change is not linear", "make one factor a constant");
+          refuse(expression.where, "a product of numbers that change is not linear",
+                 "make one factor a constant");
         }
-        result = operand->is_constant() ? scaled(result, operand->constant) : scaled(*operand, result.constant);
+        result =
+            operand->is_constant() ? scaled(result, operand->constant) : scaled(*operand, result.constant);
         break;
       case pddl::ArithmeticOperator::kDivide:
         if (!operand->is_constant()) {
-          refuse(expression.where, "division by a number that changes is not linear", "make the divisor a constant");
+          refuse(expression.where, "division by a number that changes is not linear",
+                 "make the divisor a constant");
         }
         if (operand->constant == 0) return std::nullopt;
         {
@@ -195,7 +204,8 @@ std::optional<LinearExpression> FormulaGrounder::linear(const LiftedExpression& 
   return result;
 }
 
-std::optional<std::uint32_t> FormulaGrounder::reached_atom(const LiftedAtom& atom, const Binding& binding) const {
+std::optional<std::uint32_t> FormulaGrounder::reached_atom(const LiftedAtom& atom,
+                                                           const Binding& binding) const {
   const auto found = reachability_.atoms.find(atom.predicate.value, objects_of(atom.arguments, binding));
   return found && reachability_.reached[*found] ? found : std::nullopt;
 }
@@ -204,7 +214,8 @@ NumberId FormulaGrounder::number(FunctionId function, const std::vector<ObjectId
   return NumberId(numbers_.intern(function.value, objects));
 }
 
-void FormulaGrounder::refuse(pddl::SourceLocation where, const std::string& message, const std::string& remedy) const {
+void FormulaGrounder::refuse(pddl::SourceLocation where, const std::string& message,
+                             const std::string& remedy) const {
   throw Refusal(Verdict::kUnsupported, pddl::Diagnostic{file_, where, message, remedy});
 }
 

@@ -16,8 +16,8 @@ inline constexpr std::size_t kMaxAlternatives = 256;
 
 class FormulaGrounder {
  public:
-  // `deletable`: the atoms that something may delete. Atoms that hold at first and are not among them are true for
-  // ever; what is not reached is false for ever.
+  // `deletable`: the atoms that something may delete. Atoms that hold at first and are not among them are
+  // true for ever; what is not reached is false for ever.
   FormulaGrounder(const World& world, const Reachability& reachability, const TupleTable& deletable,
                   TupleTable& numbers, ExpressionPool& expressions, const std::string& file)
       : world_(world),
@@ -37,7 +37,8 @@ class FormulaGrounder {
   NumberId number(FunctionId function, const std::vector<ObjectId>& objects);
   ExpressionId intern(const LinearExpression& expression) { return expressions_.intern(expression); }
 
-  [[noreturn]] void refuse(pddl::SourceLocation where, const std::string& message, const std::string& remedy) const;
+  [[noreturn]] void refuse(pddl::SourceLocation where, const std::string& message,
+                           const std::string& remedy) const;
 
   const World& world() const { return world_; }
 

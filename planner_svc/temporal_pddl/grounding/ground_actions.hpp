@@ -1,4 +1,5 @@
-// Ground actions as instantiation leaves them: over atoms of the reachability analysis, before facts are numbered.
+// Ground actions as instantiation leaves them: over atoms of the reachability analysis, before facts are
+// numbered.
 #pragma once
 
 #include <compare>

@@ -41,18 +41,21 @@ void require_reachable_goal(const pddl::Problem& problem, const Disjunction& bef
     }
   }
   if (blocked.empty()) blocked = " " + pddl::print(problem.goal);
-  throw Refusal(Verdict::kUnsolvable,
-                "no sequence of actions reaches, even if nothing were ever deleted and numbers did not count:" + blocked);
+  throw Refusal(
+      Verdict::kUnsolvable,
+      "no sequence of actions reaches, even if nothing were ever deleted and numbers did not count:" +
+          blocked);
 }
 
 }  // namespace
 
 Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
-            const Options& options, Watch& watch, std::vector<FunctionUse>& used) {
+                 const Options& options, Watch& watch, std::vector<FunctionUse>& used) {
   Symbols symbols(domain, problem);
   const std::vector<LiftedAction> actions = lower_actions(domain, symbols);
   ConstantFunctions constants(problem, actions, symbols);
-  constants.load_external(functions, [&] { return watch.cancelled(); }, symbols, used);
+  constants.load_external(
+      functions, [&] { return watch.cancelled(); }, symbols, used);
   const World world(problem, actions, symbols, constants);
 
   GroundModel model = instantiate(domain, problem, actions, world, explore(actions, world, watch), watch);

@@ -14,15 +14,14 @@
 
 namespace roci::planner::temporal_pddl {
 
-
 struct Grounding {
   Symbols symbols;
   ConstantFunctions constants;
   Task task;
 };
 
-// Throws Refusal: kUnsupported with the place in the model; kUnsolvable naming the goal that nothing can reach;
-// kFunctionUnavailable; and what Watch throws. `used` gets every external value, whatever happens.
+// Throws Refusal: kUnsupported with the place in the model; kUnsolvable naming the goal that nothing can
+// reach; kFunctionUnavailable; and what Watch throws. `used` gets every external value, whatever happens.
 Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
                  const Options& options, Watch& watch, std::vector<FunctionUse>& used);
 

@@ -98,8 +98,8 @@ void set_initial(const pddl::Problem& problem, const World& world, const Reachab
 }  // namespace
 
 GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem,
-                        const std::vector<LiftedAction>& actions, const World& world, Reachability reachability,
-                        Watch& watch) {
+                        const std::vector<LiftedAction>& actions, const World& world,
+                        Reachability reachability, Watch& watch) {
   GroundModel model;
   const TupleTable deletable = deletable_atoms(actions, world, reachability);
   FormulaGrounder formulas(world, reachability, deletable, model.numbers, model.expressions, domain.file);

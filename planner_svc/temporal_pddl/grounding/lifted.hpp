@@ -48,18 +48,18 @@ struct LiftedExpression {
 struct LiftedFormula {
   enum class Kind { kAnd, kOr, kForall, kExists, kAtom, kNotAtom, kEqual, kNotEqual, kComparison };
   Kind kind = Kind::kAnd;
-  std::vector<LiftedFormula> parts;         // kAnd (empty: true), kOr (empty: false); one for kForall, kExists
-  std::vector<QuantifiedSlot> quantified;   // kForall, kExists
-  LiftedAtom atom;                          // kAtom, kNotAtom; kEqual, kNotEqual: its two arguments
+  std::vector<LiftedFormula> parts;        // kAnd (empty: true), kOr (empty: false); one for kForall, kExists
+  std::vector<QuantifiedSlot> quantified;  // kForall, kExists
+  LiftedAtom atom;                         // kAtom, kNotAtom; kEqual, kNotEqual: its two arguments
   pddl::ComparisonOperator comparison = pddl::ComparisonOperator::kEqual;
-  std::vector<LiftedExpression> sides;      // kComparison: left, right
+  std::vector<LiftedExpression> sides;  // kComparison: left, right
   pddl::SourceLocation where;
 
   bool is_true() const { return kind == Kind::kAnd && parts.empty(); }
 };
 
-// An effect for every value of the quantified slots, if the condition holds: at the start (tested before the start)
-// or at the end (tested before the end).
+// An effect for every value of the quantified slots, if the condition holds: at the start (tested before the
+// start) or at the end (tested before the end).
 struct LiftedEffect {
   enum class Kind { kAdd, kDelete, kNumeric };
   Kind kind = Kind::kAdd;

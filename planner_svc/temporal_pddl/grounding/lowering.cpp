@@ -57,7 +57,8 @@ class Lowering {
                    [&](const pddl::Arithmetic& arithmetic) {
                      result.kind = LiftedExpression::Kind::kArithmetic;
                      result.op = arithmetic.op;
-                     for (const auto& operand : arithmetic.operands) result.operands.push_back(expression(operand));
+                     for (const auto& operand : arithmetic.operands)
+                       result.operands.push_back(expression(operand));
                    },
                    [&](const auto&) { refuse(source.where, "time as a number is not supported here"); },
                },
@@ -68,32 +69,37 @@ class Lowering {
   LiftedFormula formula(const pddl::Condition& source, bool positive) {
     LiftedFormula result;
     result.where = source.where;
-    std::visit(pddl::Overloaded{
-                   [&](const pddl::And& a) { junction(a.parts, positive ? Kind::kAnd : Kind::kOr, positive, result); },
-                   [&](const pddl::Or& o) { junction(o.parts, positive ? Kind::kOr : Kind::kAnd, positive, result); },
-                   [&](const pddl::Not& n) { result = formula(*n.body, !positive); },
-                   [&](const pddl::Imply& i) {
-                     result.kind = positive ? Kind::kOr : Kind::kAnd;
-                     result.parts.push_back(formula(*i.premise, !positive));
-                     result.parts.push_back(formula(*i.conclusion, positive));
-                   },
-                   [&](const pddl::Forall& f) {
-                     quantifier(f.variables, *f.body, positive ? Kind::kForall : Kind::kExists, positive, result);
-                   },
-                   [&](const pddl::Exists& e) {
-                     quantifier(e.variables, *e.body, positive ? Kind::kExists : Kind::kForall, positive, result);
-                   },
-                   [&](const pddl::Atom& a) {
-                     result.kind = positive ? Kind::kAtom : Kind::kNotAtom;
-                     result.atom = atom(symbols_.predicate(a.symbol), a.arguments);
-                   },
-                   [&](const pddl::TermEquality& e) {
-                     result.kind = positive ? Kind::kEqual : Kind::kNotEqual;
-                     result.atom.arguments = {argument(e.left), argument(e.right)};
-                   },
-                   [&](const pddl::Comparison& c) { comparison(c, positive, result); },
-               },
-               source.node);
+    std::visit(
+        pddl::Overloaded{
+            [&](const pddl::And& a) {
+              junction(a.parts, positive ? Kind::kAnd : Kind::kOr, positive, result);
+            },
+            [&](const pddl::Or& o) {
+              junction(o.parts, positive ? Kind::kOr : Kind::kAnd, positive, result);
+            },
+            [&](const pddl::Not& n) { result = formula(*n.body, !positive); },
+            [&](const pddl::Imply& i) {
+              result.kind = positive ? Kind::kOr : Kind::kAnd;
+              result.parts.push_back(formula(*i.premise, !positive));
+              result.parts.push_back(formula(*i.conclusion, positive));
+            },
+            [&](const pddl::Forall& f) {
+              quantifier(f.variables, *f.body, positive ? Kind::kForall : Kind::kExists, positive, result);
+            },
+            [&](const pddl::Exists& e) {
+              quantifier(e.variables, *e.body, positive ? Kind::kExists : Kind::kForall, positive, result);
+            },
+            [&](const pddl::Atom& a) {
+              result.kind = positive ? Kind::kAtom : Kind::kNotAtom;
+              result.atom = atom(symbols_.predicate(a.symbol), a.arguments);
+            },
+            [&](const pddl::TermEquality& e) {
+              result.kind = positive ? Kind::kEqual : Kind::kNotEqual;
+              result.atom.arguments = {argument(e.left), argument(e.right)};
+            },
+            [&](const pddl::Comparison& c) { comparison(c, positive, result); },
+        },
+        source.node);
     return result;
   }
 
@@ -116,7 +122,8 @@ class Lowering {
                    },
                    [&](const pddl::When& when) {
                      if (!is_true(when.condition.over_all)) {
-                       refuse(source.where, "conditional effects on an `over all` condition are not supported");
+                       refuse(source.where,
+                              "conditional effects on an `over all` condition are not supported");
                      }
                      restrict(when.condition.at_start, frame.start_condition, frame.start_otherwise);
                      restrict(when.condition.at_end, frame.end_condition, frame.end_otherwise);
@@ -133,7 +140,8 @@ class Lowering {
   }
 
   [[noreturn]] void refuse(pddl::SourceLocation where, std::string message) const {
-    throw Refusal(Verdict::kUnsupported, pddl::Diagnostic{file_, where, std::move(message), "reformulate the action"});
+    throw Refusal(Verdict::kUnsupported,
+                  pddl::Diagnostic{file_, where, std::move(message), "reformulate the action"});
   }
 
  private:
@@ -163,8 +171,8 @@ class Lowering {
     for (const auto& part : parts) result.parts.push_back(formula(part, positive));
   }
 
-  void quantifier(const std::vector<pddl::TypedName>& variables, const pddl::Condition& body, Kind kind, bool positive,
-                  LiftedFormula& result) {
+  void quantifier(const std::vector<pddl::TypedName>& variables, const pddl::Condition& body, Kind kind,
+                  bool positive, LiftedFormula& result) {
     const auto outer = variables_.size();
     result.kind = kind;
     result.quantified = open(variables);
@@ -192,9 +200,10 @@ class Lowering {
   // condition := condition ∧ more, otherwise := otherwise ∨ ¬more
   void restrict(const pddl::Condition& more, LiftedFormula& condition, LiftedFormula& otherwise) {
     if (is_true(more)) return;
-    if (condition.is_true()) otherwise = LiftedFormula{.kind = Kind::kOr};
-    LiftedFormula both{.kind = Kind::kAnd};
-    both.parts = {std::move(condition), formula(more, true)};
+    if (condition.is_true()) otherwise.kind = Kind::kOr;  // without parts: false
+    LiftedFormula both;
+    both.parts.push_back(std::move(condition));
+    both.parts.push_back(formula(more, true));
     condition = std::move(both);
     otherwise.parts.push_back(formula(more, false));
   }
@@ -205,7 +214,8 @@ class Lowering {
   std::vector<std::pair<std::string, std::uint32_t>> variables_;  // innermost last
 };
 
-void lower_effects(const std::vector<pddl::Effect>& effects, Lowering& lowering, std::vector<LiftedEffect>& result) {
+void lower_effects(const std::vector<pddl::Effect>& effects, Lowering& lowering,
+                   std::vector<LiftedEffect>& result) {
   for (const auto& effect : effects) lowering.effect(effect, {}, result);
 }
 
@@ -237,7 +247,8 @@ LiftedAction lower(const pddl::DurativeAction& source, const Symbols& symbols, c
   lower_effects(source.start_effects, lowering, action.start_effects);
   lower_effects(source.end_effects, lowering, action.end_effects);
   for (const auto& effect : action.start_effects) {
-    if (!effect.end_condition.is_true()) lowering.refuse(effect.where, "a start effect cannot depend on the end");
+    if (!effect.end_condition.is_true())
+      lowering.refuse(effect.where, "a start effect cannot depend on the end");
   }
   action.slots = lowering.slots();
   return action;
@@ -248,9 +259,10 @@ LiftedAction lower(const pddl::DurativeAction& source, const Symbols& symbols, c
 std::vector<LiftedAction> lower_actions(const pddl::Domain& domain, const Symbols& symbols) {
   if (!domain.derived.empty()) {
     const auto& head = domain.derived.front().head;
-    throw Refusal(Verdict::kUnsupported,
-                  pddl::Diagnostic{domain.file, head.where, "derived predicates are not supported: " + head.name,
-                                   "make it a predicate that the actions' effects change"});
+    throw Refusal(
+        Verdict::kUnsupported,
+        pddl::Diagnostic{domain.file, head.where, "derived predicates are not supported: " + head.name,
+                         "make it a predicate that the actions' effects change"});
   }
   std::vector<LiftedAction> result;
   for (const auto& action : domain.actions) result.push_back(lower(action, symbols, domain.file));

@@ -7,8 +7,8 @@
 
 namespace roci::planner::temporal_pddl {
 
-// The domain's actions in their order: plain ones, then durative ones. Throws Refusal (kUnsupported) for derived
-// predicates, and for conditional effects that look at `over all` or, in a start effect, at the end.
+// The domain's actions in their order: plain ones, then durative ones. Throws Refusal (kUnsupported) for
+// derived predicates, and for conditional effects that look at `over all` or, in a start effect, at the end.
 std::vector<LiftedAction> lower_actions(const pddl::Domain& domain, const Symbols& symbols);
 
 // A formula without free variables; `slots` grows by those of its quantifiers.

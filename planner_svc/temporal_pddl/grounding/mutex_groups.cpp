@@ -41,9 +41,13 @@ struct SnapView {
 
 class Synthesis {
  public:
-  Synthesis(const GroundModel& model, const std::vector<bool>& reached, std::size_t predicates, std::size_t schemas,
-            Watch& watch)
-      : model_(model), reached_(reached), predicates_(predicates), adders_(predicates + schemas), watch_(watch) {
+  Synthesis(const GroundModel& model, const std::vector<bool>& reached, std::size_t predicates,
+            std::size_t schemas, Watch& watch)
+      : model_(model),
+        reached_(reached),
+        predicates_(predicates),
+        adders_(predicates + schemas),
+        watch_(watch) {
     for (std::size_t i = 0; i < model.actions.size(); ++i) {
       add_snap(i, false);
       if (model.actions[i].durative) add_snap(i, true);

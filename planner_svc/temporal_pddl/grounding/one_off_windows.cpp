@@ -44,7 +44,8 @@ class Extraction {
     if (windows_.empty()) return;
     for (auto& action : model_.actions) restrict(action);
     std::erase_if(model_.actions, [](const GroundAction& action) {
-      return action.start_window.open > action.start_window.close || action.end_window.open > action.end_window.close ||
+      return action.start_window.open > action.start_window.close ||
+             action.end_window.open > action.end_window.close ||
              (action.end_window.close != kUnbounded &&
               action.end_window.close - action.start_window.open < action.min_duration);
     });
@@ -61,8 +62,10 @@ class Extraction {
  private:
   void collect_histories() {
     for (const auto& timed : model_.timed) {
-      for (const std::uint32_t atom : timed.effects.deletes) histories_[atom].changes.emplace_back(timed.time, false);
-      for (const std::uint32_t atom : timed.effects.adds) histories_[atom].changes.emplace_back(timed.time, true);
+      for (const std::uint32_t atom : timed.effects.deletes)
+        histories_[atom].changes.emplace_back(timed.time, false);
+      for (const std::uint32_t atom : timed.effects.adds)
+        histories_[atom].changes.emplace_back(timed.time, true);
     }
     for (const std::uint32_t atom : model_.initial_atoms) {
       const auto history = histories_.find(atom);
@@ -81,14 +84,16 @@ class Extraction {
         for (const std::uint32_t atom : effects->adds) histories_.erase(atom);
         for (const std::uint32_t atom : effects->deletes) histories_.erase(atom);
       }
-      for (const auto* conjunction : {&action.at_start, &action.over_all, &action.at_end}) exclude_negated(*conjunction);
+      for (const auto* conjunction : {&action.at_start, &action.over_all, &action.at_end})
+        exclude_negated(*conjunction);
     }
     for (const auto& goal : model_.goal) {
       for (const auto literal : goal.literals) histories_.erase(literal.atom);
     }
   }
 
-  // Moves the conditions on windowed facts out of `conjunction` and into the window, with a margin inside of it.
+  // Moves the conditions on windowed facts out of `conjunction` and into the window, with a margin inside of
+  // it.
   void take(Conjunction& conjunction, Duration margin, TimeWindow& window) const {
     std::erase_if(conjunction.literals, [&](GroundLiteral literal) {
       const auto found = windows_.find(literal.atom);

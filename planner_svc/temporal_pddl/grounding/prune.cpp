@@ -109,10 +109,12 @@ std::vector<bool> prune(GroundModel& model) {
       });
     };
     for (auto& action : model.actions) {
-      for (auto* conjunction : {&action.at_start, &action.over_all, &action.at_end}) drop_certain(*conjunction);
+      for (auto* conjunction : {&action.at_start, &action.over_all, &action.at_end})
+        drop_certain(*conjunction);
     }
     std::erase_if(model.goal, [&](const Conjunction& goal) {
-      return !std::ranges::all_of(goal.literals, [&](auto literal) { return reached[literal_index(literal)]; });
+      return !std::ranges::all_of(goal.literals,
+                                  [&](auto literal) { return reached[literal_index(literal)]; });
     });
     for (auto& goal : model.goal) drop_certain(goal);
     return reached;

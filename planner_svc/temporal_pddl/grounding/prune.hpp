@@ -9,13 +9,16 @@
 namespace roci::planner::temporal_pddl {
 
 // Literals are numbered 2 · atom + (negated ? 1 : 0).
-inline std::size_t literal_index(GroundLiteral literal) { return 2 * std::size_t{literal.atom} + literal.negated; }
+inline std::size_t literal_index(GroundLiteral literal) {
+  return 2 * std::size_t{literal.atom} + literal.negated;
+}
 
-// Removes the actions that can never start or never end, the conditions that always hold, and goal alternatives that
-// are out of reach. Returns by literal index what can hold.
+// Removes the actions that can never start or never end, the conditions that always hold, and goal
+// alternatives that are out of reach. Returns by literal index what can hold.
 std::vector<bool> prune(GroundModel& model);
 
-// The conditions of the start snap action: at_start, and what of over_all the start itself does not bring about.
+// The conditions of the start snap action: at_start, and what of over_all the start itself does not bring
+// about.
 std::vector<GroundLiteral> start_requirements(const GroundAction& action);
 
 }  // namespace roci::planner::temporal_pddl

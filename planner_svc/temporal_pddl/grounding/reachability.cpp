@@ -13,7 +13,10 @@ namespace {
 class Exploration {
  public:
   Exploration(const std::vector<LiftedAction>& actions, const World& world, Watch& watch)
-      : actions_(actions), world_(world), watch_(watch), index_(world.symbols().predicates(), world.symbols().objects()) {
+      : actions_(actions),
+        world_(world),
+        watch_(watch),
+        index_(world.symbols().predicates(), world.symbols().objects()) {
     result_.instances.resize(actions.size());
     for (const auto& action : actions) joins_.emplace_back(action, world);
     triggers_.resize(world.symbols().predicates());
@@ -25,9 +28,11 @@ class Exploration {
 
   Reachability run() {
     const TupleTable& initial = world_.initial_atoms();
-    for (const bool fixed : {true, false}) {  // the static atoms first: they are there when the first fluent comes
+    for (const bool fixed :
+         {true, false}) {  // the static atoms first: they are there when the first fluent comes
       for (std::uint32_t i = 0; i < initial.size(); ++i) {
-        if (world_.is_static(PredicateId(initial.symbol(i))) == fixed) reach(PredicateId(initial.symbol(i)), initial.objects(i));
+        if (world_.is_static(PredicateId(initial.symbol(i))) == fixed)
+          reach(PredicateId(initial.symbol(i)), initial.objects(i));
       }
       if (fixed) take_static();
     }
@@ -36,7 +41,8 @@ class Exploration {
     }
     for (std::size_t schema = 0; schema < joins_.size(); ++schema) {
       if (!joins_[schema].fluents().empty()) continue;
-      joins_[schema].join_static(result_.atoms, index_, watch_, [&](Binding& binding) { found(schema, binding); });
+      joins_[schema].join_static(result_.atoms, index_, watch_,
+                                 [&](Binding& binding) { found(schema, binding); });
     }
     for (; next_ < queue_.size(); ++next_) take(queue_[next_]);
     result_.reached.resize(result_.atoms.size(), false);
@@ -96,8 +102,8 @@ class Exploration {
         !world_.possible(action.at_end, binding)) {
       return false;
     }
-    return std::ranges::all_of(action.duration,
-                               [&](const LiftedDuration& rule) { return world_.defined(rule.bound, binding); });
+    return std::ranges::all_of(
+        action.duration, [&](const LiftedDuration& rule) { return world_.defined(rule.bound, binding); });
   }
 
   // Ends wait until their deferred conditions are reached, each distinct one counted once.
@@ -128,7 +134,9 @@ class Exploration {
   void reach_effect(const LiftedEffect& effect, Binding& binding) {
     if (effect.kind != LiftedEffect::Kind::kAdd) return;
     for_each_value(effect.quantified, binding, [&] {
-      if (!world_.possible(effect.start_condition, binding) || !world_.possible(effect.end_condition, binding)) return;
+      if (!world_.possible(effect.start_condition, binding) ||
+          !world_.possible(effect.end_condition, binding))
+        return;
       reach(effect.atom.predicate, objects_of(effect.atom.arguments, binding));
     });
   }

@@ -16,8 +16,8 @@ namespace roci::planner::temporal_pddl {
 struct Reachability {
   TupleTable atoms;           // also some that are only mentioned
   std::vector<bool> reached;  // by atom
-  // The instances of each action, as the objects of its parameters. Their starts are reachable and nothing static
-  // speaks against them; whether their ends are reachable is left to prune().
+  // The instances of each action, as the objects of its parameters. Their starts are reachable and nothing
+  // static speaks against them; whether their ends are reachable is left to prune().
   IdVector<SchemaId, FlatLists<ObjectId>> instances;
 };
 

@@ -26,7 +26,8 @@ bool may_be_added_at_start(const LiftedAction& action, PredicateId predicate) {
 SchemaJoin::SchemaJoin(const LiftedAction& action, const World& world) : action_(action) {
   const auto collect = [&](const LiftedFormula& formula, const auto& is_deferred) {
     for_each_part(formula, [&](const LiftedFormula& part) {
-      if (part.kind == Kind::kNotEqual) different_.emplace_back(part.atom.arguments[0], part.atom.arguments[1]);
+      if (part.kind == Kind::kNotEqual)
+        different_.emplace_back(part.atom.arguments[0], part.atom.arguments[1]);
       if (part.kind != Kind::kAtom) return;
       if (world.is_static(part.atom.predicate)) {
         statics_.push_back(part.atom);
@@ -36,7 +37,8 @@ SchemaJoin::SchemaJoin(const LiftedAction& action, const World& world) : action_
     });
   };
   collect(action.at_start, [](const LiftedAtom&) { return false; });
-  collect(action.over_all, [&](const LiftedAtom& atom) { return may_be_added_at_start(action, atom.predicate); });
+  collect(action.over_all,
+          [&](const LiftedAtom& atom) { return may_be_added_at_start(action, atom.predicate); });
   collect(action.at_end, [](const LiftedAtom&) { return true; });
   for (const auto& domain : action.parameters) {
     std::vector<bool> allowed(world.symbols().objects(), false);
@@ -52,7 +54,8 @@ struct SchemaJoin::Search {
   const AtomIndex& index;
   Watch& watch;
   const Found& found;
-  std::uint32_t newest = 0;   // may be matched by fluents from `trigger` on only, so that no binding is found twice
+  std::uint32_t newest =
+      0;  // may be matched by fluents from `trigger` on only, so that no binding is found twice
   std::size_t trigger = 0;
   Binding binding;
   std::vector<const LiftedAtom*> open;
@@ -142,8 +145,8 @@ struct SchemaJoin::Search {
   }
 };
 
-void SchemaJoin::join(std::size_t trigger, std::uint32_t atom, const TupleTable& atoms, const AtomIndex& index,
-                      Watch& watch, const Found& found) const {
+void SchemaJoin::join(std::size_t trigger, std::uint32_t atom, const TupleTable& atoms,
+                      const AtomIndex& index, Watch& watch, const Found& found) const {
   Search search{*this, atoms, index, watch, found, atom, trigger, Binding(action_.slots), {}, {}};
   std::vector<std::uint32_t> bound;
   if (!search.unify(fluents_[trigger], atoms.objects(atom), bound)) return;
@@ -154,7 +157,8 @@ void SchemaJoin::join(std::size_t trigger, std::uint32_t atom, const TupleTable&
   search.extend();
 }
 
-void SchemaJoin::join_static(const TupleTable& atoms, const AtomIndex& index, Watch& watch, const Found& found) const {
+void SchemaJoin::join_static(const TupleTable& atoms, const AtomIndex& index, Watch& watch,
+                             const Found& found) const {
   Search search{*this, atoms, index, watch, found, 0xffffffff, 0, Binding(action_.slots), {}, {}};
   for (const auto& fixed : statics_) search.add_open(fixed, 0);
   search.extend();

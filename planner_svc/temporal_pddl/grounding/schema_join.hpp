@@ -1,5 +1,6 @@
 // Finds the bindings of one action's parameters under which its positive conditions are reachable, without
-// enumerating the product of the parameters' types: a join over the reachable atoms, smallest candidate list first.
+// enumerating the product of the parameters' types: a join over the reachable atoms, smallest candidate list
+// first.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +20,15 @@ class SchemaJoin {
 
   // The atoms that must be reachable before the action can start: fluents first.
   const std::vector<LiftedAtom>& fluents() const { return fluents_; }
-  // Positive fluent conditions that may hold only after the start: `at end` ones, and `over all` ones that the
-  // action's own start might add.
+  // Positive fluent conditions that may hold only after the start: `at end` ones, and `over all` ones that
+  // the action's own start might add.
   const std::vector<LiftedAtom>& deferred() const { return deferred_; }
 
   using Found = std::function<void(Binding&)>;
 
   // All bindings in which fluents()[trigger] is the newest atom `atom`, which is in the index already.
-  void join(std::size_t trigger, std::uint32_t atom, const TupleTable& atoms, const AtomIndex& index, Watch& watch,
-            const Found& found) const;
+  void join(std::size_t trigger, std::uint32_t atom, const TupleTable& atoms, const AtomIndex& index,
+            Watch& watch, const Found& found) const;
   // All bindings of an action without fluents().
   void join_static(const TupleTable& atoms, const AtomIndex& index, Watch& watch, const Found& found) const;
 

@@ -13,7 +13,7 @@ namespace roci::planner::temporal_pddl {
 
 struct FunctionSymbol {
   std::string name;
-  std::string module;  // empty: a fluent of the domain
+  std::string module;                             // empty: a fluent of the domain
   std::vector<std::vector<ObjectId>> parameters;  // the objects that each may be
 };
 
@@ -22,7 +22,9 @@ class Symbols {
  public:
   Symbols(const pddl::Domain& domain, const pddl::Problem& problem);
 
-  ObjectId object(const std::string& name) const { return ObjectId(static_cast<std::size_t>(objects_.find(name))); }
+  ObjectId object(const std::string& name) const {
+    return ObjectId(static_cast<std::size_t>(objects_.find(name)));
+  }
   PredicateId predicate(const std::string& name) const { return predicates_.at(name); }
   FunctionId function(const std::string& name) const { return function_ids_.at(name); }
   std::vector<ObjectId> of_types(const std::vector<std::string>& types) const;

@@ -22,7 +22,8 @@ class Builder {
     task_.expressions = model_.expressions;
     for (std::size_t i = 0; i < model_.actions.size(); ++i) add_action(model_.actions[i], compression[i]);
     for (const auto& timed : model_.timed) {
-      task_.timed_steps.push_back({add_snap({SnapKind::kTimedLiteral, ActionId()}, {}, timed.effects, {}, {}), timed.time});
+      task_.timed_steps.push_back(
+          {add_snap({SnapKind::kTimedLiteral, ActionId()}, {}, timed.effects, {}, {}), timed.time});
     }
     for (const auto& goal : model_.goal) task_.goals.push_back({facts_of(goal.literals), goal.comparisons});
     lay_out(groups);
@@ -32,7 +33,8 @@ class Builder {
  private:
   void name_symbols(const std::vector<LiftedAction>& schemas) {
     for (std::size_t i = 0; i < symbols_.objects(); ++i) task_.objects.push_back(symbols_.name(ObjectId(i)));
-    for (std::size_t i = 0; i < symbols_.predicates(); ++i) task_.predicates.push_back(symbols_.name(PredicateId(i)));
+    for (std::size_t i = 0; i < symbols_.predicates(); ++i)
+      task_.predicates.push_back(symbols_.name(PredicateId(i)));
     for (const auto& schema : schemas) task_.schemas.push_back(schema.name);
     for (std::uint32_t i = 0; i < model_.numbers.size(); ++i) {
       std::string text = "(" + symbols_[FunctionId(std::size_t{model_.numbers.symbol(i)})].name;
@@ -41,8 +43,8 @@ class Builder {
     }
   }
 
-  // An atom gets a fact if it is in a condition, an effect or a goal; its negation gets one if a condition or goal
-  // asks for it.
+  // An atom gets a fact if it is in a condition, an effect or a goal; its negation gets one if a condition or
+  // goal asks for it.
   void number_facts() {
     std::vector<bool> atom_needed(model_.atoms.size(), false), negation_needed(model_.atoms.size(), false);
     const auto need = [&](const Conjunction& conjunction) {
@@ -143,7 +145,8 @@ class Builder {
     std::vector<VariableId> result;
     for (const auto literal : conditions.literals) result.push_back(task_.variable(fact(literal)));
     const auto add = [&](ExpressionId expression) {
-      for (const auto& term : model_.expressions[expression].terms) result.push_back(task_.variable(term.variable));
+      for (const auto& term : model_.expressions[expression].terms)
+        result.push_back(task_.variable(term.variable));
     };
     for (const auto& comparison : conditions.comparisons) add(comparison.expression);
     for (const auto& effect : effects) add(effect.expression);

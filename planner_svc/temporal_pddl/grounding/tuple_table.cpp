@@ -30,7 +30,8 @@ std::size_t TupleTable::slot_of(std::uint32_t symbol, std::span<const ObjectId> 
 
 void TupleTable::grow() {
   slots_.assign(slots_.size() * 2, kFree);
-  for (std::uint32_t tuple = 0; tuple < symbols_.size(); ++tuple) slots_[slot_of(symbol(tuple), objects(tuple))] = tuple;
+  for (std::uint32_t tuple = 0; tuple < symbols_.size(); ++tuple)
+    slots_[slot_of(symbol(tuple), objects(tuple))] = tuple;
 }
 
 std::uint32_t TupleTable::intern(std::uint32_t symbol, std::span<const ObjectId> objects) {
@@ -52,7 +53,8 @@ std::optional<std::uint32_t> TupleTable::find(std::uint32_t symbol, std::span<co
 }
 
 std::size_t TupleTable::bytes() const {
-  return symbols_.capacity() * sizeof(std::uint32_t) + objects_.bytes() + slots_.capacity() * sizeof(std::uint32_t);
+  return symbols_.capacity() * sizeof(std::uint32_t) + objects_.bytes() +
+         slots_.capacity() * sizeof(std::uint32_t);
 }
 
 }  // namespace roci::planner::temporal_pddl

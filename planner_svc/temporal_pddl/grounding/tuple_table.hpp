@@ -1,4 +1,5 @@
-// Interning of (symbol, objects…): each distinct tuple once, numbered from 0 in the order of its first appearance.
+// Interning of (symbol, objects…): each distinct tuple once, numbered from 0 in the order of its first
+// appearance.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +31,8 @@ class TupleTable {
 
   std::vector<std::uint32_t> symbols_;
   FlatLists<ObjectId> objects_;
-  std::vector<std::uint32_t> slots_ = std::vector<std::uint32_t>(16, kFree);  // open addressing, a power of two
+  std::vector<std::uint32_t> slots_ =
+      std::vector<std::uint32_t>(16, kFree);  // open addressing, a power of two
 };
 
 }  // namespace roci::planner::temporal_pddl

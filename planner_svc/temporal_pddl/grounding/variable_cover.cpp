@@ -11,12 +11,15 @@ std::vector<std::vector<std::uint32_t>> cover(const std::vector<bool>& needed,
   std::vector<bool> open = needed;
   const auto open_members = [&](const std::vector<std::uint32_t>& group) {
     std::vector<std::uint32_t> members;
-    std::ranges::copy_if(group, std::back_inserter(members), [&](std::uint32_t member) { return open[member]; });
+    std::ranges::copy_if(group, std::back_inserter(members),
+                         [&](std::uint32_t member) { return open[member]; });
     return members;
   };
-  // Sizes only shrink, so an entry that is still up to date when it comes out is the largest. Ties: lowest index.
+  // Sizes only shrink, so an entry that is still up to date when it comes out is the largest. Ties: lowest
+  // index.
   std::priority_queue<std::pair<std::size_t, std::size_t>> queue;  // open members, last index − index
-  for (std::size_t i = 0; i < groups.size(); ++i) queue.emplace(open_members(groups[i]).size(), groups.size() - i);
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    queue.emplace(open_members(groups[i]).size(), groups.size() - i);
   std::vector<std::vector<std::uint32_t>> result;
   while (!queue.empty()) {
     const auto [size, rank] = queue.top();

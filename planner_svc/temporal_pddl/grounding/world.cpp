@@ -49,7 +49,8 @@ World::World(const pddl::Problem& problem, const std::vector<LiftedAction>& acti
       initial_.intern(predicate.value, objects);
     }
   }
-  std::stable_sort(timed_.begin(), timed_.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+  std::stable_sort(timed_.begin(), timed_.end(),
+                   [](const auto& a, const auto& b) { return a.time < b.time; });
 }
 
 bool World::possible(const LiftedFormula& formula, Binding& binding) const {
@@ -78,7 +79,8 @@ bool World::possible(const LiftedFormula& formula, Binding& binding) const {
     case Kind::kEqual:
     case Kind::kNotEqual: {
       const auto& arguments = formula.atom.arguments;
-      return (resolve(arguments[0], binding) == resolve(arguments[1], binding)) == (formula.kind == Kind::kEqual);
+      return (resolve(arguments[0], binding) == resolve(arguments[1], binding)) ==
+             (formula.kind == Kind::kEqual);
     }
     case Kind::kComparison: {
       if (!defined(formula.sides[0], binding) || !defined(formula.sides[1], binding)) return false;
@@ -92,13 +94,15 @@ bool World::possible(const LiftedFormula& formula, Binding& binding) const {
 
 bool World::defined(const LiftedExpression& expression, const Binding& binding) const {
   if (expression.kind == LiftedExpression::Kind::kFunction && constants_.is_constant(expression.function)) {
-    return constants_.value(expression.function, temporal_pddl::objects_of(expression.arguments, binding)).has_value();
+    return constants_.value(expression.function, temporal_pddl::objects_of(expression.arguments, binding))
+        .has_value();
   }
   return std::ranges::all_of(expression.operands,
                              [&](const LiftedExpression& operand) { return defined(operand, binding); });
 }
 
-std::optional<double> World::constant_value(const LiftedExpression& expression, const Binding& binding) const {
+std::optional<double> World::constant_value(const LiftedExpression& expression,
+                                            const Binding& binding) const {
   switch (expression.kind) {
     case LiftedExpression::Kind::kNumber:
       return expression.number;
@@ -114,7 +118,7 @@ std::optional<double> World::constant_value(const LiftedExpression& expression, 
         if (!value) return std::nullopt;
         operands.push_back(*value);
       }
-      const double value = apply(expression.op, operands);
+      const double value = combine(expression.op, operands);
       return std::isfinite(value) ? std::optional(value) : std::nullopt;
     }
   }
@@ -144,7 +148,7 @@ bool compare(pddl::ComparisonOperator op, double left, double right) {
   return false;
 }
 
-double apply(pddl::ArithmeticOperator op, const std::vector<double>& operands) {
+double combine(pddl::ArithmeticOperator op, const std::vector<double>& operands) {
   double result = operands.front();
   if (op == pddl::ArithmeticOperator::kSubtract && operands.size() == 1) return -result;
   for (std::size_t i = 1; i < operands.size(); ++i) {

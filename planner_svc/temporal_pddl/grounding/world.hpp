@@ -25,7 +25,7 @@ class World {
 
   const Symbols& symbols() const { return symbols_; }
   const ConstantFunctions& constants() const { return constants_; }
-  const TupleTable& initial_atoms() const { return initial_; }  // timed literals at time 0 included
+  const TupleTable& initial_atoms() const { return initial_; }          // timed literals at time 0 included
   const std::vector<TimedAtom>& timed_atoms() const { return timed_; }  // by time
 
   bool is_static(PredicateId predicate) const { return static_[predicate]; }
@@ -33,12 +33,13 @@ class World {
     return initial_.find(predicate.value, objects).has_value();
   }
 
-  // Is the formula not false for what never changes alone? All slots but quantified ones are bound; those are left
-  // unbound.
+  // Is the formula not false for what never changes alone? All slots but quantified ones are bound; those are
+  // left unbound.
   bool possible(const LiftedFormula& formula, Binding& binding) const;
   // Do all constants in the expression have a value?
   bool defined(const LiftedExpression& expression, const Binding& binding) const;
-  // The value of an expression without fluents and ?duration; none for others, and where a constant is undefined.
+  // The value of an expression without fluents and ?duration; none for others, and where a constant is
+  // undefined.
   std::optional<double> constant_value(const LiftedExpression& expression, const Binding& binding) const;
 
  private:
@@ -54,7 +55,8 @@ std::vector<ObjectId> objects_of(const std::vector<Argument>& arguments, const B
 
 // Calls visit() for every value of the slots, from `first` on, leaving `binding` as it was.
 template <typename Visit>
-void for_each_value(const std::vector<QuantifiedSlot>& slots, Binding& binding, Visit&& visit, std::size_t first = 0) {
+void for_each_value(const std::vector<QuantifiedSlot>& slots, Binding& binding, Visit&& visit,
+                    std::size_t first = 0) {
   if (first == slots.size()) {
     visit();
     return;
@@ -69,6 +71,6 @@ void for_each_value(const std::vector<QuantifiedSlot>& slots, Binding& binding, 
 // left OP right
 bool compare(pddl::ComparisonOperator op, double left, double right);
 
-double apply(pddl::ArithmeticOperator op, const std::vector<double>& operands);
+double combine(pddl::ArithmeticOperator op, const std::vector<double>& operands);
 
 }  // namespace roci::planner::temporal_pddl

@@ -25,8 +25,8 @@ void FfHeuristic::evaluate(StateView state, std::span<const ActionId> running, s
   reset();
   explore(state, running, timed_done);
   const Goal* goal = cheapest_goal();
-  const bool ends_reached = std::ranges::all_of(
-      running, [&](ActionId action) { return open_[task_.actions[action].end] == 0; });
+  const bool ends_reached =
+      std::ranges::all_of(running, [&](ActionId action) { return open_[task_.actions[action].end] == 0; });
   if (!goal || !ends_reached) {
     estimate.dead_end = true;
     return;
@@ -40,10 +40,10 @@ void FfHeuristic::evaluate(StateView state, std::span<const ActionId> running, s
 void FfHeuristic::reset() {
   std::ranges::fill(reached_at_, kUnreached);
   std::ranges::fill(supporter_, SnapId());
-  std::ranges::fill(needed_, false);
+  needed_.assign(needed_.size(), false);
   open_ = initially_open_;
   for (std::size_t i = 0; i < costs_.size(); ++i) costs_[SnapId(i)] = relaxed_.cost(SnapId(i));
-  std::ranges::fill(in_plan_, false);
+  in_plan_.assign(in_plan_.size(), false);
   queue_.clear();
   to_support_.clear();
   plan_.clear();

@@ -1,5 +1,5 @@
-// The FF heuristic (Hoffmann and Nebel 2001) on the relaxed task: a relaxed plan made of the cheapest supporters by
-// h_add, after Stellar section 4.2.
+// The FF heuristic (Hoffmann and Nebel 2001) on the relaxed task: a relaxed plan made of the cheapest
+// supporters by h_add, after Stellar section 4.2.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ class FfHeuristic final : public Heuristic {
  public:
   explicit FfHeuristic(const Task& task);
 
-  // The state is extended by r_a of the running actions (R19). Ends of actions that run or that the relaxed plan
-  // starts belong to the relaxed plan (R20), with what they need. A dead end: a goal or the end of a running action
-  // is out of reach.
+  // The state is extended by r_a of the running actions (R19). Ends of actions that run or that the relaxed
+  // plan starts belong to the relaxed plan (R20), with what they need. A dead end: a goal or the end of a
+  // running action is out of reach.
   void evaluate(StateView state, std::span<const ActionId> running, std::uint32_t timed_done,
                 Estimate& estimate) override;
 
@@ -43,7 +43,7 @@ class FfHeuristic final : public Heuristic {
   IdVector<PropositionId, bool> needed_;
   // By operator.
   IdVector<SnapId, std::uint32_t> initially_open_, open_;  // needs that are not reached
-  IdVector<SnapId, std::int64_t> costs_;                    // own cost and that of the reached needs
+  IdVector<SnapId, std::int64_t> costs_;                   // own cost and that of the reached needs
   IdVector<SnapId, bool> in_plan_;
 
   std::vector<std::pair<std::int64_t, PropositionId>> queue_;  // a heap, cheapest first

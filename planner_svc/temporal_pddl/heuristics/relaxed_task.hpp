@@ -1,10 +1,10 @@
 // The task without time and numbers (R15): what the FF heuristic computes on.
 //
-// Propositions are the facts and, for each durative action a, r_a: "a is running" (R18). Operators are the snap
-// actions:
-//   start of a   cost: least duration of a    needs pre⊢ and what of pre↔ the start does not add (R16)   adds eff⊢, r_a
-//   end of a     cost: 0                      needs pre⊣ and r_a (R17)                                    adds eff⊣
-//   timed literal  cost: 0                    needs nothing                                               adds its facts
+// Propositions are the facts and, for each durative action a, r_a: "a is running" (R18). Operators are the
+// snap actions:
+//   start of a   cost: least duration of a    needs pre⊢ and what of pre↔ the start does not add (R16)   adds
+//   eff⊢, r_a end of a     cost: 0                      needs pre⊣ and r_a (R17) adds eff⊣ timed literal
+//   cost: 0                    needs nothing                                               adds its facts
 // Deletes do not exist.
 #pragma once
 

@@ -43,7 +43,8 @@ std::vector<GroundEffect> GroundText::effects(const std::vector<pddl::Effect>& e
   return result;
 }
 
-void GroundText::add_conditions(const pddl::Condition& condition, std::vector<GroundCondition>& result) const {
+void GroundText::add_conditions(const pddl::Condition& condition,
+                                std::vector<GroundCondition>& result) const {
   if (const auto* conjunction = std::get_if<pddl::And>(&condition.node)) {
     for (const auto& part : conjunction->parts) add_conditions(part, result);
     return;
@@ -75,13 +76,15 @@ void GroundText::add_effect(const pddl::Effect& effect, std::vector<std::string>
                    std::vector<std::string> inner;
                    for (const auto& part : when.effects) add_effect(part, inner);
                    std::string condition;
-                   for (const auto* part : {&when.condition.at_start, &when.condition.over_all, &when.condition.at_end}) {
+                   for (const auto* part :
+                        {&when.condition.at_start, &when.condition.over_all, &when.condition.at_end}) {
                      for (const auto& c : conditions(*part)) {
                        const bool negated = c.kind == GroundCondition::Kind::kNegatedFact;
                        condition += " " + (negated ? "(not " + c.text + ")" : c.text);
                      }
                    }
-                   for (const auto& text : inner) result.push_back("(when (and" + condition + ") " + text + ")");
+                   for (const auto& text : inner)
+                     result.push_back("(when (and" + condition + ") " + text + ")");
                  },
                  [&](const pddl::ForallEffect& forall) {
                    std::vector<GroundText> instances{*this};
@@ -132,7 +135,8 @@ pddl::Expression GroundText::ground(const pddl::Expression& expression) const {
       operand = ground(operand);
       if (const auto* number = std::get_if<pddl::Number>(&operand.node)) values.push_back(number->value);
     }
-    if (values.size() == arithmetic->operands.size()) result.node = pddl::Number{apply(arithmetic->op, values)};
+    if (values.size() == arithmetic->operands.size())
+      result.node = pddl::Number{combine(arithmetic->op, values)};
   }
   return result;
 }

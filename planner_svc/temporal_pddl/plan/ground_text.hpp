@@ -15,7 +15,8 @@ namespace roci::planner::temporal_pddl {
 class GroundText {
  public:
   // variables: object by parameter name, with its question mark.
-  GroundText(const Symbols& symbols, const ConstantFunctions& constants, std::map<std::string, std::string> variables)
+  GroundText(const Symbols& symbols, const ConstantFunctions& constants,
+             std::map<std::string, std::string> variables)
       : symbols_(symbols), constants_(constants), variables_(std::move(variables)) {}
 
   // The parts of a conjunction, static ones too. What is no fact and no comparison is one formula.

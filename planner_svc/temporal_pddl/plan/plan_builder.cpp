@@ -15,8 +15,13 @@ Duration or_unbounded(Ticks latest) { return latest == TimeBounds::kNever ? kUnb
 
 class PlanBuilder {
  public:
-  PlanBuilder(const pddl::Domain& domain, const Grounding& grounding, const PlanPrefix& steps, Duration epsilon)
-      : domain_(domain), grounding_(grounding), task_(grounding.task), steps_(steps), check_(task_, epsilon) {}
+  PlanBuilder(const pddl::Domain& domain, const Grounding& grounding, const PlanPrefix& steps,
+              Duration epsilon)
+      : domain_(domain),
+        grounding_(grounding),
+        task_(grounding.task),
+        steps_(steps),
+        check_(task_, epsilon) {}
 
   Plan run() {
     add_points();
@@ -113,7 +118,8 @@ class PlanBuilder {
   void describe(SchemaId schema, Activity& activity) const {
     const auto text = [&](const std::vector<pddl::TypedName>& parameters) {
       std::map<std::string, std::string> variables;
-      for (std::size_t i = 0; i < parameters.size(); ++i) variables[parameters[i].name] = activity.arguments[i];
+      for (std::size_t i = 0; i < parameters.size(); ++i)
+        variables[parameters[i].name] = activity.arguments[i];
       return GroundText(grounding_.symbols, grounding_.constants, std::move(variables));
     };
     if (schema.index() < domain_.actions.size()) {
@@ -143,7 +149,8 @@ class PlanBuilder {
 
 }  // namespace
 
-Plan build_plan(const pddl::Domain& domain, const Grounding& grounding, const PlanPrefix& steps, Duration epsilon) {
+Plan build_plan(const pddl::Domain& domain, const Grounding& grounding, const PlanPrefix& steps,
+                Duration epsilon) {
   return PlanBuilder(domain, grounding, steps, epsilon).run();
 }
 

@@ -9,6 +9,7 @@
 namespace roci::planner::temporal_pddl {
 
 // steps: a complete plan, temporally consistent. Each time point is scheduled at its earliest time.
-Plan build_plan(const pddl::Domain& domain, const Grounding& grounding, const PlanPrefix& steps, Duration epsilon);
+Plan build_plan(const pddl::Domain& domain, const Grounding& grounding, const PlanPrefix& steps,
+                Duration epsilon);
 
 }  // namespace roci::planner::temporal_pddl

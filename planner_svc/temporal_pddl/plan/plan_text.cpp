@@ -1,24 +1,22 @@
 #include "planner_svc/temporal_pddl/plan/plan_text.hpp"
 
+#include <vector>
+
+#include "core/pddl/plan_text.hpp"
+
 namespace roci::planner::temporal_pddl {
 
-std::string seconds_text(Duration duration) {
-  constexpr std::int64_t kPerSecond = 1'000'000;
-  std::string fraction = std::to_string(kPerSecond + duration.count() % kPerSecond).substr(1);
-  if (duration.count() % 1000 == 0) fraction.resize(3);
-  return std::to_string(duration.count() / kPerSecond) + "." + fraction;
-}
-
 std::string to_ipc(const Plan& plan) {
-  std::string text;
+  std::vector<pddl::PlanStep> steps;
   for (const Activity& activity : plan.activities) {
-    text += seconds_text(activity.start) + ": (" + activity.name;
-    for (const auto& argument : activity.arguments) text += " " + argument;
-    text += ")";
-    if (activity.durative) text += " [" + seconds_text(activity.end - activity.start) + "]";
-    text += "\n";
+    pddl::PlanStep step;
+    step.start = activity.start;
+    step.action.symbol = activity.name;
+    for (const auto& argument : activity.arguments) step.action.arguments.push_back({argument, {}});
+    if (activity.durative) step.duration = activity.end - activity.start;
+    steps.push_back(std::move(step));
   }
-  return text;
+  return pddl::print_plan(steps);
 }
 
 }  // namespace roci::planner::temporal_pddl

@@ -9,7 +9,4 @@ namespace roci::planner::temporal_pddl {
 
 std::string to_ipc(const Plan& plan);
 
-// Seconds with three decimals, or six where microseconds matter.
-std::string seconds_text(Duration duration);
-
 }  // namespace roci::planner::temporal_pddl

@@ -17,7 +17,8 @@ namespace {
 
 class BestFirstSearch {
  public:
-  BestFirstSearch(const Task& task, Heuristic& heuristic, const Options& options, Watch& watch, Statistics& statistics)
+  BestFirstSearch(const Task& task, Heuristic& heuristic, const Options& options, Watch& watch,
+                  Statistics& statistics)
       : task_(task),
         heuristic_(heuristic),
         options_(options),
@@ -49,7 +50,9 @@ class BestFirstSearch {
       }
       if (take_up(entry->parent, successor_.transition)) return found();
     }
-    if (too_long_) throw Refusal(Verdict::kOutOfMemory, "a plan may have at most 32767 steps, and none so short was found");
+    if (too_long_)
+      throw Refusal(Verdict::kOutOfMemory,
+                    "a plan may have at most 32767 steps, and none so short was found");
     return {std::nullopt, {}, goal_.explain_failure(store_.size())};
   }
 

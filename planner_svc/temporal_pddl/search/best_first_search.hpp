@@ -1,5 +1,5 @@
-// Greedy best-first search with deferred evaluation: a state is evaluated when it is taken up, its successors wait
-// with its estimate (Helmert 2006, section 6).
+// Greedy best-first search with deferred evaluation: a state is evaluated when it is taken up, its successors
+// wait with its estimate (Helmert 2006, section 6).
 #pragma once
 
 #include <optional>
@@ -16,13 +16,13 @@
 namespace roci::planner::temporal_pddl {
 
 struct SearchOutcome {
-  std::optional<PlanPrefix> plan;   // none: there is no plan
-  std::vector<Word> final_state;    // with a plan
-  std::string reason;               // without: what stood in the way
+  std::optional<PlanPrefix> plan;  // none: there is no plan
+  std::vector<Word> final_state;   // with a plan
+  std::string reason;              // without: what stood in the way
 };
 
-// Keeps `statistics` up to date all the time. Throws what Watch throws, and Refusal (kOutOfMemory) if plans of more
-// than kMaxSteps steps would have to be tried.
+// Keeps `statistics` up to date all the time. Throws what Watch throws, and Refusal (kOutOfMemory) if plans
+// of more than kMaxSteps steps would have to be tried.
 SearchOutcome search(const Task& task, Heuristic& heuristic, const Options& options, Watch& watch,
                      Statistics& statistics);
 

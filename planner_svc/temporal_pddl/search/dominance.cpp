@@ -32,8 +32,8 @@ bool same_running(const PlanPrefix& a, const PlanPrefix& b) {
 
 }  // namespace
 
-Dominance::Dominance(const Task& task, const StateStore& store, const BoundTable& bounds, TemporalCheck& check,
-                     Duration epsilon)
+Dominance::Dominance(const Task& task, const StateStore& store, const BoundTable& bounds,
+                     TemporalCheck& check, Duration epsilon)
     : task_(task),
       store_(store),
       bounds_(bounds),
@@ -112,7 +112,8 @@ Dominance::Profile Dominance::profile(const PlanPrefix& prefix) {
   return result;
 }
 
-std::vector<Dominance::Freedom> Dominance::freedoms(const PlanPrefix& prefix, const std::vector<Ticks>& distances,
+std::vector<Dominance::Freedom> Dominance::freedoms(const PlanPrefix& prefix,
+                                                    const std::vector<Ticks>& distances,
                                                     const std::vector<VariableId>& touched) {
   for (const VariableId variable : touched) scratch_[variable] = {};
   const Ticks epsilon = epsilon_.count();

@@ -30,8 +30,10 @@ std::string GoalTest::explain_failure(std::size_t states) const {
       if (!held_[goal][i]) never += " " + name(task_, facts[i]);
     }
   }
-  const std::string tried = "all " + std::to_string(states) + " states that time, numbers and conditions allow were tried; ";
-  return tried + (never.empty() ? "each goal can be reached, but not all of them together" : "never reached:" + never);
+  const std::string tried =
+      "all " + std::to_string(states) + " states that time, numbers and conditions allow were tried; ";
+  return tried + (never.empty() ? "each goal can be reached, but not all of them together"
+                                : "never reached:" + never);
 }
 
 }  // namespace roci::planner::temporal_pddl

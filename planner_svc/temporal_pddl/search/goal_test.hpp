@@ -1,4 +1,5 @@
-// Is the plan complete: goals hold, nothing runs (R12), and the timed literals still to come leave the goals alone.
+// Is the plan complete: goals hold, nothing runs (R12), and the timed literals still to come leave the goals
+// alone.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Successors that wait to be tried: two queues, ordered by estimate and age; the preferred one is served first as
-// long as that leads on (Helmert 2006, section 6; Richter and Helmert 2009).
+// Successors that wait to be tried: two queues, ordered by estimate and age; the preferred one is served
+// first as long as that leads on (Helmert 2006, section 6; Richter and Helmert 2009).
 #pragma once
 
 #include <cstdint>

@@ -4,8 +4,8 @@
 
 namespace roci::planner::temporal_pddl {
 
-void rebuild(const Task& task, const StateStore& store, const BoundTable& bounds, Duration epsilon, NodeId node,
-             PlanPrefix& prefix) {
+void rebuild(const Task& task, const StateStore& store, const BoundTable& bounds, Duration epsilon,
+             NodeId node, PlanPrefix& prefix) {
   prefix.node = node;
   prefix.steps.clear();
   prefix.start_of.clear();
@@ -19,7 +19,8 @@ void rebuild(const Task& task, const StateStore& store, const BoundTable& bounds
     const Transition transition = store.transition(*n);
     const NodeId before = store.parent(*n);
     append_step(task, transition.snap, before, prefix);
-    if (transition.compressed) append_step(task, task.actions[task.snaps[transition.snap].action].end, before, prefix);
+    if (transition.compressed)
+      append_step(task, task.actions[task.snaps[transition.snap].action].end, before, prefix);
     decode(store.code(*n), epsilon, bounds, prefix.constraints);
   }
 }

@@ -20,16 +20,16 @@ struct Running {
 struct PlanPrefix {
   NodeId node;
   std::vector<SnapId> steps;
-  std::vector<std::uint32_t> start_of;       // by step: of an end, the step of its start; else the step itself
+  std::vector<std::uint32_t> start_of;      // by step: of an end, the step of its start; else the step itself
   std::vector<StepConstraint> constraints;  // between steps
-  std::vector<Running> running;              // in order of their starts
-  std::vector<ActionId> running_actions;     // the same
-  std::uint32_t timed_done = 0;              // timed literals among the steps
+  std::vector<Running> running;             // in order of their starts
+  std::vector<ActionId> running_actions;    // the same
+  std::uint32_t timed_done = 0;             // timed literals among the steps
 };
 
 // Refills `prefix`, keeping its memory.
-void rebuild(const Task& task, const StateStore& store, const BoundTable& bounds, Duration epsilon, NodeId node,
-             PlanPrefix& prefix);
+void rebuild(const Task& task, const StateStore& store, const BoundTable& bounds, Duration epsilon,
+             NodeId node, PlanPrefix& prefix);
 
 // Appends one step without constraints. before: the state in which it is taken.
 void append_step(const Task& task, SnapId snap, NodeId before, PlanPrefix& prefix);

@@ -5,14 +5,15 @@
 
 namespace roci::planner::temporal_pddl {
 
-NodeId StateStore::add(StateView state, NodeId parent, Transition transition, std::span<const std::uint8_t> code) {
+NodeId StateStore::add(StateView state, NodeId parent, Transition transition,
+                       std::span<const std::uint8_t> code) {
   if (code.size() > kCodeBlockBytes - 1) throw std::length_error("too many constraints on one step");
   const std::size_t place = size_ % kNodesPerBlock;
   if (place == 0) {
     heads_.push_back(std::make_unique<Head[]>(kNodesPerBlock));
     states_.push_back(std::make_unique<Word[]>(kNodesPerBlock * words_));
   }
-  if (open_code_ + code.size() > kCodeBlockBytes) {
+  if (codes_.empty() || open_code_ + code.size() > kCodeBlockBytes) {
     codes_.push_back(std::make_unique<std::uint8_t[]>(kCodeBlockBytes));
     open_code_ = 0;
   }
@@ -44,7 +45,8 @@ std::span<const std::uint8_t> StateStore::code(NodeId node) const {
 }
 
 std::size_t StateStore::bytes() const {
-  return heads_.size() * kNodesPerBlock * (sizeof(Head) + words_ * sizeof(Word)) + codes_.size() * kCodeBlockBytes;
+  return heads_.size() * kNodesPerBlock * (sizeof(Head) + words_ * sizeof(Word)) +
+         codes_.size() * kCodeBlockBytes;
 }
 
 double StateStore::mean_bytes_per_state() const {

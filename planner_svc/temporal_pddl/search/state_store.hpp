@@ -1,4 +1,5 @@
-// The states that the search has stored: packed state, parent, operator, and the few constraints of the last steps.
+// The states that the search has stored: packed state, parent, operator, and the few constraints of the last
+// steps.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +20,14 @@ struct Transition {
   bool compressed = false;
 };
 
-// Nodes live in blocks, so that nothing is ever copied to a larger place and no memory is held in reserve for more
-// than one block.
+// Nodes live in blocks, so that nothing is ever copied to a larger place and no memory is held in reserve for
+// more than one block.
 class StateStore {
  public:
   explicit StateStore(std::size_t words_per_state) : words_(words_per_state) {}
 
-  // `code`: the serialized constraints of the transition's steps. The first node is the root: its parent is none.
+  // `code`: the serialized constraints of the transition's steps. The first node is the root: its parent is
+  // none.
   NodeId add(StateView state, NodeId parent, Transition transition, std::span<const std::uint8_t> code);
 
   StateView state(NodeId node) const;
@@ -34,7 +36,7 @@ class StateStore {
   std::span<const std::uint8_t> code(NodeId node) const;
 
   std::size_t size() const { return size_; }
-  std::size_t bytes() const;             // allocated
+  std::size_t bytes() const;            // allocated
   double mean_bytes_per_state() const;  // used
 
  private:
@@ -55,7 +57,7 @@ class StateStore {
   std::size_t words_;
   std::size_t size_ = 0;
   std::size_t code_bytes_ = 0;
-  std::size_t open_code_ = kCodeBlockBytes;  // bytes used of the last block
+  std::size_t open_code_ = 0;  // bytes used of the last block
   std::vector<std::unique_ptr<Head[]>> heads_;
   std::vector<std::unique_ptr<Word[]>> states_;
   std::vector<std::unique_ptr<std::uint8_t[]>> codes_;

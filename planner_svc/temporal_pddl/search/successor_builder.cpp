@@ -14,7 +14,8 @@ bool SuccessorBuilder::applicable(const PlanPrefix& prefix, SnapId snap_id) cons
   const StateView state = store_.state(prefix.node);
   switch (snap.kind) {
     case SnapKind::kTimedLiteral:
-      return prefix.timed_done < task_.timed_steps.size() && task_.timed_steps[prefix.timed_done].snap == snap_id;
+      return prefix.timed_done < task_.timed_steps.size() &&
+             task_.timed_steps[prefix.timed_done].snap == snap_id;
     case SnapKind::kInstant:
       return semantics_.applicable(snap_id, state, 0);
     case SnapKind::kStart: {
@@ -69,10 +70,9 @@ bool SuccessorBuilder::take(SnapId snap, double seconds, Successor& successor) {
 bool SuccessorBuilder::start(ActionId id, NodeId before, Successor& successor) {
   const Action& action = task_.actions[id];
   const StateView state = store_.state(before);
-  const bool compressed =
-      action.compression_safe && std::ranges::none_of(task_.absent_for_compression[id], [&](FactId fact) {
-        return task_.layout.holds(state, fact);
-      });
+  const bool compressed = action.compression_safe &&
+                          std::ranges::none_of(task_.absent_for_compression[id],
+                                               [&](FactId fact) { return task_.layout.holds(state, fact); });
   const auto bounds = semantics_.duration(id, state, std::nullopt);
   if (!bounds || !take(action.start, bounds->seconds, successor)) return false;
   if (!compressed) return true;
@@ -84,8 +84,8 @@ bool SuccessorBuilder::end(ActionId id, StateView before_start, Successor& succe
   const auto bounds = semantics_.duration(id, before_start, StateView(successor.state));
   if (!bounds || !take(task_.actions[id].end, bounds->seconds, successor)) return false;
   PlanPrefix& prefix = successor.prefix;
-  prefix.constraints.push_back(
-      {prefix.start_of.back(), static_cast<std::uint32_t>(prefix.steps.size() - 1), bounds->min, bounds->max});
+  prefix.constraints.push_back({prefix.start_of.back(), static_cast<std::uint32_t>(prefix.steps.size() - 1),
+                                bounds->min, bounds->max});
   return true;
 }
 

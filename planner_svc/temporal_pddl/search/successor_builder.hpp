@@ -6,9 +6,9 @@
 
 #include "planner_svc/temporal_pddl/constraints/orderings.hpp"
 #include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
-#include "planner_svc/temporal_pddl/task/semantics.hpp"
 #include "planner_svc/temporal_pddl/search/state_store.hpp"
 #include "planner_svc/temporal_pddl/search/temporal_check.hpp"
+#include "planner_svc/temporal_pddl/task/semantics.hpp"
 
 namespace roci::planner::temporal_pddl {
 
@@ -17,7 +17,7 @@ enum class Rejection { kNone, kLogical, kTemporal };
 struct Successor {
   Transition transition;
   std::vector<Word> state;
-  PlanPrefix prefix;            // of the new state; its node is not set
+  PlanPrefix prefix;                // of the new state; its node is not set
   std::size_t new_constraints = 0;  // how many of prefix.constraints the transition added, at their end
 };
 
@@ -26,11 +26,11 @@ class SuccessorBuilder {
   SuccessorBuilder(const Task& task, const StateStore& store, TemporalCheck& check, Duration epsilon)
       : task_(task), store_(store), check_(check), semantics_(task), orderings_(task, epsilon) {}
 
-  // Is it worth a try? Conditions hold, and an end belongs to a running action (R11), a start does not, the timed
-  // literal is the next one.
+  // Is it worth a try? Conditions hold, and an end belongs to a running action (R11), a start does not, the
+  // timed literal is the next one.
   bool applicable(const PlanPrefix& prefix, SnapId snap) const;
-  // The state after an applicable snap action: all invariants hold (R13) and the plan can be scheduled (R25). A
-  // compression safe action is ended at once (R14).
+  // The state after an applicable snap action: all invariants hold (R13) and the plan can be scheduled (R25).
+  // A compression safe action is ended at once (R14).
   Rejection build(const PlanPrefix& prefix, SnapId snap, Successor& successor);
 
  private:

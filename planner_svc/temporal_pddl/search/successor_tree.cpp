@@ -41,8 +41,8 @@ std::uint32_t SuccessorTree::build(std::span<Candidate> candidates, std::size_t 
   if (candidates.empty()) return 0;
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   nodes_.emplace_back();
-  const auto tested =
-      std::ranges::find_if(candidates, [&](const Candidate& candidate) { return candidate.tests.size() > depth; });
+  const auto tested = std::ranges::find_if(
+      candidates, [&](const Candidate& candidate) { return candidate.tests.size() > depth; });
   for (auto done = candidates.begin(); done != tested; ++done) nodes_[index].here.push_back(done->snap);
   if (tested == candidates.end()) return index;
   const std::uint32_t variable = tested->tests[depth].variable;

@@ -28,9 +28,9 @@ class SuccessorTree {
   };
   struct Node {
     std::uint32_t variable = 0;
-    std::vector<SnapId> here;               // no test left
-    std::vector<std::uint32_t> by_value;    // child of each value, 0: none
-    std::uint32_t otherwise = 0;            // child of those that do not test the variable, 0: none
+    std::vector<SnapId> here;             // no test left
+    std::vector<std::uint32_t> by_value;  // child of each value, 0: none
+    std::uint32_t otherwise = 0;          // child of those that do not test the variable, 0: none
   };
 
   std::uint32_t build(std::span<Candidate> candidates, std::size_t depth);

@@ -8,7 +8,8 @@ void TemporalCheck::fill(const PlanPrefix& prefix, Stn& network) {
   network.reset(prefix.steps.size());
   for (const StepConstraint& constraint : prefix.constraints) {
     network.require(constraint.from, constraint.to, constraint.lower.count());
-    if (constraint.upper != kUnbounded) network.require(constraint.to, constraint.from, -constraint.upper.count());
+    if (constraint.upper != kUnbounded)
+      network.require(constraint.to, constraint.from, -constraint.upper.count());
   }
 }
 
@@ -40,7 +41,8 @@ std::vector<Ticks> TemporalCheck::latest(const PlanPrefix& prefix) const {
   Stn mirrored(prefix.steps.size());
   for (auto constraint = prefix.constraints.rbegin(); constraint != prefix.constraints.rend(); ++constraint) {
     mirrored.require(constraint->to, constraint->from, constraint->lower.count());
-    if (constraint->upper != kUnbounded) mirrored.require(constraint->from, constraint->to, -constraint->upper.count());
+    if (constraint->upper != kUnbounded)
+      mirrored.require(constraint->from, constraint->to, -constraint->upper.count());
   }
   std::vector<Ticks> times(prefix.steps.size(), kNoPath);
   for (std::size_t i = 0; i < times.size(); ++i) {

@@ -23,14 +23,15 @@ class FlatLists {
     return std::span<const T>(items_).subspan(begin, ends_[list] - begin);
   }
   template <typename IdType>
-  std::span<const T> operator[](IdType list) const
-    requires requires { list.index(); }
-  {
-    return (*this)[list.index()];
+  std::span<const T> operator[](IdType list) const requires requires {
+    list.index();
   }
+  { return (*this)[list.index()]; }
 
   std::size_t size() const { return ends_.size(); }
-  std::size_t bytes() const { return items_.capacity() * sizeof(T) + ends_.capacity() * sizeof(std::uint32_t); }
+  std::size_t bytes() const {
+    return items_.capacity() * sizeof(T) + ends_.capacity() * sizeof(std::uint32_t);
+  }
 
  private:
   std::vector<T> items_;

@@ -13,7 +13,8 @@
 
 namespace roci::planner::temporal_pddl {
 
-// Σ weight · value(variable) + duration_weight · ?duration + constant. Terms are sorted by variable, none is 0.
+// Σ weight · value(variable) + duration_weight · ?duration + constant. Terms are sorted by variable, none is
+// 0.
 struct LinearExpression {
   struct Term {
     NumberId variable;

@@ -10,7 +10,8 @@ bool Semantics::holds_all(std::span<const FactId> facts, StateView state) const 
   return std::ranges::all_of(facts, [&](FactId fact) { return task_.layout.holds(state, fact); });
 }
 
-bool Semantics::holds_all(std::span<const NumericCondition> conditions, StateView state, double seconds) const {
+bool Semantics::holds_all(std::span<const NumericCondition> conditions, StateView state,
+                          double seconds) const {
   return std::ranges::all_of(conditions, [&](const NumericCondition& condition) {
     return holds(condition.comparator,
                  evaluate(task_.expressions[condition.expression], task_.layout.numbers(state), seconds));
@@ -22,7 +23,8 @@ bool Semantics::applicable(SnapId snap, StateView state, double seconds) const {
 }
 
 bool Semantics::invariants_hold(ActionId action, StateView state, double seconds) const {
-  return holds_all(task_.invariants[action], state) && holds_all(task_.numeric_invariants[action], state, seconds);
+  return holds_all(task_.invariants[action], state) &&
+         holds_all(task_.numeric_invariants[action], state, seconds);
 }
 
 void Semantics::apply(SnapId snap, double seconds, MutableState state) const {
@@ -51,8 +53,10 @@ std::optional<DurationBounds> Semantics::duration(ActionId id, StateView before_
         evaluate(task_.expressions[rule.bound], task_.layout.numbers(at_end ? *before_end : before_start), 0);
     if (std::isnan(seconds) || std::abs(seconds) > 1e12) return std::nullopt;
     const Duration bound(std::llround(seconds * 1e6));
-    const bool from_below = rule.op != pddl::ComparisonOperator::kLessEqual && rule.op != pddl::ComparisonOperator::kLess;
-    const bool from_above = rule.op != pddl::ComparisonOperator::kGreaterEqual && rule.op != pddl::ComparisonOperator::kGreater;
+    const bool from_below =
+        rule.op != pddl::ComparisonOperator::kLessEqual && rule.op != pddl::ComparisonOperator::kLess;
+    const bool from_above =
+        rule.op != pddl::ComparisonOperator::kGreaterEqual && rule.op != pddl::ComparisonOperator::kGreater;
     if (from_below) result.min = std::max(result.min, bound);
     if (from_above) result.max = std::min(result.max, bound);
     if (from_below && from_above) fixed = seconds;

@@ -23,8 +23,8 @@ class Semantics {
   bool invariants_hold(ActionId action, StateView state, double seconds) const;
   // All effects at once, seen from the state before.
   void apply(SnapId snap, double seconds, MutableState state) const;
-  // None: no duration satisfies all bounds. A bound measured at the end needs the state before the end; without one
-  // it is left out.
+  // None: no duration satisfies all bounds. A bound measured at the end needs the state before the end;
+  // without one it is left out.
   std::optional<DurationBounds> duration(ActionId action, StateView before_start,
                                          std::optional<StateView> before_end) const;
   bool satisfied(const Goal& goal, StateView state) const;

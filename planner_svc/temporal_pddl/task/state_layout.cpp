@@ -15,11 +15,12 @@ std::uint32_t bits_needed(std::size_t facts) { return static_cast<std::uint32_t>
 }  // namespace
 
 // Widest variables first, each into the first word with room for it.
-StateLayout::StateLayout(std::vector<std::vector<FactId>> variables, const IdVector<FactId, FactId>& negation_of,
-                         std::size_t numbers)
+StateLayout::StateLayout(std::vector<std::vector<FactId>> variables,
+                         const IdVector<FactId, FactId>& negation_of, std::size_t numbers)
     : places_(negation_of.size()), numbers_(numbers) {
-  std::stable_sort(variables.begin(), variables.end(),
-                   [](const auto& a, const auto& b) { return bits_needed(a.size()) > bits_needed(b.size()); });
+  std::stable_sort(variables.begin(), variables.end(), [](const auto& a, const auto& b) {
+    return bits_needed(a.size()) > bits_needed(b.size());
+  });
   std::vector<std::uint32_t> used;  // bits of each word
   std::size_t first_open = 0;       // words before are full
   for (auto& facts : variables) {

@@ -1,7 +1,7 @@
 // How a state lies in memory (R9): finite-domain variables bit-packed into 64-bit words, numbers behind them.
 //
-// A variable is a set of facts of which at most one holds at a time; with its value 0, none of them does. A fact that
-// is the negation of another needs no bits of its own.
+// A variable is a set of facts of which at most one holds at a time; with its value 0, none of them does. A
+// fact that is the negation of another needs no bits of its own.
 #pragma once
 
 #include <bit>
@@ -28,7 +28,8 @@ class StateLayout {
   };
 
   StateLayout() = default;
-  // variables: every fact in exactly one of them, except those with negation_of[fact] set, which are the negations.
+  // variables: every fact in exactly one of them, except those with negation_of[fact] set, which are the
+  // negations.
   StateLayout(std::vector<std::vector<FactId>> variables, const IdVector<FactId, FactId>& negation_of,
               std::size_t numbers);
 

@@ -1,7 +1,7 @@
 // The ground planning task: ⟨P, V, A, I, TILs, G⟩ of Stellar section 2.1 as flat, immutable tables.
 //
-// Each durative action is split into two snap actions, its start and its end (R10). Static facts and constant fluents
-// are gone; a negative condition is a condition on a fact of its own.
+// Each durative action is split into two snap actions, its start and its end (R10). Static facts and constant
+// fluents are gone; a negative condition is a condition on a fact of its own.
 #pragma once
 
 #include <cstdint>
@@ -45,10 +45,10 @@ struct DurationRule {
 struct Action {
   SchemaId schema;
   SnapId start;
-  SnapId end;                          // == start: a plain PDDL action
-  Duration min_duration{0};            // constant bounds; DurationRules may narrow them
+  SnapId end;                // == start: a plain PDDL action
+  Duration min_duration{0};  // constant bounds; DurationRules may narrow them
   Duration max_duration = kUnbounded;
-  bool compression_safe = false;       // see grounding/compression.hpp
+  bool compression_safe = false;  // see grounding/compression.hpp
 
   bool instantaneous() const { return start == end; }
 };
@@ -80,16 +80,16 @@ struct Task {
 
   // ---- Snap actions, by SnapId
   IdVector<SnapId, Snap> snaps;
-  FlatLists<FactId> conditions;                  // pre⊢ or pre⊣
-  FlatLists<NumericCondition> comparisons;       // likewise
-  FlatLists<FactId> adds, deletes;               // deletes first, then adds
-  FlatLists<NumericEffect> numeric_effects;      // all evaluated in the state before
-  FlatLists<VariableId> reads, writes;           // for R22, R23
+  FlatLists<FactId> conditions;              // pre⊢ or pre⊣
+  FlatLists<NumericCondition> comparisons;   // likewise
+  FlatLists<FactId> adds, deletes;           // deletes first, then adds
+  FlatLists<NumericEffect> numeric_effects;  // all evaluated in the state before
+  FlatLists<VariableId> reads, writes;       // for R22, R23
   IdVector<SnapId, TimeWindow> windows;
 
   // ---- Actions, by ActionId
   IdVector<ActionId, Action> actions;
-  FlatLists<FactId> invariants;                        // pre↔
+  FlatLists<FactId> invariants;  // pre↔
   FlatLists<NumericCondition> numeric_invariants;
   FlatLists<VariableId> invariant_reads;
   FlatLists<DurationRule> duration_rules;

@@ -1,0 +1,180 @@
+// roci-plan DOMAIN PROBLEM [--time S] [--memory MB] [--functions FILE] [--stats FILE] [--json] [--seed N]
+//
+// The plan goes to standard output, what is wrong to standard error, the verdict into the exit code
+// (docs/exit-codes.md).
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/pddl/check.hpp"
+#include "planner_svc/cli/table_functions.hpp"
+#include "planner_svc/temporal_pddl/plan/plan_text.hpp"
+#include "planner_svc/temporal_pddl/planner.hpp"
+
+namespace {
+
+using namespace roci;
+namespace engine = planner::temporal_pddl;
+
+constexpr int kUsageError = 64;
+
+struct Arguments {
+  std::string domain, problem, functions, stats;
+  double seconds = 0;  // 0: no limit
+  std::size_t megabytes = 0;
+  std::uint64_t seed = 0;
+  bool json = false;
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+
+int exit_code(engine::Verdict verdict) {
+  switch (verdict) {
+    case engine::Verdict::kSolved:
+      return 0;
+    case engine::Verdict::kUnsolvable:
+      return 1;
+    case engine::Verdict::kInvalidInput:
+      return 2;
+    case engine::Verdict::kUnsupported:
+      return 3;
+    case engine::Verdict::kTimeout:
+      return 4;
+    case engine::Verdict::kOutOfMemory:
+      return 5;
+    case engine::Verdict::kFunctionUnavailable:
+      return 6;
+    case engine::Verdict::kCancelled:
+      return 7;
+  }
+  return kUsageError;
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file || std::filesystem::is_directory(path)) {
+    throw pddl::ParseError({path, {}, "cannot be read", "check the path and its permissions"});
+  }
+  return text;
+}
+
+double seconds(engine::Duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+nlohmann::json statistics_json(const engine::Result& result, double wall_s) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const engine::Statistics& statistics = result.statistics;
+  return {{"verdict", engine::to_string(result.verdict)},
+          {"reason", result.reason},
+          {"makespan", result.plan ? nlohmann::json(seconds(result.plan->makespan)) : nlohmann::json()},
+          {"actions", result.plan ? nlohmann::json(result.plan->activities.size()) : nlohmann::json()},
+          {"wall_s", wall_s},
+          {"peak_rss_kb", usage.ru_maxrss},
+          {"expanded", statistics.expanded},
+          {"evaluated", statistics.evaluated},
+          {"generated", statistics.generated},
+          {"temporally_inconsistent", statistics.temporally_inconsistent},
+          {"dominated", statistics.dominated},
+          {"bytes_per_state", statistics.bytes_per_state},
+          {"engine_peak_bytes", statistics.peak_bytes},
+          {"facts", statistics.facts},
+          {"variables", statistics.variables},
+          {"numeric_variables", statistics.numeric_variables},
+          {"ground_actions", statistics.actions}};
+}
+
+nlohmann::json plan_json(const engine::Plan& plan) {
+  auto activities = nlohmann::json::array();
+  for (const auto& activity : plan.activities) {
+    const auto& start = plan.network.points[activity.start_point];
+    nlohmann::json entry = {{"name", activity.name},
+                            {"arguments", activity.arguments},
+                            {"start", seconds(activity.start)},
+                            {"duration", seconds(activity.end - activity.start)},
+                            {"earliest_start", seconds(start.earliest)}};
+    if (start.latest != engine::kUnbounded) entry["latest_start"] = seconds(start.latest);
+    activities.push_back(std::move(entry));
+  }
+  return activities;
+}
+
+engine::Result plan(const Arguments& arguments, const std::function<bool()>& out_of_time) {
+  const pddl::Domain domain = pddl::load_domain(read_file(arguments.domain), arguments.domain);
+  const pddl::Problem problem = pddl::load_problem(read_file(arguments.problem), arguments.problem, domain);
+  std::unique_ptr<planner::FunctionSource> functions = std::make_unique<planner::NoFunctions>();
+  if (!arguments.functions.empty()) {
+    functions = std::make_unique<planner::TableFunctions>(
+        pddl::parse_function_table(read_file(arguments.functions), arguments.functions), arguments.functions);
+  }
+  engine::Budget budget;
+  budget.out_of_time = out_of_time;
+  if (arguments.megabytes > 0) budget.memory_bytes = arguments.megabytes << 20;
+  engine::Monitor monitor;
+  monitor.cancelled = [] { return interrupted != 0; };
+  engine::Options options;
+  options.seed = arguments.seed;
+  return engine::plan(domain, problem, *functions, budget, monitor, options);
+}
+
+int run(const Arguments& arguments) {
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  std::function<bool()> out_of_time;
+  if (arguments.seconds > 0) out_of_time = [&] { return elapsed() > arguments.seconds; };
+
+  engine::Result result;
+  try {
+    result = plan(arguments, out_of_time);
+  } catch (const pddl::ParseError& error) {
+    result.verdict = engine::Verdict::kInvalidInput;
+    result.reason = error.what();
+  }
+  const nlohmann::json statistics = statistics_json(result, elapsed());
+  if (!arguments.stats.empty()) {
+    std::ofstream file(arguments.stats);
+    if (!(file << statistics.dump(2) << '\n')) std::cerr << arguments.stats << ": cannot be written\n";
+  }
+  if (arguments.json) {
+    nlohmann::json all = statistics;
+    if (result.plan) all["plan"] = plan_json(*result.plan);
+    std::cout << all.dump(2) << '\n';
+  } else if (result.plan) {
+    std::cout << engine::to_ipc(*result.plan);
+  }
+  if (!result.plan) std::cerr << engine::to_string(result.verdict) << ": " << result.reason << '\n';
+  return exit_code(result.verdict);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Plans: temporal PDDL domain and problem to a first plan; the exit code is the verdict");
+  app.add_option("DOMAIN", arguments.domain)->required();
+  app.add_option("PROBLEM", arguments.problem)->required();
+  app.add_option("--time", arguments.seconds, "limit in seconds of wall time");
+  app.add_option("--memory", arguments.megabytes, "limit in MiB");
+  app.add_option("--functions", arguments.functions,
+                 "values of external functions: (traverse_time a b) 12.5");
+  app.add_option("--stats", arguments.stats, "write statistics as JSON to this file");
+  app.add_flag("--json", arguments.json, "plan and statistics as one JSON object");
+  app.add_option("--seed", arguments.seed, "order among equally good successors; 0: as generated");
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  std::signal(SIGTERM, [](int) { interrupted = 1; });
+  try {
+    app.parse(argc, argv);
+    return run(arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsageError;
+  }
+}
