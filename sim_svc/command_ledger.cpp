@@ -29,9 +29,6 @@ Ack CommandLedger::answer(const ActivityKey& key, Time now) const {
   return out;
 }
 
-void CommandLedger::note(const Ack& ack) {
-  if (ack.stage == Stage::cancel_failed || ack.stage == Stage::unknown) return;
-  words_[ack.key] = ack;
-}
+void CommandLedger::note(const Ack& ack) { words_[ack.key] = ack; }
 
 }  // namespace roci::sim

@@ -19,7 +19,7 @@ class CommandLedger {
   std::optional<Ack> refuse_old(const ActivityKey&, std::uint64_t epoch, Time now);
   /// The key's last word; stage `unknown` for a key never taken.
   Ack answer(const ActivityKey&, Time now) const;
-  /// Keeps the word; a cancel that failed does not overwrite how the activity ended.
+  /// Keeps the word. How a cancel fared is no word on the activity, unless it ended it.
   void note(const Ack&);
 
  private:

@@ -120,6 +120,16 @@ TEST(World, ARockThatFallsOnTheWayBlocksARunningDrive) {
   EXPECT_EQ(run.code("d"), "blocked");
 }
 
+TEST(World, ARockThatFallsBesideTheWayDoesNotSendTheRoverBack) {
+  Flight run(flat_setup());
+  run.command(seconds(1), drive_to("d", "there", 60, 40));
+  append(run.said, run.world.path_found(seconds(1), {"d", 1}, {{40, 20}, {60, 20}, {60, 40}}));
+  append(run.said, run.world.disturb(seconds(350), RockFall{{10, 90, 1}}));
+  run.advance(seconds(900));
+  EXPECT_EQ(run.stage("d"), Stage::completed);
+  EXPECT_NEAR(to_seconds(run.time_of("d")), 610, 30);
+}
+
 TEST(World, ArmMovesToThePoseAndAStopLeavesItBetween) {
   Flight run(flat_setup());
   run.move_arm(seconds(1), "m", "stow", "sampling", {0.5, -1, 1, 0, 0}, 10);
