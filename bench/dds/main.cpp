@@ -1,0 +1,200 @@
+// roci-bench-dds [--rounds N] [--pings N] [--seed N]
+// Round trips between two processes on loopback: each vendor's bare API against our transport over the same
+// vendor, in one run and in turns, so that both see the same machine. Writes one JSON record to standard
+// output.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <iostream>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <stdexcept>
+#include <thread>
+
+#include "bench/dds/port.hpp"
+#include "services/domain_claim.hpp"
+#include "tests/contract/support/child_process.hpp"
+
+namespace roci::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using services::contract::ChildProcess;
+
+const std::vector<std::string> kVariants = {"bare-fastdds",    "ours-fastdds",    "tuples-fastdds",
+                                            "bare-cyclonedds", "ours-cyclonedds", "tuples-cyclonedds"};
+
+std::unique_ptr<Port> open(const std::string& variant, PortOptions options) {
+  const auto dash = variant.find('-');
+  const auto kind = variant.substr(0, dash), vendor = variant.substr(dash + 1);
+  if (variant == "bare-fastdds") return open_fastdds(std::move(options));
+  if (variant == "bare-cyclonedds") return open_cyclonedds(std::move(options));
+  if (kind == "ours") return open_ours(vendor, std::move(options));
+  if (kind == "tuples") return open_ours_with_tuples(vendor, std::move(options));
+  throw std::invalid_argument("unknown variant " + variant);
+}
+
+// From the vendor's thread to the one that works, as in a service.
+class Mailbox {
+ public:
+  void put(const Ball& ball) {
+    const std::lock_guard lock(mutex_);
+    balls_.push_back(ball);
+    changed_.notify_one();
+  }
+  // Throws when nothing comes for 10 s.
+  Ball take() {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait_for(lock, std::chrono::seconds(10), [this] { return !balls_.empty(); })) {
+      throw std::runtime_error("a round trip got no answer within 10 s");
+    }
+    const Ball ball = balls_.front();
+    balls_.pop_front();
+    return ball;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Ball> balls_;
+};
+
+// Returns each ball until its standard input ends.
+int serve(const std::string& variant, int domain) {
+  Mailbox mailbox;
+  const auto port =
+      open(variant, {Side::server, domain, [&mailbox](const Ball& ball) { mailbox.put(ball); }});
+  std::jthread input([] {
+    std::string line;
+    while (std::getline(std::cin, line)) continue;
+    _exit(0);
+  });
+  std::cout << "ready" << std::endl;
+  for (;;) {
+    try {
+      port->send(mailbox.take());
+    } catch (const std::runtime_error&) {
+      continue;  // nobody asks at the moment
+    }
+  }
+}
+
+class Rally {
+ public:
+  Rally(const std::string& program, const std::string& variant)
+      : server_({program, "--serve", variant, "--domain", std::to_string(domain_.id())}),
+        port_(open(variant, {Side::client, domain_.id(), [this](const Ball& ball) { mailbox_.put(ball); }})) {
+    if (!server_.wait_for("ready")) throw std::runtime_error(variant + ": the server does not start");
+    const auto give_up = Clock::now() + std::chrono::seconds(20);
+    while (!port_->matched()) {
+      if (Clock::now() > give_up)
+        throw std::runtime_error(variant + ": client and server do not find each other");
+      std::this_thread::yield();
+    }
+    warm_up();
+  }
+
+  void play(int pings, std::mt19937_64& random) {
+    std::uniform_real_distribution<double> metres(-100, 100);
+    for (int i = 0; i < pings; ++i) {
+      const Ball ball{++sequence_, metres(random), metres(random)};
+      const auto start = Clock::now();
+      port_->send(ball);
+      while (mailbox_.take().sequence != ball.sequence) continue;
+      microseconds_.push_back(std::chrono::duration<double, std::micro>(Clock::now() - start).count());
+    }
+  }
+
+  nlohmann::json result() {
+    std::sort(microseconds_.begin(), microseconds_.end());
+    const auto at = [this](double fraction) {
+      return microseconds_[static_cast<std::size_t>(fraction *
+                                                    static_cast<double>(microseconds_.size() - 1))];
+    };
+    return {{"median_us", at(0.5)}, {"p99_us", at(0.99)}, {"round_trips", microseconds_.size()}};
+  }
+
+ private:
+  // The server's side of the match may come later than ours.
+  void warm_up() {
+    for (int i = 0; i < 100; ++i) {
+      port_->send({++sequence_, 0, 0});
+      std::this_thread::sleep_for(std::chrono::milliseconds(i < 20 ? 20 : 1));
+    }
+    while (mailbox_.take().sequence != sequence_) continue;
+  }
+
+  services::DomainClaim domain_;
+  Mailbox mailbox_;
+  ChildProcess server_;
+  std::unique_ptr<Port> port_;
+  std::int64_t sequence_ = 0;
+  std::vector<double> microseconds_;
+};
+
+std::string first_line_of(const std::vector<std::string>& command) {
+  ChildProcess process(command);
+  process.wait_for("\n", std::chrono::seconds(5));
+  return process.lines().empty() ? "unknown" : process.lines().front();
+}
+
+std::string host_name() {
+  char name[256] = {};
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+nlohmann::json measure(const std::string& program, int rounds, int pings, std::uint64_t seed) {
+  std::map<std::string, Rally> rallies;
+  for (const auto& variant : kVariants) {
+    rallies.emplace(std::piecewise_construct, std::forward_as_tuple(variant),
+                    std::forward_as_tuple(program, variant));
+  }
+  std::mt19937_64 random(seed);
+  for (int round = 0; round < rounds; ++round) {
+    for (const auto& variant : kVariants) rallies.at(variant).play(pings, random);
+  }
+  nlohmann::json record{
+      {"bench", "dds"},
+      {"host", host_name()},
+      {"processors", std::thread::hardware_concurrency()},
+      {"revision", first_line_of({"git", "-C", ROCI_SOURCE_DIR, "describe", "--always", "--dirty"})},
+      {"seed", seed}};
+  for (auto& [variant, rally] : rallies) record["results"][variant] = rally.result();
+  for (const std::string vendor : {"fastdds", "cyclonedds"}) {
+    const double bare = record["results"]["bare-" + vendor]["median_us"];
+    const double ours = record["results"]["ours-" + vendor]["median_us"];
+    record["ratio"][vendor] = ours / bare;
+  }
+  return record;
+}
+
+}  // namespace
+}  // namespace roci::bench
+
+int main(int argc, char** argv) {
+  CLI::App app("Round trips over DDS: each vendor's bare API against our transport");
+  int rounds = 20, pings = 250, domain = 0;
+  std::uint64_t seed = 1;
+  std::string serve;
+  app.add_option("--rounds", rounds, "turns of each variant")->check(CLI::PositiveNumber);
+  app.add_option("--pings", pings, "round trips per turn")->check(CLI::PositiveNumber);
+  app.add_option("--seed", seed, "of the numbers in the samples");
+  app.add_option("--serve", serve)->group("");
+  app.add_option("--domain", domain)->group("");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (!serve.empty()) return roci::bench::serve(serve, domain);
+    std::cout << roci::bench::measure(argv[0], rounds, pings, seed).dump() << std::endl;
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "roci-bench-dds: " << error.what() << std::endl;
+    return 1;
+  }
+}

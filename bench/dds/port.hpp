@@ -1,0 +1,41 @@
+// One end of a ping-pong over DDS: sends a path request or its reply (about 108 bytes of CDR) and hands over
+// what it receives. Built on our transports and, for comparison, directly on each vendor's API with its
+// generated types.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace roci::bench {
+
+struct Ball {
+  std::int64_t sequence = 0;
+  double x_m = 0;
+  double y_m = 0;
+};
+
+enum class Side { client, server };
+
+struct PortOptions {
+  Side side = Side::client;
+  int domain = 0;
+  std::function<void(const Ball&)> on_ball;  // called from a vendor thread
+};
+
+class Port {
+ public:
+  virtual ~Port() = default;
+  virtual bool send(const Ball&) = 0;
+  virtual bool matched() const = 0;  // both topics of the pair
+};
+
+std::unique_ptr<Port> open_fastdds(PortOptions);
+std::unique_ptr<Port> open_cyclonedds(PortOptions);
+std::unique_ptr<Port> open_ours(const std::string& vendor, PortOptions);
+
+// A function request with 1,000 tuples of two objects there, 1,000 numbers and outcomes back.
+std::unique_ptr<Port> open_ours_with_tuples(const std::string& vendor, PortOptions);
+
+}  // namespace roci::bench
