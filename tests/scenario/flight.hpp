@@ -1,0 +1,27 @@
+// Whole missions flown by the programs that users start.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace roci::scenario {
+
+struct Ended {
+  int exit_code = -1;
+  std::string output;  // standard output; standard error goes to the test's own
+};
+
+// Runs a shell command line with the build's bin folder first in PATH.
+Ended run(const std::string& command);
+
+// Flies the mission to its end with `roci-launch … --speed max --headless --json`; the summary is the last
+// line. A flight that prints none gives an empty object.
+struct Flight {
+  int exit_code = -1;
+  nlohmann::json summary;
+};
+Flight fly(const std::string& mission, const std::string& dds, std::uint64_t seed = 1,
+           const std::string& more = "");
+
+}  // namespace roci::scenario
