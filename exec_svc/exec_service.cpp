@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "exec_svc/exec_wire.hpp"
+#include "exec_svc/wire_service.hpp"
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/trace.hpp"
 #include "services/publisher.hpp"

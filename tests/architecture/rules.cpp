@@ -26,7 +26,7 @@ bool is_door(const SourceFile& file) {
   if (file.under("ground_console")) return true;
   const std::string name = file.name();
   const std::string stem = name.substr(0, name.find_last_of('.'));
-  return stem == "main" || stem.ends_with("_service") || stem.ends_with("_wire");
+  return stem == "main" || stem.ends_with("_service");
 }
 
 using Complaints = std::vector<std::string>;
@@ -45,7 +45,7 @@ void check_floors(const SourceFile& file, Complaints& out) {
     if (is_process(here) && is_process(there) && here != there)
       complain("no process includes another; talk over idl/");
     if (is_process(here) && (there == "services" || there == "roci_idl") && !is_door(file)) {
-      complain("only *_service, *_wire and main see services/ and idl/; translate at the door");
+      complain("only *_service and main see services/ and idl/; translate at the door");
     }
   }
 }

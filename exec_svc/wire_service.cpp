@@ -1,4 +1,4 @@
-#include "exec_svc/exec_wire.hpp"
+#include "exec_svc/wire_service.hpp"
 
 #include <sstream>
 
