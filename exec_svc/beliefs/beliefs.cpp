@@ -60,6 +60,10 @@ void Beliefs::observe(const std::string& timeline, temporal::Value value) {
   values_.insert_or_assign(timeline, std::move(value));
 }
 
+void Beliefs::assume(const std::string& timeline, std::vector<std::string> facts) {
+  assumed_.insert_or_assign(timeline, std::move(facts));
+}
+
 const temporal::Value* Beliefs::value(const std::string& timeline) const {
   const auto found = values_.find(timeline);
   return found == values_.end() ? nullptr : &found->second;
@@ -86,6 +90,9 @@ std::set<std::string> Beliefs::family_facts() const {
       for (const std::string& fact : seen.model->facts)
         out.insert(fill_star(fill_positions(fact, seen.arguments), object));
     }
+  }
+  for (const auto& [timeline, facts] : assumed_) {
+    if (!values_.contains(timeline)) out.insert(facts.begin(), facts.end());
   }
   return out;
 }

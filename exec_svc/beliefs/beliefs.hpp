@@ -18,11 +18,13 @@ class Beliefs {
   explicit Beliefs(const MissionModel& mission);
 
   void observe(const std::string& timeline, temporal::Value value);
+  // Facts that hold for as long as a timeline has not been observed.
+  void assume(const std::string& timeline, std::vector<std::string> facts);
   const temporal::Value* value(const std::string& timeline) const;
 
   // Facts that observed states stand for, as text "(at place-1)", in a stable order.
   std::set<std::string> component_facts() const;
-  std::set<std::string> family_facts() const;
+  std::set<std::string> family_facts() const;  // the assumed ones among them
 
   // The value of a condition's timeline: an observed timeline by its name, a fluent "(battery)", or a fact
   // "(at place-1)", which is false when its predicate is observable and nothing observed stands for it.
@@ -38,6 +40,7 @@ class Beliefs {
  private:
   const MissionModel* mission_;
   std::map<std::string, temporal::Value> values_;
+  std::map<std::string, std::vector<std::string>> assumed_;
   std::set<std::string> observable_predicates_;
 };
 

@@ -30,6 +30,12 @@ std::string keys_of(const Map& map) {
 
 }  // namespace
 
+std::map<std::string, std::string> template_values(const GoalRequest& goal) {
+  auto values = goal.arguments;
+  values["id"] = goal.key.id;
+  return values;
+}
+
 bool is_final(GoalState state) { return state != GoalState::pending && state != GoalState::planned; }
 
 std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) const {

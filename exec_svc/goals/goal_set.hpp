@@ -36,6 +36,9 @@ struct GoalRequest {
   bool operator==(const GoalRequest&) const = default;
 };
 
+// What the templates of the goal's kind are filled with: its arguments and its id.
+std::map<std::string, std::string> template_values(const GoalRequest& goal);
+
 struct GoalRecord {
   GoalRequest request;
   GoalState state = GoalState::pending;

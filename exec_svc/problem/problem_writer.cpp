@@ -22,12 +22,6 @@ std::string number_text(double value) {
 
 std::string seconds_text(Time time) { return number_text(static_cast<double>(time.count()) / 1e6); }
 
-std::map<std::string, std::string> template_values(const GoalRequest& goal) {
-  auto values = goal.arguments;
-  values["id"] = goal.key.id;
-  return values;
-}
-
 // The problem while it is put together.
 class Draft {
  public:
@@ -46,10 +40,6 @@ class Draft {
         if (!is_final(record->state)) declared_.insert(object.name);
       }
       for (const std::string& fact : kind.facts) facts_.insert(fill_names(fact, values));
-      for (const auto& [timeline, unobserved] : kind.unobserved) {
-        if (beliefs_.value(fill_names(timeline, values)) != nullptr) continue;
-        for (const std::string& fact : unobserved) facts_.insert(fill_names(fact, values));
-      }
       if (!kind.window_fact.empty()) add_goal_window(fill_names(kind.window_fact, values), goal);
       if (is_final(record->state)) continue;
       for (const std::string& fact : goal_facts(mission_, goal)) {

@@ -39,8 +39,7 @@ std::vector<std::string> goals_served(const std::vector<std::string>& objects, c
                                       const GoalSet& goals) {
   std::vector<std::string> out;
   for (const GoalRecord* record : goals.open()) {
-    std::map<std::string, std::string> values = record->request.arguments;
-    values["id"] = record->request.key.id;
+    const auto values = template_values(record->request);
     const GoalKind& kind = mission.goal_kinds.at(record->request.kind);
     const bool serves = std::any_of(kind.objects.begin(), kind.objects.end(), [&](const ObjectModel& object) {
       return std::find(objects.begin(), objects.end(), fill_names(object.name, values)) != objects.end();

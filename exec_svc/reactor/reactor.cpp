@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "exec_svc/mission/template_text.hpp"
 #include "exec_svc/reactor/plan_binding.hpp"
 
 namespace roci::exec {
@@ -34,7 +35,10 @@ Reactor::Reactor(const MissionModel& mission)
     : mission_(&mission), beliefs_(mission), goals_(mission), executive_(executive_settings(mission)) {}
 
 void Reactor::restore(const std::vector<GoalRecord>& goals, std::uint32_t last_plan_version) {
-  for (const GoalRecord& record : goals) goals_.restore(record);
+  for (const GoalRecord& record : goals) {
+    goals_.restore(record);
+    if (record.state != GoalState::rejected) assume_unobserved(record.request);
+  }
   plan_version_ = last_plan_version;
   first_plan_ = last_plan_version == 0;
   if (!goals_.open().empty()) want_plan("restarted with open goals");
@@ -77,8 +81,18 @@ void Reactor::take_goals(Time now, const std::vector<GoalRequest>& requests) {
       if (phase_ == Phase::executing || phase_ == Phase::planning) want_plan(name + " was recalled");
     } else if (record->state == GoalState::pending) {
       note(NoteLevel::info, "goal.accepted", name + " accepted");
+      assume_unobserved(record->request);
       want_plan(name + " arrived");
     }
+  }
+}
+
+void Reactor::assume_unobserved(const GoalRequest& goal) {
+  const auto values = template_values(goal);
+  for (const auto& [timeline, templates] : mission_->goal_kinds.at(goal.kind).unobserved) {
+    std::vector<std::string> facts;
+    for (const std::string& fact : templates) facts.push_back(fill_names(fact, values));
+    beliefs_.assume(fill_names(timeline, values), std::move(facts));
   }
 }
 

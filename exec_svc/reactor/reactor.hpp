@@ -110,6 +110,7 @@ class Reactor {
  private:
   void take_goals(temporal::Time now, const std::vector<GoalRequest>& requests);
   void take_peers(const ReactorInputs& inputs);
+  void assume_unobserved(const GoalRequest& goal);
   void note_achieved();
   void advance(temporal::Time now, const ReactorInputs& inputs);
   void follow_plan(temporal::Time now);

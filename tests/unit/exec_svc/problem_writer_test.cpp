@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/pddl/parser.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
@@ -91,10 +93,11 @@ TEST_F(ProblemWriterTest, AchievedGoalsLeaveTheProblemUnlessTheRobotStandsThere)
   EXPECT_THAT(write().text, Not(HasSubstr("image-ridge")));
 }
 
-TEST_F(ProblemWriterTest, UnobservedFactsEndWithTheFirstObservation) {
+TEST_F(ProblemWriterTest, AssumedFactsEndWithTheFirstObservation) {
   GoalRequest pick = photo("soil");
   pick.kind = "pick_sample";
   submit(pick);
+  beliefs.assume("sample.sample-soil", {"(sample-at sample-soil place-soil)"});
   EXPECT_THAT(write().text, HasSubstr("(sample-at sample-soil place-soil)"));
   beliefs.observe("sample.sample-soil", temporal::state("held"));
   EXPECT_THAT(write().text, Not(HasSubstr("(sample-at")));
