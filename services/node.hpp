@@ -30,6 +30,7 @@ struct MasterOptions {
   std::vector<std::string> roster;  // services that must be ready before time 0, this one included
   double pace = 0;                  // simulated seconds per wall second; 0: as fast as possible
   double hang_limit_s = 60;         // wall time after which a participant without progress counts as dead
+  double restart_hold_s = 0;        // wall time for which mission time stands still so that a killed one may return
 };
 
 struct NodeOptions {

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "core/mission/entry.hpp"
-#include "services/lossy_transport.hpp"
+#include "services/incarnation.hpp"
 #include "services/service.hpp"
 #include "services/service_options.hpp"
 #include "services/stop_signals.hpp"
@@ -23,8 +23,11 @@ std::unique_ptr<Transport> connect(const Connection& connection) {
   return open_transport(connection.dds, connection.transport);
 }
 
-int run_service(const ServiceOptions& options, MakeService* make) {
+int run_service(ServiceOptions options, MakeService* make) {
   StopSignals signals;
+  if (options.count_incarnation) {
+    options.node.incarnation = next_incarnation(options.run.run_folder, options.node.name);
+  }
   Node node(options.node, connect(options.connection));
   const auto service = make(node, options.run);
   signals.watch([&node] { node.stop(); });

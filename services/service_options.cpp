@@ -46,9 +46,13 @@ void add_clock(CLI::App& app, NodeOptions& node, std::string& roster, double& ep
                  "Master: seconds of silence until a service counts as hung")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--incarnation", node.incarnation, "How often this service was started in this run, from 1")
-      ->check(CLI::PositiveNumber)
+  app.add_option("--restart-hold", node.master.restart_hold_s,
+                 "Master: seconds that mission time stands still for a killed service to return")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  app.add_option("--incarnation", node.incarnation,
+                 "How often this service was started in this run (default: counted in the run folder, else 1)")
+      ->check(CLI::PositiveNumber);
 }
 
 }  // namespace
@@ -71,6 +75,7 @@ ServiceOptions parse_service_options(int argc, const char* const* argv, const st
     const int code = app.exit(error, text, text);
     throw CommandLineEnd(code == 0 ? 0 : 2, text.str());
   }
+  options.count_incarnation = app.count("--incarnation") == 0 && !options.run.run_folder.empty();
   options.node.master.roster = split_list(roster);
   options.node.epoch_unix_us = static_cast<std::int64_t>(epoch_s * 1e6);
   options.connection = resolve_connection(flags, environment, options.run.mission);

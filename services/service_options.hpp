@@ -14,6 +14,7 @@ struct ServiceOptions {
   RunSettings run;
   NodeOptions node;
   Connection connection;
+  bool count_incarnation = false;  // nobody gave one: it is counted in the run folder
 };
 
 // The command line ended the program: --help (code 0) or a mistake (code 2). what(): text for the user.

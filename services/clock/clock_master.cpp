@@ -59,9 +59,9 @@ void ClockMaster::lost(const std::string& service, std::uint32_t incarnation, co
 
 std::vector<std::string> ClockMaster::missing() const {
   std::vector<std::string> names;
-  if (started_) return names;
-  std::ranges::copy_if(roster_, std::back_inserter(names),
-                       [&](const std::string& service) { return !waiting_.contains(service); });
+  std::ranges::copy_if(roster_, std::back_inserter(names), [&](const std::string& service) {
+    return !waiting_.contains(service) && !members_.contains(service);
+  });
   return names;
 }
 
@@ -74,7 +74,7 @@ std::vector<std::string> ClockMaster::owing() const {
 }
 
 std::optional<ClockMaster::Window> ClockMaster::window() const {
-  if (!missing().empty() || !owing().empty() || last_) return std::nullopt;
+  if (last_ || !owing().empty() || (!started_ && !missing().empty())) return std::nullopt;
   if (!started_ || roster_changed_ || !waiting_.empty()) return Window{time_, time_};
   std::optional<Time> wish;
   bool outside = false;

@@ -27,7 +27,7 @@ class ClockMaster {
   void done(const v1::ClockDone&);
   void lost(const std::string& service, std::uint32_t incarnation, const std::string& cause);
 
-  std::vector<std::string> missing() const;  // of the roster, before time 0
+  std::vector<std::string> missing() const;  // of the roster: not there yet, or lost
   std::vector<std::string> owing() const;    // who must answer the open step
   bool member(const std::string& service) const { return members_.contains(service); }
   Time time() const { return time_; }

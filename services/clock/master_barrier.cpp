@@ -63,7 +63,7 @@ class MasterBarrier : public Barrier {
   void turn(wall::Instant now) override {
     peers_.check(now);
     for (const PeerChange& change : peers_.take_changes()) {
-      if (!change.alive) master_.lost(change.service, change.incarnation, change.cause);
+      if (!change.alive) lose(change, now);
     }
     if (auto revision = master_.take_revision()) publish(std::move(*revision), now);
     if (master_.owing().empty()) advance(now);
@@ -83,14 +83,21 @@ class MasterBarrier : public Barrier {
 
   wall::Instant next_turn(wall::Instant now) const override {
     const auto window = master_.window();
-    if (!window) return now + wall::seconds(kIdleTurnS);
+    if (!window || now < hold_until_) return now + wall::seconds(kIdleTurnS);
     return std::min(pace_.earliest(window->earliest), now + wall::seconds(kIdleTurnS));
   }
 
  private:
+  void lose(const PeerChange& change, wall::Instant now) {
+    master_.lost(change.service, change.incarnation, change.cause);
+    // Somebody is about to start it again; one that left or hangs will not be back soon.
+    if (change.cause == "killed") hold_until_ = now + wall::seconds(node_.options().master.restart_hold_s);
+  }
+
   void advance(wall::Instant now) {
     if (step_ && step_->last()) return;
     if (stopping_ && step_) return issue_last(now);
+    if (now < hold_until_ && !master_.missing().empty()) return;
     const auto window = master_.window();
     if (!window || pace_.earliest(window->earliest) > now) return;
     const Time time = std::clamp(pace_.time_at(now), window->earliest, window->latest);
@@ -142,6 +149,7 @@ class MasterBarrier : public Barrier {
   wall::Instant waiting_since_;
   wall::Instant show_time_;
   wall::Instant leave_by_;
+  wall::Instant hold_until_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/mission/entry.hpp"
+#include "services/incarnation.hpp"
 
 namespace roci::services {
 namespace {
@@ -96,6 +97,13 @@ TEST_F(ConnectionTest, MistakesAreNamedWithTheirPlace) {
   flags.domain.reset();
   flags.network = folder / "nowhere.yaml";
   EXPECT_THAT(error_of(), HasSubstr("nowhere.yaml"));
+}
+
+TEST_F(ConnectionTest, IncarnationsAreCountedInTheRunFolder) {
+  EXPECT_EQ(next_incarnation(folder, "arm_svc"), 1U);
+  EXPECT_EQ(next_incarnation(folder, "arm_svc"), 2U);
+  EXPECT_EQ(next_incarnation(folder, "exec_svc"), 1U);
+  EXPECT_THROW(next_incarnation(folder / "nowhere", "arm_svc"), std::runtime_error);
 }
 
 TEST(SplitList, LeavesOutEmptyParts) {

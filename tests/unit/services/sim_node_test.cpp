@@ -153,6 +153,22 @@ TEST(SimNode, ARestartedServiceGetsTheNewestStateAndNoOldRequest) {
   EXPECT_THAT(*seen_by_a, ElementsAre("0 b#1 alive", "5 b#1 dead: left", "5 b#2 alive"));
 }
 
+TEST(SimNode, TimeWaitsForAKilledServiceToReturn) {
+  SimRun run({"a", "b"});
+  run.master.restart_hold_s = 1000;
+  Node& a = run.add("a");
+  Node& b = run.add("b");
+  const auto seen = record(a);
+  b.at(10ms, [] { throw Crash{}; });
+  a.at(10ms, [] {});
+  a.at(500ms, [&a] { a.stop(); });
+  run.start();
+  run.wait_for_crash("b");
+  run.add("b", 2);
+  run.run();
+  EXPECT_THAT(*seen, ElementsAre("0 b#1 alive", "10 b#1 dead: killed", "10 b#2 alive"));
+}
+
 TEST(SimNode, InputOfObserversWakesAnIdleReceiver) {
   SimRun run({"a", "b"});
   Node& a = run.add("a");

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <exception>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
@@ -81,10 +82,17 @@ class SimRun {
           m->node->run();
         } catch (const Crash&) {
           m->node.reset();  // as the end of its process would
+          m->crashed.set_value();
         } catch (...) {
           m->error = std::current_exception();
         }
       });
+    }
+  }
+
+  void wait_for_crash(const std::string& name) {
+    for (std::size_t i = 0; Member* member = at(i); ++i) {
+      if (member->name == name) return member->crashed.get_future().wait();
     }
   }
 
@@ -112,6 +120,7 @@ class SimRun {
     std::unique_ptr<Node> node;
     std::thread thread;
     bool ran = false;
+    std::promise<void> crashed;
     std::exception_ptr error;
   };
   Member* at(std::size_t index) {

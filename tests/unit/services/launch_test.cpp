@@ -1,0 +1,254 @@
+// The parts of roci-launch: what it starts, when it starts a service again, how a run ends.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "services/launch/mission_folder.hpp"
+#include "services/launch/options.hpp"
+#include "services/launch/process_plan.hpp"
+#include "services/launch/restart_policy.hpp"
+#include "services/launch/run_record.hpp"
+#include "services/launch/summary.hpp"
+#include "services/launch/supervisor.hpp"
+#include "services/service_options.hpp"
+
+namespace roci::launch {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::Not;
+
+namespace fs = std::filesystem;
+
+class LaunchTest : public testing::Test {
+ protected:
+  LaunchTest() {
+    fs::create_directories(folder);
+    std::ofstream(folder / "mission.yaml") << "name: test\n";
+  }
+  ~LaunchTest() override { fs::remove_all(folder); }
+
+  Options parse(std::vector<std::string> arguments) const {
+    std::vector<const char*> pointers{"roci-launch", folder.c_str()};
+    for (const auto& argument : arguments) pointers.push_back(argument.c_str());
+    return parse_options(static_cast<int>(pointers.size()), pointers.data(),
+                         [](const char*) { return std::nullopt; });
+  }
+
+  fs::path folder = fs::temp_directory_path() / ("roci-launch-" + std::to_string(getpid()) +
+                                                 testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(LaunchTest, MixedPutsThePlannerAndTheConsoleOnTheOtherVendor) {
+  const Options options = parse({"--dds", "mixed"});
+  EXPECT_THAT(service_arguments(options, "planner_svc", 1, 0), Contains("cyclonedds"));
+  EXPECT_THAT(service_arguments(options, "exec_svc", 1, 0), Contains("fastdds"));
+  EXPECT_EQ(vendor_of(kConsole, "mixed"), "cyclonedds");
+  EXPECT_EQ(vendor_of(kConsole, "fastdds"), "fastdds");
+}
+
+TEST_F(LaunchTest, OnlyTheMasterKnowsRosterAndPace) {
+  const Options options = parse({"--speed", "max"});
+  EXPECT_THAT(service_arguments(options, "sim_svc", 3, 0),
+              IsSupersetOf({"master", "--roster", "arm_svc,exec_svc,pathplan_svc,planner_svc,science_svc,sim_svc",
+                            "--pace", "0", "--incarnation", "3"}));
+  EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Contains("simulated"));
+  EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Not(Contains("--roster")));
+}
+
+TEST_F(LaunchTest, LiveServicesShareAnEpoch) {
+  const Options options = parse({"--clock", "live", "--speed", "2"});
+  EXPECT_THAT(service_arguments(options, "sim_svc", 1, 1'700'000'000'250'000),
+              IsSupersetOf({"--clock", "live", "--scale", "2", "--epoch", "1700000000.25"}));
+}
+
+TEST_F(LaunchTest, ServiceArgumentsAreThoseThatServicesRead) {
+  Options options = parse({"--dds", "cyclonedds", "--seed", "9", "--domain", "7", "--speed", "2.5"});
+  options.run_folder = "/run";
+  for (const std::string& service : kAllServices) {
+    const auto arguments = service_arguments(options, service, 2, 0);
+    std::vector<const char*> pointers;
+    for (const auto& argument : arguments) pointers.push_back(argument.c_str());
+    const auto read = services::parse_service_options(static_cast<int>(pointers.size()), pointers.data(), service,
+                                                      [](const char*) { return std::nullopt; });
+    EXPECT_EQ(read.node.name, service);
+    EXPECT_EQ(read.node.incarnation, 2U);
+    EXPECT_EQ(read.run.seed, 9U);
+    EXPECT_EQ(read.run.mission, options.mission);
+    EXPECT_EQ(read.connection.dds, "cyclonedds");
+    EXPECT_EQ(read.connection.transport.domain, 7);
+    const bool master = service == kClockMaster;
+    EXPECT_EQ(read.node.clock, master ? services::ClockMode::master : services::ClockMode::simulated);
+    EXPECT_EQ(read.node.master.pace, master ? 2.5 : 0);
+  }
+}
+
+TEST_F(LaunchTest, MistakesOnTheCommandLineAreExplained) {
+  EXPECT_THROW(parse({"--clock", "lunar"}), services::CommandLineEnd);
+  EXPECT_THROW(parse({"--speed", "fast"}), std::invalid_argument);
+  EXPECT_THROW(parse({"--speed", "-1"}), std::invalid_argument);
+  EXPECT_THROW(parse({"--speed", "max", "--clock", "live"}), std::invalid_argument);
+  EXPECT_THROW(parse({"--services", "leg_svc"}), std::invalid_argument);
+  try {
+    services::mission_folder("no-such-mission");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("no mission \"no-such-mission\": give a folder with a mission.yaml"));
+  }
+}
+
+TEST_F(LaunchTest, TheSummaryIsCompletedAndAMissingOneIsAFailure) {
+  Options options = parse({"--dds", "mixed", "--seed", "4"});
+  options.run_folder = folder;
+  auto summary = complete_summary(options, 1.5);
+  EXPECT_FALSE(summary.achieved);
+  EXPECT_THAT(summary.json, HasSubstr(R"("result":"failed")"));
+  EXPECT_THAT(summary.json, HasSubstr(R"("seed":4)"));
+  std::ofstream(folder / "summary.json") << R"({"result": "achieved", "goals": {"achieved": 3}, "sim_s": 7})";
+  summary = complete_summary(options, 2.5);
+  EXPECT_TRUE(summary.achieved);
+  EXPECT_THAT(summary.json, HasSubstr(R"("dds":"mixed")"));
+  EXPECT_THAT(summary.json, HasSubstr(R"("wall_s":2.5)"));
+  EXPECT_THAT(summary.json, HasSubstr(R"("goals":{"achieved":3})"));
+  EXPECT_THAT(summary.text, HasSubstr("achieved"));
+}
+
+TEST_F(LaunchTest, RunningMissionsAreFound) {
+  services::RunRecord run;
+  run.pid = getpid();
+  run.domain = 5;
+  run.mission = "/missions/x";
+  run.peers = {"127.0.0.1"};
+  services::RunRecord dead = run;
+  dead.pid = 1 << 30;  // beyond the largest process id
+  {
+    const services::PublishedRun published(folder, run);
+    const services::PublishedRun of_the_dead(folder, dead);
+    std::ofstream(folder / "run-7.json") << "{ half a rec";
+    EXPECT_THAT(services::find_runs(folder), ElementsAre(run));
+  }
+  EXPECT_TRUE(services::find_runs(folder).empty());
+}
+
+TEST(RestartPolicy, WaitsLongerEachTimeAndGivesUp) {
+  RestartPolicy policy;
+  EXPECT_DOUBLE_EQ(policy.died(0s)->count(), 0.2);
+  EXPECT_DOUBLE_EQ(policy.died(1s)->count(), 0.4);
+  EXPECT_DOUBLE_EQ(policy.died(1s)->count(), 0.8);
+  EXPECT_DOUBLE_EQ(policy.died(1s)->count(), 1.6);
+  EXPECT_FALSE(policy.died(1s));
+}
+
+TEST(RestartPolicy, ALongLifeStartsANewRow) {
+  RestartPolicy policy;
+  for (int i = 0; i < 100; ++i) EXPECT_DOUBLE_EQ(policy.died(i % 2 == 0 ? 60s : 1s)->count(), i % 2 == 0 ? 0.2 : 0.4);
+}
+
+// Services are shell commands here; time is what the test says.
+class SupervisorTest : public LaunchTest {
+ protected:
+  Supervisor make(std::vector<std::string> names, bool master_is_clock = true) {
+    Supervisor::Hooks hooks;
+    hooks.start = [this](const std::string& service, std::uint32_t incarnation) {
+      starts.push_back(service + "#" + std::to_string(incarnation));
+      return std::make_unique<Child>("/bin/sh", std::vector<std::string>{"sh", "-c", script[service]}, folder / "log");
+    };
+    hooks.on_death = [this](const std::string& service, const std::string& what) { deaths.push_back(service + " " + what); };
+    return {names, "sim_svc", master_is_clock, std::move(hooks)};
+  }
+  static void turn_until(Supervisor& supervisor, services::wall::Instant now, const std::function<bool()>& done) {
+    while (!done()) supervisor.turn(now);
+  }
+
+  services::wall::Instant start{1000s};
+  std::map<std::string, std::string> script;
+  std::vector<std::string> starts;
+  std::vector<std::string> deaths;
+};
+
+TEST_F(SupervisorTest, ACleanEndOfAllIsTheEnd) {
+  script = {{"sim_svc", "exit 0"}, {"arm_svc", "exit 0"}};
+  auto supervisor = make({"arm_svc", "sim_svc"});
+  supervisor.start(start);
+  turn_until(supervisor, start, [&] { return supervisor.finished(); });
+  EXPECT_FALSE(supervisor.failure());
+  EXPECT_THAT(starts, ElementsAre("arm_svc#1", "sim_svc#1"));
+}
+
+TEST_F(SupervisorTest, ADeadServiceIsStartedAgainAsTheNextIncarnation) {
+  script = {{"arm_svc", "kill -9 $$"}, {"sim_svc", "exec tail -f /dev/null"}};
+  auto supervisor = make({"arm_svc", "sim_svc"});
+  supervisor.start(start);
+  turn_until(supervisor, start, [&] { return deaths.size() == 1; });
+  EXPECT_THAT(deaths[0], HasSubstr("arm_svc was ended by Killed; starting it again"));
+  supervisor.turn(start + 199ms);
+  EXPECT_EQ(starts.size(), 2U);
+  script["arm_svc"] = "exec tail -f /dev/null";
+  supervisor.turn(start + 200ms);
+  EXPECT_THAT(starts, ElementsAre("arm_svc#1", "sim_svc#1", "arm_svc#2"));
+  EXPECT_FALSE(supervisor.finished());
+}
+
+TEST_F(SupervisorTest, FiveDeathsInARowEndTheRun) {
+  script = {{"arm_svc", "exit 1"}, {"sim_svc", "exec tail -f /dev/null"}};
+  auto supervisor = make({"arm_svc", "sim_svc"});
+  supervisor.start(start);
+  auto now = start;
+  for (std::size_t death = 1; death <= 5; ++death, now += 10s) {
+    turn_until(supervisor, now, [&] { return deaths.size() == death; });
+  }
+  turn_until(supervisor, now, [&] { return supervisor.finished(); });
+  ASSERT_TRUE(supervisor.failure());
+  EXPECT_EQ(supervisor.failure()->service, "arm_svc");
+  EXPECT_THAT(supervisor.failure()->what, HasSubstr("ended with code 1, the 5th time in a row"));
+}
+
+TEST_F(SupervisorTest, BadInputIsNotTriedAgain) {
+  script = {{"arm_svc", "exit 2"}, {"sim_svc", "exec tail -f /dev/null"}};
+  auto supervisor = make({"arm_svc", "sim_svc"});
+  supervisor.start(start);
+  turn_until(supervisor, start, [&] { return supervisor.finished(); });
+  ASSERT_TRUE(supervisor.failure());
+  EXPECT_TRUE(supervisor.failure()->bad_input);
+  EXPECT_EQ(starts.size(), 2U);
+}
+
+TEST_F(SupervisorTest, TheRunEndsWithItsClock) {
+  script = {{"arm_svc", "exec tail -f /dev/null"}, {"sim_svc", "exit 1"}};
+  auto supervisor = make({"arm_svc", "sim_svc"});
+  supervisor.start(start);
+  turn_until(supervisor, start, [&] { return supervisor.finished(); });
+  ASSERT_TRUE(supervisor.failure());
+  EXPECT_THAT(supervisor.failure()->what, HasSubstr("it is the clock of the run"));
+}
+
+TEST_F(SupervisorTest, LiveServicesAreAskedToLeaveWhenTheRobotIsDone) {
+  script = {{"arm_svc", "trap 'exit 0' TERM; while :; do :; done"}, {"sim_svc", "exit 0"}};
+  auto supervisor = make({"arm_svc", "sim_svc"}, false);
+  supervisor.start(start);
+  turn_until(supervisor, start, [&] { return supervisor.finished(); });
+  EXPECT_FALSE(supervisor.failure());
+}
+
+TEST_F(SupervisorTest, WhoDoesNotLeaveIsKilledInTheEnd) {
+  const fs::path ready = folder / "ready";
+  script = {{"arm_svc", "trap '' TERM; touch " + ready.string() + "; while :; do :; done"},
+            {"sim_svc", "exec tail -f /dev/null"}};
+  auto supervisor = make({"arm_svc", "sim_svc"});
+  supervisor.start(start);
+  turn_until(supervisor, start, [&] { return fs::exists(ready); });
+  supervisor.stop(start);                    // the clock ends at once, the arm does not listen
+  supervisor.turn(start + 5s);               // SIGTERM for all
+  EXPECT_FALSE(supervisor.finished());
+  turn_until(supervisor, start + 10s, [&] { return supervisor.finished(); });  // SIGKILL
+  EXPECT_FALSE(supervisor.failure());
+}
+
+}  // namespace
+}  // namespace roci::launch
