@@ -54,12 +54,12 @@ void Supervisor::after_end(const std::string& name, Service& service, const Endi
   }
   if (clean || terminate_at_) return;
   const std::string what = to_string(ending);
-  if (name == master_ && master_is_clock_)
-    return fail(name, what + "; it is the clock of the run", false, now);
   if (ending.exited && ending.code == kServiceClockGone)
     return fail(name, "lost the clock of the run", false, now);
   if (ending.exited && ending.code == kServiceBadInput) return fail(name, what, true, now);
   if (ending.exited && ending.code == kServiceNoTransport) return fail(name, what, false, now);
+  if (name == master_ && master_is_clock_)
+    return fail(name, what + "; it is the clock of the run", false, now);
   const auto pause = service.policy.died(RestartPolicy::Duration(now - service.started));
   if (!pause) {
     return fail(name, what + ", the " + std::to_string(RestartPolicy::kDeathsInARow) + "th time in a row",
