@@ -49,8 +49,7 @@ Options parse_options(int argc, const char* const* argv, const services::Environ
   std::string service_list;
   std::string roster;
   CLI::App app("Flies a mission: starts every service, watches them, and reports the outcome", "roci-launch");
-  app.add_option("mission", mission, "Mission folder, or the name of an installed mission")
-      ->required();
+  app.add_option("mission", mission, "Mission folder, or the name of an installed mission")->required();
   app.add_option("--scenario", options.scenario, "Scenario of the mission")->capture_default_str();
   app.add_option("--dds", flags.dds, "fastdds, cyclonedds, mixed, or inproc (one process)");
   app.add_option("--speed", speed, "Mission seconds per second, or max (default: 60 simulated, 1 live)");

@@ -32,17 +32,22 @@ void Supervisor::launch(const std::string& name, Service& service, wall::Instant
 }
 
 void Supervisor::turn(wall::Instant now) {
-  for (auto& [name, service] : services_) {
-    if (service.child) {
-      if (const auto ending = service.child->ending()) {
-        service.child.reset();
-        after_end(name, service, *ending, now);
-      }
-    } else if (service.restart && *service.restart <= now) {
-      launch(name, service, now);
-    }
-  }
+  // The master first: its end explains those of the others.
+  if (const auto master = services_.find(master_); master != services_.end()) look_after(*master, now);
+  for (auto& entry : services_) look_after(entry, now);
   wind_up(now);
+}
+
+void Supervisor::look_after(std::pair<const std::string, Service>& entry, wall::Instant now) {
+  auto& [name, service] = entry;
+  if (service.child) {
+    if (const auto ending = service.child->ending()) {
+      service.child.reset();
+      after_end(name, service, *ending, now);
+    }
+  } else if (service.restart && *service.restart <= now) {
+    launch(name, service, now);
+  }
 }
 
 void Supervisor::after_end(const std::string& name, Service& service, const Ending& ending,

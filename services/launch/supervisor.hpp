@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/clock/wall.hpp"
@@ -55,6 +56,7 @@ class Supervisor {
     RestartPolicy policy;
   };
   void launch(const std::string& name, Service&, services::wall::Instant now);
+  void look_after(std::pair<const std::string, Service>&, services::wall::Instant now);
   void after_end(const std::string& name, Service&, const Ending&, services::wall::Instant now);
   void fail(const std::string& name, std::string what, bool bad_input, services::wall::Instant now);
   void wind_up(services::wall::Instant now);
