@@ -49,6 +49,15 @@ fs::path choose_run_folder(const Options& options, std::int64_t started_unix_us)
   return state_folder() / "rocinante" / "runs" / name;
 }
 
+// A service that starts takes up the journal that it finds, so an earlier run's would go on in this one.
+void refuse_used_folder(const Options& options) {
+  for (const std::string& service : options.services) {
+    if (!fs::exists(options.run_folder / (service + ".log"))) continue;
+    throw std::invalid_argument("--run-folder " + options.run_folder.string() +
+                                " holds an earlier run; remove it or choose another folder");
+  }
+}
+
 services::NodeOptions observer_options(const std::string& vendor) {
   services::NodeOptions options;
   options.name = "launcher";
@@ -91,8 +100,8 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   if (!options.domain_given) transport.domain = claim.emplace().id();
   if (options.run_folder.empty()) options.run_folder = choose_run_folder(options, started_unix_us);
   options.run_folder = fs::absolute(options.run_folder);
+  refuse_used_folder(options);
   fs::create_directories(options.run_folder);
-  fs::remove(options.run_folder / "summary.json");
 
   const std::string vendor = vendor_of(kConsole, options.connection.dds);
   transport.participant = "launcher";
