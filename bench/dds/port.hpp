@@ -38,4 +38,7 @@ std::unique_ptr<Port> open_ours(const std::string& vendor, PortOptions);
 // A function request with 1,000 tuples of two objects there, 1,000 numbers and outcomes back.
 std::unique_ptr<Port> open_ours_with_tuples(const std::string& vendor, PortOptions);
 
+// A call over services/rpc.hpp between two nodes: loops, health and repetition included.
+std::unique_ptr<Port> open_calls(const std::string& vendor, PortOptions);
+
 }  // namespace roci::bench

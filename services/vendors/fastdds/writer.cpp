@@ -39,13 +39,16 @@ bool FastWriter::dispose(std::span<const std::uint8_t> payload) {
   return has_space() && writer_->dispose(&bytes, dds::HANDLE_NIL) == ReturnCode_t::RETCODE_OK;
 }
 
-// Bounds a keep-all history itself, because Fast DDS cannot limit samples without limiting instances.
+// Bounds a keep-all history itself, because Fast DDS cannot limit samples without limiting instances. From
+// half of the bound on it looks whether all is acknowledged; at the bound it waits for that.
 bool FastWriter::has_space() {
   const bool bounded = qos_.reliable && qos_.history_depth == 0 && qos_.max_samples > 0;
-  if (!bounded || ++unconfirmed_ <= qos_.max_samples) return true;
-  const bool confirmed = writer_->wait_for_acknowledgments(blocking_time(qos_)) == ReturnCode_t::RETCODE_OK;
-  unconfirmed_ = confirmed ? 1 : qos_.max_samples;
-  return confirmed;
+  if (!bounded || ++unconfirmed_ <= qos_.max_samples / 2) return true;
+  const auto patience = unconfirmed_ <= qos_.max_samples ? Duration_t(0, 0) : blocking_time(qos_);
+  if (writer_->wait_for_acknowledgments(patience) == ReturnCode_t::RETCODE_OK) unconfirmed_ = 1;
+  if (unconfirmed_ <= qos_.max_samples) return true;
+  unconfirmed_ = qos_.max_samples;
+  return false;
 }
 
 Guid FastWriter::guid() const { return to_guid(writer_->guid()); }
