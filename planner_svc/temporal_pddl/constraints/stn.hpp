@@ -12,6 +12,7 @@ namespace roci::planner::temporal_pddl {
 // Microseconds.
 using Ticks = std::int64_t;
 inline constexpr Ticks kNoPath = std::numeric_limits<Ticks>::min();
+inline constexpr Ticks kNever = std::numeric_limits<Ticks>::max();
 
 class Stn {
  public:

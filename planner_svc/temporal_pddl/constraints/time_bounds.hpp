@@ -15,12 +15,10 @@ namespace roci::planner::temporal_pddl {
 // touches must come ε before; one that needs it as an invariant must end no later.
 class TimeBounds {
  public:
-  static constexpr Ticks kNever = std::numeric_limits<Ticks>::max();
-
   TimeBounds(const Task& task, Duration epsilon);
 
   Ticks earliest(SnapId step) const { return windows_[step].open.count(); }
-  // timed_done: how many timed literals the plan contains.
+  // timed_done: how many timed literals the plan contains. kNever: no bound.
   Ticks latest(SnapId step, std::uint32_t timed_done) const;
   // As latest() of a start, for an action that has not ended in the plan: its end must come in its window,
   // and before a timed literal deletes one of its invariants.

@@ -130,8 +130,9 @@ bool ActionInstantiator::collect_effect(const LiftedEffect& effect, bool at_end,
     for (const auto& end : before_end) conditional.fires.emplace_back(start, end);
   }
   if (conditional.fires.empty()) return true;
-  if (std::ranges::any_of(conditional.fires,
-                          [](const auto& c) { return c.first.empty() && c.second.empty(); })) {
+  const bool fires_always = std::ranges::any_of(
+      conditional.fires, [](const auto& c) { return c.first.empty() && c.second.empty(); });
+  if (fires_always || changes_its_condition(effect, at_end, binding, conditional.fires)) {
     return add_effect(effect, binding, effects_of(unconditional_));
   }
   for (auto& same : conditionals_) {
@@ -150,6 +151,19 @@ bool ActionInstantiator::collect_effect(const LiftedEffect& effect, bool at_end,
   if (!add_effect(effect, binding, effects_of(conditional))) return false;
   conditionals_.push_back(std::move(conditional));
   return true;
+}
+
+// (when (p) (not (p))) says no more than (not (p)), and (when (not (p)) (p)) no more than (p).
+bool ActionInstantiator::changes_its_condition(
+    const LiftedEffect& effect, bool at_end, const Binding& binding,
+    const std::vector<std::pair<Conjunction, Conjunction>>& fires) const {
+  if (effect.kind == LiftedEffect::Kind::kNumeric || fires.size() != 1) return false;
+  const auto& [start, end] = fires.front();
+  const Conjunction& same_time = at_end ? end : start;
+  const Conjunction& other_time = at_end ? start : end;
+  const auto atom = formulas_.reached_atom(effect.atom, binding);
+  return atom && other_time.empty() && same_time.comparisons.empty() && same_time.literals.size() == 1 &&
+         same_time.literals.front() == GroundLiteral{*atom, effect.kind == LiftedEffect::Kind::kAdd};
 }
 
 bool ActionInstantiator::add_effect(const LiftedEffect& effect, const Binding& binding,

@@ -34,6 +34,8 @@ class ActionInstantiator {
   bool set_duration(const LiftedAction& action, const Binding& binding, GroundAction& ground);
   bool collect_effects(const LiftedAction& action, Binding& binding);
   bool collect_effect(const LiftedEffect& effect, bool at_end, Binding& binding);
+  bool changes_its_condition(const LiftedEffect& effect, bool at_end, const Binding& binding,
+                             const std::vector<std::pair<Conjunction, Conjunction>>& fires) const;
   bool add_effect(const LiftedEffect& effect, const Binding& binding, GroundEffects& effects);
   std::vector<Draft> choose_conditionals() const;
 

@@ -11,7 +11,7 @@ namespace roci::planner::temporal_pddl {
 
 namespace {
 
-Duration or_unbounded(Ticks latest) { return latest == TimeBounds::kNever ? kUnbounded : Duration(latest); }
+Duration or_unbounded(Ticks latest) { return latest == kNever ? kUnbounded : Duration(latest); }
 
 class PlanBuilder {
  public:
@@ -57,9 +57,9 @@ class PlanBuilder {
       constraints.push_back({point(source.from), point(source.to), source.lower, source.upper, kind});
     }
     for (std::size_t i = 0; i < steps_.steps.size(); ++i) {
-      const Ticks open = check_.bounds().earliest(steps_.steps[i]);
-      const Ticks close = check_.bounds().latest(steps_.steps[i], steps_.timed_done);
-      const bool window = open > 0 || close != TimeBounds::kNever;
+      const Ticks open = check_.lower_bound(steps_, i);
+      const Ticks close = check_.upper_bound(steps_, i);
+      const bool window = open > 0 || close != kNever;
       constraints.push_back({0, point(i), Duration(open), or_unbounded(close),
                              window ? ConstraintKind::kWindow : ConstraintKind::kOrdering});
     }

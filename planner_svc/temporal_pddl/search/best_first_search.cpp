@@ -27,9 +27,9 @@ class BestFirstSearch {
         store_(task.layout.words()),
         check_(task, options.epsilon),
         builder_(task, store_, check_, options.epsilon),
-        dominance_(task, store_, bounds_, check_, options.epsilon),
+        goal_(task, options.epsilon),
+        dominance_(task, store_, bounds_, check_, options.epsilon, goal_.has_deadlines()),
         tree_(task),
-        goal_(task),
         random_(options.seed) {}
 
   SearchOutcome run() {
@@ -72,7 +72,11 @@ class BestFirstSearch {
     const NodeId node = store_.add(successor_.state, parent, transition, code_);
     prefix.node = node;
     if (options_.dominance) dominance_.insert(node, successor_.state, prefix);
-    if (goal_.reached(successor_.state, prefix)) return true;
+    if (const auto deadline = goal_.deadline_of_complete(successor_.state, prefix)) {
+      prefix.deadline = *deadline;
+      if (check_.earliest(prefix)) return true;
+      prefix.deadline = kNever;
+    }
 
     watch_.poll();
     watch_.evaluations(++statistics_.evaluated);
@@ -121,9 +125,9 @@ class BestFirstSearch {
   BoundTable bounds_;
   TemporalCheck check_;
   SuccessorBuilder builder_;
+  GoalTest goal_;
   Dominance dominance_;
   SuccessorTree tree_;
-  GoalTest goal_;
   OpenList open_;
   std::mt19937_64 random_;
 

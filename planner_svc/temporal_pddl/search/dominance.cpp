@@ -33,14 +33,15 @@ bool same_running(const PlanPrefix& a, const PlanPrefix& b) {
 }  // namespace
 
 Dominance::Dominance(const Task& task, const StateStore& store, const BoundTable& bounds,
-                     TemporalCheck& check, Duration epsilon)
+                     TemporalCheck& check, Duration epsilon, bool end_counts)
     : task_(task),
       store_(store),
       bounds_(bounds),
       check_(check),
       epsilon_(epsilon),
+      end_counts_(end_counts),
       slots_(1024),
-      scratch_(task.variables()) {}
+      position_(task.variables(), kAbsent) {}
 
 std::uint32_t Dominance::hash(StateView state, const PlanPrefix& prefix) {
   std::uint64_t h = prefix.timed_done;
@@ -84,61 +85,69 @@ void Dominance::place(Slot slot) {
   slots_[at] = slot;
 }
 
+// The caller clears position_ again.
+void Dominance::find_touched(const PlanPrefix& prefix, std::vector<VariableId>& touched) {
+  const auto touch = [&](std::span<const VariableId> variables) {
+    for (const VariableId variable : variables) {
+      if (position_[variable] != kAbsent) continue;
+      position_[variable] = static_cast<std::uint32_t>(touched.size());
+      touched.push_back(variable);
+    }
+  };
+  for (const SnapId step : prefix.steps) {
+    touch(task_.reads[step]);
+    touch(task_.writes[step]);
+    if (task_.snaps[step].kind == SnapKind::kEnd) touch(task_.invariant_reads[task_.snaps[step].action]);
+  }
+}
+
 Dominance::Profile Dominance::profile(const PlanPrefix& prefix) {
   Profile result;
-  for (const SnapId step : prefix.steps) {
-    for (const VariableId variable : task_.reads[step]) result.touched.push_back(variable);
-    for (const VariableId variable : task_.writes[step]) result.touched.push_back(variable);
-    if (task_.snaps[step].kind != SnapKind::kEnd) continue;
-    for (const VariableId variable : task_.invariant_reads[task_.snaps[step].action]) {
-      result.touched.push_back(variable);
-    }
-  }
-  std::ranges::sort(result.touched);
-  result.touched.erase(std::unique(result.touched.begin(), result.touched.end()), result.touched.end());
-
+  find_touched(prefix, result.touched);
   const auto order = by_action(prefix);
   const auto add_source = [&](const std::vector<Ticks>& distances) {
-    result.freedoms.push_back(freedoms(prefix, distances, result.touched));
+    result.freedoms.push_back(freedoms(prefix, distances, result.touched.size()));
     auto& starts = result.starts.emplace_back();
     for (const std::size_t i : order) starts.push_back(distances[prefix.running[i].step]);
+    if (end_counts_) starts.push_back(distances.empty() ? kNoPath : std::ranges::max(distances));
   };
   add_source(*check_.earliest(prefix));
-  if (prefix.running.empty()) return result;
-  const Stn network = TemporalCheck::network(prefix);
-  for (const std::size_t i : order) add_source(*network.longest_from(prefix.running[i].step));
-  const auto latest = check_.latest(prefix);
-  for (const std::size_t i : order) result.latest.push_back(latest[prefix.running[i].step]);
+  if (!prefix.running.empty()) {
+    const Stn network = TemporalCheck::network(prefix);
+    for (const std::size_t i : order) add_source(*network.longest_from(prefix.running[i].step));
+    const auto latest = check_.latest(prefix);
+    for (const std::size_t i : order) result.latest.push_back(latest[prefix.running[i].step]);
+  }
+  for (const VariableId variable : result.touched) position_[variable] = kAbsent;
   return result;
 }
 
 std::vector<Dominance::Freedom> Dominance::freedoms(const PlanPrefix& prefix,
                                                     const std::vector<Ticks>& distances,
-                                                    const std::vector<VariableId>& touched) {
-  for (const VariableId variable : touched) scratch_[variable] = {};
+                                                    std::size_t touched) const {
+  std::vector<Freedom> result(touched);
   const Ticks epsilon = epsilon_.count();
   for (std::size_t i = 0; i < prefix.steps.size(); ++i) {
     const SnapId step = prefix.steps[i];
     const Ticks at = distances[i];
+    const auto raise = [](Ticks& time, Ticks to) { time = std::max(time, to); };
     for (const VariableId variable : task_.reads[step]) {
-      Freedom& freedom = scratch_[variable];
-      freedom.change = std::max(freedom.change, plus(at, epsilon));
-      freedom.erase = std::max(freedom.erase, plus(at, epsilon));
+      Freedom& freedom = result[position_[variable]];
+      raise(freedom.change, plus(at, epsilon));
+      raise(freedom.erase, plus(at, epsilon));
     }
     if (task_.snaps[step].kind == SnapKind::kEnd) {
       for (const VariableId variable : task_.invariant_reads[task_.snaps[step].action]) {
-        scratch_[variable].erase = std::max(scratch_[variable].erase, at);
+        raise(result[position_[variable]].erase, at);
       }
     }
     for (const VariableId variable : task_.writes[step]) {
-      Freedom& freedom = scratch_[variable];
-      freedom.read = std::max(freedom.read, at);
-      freedom.change = std::max(freedom.change, plus(at, epsilon));
-      freedom.erase = std::max(freedom.erase, plus(at, epsilon));
+      Freedom& freedom = result[position_[variable]];
+      raise(freedom.read, at);
+      raise(freedom.change, plus(at, epsilon));
+      raise(freedom.erase, plus(at, epsilon));
     }
   }
-  std::vector<Freedom> result;
-  for (const VariableId variable : touched) result.push_back(scratch_[variable]);
   return result;
 }
 
@@ -151,17 +160,18 @@ bool Dominance::no_worse(const Profile& stored, const Profile& fresh) {
       if (stored.starts[source][i] > fresh.starts[source][i]) return false;
     }
   }
-  std::size_t j = 0;
-  for (std::size_t i = 0; i < stored.touched.size(); ++i) {
-    while (j < fresh.touched.size() && fresh.touched[j] < stored.touched[i]) ++j;
-    const bool both = j < fresh.touched.size() && fresh.touched[j] == stored.touched[i];
-    for (std::size_t source = 0; source < stored.freedoms.size(); ++source) {
+  for (std::uint32_t i = 0; i < fresh.touched.size(); ++i) position_[fresh.touched[i]] = i;
+  bool result = true;
+  for (std::size_t i = 0; i < stored.touched.size() && result; ++i) {
+    const std::uint32_t j = position_[stored.touched[i]];
+    for (std::size_t source = 0; source < stored.freedoms.size() && result; ++source) {
       const Freedom& a = stored.freedoms[source][i];
-      const Freedom b = both ? fresh.freedoms[source][j] : Freedom{};
-      if (a.read > b.read || a.change > b.change || a.erase > b.erase) return false;
+      const Freedom b = j == kAbsent ? Freedom{} : fresh.freedoms[source][j];
+      result = a.read <= b.read && a.change <= b.change && a.erase <= b.erase;
     }
   }
-  return true;
+  for (const VariableId variable : fresh.touched) position_[variable] = kAbsent;
+  return result;
 }
 
 }  // namespace roci::planner::temporal_pddl

@@ -20,8 +20,9 @@ namespace roci::planner::temporal_pddl {
 
 class Dominance {
  public:
+  // end_counts: a plan may have a deadline, so that the time of its last step matters too.
   Dominance(const Task& task, const StateStore& store, const BoundTable& bounds, TemporalCheck& check,
-            Duration epsilon);
+            Duration epsilon, bool end_counts);
 
   // state, prefix: of a state that is not stored yet.
   bool dominated(StateView state, const PlanPrefix& prefix);
@@ -34,26 +35,29 @@ class Dominance {
     NodeId node;
     std::uint32_t hash = 0;
   };
-  // How soon after a source each variable is free, longest paths in microseconds.
+  // How soon after a source a variable is free: longest paths in microseconds.
   struct Freedom {
     Ticks read = kNoPath;    // for conditions: after the last change
     Ticks change = kNoPath;  // for adding: also after the last readers
     Ticks erase = kNoPath;   // for other changes: also after the ends of invariants
   };
+  // Sources are the origin and then the running starts, by action.
   struct Profile {
-    std::vector<VariableId> touched;  // ascending
-    std::vector<std::vector<Freedom>>
-        freedoms;  // by source (origin, running starts by action), by touched variable
-    std::vector<std::vector<Ticks>> starts;  // by source: longest paths to the running starts
-    std::vector<Ticks> latest;               // of the running starts
+    std::vector<VariableId> touched;
+    std::vector<std::vector<Freedom>> freedoms;  // by source, by position in touched
+    std::vector<std::vector<Ticks>>
+        starts;                 // by source: longest paths to the running starts (and the last step)
+    std::vector<Ticks> latest;  // of the running starts
   };
   static constexpr std::size_t kMaxComparisons = 16;
+  static constexpr std::uint32_t kAbsent = 0xffffffff;
 
   static std::uint32_t hash(StateView state, const PlanPrefix& prefix);
   Profile profile(const PlanPrefix& prefix);
+  void find_touched(const PlanPrefix& prefix, std::vector<VariableId>& touched);
   std::vector<Freedom> freedoms(const PlanPrefix& prefix, const std::vector<Ticks>& distances,
-                                const std::vector<VariableId>& touched);
-  static bool no_worse(const Profile& stored, const Profile& fresh);
+                                std::size_t touched) const;
+  bool no_worse(const Profile& stored, const Profile& fresh);
   void place(Slot slot);
 
   const Task& task_;
@@ -61,9 +65,10 @@ class Dominance {
   const BoundTable& bounds_;
   TemporalCheck& check_;
   Duration epsilon_;
+  bool end_counts_;
   std::vector<Slot> slots_;  // open addressing, a power of two; none: free
   std::size_t size_ = 0;
-  IdVector<VariableId, Freedom> scratch_;
+  IdVector<VariableId, std::uint32_t> position_;  // in `touched` of the profile at hand, else kAbsent
   PlanPrefix other_;
 };
 

@@ -1,8 +1,11 @@
-// Is the plan complete: goals hold, nothing runs (R12), and the timed literals still to come leave the goals
-// alone.
+// Is the plan complete: goals hold and nothing runs (R12).
+//
+// Goals must hold after the last step; what timed literals do to them later does not count. So if one still to
+// come would undo them, the whole plan must be over before.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,15 +17,20 @@ namespace roci::planner::temporal_pddl {
 
 class GoalTest {
  public:
-  explicit GoalTest(const Task& task);
+  GoalTest(const Task& task, Duration epsilon);
 
-  bool reached(StateView state, const PlanPrefix& prefix);
+  // None: not complete. Else the time by which all steps must have happened, kNever if there is none.
+  std::optional<Ticks> deadline_of_complete(StateView state, const PlanPrefix& prefix);
+  // May a timed literal undo a goal at all?
+  bool has_deadlines() const { return has_deadlines_; }
   // After a search without success: which goals held in none of the states that were tested.
   std::string explain_failure(std::size_t states) const;
 
  private:
   const Task& task_;
   Semantics semantics_;
+  Duration epsilon_;
+  bool has_deadlines_ = false;
   std::vector<std::vector<bool>> held_;  // by goal alternative and fact
 };
 

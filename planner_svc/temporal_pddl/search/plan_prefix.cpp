@@ -12,6 +12,7 @@ void rebuild(const Task& task, const StateStore& store, const BoundTable& bounds
   prefix.constraints.clear();
   prefix.running.clear();
   prefix.running_actions.clear();
+  prefix.deadline = kNever;
   prefix.timed_done = 0;
   std::vector<NodeId> path;
   for (NodeId n = node; !store.parent(n).is_none(); n = store.parent(n)) path.push_back(n);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner_svc/temporal_pddl/constraints/constraint_code.hpp"
+#include "planner_svc/temporal_pddl/constraints/stn.hpp"
 #include "planner_svc/temporal_pddl/search/state_store.hpp"
 #include "planner_svc/temporal_pddl/task/task.hpp"
 
@@ -24,6 +25,7 @@ struct PlanPrefix {
   std::vector<StepConstraint> constraints;  // between steps
   std::vector<Running> running;             // in order of their starts
   std::vector<ActionId> running_actions;    // the same
+  Ticks deadline = kNever;                  // no step may be later; set for complete plans, see GoalTest
   std::uint32_t timed_done = 0;             // timed literals among the steps
 };
 

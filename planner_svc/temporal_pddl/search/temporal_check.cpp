@@ -21,8 +21,9 @@ Stn TemporalCheck::network(const PlanPrefix& prefix) {
 
 Ticks TemporalCheck::upper_bound(const PlanPrefix& prefix, std::size_t step) const {
   const bool running = std::ranges::any_of(prefix.running, [&](const Running& r) { return r.step == step; });
-  return running ? bounds_.latest_running(prefix.steps[step], prefix.timed_done)
-                 : bounds_.latest(prefix.steps[step], prefix.timed_done);
+  const Ticks own = running ? bounds_.latest_running(prefix.steps[step], prefix.timed_done)
+                            : bounds_.latest(prefix.steps[step], prefix.timed_done);
+  return std::min(own, prefix.deadline);
 }
 
 const std::vector<Ticks>* TemporalCheck::earliest(const PlanPrefix& prefix) {
@@ -47,10 +48,10 @@ std::vector<Ticks> TemporalCheck::latest(const PlanPrefix& prefix) const {
   std::vector<Ticks> times(prefix.steps.size(), kNoPath);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const Ticks bound = upper_bound(prefix, i);
-    if (bound != TimeBounds::kNever) times[i] = -bound;
+    if (bound != kNever) times[i] = -bound;
   }
   mirrored.raise(times);
-  for (Ticks& time : times) time = time == kNoPath ? TimeBounds::kNever : -time;
+  for (Ticks& time : times) time = time == kNoPath ? kNever : -time;
   return times;
 }
 

@@ -21,11 +21,14 @@ class TemporalCheck {
 
   // The network over the steps alone, without absolute times.
   static Stn network(const PlanPrefix& prefix);
-  const TimeBounds& bounds() const { return bounds_; }
+  // The bounds of a step from timed literals and the plan's deadline; kNever: none from above.
+  Ticks lower_bound(const PlanPrefix& prefix, std::size_t step) const {
+    return bounds_.earliest(prefix.steps[step]);
+  }
+  Ticks upper_bound(const PlanPrefix& prefix, std::size_t step) const;
 
  private:
   static void fill(const PlanPrefix& prefix, Stn& network);
-  Ticks upper_bound(const PlanPrefix& prefix, std::size_t step) const;
 
   TimeBounds bounds_;
   Stn network_;
