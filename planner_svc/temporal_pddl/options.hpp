@@ -7,13 +7,21 @@
 
 namespace roci::planner::temporal_pddl {
 
+// Which timed initial literals become bounds on the steps that need them; the others are steps of the search
+// (R32).
+enum class WindowExtraction {
+  kNone,
+  kOneOff,     // facts that are true during one interval (R33)
+  kRecurring,  // also those that come and go several times, see grounding/timed_windows.hpp
+};
+
 struct Options {
   Duration epsilon{1000};           // separation of interfering time points (R6, Z4)
   bool compression_safety = true;   // R14, see task/compression.hpp
   bool dominance = true;            // see search/dominance.hpp; off: R26 to the letter
   bool preferred_operators = true;  // R21
-  bool one_off_windows = true;      // R33; off: every timed initial literal is a step of the search (R32)
-  std::uint64_t seed = 0;           // breaks ties among equally good successors; 0: in order of generation
+  WindowExtraction windows = WindowExtraction::kRecurring;
+  std::uint64_t seed = 0;  // breaks ties among equally good successors; 0: in order of generation
 };
 
 }  // namespace roci::planner::temporal_pddl

@@ -17,13 +17,11 @@ std::uint32_t first_from(const std::vector<std::uint32_t>& steps, std::uint32_t 
 TimeBounds::TimeBounds(const Task& task, Duration epsilon)
     : task_(task),
       epsilon_(epsilon),
-      windows_(task.windows),
       timed_(task.variables()),
       timed_change_(task.variables()),
       touched_(task.snaps.size(), false) {
   for (std::uint32_t i = 0; i < task.timed_steps.size(); ++i) {
     const TimedStep& timed = task.timed_steps[i];
-    windows_[timed.snap] = {timed.time, timed.time};
     for (const VariableId variable : task.writes[timed.snap]) {
       timed_[variable].push_back(i);
       const bool adds = std::ranges::any_of(task.adds[timed.snap],
@@ -41,40 +39,42 @@ TimeBounds::TimeBounds(const Task& task, Duration epsilon)
     const ActionId id = task.snaps[action.start].action;
     if (std::ranges::any_of(task.invariant_reads[id], touched))
       touched_[action.start] = touched_[action.end] = true;
-    auto& start = windows_[action.start];
-    const auto& end = windows_[action.end];
-    if (end.close != kUnbounded) start.close = std::min(start.close, end.close - action.min_duration);
   }
+}
+
+Ticks TimeBounds::time_of(std::uint32_t timed_step) const {
+  return task_.timed_steps[timed_step].time.count();
 }
 
 Ticks TimeBounds::latest(SnapId step, std::uint32_t timed_done) const {
-  const auto& window = windows_[step];
-  Ticks result = window.close == kUnbounded ? kNever : window.close.count();
-  if (!touched_[step] || task_.snaps[step].kind == SnapKind::kTimedLiteral) return result;
+  const Snap& snap = task_.snaps[step];
+  if (!touched_[step] || snap.kind == SnapKind::kTimedLiteral) return kNever;
   const auto none = static_cast<std::uint32_t>(task_.timed_steps.size());
-  std::uint32_t next = none;
-  for (const VariableId variable : task_.reads[step]) next = first_from(timed_[variable], timed_done, next);
-  for (const VariableId variable : task_.writes[step]) next = first_from(timed_[variable], timed_done, next);
-  if (next < none) result = std::min(result, (task_.timed_steps[next].time - epsilon_).count());
-  if (task_.snaps[step].kind != SnapKind::kEnd) return result;
-  next = none;
-  for (const VariableId variable : task_.invariant_reads[task_.snaps[step].action]) {
-    next = first_from(timed_change_[variable], timed_done, next);
+  std::uint32_t touching = none;
+  for (const VariableId variable : task_.reads[step])
+    touching = first_from(timed_[variable], timed_done, touching);
+  for (const VariableId variable : task_.writes[step])
+    touching = first_from(timed_[variable], timed_done, touching);
+  const Ticks result = touching < none ? time_of(touching) - epsilon_.count() : kNever;
+  if (snap.kind != SnapKind::kEnd) return result;
+  std::uint32_t breaking = none;
+  for (const VariableId variable : task_.invariant_reads[snap.action]) {
+    breaking = first_from(timed_change_[variable], timed_done, breaking);
   }
-  return next < none ? std::min(result, task_.timed_steps[next].time.count()) : result;
+  return breaking < none ? std::min(result, time_of(breaking)) : result;
 }
 
 Ticks TimeBounds::latest_running(SnapId start, std::uint32_t timed_done) const {
-  const Ticks result = latest(start, timed_done);  // the end's window is in that of the start
+  const Ticks result = latest(start, timed_done);
   if (!touched_[start]) return result;
   const auto none = static_cast<std::uint32_t>(task_.timed_steps.size());
-  std::uint32_t next = none;
+  std::uint32_t breaking = none;
   const ActionId action = task_.snaps[start].action;
   for (const FactId invariant : task_.invariants[action]) {
-    next = first_from(timed_change_[task_.variable(invariant)], timed_done, next);
+    breaking = first_from(timed_change_[task_.variable(invariant)], timed_done, breaking);
   }
-  if (next == none) return result;
-  return std::min(result, (task_.timed_steps[next].time - task_.actions[action].min_duration).count());
+  if (breaking == none) return result;
+  return std::min(result, time_of(breaking) - task_.actions[action].min_duration.count());
 }
 
 }  // namespace roci::planner::temporal_pddl

@@ -1,5 +1,5 @@
-// The absolute times between which each step of a plan must lie. Not stored, but rebuilt for each check
-// (R34).
+// Until when each step of a plan must have happened, because of timed literals and windows. Not stored, but
+// rebuilt for each check (R34).
 #pragma once
 
 #include <cstdint>
@@ -10,24 +10,24 @@
 
 namespace roci::planner::temporal_pddl {
 
-// A timed literal happens exactly at its time; a step in a one-off window within it (R33). A timed literal
-// that the plan does not contain yet will follow all its steps (R32): a step that needs or changes what it
-// touches must come ε before; one that needs it as an invariant must end no later.
+// A timed literal that the plan does not contain yet will follow all its steps (R32): a step that needs or
+// changes what it touches must come ε before; one that needs it as an invariant must end no later. The times
+// of the timed literals themselves are their windows.
 class TimeBounds {
  public:
   TimeBounds(const Task& task, Duration epsilon);
 
-  Ticks earliest(SnapId step) const { return windows_[step].open.count(); }
   // timed_done: how many timed literals the plan contains. kNever: no bound.
   Ticks latest(SnapId step, std::uint32_t timed_done) const;
-  // As latest() of a start, for an action that has not ended in the plan: its end must come in its window,
-  // and before a timed literal deletes one of its invariants.
+  // As latest() of a start, for an action that has not ended in the plan: its end must come before a timed
+  // literal deletes one of its invariants.
   Ticks latest_running(SnapId start, std::uint32_t timed_done) const;
 
  private:
+  Ticks time_of(std::uint32_t timed_step) const;
+
   const Task& task_;
   Duration epsilon_;
-  IdVector<SnapId, TimeWindow> windows_;
   IdVector<VariableId, std::vector<std::uint32_t>>
       timed_;  // the timed steps that touch a variable, ascending
   IdVector<VariableId, std::vector<std::uint32_t>> timed_change_;  // likewise, other than by adding a fact

@@ -47,7 +47,9 @@ struct GroundAction {
   std::vector<DurationRule> duration_rules;
   Conjunction at_start, over_all, at_end;
   GroundEffects start_effects, end_effects;
-  TimeWindow start_window, end_window;  // see one_off_windows.hpp
+  // When the start and the end may happen; the whole action must lie in one of span_windows. See
+  // timed_windows.hpp.
+  TimeWindows start_windows = any_time(), end_windows = any_time(), span_windows = any_time();
 };
 
 struct TimedChange {

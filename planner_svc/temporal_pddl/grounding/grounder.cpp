@@ -9,13 +9,13 @@
 #include "planner_svc/temporal_pddl/grounding/instantiate.hpp"
 #include "planner_svc/temporal_pddl/grounding/lowering.hpp"
 #include "planner_svc/temporal_pddl/grounding/mutex_groups.hpp"
-#include "planner_svc/temporal_pddl/grounding/one_off_windows.hpp"
 #include "planner_svc/temporal_pddl/grounding/prune.hpp"
 #include "planner_svc/temporal_pddl/grounding/reachability.hpp"
 #include "planner_svc/temporal_pddl/grounding/refusal.hpp"
 #include "planner_svc/temporal_pddl/grounding/relevance.hpp"
 #include "planner_svc/temporal_pddl/grounding/symbols.hpp"
 #include "planner_svc/temporal_pddl/grounding/task_builder.hpp"
+#include "planner_svc/temporal_pddl/grounding/timed_windows.hpp"
 #include "planner_svc/temporal_pddl/grounding/world.hpp"
 
 namespace roci::planner::temporal_pddl {
@@ -59,7 +59,7 @@ Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, Funct
   const World world(problem, actions, symbols, constants);
 
   GroundModel model = instantiate(domain, problem, actions, world, explore(actions, world, watch), watch);
-  if (options.one_off_windows) extract_one_off_windows(model, options.epsilon);
+  extract_timed_windows(model, options.windows, options.epsilon);
   const Disjunction goal = model.goal;
   const std::vector<bool> reached = prune(model);
   require_reachable_goal(problem, goal, model, reached, symbols);

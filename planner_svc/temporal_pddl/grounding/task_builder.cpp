@@ -23,7 +23,8 @@ class Builder {
     for (std::size_t i = 0; i < model_.actions.size(); ++i) add_action(model_.actions[i], compression[i]);
     for (const auto& timed : model_.timed) {
       task_.timed_steps.push_back(
-          {add_snap({SnapKind::kTimedLiteral, ActionId()}, {}, timed.effects, {}, {}), timed.time});
+          {add_snap({SnapKind::kTimedLiteral, ActionId()}, {}, timed.effects, {{timed.time, timed.time}}, {}),
+           timed.time});
     }
     for (const auto& goal : model_.goal) task_.goals.push_back({facts_of(goal.literals), goal.comparisons});
     lay_out(groups);
@@ -94,13 +95,14 @@ class Builder {
     action.max_duration = source.max_duration;
     action.compression_safe = compression.safe;
     const SnapKind kind = source.durative ? SnapKind::kStart : SnapKind::kInstant;
-    action.start = add_snap({kind, id}, source.at_start, source.start_effects, source.start_window,
+    action.start = add_snap({kind, id}, source.at_start, source.start_effects, source.start_windows,
                             measured(source, pddl::TimePoint::kStart));
     action.end = source.durative ? add_snap({SnapKind::kEnd, id}, source.at_end, source.end_effects,
-                                            source.end_window, measured(source, pddl::TimePoint::kEnd))
+                                            source.end_windows, measured(source, pddl::TimePoint::kEnd))
                                  : action.start;
     task_.actions.push_back(action);
     task_.action_arguments.push_back(source.arguments);
+    task_.span_windows.push_back(restricting(source.span_windows));
     task_.duration_rules.push_back(source.duration_rules);
     const auto invariants = facts_of(source.over_all.literals);
     task_.invariants.push_back(invariants);
@@ -111,6 +113,10 @@ class Builder {
     task_.absent_for_compression.push_back(absent);
   }
 
+  static std::span<const TimeWindow> restricting(const TimeWindows& windows) {
+    return is_any_time(windows) ? std::span<const TimeWindow>() : std::span<const TimeWindow>(windows);
+  }
+
   static std::vector<ExpressionId> measured(const GroundAction& action, pddl::TimePoint at) {
     std::vector<ExpressionId> result;
     for (const auto& rule : action.duration_rules) {
@@ -119,8 +125,8 @@ class Builder {
     return result;
   }
 
-  SnapId add_snap(Snap snap, const Conjunction& conditions, const GroundEffects& effects, TimeWindow window,
-                  const std::vector<ExpressionId>& measured_here) {
+  SnapId add_snap(Snap snap, const Conjunction& conditions, const GroundEffects& effects,
+                  const TimeWindows& windows, const std::vector<ExpressionId>& measured_here) {
     std::vector<FactId> adds, deletes;
     for (const bool added : {true, false}) {
       for (const std::uint32_t atom : added ? effects.adds : effects.deletes) {
@@ -136,7 +142,7 @@ class Builder {
     task_.numeric_effects.push_back(effects.numeric);
     task_.reads.push_back(reads(conditions, effects.numeric, measured_here));
     task_.writes.push_back(writes(effects, adds, deletes));
-    task_.windows.push_back(window);
+    task_.windows.push_back(restricting(windows));
     return task_.snaps.push_back(snap);
   }
 

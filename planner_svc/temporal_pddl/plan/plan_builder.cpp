@@ -36,7 +36,8 @@ class PlanBuilder {
 
   void add_points() {
     const std::vector<Ticks> earliest = *check_.earliest(steps_);
-    const std::vector<Ticks> latest = check_.latest(steps_);
+    windows_ = check_.chosen_windows(steps_, earliest);
+    const std::vector<Ticks> latest = TemporalCheck::latest(steps_, windows_);
     plan_.network.points.push_back({TimePointKind::kOrigin, 0, Duration{0}, Duration{0}});
     for (std::size_t i = 0; i < steps_.steps.size(); ++i) {
       TimePoint added;
@@ -57,11 +58,9 @@ class PlanBuilder {
       constraints.push_back({point(source.from), point(source.to), source.lower, source.upper, kind});
     }
     for (std::size_t i = 0; i < steps_.steps.size(); ++i) {
-      const Ticks open = check_.lower_bound(steps_, i);
-      const Ticks close = check_.upper_bound(steps_, i);
-      const bool window = open > 0 || close != kNever;
-      constraints.push_back({0, point(i), Duration(open), or_unbounded(close),
-                             window ? ConstraintKind::kWindow : ConstraintKind::kOrdering});
+      const bool windowed = windows_[i] != TimeWindow{};
+      constraints.push_back({0, point(i), windows_[i].open, windows_[i].close,
+                             windowed ? ConstraintKind::kWindow : ConstraintKind::kOrdering});
     }
   }
 
@@ -144,6 +143,7 @@ class PlanBuilder {
   const Task& task_;
   const PlanPrefix& steps_;
   TemporalCheck check_;
+  std::vector<TimeWindow> windows_;  // by step: the window in which the schedule puts it
   Plan plan_;
 };
 

@@ -40,14 +40,33 @@ Dominance::Dominance(const Task& task, const StateStore& store, const BoundTable
       check_(check),
       epsilon_(epsilon),
       end_counts_(end_counts),
+      preferences_(number_preferences(task)),
       slots_(1024),
       position_(task.variables(), kAbsent) {}
 
-std::uint32_t Dominance::hash(StateView state, const PlanPrefix& prefix) {
+std::uint32_t Dominance::hash(StateView state, const PlanPrefix& prefix) const {
   std::uint64_t h = prefix.timed_done;
-  for (const Word word : state) h = mix(h ^ word);
+  for (const Word word : state.first(state.size() - preferences_.size())) h = mix(h ^ word);
   for (const ActionId action : prefix.running_actions) h += mix(action.value + 0x9e3779b97f4a7c15ull);
   return static_cast<std::uint32_t>(mix(h));
+}
+
+// Equal facts, and numbers that are equal or better.
+bool Dominance::as_good(StateView stored, StateView fresh) const {
+  const std::size_t packed = stored.size() - preferences_.size();
+  if (!std::ranges::equal(stored.first(packed), fresh.first(packed))) return false;
+  const NumbersView a = task_.layout.numbers(stored);
+  const NumbersView b = task_.layout.numbers(fresh);
+  for (std::size_t i = 0; i < preferences_.size(); ++i) {
+    const NumberId number(i);
+    if (stored[packed + i] == fresh[packed + i]) continue;
+    const Preference preference = preferences_[number];
+    const bool better = preference == Preference::kNone ||
+                        (preference == Preference::kHigher && a[number] >= b[number]) ||
+                        (preference == Preference::kLower && a[number] <= b[number]);
+    if (!better) return false;
+  }
+  return true;
 }
 
 bool Dominance::dominated(StateView state, const PlanPrefix& prefix) {
@@ -57,11 +76,11 @@ bool Dominance::dominated(StateView state, const PlanPrefix& prefix) {
   std::size_t compared = 0;
   for (std::size_t slot = h & mask; !slots_[slot].node.is_none(); slot = (slot + 1) & mask) {
     const NodeId node = slots_[slot].node;
-    if (slots_[slot].hash != h || !std::ranges::equal(store_.state(node), state)) continue;
+    if (slots_[slot].hash != h || !as_good(store_.state(node), state)) continue;
     rebuild(task_, store_, bounds_, epsilon_, node, other_);
     if (other_.timed_done != prefix.timed_done || !same_running(other_, prefix)) continue;
-    if (compared == 0) fresh = profile(prefix);
-    if (no_worse(profile(other_), fresh)) return true;
+    if (compared == 0) fresh = profile(prefix, false);
+    if (no_worse(profile(other_, true), fresh)) return true;
     if (++compared == kMaxComparisons) return false;
   }
   return false;
@@ -101,7 +120,7 @@ void Dominance::find_touched(const PlanPrefix& prefix, std::vector<VariableId>& 
   }
 }
 
-Dominance::Profile Dominance::profile(const PlanPrefix& prefix) {
+Dominance::Profile Dominance::profile(const PlanPrefix& prefix, bool stored) {
   Profile result;
   find_touched(prefix, result.touched);
   const auto order = by_action(prefix);
@@ -111,11 +130,13 @@ Dominance::Profile Dominance::profile(const PlanPrefix& prefix) {
     for (const std::size_t i : order) starts.push_back(distances[prefix.running[i].step]);
     if (end_counts_) starts.push_back(distances.empty() ? kNoPath : std::ranges::max(distances));
   };
-  add_source(*check_.earliest(prefix));
+  const std::vector<Ticks> earliest = *check_.earliest(prefix);
+  add_source(earliest);
   if (!prefix.running.empty()) {
     const Stn network = TemporalCheck::network(prefix);
     for (const std::size_t i : order) add_source(*network.longest_from(prefix.running[i].step));
-    const auto latest = check_.latest(prefix);
+    const auto windows = stored ? check_.chosen_windows(prefix, earliest) : check_.widest_windows(prefix);
+    const auto latest = TemporalCheck::latest(prefix, windows);
     for (const std::size_t i : order) result.latest.push_back(latest[prefix.running[i].step]);
   }
   for (const VariableId variable : result.touched) position_[variable] = kAbsent;

@@ -15,6 +15,7 @@
 
 #include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
 #include "planner_svc/temporal_pddl/search/temporal_check.hpp"
+#include "planner_svc/temporal_pddl/task/number_preferences.hpp"
 
 namespace roci::planner::temporal_pddl {
 
@@ -52,8 +53,11 @@ class Dominance {
   static constexpr std::size_t kMaxComparisons = 16;
   static constexpr std::uint32_t kAbsent = 0xffffffff;
 
-  static std::uint32_t hash(StateView state, const PlanPrefix& prefix);
-  Profile profile(const PlanPrefix& prefix);
+  std::uint32_t hash(StateView state, const PlanPrefix& prefix) const;
+  bool as_good(StateView stored, StateView fresh) const;
+  // A stored plan is taken with the windows in which its least schedule lies, a new one with all the time
+  // between its windows: so the comparison errs on the safe side.
+  Profile profile(const PlanPrefix& prefix, bool stored);
   void find_touched(const PlanPrefix& prefix, std::vector<VariableId>& touched);
   std::vector<Freedom> freedoms(const PlanPrefix& prefix, const std::vector<Ticks>& distances,
                                 std::size_t touched) const;
@@ -66,6 +70,7 @@ class Dominance {
   TemporalCheck& check_;
   Duration epsilon_;
   bool end_counts_;
+  IdVector<NumberId, Preference> preferences_;
   std::vector<Slot> slots_;  // open addressing, a power of two; none: free
   std::size_t size_ = 0;
   IdVector<VariableId, std::uint32_t> position_;  // in `touched` of the profile at hand, else kAbsent

@@ -1,7 +1,7 @@
 // Is the plan complete: goals hold and nothing runs (R12).
 //
-// Goals must hold after the last step; what timed literals do to them later does not count. So if one still to
-// come would undo them, the whole plan must be over before.
+// Goals must hold after the last step; what timed literals do to them later does not count. So if one still
+// to come would undo them, the whole plan must be over before.
 #pragma once
 
 #include <cstddef>

@@ -4,12 +4,28 @@
 
 namespace roci::planner::temporal_pddl {
 
+namespace {
+
+// Moves `time` into the first window that is not over; false if all are.
+bool fit(std::span<const TimeWindow> windows, Ticks& time, bool& changed) {
+  const TimeWindow* window = window_from(windows, Duration(time));
+  if (!window) return false;
+  if (window->open.count() > time) {
+    time = window->open.count();
+    changed = true;
+  }
+  return true;
+}
+
+}  // namespace
+
 void TemporalCheck::fill(const PlanPrefix& prefix, Stn& network) {
   network.reset(prefix.steps.size());
   for (const StepConstraint& constraint : prefix.constraints) {
     network.require(constraint.from, constraint.to, constraint.lower.count());
-    if (constraint.upper != kUnbounded)
+    if (constraint.upper != kUnbounded) {
       network.require(constraint.to, constraint.from, -constraint.upper.count());
+    }
   }
 }
 
@@ -26,29 +42,81 @@ Ticks TemporalCheck::upper_bound(const PlanPrefix& prefix, std::size_t step) con
   return std::min(own, prefix.deadline);
 }
 
+bool TemporalCheck::fit_windows(const PlanPrefix& prefix, bool& changed) {
+  for (std::size_t i = 0; i < times_.size(); ++i) {
+    const auto windows = task_.windows[prefix.steps[i]];
+    if (!windows.empty() && !fit(windows, times_[i], changed)) return false;
+    const Snap& snap = task_.snaps[prefix.steps[i]];
+    if (snap.kind != SnapKind::kEnd || task_.span_windows[snap.action].empty()) continue;
+    Ticks& start = times_[prefix.start_of[i]];
+    const TimeWindow* window = window_from(task_.span_windows[snap.action], Duration(times_[i]));
+    if (!window) return false;
+    if (start < window->open.count()) {
+      start = window->open.count();
+      changed = true;
+    }
+  }
+  return true;
+}
+
 const std::vector<Ticks>* TemporalCheck::earliest(const PlanPrefix& prefix) {
   fill(prefix, network_);
-  times_.resize(prefix.steps.size());
-  for (std::size_t i = 0; i < times_.size(); ++i) times_[i] = bounds_.earliest(prefix.steps[i]);
-  if (!network_.raise(times_)) return nullptr;
+  times_.assign(prefix.steps.size(), 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    if (!fit_windows(prefix, changed)) return nullptr;
+    if (!network_.raise(times_)) return nullptr;
+    if (!fit_windows(prefix, changed)) return nullptr;
+  }
   for (std::size_t i = 0; i < times_.size(); ++i) {
     if (times_[i] > upper_bound(prefix, i)) return nullptr;
   }
   return &times_;
 }
 
+std::vector<TimeWindow> TemporalCheck::chosen_windows(const PlanPrefix& prefix,
+                                                      const std::vector<Ticks>& times) const {
+  std::vector<TimeWindow> result = widest_windows(prefix);
+  const auto restrict = [](TimeWindow& window, const TimeWindow& to) {
+    window.open = std::max(window.open, to.open);
+    window.close = std::min(window.close, to.close);
+  };
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const SnapId step = prefix.steps[i];
+    if (!task_.windows[step].empty())
+      restrict(result[i], *window_from(task_.windows[step], Duration(times[i])));
+    const Snap& snap = task_.snaps[step];
+    if (snap.kind != SnapKind::kEnd || task_.span_windows[snap.action].empty()) continue;
+    const TimeWindow& span = *window_from(task_.span_windows[snap.action], Duration(times[i]));
+    restrict(result[i], span);
+    restrict(result[prefix.start_of[i]], span);
+  }
+  return result;
+}
+
+std::vector<TimeWindow> TemporalCheck::widest_windows(const PlanPrefix& prefix) const {
+  std::vector<TimeWindow> result(prefix.steps.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const auto windows = task_.windows[prefix.steps[i]];
+    if (!windows.empty()) result[i] = {windows.front().open, windows.back().close};
+    const Ticks bound = upper_bound(prefix, i);
+    if (bound != kNever) result[i].close = std::min(result[i].close, Duration(bound));
+  }
+  return result;
+}
+
 // The latest times are the negated least solution of the mirrored network.
-std::vector<Ticks> TemporalCheck::latest(const PlanPrefix& prefix) const {
+std::vector<Ticks> TemporalCheck::latest(const PlanPrefix& prefix, const std::vector<TimeWindow>& windows) {
   Stn mirrored(prefix.steps.size());
   for (auto constraint = prefix.constraints.rbegin(); constraint != prefix.constraints.rend(); ++constraint) {
     mirrored.require(constraint->to, constraint->from, constraint->lower.count());
-    if (constraint->upper != kUnbounded)
+    if (constraint->upper != kUnbounded) {
       mirrored.require(constraint->from, constraint->to, -constraint->upper.count());
+    }
   }
   std::vector<Ticks> times(prefix.steps.size(), kNoPath);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const Ticks bound = upper_bound(prefix, i);
-    if (bound != kNever) times[i] = -bound;
+    if (windows[i].close != kUnbounded) times[i] = -windows[i].close.count();
   }
   mirrored.raise(times);
   for (Ticks& time : times) time = time == kNoPath ? kNever : -time;

@@ -1,7 +1,11 @@
-// Can the steps of a plan be scheduled (R25, R31)?
+// Can the steps of a plan be scheduled (R25, R31), and when?
+//
+// Beside the network's constraints, a step may have to lie in one of several windows, and an action as a
+// whole in one of several. Whatever satisfies these at given times, also does so at the earlier of the times
+// of two schedules, for each step; hence there is a least schedule, found by raising times until nothing is
+// violated: a step that has missed a window moves to the next one.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "planner_svc/temporal_pddl/constraints/stn.hpp"
@@ -12,24 +16,27 @@ namespace roci::planner::temporal_pddl {
 
 class TemporalCheck {
  public:
-  TemporalCheck(const Task& task, Duration epsilon) : bounds_(task, epsilon) {}
+  TemporalCheck(const Task& task, Duration epsilon) : task_(task), bounds_(task, epsilon) {}
 
-  // The least time of each step; none if the plan is temporally inconsistent.
+  // The least time of each step; null if the plan is temporally inconsistent. Valid until the next call.
   const std::vector<Ticks>* earliest(const PlanPrefix& prefix);
-  // The greatest time of each step, kNever if there is none; for a consistent plan.
-  std::vector<Ticks> latest(const PlanPrefix& prefix) const;
+
+  // For each step the window in which it lies in the schedule `times`, bounded by what else there is to come.
+  std::vector<TimeWindow> chosen_windows(const PlanPrefix& prefix, const std::vector<Ticks>& times) const;
+  // For each step all the time from its first window to its last.
+  std::vector<TimeWindow> widest_windows(const PlanPrefix& prefix) const;
+  // The greatest time of each step if it must also lie in its window; kNever: unbounded.
+  static std::vector<Ticks> latest(const PlanPrefix& prefix, const std::vector<TimeWindow>& windows);
 
   // The network over the steps alone, without absolute times.
   static Stn network(const PlanPrefix& prefix);
-  // The bounds of a step from timed literals and the plan's deadline; kNever: none from above.
-  Ticks lower_bound(const PlanPrefix& prefix, std::size_t step) const {
-    return bounds_.earliest(prefix.steps[step]);
-  }
-  Ticks upper_bound(const PlanPrefix& prefix, std::size_t step) const;
 
  private:
   static void fill(const PlanPrefix& prefix, Stn& network);
+  Ticks upper_bound(const PlanPrefix& prefix, std::size_t step) const;
+  bool fit_windows(const PlanPrefix& prefix, bool& changed);
 
+  const Task& task_;
   TimeBounds bounds_;
   Stn network_;
   std::vector<Ticks> times_;

@@ -15,6 +15,7 @@
 #include "planner_svc/temporal_pddl/task/ids.hpp"
 #include "planner_svc/temporal_pddl/task/numbers.hpp"
 #include "planner_svc/temporal_pddl/task/state_layout.hpp"
+#include "planner_svc/temporal_pddl/task/time_windows.hpp"
 
 namespace roci::planner::temporal_pddl {
 
@@ -26,13 +27,6 @@ enum class SnapKind : std::uint8_t { kStart, kEnd, kInstant, kTimedLiteral };
 struct Snap {
   SnapKind kind = SnapKind::kStart;
   ActionId action;  // none for kTimedLiteral
-};
-
-// The times at which a snap action may happen at all, from one-off windows (R33, R34).
-struct TimeWindow {
-  Duration open{0};
-  Duration close = kUnbounded;
-  bool operator==(const TimeWindow&) const = default;
 };
 
 // ?duration OP expression (in seconds), evaluated in the state before the start or before the end.
@@ -85,18 +79,19 @@ struct Task {
   FlatLists<FactId> adds, deletes;           // deletes first, then adds
   FlatLists<NumericEffect> numeric_effects;  // all evaluated in the state before
   FlatLists<VariableId> reads, writes;       // for R22, R23
-  IdVector<SnapId, TimeWindow> windows;
+  FlatLists<TimeWindow> windows;             // when it may happen (R33); none: any time
 
   // ---- Actions, by ActionId
   IdVector<ActionId, Action> actions;
   FlatLists<FactId> invariants;  // pre↔
   FlatLists<NumericCondition> numeric_invariants;
   FlatLists<VariableId> invariant_reads;
+  FlatLists<TimeWindow> span_windows;  // one of them must contain the whole action; none: any time
   FlatLists<DurationRule> duration_rules;
   FlatLists<FactId> absent_for_compression;  // must be false before the start; see Action::compression_safe
 
   // ---- The rest
-  std::vector<TimedStep> timed_steps;  // by time; those that one-off windows replace are not among them
+  std::vector<TimedStep> timed_steps;  // by time; those that windows replace are not among them
   std::vector<Goal> goals;             // alternatives
   ExpressionPool expressions;
   StateLayout layout;

@@ -1,4 +1,4 @@
-#include "planner_svc/temporal_pddl/grounding/one_off_windows.hpp"
+#include "planner_svc/temporal_pddl/grounding/timed_windows.hpp"
 
 #include <algorithm>
 #include <map>
@@ -13,41 +13,42 @@ struct History {
   bool initially = false;
   std::vector<std::pair<Duration, bool>> changes;  // time, new value
 
-  // The one interval in which the fact is true, if there is no other.
-  std::optional<TimeWindow> only_window() const {
-    const bool value_alternates = [&] {
-      bool value = initially;
-      for (const auto& change : changes) {
-        if (change.second == value) return false;
-        value = change.second;
+  // When the fact is true; none if some change is none.
+  std::optional<TimeWindows> windows() const {
+    TimeWindows result;
+    if (initially) result.push_back({});
+    bool value = initially;
+    for (const auto& [time, becomes] : changes) {
+      if (becomes == value) return std::nullopt;
+      value = becomes;
+      if (value) {
+        result.push_back({time, kUnbounded});
+      } else {
+        result.back().close = time;
       }
-      return true;
-    }();
-    if (!value_alternates) return std::nullopt;
-    if (initially && changes.size() == 1) return TimeWindow{Duration{0}, changes[0].first};
-    if (!initially && changes.size() == 1) return TimeWindow{changes[0].first, kUnbounded};
-    if (!initially && changes.size() == 2) return TimeWindow{changes[0].first, changes[1].first};
-    return std::nullopt;
+    }
+    return result;
   }
 };
 
 class Extraction {
  public:
-  Extraction(GroundModel& model, Duration epsilon) : model_(model), epsilon_(epsilon) {}
+  Extraction(GroundModel& model, WindowExtraction mode, Duration epsilon)
+      : model_(model), mode_(mode), epsilon_(epsilon) {}
 
   void run() {
     collect_histories();
     exclude_touched();
     for (const auto& [atom, history] : histories_) {
-      if (const auto window = history.only_window()) windows_.emplace(atom, *window);
+      auto windows = history.windows();
+      if (windows && (mode_ == WindowExtraction::kRecurring || windows->size() == 1)) {
+        windows_.emplace(atom, std::move(*windows));
+      }
     }
     if (windows_.empty()) return;
     for (auto& action : model_.actions) restrict(action);
     std::erase_if(model_.actions, [](const GroundAction& action) {
-      return action.start_window.open > action.start_window.close ||
-             action.end_window.open > action.end_window.close ||
-             (action.end_window.close != kUnbounded &&
-              action.end_window.close - action.start_window.open < action.min_duration);
+      return action.start_windows.empty() || action.end_windows.empty() || action.span_windows.empty();
     });
     const auto extracted = [&](std::uint32_t atom) { return windows_.contains(atom); };
     for (auto& timed : model_.timed) {
@@ -92,38 +93,39 @@ class Extraction {
     }
   }
 
-  // Moves the conditions on windowed facts out of `conjunction` and into the window, with a margin inside of
-  // it.
-  void take(Conjunction& conjunction, Duration margin, TimeWindow& window) const {
+  // Moves the conditions on windowed facts out of `conjunction`; the times when all of them hold, with a
+  // margin.
+  TimeWindows take(Conjunction& conjunction, Duration margin) const {
+    TimeWindows result = any_time();
     std::erase_if(conjunction.literals, [&](GroundLiteral literal) {
       const auto found = windows_.find(literal.atom);
       if (found == windows_.end()) return false;
-      const TimeWindow& bounds = found->second;
-      if (bounds.open > Duration{0}) window.open = std::max(window.open, bounds.open + margin);
-      if (bounds.close != kUnbounded) window.close = std::min(window.close, bounds.close - margin);
+      result = intersection(result, shrunk(found->second, margin, margin));
       return true;
     });
+    return result;
   }
 
   void restrict(GroundAction& action) const {
-    take(action.at_start, epsilon_, action.start_window);
-    take(action.at_end, epsilon_, action.end_window);
-    TimeWindow whole;
-    take(action.over_all, Duration{0}, whole);
-    for (auto* window : {&action.start_window, &action.end_window}) {
-      window->open = std::max(window->open, whole.open);
-      window->close = std::min(window->close, whole.close);
-    }
+    action.start_windows = take(action.at_start, epsilon_);
+    action.end_windows = take(action.at_end, epsilon_);
+    action.span_windows = take(action.over_all, Duration{0});
+    const auto& span = action.span_windows;
+    action.start_windows = intersection(action.start_windows, shrunk(span, Duration{0}, action.min_duration));
+    action.end_windows = intersection(action.end_windows, shrunk(span, action.min_duration, Duration{0}));
   }
 
   GroundModel& model_;
+  WindowExtraction mode_;
   Duration epsilon_;
   std::map<std::uint32_t, History> histories_;
-  std::map<std::uint32_t, TimeWindow> windows_;
+  std::map<std::uint32_t, TimeWindows> windows_;
 };
 
 }  // namespace
 
-void extract_one_off_windows(GroundModel& model, Duration epsilon) { Extraction(model, epsilon).run(); }
+void extract_timed_windows(GroundModel& model, WindowExtraction mode, Duration epsilon) {
+  if (mode != WindowExtraction::kNone) Extraction(model, mode, epsilon).run();
+}
 
 }  // namespace roci::planner::temporal_pddl

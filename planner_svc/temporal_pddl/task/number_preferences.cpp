@@ -1,0 +1,62 @@
+#include "planner_svc/temporal_pddl/task/number_preferences.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+Preference opposite(Preference preference) {
+  if (preference == Preference::kHigher) return Preference::kLower;
+  return preference == Preference::kLower ? Preference::kHigher : preference;
+}
+
+class Analysis {
+ public:
+  explicit Analysis(const Task& task) : task_(task), result_(task.layout.numbers(), Preference::kNone) {}
+
+  IdVector<NumberId, Preference> run() {
+    for (std::size_t snap = 0; snap < task_.snaps.size(); ++snap) use(task_.comparisons[snap]);
+    for (std::size_t action = 0; action < task_.actions.size(); ++action) {
+      use(task_.numeric_invariants[action]);
+      for (const DurationRule& rule : task_.duration_rules[action]) use(rule.bound, Preference::kExact);
+    }
+    for (const Goal& goal : task_.goals) use(goal.comparisons);
+    for (changed_ = true; changed_;) {
+      changed_ = false;
+      for (std::size_t snap = 0; snap < task_.snaps.size(); ++snap) {
+        for (const NumericEffect& effect : task_.numeric_effects[snap]) {
+          use(effect.expression, result_[effect.variable]);
+        }
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void use(std::span<const NumericCondition> conditions) {
+    for (const NumericCondition& condition : conditions) {
+      use(condition.expression,
+          condition.comparator == Comparator::kEqual ? Preference::kExact : Preference::kHigher);
+    }
+  }
+
+  void use(ExpressionId expression, Preference wanted) {
+    if (wanted == Preference::kNone) return;
+    for (const auto& term : task_.expressions[expression].terms) {
+      const Preference here = term.weight > 0 ? wanted : opposite(wanted);
+      Preference& known = result_[term.variable];
+      const Preference both = known == Preference::kNone || known == here ? here : Preference::kExact;
+      changed_ = changed_ || both != known;
+      known = both;
+    }
+  }
+
+  const Task& task_;
+  IdVector<NumberId, Preference> result_;
+  bool changed_ = false;
+};
+
+}  // namespace
+
+IdVector<NumberId, Preference> number_preferences(const Task& task) { return Analysis(task).run(); }
+
+}  // namespace roci::planner::temporal_pddl
