@@ -116,6 +116,18 @@ void Reactor::run_executive(Time now, const ReactorInputs& inputs) {
   std::move(done.commands.begin(), done.commands.end(), std::back_inserter(out_.commands));
   std::move(done.changes.begin(), done.changes.end(), std::back_inserter(out_.steps));
   if (done.next_wake) wake_at(*done.next_wake);
+  if (!out_.steps.empty() && phase_ == Phase::executing) tell_windows();
+}
+
+// Windows of what has not started yet, where real events have moved them.
+void Reactor::tell_windows() {
+  for (const StepStatus& step : executive_.steps()) {
+    if (step.state != temporal::ActivityState::waiting) continue;
+    const auto [told, added] = told_starts_.try_emplace(step.activity, step.earliest_start);
+    if (!added && told->second == step.earliest_start) continue;
+    told->second = step.earliest_start;
+    out_.steps.push_back(step);
+  }
 }
 
 // Facts are derived from observations here, where the metadata is; the executive sees each as one more
@@ -265,6 +277,8 @@ void Reactor::adopt(Time now, const PlanAnswer& answer) {
        "plan " + std::to_string(plan_version_) + " with " + std::to_string(plan.activities.size()) +
            " activities");
   out_.adopted = std::move(plan);
+  told_starts_.clear();
+  tell_windows();
   wake_at(now);
 }
 
@@ -354,7 +368,7 @@ ReactorCounts Reactor::counts() const {
   for (const GoalRecord* record : goals_.all()) {
     if (record->state == GoalState::achieved) ++counts.achieved;
     if (record->state == GoalState::dropped) ++counts.dropped;
-    if (record->state == GoalState::failed || record->state == GoalState::rejected) ++counts.failed;
+    if (record->state == GoalState::failed) ++counts.failed;
     if (!is_final(record->state)) ++counts.open;
   }
   return counts;
@@ -363,12 +377,13 @@ ReactorCounts Reactor::counts() const {
 std::string Reactor::outcome() const {
   if (phase_ == Phase::safe) return unsafe_ ? "failed" : "partial";
   if (phase_ != Phase::finished) return "";
-  const auto all = goals_.all();
-  const bool every_hard_goal = std::all_of(all.begin(), all.end(), [](const GoalRecord* record) {
+  auto taken = goals_.all();
+  std::erase_if(taken, [](const GoalRecord* record) { return record->state == GoalState::rejected; });
+  const bool every_hard_goal = std::all_of(taken.begin(), taken.end(), [](const GoalRecord* record) {
     return record->request.importance != GoalClass::hard || record->state == GoalState::achieved ||
            record->state == GoalState::recalled;
   });
-  return every_hard_goal ? "achieved" : "partial";
+  return every_hard_goal && !taken.empty() ? "achieved" : "partial";
 }
 
 const char* to_string(PlanVerdict verdict) {

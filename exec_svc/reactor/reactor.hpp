@@ -103,7 +103,7 @@ class Reactor {
   std::uint32_t plan_version() const { return plan_version_; }
   ReactorCounts counts() const;
   const GoalSet& goals() const { return goals_; }
-  // "achieved": every hard goal; "partial": some hard goal failed, robot safe; "failed": robot not safe;
+  // "achieved": every hard goal that was not rejected, and there was a goal; "partial": some hard goal failed, robot safe; "failed": robot not safe;
   // empty while open.
   std::string outcome() const;
 
@@ -129,6 +129,7 @@ class Reactor {
   void change_goal(const GoalKey& key, GoalState state, const std::string& reason);
   void wake_at(temporal::Time time);
   void note(NoteLevel level, std::string code, std::string text);
+  void tell_windows();
   std::vector<Observation> changed_conditions();
 
   const MissionModel* mission_;
@@ -152,6 +153,7 @@ class Reactor {
   std::uint32_t failed_calls_ = 0;
   temporal::Time not_before_{0};  // next planner call
   bool unsafe_ = false;
+  std::map<std::string, temporal::Time> told_starts_;  // earliest starts last reported
   std::map<std::string, temporal::Value>
       condition_values_;  // timelines of the plan's conditions, as last told to the executive
 };

@@ -235,6 +235,14 @@ TEST_F(ReactorTest, RecallOfTheOnlyGoalStopsTheRobot) {
   EXPECT_EQ(reactor.counts().achieved, 0U);
 }
 
+TEST_F(ReactorTest, ARejectedGoalDoesNotSpoilTheMission) {
+  GoalRequest bad = photo("b");
+  bad.arguments["x"] = "far";
+  run(1000, robot_and({photo("a"), bad}));
+  EXPECT_EQ(reactor.goals().find({"ground", "b"})->state, GoalState::rejected);
+  EXPECT_EQ(reactor.outcome(), "achieved");
+}
+
 TEST_F(ReactorTest, AnAnswerToAStaleCallIsIgnored) {
   planner = [this](const PlanCall& call) { return image_every_goal(call); };
   run(1000, robot_and({photo("a")}));
