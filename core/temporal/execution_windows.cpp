@@ -1,6 +1,10 @@
 #include "core/temporal/execution_windows.hpp"
 
+#include <optional>
 #include <stdexcept>
+#include <utility>
+
+#include "core/temporal/schedule.hpp"
 
 namespace roci::temporal {
 namespace {
@@ -20,30 +24,28 @@ std::vector<BoundField::Edge> mirrored(std::vector<BoundField::Edge> edges) {
   return edges;
 }
 
-Stn network_of(std::size_t point_count, const std::vector<TemporalConstraint>& constraints) {
-  Stn network(point_count);
-  for (const TemporalConstraint& c : constraints)
-    if (!network.add(c.from_point, c.to_point, c.lower, c.upper))
-      throw std::invalid_argument("execution windows of an inconsistent network");
-  return network;
+/// A schedule satisfies every constraint: it is a feasible potential.
+std::vector<Duration> potential_of(std::size_t point_count,
+                                   const std::vector<TemporalConstraint>& constraints) {
+  std::optional<std::vector<Duration>> schedule = earliest_schedule(point_count, constraints);
+  if (!schedule) throw std::invalid_argument("execution windows of an inconsistent network");
+  return *std::move(schedule);
 }
 
-/// The earliest schedule satisfies every constraint: it is a feasible potential.
-std::vector<Duration> earliest_schedule(const Stn& network, int sign) {
-  std::vector<Duration> potential(network.size());
-  for (TimePoint p = 0; p < network.size(); ++p) potential[p] = sign * network.window(p).lower;
-  return potential;
+std::vector<Duration> negated(std::vector<Duration> times) {
+  for (Duration& time : times) time = -time;
+  return times;
 }
 
 }  // namespace
 
 ExecutionWindows::ExecutionWindows(std::size_t point_count,
                                    const std::vector<TemporalConstraint>& constraints, Time origin)
-    : ExecutionWindows(edges_of(constraints), network_of(point_count, constraints), origin) {}
+    : ExecutionWindows(edges_of(constraints), potential_of(point_count, constraints), origin) {}
 
-ExecutionWindows::ExecutionWindows(std::vector<BoundField::Edge> edges, const Stn& network, Time origin)
-    : latest_(edges, earliest_schedule(network, 1)),
-      earliest_(mirrored(std::move(edges)), earliest_schedule(network, -1)) {
+ExecutionWindows::ExecutionWindows(std::vector<BoundField::Edge> edges, std::vector<Duration> potential,
+                                   Time origin)
+    : latest_(edges, potential), earliest_(mirrored(std::move(edges)), negated(std::move(potential))) {
   happen(origin_point, origin);
 }
 

@@ -36,7 +36,7 @@ class ExecutionWindows {
   const std::vector<BoundField::Change>& earliest_changes() const { return earliest_.changes(); }
 
  private:
-  ExecutionWindows(std::vector<BoundField::Edge> edges, const Stn& network, Time origin);
+  ExecutionWindows(std::vector<BoundField::Edge> edges, std::vector<Duration> potential, Time origin);
 
   // Two edges per constraint: 2c is the upper bound, 2c + 1 the lower. The field of earliest times is the
   // mirror: reversed edges, negated values.

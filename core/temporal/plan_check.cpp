@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "core/temporal/flexible_plan.hpp"
+#include "core/temporal/schedule.hpp"
 
 namespace roci::temporal {
 namespace {
@@ -140,8 +141,11 @@ class PlanCheck {
   }
 
   void check_network() {
-    Stn network(plan_.point_count);
-    for (const TemporalConstraint& c : all_constraints(plan_)) {
+    const std::vector<TemporalConstraint> constraints = all_constraints(plan_);
+    if (earliest_schedule(plan_.point_count, constraints)) return;
+    Stn network(
+        plan_.point_count);  // slower, but it knows the first constraint that contradicts those before it
+    for (const TemporalConstraint& c : constraints) {
       if (network.add(c.from_point, c.to_point, c.lower, c.upper)) continue;
       fault("network", "no schedule satisfies it: point " + std::to_string(c.to_point) + " cannot lie " +
                            to_text(c.lower) + " to " + to_text(c.upper) + " after point " +

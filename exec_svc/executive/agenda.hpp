@@ -1,9 +1,9 @@
 // Times to come of things whose time may still change.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
-#include <queue>
 #include <utility>
 #include <vector>
 
@@ -12,24 +12,39 @@
 
 namespace roci::exec {
 
-/// A changed time is entered again; entries that no longer hold are dropped when they come up. Ties by point.
+/// A changed time is entered again; entries that no longer hold are dropped when they come up, or all at once
+/// when they would be the most. Ties by point.
 class Agenda {
  public:
   using Entry = std::pair<temporal::Time, temporal::TimePoint>;
 
-  void enter(temporal::Time at, temporal::TimePoint point) { entries_.emplace(at, point); }
+  void enter(temporal::Time at, temporal::TimePoint point) {
+    entries_.emplace_back(at, point);
+    std::push_heap(entries_.begin(), entries_.end(), std::greater<>{});
+  }
 
   /// The first entry that holds(time, point).
   template <typename Holds>
   std::optional<Entry> first(Holds holds) {
-    while (!entries_.empty() && !holds(entries_.top().first, entries_.top().second)) entries_.pop();
-    return entries_.empty() ? std::nullopt : std::optional(entries_.top());
+    const auto stale = [&](const Entry& entry) { return !holds(entry.first, entry.second); };
+    if (entries_.size() > prune_at_) {
+      std::erase_if(entries_, stale);
+      std::make_heap(entries_.begin(), entries_.end(), std::greater<>{});
+      prune_at_ = 2 * entries_.size() + smallest_prune;
+    }
+    while (!entries_.empty() && stale(entries_.front())) pop();
+    return entries_.empty() ? std::nullopt : std::optional(entries_.front());
   }
 
-  void pop() { entries_.pop(); }
+  void pop() {
+    std::pop_heap(entries_.begin(), entries_.end(), std::greater<>{});
+    entries_.pop_back();
+  }
 
  private:
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> entries_;
+  static constexpr std::size_t smallest_prune = 64;
+  std::size_t prune_at_ = smallest_prune;
+  std::vector<Entry> entries_;
 };
 
 }  // namespace roci::exec

@@ -73,7 +73,6 @@ void PlanRun::start(Index activity, Time now) {
     send(activity, CommandAction::execute);
     change(activity, ActivityState::dispatched, "");
   }
-  consider_waits_after(activity, now);
 }
 
 bool PlanRun::try_internal_end(Index activity, Time now) {
@@ -98,18 +97,12 @@ void PlanRun::skip(Index activity, const std::string& cause) {
 }
 
 /// A stated wait timeout counts from the earliest start on, also while a predecessor that runs is late (R98),
-/// but not while a predecessor has not even begun: that one's own wait bounds this one.
+/// but not while a predecessor has not even begun (that one's own wait bounds this one) or a decision is
+/// open.
 void PlanRun::consider_wait(Index activity, Time now) {
   const PlanActivity& planned = plan_.activities[activity];
   if (runs_[activity].phase != Phase::waiting || !bounded(planned.wait_timeout)) return;
-  const auto begun = [&](TimePoint point) {
-    if (points_.happened_at(point) || points_.dropped(point)) return true;
-    const PointOwner& owner = points_.owner(point);
-    return owner.role != PointRole::free && owner.role != PointRole::start && runs_[owner.activity].active();
-  };
-  const auto& before = points_.precedence().predecessors[planned.start_point];
-  const bool undecided = points_.held(planned.start_point);
-  if (points_.due(planned.start_point) && !undecided && std::all_of(before.begin(), before.end(), begun))
+  if (points_.due(planned.start_point) && !points_.held(planned.start_point))
     begin_wait(activity, now, planned.wait_timeout);
 }
 
@@ -118,14 +111,6 @@ void PlanRun::begin_wait(Index activity, Time now, Duration bound) {
   if (run.wait_until) return;
   run.wait_until = plus(now, bound);
   waits_.emplace(*run.wait_until, activity);
-}
-
-void PlanRun::consider_waits_after(Index started, Time now) {
-  const PlanActivity& planned = plan_.activities[started];
-  for (const TimePoint point : {planned.start_point, planned.end_point})
-    for (const TimePoint successor : points_.precedence().successors[point])
-      if (points_.owner(successor).role == PointRole::start)
-        consider_wait(points_.owner(successor).activity, now);
 }
 
 bool PlanRun::expire_waits(Time now) {

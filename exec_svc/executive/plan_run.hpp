@@ -65,7 +65,7 @@ class PlanRun {
   void skip(Index activity, const std::string& cause);
   void consider_wait(Index activity, temporal::Time now);
   void begin_wait(Index activity, temporal::Time now, temporal::Duration bound);
-  void consider_waits_after(Index started, temporal::Time now);
+
   bool expire_waits(temporal::Time now);
   void break_if_late(temporal::Time now);
   void break_if_disordered();

@@ -15,12 +15,16 @@ PointDispatcher::PointDispatcher(const temporal::FlexiblePlan& plan)
       constraints_(all_constraints(plan)),
       precedence_(precedence_of(constraints_, owners_)),
       windows_(plan.point_count, constraints_, plan.origin),
-      points_(plan.point_count) {
+      points_(plan.point_count),
+      ends_(plan.activities.size()) {
   points_[temporal::origin_point].happened = plan.origin;
-  for (const temporal::PlanActivity& activity : plan.activities)
+  for (std::size_t i = 0; i < plan.activities.size(); ++i) {
+    const temporal::PlanActivity& activity = plan.activities[i];
     points_[activity.start_point].may_be_late = activity.lateness == temporal::LatenessPolicy::push;
+    ends_[i] = activity.end_point;
+  }
   for (TimePoint p = 1; p < points_.size(); ++p) {
-    points_[p].pending = static_cast<std::uint32_t>(precedence_.predecessors[p].size());
+    points_[p].pending = points_[p].unbegun = static_cast<std::uint32_t>(precedence_.predecessors[p].size());
     enter_times(p);
   }
 }
@@ -110,7 +114,8 @@ Time PointDispatcher::next_time(Time now) {
 
 void PointDispatcher::enter_times(TimePoint point) {
   const temporal::Window window = windows_.window(point);
-  if (commanded(point) && bounded(window.lower)) earliest_.enter(window.lower, point);
+  const bool near = points_[point].unbegun == 0;
+  if (near && commanded(point) && bounded(window.lower)) earliest_.enter(window.lower, point);
   if (owners_[point].role == PointRole::start && bounded(window.upper)) latest_.enter(window.upper, point);
 }
 
@@ -127,6 +132,14 @@ void PointDispatcher::note_changes() {
   };
   note(windows_.earliest_changes(), true);
   note(windows_.latest_changes(), false);
+}
+
+/// The frontier moves on: points behind it have no business yet, and cost nothing.
+void PointDispatcher::begin(TimePoint point) {
+  if (std::exchange(points_[point].begun, true)) return;
+  for (const TimePoint successor : precedence_.successors[point])
+    if (points_[successor].unbegun > 0 && --points_[successor].unbegun == 0 && open(successor))
+      enter_times(successor);
 }
 
 void PointDispatcher::satisfied(TimePoint point) {
@@ -147,6 +160,8 @@ void PointDispatcher::pass(TimePoint point) {
     const TimePoint passed = passing.back();
     passing.pop_back();
     if (std::exchange(points_[passed].passed, true)) continue;
+    begin(passed);
+    if (owners_[passed].role == PointRole::start) begin(ends_[owners_[passed].activity]);
     for (const TimePoint successor : precedence_.successors[passed]) {
       if (!points_[successor].dropped) {
         satisfied(successor);

@@ -34,9 +34,11 @@ class PointDispatcher {
   bool held(temporal::TimePoint point) const { return points_[point].holds > 0; }
   bool only_held(temporal::TimePoint point) const { return points_[point].pending == points_[point].holds; }
 
-  /// Moves the points whose earliest time has come on; returns them. They may still wait for predecessors.
+  /// Points whose predecessors have all begun (an end has begun when its activity has started) and whose
+  /// earliest time has come since the last call. They may still wait for predecessors to end.
   std::vector<temporal::TimePoint> advance(temporal::Time now);
   bool due(temporal::TimePoint point) const { return points_[point].due; }
+
   /// Points other than observed ends that wait for nothing any more, in order of index.
   const std::set<temporal::TimePoint>& ready() const { return ready_; }
 
@@ -61,6 +63,8 @@ class PointDispatcher {
     std::optional<temporal::Time> happened;
     std::uint32_t pending = 0;  ///< predecessors that have not happened, and holds
     std::uint32_t holds = 0;
+    std::uint32_t unbegun = 0;  ///< predecessors that have not begun
+    bool begun = false;
     bool due = false;
     bool dropped = false;
     bool passed = false;       ///< successors have been told
@@ -71,6 +75,7 @@ class PointDispatcher {
   bool commanded(temporal::TimePoint point) const { return owners_[point].role != PointRole::observed_end; }
   void enter_times(temporal::TimePoint point);
   void note_changes();
+  void begin(temporal::TimePoint point);
   void satisfied(temporal::TimePoint point);
   void pass(temporal::TimePoint point);
   std::optional<Agenda::Entry> first_earliest();
@@ -81,6 +86,7 @@ class PointDispatcher {
   Precedence precedence_;
   temporal::ExecutionWindows windows_;
   std::vector<PointState> points_;
+  std::vector<temporal::TimePoint> ends_;  // by activity
   std::set<temporal::TimePoint> ready_;
   Agenda earliest_, latest_;
 };

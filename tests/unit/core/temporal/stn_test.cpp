@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "core/temporal/schedule.hpp"
+
 namespace roci::temporal {
 namespace {
 
@@ -70,6 +72,35 @@ TEST(Stn, GrowsByPointsAndIsRestoredFromACopy) {
   EXPECT_EQ(stn.window(a).lower, Duration{5});
   stn = checkpoint;
   EXPECT_EQ(stn.window(a), (Window{Duration{3}, Duration{9}}));
+}
+
+TEST(ScheduleProperty, IsTheEarliestOfAllOrThereIsNone) {
+  std::mt19937_64 random(12);
+  int inconsistent = 0;
+  for (int run = 0; run < 8000; ++run) {
+    const std::size_t n = 2 + random() % 9;
+    std::vector<TemporalConstraint> constraints;
+    FloydWarshall oracle(n);
+    bool consistent = true;
+    const auto add = [&](const TemporalConstraint& c) {
+      constraints.push_back(c);
+      consistent = consistent && oracle.add(c.from_point, c.to_point, c.lower, c.upper);
+    };
+    for (TimePoint p = 1; p < n; ++p) add({0, p, ConstraintKind::window, Duration{0}, no_bound});
+    for (std::uint64_t c = random() % (2 * n); c > 0; --c) {
+      const Duration lower{static_cast<int>(random() % 40) - 10};
+      const Duration upper = random() % 2 ? no_bound : lower + Duration{static_cast<int>(random() % 20)};
+      const auto from = static_cast<TimePoint>(random() % n);
+      const auto to = static_cast<TimePoint>(random() % n);
+      if (from != to) add({from, to, ConstraintKind::ordering, lower, upper});
+    }
+    const auto schedule = earliest_schedule(n, constraints);
+    ASSERT_EQ(schedule.has_value(), consistent) << "run " << run;
+    inconsistent += consistent ? 0 : 1;
+    for (TimePoint p = 0; consistent && p < n; ++p)
+      ASSERT_EQ((*schedule)[p], oracle.window(p).lower) << "run " << run;
+  }
+  EXPECT_GT(inconsistent, 1000);
 }
 
 TEST(StnProperty, AgreesWithFloydWarshallAfterEveryConstraint) {
