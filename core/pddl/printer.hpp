@@ -1,6 +1,5 @@
-// Syntax tree to PDDL text. What parses back is equal to what was printed: parse_domain(print(d)) == d, if d
-// could have come from a text at all (no empty `when` or `forall` effect, no conjunction of one part as a
-// timed condition).
+// Syntax tree to PDDL text. What parses back is equal to what was printed, parse_domain(print(d)) == d, if d
+// could have come from a text at all: no `when` or `forall` without effects in durative actions.
 #pragma once
 
 #include <string>

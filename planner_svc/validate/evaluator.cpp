@@ -58,7 +58,7 @@ Truth Evaluator::combine(Truth decisive, Bindings& bindings,
     if (truth != decisive) return true;
     result = decisive;
     if (!reads_) return false;
-    if (extent(reads_) != before) return true;
+    if (strict_ || extent(reads_) != before) return true;
     reads_->facts.resize(begin.facts);  // decided by what never changes: the other parts do not count
     reads_->values.resize(begin.values);
     return false;

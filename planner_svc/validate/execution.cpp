@@ -50,7 +50,7 @@ void Execution::happen(std::span<const Event> events, bool crowded) {
 Execution::Occurrence Execution::execute(const Event& event, bool crowded) {
   Occurrence occurrence{event, {}};
   Changes& changes = occurrence.footprint.changes;
-  Evaluator evaluator(model_, state_, crowded ? &occurrence.footprint.reads : nullptr);
+  Evaluator evaluator(model_, state_, crowded ? &occurrence.footprint.reads : nullptr, options_.strict);
   switch (event.kind) {
     case EventKind::kTimedLiteral: {
       const pddl::Literal& literal = model_.problem().timed_literals[event.index].literal;
@@ -88,8 +88,7 @@ void Execution::execute_start(const Event& event, Evaluator& evaluator, Changes&
   const Step& step = steps_[event.index];
   const pddl::DurativeAction& action = *step.durative;
   const pddl::Microseconds duration = *plan_[event.index].duration;
-  Running running{event.index, event.time + duration,
-                  check_duration(event, pddl::TimePoint::kStart, evaluator),
+  Running running{event.index, check_duration(event, pddl::TimePoint::kStart, evaluator),
                   unfold(action.end_effects, step.bindings, model_), false};
   if (!running.duration) running.duration = in_seconds(duration);
   require(action.condition.at_start, step.bindings, evaluator,
@@ -171,7 +170,6 @@ void Execution::check_interference(const Occurrence& occurrence) {
 void Execution::check_invariants(pddl::Microseconds now) {
   Evaluator evaluator(model_, state_);
   for (Running& running : running_) {
-    if (running.end == now) continue;
     const Step& step = steps_[running.step];
     check_conditions(running.end_effects, &pddl::TimedCondition::over_all, evaluator);
     if (running.broken) continue;

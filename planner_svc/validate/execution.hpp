@@ -30,7 +30,6 @@ class Execution {
   // A durative action between its start and its end.
   struct Running {
     std::size_t step;
-    pddl::Microseconds end;
     std::optional<double> duration;  // seconds, exact where a constraint fixes it
     std::vector<PendingEffect> end_effects;
     bool broken = false;  // its invariant was reported

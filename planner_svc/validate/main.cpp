@@ -1,4 +1,4 @@
-// roci-validate DOMAIN PROBLEM PLAN [--functions FILE] [--json]
+// roci-validate DOMAIN PROBLEM PLAN [--functions FILE] [--strict] [--json]
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
@@ -53,6 +53,7 @@ struct Arguments {
   std::string problem;
   std::string plan;
   std::string functions;
+  validate::Options options;
   bool json = false;
 };
 
@@ -67,7 +68,7 @@ int run(const Arguments& arguments) {
   if (!arguments.functions.empty()) {
     functions = pddl::parse_function_table(read_file(arguments.functions), arguments.functions);
   }
-  const validate::Report report = validate::validate(domain, problem, plan, functions);
+  const validate::Report report = validate::validate(domain, problem, plan, functions, arguments.options);
   if (arguments.json) {
     std::cout << to_json(report, plan).dump(2) << '\n';
   } else if (report.valid) {
@@ -91,6 +92,7 @@ int main(int argc, char** argv) {
   app.add_option("PLAN", arguments.plan, "steps as 0.001: (drive a b) [12.5]")->required();
   app.add_option("--functions", arguments.functions,
                  "values of external functions: (traverse_time a b) 12.5");
+  app.add_flag("--strict", arguments.options.strict, "conditions need all that they mention, as in VAL");
   app.add_flag("--json", arguments.json, "the report as one JSON object");
   try {
     app.parse(argc, argv);

@@ -90,9 +90,8 @@ std::vector<Event> schedule(const std::vector<pddl::PlanStep>& plan, const std::
     }
   }
   const auto add_timed = [&](double seconds, EventKind kind, std::size_t index) {
-    if (seconds * 1e6 > static_cast<double>(last.count()) + 1) return;  // also what no integer could hold
-    const pddl::Microseconds time(std::llround(seconds * 1e6));
-    if (time <= last) events.push_back({time, kind, index});
+    if (seconds * 1e6 >= static_cast<double>(last.count()) + 0.5) return;
+    events.push_back({pddl::Microseconds(std::llround(seconds * 1e6)), kind, index});
   };
   for (std::size_t i = 0; i < problem.timed_literals.size(); ++i) {
     add_timed(problem.timed_literals[i].time, EventKind::kTimedLiteral, i);

@@ -65,13 +65,7 @@ Condition RandomTree::condition(int depth) {
   }
 }
 
-Condition RandomTree::timed_part() {
-  if (chance(30)) return {};
-  Condition made = condition(3);
-  if (auto* all = std::get_if<And>(&made.node); all && all->parts.size() == 1)
-    all->parts.push_back(condition(1));
-  return made;
-}
+Condition RandomTree::timed_part() { return chance(30) ? Condition{} : condition(3); }
 
 Effect RandomTree::effect(int depth, Place place) {
   const int kind = place == Place::kContinuous ? 1 : below(2);

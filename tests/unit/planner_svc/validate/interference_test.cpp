@@ -14,6 +14,7 @@ const World kWorld = {
     "(p)))"
     "(:action need-either :precondition (or (q) (p)) :effect ())"
     "(:action need-fixed-or-p :precondition (or (fixed) (p)) :effect ())"
+    "(:action need-p-or-fixed :precondition (or (p) (fixed)) :effect ())"
     "(:action when-p :effect (when (p) (q))) (:action when-q :effect (when (q) (not (p))))"
     "(:action up :effect (increase (f) 1)) (:action down :effect (decrease (f) 2)) (:action set :effect "
     "(assign (f) 3))"
@@ -49,6 +50,15 @@ TEST(Interference, OverAllThatAConditionMentions) {
   EXPECT_TRUE(interfere("need-either", "add-p"));
   EXPECT_TRUE(interfere("need-all", "make a"));
   EXPECT_FALSE(interfere("need-fixed-or-p", "add-p")) << "decided by what never changes";
+  EXPECT_FALSE(interfere("need-p-or-fixed", "add-p"));
+}
+
+TEST(Interference, StrictlyAMentionIsEnough) {
+  Options options;
+  options.strict = true;
+  EXPECT_EQ(check_kinds(kWorld, "1: (need-fixed-or-p)\n1: (add-p)", options), "interference@1.000");
+  EXPECT_EQ(check_kinds(kWorld, "1: (need-p-or-fixed)\n1: (add-p)", options), "interference@1.000");
+  EXPECT_EQ(check_kinds(kWorld, "1: (need-fixed-or-p)\n1: (up)", options), "");
 }
 
 TEST(Interference, OfConditionalEffects) {

@@ -36,6 +36,9 @@ TEST(Numbers, WhatIsUndefinedIsNeitherTrueNorFalse) {
   EXPECT_TRUE(holds("(or (> (undefined) 0) (= (f) 3))"));
   EXPECT_FALSE(holds("(and (> (undefined) 0) (= (f) 3))"));
   EXPECT_TRUE(holds("(imply (= (f) 4) (> (undefined) 0))"));
+  EXPECT_FALSE(holds("(or (and (> (undefined) 0) (= (f) 3)) (= (f) 4))"));
+  EXPECT_FALSE(holds("(not (or (> (undefined) 0) (= (f) 4)))"));
+  EXPECT_TRUE(holds("(not (and (> (undefined) 0) (= (f) 4)))"));
 }
 
 TEST(Numbers, Effects) {
