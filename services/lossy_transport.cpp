@@ -39,7 +39,7 @@ class DelayedReader : public Reader {
 
  private:
   struct Late {
-    WallTime due;
+    wall::Instant due;
     Sample sample;
   };
 
