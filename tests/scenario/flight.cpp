@@ -24,14 +24,16 @@ Ended run(const std::string& command) {
 Flight fly(const std::string& mission, const std::string& dds, std::uint64_t seed, const std::string& more) {
   const Ended ended = run("roci-launch " + mission + " --dds " + dds + " --seed " + std::to_string(seed) +
                           " --speed max --headless --json " + more);
-  Flight out{ended.exit_code, nlohmann::json::object()};
-  const auto end = ended.output.find_last_not_of('\n');
-  if (end == std::string::npos) return out;
-  const auto begin = ended.output.rfind('\n', end);
-  const std::string last = ended.output.substr(begin == std::string::npos ? 0 : begin + 1, end - begin);
-  out.summary = nlohmann::json::parse(last, nullptr, false);
-  if (out.summary.is_discarded()) out.summary = nlohmann::json::object();
-  return out;
+  return {ended.exit_code, last_line_as_json(ended.output)};
+}
+
+nlohmann::json last_line_as_json(const std::string& output) {
+  const auto end = output.find_last_not_of('\n');
+  if (end == std::string::npos) return nlohmann::json::object();
+  const auto begin = output.rfind('\n', end);
+  const std::string last = output.substr(begin == std::string::npos ? 0 : begin + 1, end - begin);
+  auto parsed = nlohmann::json::parse(last, nullptr, false);
+  return parsed.is_object() ? parsed : nlohmann::json::object();
 }
 
 }  // namespace roci::scenario

@@ -15,6 +15,9 @@ struct Ended {
 // Runs a shell command line with the build's bin folder first in PATH.
 Ended run(const std::string& command);
 
+// An empty object if the last line is none.
+nlohmann::json last_line_as_json(const std::string& output);
+
 // Flies the mission to its end with `roci-launch … --speed max --headless --json`; the summary is the last
 // line. A flight that prints none gives an empty object.
 struct Flight {

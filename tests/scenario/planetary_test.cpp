@@ -26,7 +26,7 @@ TEST_P(PlanetaryTest, TheSameSeedGivesTheTraceOfTheReference) {
 
 INSTANTIATE_TEST_SUITE_P(Transports, PlanetaryTest,
                          ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& test) { return std::string(test.param); });
 
 TEST(PlanetaryTraceTest, AnotherSeedGivesAnotherTrace) {
   const std::string one = fly(kMission, "inproc", 1).summary.value("trace_sha256", "");
