@@ -38,6 +38,7 @@ TEST_P(Isolation, AForeignTypeOnAKnownTopicDoesNotMatch) {
   const auto writer = sender->create_writer(goal_endpoint(latched(1)), {});
   ASSERT_TRUE(writer->write(goal("photo", 1)));
   ASSERT_TRUE(inbox.wait_for_samples(1));
+  ASSERT_TRUE(inbox.wait_for_match(1));  // told apart from samples, in any order
   EXPECT_EQ(inbox.matched(), 1);
   EXPECT_EQ(impostor->matched_readers(), 0);
   EXPECT_THAT(inbox.goals(), ElementsAre("photo=1"));
