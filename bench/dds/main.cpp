@@ -2,6 +2,7 @@
 // Round trips between two processes on loopback: each vendor's bare API against our transport over the same
 // vendor, in one run and in turns, so that both see the same machine. Writes one JSON record to standard
 // output.
+#include <sched.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -76,8 +77,18 @@ void send(Port& port, const Ball& ball) {
   }
 }
 
+// Client and servers each on a processor of their own, all variants alike: where the scheduler happens to put
+// a thread is worth more than what is measured here.
+void pin_to(unsigned processor) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(processor % std::thread::hardware_concurrency(), &set);
+  sched_setaffinity(0, sizeof set, &set);
+}
+
 // Returns each ball until its standard input ends.
 int serve(const std::string& variant, int domain) {
+  pin_to(1);
   Mailbox mailbox;
   const auto port =
       open(variant, {Side::server, domain, [&mailbox](const Ball& ball) { mailbox.put(ball); }});
@@ -162,6 +173,7 @@ std::string host_name() {
 }
 
 nlohmann::json measure(const std::string& program, int rounds, int pings, std::uint64_t seed) {
+  pin_to(0);
   std::map<std::string, Rally> rallies;
   for (const auto& vendor : kVendors) {
     for (const auto& kind : kKinds) {
