@@ -10,6 +10,8 @@ const char* to_string(FunctionOutcome outcome) {
       return "unreachable";
     case FunctionOutcome::kUnavailable:
       return "unavailable";
+    case FunctionOutcome::kOwnerLost:
+      return "owner-lost";
     case FunctionOutcome::kLate:
       return "late";
     case FunctionOutcome::kNotANumber:

@@ -26,7 +26,8 @@ struct FunctionCall {
 enum class FunctionOutcome {
   kValue,
   kUnreachable,    // the owner says that no value exists: the action instance that needs it does not exist
-  kUnavailable,    // nobody owns the function
+  kUnavailable,    // nobody owns the function, or its owner cannot say
+  kOwnerLost,      // the owner died while it was asked
   kLate,           // the owner did not answer within the source's deadline
   kNotANumber,     // NaN or infinite
   kWrongArity,     // the owner knows the function with another number of arguments
