@@ -30,7 +30,10 @@ enum ExitCode { kAchieved = 0, kNotAchieved = 1, kBadInput = 2, kServiceFailed =
 
 nlohmann::json summary_of(const std::filesystem::path& run_folder) {
   std::ifstream in(run_folder / "summary.json");
-  return in ? nlohmann::json::parse(in) : nlohmann::json{{"result", "failed"}};
+  auto summary = in ? nlohmann::json::parse(in) : nlohmann::json{{"result", "failed"}};
+  std::ifstream expected(run_folder / roci::services::kExpectedFile);
+  if (expected) summary["expected"] = nlohmann::json::parse(expected);
+  return summary;
 }
 
 nlohmann::json fly_once(const Arguments& arguments, std::uint64_t seed,
@@ -52,6 +55,8 @@ void print(const nlohmann::json& summary) {
   std::cout << "seed " << summary.value("seed", std::uint64_t{0}) << ": " << summary.value("result", "failed")
             << ", " << summary["goals"].dump() << ", replans " << summary.value("replans", 0) << ", "
             << summary.value("sim_s", 0.0) << " s of mission in " << summary.value("wall_s", 0.0) << " s\n";
+  if (!summary.contains("expected") || summary["expected"].value("met", false)) return;
+  std::cout << "  not as the scenario expects: " << summary["expected"].value("fault", "") << "\n";
 }
 
 int rehearse(const Arguments& arguments) {
@@ -86,7 +91,8 @@ int rehearse(const Arguments& arguments) {
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("Flies a mission with all services in one process, on the simulated clock");
-  app.add_option("mission", arguments.mission, "Mission folder, or the name of an installed mission")->required();
+  app.add_option("mission", arguments.mission, "Mission folder, or the name of an installed mission")
+      ->required();
   app.add_option("--scenario", arguments.scenario, "Scenario of the mission")->capture_default_str();
   app.add_option("--runs", arguments.runs, "Number of flights, with seeds counted up")
       ->check(CLI::PositiveNumber);

@@ -27,6 +27,9 @@ struct RunSettings {
 
 using MakeService = std::unique_ptr<Service>(Node&, const RunSettings&);
 
+// In the run folder: what sim_svc found when it compared the events with the scenario's list; optional.
+inline constexpr char kExpectedFile[] = "expected.json";
+
 // Reads the command line (`x_svc --help`), opens the transport, runs the service until it is stopped (SIGTERM
 // and SIGINT stop it cleanly). Returns a process exit code (docs/exit-codes.md); errors go to standard error
 // with their remedy.

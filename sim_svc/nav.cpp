@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace roci::sim {
 namespace {
@@ -28,15 +29,18 @@ Ending interlock(const RobotView& view, const RobotNames& names) {
 Nav::Nav(const Pose& start, const RobotNames& names, std::uint64_t seed)
     : pose_(start), place_(names.stop_place), stop_place_(names.stop_place), noise_(seed, "drive") {}
 
-State Nav::state() const { return target_ ? State{"going-to", {*target_}} : State{"idle-at", {place_}}; }
+State Nav::state() const {
+  return target_ ? State{"going-to", {target_->place}} : State{"idle-at", {place_}};
+}
 
 Ending Nav::begin(const Task& task, Time, Surroundings& around) {
   const auto x = number(task.arguments.at("x"));
   const auto y = number(task.arguments.at("y"));
   if (!x || !y) return Failure{"bad-arguments", "drive: x and y must be numbers, in metres"};
   if (Ending refused = interlock(around.view, around.robot.names)) return refused;
-  target_ = task.arguments.at("to");
-  around.out.push_back(PathWanted{task.key, pose_, *x, *y});
+  target_ = Target{task.key, task.arguments.at("to"), *x, *y};
+  detours_ = 0;
+  around.out.push_back(wish());
   return std::nullopt;
 }
 
@@ -55,14 +59,25 @@ void Nav::look_again(Time now, Surroundings& around) {
 }
 
 std::optional<Time> Nav::next_change() const {
-  if (!trace_) return std::nullopt;
-  return trace_->end;
+  if (trace_) return trace_->end;
+  return looks_until_;
 }
 
 Ending Nav::finish(Surroundings& around) {
-  const DriveTrace trace = *std::move(trace_);
+  if (looks_until_) {
+    looks_until_.reset();
+    around.out.push_back(wish());
+    return std::nullopt;
+  }
+  const DriveTrace trace = *std::exchange(trace_, std::nullopt);
   pose_ = trace.samples.back().pose;
-  stand(trace.outcome == DriveEnd::arrived ? *target_ : stop_place_);
+  const std::string rock = trace.outcome == DriveEnd::blocked ? see_rock(trace, around) : "";
+  if (!rock.empty() && detours_ < around.robot.drive.detours) {
+    ++detours_;
+    looks_until_ = trace.end + seconds(around.robot.drive.look_s);
+    return std::nullopt;
+  }
+  stand(trace.outcome == DriveEnd::arrived ? target_->place : stop_place_);
   switch (trace.outcome) {
     case DriveEnd::arrived:
       return std::nullopt;
@@ -73,17 +88,22 @@ Ending Nav::finish(Surroundings& around) {
     case DriveEnd::blocked:
       break;
   }
+  return Failure{"blocked", "a rock that the map does not show lies on the way (" + rock + ")"};
+}
+
+// The id under which the rock that ended the trace is known from now on.
+std::string Nav::see_rock(const DriveTrace& trace, Surroundings& around) {
   const auto [seen, is_new] =
       seen_rocks_.try_emplace(*trace.seen_rock, "rock-" + std::to_string(seen_rocks_.size() + 1));
   if (is_new) {
     const Rock& rock = around.ground.hidden_rocks[*trace.seen_rock];
     around.out.push_back(RockSeen{seen->second, rock.x, rock.y, rock.radius, trace.end});
   }
-  return Failure{"blocked", "a rock that the map does not show lies on the way (" + seen->second + ")"};
+  return seen->second;
 }
 
 void Nav::halt(Time now) {
-  const bool moved = trace_.has_value();
+  const bool moved = trace_.has_value() || detours_ > 0;
   settle(now);
   stand(moved ? stop_place_ : place_);
 }
@@ -100,6 +120,8 @@ void Nav::stand(std::string place) {
   place_ = std::move(place);
   target_.reset();
   trace_.reset();
+  looks_until_.reset();
+  detours_ = 0;
 }
 
 }  // namespace roci::sim

@@ -18,6 +18,8 @@ struct DriveParameters {
   double heading_noise = 0.01;  ///< rad per square root of a second
   double max_slope_deg = 30;    ///< steeper ground holds the rover fast
   double rock_sight_m = 3;      ///< a rock on the way is seen this far ahead of the rover's edge
+  double detours = 0;           ///< rocks that one drive looks at and asks a way around, before it gives up
+  double look_s = 20;           ///< a look at such a rock takes this long
   double weight_n = 560;
   double rolling_resistance = 0.2;
   double drive_efficiency = 0.35;

@@ -64,6 +64,8 @@ RobotParameters read_robot(const Entry& simulation) {
                 {"heading_noise", &drive.heading_noise},
                 {"max_slope_deg", &drive.max_slope_deg, 1},
                 {"rock_sight_m", &drive.rock_sight_m},
+                {"detours", &drive.detours},
+                {"look_s", &drive.look_s, kPositive},
                 {"weight_n", &drive.weight_n},
                 {"rolling_resistance", &drive.rolling_resistance},
                 {"drive_efficiency", &drive.drive_efficiency, kPositive},

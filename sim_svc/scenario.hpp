@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim_svc/disturbance.hpp"
+#include "sim_svc/event_order.hpp"
 #include "sim_svc/windows.hpp"
 
 namespace roci::sim {
@@ -49,6 +50,7 @@ struct Scenario {
   std::vector<Rock> rocks;            ///< there from the start, on no map
   std::vector<Window> windows;        ///< true ones where they differ from the predicted
   std::vector<Stimulus> stimuli;      ///< in order of time
+  std::vector<ExpectedEvent> expect;  ///< empty: anything may happen
 };
 
 }  // namespace roci::sim

@@ -123,10 +123,27 @@ void read_world(const Entry& entry, Scenario& out) {
   }
 }
 
+// "code", or "code: part of the text"; a code that ends in + may come several times.
+ExpectedEvent read_expected(const Entry& entry) {
+  ExpectedEvent out;
+  if (entry.is_mapping()) {
+    const auto fields = entry.fields();
+    if (fields.size() != 1) entry.fail("expected one 'code: part of the text'; split it into several");
+    out.code = fields.front().first;
+    out.part = fields.front().second.text();
+  } else {
+    out.code = entry.text();
+  }
+  out.repeats = out.code.ends_with('+');
+  if (out.repeats) out.code.pop_back();
+  if (out.code.empty()) entry.fail("expected an event's code, like goal.achieved");
+  return out;
+}
+
 }  // namespace
 
 Scenario read_scenario(const Entry& root) {
-  root.allow_only({"description", "duration_s", "start", "world", "windows", "science", "stimuli"});
+  root.allow_only({"description", "duration_s", "start", "world", "windows", "science", "stimuli", "expect"});
   Scenario out;
   out.description = root.text_or("description", "");
   out.duration = time_of(root.at("duration_s"));
@@ -134,6 +151,9 @@ Scenario read_scenario(const Entry& root) {
   if (const auto world = root.find("world")) read_world(*world, out);
   if (const auto windows = root.find("windows")) out.windows = read_windows(*windows);
   if (const auto stimuli = root.find("stimuli")) out.stimuli = read_stimuli(*stimuli, out.duration);
+  if (const auto expect = root.find("expect")) {
+    for (const Entry& item : expect->items()) out.expect.push_back(read_expected(item));
+  }
   return out;
 }
 

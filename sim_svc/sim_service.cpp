@@ -1,6 +1,8 @@
 #include "sim_svc/sim_service.hpp"
 
+#include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
@@ -26,10 +28,12 @@ struct Match : Cases... {
 
 class SimService final : public services::Service {
  public:
-  SimService(services::Node& node, RunSetup run, std::uint64_t seed)
+  SimService(services::Node& node, RunSetup run, const services::RunSettings& settings)
       : node_(node),
         scenario_(std::move(run.scenario)),
-        world_(std::move(run.world), seed),
+        run_folder_(settings.run_folder),
+        order_(scenario_.expect),
+        world_(std::move(run.world), settings.seed),
         paths_(services::make_client(node, topics::path_request)),
         motions_(services::make_client(node, topics::arm_motion)),
         acks_(services::advertise(node, topics::command_ack)),
@@ -45,6 +49,9 @@ class SimService final : public services::Service {
     services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
       mission_over_ = !status.outcome().empty();
       end_if_over();
+    });
+    services::subscribe(node, topics::event, [this](const v1::Event& event) {
+      if (event.header().sender() != node_.options().name) order_.note(event.code(), event.text());
     });
     node.at(Time{}, [this] { tell(world_.advance(node_.now())); });
     for (const Stimulus& stimulus : scenario_.stimuli) {
@@ -77,8 +84,8 @@ class SimService final : public services::Service {
 
   void warn_of(const RockSeen& rock) {
     hazards_.write(wire::to_wire(rock));
-    events_.write(wire::event(v1::SEVERITY_WARNING, "hazard.seen",
-                              "a rock that the map does not show lies on the way (" + rock.id + ")"));
+    announce(v1::SEVERITY_WARNING, "hazard.seen",
+             "a rock that the map does not show lies on the way (" + rock.id + ")");
   }
 
   void ask(const PathWanted& path) {
@@ -137,12 +144,30 @@ class SimService final : public services::Service {
   }
 
   void end(const std::string& code, const std::string& text) {
-    events_.write(wire::event(v1::SEVERITY_INFO, code, text));
+    announce(v1::SEVERITY_INFO, code, text);
+    if (order_.expected() > 0) report_order();
     node_.stop();
+  }
+
+  void announce(v1::Severity severity, const std::string& code, const std::string& text) {
+    events_.write(wire::event(severity, code, text));
+    order_.note(code, text);
+  }
+
+  // For whoever started the run; the summary takes it up as `expected`.
+  void report_order() const {
+    const std::string fault = order_.final_fault();
+    events_.write(fault.empty()
+                      ? wire::event(v1::SEVERITY_INFO, "scenario.as_expected", "every event came as expected")
+                      : wire::event(v1::SEVERITY_WARNING, "scenario.unexpected", fault));
+    const nlohmann::json report{{"events", order_.expected()}, {"met", fault.empty()}, {"fault", fault}};
+    std::ofstream(run_folder_ / services::kExpectedFile) << report.dump(2) << "\n";
   }
 
   services::Node& node_;
   const Scenario scenario_;
+  const std::filesystem::path run_folder_;
+  EventOrder order_;
   World world_;
   services::Client<v1::PathRequest, v1::PathReply> paths_;
   services::Client<v1::ArmMotionRequest, v1::ArmMotionReply> motions_;
@@ -162,7 +187,7 @@ class SimService final : public services::Service {
 }  // namespace
 
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
-  return std::make_unique<SimService>(node, load_run(settings.mission, settings.scenario), settings.seed);
+  return std::make_unique<SimService>(node, load_run(settings.mission, settings.scenario), settings);
 }
 
 }  // namespace roci::sim

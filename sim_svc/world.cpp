@@ -122,6 +122,7 @@ void World::happen(Time t) {
     Surroundings around = surroundings(seen);
     const ActivityKey key = running_.find(component.name())->second;
     const Ending failure = component.finish(around);
+    if (component.busy()) return;  // it goes on
     running_.erase(running_.find(component.name()));
     if (failure) {
       acknowledge(key, Stage::failed, failure->code, failure->reason, t);

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "services/service.hpp"
+
 namespace roci::launch {
 namespace {
 
@@ -26,7 +28,17 @@ json read_or_failed(const Options& options) {
   for (const auto& [key, value] : failed.items()) {
     if (!summary.contains(key)) summary[key] = value;
   }
+  std::ifstream expected(options.run_folder / services::kExpectedFile);
+  if (expected) summary["expected"] = json::parse(expected, nullptr, false);
   return summary;
+}
+
+// A line of its own, if the scenario says what is to happen.
+std::string expected_text(const json& summary) {
+  const auto expected = summary.find("expected");
+  if (expected == summary.end() || !expected->is_object()) return "";
+  const std::string fault = expected->value("fault", "");
+  return "  events    " + (fault.empty() ? "as the scenario expects" : fault) + "\n";
 }
 
 std::string to_text(const json& summary, const Options& options) {
@@ -37,12 +49,14 @@ std::string to_text(const json& summary, const Options& options) {
       "  goals     {} achieved, {} dropped, {} failed\n"
       "  planner   {} calls, slowest {:.2f} s, {:.0f} MB; {} replans\n"
       "  time      {:.0f} s of mission in {:.1f} s\n"
+      "{}"
       "  run       {}\n",
       summary.value("mission", ""), summary.value("scenario", ""), summary.value("seed", std::uint64_t{0}),
       summary.value("dds", ""), summary.value("result", ""), goals.value("achieved", 0),
       goals.value("dropped", 0), goals.value("failed", 0), planner.value("calls", 0),
       planner.value("max_s", 0.0), planner.value("max_rss_mb", 0.0), summary.value("replans", 0),
-      summary.value("sim_s", 0.0), summary.value("wall_s", 0.0), options.run_folder.string());
+      summary.value("sim_s", 0.0), summary.value("wall_s", 0.0), expected_text(summary),
+      options.run_folder.string());
 }
 
 }  // namespace

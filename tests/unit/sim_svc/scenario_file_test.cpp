@@ -39,6 +39,23 @@ class ScenarioFile : public testing::Test {
   const std::string head_ = "duration_s: 100\nstart: {x: 1, y: 2, arm: stow, battery: 10}\n";
 };
 
+TEST_F(ScenarioFile, ReadsTheExpectedOrderOfEvents) {
+  const Scenario s = read_scenario(
+      load(head_ + "expect: [plan.adopted, goal.dropped: gap, hazard.seen+, plan.broken+: late]\n"));
+  ASSERT_EQ(s.expect.size(), 4u);
+  EXPECT_EQ(s.expect[0].code, "plan.adopted");
+  EXPECT_EQ(s.expect[0].part, "");
+  EXPECT_FALSE(s.expect[0].repeats);
+  EXPECT_EQ(s.expect[1].code, "goal.dropped");
+  EXPECT_EQ(s.expect[1].part, "gap");
+  EXPECT_EQ(s.expect[2].code, "hazard.seen");
+  EXPECT_TRUE(s.expect[2].repeats);
+  EXPECT_EQ(s.expect[3].code, "plan.broken");
+  EXPECT_EQ(s.expect[3].part, "late");
+  EXPECT_THAT(error_of(head_ + "expect: [{a: b, c: d}]\n"), HasSubstr("s.yaml:3:10: expected one"));
+  EXPECT_THAT(error_of(head_ + "expect: ['+']\n"), HasSubstr("expected an event's code"));
+}
+
 TEST_F(ScenarioFile, ReadsWhatItSays) {
   const Scenario s = read_scenario(
       load("description: d\nduration_s: 100\nstart: {x: 1, y: 2, heading: 0.5, arm: stow, battery: 10}\n"

@@ -59,6 +59,7 @@ class SimService : public testing::Test {
     services::SimRun run({"sim_svc", "exec_svc", "pathplan_svc", "arm_svc"});
     services::RunSettings settings;
     settings.mission = folder_;
+    settings.run_folder = folder_;
     settings.seed = seed;
     services::Node& simulator = run.add("sim_svc");
     const auto service = make_service(simulator, settings);
@@ -205,6 +206,18 @@ TEST_F(SimService, EndsOnceTheMissionIsOverAndNoStimulusIsLeft) {
   EXPECT_EQ(fly({}, 100s).end, 101s);
   scenario("stimuli: [{at_s: 500, battery_loss_j: 1}]\n");
   EXPECT_EQ(fly({}, 100s).end, 501s);
+}
+
+TEST_F(SimService, ReportsWhetherTheEventsCameAsExpected) {
+  const auto report = [&](const std::string& expect) {
+    scenario("world: {rocks: [{x: 35, y: 20, radius: 1}]}\nexpect: " + expect + "\n");
+    fly({{5s, drive("d", "60")}}, 300s);
+    std::ifstream in(folder_ / services::kExpectedFile);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  EXPECT_THAT(report("[hazard.seen, scenario.over]"), HasSubstr("\"met\": true"));
+  EXPECT_THAT(report("[scenario.over, hazard.seen]"),
+              HasSubstr("after 0 of 2 events, scenario.over was expected, but there was hazard.seen"));
 }
 
 TEST_F(SimService, EndsAtTheLatestWhenTheTimeIsUp) { EXPECT_EQ(fly({}).end, 2000s); }

@@ -90,6 +90,84 @@ TEST(World, APathThatComesAfterTheStopIsIgnored) {
   EXPECT_EQ(last_number(run.said, "rover.x"), 20);
 }
 
+// Paths asked for so far.
+std::vector<PathWanted> wishes(const Flight& run) {
+  std::vector<PathWanted> out;
+  for (const Output& output : run.said) {
+    if (const auto* wish = std::get_if<PathWanted>(&output)) out.push_back(*wish);
+  }
+  return out;
+}
+
+WorldSetup setup_with_rock_and_detours(double detours) {
+  WorldSetup setup = flat_setup();
+  setup.ground.hidden_rocks = {{40, 20, 1}};
+  setup.robot.drive.detours = detours;
+  setup.robot.drive.look_s = 20;
+  return setup;
+}
+
+TEST(World, ADriveLooksAtAHiddenRockAndGoesAround) {
+  Flight run(setup_with_rock_and_detours(1));
+  run.drive(seconds(1), "d", "there", 60, 20);
+  run.advance(seconds(500));
+  ASSERT_EQ(wishes(run).size(), 2u);
+  const PathWanted again = wishes(run).back();
+  EXPECT_EQ(again.key.activity, "d");
+  EXPECT_NEAR(again.from.x, 40 - 1 - 0.6 - 3, 0.2);
+  EXPECT_EQ(again.x, 60);
+  EXPECT_EQ(run.stage("d"), Stage::accepted);
+  EXPECT_EQ(run.state("rover.nav"), (State{"going-to", {"there"}}));
+  append(run.said, run.world.path_found(seconds(500), {"d", 1}, {{36, 26}, {60, 26}, {60, 20}}));
+  run.advance(seconds(1500));
+  EXPECT_EQ(run.stage("d"), Stage::completed);
+  EXPECT_EQ(last_number(run.said, "rover.x"), 60);
+}
+
+TEST(World, ALookTakesItsTimeBeforeTheNextPathIsAskedFor) {
+  Flight run(setup_with_rock_and_detours(1));
+  run.drive(seconds(1), "d", "there", 60, 20);
+  std::optional<Time> seen;
+  while (wishes(run).size() < 2) {
+    const Time change = run.world.next_change().value();
+    run.advance(change);
+    for (const Output& output : run.said) {
+      if (const auto* rock = std::get_if<RockSeen>(&output)) seen = rock->at;
+    }
+    if (wishes(run).size() == 2) {
+      EXPECT_EQ(change - seen.value(), seconds(20));
+    }
+  }
+}
+
+TEST(World, AfterItsLastDetourADriveFailsAsBlocked) {
+  Flight run(setup_with_rock_and_detours(2));
+  run.drive(seconds(1), "d", "there", 60, 20);
+  for (const double t : {500, 600}) {
+    run.advance(seconds(t));
+    ASSERT_EQ(run.stage("d"), Stage::accepted);
+    append(run.said, run.world.path_found(seconds(t), {"d", 1}, {{60, 20}}));
+  }
+  run.advance(seconds(700));
+  EXPECT_EQ(wishes(run).size(), 3u);
+  EXPECT_EQ(run.code("d"), "blocked");
+  EXPECT_EQ(run.state("rover.nav"), kHere);
+}
+
+TEST(World, ADriveStoppedWhileItLooksStandsHere) {
+  Flight run(setup_with_rock_and_detours(1));
+  run.drive(seconds(1), "first", "near", 21, 20);
+  run.advance(seconds(60));
+  run.drive(seconds(60), "d", "there", 60, 20);
+  run.advance(seconds(210));
+  ASSERT_EQ(wishes(run).size(), 2u);  // it stands and looks since 206 s
+  run.command(seconds(210), execute("s", "nav", "stop"));
+  run.advance(seconds(900));
+  EXPECT_EQ(run.stage("d"), Stage::cancelled);
+  EXPECT_EQ(run.state("rover.nav"), kHere);
+  EXPECT_EQ(wishes(run).size(), 2u);
+}
+
 TEST(World, AHiddenRockIsReportedOnceAndFailsTheDrive) {
   WorldSetup setup = flat_setup();
   setup.ground.hidden_rocks = {{40, 20, 1}};
