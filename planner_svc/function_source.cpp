@@ -4,21 +4,19 @@ namespace roci::planner {
 
 const char* to_string(FunctionOutcome outcome) {
   switch (outcome) {
-    case FunctionOutcome::kValue:
+    case FunctionOutcome::value:
       return "value";
-    case FunctionOutcome::kUnreachable:
+    case FunctionOutcome::unreachable:
       return "unreachable";
-    case FunctionOutcome::kUnavailable:
+    case FunctionOutcome::unavailable:
       return "unavailable";
-    case FunctionOutcome::kOwnerLost:
-      return "owner-lost";
-    case FunctionOutcome::kLate:
+    case FunctionOutcome::late:
       return "late";
-    case FunctionOutcome::kNotANumber:
+    case FunctionOutcome::not_a_number:
       return "not-a-number";
-    case FunctionOutcome::kWrongArity:
+    case FunctionOutcome::wrong_arity:
       return "wrong-arity";
-    case FunctionOutcome::kUnknownObject:
+    case FunctionOutcome::unknown_object:
       return "unknown-object";
   }
   return "unknown";

@@ -2,7 +2,7 @@
 // them.
 //
 // The interface is synchronous and holds no clock: a source that asks another process waits there under its
-// own deadline and answers kLate for what did not come in time.
+// own deadline and answers late for what did not come in time.
 #pragma once
 
 #include <chrono>
@@ -24,14 +24,13 @@ struct FunctionCall {
 };
 
 enum class FunctionOutcome {
-  kValue,
-  kUnreachable,    // the owner says that no value exists: the action instance that needs it does not exist
-  kUnavailable,    // nobody owns the function, or its owner cannot say
-  kOwnerLost,      // the owner died while it was asked
-  kLate,           // the owner did not answer within the source's deadline
-  kNotANumber,     // NaN or infinite
-  kWrongArity,     // the owner knows the function with another number of arguments
-  kUnknownObject,  // the owner does not know one of the objects
+  value,
+  unreachable,     // the owner says that no value exists: the action instance that needs it does not exist
+  unavailable,     // nobody owns the function
+  late,            // the owner did not answer within the source's deadline
+  not_a_number,    // NaN or infinite
+  wrong_arity,     // the owner knows the function with another number of arguments
+  unknown_object,  // the owner does not know one of the objects
 };
 
 // "value", "unreachable", …: as written in reports and files.
@@ -47,8 +46,8 @@ struct Provenance {
 };
 
 struct FunctionValue {
-  FunctionOutcome outcome = FunctionOutcome::kUnavailable;
-  double value = 0;  // with kValue: finite
+  FunctionOutcome outcome = FunctionOutcome::unavailable;
+  double value = 0;  // with value: finite
   Provenance provenance;
   std::string detail;  // the owner's own words, may be empty
 };
@@ -57,8 +56,8 @@ class FunctionSource {
  public:
   virtual ~FunctionSource() = default;
 
-  // One value per call, in the same order; an answer of another length counts as kUnavailable for all. All
-  // calls of a batch belong to one function. Returns early, with kLate for the rest, once `cancelled` returns
+  // One value per call, in the same order; an answer of another length counts as unavailable for all. All
+  // calls of a batch belong to one function. Returns early, with late for the rest, once `cancelled` returns
   // true.
   virtual std::vector<FunctionValue> evaluate(std::span<const FunctionCall> calls,
                                               const std::function<bool()>& cancelled) = 0;

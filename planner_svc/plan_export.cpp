@@ -48,20 +48,20 @@ std::optional<Condition> single_fluent_comparison(const std::string& text) {
 std::optional<Condition> exported(const engine::GroundCondition& condition) {
   using Kind = engine::GroundCondition::Kind;
   switch (condition.kind) {
-    case Kind::kFact:
+    case Kind::fact:
       return temporal::compare(condition.text, ConditionOp::eq, true);
-    case Kind::kNegatedFact:
+    case Kind::negated_fact:
       return temporal::compare(condition.text, ConditionOp::eq, false);
-    case Kind::kComparison:
+    case Kind::comparison:
       return single_fluent_comparison(condition.text);
-    case Kind::kFormula:
+    case Kind::formula:
       return std::nullopt;
   }
   return std::nullopt;
 }
 
 bool achieved_by(const engine::GroundCondition& condition, const std::vector<engine::GroundEffect>& effects) {
-  const std::string wanted = condition.kind == engine::GroundCondition::Kind::kNegatedFact
+  const std::string wanted = condition.kind == engine::GroundCondition::Kind::negated_fact
                                  ? "(not " + condition.text + ")"
                                  : condition.text;
   return std::any_of(effects.begin(), effects.end(),
@@ -122,8 +122,8 @@ temporal::FlexiblePlan export_plan(const engine::Plan& plan,
   std::vector<Renumbered> renumbered(plan.network.points.size());
   for (std::size_t i = 0; i < plan.network.points.size(); ++i) {
     const engine::TimePoint& point = plan.network.points[i];
-    if (point.kind == engine::TimePointKind::kTimedLiteral) renumbered[i].offset = point.earliest;
-    if (point.kind == engine::TimePointKind::kStart || point.kind == engine::TimePointKind::kEnd) {
+    if (point.kind == engine::TimePointKind::timed_literal) renumbered[i].offset = point.earliest;
+    if (point.kind == engine::TimePointKind::start || point.kind == engine::TimePointKind::end) {
       renumbered[i].point = out.point_count++;
     }
   }
@@ -138,7 +138,7 @@ temporal::FlexiblePlan export_plan(const engine::Plan& plan,
     const Renumbered from = renumbered[constraint.from];
     const Renumbered to = renumbered[constraint.to];
     if (from.point == to.point) continue;  // between timed literals: true by construction
-    if (constraint.kind == engine::ConstraintKind::kDuration) continue;  // stands in the activity
+    if (constraint.kind == engine::ConstraintKind::duration) continue;  // stands in the activity
     Duration lower = temporal::plus(constraint.lower, from.offset - to.offset);
     Duration upper = temporal::plus(constraint.upper, from.offset - to.offset);
     temporal::TemporalConstraint exported_constraint{
@@ -156,12 +156,12 @@ temporal::FlexiblePlan export_plan(const engine::Plan& plan,
     out.constraints.push_back(exported_constraint);
   }
   for (const engine::FunctionUse& use : functions) {
-    if (use.answer.outcome != FunctionOutcome::kValue || !concerns(use, plan)) continue;
+    if (use.answer.outcome != FunctionOutcome::value || !concerns(use, plan)) continue;
     std::uint64_t version = 0;
     const std::string& text = use.answer.provenance.model_version;
     std::from_chars(text.data(), text.data() + text.size(), version);
-    out.function_values.push_back({use.call.function, use.call.arguments, use.answer.value,
-                                   use.answer.provenance.owner, version, use.answer.provenance.time});
+    out.function_values.push_back(
+        {use.call.function, use.call.arguments, use.answer.value, use.answer.provenance.owner, version});
   }
   return out;
 }

@@ -13,24 +13,24 @@ namespace {
 
 PlanningVerdict verdict_of(temporal_pddl::Verdict verdict) {
   switch (verdict) {
-    case temporal_pddl::Verdict::kSolved:
-      return PlanningVerdict::kSolved;
-    case temporal_pddl::Verdict::kUnsolvable:
-      return PlanningVerdict::kUnsolvable;
-    case temporal_pddl::Verdict::kTimeout:
-      return PlanningVerdict::kTimeout;
-    case temporal_pddl::Verdict::kOutOfMemory:
-      return PlanningVerdict::kOutOfMemory;
-    case temporal_pddl::Verdict::kUnsupported:
-      return PlanningVerdict::kUnsupported;
-    case temporal_pddl::Verdict::kFunctionUnavailable:
-      return PlanningVerdict::kFunctionUnavailable;
-    case temporal_pddl::Verdict::kCancelled:
-      return PlanningVerdict::kCancelled;
-    case temporal_pddl::Verdict::kInvalidInput:
-      return PlanningVerdict::kInvalidInput;
+    case temporal_pddl::Verdict::solved:
+      return PlanningVerdict::solved;
+    case temporal_pddl::Verdict::unsolvable:
+      return PlanningVerdict::unsolvable;
+    case temporal_pddl::Verdict::timeout:
+      return PlanningVerdict::timeout;
+    case temporal_pddl::Verdict::out_of_memory:
+      return PlanningVerdict::out_of_memory;
+    case temporal_pddl::Verdict::unsupported:
+      return PlanningVerdict::unsupported;
+    case temporal_pddl::Verdict::function_unavailable:
+      return PlanningVerdict::function_unavailable;
+    case temporal_pddl::Verdict::cancelled:
+      return PlanningVerdict::cancelled;
+    case temporal_pddl::Verdict::invalid_input:
+      return PlanningVerdict::invalid_input;
   }
-  return PlanningVerdict::kCrashed;
+  return PlanningVerdict::crashed;
 }
 
 PlanningAnswer refused(PlanningVerdict verdict, std::string reason) {
@@ -57,7 +57,7 @@ std::string fault_of(const pddl::Domain& domain, const pddl::Problem& problem,
   for (const temporal_pddl::FunctionUse& use : result.functions) {
     std::string application = "(" + use.call.function;
     for (const std::string& argument : use.call.arguments) application += " " + argument;
-    const bool has_value = use.answer.outcome == FunctionOutcome::kValue;
+    const bool has_value = use.answer.outcome == FunctionOutcome::value;
     table[application + ")"] = has_value ? std::optional(use.answer.value) : std::nullopt;
   }
   const validate::Report report = validate::validate(domain, problem, steps, table);
@@ -82,7 +82,7 @@ PlanningAnswer search(const PlanningCall& call, FunctionSource& functions) {
   if (result.plan) {
     const std::string fault = fault_of(domain, problem, result);
     if (!fault.empty())
-      return refused(PlanningVerdict::kCrashed, "the validator rejects the engine's plan: " + fault);
+      return refused(PlanningVerdict::crashed, "the validator rejects the engine's plan: " + fault);
     out.plan = export_plan(*result.plan, result.functions);
   }
   return out;
@@ -92,40 +92,40 @@ PlanningAnswer search(const PlanningCall& call, FunctionSource& functions) {
 
 PlanningAnswer answer_call(const PlanningCall& call, FunctionSource& functions) {
   if (call.engine != "temporal_pddl") {
-    return refused(PlanningVerdict::kUnsupported,
+    return refused(PlanningVerdict::unsupported,
                    "unknown engine '" + call.engine + "'; this planner has: temporal_pddl");
   }
   try {
     return search(call, functions);
   } catch (const pddl::ParseError& error) {
-    return refused(PlanningVerdict::kInvalidInput, error.what());
+    return refused(PlanningVerdict::invalid_input, error.what());
   } catch (const std::bad_alloc&) {
-    return refused(PlanningVerdict::kOutOfMemory,
+    return refused(PlanningVerdict::out_of_memory,
                    "memory ran out outside the search; give the call a larger budget");
   } catch (const std::exception& error) {
-    return refused(PlanningVerdict::kCrashed, error.what());
+    return refused(PlanningVerdict::crashed, error.what());
   }
 }
 
 const char* to_string(PlanningVerdict verdict) {
   switch (verdict) {
-    case PlanningVerdict::kSolved:
+    case PlanningVerdict::solved:
       return "solved";
-    case PlanningVerdict::kUnsolvable:
+    case PlanningVerdict::unsolvable:
       return "unsolvable";
-    case PlanningVerdict::kTimeout:
+    case PlanningVerdict::timeout:
       return "timeout";
-    case PlanningVerdict::kOutOfMemory:
+    case PlanningVerdict::out_of_memory:
       return "out_of_memory";
-    case PlanningVerdict::kUnsupported:
+    case PlanningVerdict::unsupported:
       return "unsupported";
-    case PlanningVerdict::kFunctionUnavailable:
+    case PlanningVerdict::function_unavailable:
       return "function_unavailable";
-    case PlanningVerdict::kCancelled:
+    case PlanningVerdict::cancelled:
       return "cancelled";
-    case PlanningVerdict::kInvalidInput:
+    case PlanningVerdict::invalid_input:
       return "invalid_input";
-    case PlanningVerdict::kCrashed:
+    case PlanningVerdict::crashed:
       return "crashed";
   }
   return "unknown";

@@ -15,15 +15,15 @@ namespace roci::planner {
 
 // In the order of Verdict in idl/planner.idl.
 enum class PlanningVerdict {
-  kSolved,
-  kUnsolvable,
-  kTimeout,
-  kOutOfMemory,
-  kUnsupported,
-  kFunctionUnavailable,
-  kCancelled,
-  kInvalidInput,
-  kCrashed
+  solved,
+  unsolvable,
+  timeout,
+  out_of_memory,
+  unsupported,
+  function_unavailable,
+  cancelled,
+  invalid_input,
+  crashed
 };
 const char* to_string(PlanningVerdict verdict);
 
@@ -44,13 +44,13 @@ struct PlanningStatistics {
 };
 
 struct PlanningAnswer {
-  PlanningVerdict verdict = PlanningVerdict::kCrashed;
+  PlanningVerdict verdict = PlanningVerdict::crashed;
   std::string reason;  // in words, with line and column where the input is at fault
   std::optional<temporal::FlexiblePlan> plan;
   PlanningStatistics statistics;
 };
 
-// Never throws: what goes wrong inside is kCrashed with its reason. A plan that the independent validator
+// Never throws: what goes wrong inside is crashed with its reason. A plan that the independent validator
 // rejects is not given out.
 PlanningAnswer answer_call(const PlanningCall& call, FunctionSource& functions);
 

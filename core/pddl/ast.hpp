@@ -59,11 +59,11 @@ struct DurationVariable {};  // ?duration
 struct TotalTime {};         // total-time, in metrics
 struct ContinuousTime {};    // #t: parsed so that it can be refused by name (forbidden.hpp)
 
-enum class ArithmeticOperator { kAdd, kSubtract, kMultiply, kDivide };
+enum class ArithmeticOperator { add, subtract, multiply, divide };
 
-// One operand with kSubtract is the negative; kAdd and kMultiply take two or more, the others two.
+// One operand with subtract is the negative; add and multiply take two or more, the others two.
 struct Arithmetic {
-  ArithmeticOperator op = ArithmeticOperator::kAdd;
+  ArithmeticOperator op = ArithmeticOperator::add;
   std::vector<Expression> operands;
 };
 
@@ -109,10 +109,10 @@ struct TermEquality {  // (= ?x ?y): the same object
   Term right;
 };
 
-enum class ComparisonOperator { kLess, kLessEqual, kEqual, kGreaterEqual, kGreater };
+enum class ComparisonOperator { less, less_equal, equal, greater_equal, greater };
 
 struct Comparison {
-  ComparisonOperator op = ComparisonOperator::kEqual;
+  ComparisonOperator op = ComparisonOperator::equal;
   Expression left;
   Expression right;
 };
@@ -139,10 +139,10 @@ struct Literal {
   bool negated = false;
 };
 
-enum class AssignmentOperator { kAssign, kIncrease, kDecrease, kScaleUp, kScaleDown };
+enum class AssignmentOperator { assign, increase, decrease, scale_up, scale_down };
 
 struct Assignment {
-  AssignmentOperator op = AssignmentOperator::kAssign;
+  AssignmentOperator op = AssignmentOperator::assign;
   Atom fluent;
   Expression value;
 };
@@ -176,13 +176,13 @@ struct Action {
   SourceLocation where;
 };
 
-enum class TimePoint { kStart, kEnd };
+enum class TimePoint { start, end };
 
 // ?duration OP bound, the bound being evaluated at the given point; OP is <=, = or >=.
 struct DurationConstraint {
-  ComparisonOperator op = ComparisonOperator::kEqual;
+  ComparisonOperator op = ComparisonOperator::equal;
   Expression bound;
-  TimePoint at = TimePoint::kStart;
+  TimePoint at = TimePoint::start;
   SourceLocation where;
 };
 
@@ -255,8 +255,8 @@ struct TimedValue {  // (at 5 (= (f a) 3))
 };
 
 struct Metric {
-  enum class Sense { kMinimize, kMaximize };
-  Sense sense = Sense::kMinimize;
+  enum class Sense { minimize, maximize };
+  Sense sense = Sense::minimize;
   Expression expression;
   SourceLocation where;
 };

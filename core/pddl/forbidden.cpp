@@ -52,8 +52,8 @@ int degree(const Expression& expression, const std::set<std::string>& changing) 
     highest = std::max(highest, one);
     sum += one;
   }
-  if (arithmetic->op == ArithmeticOperator::kMultiply) return std::min(sum, 2);
-  if (arithmetic->op == ArithmeticOperator::kDivide && degree(arithmetic->operands.back(), changing) > 0)
+  if (arithmetic->op == ArithmeticOperator::multiply) return std::min(sum, 2);
+  if (arithmetic->op == ArithmeticOperator::divide && degree(arithmetic->operands.back(), changing) > 0)
     return 2;
   return highest;
 }
@@ -61,7 +61,7 @@ int degree(const Expression& expression, const std::set<std::string>& changing) 
 bool is_linear(const Assignment& assignment, const std::set<std::string>& changing) {
   const int of_value = degree(assignment.value, changing);
   const bool scales =
-      assignment.op == AssignmentOperator::kScaleUp || assignment.op == AssignmentOperator::kScaleDown;
+      assignment.op == AssignmentOperator::scale_up || assignment.op == AssignmentOperator::scale_down;
   return of_value + (scales ? 1 : 0) <= 1;
 }
 
@@ -73,10 +73,10 @@ bool mentions_duration(const Expression& expression) {
 }
 
 bool fixes_duration(const DurativeAction& action) {
-  return std::any_of(
-      action.duration.begin(), action.duration.end(), [](const DurationConstraint& constraint) {
-        return constraint.op == ComparisonOperator::kEqual && constraint.at == TimePoint::kStart;
-      });
+  return std::any_of(action.duration.begin(), action.duration.end(),
+                     [](const DurationConstraint& constraint) {
+                       return constraint.op == ComparisonOperator::equal && constraint.at == TimePoint::start;
+                     });
 }
 
 }  // namespace

@@ -59,11 +59,11 @@ void add_duration(const Sexpr& s, TimePoint at, std::vector<DurationConstraint>&
     return;
   }
   if (head == "at" && s.items.size() == 3 && (s.items[1].is_word("start") || s.items[1].is_word("end"))) {
-    return add_duration(s.items[2], s.items[1].is_word("start") ? TimePoint::kStart : TimePoint::kEnd, out,
+    return add_duration(s.items[2], s.items[1].is_word("start") ? TimePoint::start : TimePoint::end, out,
                         source);
   }
   const auto op = as_comparison(head);
-  const bool allowed = op && *op != ComparisonOperator::kLess && *op != ComparisonOperator::kGreater;
+  const bool allowed = op && *op != ComparisonOperator::less && *op != ComparisonOperator::greater;
   if (!allowed || s.items.size() != 3 || !s.items[1].is_word("?duration")) {
     source.fail(s.where, "not a duration constraint",
                 "write (= ?duration E), (<= ?duration E), (>= ?duration E) or their 'and'");
@@ -81,7 +81,7 @@ Action read_action(const Sexpr& s, const Source& source) {
   if (const Sexpr* list = fields.find(":parameters")) action.parameters = read_variables(*list, source);
   if (const Sexpr* list = fields.find(":precondition")) action.precondition = read_condition(*list, source);
   if (const Sexpr* list = fields.find(":effect"))
-    action.effects = read_effects(*list, TimePoint::kStart, source);
+    action.effects = read_effects(*list, TimePoint::start, source);
   return action;
 }
 
@@ -93,7 +93,7 @@ DurativeAction read_durative_action(const Sexpr& s, const Source& source) {
   if (const Sexpr* list = fields.find(":parameters")) action.parameters = read_variables(*list, source);
   const Sexpr* duration = fields.find(":duration");
   if (!duration) source.fail(s.where, "durative action '" + action.name + "' without :duration", "add one");
-  add_duration(*duration, TimePoint::kStart, action.duration, source);
+  add_duration(*duration, TimePoint::start, action.duration, source);
   if (const Sexpr* list = fields.find(":condition")) action.condition = read_timed_condition(*list, source);
   if (const Sexpr* list = fields.find(":effect")) {
     DurativeEffects effects = read_durative_effects(*list, source);

@@ -28,7 +28,7 @@ Condition read_comparison(const Sexpr& s, ComparisonOperator op, const Source& s
   require_parts(s, 2, "(" + std::string(s.head()) + " a b)", source);
   const Sexpr& left = s.items[1];
   const Sexpr& right = s.items[2];
-  if (op == ComparisonOperator::kEqual && !is_numeric(left) && !is_numeric(right)) {
+  if (op == ComparisonOperator::equal && !is_numeric(left) && !is_numeric(right)) {
     Atom both = read_atom(s, "an equality", source);
     return {TermEquality{std::move(both.arguments[0]), std::move(both.arguments[1])}, s.where};
   }

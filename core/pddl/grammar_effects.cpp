@@ -8,11 +8,11 @@ namespace roci::pddl::grammar {
 namespace {
 
 std::optional<AssignmentOperator> as_assignment(std::string_view word) {
-  if (word == "assign") return AssignmentOperator::kAssign;
-  if (word == "increase") return AssignmentOperator::kIncrease;
-  if (word == "decrease") return AssignmentOperator::kDecrease;
-  if (word == "scale-up") return AssignmentOperator::kScaleUp;
-  if (word == "scale-down") return AssignmentOperator::kScaleDown;
+  if (word == "assign") return AssignmentOperator::assign;
+  if (word == "increase") return AssignmentOperator::increase;
+  if (word == "decrease") return AssignmentOperator::decrease;
+  if (word == "scale-up") return AssignmentOperator::scale_up;
+  if (word == "scale-down") return AssignmentOperator::scale_down;
   return {};
 }
 
@@ -48,7 +48,7 @@ void add_effects(const Sexpr& s, TimePoint moment, std::vector<Effect>& out, con
   } else if (head == "when") {
     require_body(s, "(when CONDITION EFFECT)", source);
     When when;
-    (moment == TimePoint::kStart ? when.condition.at_start : when.condition.at_end) =
+    (moment == TimePoint::start ? when.condition.at_start : when.condition.at_end) =
         read_condition(s.items[1], source);
     when.effects = read_effects(s.items[2], moment, source);
     out.push_back({std::move(when), s.where});
@@ -99,9 +99,9 @@ void add_durative(const Sexpr& s, DurativeEffects& out, const Source& source) {
       return Effect{When{condition, std::move(effects)}, s.where};
     });
   } else if (s.items.size() == 3 && head == "at" && s.items[1].is_word("start")) {
-    append(read_effects(s.items[2], TimePoint::kStart, source), out.at_start);
+    append(read_effects(s.items[2], TimePoint::start, source), out.at_start);
   } else if (s.items.size() == 3 && head == "at" && s.items[1].is_word("end")) {
-    append(read_effects(s.items[2], TimePoint::kEnd, source), out.at_end);
+    append(read_effects(s.items[2], TimePoint::end, source), out.at_end);
   } else if (const auto op = as_assignment(head); op && mentions_continuous_time(s)) {
     out.continuous.push_back(read_assignment(s, *op, source));
   } else {

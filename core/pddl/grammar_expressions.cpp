@@ -3,28 +3,28 @@
 namespace roci::pddl::grammar {
 
 std::optional<ComparisonOperator> as_comparison(std::string_view word) {
-  if (word == "<") return ComparisonOperator::kLess;
-  if (word == "<=") return ComparisonOperator::kLessEqual;
-  if (word == "=") return ComparisonOperator::kEqual;
-  if (word == ">=") return ComparisonOperator::kGreaterEqual;
-  if (word == ">") return ComparisonOperator::kGreater;
+  if (word == "<") return ComparisonOperator::less;
+  if (word == "<=") return ComparisonOperator::less_equal;
+  if (word == "=") return ComparisonOperator::equal;
+  if (word == ">=") return ComparisonOperator::greater_equal;
+  if (word == ">") return ComparisonOperator::greater;
   return {};
 }
 
 namespace {
 
 std::optional<ArithmeticOperator> as_arithmetic(std::string_view word) {
-  if (word == "+") return ArithmeticOperator::kAdd;
-  if (word == "-") return ArithmeticOperator::kSubtract;
-  if (word == "*") return ArithmeticOperator::kMultiply;
-  if (word == "/") return ArithmeticOperator::kDivide;
+  if (word == "+") return ArithmeticOperator::add;
+  if (word == "-") return ArithmeticOperator::subtract;
+  if (word == "*") return ArithmeticOperator::multiply;
+  if (word == "/") return ArithmeticOperator::divide;
   return {};
 }
 
 Arithmetic read_arithmetic(const Sexpr& s, ArithmeticOperator op, const Source& source) {
   const std::size_t count = s.items.size() - 1;
-  const bool many = op == ArithmeticOperator::kAdd || op == ArithmeticOperator::kMultiply;
-  const bool negation = op == ArithmeticOperator::kSubtract && count == 1;
+  const bool many = op == ArithmeticOperator::add || op == ArithmeticOperator::multiply;
+  const bool negation = op == ArithmeticOperator::subtract && count == 1;
   if (count < 2 && !negation) {
     source.fail(s.where, "'" + std::string(s.head()) + "' needs two operands", "write (OP a b)");
   }

@@ -62,7 +62,7 @@ Metric read_metric(const Sexpr& s, const Source& source) {
     source.fail(s.where, "not a metric",
                 "write (:metric minimize EXPRESSION) or (:metric maximize EXPRESSION)");
   }
-  const auto sense = s.items[1].is_word("minimize") ? Metric::Sense::kMinimize : Metric::Sense::kMaximize;
+  const auto sense = s.items[1].is_word("minimize") ? Metric::Sense::minimize : Metric::Sense::maximize;
   return {sense, read_expression(s.items[2], source), s.where};
 }
 

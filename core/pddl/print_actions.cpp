@@ -8,15 +8,15 @@ namespace {
 
 std::string print(AssignmentOperator op) {
   switch (op) {
-    case AssignmentOperator::kAssign:
+    case AssignmentOperator::assign:
       return "assign";
-    case AssignmentOperator::kIncrease:
+    case AssignmentOperator::increase:
       return "increase";
-    case AssignmentOperator::kDecrease:
+    case AssignmentOperator::decrease:
       return "decrease";
-    case AssignmentOperator::kScaleUp:
+    case AssignmentOperator::scale_up:
       return "scale-up";
-    case AssignmentOperator::kScaleDown:
+    case AssignmentOperator::scale_down:
       break;
   }
   return "scale-down";
@@ -51,11 +51,11 @@ std::string print_timed(const TimedCondition& condition) {
 }
 
 // When effects happen: in a plain action, or at a time of a durative one.
-enum class Moment { kPlain, kStart, kEnd, kContinuous };
+enum class Moment { plain, start, end, continuous };
 
 std::string at_moment(Moment moment, std::string effect) {
-  if (moment == Moment::kStart) return "(at start " + effect + ")";
-  if (moment == Moment::kEnd) return "(at end " + effect + ")";
+  if (moment == Moment::start) return "(at start " + effect + ")";
+  if (moment == Moment::end) return "(at end " + effect + ")";
   return effect;
 }
 
@@ -68,7 +68,7 @@ std::string print_effect(const Effect& effect, Moment moment) {
           [&](const Assignment& assignment) { return at_moment(moment, print_assignment(assignment)); },
           [&](const When& when) {
             const std::string condition =
-                moment == Moment::kPlain ? pddl::print(when.condition.at_start) : print_timed(when.condition);
+                moment == Moment::plain ? pddl::print(when.condition.at_start) : print_timed(when.condition);
             return "(when " + condition + " " + print_effects(when.effects, moment) + ")";
           },
           [&](const ForallEffect& forall) {
@@ -89,8 +89,8 @@ std::string print_duration(const std::vector<DurationConstraint>& constraints) {
   std::string text = "(and";
   for (const DurationConstraint& constraint : constraints) {
     std::string one = "(" + pddl::print(constraint.op) + " ?duration " + pddl::print(constraint.bound) + ")";
-    if (constraints.size() == 1 && constraint.at == TimePoint::kStart) return one;
-    text += " " + (constraint.at == TimePoint::kStart ? one : "(at end " + one + ")");
+    if (constraints.size() == 1 && constraint.at == TimePoint::start) return one;
+    text += " " + (constraint.at == TimePoint::start ? one : "(at end " + one + ")");
   }
   return text + ")";
 }
@@ -106,17 +106,17 @@ std::string print_head(std::string_view keyword, const std::string& name,
 std::string print_action(const Action& action) {
   std::string text = print_head(":action", action.name, action.parameters);
   if (!is_true(action.precondition)) text += "    :precondition " + pddl::print(action.precondition) + "\n";
-  return text + "    :effect " + print_effects(action.effects, Moment::kPlain) + ")\n";
+  return text + "    :effect " + print_effects(action.effects, Moment::plain) + ")\n";
 }
 
 std::string print_action(const DurativeAction& action) {
   std::string text = print_head(":durative-action", action.name, action.parameters);
   text += "    :duration " + print_duration(action.duration) + "\n";
   text += "    :condition " + print_timed(action.condition) + "\n    :effect (and";
-  for (const Effect& effect : action.start_effects) text += "\n      " + print_effect(effect, Moment::kStart);
-  for (const Effect& effect : action.end_effects) text += "\n      " + print_effect(effect, Moment::kEnd);
+  for (const Effect& effect : action.start_effects) text += "\n      " + print_effect(effect, Moment::start);
+  for (const Effect& effect : action.end_effects) text += "\n      " + print_effect(effect, Moment::end);
   for (const Effect& effect : action.continuous_effects) {
-    text += "\n      " + print_effect(effect, Moment::kContinuous);
+    text += "\n      " + print_effect(effect, Moment::continuous);
   }
   return text + "))\n";
 }

@@ -95,7 +95,7 @@ std::string print(const Problem& problem) {
                      print_requirements(problem.requirements) + print_names(":objects", problem.objects) +
                      print_init(problem) + "  (:goal " + print(problem.goal) + ")\n";
   if (problem.metric) {
-    const bool minimize = problem.metric->sense == Metric::Sense::kMinimize;
+    const bool minimize = problem.metric->sense == Metric::Sense::minimize;
     text += std::string("  (:metric ") + (minimize ? "minimize " : "maximize ") +
             print(problem.metric->expression) + ")\n";
   }

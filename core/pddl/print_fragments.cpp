@@ -26,15 +26,15 @@ std::string print(const Literal& literal) {
 
 std::string print(ComparisonOperator op) {
   switch (op) {
-    case ComparisonOperator::kLess:
+    case ComparisonOperator::less:
       return "<";
-    case ComparisonOperator::kLessEqual:
+    case ComparisonOperator::less_equal:
       return "<=";
-    case ComparisonOperator::kEqual:
+    case ComparisonOperator::equal:
       return "=";
-    case ComparisonOperator::kGreaterEqual:
+    case ComparisonOperator::greater_equal:
       return ">=";
-    case ComparisonOperator::kGreater:
+    case ComparisonOperator::greater:
       break;
   }
   return ">";
@@ -44,13 +44,13 @@ namespace {
 
 std::string print(ArithmeticOperator op) {
   switch (op) {
-    case ArithmeticOperator::kAdd:
+    case ArithmeticOperator::add:
       return "+";
-    case ArithmeticOperator::kSubtract:
+    case ArithmeticOperator::subtract:
       return "-";
-    case ArithmeticOperator::kMultiply:
+    case ArithmeticOperator::multiply:
       return "*";
-    case ArithmeticOperator::kDivide:
+    case ArithmeticOperator::divide:
       break;
   }
   return "/";

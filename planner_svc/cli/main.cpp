@@ -38,21 +38,21 @@ volatile std::sig_atomic_t interrupted = 0;
 
 int exit_code(engine::Verdict verdict) {
   switch (verdict) {
-    case engine::Verdict::kSolved:
+    case engine::Verdict::solved:
       return 0;
-    case engine::Verdict::kUnsolvable:
+    case engine::Verdict::unsolvable:
       return 1;
-    case engine::Verdict::kInvalidInput:
+    case engine::Verdict::invalid_input:
       return 2;
-    case engine::Verdict::kUnsupported:
+    case engine::Verdict::unsupported:
       return 3;
-    case engine::Verdict::kTimeout:
+    case engine::Verdict::timeout:
       return 4;
-    case engine::Verdict::kOutOfMemory:
+    case engine::Verdict::out_of_memory:
       return 5;
-    case engine::Verdict::kFunctionUnavailable:
+    case engine::Verdict::function_unavailable:
       return 6;
-    case engine::Verdict::kCancelled:
+    case engine::Verdict::cancelled:
       return 7;
   }
   return kUsageError;
@@ -136,7 +136,7 @@ int run(const Arguments& arguments) {
   try {
     result = plan(arguments, out_of_time);
   } catch (const pddl::ParseError& error) {
-    result.verdict = engine::Verdict::kInvalidInput;
+    result.verdict = engine::Verdict::invalid_input;
     result.reason = error.what();
   }
   const nlohmann::json statistics = statistics_json(result, elapsed());

@@ -12,7 +12,7 @@ std::vector<FunctionValue> TableFunctions::evaluate(std::span<const FunctionCall
     answer.provenance.owner = owner_;
     const auto entry = table_.find(application + ")");
     if (entry != table_.end()) {
-      answer.outcome = entry->second ? FunctionOutcome::kValue : FunctionOutcome::kUnreachable;
+      answer.outcome = entry->second ? FunctionOutcome::value : FunctionOutcome::unreachable;
       answer.value = entry->second.value_or(0);
     }
     answers.push_back(std::move(answer));

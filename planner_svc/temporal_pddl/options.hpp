@@ -10,9 +10,9 @@ namespace roci::planner::temporal_pddl {
 // Which timed initial literals become bounds on the steps that need them; the others are steps of the search
 // (R32).
 enum class WindowExtraction {
-  kNone,
-  kOneOff,     // facts that are true during one interval (R33)
-  kRecurring,  // also those that come and go several times, see grounding/timed_windows.hpp
+  none,
+  one_off,    // facts that are true during one interval (R33)
+  recurring,  // also those that come and go several times, see grounding/timed_windows.hpp
 };
 
 struct Options {
@@ -20,7 +20,7 @@ struct Options {
   bool compression_safety = true;   // R14, see task/compression.hpp
   bool dominance = true;            // see search/dominance.hpp; off: R26 to the letter
   bool preferred_operators = true;  // R21
-  WindowExtraction windows = WindowExtraction::kRecurring;
+  WindowExtraction windows = WindowExtraction::recurring;
   std::uint64_t seed = 0;  // breaks ties among equally good successors; 0: in order of generation
 };
 

@@ -17,10 +17,10 @@ namespace roci::planner::temporal_pddl {
 namespace {
 
 void require_model(const pddl::Domain& domain, const pddl::Problem& problem) {
-  for (const auto& finding : pddl::check(domain)) throw Refusal(Verdict::kInvalidInput, finding);
-  for (const auto& finding : pddl::check(problem, domain)) throw Refusal(Verdict::kInvalidInput, finding);
+  for (const auto& finding : pddl::check(domain)) throw Refusal(Verdict::invalid_input, finding);
+  for (const auto& finding : pddl::check(problem, domain)) throw Refusal(Verdict::invalid_input, finding);
   for (const auto& finding : pddl::forbidden_effects(domain, problem))
-    throw Refusal(Verdict::kUnsupported, finding);
+    throw Refusal(Verdict::unsupported, finding);
 }
 
 void describe(const Task& task, Statistics& statistics) {
@@ -39,9 +39,9 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   SearchOutcome outcome = search(grounding.task, heuristic, options, watch, result.statistics);
   if (outcome.plan) {
     result.plan = build_plan(domain, grounding, *outcome.plan, options.epsilon);
-    result.verdict = Verdict::kSolved;
+    result.verdict = Verdict::solved;
   } else {
-    result.verdict = Verdict::kUnsolvable;
+    result.verdict = Verdict::unsolvable;
     result.reason = std::move(outcome.reason);
   }
 }
@@ -59,7 +59,7 @@ Result plan(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSo
     result.reason = refusal.reason();
     result.where = refusal.where();
   } catch (const std::bad_alloc&) {
-    result.verdict = Verdict::kOutOfMemory;
+    result.verdict = Verdict::out_of_memory;
     result.reason = "the system has no more memory";
   }
   result.statistics.peak_bytes = watch.peak_bytes();

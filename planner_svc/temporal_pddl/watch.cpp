@@ -7,19 +7,19 @@
 namespace roci::planner::temporal_pddl {
 
 void Watch::poll() const {
-  if (cancelled()) throw Refusal(Verdict::kCancelled, "cancelled by the caller");
+  if (cancelled()) throw Refusal(Verdict::cancelled, "cancelled by the caller");
   if (budget_.out_of_time && budget_.out_of_time())
-    throw Refusal(Verdict::kTimeout, "the time limit is reached");
+    throw Refusal(Verdict::timeout, "the time limit is reached");
 }
 
 void Watch::memory(std::size_t bytes) {
   peak_bytes_ = std::max(peak_bytes_, bytes);
-  if (bytes > budget_.memory_bytes) throw Refusal(Verdict::kOutOfMemory, "the memory limit is reached");
+  if (bytes > budget_.memory_bytes) throw Refusal(Verdict::out_of_memory, "the memory limit is reached");
 }
 
 void Watch::evaluations(std::size_t count) const {
   if (count > budget_.evaluations)
-    throw Refusal(Verdict::kTimeout, "the limit of heuristic evaluations is reached");
+    throw Refusal(Verdict::timeout, "the limit of heuristic evaluations is reached");
 }
 
 }  // namespace roci::planner::temporal_pddl

@@ -11,15 +11,15 @@ class Watch {
  public:
   Watch(const Budget& budget, const Monitor& monitor) : budget_(budget), monitor_(monitor) {}
 
-  // Throws Refusal: kCancelled, kTimeout.
+  // Throws Refusal: cancelled, timeout.
   void poll() const;
   // As poll(), but only once in a few hundred calls: for steps of about a microsecond.
   void step() {
     if (++steps_ % 256 == 0) poll();
   }
-  // Throws Refusal (kOutOfMemory) if the engine's memory would exceed the budget; keeps the peak.
+  // Throws Refusal (out_of_memory) if the engine's memory would exceed the budget; keeps the peak.
   void memory(std::size_t bytes);
-  // Throws Refusal (kTimeout) if that many heuristic evaluations exceed the budget.
+  // Throws Refusal (timeout) if that many heuristic evaluations exceed the budget.
   void evaluations(std::size_t count) const;
 
   void progress(const Statistics& statistics) const {

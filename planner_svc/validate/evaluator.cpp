@@ -9,25 +9,25 @@ namespace roci::validate {
 namespace {
 
 Truth negation(Truth truth) {
-  if (truth == Truth::kUnknown) return truth;
-  return truth == Truth::kTrue ? Truth::kFalse : Truth::kTrue;
+  if (truth == Truth::unknown) return truth;
+  return truth == Truth::yes ? Truth::no : Truth::yes;
 }
 
-Truth as_truth(bool value) { return value ? Truth::kTrue : Truth::kFalse; }
+Truth as_truth(bool value) { return value ? Truth::yes : Truth::no; }
 
 // Numbers that differ by rounding alone count as equal.
 bool compare_numbers(pddl::ComparisonOperator op, double left, double right) {
   const double slack = 1e-9 * std::max({1.0, std::abs(left), std::abs(right)});
   switch (op) {
-    case pddl::ComparisonOperator::kLess:
+    case pddl::ComparisonOperator::less:
       return left < right - slack;
-    case pddl::ComparisonOperator::kLessEqual:
+    case pddl::ComparisonOperator::less_equal:
       return left <= right + slack;
-    case pddl::ComparisonOperator::kEqual:
+    case pddl::ComparisonOperator::equal:
       return std::abs(left - right) <= slack;
-    case pddl::ComparisonOperator::kGreaterEqual:
+    case pddl::ComparisonOperator::greater_equal:
       return left >= right - slack;
-    case pddl::ComparisonOperator::kGreater:
+    case pddl::ComparisonOperator::greater:
       break;
   }
   return left > right + slack;
@@ -54,7 +54,7 @@ Truth Evaluator::combine(Truth decisive, Bindings& bindings,
     const Extent before = extent(reads_);
     const Truth plain = evaluate(part, bindings);
     const Truth truth = negated ? negation(plain) : plain;
-    if (truth == Truth::kUnknown && result != decisive) result = truth;
+    if (truth == Truth::unknown && result != decisive) result = truth;
     if (truth != decisive) return true;
     result = decisive;
     if (!reads_) return false;
@@ -81,16 +81,16 @@ Truth Evaluator::evaluate(const pddl::Condition& condition, Bindings& bindings) 
     });
   };
   return std::visit(
-      pddl::Overloaded{[&](const pddl::And& all) { return combine(Truth::kFalse, all.parts, bindings); },
-                       [&](const pddl::Or& any) { return combine(Truth::kTrue, any.parts, bindings); },
+      pddl::Overloaded{[&](const pddl::And& all) { return combine(Truth::no, all.parts, bindings); },
+                       [&](const pddl::Or& any) { return combine(Truth::yes, any.parts, bindings); },
                        [&](const pddl::Not& negated) { return negation(evaluate(*negated.body, bindings)); },
                        [&](const pddl::Imply& imply) {
-                         return combine(Truth::kTrue, bindings, [&](const Part& visit) {
+                         return combine(Truth::yes, bindings, [&](const Part& visit) {
                            if (visit(*imply.premise, true)) visit(*imply.conclusion, false);
                          });
                        },
-                       [&](const pddl::Forall& forall) { return quantified(Truth::kFalse, forall); },
-                       [&](const pddl::Exists& exists) { return quantified(Truth::kTrue, exists); },
+                       [&](const pddl::Forall& forall) { return quantified(Truth::no, forall); },
+                       [&](const pddl::Exists& exists) { return quantified(Truth::yes, exists); },
                        [&](const pddl::Atom& atom) { return fact(atom, bindings); },
                        [&](const pddl::TermEquality& equality) {
                          return as_truth(bindings.object_of(equality.left) ==
@@ -110,7 +110,7 @@ Truth Evaluator::fact(const pddl::Atom& atom, const Bindings& bindings) {
 Truth Evaluator::compare(const pddl::Comparison& comparison, const Bindings& bindings) {
   const auto left = value(comparison.left, bindings);
   const auto right = value(comparison.right, bindings);
-  if (!left || !right) return Truth::kUnknown;
+  if (!left || !right) return Truth::unknown;
   return as_truth(compare_numbers(comparison.op, *left, *right));
 }
 
@@ -158,16 +158,16 @@ std::optional<double> Evaluator::arithmetic(const pddl::Arithmetic& sum, const B
       continue;
     }
     switch (sum.op) {
-      case pddl::ArithmeticOperator::kAdd:
+      case pddl::ArithmeticOperator::add:
         *result += *next;
         break;
-      case pddl::ArithmeticOperator::kSubtract:
+      case pddl::ArithmeticOperator::subtract:
         *result -= *next;
         break;
-      case pddl::ArithmeticOperator::kMultiply:
+      case pddl::ArithmeticOperator::multiply:
         *result *= *next;
         break;
-      case pddl::ArithmeticOperator::kDivide:
+      case pddl::ArithmeticOperator::divide:
         if (*next == 0) return undefined("division by zero");
         *result /= *next;
         break;

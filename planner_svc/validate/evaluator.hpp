@@ -12,8 +12,8 @@
 
 namespace roci::validate {
 
-// kUnknown: depends on a number that is undefined (Kleene's logic). A condition holds only if it is kTrue.
-enum class Truth { kFalse, kUnknown, kTrue };
+// unknown: depends on a number that is undefined (Kleene's logic). A condition holds only if it is yes.
+enum class Truth { no, unknown, yes };
 
 // Values that no state holds, in seconds.
 struct Specials {
@@ -32,7 +32,7 @@ class Evaluator {
 
   Truth evaluate(const pddl::Condition& condition, Bindings& bindings);
   bool holds(const pddl::Condition& condition, Bindings& bindings) {
-    return evaluate(condition, bindings) == Truth::kTrue;
+    return evaluate(condition, bindings) == Truth::yes;
   }
 
   // nullopt: undefined; reason() then says why.
@@ -55,7 +55,7 @@ class Evaluator {
     std::map<std::string, std::size_t> index;
   };
 
-  // Conjunction (decisive kFalse) or disjunction (decisive kTrue) of the parts that `visit_parts` hands, one
+  // Conjunction (decisive no) or disjunction (decisive yes) of the parts that `visit_parts` hands, one
   // by one, to the function it is given; that function returns false when no further part can matter.
   using Part = std::function<bool(const pddl::Condition& part, bool negated)>;
   Truth combine(Truth decisive, Bindings& bindings, const std::function<void(const Part&)>& visit_parts);

@@ -12,8 +12,8 @@ namespace {
 double in_seconds(pddl::Microseconds time) { return static_cast<double>(time.count()) * 1e-6; }
 
 bool meets(double duration, pddl::ComparisonOperator op, double bound, double tolerance) {
-  if (op != pddl::ComparisonOperator::kGreaterEqual && duration > bound + tolerance) return false;
-  return op == pddl::ComparisonOperator::kLessEqual || duration >= bound - tolerance;
+  if (op != pddl::ComparisonOperator::greater_equal && duration > bound + tolerance) return false;
+  return op == pddl::ComparisonOperator::less_equal || duration >= bound - tolerance;
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ void Execution::happen(std::span<const Event> events, bool crowded) {
   for (std::size_t i = before; i < recent_.size(); ++i) {
     std::string fluent;
     if (apply(recent_[i].footprint.changes, state_, fluent)) continue;
-    Violation found = violation(ViolationKind::kUndefinedValue, recent_[i].event.index, now);
+    Violation found = violation(ViolationKind::undefined_value, recent_[i].event.index, now);
     found.message = fluent + " has no value to change, or no finite one afterwards";
     violations_.push_back(std::move(found));
   }
@@ -52,23 +52,23 @@ Execution::Occurrence Execution::execute(const Event& event, bool crowded) {
   Changes& changes = occurrence.footprint.changes;
   Evaluator evaluator(model_, state_, crowded ? &occurrence.footprint.reads : nullptr, options_.strict);
   switch (event.kind) {
-    case EventKind::kTimedLiteral: {
+    case EventKind::timed_literal: {
       const pddl::Literal& literal = model_.problem().timed_literals[event.index].literal;
       (literal.negated ? changes.deleted : changes.added).push_back(pddl::print(literal.atom));
       break;
     }
-    case EventKind::kTimedValue: {
+    case EventKind::timed_value: {
       const pddl::TimedValue& timed = model_.problem().timed_values[event.index];
-      changes.numeric.push_back({pddl::print(timed.fluent), pddl::AssignmentOperator::kAssign, timed.value});
+      changes.numeric.push_back({pddl::print(timed.fluent), pddl::AssignmentOperator::assign, timed.value});
       break;
     }
-    case EventKind::kInstant:
+    case EventKind::instant:
       execute_instant(event, evaluator, changes);
       break;
-    case EventKind::kStart:
+    case EventKind::start:
       execute_start(event, evaluator, changes);
       break;
-    case EventKind::kEnd:
+    case EventKind::end:
       execute_end(event, evaluator, changes);
       break;
   }
@@ -78,7 +78,7 @@ Execution::Occurrence Execution::execute(const Event& event, bool crowded) {
 void Execution::execute_instant(const Event& event, Evaluator& evaluator, Changes& changes) {
   const Step& step = steps_[event.index];
   require(step.instantaneous->precondition, step.bindings, evaluator,
-          violation(ViolationKind::kCondition, event.index, event.time), "precondition");
+          violation(ViolationKind::condition, event.index, event.time), "precondition");
   auto effects = unfold(step.instantaneous->effects, step.bindings, model_);
   check_conditions(effects, &pddl::TimedCondition::at_start, evaluator);
   collect_effects(event, effects, {}, evaluator, changes);
@@ -88,11 +88,11 @@ void Execution::execute_start(const Event& event, Evaluator& evaluator, Changes&
   const Step& step = steps_[event.index];
   const pddl::DurativeAction& action = *step.durative;
   const pddl::Microseconds duration = *plan_[event.index].duration;
-  Running running{event.index, check_duration(event, pddl::TimePoint::kStart, evaluator),
+  Running running{event.index, check_duration(event, pddl::TimePoint::start, evaluator),
                   unfold(action.end_effects, step.bindings, model_), false};
   if (!running.duration) running.duration = in_seconds(duration);
   require(action.condition.at_start, step.bindings, evaluator,
-          violation(ViolationKind::kCondition, event.index, event.time), "condition at start");
+          violation(ViolationKind::condition, event.index, event.time), "condition at start");
   auto effects = unfold(action.start_effects, step.bindings, model_);
   check_conditions(effects, &pddl::TimedCondition::at_start, evaluator);
   check_conditions(running.end_effects, &pddl::TimedCondition::at_start, evaluator);
@@ -104,9 +104,9 @@ void Execution::execute_end(const Event& event, Evaluator& evaluator, Changes& c
   const Step& step = steps_[event.index];
   const auto running = std::find_if(running_.begin(), running_.end(),
                                     [&](const Running& one) { return one.step == event.index; });
-  check_duration(event, pddl::TimePoint::kEnd, evaluator);
+  check_duration(event, pddl::TimePoint::end, evaluator);
   require(step.durative->condition.at_end, step.bindings, evaluator,
-          violation(ViolationKind::kCondition, event.index, event.time), "condition at end");
+          violation(ViolationKind::condition, event.index, event.time), "condition at end");
   check_conditions(running->end_effects, &pddl::TimedCondition::at_end, evaluator);
   collect_effects(event, running->end_effects, {running->duration, {}}, evaluator, changes);
   running_.erase(running);
@@ -115,12 +115,12 @@ void Execution::execute_end(const Event& event, Evaluator& evaluator, Changes& c
 void Execution::collect_effects(const Event& event, const std::vector<PendingEffect>& effects,
                                 const Specials& specials, Evaluator& evaluator, Changes& changes) {
   if (!collect(effects, specials, evaluator, changes)) {
-    Violation found = violation(ViolationKind::kUndefinedValue, event.index, event.time);
+    Violation found = violation(ViolationKind::undefined_value, event.index, event.time);
     found.message = "an effect cannot be computed: " + evaluator.reason();
     violations_.push_back(std::move(found));
   }
   if (const auto fluent = conflict(changes)) {
-    Violation found = violation(ViolationKind::kConflictingEffects, event.index, event.time);
+    Violation found = violation(ViolationKind::conflicting_effects, event.index, event.time);
     found.message = "sets " + *fluent + " in two ways at once";
     violations_.push_back(std::move(found));
   }
@@ -137,10 +137,10 @@ std::optional<double> Execution::check_duration(const Event& event, pddl::TimePo
     const auto bound = evaluator.value(constraint.bound, step.bindings);
     const bool met = bound && meets(duration, constraint.op, *bound, tolerance);
     if (met) {
-      if (constraint.op == pddl::ComparisonOperator::kEqual) exact = bound;
+      if (constraint.op == pddl::ComparisonOperator::equal) exact = bound;
       continue;
     }
-    Violation found = violation(ViolationKind::kTime, event.index, event.time);
+    Violation found = violation(ViolationKind::time, event.index, event.time);
     found.condition = "(" + pddl::print(constraint.op) + " ?duration " +
                       step.bindings.instantiate(pddl::print(constraint.bound)) + ")";
     found.message = "duration " + pddl::print_number(duration) + " against " + found.condition +
@@ -151,14 +151,14 @@ std::optional<double> Execution::check_duration(const Event& event, pddl::TimePo
 }
 
 void Execution::check_interference(const Occurrence& occurrence) {
-  const auto is_timed_fact = [](const Event& event) { return event.kind <= EventKind::kTimedValue; };
+  const auto is_timed_fact = [](const Event& event) { return event.kind <= EventKind::timed_value; };
   for (const Occurrence& other : recent_) {
     if (is_timed_fact(occurrence.event) && is_timed_fact(other.event)) continue;
     const auto over = interference(occurrence.footprint, other.footprint);
     if (!over) continue;
     const bool blame_other = is_timed_fact(occurrence.event);
     const Event& culprit = blame_other ? other.event : occurrence.event;
-    Violation found = violation(ViolationKind::kInterference, culprit.index, occurrence.event.time);
+    Violation found = violation(ViolationKind::interference, culprit.index, occurrence.event.time);
     const pddl::Microseconds apart = occurrence.event.time - other.event.time;
     found.message = name(culprit) + " interferes over " + *over + " with " +
                     name(blame_other ? occurrence.event : other.event) + ", " + pddl::print_seconds(apart) +
@@ -174,13 +174,13 @@ void Execution::check_invariants(pddl::Microseconds now) {
     check_conditions(running.end_effects, &pddl::TimedCondition::over_all, evaluator);
     if (running.broken) continue;
     running.broken = !require(step.durative->condition.over_all, step.bindings, evaluator,
-                              violation(ViolationKind::kInvariant, running.step, now), "condition over all");
+                              violation(ViolationKind::invariant, running.step, now), "condition over all");
   }
 }
 
 void Execution::check_goal(pddl::Microseconds now) {
   Evaluator evaluator(model_, state_);
-  require(model_.problem().goal, {}, evaluator, {ViolationKind::kGoal, {}, now, "", "", ""}, "goal");
+  require(model_.problem().goal, {}, evaluator, {ViolationKind::goal, {}, now, "", "", ""}, "goal");
 }
 
 bool Execution::require(const pddl::Condition& condition, const Bindings& bindings, Evaluator& evaluator,
@@ -194,12 +194,12 @@ bool Execution::require(const pddl::Condition& condition, const Bindings& bindin
   }
   Bindings scratch = bindings;
   const Truth truth = evaluator.evaluate(condition, scratch);
-  if (truth == Truth::kTrue) return true;
+  if (truth == Truth::yes) return true;
   violation.condition = bindings.instantiate(pddl::print(condition));
   violation.message = when + " " + violation.condition + " does not hold";
-  if (truth == Truth::kUnknown) violation.message += ": " + evaluator.reason();
+  if (truth == Truth::unknown) violation.message += ": " + evaluator.reason();
   const auto* comparison = std::get_if<pddl::Comparison>(&condition.node);
-  if (comparison && truth == Truth::kFalse) {
+  if (comparison && truth == Truth::no) {
     violation.message += ": " + pddl::print_number(*evaluator.value(comparison->left, bindings)) +
                          " against " + pddl::print_number(*evaluator.value(comparison->right, bindings));
   }
@@ -213,14 +213,14 @@ Violation Execution::violation(ViolationKind kind, std::size_t step, pddl::Micro
 
 std::string Execution::name(const Event& event) const {
   switch (event.kind) {
-    case EventKind::kTimedLiteral:
-    case EventKind::kTimedValue:
+    case EventKind::timed_literal:
+    case EventKind::timed_value:
       return "the timed fact at " + pddl::print_seconds(event.time);
-    case EventKind::kStart:
+    case EventKind::start:
       return "the start of " + pddl::print(plan_[event.index].action);
-    case EventKind::kEnd:
+    case EventKind::end:
       return "the end of " + pddl::print(plan_[event.index].action);
-    case EventKind::kInstant:
+    case EventKind::instant:
       break;
   }
   return pddl::print(plan_[event.index].action);

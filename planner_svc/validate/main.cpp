@@ -14,7 +14,7 @@ namespace {
 
 using namespace roci;
 
-enum ExitCode { kValid = 0, kInvalid = 1, kUnreadable = 2 };
+enum ExitCode { valid = 0, invalid = 1, unreadable = 2 };
 
 std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -78,7 +78,7 @@ int run(const Arguments& arguments) {
   } else {
     std::cout << validate::to_text(report, plan, arguments.plan);
   }
-  return report.valid ? kValid : kInvalid;
+  return report.valid ? valid : invalid;
 }
 
 }  // namespace
@@ -98,9 +98,9 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     return run(arguments);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kValid : kUnreadable;
+    return app.exit(error) == 0 ? valid : unreadable;
   } catch (const pddl::ParseError& error) {
     std::cerr << error.what() << '\n';
-    return kUnreadable;
+    return unreadable;
   }
 }

@@ -40,9 +40,9 @@ Model::Model(const pddl::Domain& domain, const pddl::Problem& problem, const pdd
 }
 
 const std::vector<const pddl::DerivedPredicate*>& Model::rules(const std::string& predicate) const {
-  static const std::vector<const pddl::DerivedPredicate*> kNone;
+  static const std::vector<const pddl::DerivedPredicate*> none;
   const auto it = rules_.find(predicate);
-  return it == rules_.end() ? kNone : it->second;
+  return it == rules_.end() ? none : it->second;
 }
 
 State Model::initial_state() const {

@@ -6,23 +6,23 @@ namespace roci::validate {
 
 std::string_view to_string(ViolationKind kind) {
   switch (kind) {
-    case ViolationKind::kUnknownAction:
+    case ViolationKind::unknown_action:
       return "unknown action";
-    case ViolationKind::kWrongArguments:
+    case ViolationKind::wrong_arguments:
       return "wrong arguments";
-    case ViolationKind::kTime:
+    case ViolationKind::time:
       return "time";
-    case ViolationKind::kCondition:
+    case ViolationKind::condition:
       return "condition";
-    case ViolationKind::kInvariant:
+    case ViolationKind::invariant:
       return "invariant";
-    case ViolationKind::kInterference:
+    case ViolationKind::interference:
       return "interference";
-    case ViolationKind::kConflictingEffects:
+    case ViolationKind::conflicting_effects:
       return "conflicting effects";
-    case ViolationKind::kUndefinedValue:
+    case ViolationKind::undefined_value:
       return "undefined value";
-    case ViolationKind::kGoal:
+    case ViolationKind::goal:
       break;
   }
   return "goal";

@@ -12,23 +12,23 @@
 namespace roci::validate {
 
 enum class ViolationKind {
-  kUnknownAction,       // the domain has no action of this name
-  kWrongArguments,      // number, unknown object, or type
-  kTime,                // start before 0; duration missing, out of place or against the constraints
-  kCondition,           // of a start, an end or an instantaneous action
-  kInvariant,           // an over-all condition, somewhere strictly inside the action
-  kInterference,        // two happenings less than epsilon apart of which one changes what the other needs or
+  unknown_action,       // the domain has no action of this name
+  wrong_arguments,      // number, unknown object, or type
+  time,                 // start before 0; duration missing, out of place or against the constraints
+  condition,            // of a start, an end or an instantaneous action
+  invariant,            // an over-all condition, somewhere strictly inside the action
+  interference,         // two happenings less than epsilon apart of which one changes what the other needs or
                         // changes
-  kConflictingEffects,  // one happening sets a fluent in two ways at once
-  kUndefinedValue,      // an effect computes with a fluent that has no value, or divides by zero
-  kGoal,
+  conflicting_effects,  // one happening sets a fluent in two ways at once
+  undefined_value,      // an effect computes with a fluent that has no value, or divides by zero
+  goal,
 };
 
 // "condition", "invariant", …
 std::string_view to_string(ViolationKind kind);
 
 struct Violation {
-  ViolationKind kind = ViolationKind::kGoal;
+  ViolationKind kind = ViolationKind::goal;
   std::optional<std::size_t> step;  // index into the plan; none: the goal
   pddl::Microseconds time{0};       // when it shows
   std::string action;               // "(drive a b)"; empty for the goal

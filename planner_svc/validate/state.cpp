@@ -7,22 +7,22 @@ namespace roci::validate {
 using pddl::AssignmentOperator;
 
 bool is_additive(AssignmentOperator op) {
-  return op == AssignmentOperator::kIncrease || op == AssignmentOperator::kDecrease;
+  return op == AssignmentOperator::increase || op == AssignmentOperator::decrease;
 }
 
 namespace {
 
 double changed(double value, const NumericChange& change) {
   switch (change.op) {
-    case AssignmentOperator::kIncrease:
+    case AssignmentOperator::increase:
       return value + change.operand;
-    case AssignmentOperator::kDecrease:
+    case AssignmentOperator::decrease:
       return value - change.operand;
-    case AssignmentOperator::kScaleUp:
+    case AssignmentOperator::scale_up:
       return value * change.operand;
-    case AssignmentOperator::kScaleDown:
+    case AssignmentOperator::scale_down:
       return value / change.operand;
-    case AssignmentOperator::kAssign:
+    case AssignmentOperator::assign:
       break;
   }
   return change.operand;
@@ -36,7 +36,7 @@ bool apply(const Changes& changes, State& state, std::string& fluent) {
   bool all = true;
   for (const NumericChange& change : changes.numeric) {
     const auto it = state.values.find(change.fluent);
-    const bool defined = it != state.values.end() || change.op == AssignmentOperator::kAssign;
+    const bool defined = it != state.values.end() || change.op == AssignmentOperator::assign;
     const double value = defined ? changed(it == state.values.end() ? 0 : it->second, change) : 0;
     if (defined && std::isfinite(value)) {
       state.values[change.fluent] = value;

@@ -25,7 +25,7 @@ struct Reads {
 
 struct NumericChange {
   std::string fluent;
-  pddl::AssignmentOperator op = pddl::AssignmentOperator::kAssign;
+  pddl::AssignmentOperator op = pddl::AssignmentOperator::assign;
   double operand = 0;
 };
 

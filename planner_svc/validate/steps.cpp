@@ -60,15 +60,15 @@ std::vector<Step> resolve(const std::vector<pddl::PlanStep>& plan, const Model& 
     step.durative = find_by_name(model.domain().durative_actions, from.action.symbol);
     step.instantaneous = find_by_name(model.domain().actions, from.action.symbol);
     if (!step.executable()) {
-      report(ViolationKind::kUnknownAction, "the domain has no action '" + from.action.symbol + "'");
+      report(ViolationKind::unknown_action, "the domain has no action '" + from.action.symbol + "'");
       continue;
     }
     const auto& parameters = step.durative ? step.durative->parameters : step.instantaneous->parameters;
     if (const auto wrong = bind_arguments(from.action, parameters, model.objects(), step.bindings);
         !wrong.empty()) {
-      report(ViolationKind::kWrongArguments, wrong);
+      report(ViolationKind::wrong_arguments, wrong);
     } else if (const auto late = check_times(from, step.durative != nullptr); !late.empty()) {
-      report(ViolationKind::kTime, late);
+      report(ViolationKind::time, late);
     }
   }
   return steps;
@@ -80,12 +80,12 @@ std::vector<Event> schedule(const std::vector<pddl::PlanStep>& plan, const std::
   pddl::Microseconds last{0};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (steps[i].instantaneous) {
-      events.push_back({plan[i].start, EventKind::kInstant, i});
+      events.push_back({plan[i].start, EventKind::instant, i});
       last = std::max(last, plan[i].start);
     } else if (steps[i].durative) {
       const pddl::Microseconds end = plan[i].start + *plan[i].duration;
-      events.push_back({plan[i].start, EventKind::kStart, i});
-      events.push_back({end, EventKind::kEnd, i});
+      events.push_back({plan[i].start, EventKind::start, i});
+      events.push_back({end, EventKind::end, i});
       last = std::max(last, end);
     }
   }
@@ -94,10 +94,10 @@ std::vector<Event> schedule(const std::vector<pddl::PlanStep>& plan, const std::
     events.push_back({pddl::Microseconds(std::llround(seconds * 1e6)), kind, index});
   };
   for (std::size_t i = 0; i < problem.timed_literals.size(); ++i) {
-    add_timed(problem.timed_literals[i].time, EventKind::kTimedLiteral, i);
+    add_timed(problem.timed_literals[i].time, EventKind::timed_literal, i);
   }
   for (std::size_t i = 0; i < problem.timed_values.size(); ++i) {
-    add_timed(problem.timed_values[i].time, EventKind::kTimedValue, i);
+    add_timed(problem.timed_values[i].time, EventKind::timed_value, i);
   }
   std::sort(events.begin(), events.end());
   return events;

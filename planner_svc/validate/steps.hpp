@@ -23,11 +23,11 @@ std::vector<Step> resolve(const std::vector<pddl::PlanStep>& plan, const Model& 
                           std::vector<Violation>& violations);
 
 // In the order in which events of one moment are executed.
-enum class EventKind { kTimedLiteral, kTimedValue, kInstant, kStart, kEnd };
+enum class EventKind { timed_literal, timed_value, instant, start, end };
 
 struct Event {
   pddl::Microseconds time{0};
-  EventKind kind = EventKind::kInstant;
+  EventKind kind = EventKind::instant;
   std::size_t index = 0;  // of the step, the timed literal or the timed value
 
   auto operator<=>(const Event&) const = default;

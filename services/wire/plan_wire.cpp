@@ -152,7 +152,6 @@ v1::FunctionValueUse use_to_wire(const temporal::FunctionValueUse& in) {
   out.number(in.number);
   out.owner(in.owner);
   out.model_version(in.model_version);
-  out.computed_us(in.computed.count());
   return out;
 }
 
@@ -263,9 +262,8 @@ temporal::FlexiblePlan from_wire(const v1::Plan& in) {
       });
   out.function_values =
       each<temporal::FunctionValueUse>(in.function_values(), [](const v1::FunctionValueUse& use) {
-        return temporal::FunctionValueUse{use.function(),      use.arguments(),
-                                          use.number(),        use.owner(),
-                                          use.model_version(), temporal::Time(use.computed_us())};
+        return temporal::FunctionValueUse{use.function(), use.arguments(), use.number(), use.owner(),
+                                          use.model_version()};
       });
   return out;
 }

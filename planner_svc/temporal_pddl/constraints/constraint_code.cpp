@@ -6,12 +6,12 @@ namespace roci::planner::temporal_pddl {
 
 namespace {
 
-enum Kind : std::uint32_t { kAfter = 0, kSeparated = 1, kExact = 2, kBetween = 3 };
+enum Kind : std::uint32_t { after = 0, separated = 1, exact = 2, between = 3 };
 
 Kind kind_of(const StepConstraint& constraint, Duration epsilon) {
-  if (constraint.upper == kUnbounded && constraint.lower == Duration{0}) return kAfter;
-  if (constraint.upper == kUnbounded && constraint.lower == epsilon) return kSeparated;
-  return constraint.lower == constraint.upper ? kExact : kBetween;
+  if (constraint.upper == kUnbounded && constraint.lower == Duration{0}) return after;
+  if (constraint.upper == kUnbounded && constraint.lower == epsilon) return separated;
+  return constraint.lower == constraint.upper ? exact : between;
 }
 
 void put_varint(std::uint32_t value, std::vector<std::uint8_t>& code) {
@@ -45,8 +45,8 @@ void encode(const StepConstraint& constraint, Duration epsilon, BoundTable& boun
   const std::uint32_t head = constraint.to << 17 | constraint.from << 2 | kind;
   for (std::uint32_t shift = 0; shift < 32; shift += 8)
     code.push_back(static_cast<std::uint8_t>(head >> shift));
-  if (kind == kExact || kind == kBetween) put_varint(bounds.intern(constraint.lower), code);
-  if (kind == kBetween) put_varint(bounds.intern(constraint.upper), code);
+  if (kind == exact || kind == between) put_varint(bounds.intern(constraint.lower), code);
+  if (kind == between) put_varint(bounds.intern(constraint.upper), code);
 }
 
 void decode(std::span<const std::uint8_t> code, Duration epsilon, const BoundTable& bounds,
@@ -56,15 +56,15 @@ void decode(std::span<const std::uint8_t> code, Duration epsilon, const BoundTab
     for (std::uint32_t shift = 0; shift < 32; shift += 8) head |= std::uint32_t{code[at++]} << shift;
     StepConstraint constraint{head >> 2 & 0x7fff, head >> 17, Duration{0}, kUnbounded};
     switch (head & 3) {
-      case kAfter:
+      case after:
         break;
-      case kSeparated:
+      case separated:
         constraint.lower = epsilon;
         break;
-      case kExact:
+      case exact:
         constraint.lower = constraint.upper = bounds[get_varint(code, at)];
         break;
-      case kBetween:
+      case between:
         constraint.lower = bounds[get_varint(code, at)];
         constraint.upper = bounds[get_varint(code, at)];
         break;

@@ -13,24 +13,24 @@ void Orderings::mark(VariableId variable, std::uint8_t interest) {
 }
 
 void Orderings::mark_new_step(SnapId next, std::span<const ActionId> running) {
-  for (const VariableId variable : task_.reads[next]) mark(variable, kRead);
-  for (const VariableId variable : task_.writes[next]) mark(variable, kChange);
+  for (const VariableId variable : task_.reads[next]) mark(variable, reads);
+  for (const VariableId variable : task_.writes[next]) mark(variable, changes);
   for (const FactId added : task_.adds[next]) {
     std::uint8_t& interest = interests_[task_.variable(added)];
-    if (interest & kChange) interest = static_cast<std::uint8_t>((interest & ~kChange) | kAdd);
+    if (interest & changes) interest = static_cast<std::uint8_t>((interest & ~changes) | adds);
   }
   const Snap& snap = task_.snaps[next];
-  if (snap.kind == SnapKind::kStart) {
-    for (const VariableId variable : task_.invariant_reads[snap.action]) mark(variable, kInvariant);
+  if (snap.kind == SnapKind::start) {
+    for (const VariableId variable : task_.invariant_reads[snap.action]) mark(variable, invariant);
   }
   for (const ActionId action : running) {
     for (const auto& invariant : task_.numeric_invariants[action]) {
       const auto& terms = task_.expressions[invariant.expression].terms;
       const auto changed = [&](const auto& term) {
-        return (interests_[task_.variable(term.variable)] & kChange) != 0;
+        return (interests_[task_.variable(term.variable)] & changes) != 0;
       };
       if (terms.size() < 2 || std::ranges::none_of(terms, changed)) continue;
-      for (const auto& term : terms) mark(task_.variable(term.variable), kRead);
+      for (const auto& term : terms) mark(task_.variable(term.variable), reads);
     }
   }
 }
@@ -50,21 +50,21 @@ void Orderings::add(std::span<const SnapId> steps, SnapId next, std::span<const 
     bool separated = false;
     bool after = false;
     for (const VariableId variable : task_.reads[step]) {
-      separated = separated || (interests_[variable] & (kAdd | kChange)) != 0;
+      separated = separated || (interests_[variable] & (adds | changes)) != 0;
     }
-    if (task_.snaps[step].kind == SnapKind::kEnd) {
+    if (task_.snaps[step].kind == SnapKind::end) {
       for (const VariableId variable : task_.invariant_reads[task_.snaps[step].action]) {
-        after = after || (interests_[variable] & (kChange | kEnds)) != 0;
+        after = after || (interests_[variable] & (changes | ends)) != 0;
       }
     }
     for (const VariableId variable : task_.writes[step]) {
       std::uint8_t& interest = interests_[variable];
       if (interest == 0) continue;
-      if (interest != kEnds) (interest == kInvariant ? after : separated) = true;
+      if (interest != ends) (interest == invariant ? after : separated) = true;
       // What lies before this step is ordered through it; except that an adding step is before no invariant's
       // end.
-      const bool ends_open = (interest & (kChange | kEnds)) != 0 && only_adds(step, variable);
-      interest = ends_open ? kEnds : 0;
+      const bool ends_open = (interest & (changes | ends)) != 0 && only_adds(step, variable);
+      interest = ends_open ? ends : 0;
       if (!ends_open) --open;
     }
     if (!separated && !after) continue;

@@ -29,9 +29,9 @@ class Orderings {
            std::vector<StepConstraint>& constraints);
 
  private:
-  // What the new step does with a variable. kEnds: it changes it, and a later step that only adds the fact
+  // What the new step does with a variable. ends: it changes it, and a later step that only adds the fact
   // was met.
-  enum Interest : std::uint8_t { kInvariant = 1, kRead = 2, kAdd = 4, kChange = 8, kEnds = 16 };
+  enum Interest : std::uint8_t { guards = 1, reads = 2, adds = 4, changes = 8, ends = 16 };
 
   void mark(VariableId variable, std::uint8_t interest);
   void mark_new_step(SnapId next, std::span<const ActionId> running);

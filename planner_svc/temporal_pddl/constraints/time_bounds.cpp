@@ -48,7 +48,7 @@ Ticks TimeBounds::time_of(std::uint32_t timed_step) const {
 
 Ticks TimeBounds::latest(SnapId step, std::uint32_t timed_done) const {
   const Snap& snap = task_.snaps[step];
-  if (!touched_[step] || snap.kind == SnapKind::kTimedLiteral) return kNever;
+  if (!touched_[step] || snap.kind == SnapKind::timed_literal) return kNever;
   const auto none = static_cast<std::uint32_t>(task_.timed_steps.size());
   std::uint32_t touching = none;
   for (const VariableId variable : task_.reads[step])
@@ -56,7 +56,7 @@ Ticks TimeBounds::latest(SnapId step, std::uint32_t timed_done) const {
   for (const VariableId variable : task_.writes[step])
     touching = first_from(timed_[variable], timed_done, touching);
   const Ticks result = touching < none ? time_of(touching) - epsilon_.count() : kNever;
-  if (snap.kind != SnapKind::kEnd) return result;
+  if (snap.kind != SnapKind::end) return result;
   std::uint32_t breaking = none;
   for (const VariableId variable : task_.invariant_reads[snap.action]) {
     breaking = first_from(timed_change_[variable], timed_done, breaking);

@@ -91,11 +91,11 @@ bool ActionInstantiator::set_duration(const LiftedAction& action, const Binding&
       continue;
     }
     using enum pddl::ComparisonOperator;
-    if (rule.op == kEqual) {
+    if (rule.op == equal) {
       const Duration fixed = microseconds(bound->constant, std::round);
       ground.min_duration = std::max(ground.min_duration, fixed);
       ground.max_duration = std::min(ground.max_duration, fixed);
-    } else if (rule.op == kGreaterEqual || rule.op == kGreater) {
+    } else if (rule.op == greater_equal || rule.op == greater) {
       ground.min_duration = std::max(ground.min_duration, microseconds(bound->constant, std::ceil));
     } else {
       ground.max_duration = std::min(ground.max_duration, microseconds(bound->constant, std::floor));
@@ -157,20 +157,20 @@ bool ActionInstantiator::collect_effect(const LiftedEffect& effect, bool at_end,
 bool ActionInstantiator::changes_its_condition(
     const LiftedEffect& effect, bool at_end, const Binding& binding,
     const std::vector<std::pair<Conjunction, Conjunction>>& fires) const {
-  if (effect.kind == LiftedEffect::Kind::kNumeric || fires.size() != 1) return false;
+  if (effect.kind == LiftedEffect::Kind::numeric || fires.size() != 1) return false;
   const auto& [start, end] = fires.front();
   const Conjunction& same_time = at_end ? end : start;
   const Conjunction& other_time = at_end ? start : end;
   const auto atom = formulas_.reached_atom(effect.atom, binding);
   return atom && other_time.empty() && same_time.comparisons.empty() && same_time.literals.size() == 1 &&
-         same_time.literals.front() == GroundLiteral{*atom, effect.kind == LiftedEffect::Kind::kAdd};
+         same_time.literals.front() == GroundLiteral{*atom, effect.kind == LiftedEffect::Kind::add};
 }
 
 bool ActionInstantiator::add_effect(const LiftedEffect& effect, const Binding& binding,
                                     GroundEffects& effects) {
-  if (effect.kind != LiftedEffect::Kind::kNumeric) {
+  if (effect.kind != LiftedEffect::Kind::numeric) {
     const auto atom = formulas_.reached_atom(effect.atom, binding);
-    if (atom) (effect.kind == LiftedEffect::Kind::kAdd ? effects.adds : effects.deletes).push_back(*atom);
+    if (atom) (effect.kind == LiftedEffect::Kind::add ? effects.adds : effects.deletes).push_back(*atom);
     return true;
   }
   auto value = formulas_.linear(effect.value, binding);
@@ -178,21 +178,21 @@ bool ActionInstantiator::add_effect(const LiftedEffect& effect, const Binding& b
   const NumberId number = formulas_.number(effect.function, objects_of(effect.atom.arguments, binding));
   bool assigns = false;
   switch (effect.op) {
-    case pddl::AssignmentOperator::kAssign:
+    case pddl::AssignmentOperator::assign:
       assigns = true;
       break;
-    case pddl::AssignmentOperator::kIncrease:
+    case pddl::AssignmentOperator::increase:
       break;
-    case pddl::AssignmentOperator::kDecrease:
+    case pddl::AssignmentOperator::decrease:
       value = scaled(*value, -1);
       break;
-    case pddl::AssignmentOperator::kScaleUp:
-    case pddl::AssignmentOperator::kScaleDown: {
+    case pddl::AssignmentOperator::scale_up:
+    case pddl::AssignmentOperator::scale_down: {
       if (!value->is_constant()) {
         formulas_.refuse(effect.where, "scaling by a number that changes is not linear",
                          "scale by a constant");
       }
-      const bool up = effect.op == pddl::AssignmentOperator::kScaleUp;
+      const bool up = effect.op == pddl::AssignmentOperator::scale_up;
       if (!up && value->constant == 0) return false;
       LinearExpression product;
       product.terms.push_back({number, up ? value->constant : 1 / value->constant});

@@ -181,7 +181,7 @@ class Analysis {
     });
     return literals_free && isolated(action.over_all, running) && isolated(action.at_end, running) &&
            std::ranges::none_of(action.duration_rules,
-                                [](const DurationRule& rule) { return rule.at == pddl::TimePoint::kEnd; }) &&
+                                [](const DurationRule& rule) { return rule.at == pddl::TimePoint::end; }) &&
            std::ranges::all_of(action.end_effects.numeric, [&](const NumericEffect& effect) {
              return numbers_[effect.variable.index()].isolated(running);
            });

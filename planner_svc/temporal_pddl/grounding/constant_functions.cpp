@@ -32,43 +32,12 @@ std::string describe(const FunctionCall& call) {
   return text + ") of module " + call.module;
 }
 
-std::string remedy_for(FunctionOutcome outcome, const FunctionCall& call) {
-  switch (outcome) {
-    case FunctionOutcome::kUnavailable:
-    case FunctionOutcome::kOwnerLost:
-      return "start the service that offers module " + call.module + ", or give the values in a file";
-    case FunctionOutcome::kLate:
-      return "give the owner more time, or declare fewer objects";
-    case FunctionOutcome::kUnknownObject:
-    case FunctionOutcome::kWrongArity:
-      return "declare the function as its owner offers it, with objects that the owner knows";
-    case FunctionOutcome::kNotANumber:
-      return "the owner must answer with a finite number or with 'unreachable'";
-    case FunctionOutcome::kValue:
-    case FunctionOutcome::kUnreachable:
-      break;
-  }
-  return "";
-}
-
-std::string describe(const Provenance& said) {
-  if (said.owner.empty()) return "";
-  std::string text = "; asked " + said.owner;
-  if (!said.model_version.empty()) {
-    text += ", model " + said.model_version + ", at " +
-            std::to_string(std::chrono::duration<double>(said.time).count()) + " s";
-  }
-  return text;
-}
-
-void require_usable(const FunctionCall& call, const FunctionValue& answer, const Symbols& symbols,
-                    const FunctionSymbol& symbol) {
-  if (answer.outcome == FunctionOutcome::kValue || answer.outcome == FunctionOutcome::kUnreachable) return;
-  std::string message = "external function " + describe(call) + ": " + to_string(answer.outcome);
-  if (!answer.detail.empty()) message += ", " + answer.detail;
-  message += describe(answer.provenance);
-  throw Refusal(Verdict::kFunctionUnavailable, pddl::Diagnostic{symbols.domain_file(), symbol.declared,
-                                                                message, remedy_for(answer.outcome, call)});
+void require_usable(const FunctionCall& call, const FunctionValue& answer) {
+  if (answer.outcome == FunctionOutcome::value || answer.outcome == FunctionOutcome::unreachable) return;
+  std::string reason = "external function " + describe(call) + ": " + to_string(answer.outcome);
+  if (!answer.provenance.owner.empty()) reason += ", says " + answer.provenance.owner;
+  if (!answer.detail.empty()) reason += " (" + answer.detail + ")";
+  throw Refusal(Verdict::function_unavailable, reason);
 }
 
 }  // namespace
@@ -79,7 +48,7 @@ ConstantFunctions::ConstantFunctions(const pddl::Problem& problem, const std::ve
   for (const auto& action : actions) {
     for (const auto* effects : {&action.start_effects, &action.end_effects}) {
       for (const auto& effect : *effects) {
-        if (effect.kind == LiftedEffect::Kind::kNumeric) constant_[effect.function] = false;
+        if (effect.kind == LiftedEffect::Kind::numeric) constant_[effect.function] = false;
       }
     }
   }
@@ -107,17 +76,17 @@ void ConstantFunctions::load_external(FunctionSource& source, const std::functio
       calls.push_back(std::move(call));
     }
     auto answers = source.evaluate(calls, cancelled);
-    if (cancelled()) throw Refusal(Verdict::kCancelled, "cancelled while waiting for external functions");
+    if (cancelled()) throw Refusal(Verdict::cancelled, "cancelled while waiting for external functions");
     if (answers.size() != calls.size()) answers.assign(calls.size(), FunctionValue{});
     for (std::size_t k = 0; k < calls.size(); ++k) {
       FunctionValue& answer = answers[k];
-      if (answer.outcome == FunctionOutcome::kValue && !std::isfinite(answer.value)) {
-        answer.outcome = FunctionOutcome::kNotANumber;
+      if (answer.outcome == FunctionOutcome::value && !std::isfinite(answer.value)) {
+        answer.outcome = FunctionOutcome::not_a_number;
       }
       used.push_back({calls[k], answer});
-      if (answer.outcome == FunctionOutcome::kValue) define(function, tuples[k], answer.value);
+      if (answer.outcome == FunctionOutcome::value) define(function, tuples[k], answer.value);
     }
-    for (std::size_t k = 0; k < calls.size(); ++k) require_usable(calls[k], answers[k], symbols, symbol);
+    for (std::size_t k = 0; k < calls.size(); ++k) require_usable(calls[k], answers[k]);
   }
 }
 

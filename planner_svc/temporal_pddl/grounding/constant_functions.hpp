@@ -22,8 +22,8 @@ class ConstantFunctions {
                     const Symbols& symbols);
 
   // Asks `source` for all external functions on all typed tuples, one batch per function (R37), and appends
-  // every tuple with its answer to `used`. Throws Refusal: kFunctionUnavailable, naming function and tuple,
-  // if an answer is neither a value nor "unreachable"; kCancelled.
+  // every tuple with its answer to `used`. Throws Refusal: function_unavailable, naming function and tuple,
+  // if an answer is neither a value nor "unreachable"; cancelled.
   void load_external(FunctionSource& source, const std::function<bool()>& cancelled, const Symbols& symbols,
                      std::vector<FunctionUse>& used);
 

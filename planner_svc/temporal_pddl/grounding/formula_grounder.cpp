@@ -73,34 +73,34 @@ Disjunction FormulaGrounder::ground(const LiftedFormula& formula, Binding& bindi
     result = either(std::move(result), ground(part, binding));
   };
   switch (formula.kind) {
-    case Kind::kAnd:
+    case Kind::conjunction:
       result = always();
       for (const auto& part : formula.parts) conjoin(part);
       return result;
-    case Kind::kOr:
+    case Kind::disjunction:
       for (const auto& part : formula.parts) disjoin(part);
       return result;
-    case Kind::kForall:
+    case Kind::forall:
       result = always();
       for_each_value(formula.quantified, binding, [&] { conjoin(formula.parts.front()); });
       return result;
-    case Kind::kExists:
+    case Kind::exists:
       for_each_value(formula.quantified, binding, [&] { disjoin(formula.parts.front()); });
       return result;
-    case Kind::kAtom:
-    case Kind::kNotAtom:
+    case Kind::atom:
+    case Kind::not_atom:
       return ground_atom(formula, binding);
-    case Kind::kEqual:
-    case Kind::kNotEqual:
+    case Kind::equal:
+    case Kind::not_equal:
       return world_.possible(formula, binding) ? always() : Disjunction{};
-    case Kind::kComparison:
+    case Kind::comparison:
       return ground_comparison(formula, binding);
   }
   return result;
 }
 
 Disjunction FormulaGrounder::ground_atom(const LiftedFormula& formula, const Binding& binding) const {
-  const bool positive = formula.kind == Kind::kAtom;
+  const bool positive = formula.kind == Kind::atom;
   const auto atom = reached_atom(formula.atom, binding);
   if (!atom) return positive ? Disjunction{} : always();
   const PredicateId predicate = formula.atom.predicate;
@@ -119,20 +119,20 @@ Disjunction FormulaGrounder::ground_comparison(const LiftedFormula& formula, con
     return sum(a, scaled(b, -1));
   };
   LinearExpression expression = difference(*left, *right);
-  Comparator comparator = Comparator::kEqual;
+  Comparator comparator = Comparator::equal;
   switch (formula.comparison) {
-    case pddl::ComparisonOperator::kLess:
-    case pddl::ComparisonOperator::kLessEqual:
+    case pddl::ComparisonOperator::less:
+    case pddl::ComparisonOperator::less_equal:
       expression = difference(*right, *left);
       [[fallthrough]];
-    case pddl::ComparisonOperator::kGreater:
-    case pddl::ComparisonOperator::kGreaterEqual:
-      comparator = formula.comparison == pddl::ComparisonOperator::kLess ||
-                           formula.comparison == pddl::ComparisonOperator::kGreater
-                       ? Comparator::kGreater
-                       : Comparator::kGreaterEqual;
+    case pddl::ComparisonOperator::greater:
+    case pddl::ComparisonOperator::greater_equal:
+      comparator = formula.comparison == pddl::ComparisonOperator::less ||
+                           formula.comparison == pddl::ComparisonOperator::greater
+                       ? Comparator::greater
+                       : Comparator::greater_equal;
       break;
-    case pddl::ComparisonOperator::kEqual:
+    case pddl::ComparisonOperator::equal:
       break;
   }
   if (expression.is_constant()) return holds(comparator, expression.constant) ? always() : Disjunction{};
@@ -143,13 +143,13 @@ std::optional<LinearExpression> FormulaGrounder::linear(const LiftedExpression& 
                                                         const Binding& binding) {
   LinearExpression result;
   switch (expression.kind) {
-    case LiftedExpression::Kind::kNumber:
+    case LiftedExpression::Kind::number:
       result.constant = expression.number;
       return result;
-    case LiftedExpression::Kind::kDuration:
+    case LiftedExpression::Kind::duration:
       result.duration_weight = 1;
       return result;
-    case LiftedExpression::Kind::kFunction: {
+    case LiftedExpression::Kind::function: {
       if (world_.constants().is_constant(expression.function)) {
         const auto value = world_.constant_value(expression, binding);
         if (!value) return std::nullopt;
@@ -159,7 +159,7 @@ std::optional<LinearExpression> FormulaGrounder::linear(const LiftedExpression& 
       }
       return result;
     }
-    case LiftedExpression::Kind::kArithmetic:
+    case LiftedExpression::Kind::arithmetic:
       break;
   }
   for (std::size_t i = 0; i < expression.operands.size(); ++i) {
@@ -167,18 +167,18 @@ std::optional<LinearExpression> FormulaGrounder::linear(const LiftedExpression& 
     if (!operand) return std::nullopt;
     if (i == 0) {
       const bool negation =
-          expression.op == pddl::ArithmeticOperator::kSubtract && expression.operands.size() == 1;
+          expression.op == pddl::ArithmeticOperator::subtract && expression.operands.size() == 1;
       result = negation ? scaled(*operand, -1) : *operand;
       continue;
     }
     switch (expression.op) {
-      case pddl::ArithmeticOperator::kAdd:
+      case pddl::ArithmeticOperator::add:
         result = sum(result, *operand);
         break;
-      case pddl::ArithmeticOperator::kSubtract:
+      case pddl::ArithmeticOperator::subtract:
         result = sum(result, scaled(*operand, -1));
         break;
-      case pddl::ArithmeticOperator::kMultiply:
+      case pddl::ArithmeticOperator::multiply:
         if (!result.is_constant() && !operand->is_constant()) {
           refuse(expression.where, "a product of numbers that change is not linear",
                  "make one factor a constant");
@@ -186,7 +186,7 @@ std::optional<LinearExpression> FormulaGrounder::linear(const LiftedExpression& 
         result =
             operand->is_constant() ? scaled(result, operand->constant) : scaled(*operand, result.constant);
         break;
-      case pddl::ArithmeticOperator::kDivide:
+      case pddl::ArithmeticOperator::divide:
         if (!operand->is_constant()) {
           refuse(expression.where, "division by a number that changes is not linear",
                  "make the divisor a constant");
@@ -216,7 +216,7 @@ NumberId FormulaGrounder::number(FunctionId function, const std::vector<ObjectId
 
 void FormulaGrounder::refuse(pddl::SourceLocation where, const std::string& message,
                              const std::string& remedy) const {
-  throw Refusal(Verdict::kUnsupported, pddl::Diagnostic{file_, where, message, remedy});
+  throw Refusal(Verdict::unsupported, pddl::Diagnostic{file_, where, message, remedy});
 }
 
 }  // namespace roci::planner::temporal_pddl

@@ -27,7 +27,7 @@ class FormulaGrounder {
         expressions_(expressions),
         file_(file) {}
 
-  // Throws Refusal (kUnsupported) for more than kMaxAlternatives, and for products of numbers that change.
+  // Throws Refusal (unsupported) for more than kMaxAlternatives, and for products of numbers that change.
   Disjunction ground(const LiftedFormula& formula, Binding& binding);
 
   // None: a constant in it is undefined, or a division by 0.

@@ -42,7 +42,7 @@ void require_reachable_goal(const pddl::Problem& problem, const Disjunction& bef
   }
   if (blocked.empty()) blocked = " " + pddl::print(problem.goal);
   throw Refusal(
-      Verdict::kUnsolvable,
+      Verdict::unsolvable,
       "no sequence of actions reaches, even if nothing were ever deleted and numbers did not count:" +
           blocked);
 }

@@ -20,8 +20,8 @@ struct Grounding {
   Task task;
 };
 
-// Throws Refusal: kUnsupported with the place in the model; kUnsolvable naming the goal that nothing can
-// reach; kFunctionUnavailable; and what Watch throws. `used` gets every external value, whatever happens.
+// Throws Refusal: unsupported with the place in the model; unsolvable naming the goal that nothing can
+// reach; function_unavailable; and what Watch throws. `used` gets every external value, whatever happens.
 Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
                  const Options& options, Watch& watch, std::vector<FunctionUse>& used);
 

@@ -28,7 +28,7 @@ TupleTable deletable_atoms(const std::vector<LiftedAction>& actions, const World
       std::ranges::copy(instances[i], binding.begin());
       for (const auto* effects : {&action.start_effects, &action.end_effects}) {
         for (const auto& effect : *effects) {
-          if (effect.kind != LiftedEffect::Kind::kDelete) continue;
+          if (effect.kind != LiftedEffect::Kind::remove) continue;
           for_each_value(effect.quantified, binding, [&] {
             result.intern(effect.atom.predicate.value, objects_of(effect.atom.arguments, binding));
           });

@@ -35,40 +35,41 @@ struct LiftedAtom {
 };
 
 struct LiftedExpression {
-  enum class Kind { kNumber, kFunction, kDuration, kArithmetic };
-  Kind kind = Kind::kNumber;
+  enum class Kind { number, function, duration, arithmetic };
+  Kind kind = Kind::number;
   double number = 0;
   FunctionId function;
   std::vector<Argument> arguments;
-  pddl::ArithmeticOperator op = pddl::ArithmeticOperator::kAdd;
+  pddl::ArithmeticOperator op = pddl::ArithmeticOperator::add;
   std::vector<LiftedExpression> operands;
   pddl::SourceLocation where;
 };
 
 struct LiftedFormula {
-  enum class Kind { kAnd, kOr, kForall, kExists, kAtom, kNotAtom, kEqual, kNotEqual, kComparison };
-  Kind kind = Kind::kAnd;
-  std::vector<LiftedFormula> parts;        // kAnd (empty: true), kOr (empty: false); one for kForall, kExists
-  std::vector<QuantifiedSlot> quantified;  // kForall, kExists
-  LiftedAtom atom;                         // kAtom, kNotAtom; kEqual, kNotEqual: its two arguments
-  pddl::ComparisonOperator comparison = pddl::ComparisonOperator::kEqual;
-  std::vector<LiftedExpression> sides;  // kComparison: left, right
+  enum class Kind { conjunction, disjunction, forall, exists, atom, not_atom, equal, not_equal, comparison };
+  Kind kind = Kind::conjunction;
+  std::vector<LiftedFormula>
+      parts;  // conjunction (empty: true), disjunction (empty: false); one for forall, exists
+  std::vector<QuantifiedSlot> quantified;  // forall, exists
+  LiftedAtom atom;                         // atom, not_atom; equal, not_equal: its two arguments
+  pddl::ComparisonOperator comparison = pddl::ComparisonOperator::equal;
+  std::vector<LiftedExpression> sides;  // comparison: left, right
   pddl::SourceLocation where;
 
-  bool is_true() const { return kind == Kind::kAnd && parts.empty(); }
+  bool is_true() const { return kind == Kind::conjunction && parts.empty(); }
 };
 
 // An effect for every value of the quantified slots, if the condition holds: at the start (tested before the
 // start) or at the end (tested before the end).
 struct LiftedEffect {
-  enum class Kind { kAdd, kDelete, kNumeric };
-  Kind kind = Kind::kAdd;
+  enum class Kind { add, remove, numeric };
+  Kind kind = Kind::add;
   std::vector<QuantifiedSlot> quantified;
   LiftedFormula start_condition, start_otherwise;  // the condition and its negation
   LiftedFormula end_condition, end_otherwise;
   LiftedAtom atom;
-  FunctionId function;  // kNumeric; its arguments stand in atom
-  pddl::AssignmentOperator op = pddl::AssignmentOperator::kAssign;
+  FunctionId function;  // numeric; its arguments stand in atom
+  pddl::AssignmentOperator op = pddl::AssignmentOperator::assign;
   LiftedExpression value;
   pddl::SourceLocation where;
 
@@ -76,9 +77,9 @@ struct LiftedEffect {
 };
 
 struct LiftedDuration {
-  pddl::ComparisonOperator op = pddl::ComparisonOperator::kEqual;
+  pddl::ComparisonOperator op = pddl::ComparisonOperator::equal;
   LiftedExpression bound;
-  pddl::TimePoint at = pddl::TimePoint::kStart;
+  pddl::TimePoint at = pddl::TimePoint::start;
 };
 
 struct LiftedAction {

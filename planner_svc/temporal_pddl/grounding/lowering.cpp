@@ -14,14 +14,14 @@ using Kind = LiftedFormula::Kind;
 
 pddl::ComparisonOperator opposite(pddl::ComparisonOperator op) {
   switch (op) {
-    case pddl::ComparisonOperator::kLess:
-      return pddl::ComparisonOperator::kGreaterEqual;
-    case pddl::ComparisonOperator::kLessEqual:
-      return pddl::ComparisonOperator::kGreater;
-    case pddl::ComparisonOperator::kGreaterEqual:
-      return pddl::ComparisonOperator::kLess;
+    case pddl::ComparisonOperator::less:
+      return pddl::ComparisonOperator::greater_equal;
+    case pddl::ComparisonOperator::less_equal:
+      return pddl::ComparisonOperator::greater;
+    case pddl::ComparisonOperator::greater_equal:
+      return pddl::ComparisonOperator::less;
     default:
-      return pddl::ComparisonOperator::kLessEqual;
+      return pddl::ComparisonOperator::less_equal;
   }
 }
 
@@ -49,13 +49,13 @@ class Lowering {
     std::visit(pddl::Overloaded{
                    [&](const pddl::Number& number) { result.number = number.value; },
                    [&](const pddl::Atom& call) {
-                     result.kind = LiftedExpression::Kind::kFunction;
+                     result.kind = LiftedExpression::Kind::function;
                      result.function = symbols_.function(call.symbol);
                      for (const auto& term : call.arguments) result.arguments.push_back(argument(term));
                    },
-                   [&](const pddl::DurationVariable&) { result.kind = LiftedExpression::Kind::kDuration; },
+                   [&](const pddl::DurationVariable&) { result.kind = LiftedExpression::Kind::duration; },
                    [&](const pddl::Arithmetic& arithmetic) {
-                     result.kind = LiftedExpression::Kind::kArithmetic;
+                     result.kind = LiftedExpression::Kind::arithmetic;
                      result.op = arithmetic.op;
                      for (const auto& operand : arithmetic.operands)
                        result.operands.push_back(expression(operand));
@@ -72,29 +72,29 @@ class Lowering {
     std::visit(
         pddl::Overloaded{
             [&](const pddl::And& a) {
-              junction(a.parts, positive ? Kind::kAnd : Kind::kOr, positive, result);
+              junction(a.parts, positive ? Kind::conjunction : Kind::disjunction, positive, result);
             },
             [&](const pddl::Or& o) {
-              junction(o.parts, positive ? Kind::kOr : Kind::kAnd, positive, result);
+              junction(o.parts, positive ? Kind::disjunction : Kind::conjunction, positive, result);
             },
             [&](const pddl::Not& n) { result = formula(*n.body, !positive); },
             [&](const pddl::Imply& i) {
-              result.kind = positive ? Kind::kOr : Kind::kAnd;
+              result.kind = positive ? Kind::disjunction : Kind::conjunction;
               result.parts.push_back(formula(*i.premise, !positive));
               result.parts.push_back(formula(*i.conclusion, positive));
             },
             [&](const pddl::Forall& f) {
-              quantifier(f.variables, *f.body, positive ? Kind::kForall : Kind::kExists, positive, result);
+              quantifier(f.variables, *f.body, positive ? Kind::forall : Kind::exists, positive, result);
             },
             [&](const pddl::Exists& e) {
-              quantifier(e.variables, *e.body, positive ? Kind::kExists : Kind::kForall, positive, result);
+              quantifier(e.variables, *e.body, positive ? Kind::exists : Kind::forall, positive, result);
             },
             [&](const pddl::Atom& a) {
-              result.kind = positive ? Kind::kAtom : Kind::kNotAtom;
+              result.kind = positive ? Kind::atom : Kind::not_atom;
               result.atom = atom(symbols_.predicate(a.symbol), a.arguments);
             },
             [&](const pddl::TermEquality& e) {
-              result.kind = positive ? Kind::kEqual : Kind::kNotEqual;
+              result.kind = positive ? Kind::equal : Kind::not_equal;
               result.atom.arguments = {argument(e.left), argument(e.right)};
             },
             [&](const pddl::Comparison& c) { comparison(c, positive, result); },
@@ -108,12 +108,12 @@ class Lowering {
     frame.where = source.where;
     std::visit(pddl::Overloaded{
                    [&](const pddl::Literal& literal) {
-                     frame.kind = literal.negated ? LiftedEffect::Kind::kDelete : LiftedEffect::Kind::kAdd;
+                     frame.kind = literal.negated ? LiftedEffect::Kind::remove : LiftedEffect::Kind::add;
                      frame.atom = atom(symbols_.predicate(literal.atom.symbol), literal.atom.arguments);
                      result.push_back(std::move(frame));
                    },
                    [&](const pddl::Assignment& assignment) {
-                     frame.kind = LiftedEffect::Kind::kNumeric;
+                     frame.kind = LiftedEffect::Kind::numeric;
                      frame.function = symbols_.function(assignment.fluent.symbol);
                      frame.atom = atom(PredicateId(), assignment.fluent.arguments);
                      frame.op = assignment.op;
@@ -140,7 +140,7 @@ class Lowering {
   }
 
   [[noreturn]] void refuse(pddl::SourceLocation where, std::string message) const {
-    throw Refusal(Verdict::kUnsupported,
+    throw Refusal(Verdict::unsupported,
                   pddl::Diagnostic{file_, where, std::move(message), "reformulate the action"});
   }
 
@@ -183,24 +183,24 @@ class Lowering {
   void comparison(const pddl::Comparison& source, bool positive, LiftedFormula& result) {
     const auto compare = [&](pddl::ComparisonOperator op) {
       LiftedFormula part;
-      part.kind = Kind::kComparison;
+      part.kind = Kind::comparison;
       part.comparison = op;
       part.sides = {expression(source.left), expression(source.right)};
       part.where = result.where;
       return part;
     };
-    if (positive || source.op != pddl::ComparisonOperator::kEqual) {
+    if (positive || source.op != pddl::ComparisonOperator::equal) {
       result = compare(positive ? source.op : opposite(source.op));
     } else {
-      result.kind = Kind::kOr;
-      result.parts = {compare(pddl::ComparisonOperator::kLess), compare(pddl::ComparisonOperator::kGreater)};
+      result.kind = Kind::disjunction;
+      result.parts = {compare(pddl::ComparisonOperator::less), compare(pddl::ComparisonOperator::greater)};
     }
   }
 
   // condition := condition ∧ more, otherwise := otherwise ∨ ¬more
   void restrict(const pddl::Condition& more, LiftedFormula& condition, LiftedFormula& otherwise) {
     if (is_true(more)) return;
-    if (condition.is_true()) otherwise.kind = Kind::kOr;  // without parts: false
+    if (condition.is_true()) otherwise.kind = Kind::disjunction;  // without parts: false
     LiftedFormula both;
     both.parts.push_back(std::move(condition));
     both.parts.push_back(formula(more, true));
@@ -260,7 +260,7 @@ std::vector<LiftedAction> lower_actions(const pddl::Domain& domain, const Symbol
   if (!domain.derived.empty()) {
     const auto& head = domain.derived.front().head;
     throw Refusal(
-        Verdict::kUnsupported,
+        Verdict::unsupported,
         pddl::Diagnostic{domain.file, head.where, "derived predicates are not supported: " + head.name,
                          "make it a predicate that the actions' effects change"});
   }

@@ -132,7 +132,7 @@ class Exploration {
   }
 
   void reach_effect(const LiftedEffect& effect, Binding& binding) {
-    if (effect.kind != LiftedEffect::Kind::kAdd) return;
+    if (effect.kind != LiftedEffect::Kind::add) return;
     for_each_value(effect.quantified, binding, [&] {
       if (!world_.possible(effect.start_condition, binding) ||
           !world_.possible(effect.end_condition, binding))

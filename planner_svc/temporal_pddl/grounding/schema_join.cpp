@@ -11,13 +11,13 @@ using Kind = LiftedFormula::Kind;
 // Visits the parts of a conjunction, nested ones too.
 template <typename Visit>
 void for_each_part(const LiftedFormula& formula, const Visit& visit) {
-  if (formula.kind != Kind::kAnd) return visit(formula);
+  if (formula.kind != Kind::conjunction) return visit(formula);
   for (const auto& part : formula.parts) for_each_part(part, visit);
 }
 
 bool may_be_added_at_start(const LiftedAction& action, PredicateId predicate) {
   return std::ranges::any_of(action.start_effects, [&](const LiftedEffect& effect) {
-    return effect.kind == LiftedEffect::Kind::kAdd && effect.atom.predicate == predicate;
+    return effect.kind == LiftedEffect::Kind::add && effect.atom.predicate == predicate;
   });
 }
 
@@ -26,9 +26,9 @@ bool may_be_added_at_start(const LiftedAction& action, PredicateId predicate) {
 SchemaJoin::SchemaJoin(const LiftedAction& action, const World& world) : action_(action) {
   const auto collect = [&](const LiftedFormula& formula, const auto& is_deferred) {
     for_each_part(formula, [&](const LiftedFormula& part) {
-      if (part.kind == Kind::kNotEqual)
+      if (part.kind == Kind::not_equal)
         different_.emplace_back(part.atom.arguments[0], part.atom.arguments[1]);
-      if (part.kind != Kind::kAtom) return;
+      if (part.kind != Kind::atom) return;
       if (world.is_static(part.atom.predicate)) {
         statics_.push_back(part.atom);
       } else {

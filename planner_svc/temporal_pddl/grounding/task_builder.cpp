@@ -23,7 +23,7 @@ class Builder {
     for (std::size_t i = 0; i < model_.actions.size(); ++i) add_action(model_.actions[i], compression[i]);
     for (const auto& timed : model_.timed) {
       task_.timed_steps.push_back(
-          {add_snap({SnapKind::kTimedLiteral, ActionId()}, {}, timed.effects, {{timed.time, timed.time}}, {}),
+          {add_snap({SnapKind::timed_literal, ActionId()}, {}, timed.effects, {{timed.time, timed.time}}, {}),
            timed.time});
     }
     for (const auto& goal : model_.goal) task_.goals.push_back({facts_of(goal.literals), goal.comparisons});
@@ -94,11 +94,11 @@ class Builder {
     action.min_duration = source.min_duration;
     action.max_duration = source.max_duration;
     action.compression_safe = compression.safe;
-    const SnapKind kind = source.durative ? SnapKind::kStart : SnapKind::kInstant;
+    const SnapKind kind = source.durative ? SnapKind::start : SnapKind::instant;
     action.start = add_snap({kind, id}, source.at_start, source.start_effects, source.start_windows,
-                            measured(source, pddl::TimePoint::kStart));
-    action.end = source.durative ? add_snap({SnapKind::kEnd, id}, source.at_end, source.end_effects,
-                                            source.end_windows, measured(source, pddl::TimePoint::kEnd))
+                            measured(source, pddl::TimePoint::start));
+    action.end = source.durative ? add_snap({SnapKind::end, id}, source.at_end, source.end_effects,
+                                            source.end_windows, measured(source, pddl::TimePoint::end))
                                  : action.start;
     task_.actions.push_back(action);
     task_.action_arguments.push_back(source.arguments);

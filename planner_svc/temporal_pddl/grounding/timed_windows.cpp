@@ -41,7 +41,7 @@ class Extraction {
     exclude_touched();
     for (const auto& [atom, history] : histories_) {
       auto windows = history.windows();
-      if (windows && (mode_ == WindowExtraction::kRecurring || windows->size() == 1)) {
+      if (windows && (mode_ == WindowExtraction::recurring || windows->size() == 1)) {
         windows_.emplace(atom, std::move(*windows));
       }
     }
@@ -125,7 +125,7 @@ class Extraction {
 }  // namespace
 
 void extract_timed_windows(GroundModel& model, WindowExtraction mode, Duration epsilon) {
-  if (mode != WindowExtraction::kNone) Extraction(model, mode, epsilon).run();
+  if (mode != WindowExtraction::none) Extraction(model, mode, epsilon).run();
 }
 
 }  // namespace roci::planner::temporal_pddl

@@ -23,7 +23,7 @@ World::World(const pddl::Problem& problem, const std::vector<LiftedAction>& acti
   for (const auto& action : actions) {
     for (const auto* effects : {&action.start_effects, &action.end_effects}) {
       for (const auto& effect : *effects) {
-        if (effect.kind != LiftedEffect::Kind::kNumeric) static_[effect.atom.predicate] = false;
+        if (effect.kind != LiftedEffect::Kind::numeric) static_[effect.atom.predicate] = false;
       }
     }
   }
@@ -56,33 +56,33 @@ World::World(const pddl::Problem& problem, const std::vector<LiftedAction>& acti
 bool World::possible(const LiftedFormula& formula, Binding& binding) const {
   const auto part_possible = [&](const LiftedFormula& part) { return possible(part, binding); };
   switch (formula.kind) {
-    case Kind::kAnd:
+    case Kind::conjunction:
       return std::ranges::all_of(formula.parts, part_possible);
-    case Kind::kOr:
+    case Kind::disjunction:
       return std::ranges::any_of(formula.parts, part_possible);
-    case Kind::kForall: {
+    case Kind::forall: {
       bool all = true;
       for_each_value(formula.quantified, binding, [&] { all = all && part_possible(formula.parts.front()); });
       return all;
     }
-    case Kind::kExists: {
+    case Kind::exists: {
       bool any = false;
       for_each_value(formula.quantified, binding, [&] { any = any || part_possible(formula.parts.front()); });
       return any;
     }
-    case Kind::kAtom:
-    case Kind::kNotAtom: {
+    case Kind::atom:
+    case Kind::not_atom: {
       if (!is_static(formula.atom.predicate)) return true;
       const auto objects = temporal_pddl::objects_of(formula.atom.arguments, binding);
-      return holds_initially(formula.atom.predicate, objects) == (formula.kind == Kind::kAtom);
+      return holds_initially(formula.atom.predicate, objects) == (formula.kind == Kind::atom);
     }
-    case Kind::kEqual:
-    case Kind::kNotEqual: {
+    case Kind::equal:
+    case Kind::not_equal: {
       const auto& arguments = formula.atom.arguments;
       return (resolve(arguments[0], binding) == resolve(arguments[1], binding)) ==
-             (formula.kind == Kind::kEqual);
+             (formula.kind == Kind::equal);
     }
-    case Kind::kComparison: {
+    case Kind::comparison: {
       if (!defined(formula.sides[0], binding) || !defined(formula.sides[1], binding)) return false;
       const auto left = constant_value(formula.sides[0], binding);
       const auto right = constant_value(formula.sides[1], binding);
@@ -93,7 +93,7 @@ bool World::possible(const LiftedFormula& formula, Binding& binding) const {
 }
 
 bool World::defined(const LiftedExpression& expression, const Binding& binding) const {
-  if (expression.kind == LiftedExpression::Kind::kFunction && constants_.is_constant(expression.function)) {
+  if (expression.kind == LiftedExpression::Kind::function && constants_.is_constant(expression.function)) {
     return constants_.value(expression.function, temporal_pddl::objects_of(expression.arguments, binding))
         .has_value();
   }
@@ -104,14 +104,14 @@ bool World::defined(const LiftedExpression& expression, const Binding& binding) 
 std::optional<double> World::constant_value(const LiftedExpression& expression,
                                             const Binding& binding) const {
   switch (expression.kind) {
-    case LiftedExpression::Kind::kNumber:
+    case LiftedExpression::Kind::number:
       return expression.number;
-    case LiftedExpression::Kind::kDuration:
+    case LiftedExpression::Kind::duration:
       return std::nullopt;
-    case LiftedExpression::Kind::kFunction:
+    case LiftedExpression::Kind::function:
       if (!constants_.is_constant(expression.function)) return std::nullopt;
       return constants_.value(expression.function, temporal_pddl::objects_of(expression.arguments, binding));
-    case LiftedExpression::Kind::kArithmetic: {
+    case LiftedExpression::Kind::arithmetic: {
       std::vector<double> operands;
       for (const auto& operand : expression.operands) {
         const auto value = constant_value(operand, binding);
@@ -134,15 +134,15 @@ std::vector<ObjectId> objects_of(const std::vector<Argument>& arguments, const B
 
 bool compare(pddl::ComparisonOperator op, double left, double right) {
   switch (op) {
-    case pddl::ComparisonOperator::kLess:
+    case pddl::ComparisonOperator::less:
       return left < right;
-    case pddl::ComparisonOperator::kLessEqual:
+    case pddl::ComparisonOperator::less_equal:
       return left <= right;
-    case pddl::ComparisonOperator::kEqual:
+    case pddl::ComparisonOperator::equal:
       return std::abs(left - right) <= 1e-9;
-    case pddl::ComparisonOperator::kGreaterEqual:
+    case pddl::ComparisonOperator::greater_equal:
       return left >= right;
-    case pddl::ComparisonOperator::kGreater:
+    case pddl::ComparisonOperator::greater:
       return left > right;
   }
   return false;
@@ -150,19 +150,19 @@ bool compare(pddl::ComparisonOperator op, double left, double right) {
 
 double combine(pddl::ArithmeticOperator op, const std::vector<double>& operands) {
   double result = operands.front();
-  if (op == pddl::ArithmeticOperator::kSubtract && operands.size() == 1) return -result;
+  if (op == pddl::ArithmeticOperator::subtract && operands.size() == 1) return -result;
   for (std::size_t i = 1; i < operands.size(); ++i) {
     switch (op) {
-      case pddl::ArithmeticOperator::kAdd:
+      case pddl::ArithmeticOperator::add:
         result += operands[i];
         break;
-      case pddl::ArithmeticOperator::kSubtract:
+      case pddl::ArithmeticOperator::subtract:
         result -= operands[i];
         break;
-      case pddl::ArithmeticOperator::kMultiply:
+      case pddl::ArithmeticOperator::multiply:
         result *= operands[i];
         break;
-      case pddl::ArithmeticOperator::kDivide:
+      case pddl::ArithmeticOperator::divide:
         result /= operands[i];
         break;
     }

@@ -116,7 +116,7 @@ void FfHeuristic::include(SnapId op) {
   plan_.push_back(op);
   for (const PropositionId proposition : relaxed_.needs(op)) need(proposition);
   const Snap& snap = task_.snaps[op];
-  if (snap.kind != SnapKind::kStart) return;
+  if (snap.kind != SnapKind::start) return;
   const SnapId end = task_.actions[snap.action].end;
   if (open_[end] == 0) include(end);
 }
@@ -134,7 +134,7 @@ void FfHeuristic::collect(std::uint32_t timed_done, Estimate& estimate) const {
   for (const SnapId op : plan_) {
     estimate.cost += relaxed_.cost(op);
     ++estimate.steps;
-    if (task_.snaps[op].kind == SnapKind::kTimedLiteral) {
+    if (task_.snaps[op].kind == SnapKind::timed_literal) {
       waits_for_timed = true;
       continue;
     }

@@ -26,18 +26,18 @@ RelaxedTask::RelaxedTask(const Task& task) : facts_(task.fact_names.size()), run
     std::vector<PropositionId> needs, adds;
     for (const FactId fact : task.conditions[op]) needs.push_back(proposition(fact));
     for (const FactId fact : task.adds[op]) adds.push_back(proposition(fact));
-    if (snap.kind == SnapKind::kStart) {
+    if (snap.kind == SnapKind::start) {
       for (const FactId fact : task.invariants[snap.action]) {
         if (std::ranges::count(task.adds[op], fact) == 0) needs.push_back(proposition(fact));
       }
       adds.push_back(running(snap.action));
     }
-    if (snap.kind == SnapKind::kEnd) needs.push_back(running(snap.action));
+    if (snap.kind == SnapKind::end) needs.push_back(running(snap.action));
     std::ranges::sort(needs);
     needs.erase(std::unique(needs.begin(), needs.end()), needs.end());
     for (const PropositionId need : needs) needed_by[need.index()].push_back(op);
-    if (needs.empty() && snap.kind != SnapKind::kTimedLiteral) free_.push_back(op);
-    costs_.push_back(snap.kind == SnapKind::kStart ? least_duration(task, semantics, snap.action) : 0);
+    if (needs.empty() && snap.kind != SnapKind::timed_literal) free_.push_back(op);
+    costs_.push_back(snap.kind == SnapKind::start ? least_duration(task, semantics, snap.action) : 0);
     needs_.push_back(needs);
     adds_.push_back(adds);
   }

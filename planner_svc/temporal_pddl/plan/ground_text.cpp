@@ -13,15 +13,15 @@ namespace {
 
 const char* keyword(pddl::AssignmentOperator op) {
   switch (op) {
-    case pddl::AssignmentOperator::kAssign:
+    case pddl::AssignmentOperator::assign:
       return "assign";
-    case pddl::AssignmentOperator::kIncrease:
+    case pddl::AssignmentOperator::increase:
       return "increase";
-    case pddl::AssignmentOperator::kDecrease:
+    case pddl::AssignmentOperator::decrease:
       return "decrease";
-    case pddl::AssignmentOperator::kScaleUp:
+    case pddl::AssignmentOperator::scale_up:
       return "scale-up";
-    case pddl::AssignmentOperator::kScaleDown:
+    case pddl::AssignmentOperator::scale_down:
       return "scale-down";
   }
   return "assign";
@@ -49,13 +49,13 @@ void GroundText::add_conditions(const pddl::Condition& condition,
     for (const auto& part : conjunction->parts) add_conditions(part, result);
     return;
   }
-  auto kind = GroundCondition::Kind::kFormula;
+  auto kind = GroundCondition::Kind::formula;
   const pddl::Condition* shown = &condition;
-  if (std::holds_alternative<pddl::Atom>(condition.node)) kind = GroundCondition::Kind::kFact;
-  if (std::holds_alternative<pddl::Comparison>(condition.node)) kind = GroundCondition::Kind::kComparison;
+  if (std::holds_alternative<pddl::Atom>(condition.node)) kind = GroundCondition::Kind::fact;
+  if (std::holds_alternative<pddl::Comparison>(condition.node)) kind = GroundCondition::Kind::comparison;
   if (const auto* negation = std::get_if<pddl::Not>(&condition.node)) {
     if (std::holds_alternative<pddl::Atom>(negation->body->node)) {
-      kind = GroundCondition::Kind::kNegatedFact;
+      kind = GroundCondition::Kind::negated_fact;
       shown = &*negation->body;
     }
   }
@@ -79,7 +79,7 @@ void GroundText::add_effect(const pddl::Effect& effect, std::vector<std::string>
                    for (const auto* part :
                         {&when.condition.at_start, &when.condition.over_all, &when.condition.at_end}) {
                      for (const auto& c : conditions(*part)) {
-                       const bool negated = c.kind == GroundCondition::Kind::kNegatedFact;
+                       const bool negated = c.kind == GroundCondition::Kind::negated_fact;
                        condition += " " + (negated ? "(not " + c.text + ")" : c.text);
                      }
                    }

@@ -38,12 +38,12 @@ class PlanBuilder {
     const std::vector<Ticks> earliest = *check_.earliest(steps_);
     windows_ = check_.chosen_windows(steps_, earliest);
     const std::vector<Ticks> latest = TemporalCheck::latest(steps_, windows_);
-    plan_.network.points.push_back({TimePointKind::kOrigin, 0, Duration{0}, Duration{0}});
+    plan_.network.points.push_back({TimePointKind::origin, 0, Duration{0}, Duration{0}});
     for (std::size_t i = 0; i < steps_.steps.size(); ++i) {
       TimePoint added;
-      added.kind = snap(i).kind == SnapKind::kTimedLiteral ? TimePointKind::kTimedLiteral
-                   : snap(i).kind == SnapKind::kEnd        ? TimePointKind::kEnd
-                                                           : TimePointKind::kStart;
+      added.kind = snap(i).kind == SnapKind::timed_literal ? TimePointKind::timed_literal
+                   : snap(i).kind == SnapKind::end         ? TimePointKind::end
+                                                           : TimePointKind::start;
       added.earliest = Duration(earliest[i]);
       added.latest = or_unbounded(latest[i]);
       plan_.network.points.push_back(added);
@@ -54,13 +54,13 @@ class PlanBuilder {
     auto& constraints = plan_.network.constraints;
     for (std::size_t i = 0; i < steps_.constraints.size(); ++i) {
       const StepConstraint& source = steps_.constraints[i];
-      const auto kind = is_duration(i) ? ConstraintKind::kDuration : ConstraintKind::kOrdering;
+      const auto kind = is_duration(i) ? ConstraintKind::duration : ConstraintKind::ordering;
       constraints.push_back({point(source.from), point(source.to), source.lower, source.upper, kind});
     }
     for (std::size_t i = 0; i < steps_.steps.size(); ++i) {
       const bool windowed = windows_[i] != TimeWindow{};
       constraints.push_back({0, point(i), windows_[i].open, windows_[i].close,
-                             windowed ? ConstraintKind::kWindow : ConstraintKind::kOrdering});
+                             windowed ? ConstraintKind::window : ConstraintKind::ordering});
     }
   }
 
@@ -69,16 +69,16 @@ class PlanBuilder {
     const auto& all = steps_.constraints;
     const std::size_t to = all[constraint].to;
     const bool last = constraint + 1 == all.size() || all[constraint + 1].to != to;
-    return last && snap(to).kind == SnapKind::kEnd;
+    return last && snap(to).kind == SnapKind::end;
   }
 
   void add_activities() {
     std::vector<std::size_t> start_of_activity;
     std::map<std::size_t, std::size_t> end_of;
     for (std::size_t i = 0; i < steps_.steps.size(); ++i) {
-      if (snap(i).kind == SnapKind::kEnd) {
+      if (snap(i).kind == SnapKind::end) {
         end_of[steps_.start_of[i]] = i;
-      } else if (snap(i).kind != SnapKind::kTimedLiteral) {
+      } else if (snap(i).kind != SnapKind::timed_literal) {
         start_of_activity.push_back(i);
         end_of[i] = i;
       }
@@ -101,7 +101,7 @@ class PlanBuilder {
     activity.end = points[activity.end_point].earliest;
     activity.max_duration = activity.durative ? kUnbounded : Duration{0};
     for (const auto& constraint : plan_.network.constraints) {
-      if (constraint.kind != ConstraintKind::kDuration || constraint.to != activity.end_point) continue;
+      if (constraint.kind != ConstraintKind::duration || constraint.to != activity.end_point) continue;
       activity.min_duration = constraint.lower;
       activity.max_duration = constraint.upper;
     }

@@ -4,21 +4,21 @@ namespace roci::planner::temporal_pddl {
 
 const char* to_string(Verdict verdict) {
   switch (verdict) {
-    case Verdict::kSolved:
+    case Verdict::solved:
       return "solved";
-    case Verdict::kUnsolvable:
+    case Verdict::unsolvable:
       return "unsolvable";
-    case Verdict::kTimeout:
+    case Verdict::timeout:
       return "timeout";
-    case Verdict::kOutOfMemory:
+    case Verdict::out_of_memory:
       return "out_of_memory";
-    case Verdict::kUnsupported:
+    case Verdict::unsupported:
       return "unsupported";
-    case Verdict::kFunctionUnavailable:
+    case Verdict::function_unavailable:
       return "function_unavailable";
-    case Verdict::kCancelled:
+    case Verdict::cancelled:
       return "cancelled";
-    case Verdict::kInvalidInput:
+    case Verdict::invalid_input:
       return "invalid_input";
   }
   return "unknown";

@@ -22,9 +22,9 @@ inline constexpr Duration kUnbounded = Duration::max();
 
 // One edge of the Simple Temporal Network: lower ≤ t(to) − t(from) ≤ upper.
 enum class ConstraintKind {
-  kOrdering,  // R22, R23: lower is 0 or ε, upper is kUnbounded
-  kDuration,  // R24: from the start to the end of one activity
-  kWindow,    // R32, R33: from the origin; a timed initial literal bounds the time point
+  ordering,  // R22, R23: lower is 0 or ε, upper is kUnbounded
+  duration,  // R24: from the start to the end of one activity
+  window,    // R32, R33: from the origin; a timed initial literal bounds the time point
 };
 
 struct TimeConstraint {
@@ -32,16 +32,16 @@ struct TimeConstraint {
   std::size_t to = 0;
   Duration lower{0};
   Duration upper = kUnbounded;
-  ConstraintKind kind = ConstraintKind::kOrdering;
+  ConstraintKind kind = ConstraintKind::ordering;
 };
 
-enum class TimePointKind { kOrigin, kStart, kEnd, kTimedLiteral };
+enum class TimePointKind { origin, start, end, timed_literal };
 
 // [earliest, latest] are shortest paths of the network from and to the origin (R48): every value between them
 // is taken in some schedule that obeys all constraints.
 struct TimePoint {
-  TimePointKind kind = TimePointKind::kOrigin;
-  std::size_t activity = 0;  // of kStart and kEnd: index of Plan::activities
+  TimePointKind kind = TimePointKind::origin;
+  std::size_t activity = 0;  // of start and end: index of Plan::activities
   Duration earliest{0};
   Duration latest = kUnbounded;
 };
@@ -52,11 +52,11 @@ struct Network {
 };
 
 // A condition with objects in place of parameters, as PDDL text; values of constant fluents and of external
-// functions stand in it as numbers. A disjunction is one kFormula.
+// functions stand in it as numbers. A disjunction is one formula.
 struct GroundCondition {
-  enum class Kind { kFact, kNegatedFact, kComparison, kFormula };
-  Kind kind = Kind::kFact;
-  std::string text;  // "(at w1)" also for kNegatedFact, "(>= (battery) 30)"
+  enum class Kind { fact, negated_fact, comparison, formula };
+  Kind kind = Kind::fact;
+  std::string text;  // "(at w1)" also for negated_fact, "(>= (battery) 30)"
 };
 
 // An effect as PDDL text: "(at w2)", "(not (at w1))", "(decrease (battery) 12.5)".
@@ -85,14 +85,14 @@ struct Plan {
 };
 
 enum class Verdict {
-  kSolved,
-  kUnsolvable,           // proved: a goal is unreachable even when relaxed, or the search space is exhausted
-  kTimeout,              // Budget::out_of_time said so, or the work is spent
-  kOutOfMemory,          // Budget::memory_bytes is spent
-  kUnsupported,          // the model uses what the engine does not take: see where
-  kFunctionUnavailable,  // an external function has no usable value for a tuple
-  kCancelled,
-  kInvalidInput,  // the model contradicts itself: see where
+  solved,
+  unsolvable,            // proved: a goal is unreachable even when relaxed, or the search space is exhausted
+  timeout,               // Budget::out_of_time said so, or the work is spent
+  out_of_memory,         // Budget::memory_bytes is spent
+  unsupported,           // the model uses what the engine does not take: see where
+  function_unavailable,  // an external function has no usable value for a tuple
+  cancelled,
+  invalid_input,  // the model contradicts itself: see where
 };
 
 // "solved", "unsolvable", "timeout", "out_of_memory", "unsupported", "function_unavailable", "cancelled",
@@ -120,10 +120,10 @@ struct FunctionUse {
 };
 
 struct Result {
-  Verdict verdict = Verdict::kInvalidInput;
-  std::string reason;                     // what blocks, in words; empty with kSolved
-  std::optional<pddl::Diagnostic> where;  // kUnsupported and kInvalidInput: the place in the model
-  std::optional<Plan> plan;               // with kSolved
+  Verdict verdict = Verdict::invalid_input;
+  std::string reason;                     // what blocks, in words; empty with solved
+  std::optional<pddl::Diagnostic> where;  // unsupported and invalid_input: the place in the model
+  std::optional<Plan> plan;               // with solved
   Statistics statistics;
   std::vector<FunctionUse> functions;  // every tuple that was asked for
 };

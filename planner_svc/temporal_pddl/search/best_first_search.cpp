@@ -42,8 +42,8 @@ class BestFirstSearch {
         rebuild(task_, store_, bounds_, options_.epsilon, entry->parent, prefix_);
       }
       const Rejection rejection = builder_.build(prefix_, entry->snap, successor_);
-      if (rejection == Rejection::kTemporal) ++statistics_.temporally_inconsistent;
-      if (rejection != Rejection::kNone) continue;
+      if (rejection == Rejection::temporal) ++statistics_.temporally_inconsistent;
+      if (rejection != Rejection::none) continue;
       if (options_.dominance && dominance_.dominated(successor_.state, successor_.prefix)) {
         ++statistics_.dominated;
         continue;
@@ -51,7 +51,7 @@ class BestFirstSearch {
       if (take_up(entry->parent, successor_.transition)) return found();
     }
     if (too_long_)
-      throw Refusal(Verdict::kOutOfMemory,
+      throw Refusal(Verdict::out_of_memory,
                     "a plan may have at most 32767 steps, and none so short was found");
     return {std::nullopt, {}, goal_.explain_failure(store_.size())};
   }

@@ -21,7 +21,7 @@ struct SearchOutcome {
   std::string reason;              // without: what stood in the way
 };
 
-// Keeps `statistics` up to date all the time. Throws what Watch throws, and Refusal (kOutOfMemory) if plans
+// Keeps `statistics` up to date all the time. Throws what Watch throws, and Refusal (out_of_memory) if plans
 // of more than kMaxSteps steps would have to be tried.
 SearchOutcome search(const Task& task, Heuristic& heuristic, const Options& options, Watch& watch,
                      Statistics& statistics);

@@ -61,9 +61,9 @@ bool Dominance::as_good(StateView stored, StateView fresh) const {
     const NumberId number(i);
     if (stored[packed + i] == fresh[packed + i]) continue;
     const Preference preference = preferences_[number];
-    const bool better = preference == Preference::kNone ||
-                        (preference == Preference::kHigher && a[number] >= b[number]) ||
-                        (preference == Preference::kLower && a[number] <= b[number]);
+    const bool better = preference == Preference::none ||
+                        (preference == Preference::higher && a[number] >= b[number]) ||
+                        (preference == Preference::lower && a[number] <= b[number]);
     if (!better) return false;
   }
   return true;
@@ -116,7 +116,7 @@ void Dominance::find_touched(const PlanPrefix& prefix, std::vector<VariableId>& 
   for (const SnapId step : prefix.steps) {
     touch(task_.reads[step]);
     touch(task_.writes[step]);
-    if (task_.snaps[step].kind == SnapKind::kEnd) touch(task_.invariant_reads[task_.snaps[step].action]);
+    if (task_.snaps[step].kind == SnapKind::end) touch(task_.invariant_reads[task_.snaps[step].action]);
   }
 }
 
@@ -157,7 +157,7 @@ std::vector<Dominance::Freedom> Dominance::freedoms(const PlanPrefix& prefix,
       raise(freedom.change, plus(at, epsilon));
       raise(freedom.erase, plus(at, epsilon));
     }
-    if (task_.snaps[step].kind == SnapKind::kEnd) {
+    if (task_.snaps[step].kind == SnapKind::end) {
       for (const VariableId variable : task_.invariant_reads[task_.snaps[step].action]) {
         raise(result[position_[variable]].erase, at);
       }

@@ -32,21 +32,21 @@ void append_step(const Task& task, SnapId snap, NodeId before, PlanPrefix& prefi
   prefix.steps.push_back(snap);
   prefix.start_of.push_back(step);
   switch (task.snaps[snap].kind) {
-    case SnapKind::kStart:
+    case SnapKind::start:
       prefix.running.push_back({action, step, before});
       prefix.running_actions.push_back(action);
       break;
-    case SnapKind::kEnd: {
+    case SnapKind::end: {
       const auto place = std::ranges::find(prefix.running_actions, action) - prefix.running_actions.begin();
       prefix.start_of.back() = prefix.running[static_cast<std::size_t>(place)].step;
       prefix.running.erase(prefix.running.begin() + place);
       prefix.running_actions.erase(prefix.running_actions.begin() + place);
       break;
     }
-    case SnapKind::kTimedLiteral:
+    case SnapKind::timed_literal:
       ++prefix.timed_done;
       break;
-    case SnapKind::kInstant:
+    case SnapKind::instant:
       break;
   }
 }

@@ -13,17 +13,17 @@ bool SuccessorBuilder::applicable(const PlanPrefix& prefix, SnapId snap_id) cons
   const Snap& snap = task_.snaps[snap_id];
   const StateView state = store_.state(prefix.node);
   switch (snap.kind) {
-    case SnapKind::kTimedLiteral:
+    case SnapKind::timed_literal:
       return prefix.timed_done < task_.timed_steps.size() &&
              task_.timed_steps[prefix.timed_done].snap == snap_id;
-    case SnapKind::kInstant:
+    case SnapKind::instant:
       return semantics_.applicable(snap_id, state, 0);
-    case SnapKind::kStart: {
+    case SnapKind::start: {
       if (std::ranges::count(prefix.running_actions, snap.action) > 0) return false;
       const auto bounds = semantics_.duration(snap.action, state, std::nullopt);
       return bounds && semantics_.applicable(snap_id, state, bounds->seconds);
     }
-    case SnapKind::kEnd: {
+    case SnapKind::end: {
       const auto running = std::ranges::find(prefix.running, snap.action, &Running::action);
       return running != prefix.running.end() && semantics_.applicable(snap_id, state, seconds_of(*running));
     }
@@ -40,22 +40,22 @@ Rejection SuccessorBuilder::build(const PlanPrefix& prefix, SnapId snap_id, Succ
   const std::size_t constraints = prefix.constraints.size();
   bool possible = false;
   switch (snap.kind) {
-    case SnapKind::kTimedLiteral:
-    case SnapKind::kInstant:
+    case SnapKind::timed_literal:
+    case SnapKind::instant:
       possible = take(snap_id, 0, successor);
       break;
-    case SnapKind::kStart:
+    case SnapKind::start:
       possible = start(snap.action, prefix.node, successor);
       break;
-    case SnapKind::kEnd: {
+    case SnapKind::end: {
       const auto running = std::ranges::find(prefix.running, snap.action, &Running::action);
       possible = end(snap.action, store_.state(running->before), successor);
       break;
     }
   }
-  if (!possible) return Rejection::kLogical;
+  if (!possible) return Rejection::logical;
   successor.new_constraints = successor.prefix.constraints.size() - constraints;
-  return check_.earliest(successor.prefix) ? Rejection::kNone : Rejection::kTemporal;
+  return check_.earliest(successor.prefix) ? Rejection::none : Rejection::temporal;
 }
 
 // One step: orderings, effects, invariants of what runs then.

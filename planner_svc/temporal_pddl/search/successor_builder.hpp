@@ -12,7 +12,7 @@
 
 namespace roci::planner::temporal_pddl {
 
-enum class Rejection { kNone, kLogical, kTemporal };
+enum class Rejection { none, logical, temporal };
 
 struct Successor {
   Transition transition;

@@ -16,7 +16,7 @@ SuccessorTree::SuccessorTree(const Task& task) : task_(task), nodes_(1) {
   for (std::size_t i = 0; i < task.snaps.size(); ++i) {
     const SnapId snap(i);
     const SnapKind kind = task.snaps[snap].kind;
-    if (kind != SnapKind::kStart && kind != SnapKind::kInstant) continue;
+    if (kind != SnapKind::start && kind != SnapKind::instant) continue;
     Candidate candidate{snap, {}};
     for (const FactId fact : task.conditions[snap]) {
       if (!task.layout.is_negation(fact)) candidate.tests.push_back(tests[fact]);

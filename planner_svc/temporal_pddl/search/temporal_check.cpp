@@ -47,7 +47,7 @@ bool TemporalCheck::fit_windows(const PlanPrefix& prefix, bool& changed) {
     const auto windows = task_.windows[prefix.steps[i]];
     if (!windows.empty() && !fit(windows, times_[i], changed)) return false;
     const Snap& snap = task_.snaps[prefix.steps[i]];
-    if (snap.kind != SnapKind::kEnd || task_.span_windows[snap.action].empty()) continue;
+    if (snap.kind != SnapKind::end || task_.span_windows[snap.action].empty()) continue;
     Ticks& start = times_[prefix.start_of[i]];
     const TimeWindow* window = window_from(task_.span_windows[snap.action], Duration(times_[i]));
     if (!window) return false;
@@ -86,7 +86,7 @@ std::vector<TimeWindow> TemporalCheck::chosen_windows(const PlanPrefix& prefix,
     if (!task_.windows[step].empty())
       restrict(result[i], *window_from(task_.windows[step], Duration(times[i])));
     const Snap& snap = task_.snaps[step];
-    if (snap.kind != SnapKind::kEnd || task_.span_windows[snap.action].empty()) continue;
+    if (snap.kind != SnapKind::end || task_.span_windows[snap.action].empty()) continue;
     const TimeWindow& span = *window_from(task_.span_windows[snap.action], Duration(times[i]));
     restrict(result[i], span);
     restrict(result[prefix.start_of[i]], span);

@@ -5,19 +5,19 @@ namespace roci::planner::temporal_pddl {
 namespace {
 
 Preference opposite(Preference preference) {
-  if (preference == Preference::kHigher) return Preference::kLower;
-  return preference == Preference::kLower ? Preference::kHigher : preference;
+  if (preference == Preference::higher) return Preference::lower;
+  return preference == Preference::lower ? Preference::higher : preference;
 }
 
 class Analysis {
  public:
-  explicit Analysis(const Task& task) : task_(task), result_(task.layout.numbers(), Preference::kNone) {}
+  explicit Analysis(const Task& task) : task_(task), result_(task.layout.numbers(), Preference::none) {}
 
   IdVector<NumberId, Preference> run() {
     for (std::size_t snap = 0; snap < task_.snaps.size(); ++snap) use(task_.comparisons[snap]);
     for (std::size_t action = 0; action < task_.actions.size(); ++action) {
       use(task_.numeric_invariants[action]);
-      for (const DurationRule& rule : task_.duration_rules[action]) use(rule.bound, Preference::kExact);
+      for (const DurationRule& rule : task_.duration_rules[action]) use(rule.bound, Preference::exact);
     }
     for (const Goal& goal : task_.goals) use(goal.comparisons);
     for (changed_ = true; changed_;) {
@@ -35,16 +35,16 @@ class Analysis {
   void use(std::span<const NumericCondition> conditions) {
     for (const NumericCondition& condition : conditions) {
       use(condition.expression,
-          condition.comparator == Comparator::kEqual ? Preference::kExact : Preference::kHigher);
+          condition.comparator == Comparator::equal ? Preference::exact : Preference::higher);
     }
   }
 
   void use(ExpressionId expression, Preference wanted) {
-    if (wanted == Preference::kNone) return;
+    if (wanted == Preference::none) return;
     for (const auto& term : task_.expressions[expression].terms) {
       const Preference here = term.weight > 0 ? wanted : opposite(wanted);
       Preference& known = result_[term.variable];
-      const Preference both = known == Preference::kNone || known == here ? here : Preference::kExact;
+      const Preference both = known == Preference::none || known == here ? here : Preference::exact;
       changed_ = changed_ || both != known;
       known = both;
     }

@@ -6,14 +6,14 @@
 namespace roci::planner::temporal_pddl {
 
 enum class Preference : std::uint8_t {
-  kNone,    // nothing depends on the number
-  kHigher,  // whatever is possible with a value is possible with any higher one
-  kLower,
-  kExact,
+  none,    // nothing depends on the number
+  higher,  // whatever is possible with a value is possible with any higher one
+  lower,
+  exact,
 };
 
 // By number: from the signs with which it enters conditions, goals, and effects on other numbers. What
-// durations or equalities depend on is kExact.
+// durations or equalities depend on is exact.
 IdVector<NumberId, Preference> number_preferences(const Task& task);
 
 }  // namespace roci::planner::temporal_pddl

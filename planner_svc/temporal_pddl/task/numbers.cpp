@@ -45,11 +45,11 @@ double evaluate(const LinearExpression& expression, NumbersView values, double d
 
 bool holds(Comparator comparator, double difference) {
   switch (comparator) {
-    case Comparator::kGreaterEqual:
+    case Comparator::greater_equal:
       return difference >= 0;
-    case Comparator::kGreater:
+    case Comparator::greater:
       return difference > 0;
-    case Comparator::kEqual:
+    case Comparator::equal:
       return std::abs(difference) <= 1e-9;
   }
   return false;

@@ -49,15 +49,15 @@ class NumbersView {
 double evaluate(const LinearExpression& expression, NumbersView values, double duration);
 
 // expression ∘ 0
-enum class Comparator : std::uint8_t { kGreaterEqual, kGreater, kEqual };
+enum class Comparator : std::uint8_t { greater_equal, greater, equal };
 
 struct NumericCondition {
   ExpressionId expression;
-  Comparator comparator = Comparator::kGreaterEqual;
+  Comparator comparator = Comparator::greater_equal;
   auto operator<=>(const NumericCondition&) const = default;
 };
 
-// `difference` ∘ 0. kEqual allows for rounding by 1e-9; a NaN satisfies nothing.
+// `difference` ∘ 0. equal allows for rounding by 1e-9; a NaN satisfies nothing.
 bool holds(Comparator comparator, double difference);
 
 // variable := expression, or variable += expression.

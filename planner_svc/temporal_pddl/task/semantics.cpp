@@ -47,16 +47,16 @@ std::optional<DurationBounds> Semantics::duration(ActionId id, StateView before_
   DurationBounds result{action.min_duration, action.max_duration, 0};
   std::optional<double> fixed;
   for (const DurationRule& rule : task_.duration_rules[id]) {
-    const bool at_end = rule.at == pddl::TimePoint::kEnd;
+    const bool at_end = rule.at == pddl::TimePoint::end;
     if (at_end && !before_end) continue;
     const double seconds =
         evaluate(task_.expressions[rule.bound], task_.layout.numbers(at_end ? *before_end : before_start), 0);
     if (std::isnan(seconds) || std::abs(seconds) > 1e12) return std::nullopt;
     const Duration bound(std::llround(seconds * 1e6));
     const bool from_below =
-        rule.op != pddl::ComparisonOperator::kLessEqual && rule.op != pddl::ComparisonOperator::kLess;
+        rule.op != pddl::ComparisonOperator::less_equal && rule.op != pddl::ComparisonOperator::less;
     const bool from_above =
-        rule.op != pddl::ComparisonOperator::kGreaterEqual && rule.op != pddl::ComparisonOperator::kGreater;
+        rule.op != pddl::ComparisonOperator::greater_equal && rule.op != pddl::ComparisonOperator::greater;
     if (from_below) result.min = std::max(result.min, bound);
     if (from_above) result.max = std::min(result.max, bound);
     if (from_below && from_above) fixed = seconds;

@@ -22,18 +22,18 @@ namespace roci::planner::temporal_pddl {
 // What temporal constraints are about (v of R22, R23): a fact or a number.
 using VariableId = Id<struct VariableTag>;
 
-enum class SnapKind : std::uint8_t { kStart, kEnd, kInstant, kTimedLiteral };
+enum class SnapKind : std::uint8_t { start, end, instant, timed_literal };
 
 struct Snap {
-  SnapKind kind = SnapKind::kStart;
-  ActionId action;  // none for kTimedLiteral
+  SnapKind kind = SnapKind::start;
+  ActionId action;  // none for timed_literal
 };
 
 // ?duration OP expression (in seconds), evaluated in the state before the start or before the end.
 struct DurationRule {
-  pddl::ComparisonOperator op = pddl::ComparisonOperator::kEqual;
+  pddl::ComparisonOperator op = pddl::ComparisonOperator::equal;
   ExpressionId bound;
-  pddl::TimePoint at = pddl::TimePoint::kStart;
+  pddl::TimePoint at = pddl::TimePoint::start;
 };
 
 struct Action {

@@ -73,11 +73,11 @@ TEST(ParseDomain, ReadsConditions) {
 
 TEST(ParseDomain, ReadsComparisons) {
   const std::vector<std::pair<std::string, ComparisonOperator>> operators = {
-      {"<", ComparisonOperator::kLess},
-      {"<=", ComparisonOperator::kLessEqual},
-      {"=", ComparisonOperator::kEqual},
-      {">=", ComparisonOperator::kGreaterEqual},
-      {">", ComparisonOperator::kGreater}};
+      {"<", ComparisonOperator::less},
+      {"<=", ComparisonOperator::less_equal},
+      {"=", ComparisonOperator::equal},
+      {">=", ComparisonOperator::greater_equal},
+      {">", ComparisonOperator::greater}};
   for (const auto& [word, op] : operators) {
     const auto comparison = std::get<Comparison>(condition_of("(" + word + " (f) (+ 1 (g ?t) 2))").node);
     EXPECT_EQ(comparison.op, op);
@@ -95,9 +95,9 @@ TEST(ParseDomain, ReadsExpressions) {
   EXPECT_EQ(std::get<Number>(right(".5").node).value, 0.5);
   EXPECT_EQ(std::get<Number>(right("+7").node).value, 7.0);
   EXPECT_EQ(std::get<Arithmetic>(right("(- (f))").node).operands.size(), 1u);
-  EXPECT_EQ(std::get<Arithmetic>(right("(- (f) 1)").node).op, ArithmeticOperator::kSubtract);
+  EXPECT_EQ(std::get<Arithmetic>(right("(- (f) 1)").node).op, ArithmeticOperator::subtract);
   EXPECT_EQ(std::get<Arithmetic>(right("(* 1 2 3)").node).operands.size(), 3u);
-  EXPECT_EQ(std::get<Arithmetic>(right("(/ (f) 2)").node).op, ArithmeticOperator::kDivide);
+  EXPECT_EQ(std::get<Arithmetic>(right("(/ (f) 2)").node).op, ArithmeticOperator::divide);
   EXPECT_EQ(std::get<Atom>(right("f").node), (Atom{"f", {}, {}}))
       << "as IPC 2002 writes functions without parameters";
 }
@@ -114,11 +114,11 @@ TEST(ParseDomain, ReadsEffects) {
   const auto& when = std::get<When>(std::get<ForallEffect>(effects[2].node).effects[0].node);
   EXPECT_EQ(when.condition.at_start, condition_of("(q ?x)"));
   EXPECT_EQ(when.effects.size(), 2u);
-  EXPECT_EQ(std::get<Assignment>(effects[3].node).op, AssignmentOperator::kAssign);
-  EXPECT_EQ(std::get<Assignment>(effects[4].node).op, AssignmentOperator::kIncrease);
-  EXPECT_EQ(std::get<Assignment>(effects[5].node).op, AssignmentOperator::kDecrease);
-  EXPECT_EQ(std::get<Assignment>(effects[6].node).op, AssignmentOperator::kScaleUp);
-  EXPECT_EQ(std::get<Assignment>(effects[7].node).op, AssignmentOperator::kScaleDown);
+  EXPECT_EQ(std::get<Assignment>(effects[3].node).op, AssignmentOperator::assign);
+  EXPECT_EQ(std::get<Assignment>(effects[4].node).op, AssignmentOperator::increase);
+  EXPECT_EQ(std::get<Assignment>(effects[5].node).op, AssignmentOperator::decrease);
+  EXPECT_EQ(std::get<Assignment>(effects[6].node).op, AssignmentOperator::scale_up);
+  EXPECT_EQ(std::get<Assignment>(effects[7].node).op, AssignmentOperator::scale_down);
 }
 
 TEST(ParseDomain, SortsDurativeConditionsByTime) {
@@ -158,13 +158,13 @@ TEST(ParseDomain, ReadsDurations) {
   EXPECT_TRUE(durative_with(":duration ()").duration.empty());
   const auto fixed = durative_with(":duration (= ?duration (/ (f) 2))").duration;
   ASSERT_EQ(fixed.size(), 1u);
-  EXPECT_EQ(fixed[0].op, ComparisonOperator::kEqual);
-  EXPECT_EQ(fixed[0].at, TimePoint::kStart);
+  EXPECT_EQ(fixed[0].op, ComparisonOperator::equal);
+  EXPECT_EQ(fixed[0].at, TimePoint::start);
   const auto range = durative_with(":duration (and (>= ?duration 1) (at end (<= ?duration (f))))").duration;
   ASSERT_EQ(range.size(), 2u);
-  EXPECT_EQ(range[0].op, ComparisonOperator::kGreaterEqual);
-  EXPECT_EQ(range[1].op, ComparisonOperator::kLessEqual);
-  EXPECT_EQ(range[1].at, TimePoint::kEnd);
+  EXPECT_EQ(range[0].op, ComparisonOperator::greater_equal);
+  EXPECT_EQ(range[1].op, ComparisonOperator::less_equal);
+  EXPECT_EQ(range[1].at, TimePoint::end);
 }
 
 TEST(ParseDomain, ReadsDerivedPredicates) {

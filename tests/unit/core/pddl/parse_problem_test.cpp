@@ -35,7 +35,7 @@ TEST(ParseProblem, ReadsGoalAndMetric) {
       "x.pddl");
   EXPECT_EQ(print(problem.goal), "(and (p) (>= (f) 2))");
   ASSERT_TRUE(problem.metric);
-  EXPECT_EQ(problem.metric->sense, Metric::Sense::kMinimize);
+  EXPECT_EQ(problem.metric->sense, Metric::Sense::minimize);
   EXPECT_EQ(print(problem.metric->expression), "(+ (* 2 (total-time)) (f) (total-time))");
 }
 

@@ -30,9 +30,8 @@ Expression RandomTree::expression(int depth, bool in_effect) {
   }
   Arithmetic arithmetic;
   arithmetic.op = static_cast<ArithmeticOperator>(below(4));
-  const bool many =
-      arithmetic.op == ArithmeticOperator::kAdd || arithmetic.op == ArithmeticOperator::kMultiply;
-  const bool negative = arithmetic.op == ArithmeticOperator::kSubtract && chance(30);
+  const bool many = arithmetic.op == ArithmeticOperator::add || arithmetic.op == ArithmeticOperator::multiply;
+  const bool negative = arithmetic.op == ArithmeticOperator::subtract && chance(30);
   const int count = negative ? 1 : (many ? 2 + below(2) : 2);
   for (int i = 0; i < count; ++i) arithmetic.operands.push_back(expression(depth - 1, in_effect));
   return {arithmetic, {}};
@@ -68,11 +67,11 @@ Condition RandomTree::condition(int depth) {
 Condition RandomTree::timed_part() { return chance(30) ? Condition{} : condition(3); }
 
 Effect RandomTree::effect(int depth, Place place) {
-  const int kind = place == Place::kContinuous ? 1 : below(2);
+  const int kind = place == Place::continuous ? 1 : below(2);
   if (depth > 0 && chance(40)) {
     if (chance(50)) {
       When when;
-      if (place == Place::kPlain) {
+      if (place == Place::plain) {
         when.condition.at_start = condition(2);
       } else {
         when.condition = timed();
@@ -83,9 +82,9 @@ Effect RandomTree::effect(int depth, Place place) {
     return {ForallEffect{names("?"), effects(depth - 1, place, 1)}, {}};
   }
   if (kind == 0) return {Literal{atom(), chance(50)}, {}};
-  Expression value = expression(2, place != Place::kPlain);
-  if (place == Place::kContinuous)
-    value = {Arithmetic{ArithmeticOperator::kMultiply, {{ContinuousTime{}, {}}, value}}, {}};
+  Expression value = expression(2, place != Place::plain);
+  if (place == Place::continuous)
+    value = {Arithmetic{ArithmeticOperator::multiply, {{ContinuousTime{}, {}}, value}}, {}};
   return {Assignment{static_cast<AssignmentOperator>(below(5)), atom(), value}, {}};
 }
 
@@ -95,22 +94,22 @@ std::vector<Effect> RandomTree::effects(int depth, Place place, int least) {
   return all;
 }
 
-Action RandomTree::action() { return {name(), names("?"), condition(4), effects(3, Place::kPlain, 0), {}}; }
+Action RandomTree::action() { return {name(), names("?"), condition(4), effects(3, Place::plain, 0), {}}; }
 
 DurativeAction RandomTree::durative_action() {
   static constexpr ComparisonOperator kOperators[] = {
-      ComparisonOperator::kLessEqual, ComparisonOperator::kEqual, ComparisonOperator::kGreaterEqual};
+      ComparisonOperator::less_equal, ComparisonOperator::equal, ComparisonOperator::greater_equal};
   DurativeAction action;
   action.name = name();
   action.parameters = names("?");
   action.duration = several(2, [&] {
     return DurationConstraint{
-        kOperators[below(3)], expression(2, false), chance(80) ? TimePoint::kStart : TimePoint::kEnd, {}};
+        kOperators[below(3)], expression(2, false), chance(80) ? TimePoint::start : TimePoint::end, {}};
   });
   action.condition = timed();
-  action.start_effects = effects(2, Place::kDurative, 0);
-  action.end_effects = effects(2, Place::kDurative, 0);
-  if (chance(20)) action.continuous_effects = effects(2, Place::kContinuous, 1);
+  action.start_effects = effects(2, Place::durative, 0);
+  action.end_effects = effects(2, Place::durative, 0);
+  if (chance(20)) action.continuous_effects = effects(2, Place::continuous, 1);
   return action;
 }
 
@@ -142,8 +141,8 @@ Problem RandomTree::problem() {
   p.timed_values = several(3, [&] { return TimedValue{time(), atom(), number(), {}}; });
   p.goal = condition(4);
   if (chance(50)) {
-    p.metric = Metric{chance(50) ? Metric::Sense::kMinimize : Metric::Sense::kMaximize,
-                      {Arithmetic{ArithmeticOperator::kAdd, {{TotalTime{}, {}}, expression(2, false)}}, {}},
+    p.metric = Metric{chance(50) ? Metric::Sense::minimize : Metric::Sense::maximize,
+                      {Arithmetic{ArithmeticOperator::add, {{TotalTime{}, {}}, expression(2, false)}}, {}},
                       {}};
   }
   return p;

@@ -29,7 +29,7 @@ class RandomTree {
   Condition condition(int depth);
   Condition timed_part();
   TimedCondition timed() { return {timed_part(), timed_part(), timed_part()}; }
-  enum class Place { kPlain, kDurative, kContinuous };
+  enum class Place { plain, durative, continuous };
   Effect effect(int depth, Place place);
   std::vector<Effect> effects(int depth, Place place, int least);
   Action action();

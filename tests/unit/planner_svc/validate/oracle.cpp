@@ -40,8 +40,8 @@ Footprint footprint(const Snap& snap, FactSet before) {
 
 bool disturbs(const Footprint& a, const Footprint& b) {
   if ((a.reads & (b.adds | b.deletes)) != 0 || (a.adds & b.deletes) != 0) return true;
-  if (a.number != NumberEffect::kNone && b.reads_number) return true;
-  return a.number == NumberEffect::kAssign && b.number != NumberEffect::kNone;
+  if (a.number != NumberEffect::none && b.reads_number) return true;
+  return a.number == NumberEffect::assign && b.number != NumberEffect::none;
 }
 
 std::string at(const std::string& kind, int time) {
@@ -94,8 +94,8 @@ std::set<std::string> judge(const SmallCase& small, int epsilon) {
       footprints.push_back(print);
       deletes |= print.deletes & ~print.adds;
       adds |= print.adds;
-      if (snap.action->number == NumberEffect::kAssign) assigned = snap.action->operand;
-      if (snap.action->number == NumberEffect::kIncrease) increase += snap.action->operand;
+      if (snap.action->number == NumberEffect::assign) assigned = snap.action->operand;
+      if (snap.action->number == NumberEffect::increase) increase += snap.action->operand;
     }
     facts = (facts & ~deletes) | adds;
     number = assigned + increase;

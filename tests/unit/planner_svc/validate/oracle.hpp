@@ -18,7 +18,7 @@ struct Clause {  // some of `yes` is true or some of `no` is false
   FactSet no = 0;
 };
 
-enum class NumberEffect { kNone, kIncrease, kAssign };  // on the number x
+enum class NumberEffect { none, increase, assign };  // on the number x
 
 // What one end of an action asks for and does.
 struct SnapAction {
@@ -28,7 +28,7 @@ struct SnapAction {
   FactSet deletes = 0;
   FactSet trigger = 0;         // at most one fact: if it is true …
   FactSet triggered_adds = 0;  // … these are added
-  NumberEffect number = NumberEffect::kNone;
+  NumberEffect number = NumberEffect::none;
   int operand = 0;
 };
 

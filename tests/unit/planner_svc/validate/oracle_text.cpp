@@ -54,7 +54,7 @@ class Generator {
       snap.triggered_adds = one_fact();
     }
     if (chance(15)) {
-      snap.number = chance(70) ? NumberEffect::kIncrease : NumberEffect::kAssign;
+      snap.number = chance(70) ? NumberEffect::increase : NumberEffect::assign;
       snap.operand = below(5) - 2;
     }
     return snap;
@@ -112,8 +112,8 @@ std::string effects_text(const SnapAction& snap) {
     text += " (when (and" + all_facts(snap.trigger, "", "") + ") (and" +
             all_facts(snap.triggered_adds, "", "") + "))";
   }
-  if (snap.number != NumberEffect::kNone) {
-    text += snap.number == NumberEffect::kAssign ? " (assign (x) " : " (increase (x) ";
+  if (snap.number != NumberEffect::none) {
+    text += snap.number == NumberEffect::assign ? " (assign (x) " : " (increase (x) ";
     text += std::to_string(snap.operand) + ")";
   }
   return text + ")";
