@@ -5,6 +5,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "exec_svc/beliefs/beliefs.hpp"
+#include "exec_svc/mission/template_text.hpp"
+
 namespace roci::exec {
 namespace {
 
@@ -57,12 +60,8 @@ std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) co
       return "argument '" + name + "' is '" + given->second + "'; use lower-case letters, digits, - and _";
     }
     if (argument == ArgumentKind::goal) {
-      const bool known = std::any_of(records_.begin(), records_.end(), [&](const auto& record) {
-        return record.first.id == given->second && record.second.state != GoalState::rejected;
-      });
-      if (!known)
-        return "argument '" + name + "' names goal '" + given->second +
-               "', which is not known; send that goal first";
+      std::string fault = fault_of_reference(request, name);
+      if (!fault.empty()) return fault;
     }
   }
   for (const auto& [name, value] : request.arguments) {
@@ -76,8 +75,38 @@ std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) co
       return "id '" + key.id + "' is in use by issuer '" + key.issuer + "'; choose another id";
     }
   }
+  if (!std::isfinite(request.utility)) return "utility is not a finite number; give one, e.g. 1";
   if (request.closes.count() != 0 && request.closes <= std::max(request.opens, now)) {
     return "the window closes before it opens or has passed; give a later end";
+  }
+  return "";
+}
+
+// An argument that names another goal stands for that goal's objects: those of this goal's facts that hold
+// the argument must be among them.
+std::string GoalSet::fault_of_reference(const GoalRequest& request, const std::string& argument) const {
+  const GoalKind& kind = mission_->goal_kinds.at(request.kind);
+  const std::string& id = request.arguments.at(argument);
+  const std::string named = "argument '" + argument + "' names goal '" + id + "', ";
+  const auto other = std::find_if(records_.begin(), records_.end(), [&](const auto& record) {
+    return record.first.id == id && record.second.state != GoalState::rejected;
+  });
+  if (other == records_.end()) return named + "which is not known; send that goal first";
+  const auto makes = [&](const GoalKind& maker, const std::string& object) {
+    return std::any_of(maker.objects.begin(), maker.objects.end(), [&](const ObjectModel& model) {
+      return fill_names(model.name, {{"id", id}}) == object;
+    });
+  };
+  for (const std::string& fact : kind.goal) {
+    for (const std::string& word : words_of(fact)) {
+      const std::string object = fill_names(word, {{argument, id}});
+      if (object == word || makes(mission_->goal_kinds.at(other->second.request.kind), object)) continue;
+      std::string makers;
+      for (const auto& [name, maker] : mission_->goal_kinds)
+        if (makes(maker, object)) makers += (makers.empty() ? "" : ", ") + name;
+      return named + "a " + other->second.request.kind + " without an object '" + object +
+             "'; name a goal of kind: " + makers;
+    }
   }
   return "";
 }
@@ -94,7 +123,9 @@ const GoalRecord* GoalSet::submit(const GoalRequest& request, temporal::Time now
       record.reason = "recalled by " + request.key.issuer;
       return &record;
     }
-    const std::string fault = fault_of(request, now);
+    std::string fault = fault_of(request, now);
+    if (record.state != GoalState::rejected && request.kind != record.request.kind)
+      fault = "it is a " + record.request.kind + " and stays one; choose another id";
     if (!fault.empty()) {
       record.reason = "change refused: " + fault;
       return &record;
@@ -144,10 +175,7 @@ std::vector<const GoalRecord*> GoalSet::open() const {
 
 std::vector<const GoalRecord*> GoalSet::present() const {
   auto out = all();
-  std::erase_if(out, [](const GoalRecord* record) {
-    return record->state == GoalState::rejected || record->state == GoalState::dropped ||
-           record->state == GoalState::recalled;
-  });
+  std::erase_if(out, [](const GoalRecord* record) { return record->state == GoalState::rejected; });
   return out;
 }
 

@@ -65,7 +65,8 @@ class GoalSet {
 
   // Goals not final yet, in order of arrival.
   std::vector<const GoalRecord*> open() const;
-  // Every goal whose objects still exist: all but rejected, dropped and recalled ones.
+  // Every goal whose objects exist: all but rejected ones. The robot may stand at the place of a goal that
+  // was given up.
   std::vector<const GoalRecord*> present() const;
   std::vector<const GoalRecord*> all() const;
   const GoalRecord* find(const GoalKey& key) const;
@@ -76,6 +77,7 @@ class GoalSet {
 
  private:
   std::string fault_of(const GoalRequest& request, temporal::Time now) const;
+  std::string fault_of_reference(const GoalRequest& request, const std::string& argument) const;
 
   const MissionModel* mission_;
   std::map<GoalKey, GoalRecord> records_;

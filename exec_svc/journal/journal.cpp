@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace roci::exec {
@@ -24,7 +25,12 @@ std::string encode(const GoalRequest& goal) {
                         {"opens", goal.opens.count()},
                         {"closes", goal.closes.count()},
                         {"recalled", goal.recalled}}
-      .dump();
+      .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // rejected goals may hold anything
+}
+
+// JSON knows no NaN: it stands there as null.
+double number_of(const nlohmann::json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
 GoalRequest decode(GoalKey key, const std::string& text) {
@@ -34,7 +40,7 @@ GoalRequest decode(GoalKey key, const std::string& text) {
   goal.kind = json.at("kind").get<std::string>();
   goal.arguments = json.at("arguments").get<std::map<std::string, std::string>>();
   goal.importance = static_cast<GoalClass>(json.at("class").get<int>());
-  goal.utility = json.at("utility").get<double>();
+  goal.utility = number_of(json.at("utility"));
   goal.priority = json.at("priority").get<std::int32_t>();
   goal.opens = temporal::Time(json.at("opens").get<std::int64_t>());
   goal.closes = temporal::Time(json.at("closes").get<std::int64_t>());

@@ -76,6 +76,8 @@ void Reactor::take_goals(Time now, const std::vector<GoalRequest>& requests) {
     const std::string name = "goal " + record->request.key.text();
     if (record->state == GoalState::rejected) {
       note(NoteLevel::warning, "goal.rejected", name + " rejected: " + record->reason);
+    } else if (record->request != request && !request.recalled) {
+      note(NoteLevel::warning, "goal.refused", name + ": " + record->reason);
     } else if (record->state == GoalState::recalled) {
       note(NoteLevel::info, "goal.recalled", name + " recalled");
       if (phase_ == Phase::executing || phase_ == Phase::planning) want_plan(name + " was recalled");
@@ -286,27 +288,36 @@ void Reactor::give_way(const PlanAnswer& answer) {
   const bool proved = answer.verdict == PlanVerdict::unsolvable;
   const std::string why = std::string(proved ? "proved that not all goals fit" : to_string(answer.verdict)) +
                           (answer.reason.empty() ? "" : ": " + answer.reason);
-  if (const auto victim = goals_.drop_candidate()) {
-    change_goal(*victim, GoalState::dropped, why);
-    note(NoteLevel::warning, "goal.dropped", "goal " + victim->text() + " dropped: " + why);
-    return;
+  // Goals that are proved out of reach take no other goal with them.
+  std::vector<GoalKey> leaving = proved ? named_goals(answer.reason) : std::vector<GoalKey>{};
+  if (leaving.empty()) {
+    const auto victim = goals_.drop_candidate();
+    leaving.push_back(victim ? *victim : goals_.open().back()->request.key);
   }
-  // Hard goals are never dropped to make room. Those that the planner names as the obstacle fail, else the
-  // newest.
-  std::vector<GoalKey> failing;
-  for (const GoalRecord* record : goals_.open()) {
-    const auto facts = goal_facts(*mission_, record->request);
-    if (std::any_of(facts.begin(), facts.end(),
-                    [&](const std::string& fact) { return answer.reason.find(fact) != std::string::npos; })) {
-      failing.push_back(record->request.key);
-    }
-  }
-  if (failing.empty()) failing.push_back(goals_.open().back()->request.key);
-  for (const GoalKey& key : failing) {
+  for (const GoalKey& key : leaving) give_up(key, why);
+}
+
+// Hard goals are never dropped: they fail, and the ground is asked.
+void Reactor::give_up(const GoalKey& key, const std::string& why) {
+  if (goals_.find(key)->request.importance == GoalClass::hard) {
     change_goal(key, GoalState::failed, why);
     note(NoteLevel::error, "goal.failed",
          "hard goal " + key.text() + " failed: " + why + "; the ground is asked");
+  } else {
+    change_goal(key, GoalState::dropped, why);
+    note(NoteLevel::warning, "goal.dropped", "goal " + key.text() + " dropped: " + why);
   }
+}
+
+// Open goals of which a fact stands in the planner's reason.
+std::vector<GoalKey> Reactor::named_goals(const std::string& reason) const {
+  std::vector<GoalKey> out;
+  for (const GoalRecord* record : goals_.open()) {
+    const auto facts = goal_facts(*mission_, record->request);
+    const auto named = [&](const std::string& fact) { return reason.find(fact) != std::string::npos; };
+    if (std::any_of(facts.begin(), facts.end(), named)) out.push_back(record->request.key);
+  }
+  return out;
 }
 
 void Reactor::try_again_later(Time now, const PlanAnswer& answer) {

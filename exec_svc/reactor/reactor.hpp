@@ -103,8 +103,8 @@ class Reactor {
   std::uint32_t plan_version() const { return plan_version_; }
   ReactorCounts counts() const;
   const GoalSet& goals() const { return goals_; }
-  // "achieved": every hard goal that was not rejected, and there was a goal; "partial": some hard goal failed, robot safe; "failed": robot not safe;
-  // empty while open.
+  // "achieved": every hard goal that was not rejected, and there was a goal; "partial": some hard goal
+  // failed, robot safe; "failed": robot not safe; empty while open.
   std::string outcome() const;
 
  private:
@@ -121,6 +121,8 @@ class Reactor {
   void take_answer(temporal::Time now, const PlanAnswer& answer);
   void adopt(temporal::Time now, const PlanAnswer& answer);
   void give_way(const PlanAnswer& answer);
+  void give_up(const GoalKey& key, const std::string& why);
+  std::vector<GoalKey> named_goals(const std::string& reason) const;
   void try_again_later(temporal::Time now, const PlanAnswer& answer);
   void run_executive(temporal::Time now, const ReactorInputs& inputs);
   void make_safe(temporal::Time now, const std::string& why);

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec {
@@ -55,6 +57,35 @@ TEST_F(GoalSetTest, RejectsWithAReasonThatNamesTheRemedy) {
   goal.arguments["sample"] = "nowhere";
   EXPECT_THAT(fault(goal), HasSubstr("names goal 'nowhere', which is not known"));
   EXPECT_TRUE(goals.open().empty());
+}
+
+TEST_F(GoalSetTest, AnArgumentThatNamesAGoalNeedsThatGoalsObjects) {
+  GoalRequest pick = photo("soil");
+  pick.kind = "pick_sample";
+  GoalRequest drop = photo("depot");
+  drop.kind = "drop_sample";
+  drop.arguments["sample"] = "ridge";
+  fault(photo("ridge"));
+  EXPECT_THAT(fault(drop),
+              HasSubstr("names goal 'ridge', a photo without an object 'sample-ridge'; name a goal "
+                        "of kind: pick_sample"));
+  fault(pick);
+  drop.arguments["sample"] = "soil";
+  EXPECT_EQ(fault(drop), "accepted");
+}
+
+TEST_F(GoalSetTest, AGoalKeepsItsKind) {
+  fault(photo("a"));
+  GoalRequest changed = photo("a");
+  changed.kind = "pick_sample";
+  const GoalRecord* record = goals.submit(changed, seconds(100));
+  EXPECT_EQ(record->state, GoalState::pending);
+  EXPECT_EQ(record->request, photo("a"));
+  EXPECT_THAT(record->reason, HasSubstr("it is a photo and stays one; choose another id"));
+}
+
+TEST_F(GoalSetTest, AUtilityIsANumber) {
+  EXPECT_THAT(fault(photo("a", GoalClass::optional, std::nan(""))), HasSubstr("finite"));
 }
 
 TEST_F(GoalSetTest, TwoIssuersCannotShareAnId) {

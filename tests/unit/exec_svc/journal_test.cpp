@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "exec_svc/journal/trace.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
@@ -50,6 +52,23 @@ TEST_F(JournalTest, GoalsComeBackAsTheyWere) {
   EXPECT_EQ(goals[0].reason, record.reason);
   EXPECT_EQ(goals[0].arrival, record.arrival);
   EXPECT_EQ(goals[0].plan_version, record.plan_version);
+}
+
+// Rejected goals may hold anything, and their record must not keep the executive from starting again.
+TEST_F(JournalTest, ARejectedGoalOfGarbageComesBack) {
+  GoalRecord record;
+  record.request = testing::photo("ridge", GoalClass::optional, std::numeric_limits<double>::quiet_NaN());
+  record.request.kind = "\xff";
+  record.state = GoalState::rejected;
+  {
+    Journal journal(file, Durability::power);
+    journal.put_goal(record);
+    journal.commit();
+  }
+  const auto goals = Journal(file, Durability::power).goals();
+  ASSERT_EQ(goals.size(), 1U);
+  EXPECT_EQ(goals[0].state, GoalState::rejected);
+  EXPECT_TRUE(std::isnan(goals[0].request.utility));
 }
 
 TEST_F(JournalTest, EachStartHasALaterEpoch) {

@@ -93,6 +93,29 @@ TEST_F(ProblemWriterTest, AchievedGoalsLeaveTheProblemUnlessTheRobotStandsThere)
   EXPECT_THAT(write().text, Not(HasSubstr("image-ridge")));
 }
 
+// The robot stands where it was sent for a goal that is no more: its place is still a place.
+TEST_F(ProblemWriterTest, PlacesOfGoalsGivenUpStayKnown) {
+  submit(photo("ridge"));
+  submit(photo("valley"));
+  beliefs.observe("rover.nav", temporal::state("idle-at", {"place-ridge"}));
+  for (const GoalState state : {GoalState::recalled, GoalState::dropped, GoalState::failed}) {
+    goals.set_state({"ground", "ridge"}, state, "given up");
+    EXPECT_THAT(write().text, HasSubstr("    place-ridge - location\n"));
+    EXPECT_THAT(write().text, HasSubstr("    (at place-ridge)\n"));
+    EXPECT_THAT(write().text, Not(HasSubstr("image-ridge")));
+  }
+}
+
+TEST_F(ProblemWriterTest, AssumedFactsOfGoalsGivenUpGoWithThem) {
+  submit(photo("ridge"));
+  GoalRequest pick = photo("soil");
+  pick.kind = "pick_sample";
+  submit(pick);
+  beliefs.assume("sample.sample-soil", {"(sample-at sample-soil place-soil)"});
+  goals.set_state({"ground", "soil"}, GoalState::recalled, "given up");
+  EXPECT_THAT(write().text, Not(HasSubstr("soil")));
+}
+
 TEST_F(ProblemWriterTest, AssumedFactsEndWithTheFirstObservation) {
   GoalRequest pick = photo("soil");
   pick.kind = "pick_sample";

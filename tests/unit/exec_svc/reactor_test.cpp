@@ -200,6 +200,30 @@ TEST_F(ReactorTest, AHardGoalThatThePlannerNamesFailsAndTheRestGoesOn) {
   EXPECT_EQ(reactor.outcome(), "partial");
 }
 
+TEST_F(ReactorTest, WhatThePlannerProvesOutOfReachTakesNothingElseWithIt) {
+  planner = [this](const PlanCall& call) {
+    return call.problem.text.find("(sent image-walled)\n  ") != std::string::npos
+               ? answer(PlanVerdict::unsolvable, "goal (sent image-walled) can never be reached")
+               : image_every_goal(call);
+  };
+  run(1000, robot_and({photo("free", GoalClass::opportunistic), photo("walled", GoalClass::optional, 9),
+                       photo("cheap", GoalClass::optional, 1)}));
+  EXPECT_EQ(reactor.goals().find({"ground", "walled"})->state, GoalState::dropped);
+  EXPECT_EQ(reactor.goals().find({"ground", "free"})->state, GoalState::achieved);
+  EXPECT_EQ(reactor.goals().find({"ground", "cheap"})->state, GoalState::achieved);
+  EXPECT_EQ(reactor.outcome(), "achieved");
+}
+
+TEST_F(ReactorTest, AChangeThatIsRefusedLeavesGoalAndPlanAsTheyWere) {
+  run(20, robot_and({photo("a")}));
+  trace.clear();
+  ReactorInputs inputs;
+  inputs.goals = {photo("a")};
+  inputs.goals[0].arguments["x"] = "far";
+  run(1000, std::move(inputs));
+  EXPECT_THAT(trace, ElementsAre("goal.refused", "goal.achieved", "plan.finished"));
+}
+
 TEST_F(ReactorTest, ABrokenPlanIsReplannedUntilTheLimitThenTheRobotIsSafe) {
   camera_works = false;
   mission.executive.replan_limit = 3;

@@ -1,0 +1,89 @@
+#include "tests/scenario/mission_in_process.hpp"
+
+#include <unistd.h>
+
+#include <fstream>
+
+#include "rehearsal/flight.hpp"
+
+namespace roci::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+namespace topics = services::topics;
+
+fs::path made_folder() {
+  static int last = 0;
+  const fs::path folder = fs::temp_directory_path() /
+                          ("roci_mission_" + std::to_string(::getpid()) + "_" + std::to_string(++last));
+  fs::create_directories(folder / "run");
+  return folder;
+}
+
+// The master of the clock stands first, the ground last.
+std::vector<std::string> roster() {
+  std::vector<std::string> out{rehearsal::members().back().name};
+  for (const rehearsal::Member& member : rehearsal::members())
+    if (member.name != out.front()) out.push_back(member.name);
+  out.emplace_back("ground");
+  return out;
+}
+
+}  // namespace
+
+MissionInProcess::MissionInProcess(const std::map<std::string, std::string>& changed)
+    : folder_(made_folder()),
+      run_folder_(folder_ / "run"),
+      run_(roster()),
+      ground_(run_.add("ground")),
+      goals_out_(services::advertise(ground_, topics::goal)) {
+  fs::copy(ROCI_SOURCE_DIR "/missions/planetary", folder_ / "planetary", fs::copy_options::recursive);
+  for (const auto& [name, text] : changed) std::ofstream(folder_ / "planetary" / name) << text;
+  services::RunSettings settings;
+  settings.mission = folder_ / "planetary";
+  settings.run_folder = run_folder_;
+  for (const rehearsal::Member& member : rehearsal::members())
+    services_.push_back(member.make(run_.add(member.name), settings));
+  services::subscribe(ground_, topics::goal_status, [this](const v1::GoalStatus& status) {
+    GoalFate& fate = goals_[status.id()];
+    if (fate.states.empty() || fate.states.back() != status.goal_state())
+      fate.states.push_back(status.goal_state());
+    fate.reason = status.reason();
+  });
+  services::subscribe(ground_, topics::mission_status,
+                      [this](const v1::MissionStatus& status) { mission_ = status; });
+  services::subscribe(ground_, topics::event, [this](const v1::Event& event) {
+    events_.push_back(event.code() + " " + event.text());
+  });
+}
+
+MissionInProcess::~MissionInProcess() {
+  services_.clear();
+  fs::remove_all(folder_);
+}
+
+void MissionInProcess::send(services::Time when, const v1::Goal& goal) {
+  ground_.at(when, [this, goal] { goals_out_.write(goal); });
+}
+
+void MissionInProcess::run() { run_.run(); }
+
+v1::Goal goal(const std::string& id, const std::string& kind,
+              const std::vector<std::pair<std::string, std::string>>& arguments, v1::GoalClass importance,
+              double utility) {
+  v1::Goal out;
+  out.issuer("ground");
+  out.id(id);
+  out.goal_kind(kind);
+  for (const auto& [name, value] : arguments) {
+    v1::Property argument;
+    argument.name(name);
+    argument.value(value);
+    out.arguments().push_back(argument);
+  }
+  out.importance(importance);
+  out.utility(utility);
+  return out;
+}
+
+}  // namespace roci::scenario
