@@ -85,9 +85,9 @@ void print_failure(const RunFailure& failure, const fs::path& run_folder) {
   std::cerr << "  (" << log.string() << ")\n";
 }
 
-ExitCode exit_code(const std::optional<RunFailure>& failure, bool achieved) {
+ExitCode exit_code(const std::optional<RunFailure>& failure, bool good) {
   if (failure) return failure->bad_input ? kBadInput : kServiceFailed;
-  return achieved ? kAchieved : kNotAchieved;
+  return good ? kAchieved : kNotAchieved;
 }
 
 }  // namespace
@@ -131,10 +131,10 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   }
 
   if (supervisor.failure()) print_failure(*supervisor.failure(), options.run_folder);
-  const Summary summary =
-      complete_summary(options, std::chrono::duration<double>(wall::now() - begun).count());
+  const Summary summary = complete_summary(
+      options, std::chrono::duration<double>(wall::now() - begun).count(), !supervisor.failure().has_value());
   std::cout << (options.json ? summary.json + "\n" : summary.text) << std::flush;
-  return exit_code(supervisor.failure(), summary.achieved);
+  return exit_code(supervisor.failure(), summary.good);
 }
 
 }  // namespace roci::launch

@@ -8,12 +8,14 @@
 namespace roci::launch {
 
 struct Summary {
-  bool achieved = false;  // every hard goal
-  std::string json;       // one line
-  std::string text;       // for people
+  bool good = false;  // every hard goal was achieved; without exec_svc here: the services ended well
+  std::string json;   // one line
+  std::string text;   // for people
 };
 
-// Completes run_folder/summary.json (writes one with result "failed" if there is none) and reads it.
-Summary complete_summary(const Options&, double wall_s);
+// Completes run_folder/summary.json and reads it. Where exec_svc flew here and left none, the result is
+// "failed". On a host without exec_svc it is "served" when its services `ended_well`: goals are counted where
+// exec_svc is.
+Summary complete_summary(const Options&, double wall_s, bool ended_well);
 
 }  // namespace roci::launch

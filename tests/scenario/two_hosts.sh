@@ -2,7 +2,7 @@
 # Flies a mission on two hosts: planner and ground console on one, the rest on the other; a goal is sent across.
 #   two_hosts.sh BIN_FOLDER MISSION DDS_OF_THE_ROBOT DDS_OF_THE_GROUND DOMAIN
 # The hosts are network namespaces of its own, joined by a veth pair; no packet leaves them. Needs root.
-# Prints the robot's summary as the last line; exits as the robot's launcher does.
+# Prints the robot's summary as the last line; exits as the robot's launcher does, or as the ground's if that was well.
 set -uo pipefail
 bin=$1 mission=$2 robot_dds=$3 ground_dds=$4 domain=$5
 robot=roci-robot-$$ ground=roci-ground-$$
@@ -33,6 +33,8 @@ ip netns exec $robot timeout 60 "$bin/roci-launch" "$mission" --dds "$robot_dds"
 robot_launcher=$!
 ip netns exec $ground timeout 60 "$bin/roci-launch" "$mission" --dds "$ground_dds" "${network[@]}" --address 10.78.0.2 \
   --services planner_svc --headless --run-folder "$folder/ground" >/dev/null &
+ground_launcher=$!
 ip netns exec $ground timeout 50 "$bin/roci" --dds "$ground_dds" "${network[@]}" --address 10.78.0.2 \
   goal add from-afar photo x=110 y=60 --class optional --utility 2 >&2 || echo "two_hosts: the goal did not get across" >&2
-wait $robot_launcher
+wait $robot_launcher || exit
+wait $ground_launcher

@@ -41,8 +41,9 @@ class LaunchTest : public testing::Test {
                          [](const char*) { return std::nullopt; });
   }
 
-  fs::path folder = fs::temp_directory_path() / ("roci-launch-" + std::to_string(getpid()) +
-                                                 testing::UnitTest::GetInstance()->current_test_info()->name());
+  fs::path folder =
+      fs::temp_directory_path() / ("roci-launch-" + std::to_string(getpid()) +
+                                   testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(LaunchTest, MixedPutsThePlannerAndTheConsoleOnTheOtherVendor) {
@@ -55,9 +56,10 @@ TEST_F(LaunchTest, MixedPutsThePlannerAndTheConsoleOnTheOtherVendor) {
 
 TEST_F(LaunchTest, OnlyTheMasterKnowsRosterAndPace) {
   const Options options = parse({"--speed", "max"});
-  EXPECT_THAT(service_arguments(options, "sim_svc", 3, 0),
-              IsSupersetOf({"master", "--roster", "arm_svc,exec_svc,pathplan_svc,planner_svc,science_svc,sim_svc",
-                            "--pace", "0", "--incarnation", "3"}));
+  EXPECT_THAT(
+      service_arguments(options, "sim_svc", 3, 0),
+      IsSupersetOf({"master", "--roster", "arm_svc,exec_svc,pathplan_svc,planner_svc,science_svc,sim_svc",
+                    "--pace", "0", "--incarnation", "3"}));
   EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Contains("simulated"));
   EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Not(Contains("--roster")));
 }
@@ -75,8 +77,8 @@ TEST_F(LaunchTest, ServiceArgumentsAreThoseThatServicesRead) {
     const auto arguments = service_arguments(options, service, 2, 0);
     std::vector<const char*> pointers;
     for (const auto& argument : arguments) pointers.push_back(argument.c_str());
-    const auto read = services::parse_service_options(static_cast<int>(pointers.size()), pointers.data(), service,
-                                                      [](const char*) { return std::nullopt; });
+    const auto read = services::parse_service_options(static_cast<int>(pointers.size()), pointers.data(),
+                                                      service, [](const char*) { return std::nullopt; });
     EXPECT_EQ(read.node.name, service);
     EXPECT_EQ(read.node.incarnation, 2U);
     EXPECT_EQ(read.run.seed, 9U);
@@ -106,17 +108,28 @@ TEST_F(LaunchTest, MistakesOnTheCommandLineAreExplained) {
 TEST_F(LaunchTest, TheSummaryIsCompletedAndAMissingOneIsAFailure) {
   Options options = parse({"--dds", "mixed", "--seed", "4"});
   options.run_folder = folder;
-  auto summary = complete_summary(options, 1.5);
-  EXPECT_FALSE(summary.achieved);
+  auto summary = complete_summary(options, 1.5, true);
+  EXPECT_FALSE(summary.good);
   EXPECT_THAT(summary.json, HasSubstr(R"("result":"failed")"));
   EXPECT_THAT(summary.json, HasSubstr(R"("seed":4)"));
   std::ofstream(folder / "summary.json") << R"({"result": "achieved", "goals": {"achieved": 3}, "sim_s": 7})";
-  summary = complete_summary(options, 2.5);
-  EXPECT_TRUE(summary.achieved);
+  summary = complete_summary(options, 2.5, true);
+  EXPECT_TRUE(summary.good);
   EXPECT_THAT(summary.json, HasSubstr(R"("dds":"mixed")"));
   EXPECT_THAT(summary.json, HasSubstr(R"("wall_s":2.5)"));
   EXPECT_THAT(summary.json, HasSubstr(R"("goals":{"achieved":3})"));
   EXPECT_THAT(summary.text, HasSubstr("achieved"));
+}
+
+TEST_F(LaunchTest, AHostWithoutTheExecutiveServes) {
+  Options options = parse({"--services", "planner_svc,arm_svc"});
+  options.run_folder = folder;
+  const Summary well = complete_summary(options, 1, true);
+  EXPECT_TRUE(well.good);
+  EXPECT_THAT(well.json, HasSubstr(R"("result":"served")"));
+  EXPECT_THAT(well.text, HasSubstr("where exec_svc runs"));
+  fs::remove(folder / "summary.json");
+  EXPECT_FALSE(complete_summary(options, 1, false).good);
 }
 
 TEST_F(LaunchTest, RunningMissionsAreFound) {
@@ -147,7 +160,8 @@ TEST(RestartPolicy, WaitsLongerEachTimeAndGivesUp) {
 
 TEST(RestartPolicy, ALongLifeStartsANewRow) {
   RestartPolicy policy;
-  for (int i = 0; i < 100; ++i) EXPECT_DOUBLE_EQ(policy.died(i % 2 == 0 ? 60s : 1s)->count(), i % 2 == 0 ? 0.2 : 0.4);
+  for (int i = 0; i < 100; ++i)
+    EXPECT_DOUBLE_EQ(policy.died(i % 2 == 0 ? 60s : 1s)->count(), i % 2 == 0 ? 0.2 : 0.4);
 }
 
 // Services are shell commands here; time is what the test says.
@@ -157,12 +171,16 @@ class SupervisorTest : public LaunchTest {
     Supervisor::Hooks hooks;
     hooks.start = [this](const std::string& service, std::uint32_t incarnation) {
       starts.push_back(service + "#" + std::to_string(incarnation));
-      return std::make_unique<Child>("/bin/sh", std::vector<std::string>{"sh", "-c", script[service]}, folder / "log");
+      return std::make_unique<Child>("/bin/sh", std::vector<std::string>{"sh", "-c", script[service]},
+                                     folder / "log");
     };
-    hooks.on_death = [this](const std::string& service, const std::string& what) { deaths.push_back(service + " " + what); };
+    hooks.on_death = [this](const std::string& service, const std::string& what) {
+      deaths.push_back(service + " " + what);
+    };
     return {names, "sim_svc", master_is_clock, std::move(hooks)};
   }
-  static void turn_until(Supervisor& supervisor, services::wall::Instant now, const std::function<bool()>& done) {
+  static void turn_until(Supervisor& supervisor, services::wall::Instant now,
+                         const std::function<bool()>& done) {
     while (!done()) supervisor.turn(now);
   }
 
@@ -243,8 +261,8 @@ TEST_F(SupervisorTest, WhoDoesNotLeaveIsKilledInTheEnd) {
   auto supervisor = make({"arm_svc", "sim_svc"});
   supervisor.start(start);
   turn_until(supervisor, start, [&] { return fs::exists(ready); });
-  supervisor.stop(start);                    // the clock ends at once, the arm does not listen
-  supervisor.turn(start + 5s);               // SIGTERM for all
+  supervisor.stop(start);       // the clock ends at once, the arm does not listen
+  supervisor.turn(start + 5s);  // SIGTERM for all
   EXPECT_FALSE(supervisor.finished());
   turn_until(supervisor, start + 10s, [&] { return supervisor.finished(); });  // SIGKILL
   EXPECT_FALSE(supervisor.failure());
