@@ -10,6 +10,8 @@ const char* to_string(FunctionOutcome outcome) {
       return "unreachable";
     case FunctionOutcome::unavailable:
       return "unavailable";
+    case FunctionOutcome::owner_lost:
+      return "owner-lost";
     case FunctionOutcome::late:
       return "late";
     case FunctionOutcome::not_a_number:

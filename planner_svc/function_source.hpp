@@ -26,7 +26,8 @@ struct FunctionCall {
 enum class FunctionOutcome {
   value,
   unreachable,     // the owner says that no value exists: the action instance that needs it does not exist
-  unavailable,     // nobody owns the function
+  unavailable,     // nobody owns the function, or its owner cannot say
+  owner_lost,      // the owner died while it was asked
   late,            // the owner did not answer within the source's deadline
   not_a_number,    // NaN or infinite
   wrong_arity,     // the owner knows the function with another number of arguments

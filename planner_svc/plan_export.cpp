@@ -160,8 +160,8 @@ temporal::FlexiblePlan export_plan(const engine::Plan& plan,
     std::uint64_t version = 0;
     const std::string& text = use.answer.provenance.model_version;
     std::from_chars(text.data(), text.data() + text.size(), version);
-    out.function_values.push_back(
-        {use.call.function, use.call.arguments, use.answer.value, use.answer.provenance.owner, version});
+    out.function_values.push_back({use.call.function, use.call.arguments, use.answer.value,
+                                   use.answer.provenance.owner, version, use.answer.provenance.time});
   }
   return out;
 }

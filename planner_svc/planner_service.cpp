@@ -60,6 +60,19 @@ FunctionOutcome outcome_from_wire(v1::FunctionOutcome outcome, double number) {
   return FunctionOutcome::unavailable;
 }
 
+// What the owner means by an outcome that has no name of its own here.
+std::string detail_of(v1::FunctionOutcome outcome) {
+  if (outcome == v1::FUNCTION_UNKNOWN_FUNCTION) return "it does not know this function";
+  if (outcome == v1::FUNCTION_FAILED) return "it failed to compute the value";
+  return "";
+}
+
+FunctionOutcome outcome_of(services::CallStatus failure) {
+  if (failure == services::CallStatus::timeout) return FunctionOutcome::late;
+  if (failure == services::CallStatus::owner_lost) return FunctionOutcome::owner_lost;
+  return FunctionOutcome::unavailable;
+}
+
 std::uint32_t peak_resident_kb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -82,13 +95,16 @@ class PlannerService final : public services::Service, private FunctionSource {
                       queue_.push_back({request, std::move(responder)});
                       start_next();
                     });
+    node.on_peer_change([this](const services::PeerChange& change) {
+      if (!change.alive) abandon_calls_of(change.service);
+    });
   }
 
   ~PlannerService() override {
     cancelled_ = true;
     {
       const std::lock_guard lock(mutex_);
-      answer_ = std::vector<FunctionValue>{};
+      stopping_ = true;
     }
     answered_.notify_all();
     if (worker_.joinable()) worker_.join();
@@ -105,6 +121,7 @@ class PlannerService final : public services::Service, private FunctionSource {
     job_ = std::move(queue_.front());
     queue_.pop_front();
     if (worker_.joinable()) worker_.join();
+    cancelled_ = false;
     work_ = node_.begin_work();
     worker_ = std::thread([this] { run(); });
   }
@@ -140,39 +157,57 @@ class PlannerService final : public services::Service, private FunctionSource {
     node_.post_work_result(
         work_, [this, batch = std::vector<FunctionCall>(calls.begin(), calls.end())] { ask(batch); });
     std::unique_lock lock(mutex_);
-    answered_.wait(lock, [this] { return answer_.has_value(); });
-    return std::move(*answer_);
+    answered_.wait(lock, [this] { return answer_.has_value() || stopping_; });
+    return answer_ ? std::move(*answer_) : std::vector<FunctionValue>{};
   }
 
   // From here on: on the loop.
+
+  // Nobody waits for these answers any more.
+  void abandon_calls_of(const std::string& client) {
+    std::erase_if(queue_, [&client](const Job& job) { return job.request.header().sender() == client; });
+    if (!job_ || job_->request.header().sender() != client) return;
+    cancelled_ = true;
+    if (asking_) resume({});
+  }
+
   void ask(const std::vector<FunctionCall>& calls) {
+    if (cancelled_) return resume({});
     const auto offer = offers_.find(calls.front().module);
-    if (offer == offers_.end()) {
-      resume(all(calls, FunctionOutcome::unavailable,
-                 "no service offers module '" + calls.front().module + "'"));
-      return;
-    }
+    if (offer == offers_.end())
+      return resume(all(calls, FunctionOutcome::unavailable, {}, no_offer(calls.front())));
     v1::FunctionRequest request;
     request.module_name(calls.front().module);
     request.objects(job_->request.objects());
     request.batches({batch_of(calls, request.objects())});
+    const Provenance asked{offer->second.owner(), std::to_string(offer->second.model_version()), node_.now()};
+    asking_ = ++asked_;
     functions_.call(
         std::move(request), offer->second.owner(), settings_.function_timeout,
-        [this, calls](const services::CallResult<v1::FunctionReply>& result) { take_values(calls, result); });
+        [this, calls, asked, number = asked_](const services::CallResult<v1::FunctionReply>& result) {
+          if (asking_ == number) resume(values_of(calls, asked, result));
+        });
+  }
+
+  std::string no_offer(const FunctionCall& call) const {
+    std::string offered;
+    for (const auto& [module_name, offer] : offers_) offered += (offered.empty() ? "" : ", ") + module_name;
+    return "no service offers module '" + call.module +
+           "'; offered are: " + (offered.empty() ? "none" : offered);
   }
 
   // Arguments that are no objects of the request are constants of the domain; their owner knows them by name.
   static v1::FunctionBatch batch_of(const std::vector<FunctionCall>& calls,
                                     std::vector<v1::PlanObject>& objects) {
     std::map<std::string, std::uint32_t> index;
-    for (const v1::PlanObject& object : objects)
-      index.emplace(object.name(), static_cast<std::uint32_t>(index.size()));
+    for (std::size_t i = 0; i < objects.size(); ++i)
+      index.emplace(objects[i].name(), static_cast<std::uint32_t>(i));
     v1::FunctionBatch batch;
     batch.function(calls.front().function);
     batch.arity(static_cast<std::uint32_t>(calls.front().arguments.size()));
     for (const FunctionCall& call : calls) {
       for (const std::string& argument : call.arguments) {
-        const auto [found, added] = index.emplace(argument, static_cast<std::uint32_t>(index.size()));
+        const auto [found, added] = index.emplace(argument, static_cast<std::uint32_t>(objects.size()));
         if (added) {
           objects.emplace_back();
           objects.back().name(argument);
@@ -183,38 +218,38 @@ class PlannerService final : public services::Service, private FunctionSource {
     return batch;
   }
 
-  void take_values(const std::vector<FunctionCall>& calls,
-                   const services::CallResult<v1::FunctionReply>& result) {
-    if (result.status != services::CallStatus::ok) {
-      const bool late = result.status == services::CallStatus::timeout;
-      resume(all(calls, late ? FunctionOutcome::late : FunctionOutcome::unavailable, result.message));
-      return;
-    }
+  // `asked`: who was asked, by which offer, when.
+  std::vector<FunctionValue> values_of(const std::vector<FunctionCall>& calls, const Provenance& asked,
+                                       const services::CallResult<v1::FunctionReply>& result) {
+    if (result.status != services::CallStatus::ok)
+      return all(calls, outcome_of(result.status), asked, result.message);
     const v1::FunctionReply& reply = result.reply;
     const bool whole = reply.results().size() == 1 && reply.results()[0].numbers().size() == calls.size() &&
                        reply.results()[0].outcomes().size() == calls.size();
     if (!whole) {
-      resume(all(calls, FunctionOutcome::unavailable,
-                 reply.owner() + " answered with another number of values than asked for"));
-      return;
+      return all(calls, FunctionOutcome::unavailable, asked,
+                 "it answered with another number of values than asked for");
     }
     std::vector<FunctionValue> values;
     const Provenance provenance{reply.owner(), std::to_string(reply.model_version()),
                                 Duration(reply.computed_us())};
     for (std::size_t i = 0; i < calls.size(); ++i) {
       const double number = reply.results()[0].numbers()[i];
-      values.push_back({outcome_from_wire(reply.results()[0].outcomes()[i], number), number, provenance, ""});
+      const v1::FunctionOutcome outcome = reply.results()[0].outcomes()[i];
+      values.push_back({outcome_from_wire(outcome, number), number, provenance, detail_of(outcome)});
     }
     tuples_ += calls.size();
-    resume(std::move(values));
+    return values;
   }
 
   static std::vector<FunctionValue> all(const std::vector<FunctionCall>& calls, FunctionOutcome outcome,
-                                        const std::string& detail) {
-    return std::vector<FunctionValue>(calls.size(), FunctionValue{outcome, 0, {}, detail});
+                                        const Provenance& asked, const std::string& detail) {
+    return std::vector<FunctionValue>(calls.size(), FunctionValue{outcome, 0, asked, detail});
   }
 
+  // The thread goes on with these values.
   void resume(std::vector<FunctionValue> values) {
+    asking_.reset();
     work_ = node_.begin_work();
     {
       const std::lock_guard lock(mutex_);
@@ -268,6 +303,8 @@ class PlannerService final : public services::Service, private FunctionSource {
   std::deque<Job> queue_;
   std::optional<Job> job_;
   std::uint64_t tuples_ = 0;
+  std::uint64_t asked_ = 0;              // requests for values so far
+  std::optional<std::uint64_t> asking_;  // the one under way
 
   // Shared with the worker.
   Node::WorkId work_ = 0;
@@ -276,6 +313,7 @@ class PlannerService final : public services::Service, private FunctionSource {
   std::mutex mutex_;
   std::condition_variable answered_;
   std::optional<std::vector<FunctionValue>> answer_;
+  bool stopping_ = false;
 };
 
 }  // namespace

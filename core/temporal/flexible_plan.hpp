@@ -117,6 +117,7 @@ struct FunctionValueUse {
   double number = 0;
   std::string owner;
   std::uint64_t model_version = 0;
+  Time computed{0};
   friend bool operator==(const FunctionValueUse&, const FunctionValueUse&) = default;
 };
 

@@ -152,6 +152,7 @@ v1::FunctionValueUse use_to_wire(const temporal::FunctionValueUse& in) {
   out.number(in.number);
   out.owner(in.owner);
   out.model_version(in.model_version);
+  out.computed_us(in.computed.count());
   return out;
 }
 
@@ -262,8 +263,9 @@ temporal::FlexiblePlan from_wire(const v1::Plan& in) {
       });
   out.function_values =
       each<temporal::FunctionValueUse>(in.function_values(), [](const v1::FunctionValueUse& use) {
-        return temporal::FunctionValueUse{use.function(), use.arguments(), use.number(), use.owner(),
-                                          use.model_version()};
+        return temporal::FunctionValueUse{use.function(),      use.arguments(),
+                                          use.number(),        use.owner(),
+                                          use.model_version(), temporal::Time(use.computed_us())};
       });
   return out;
 }

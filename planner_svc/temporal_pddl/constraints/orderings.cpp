@@ -21,7 +21,7 @@ void Orderings::mark_new_step(SnapId next, std::span<const ActionId> running) {
   }
   const Snap& snap = task_.snaps[next];
   if (snap.kind == SnapKind::start) {
-    for (const VariableId variable : task_.invariant_reads[snap.action]) mark(variable, invariant);
+    for (const VariableId variable : task_.invariant_reads[snap.action]) mark(variable, guards);
   }
   for (const ActionId action : running) {
     for (const auto& invariant : task_.numeric_invariants[action]) {
@@ -60,7 +60,7 @@ void Orderings::add(std::span<const SnapId> steps, SnapId next, std::span<const 
     for (const VariableId variable : task_.writes[step]) {
       std::uint8_t& interest = interests_[variable];
       if (interest == 0) continue;
-      if (interest != ends) (interest == invariant ? after : separated) = true;
+      if (interest != ends) (interest == guards ? after : separated) = true;
       // What lies before this step is ordered through it; except that an adding step is before no invariant's
       // end.
       const bool ends_open = (interest & (changes | ends)) != 0 && only_adds(step, variable);

@@ -32,12 +32,43 @@ std::string describe(const FunctionCall& call) {
   return text + ") of module " + call.module;
 }
 
-void require_usable(const FunctionCall& call, const FunctionValue& answer) {
+std::string remedy_for(FunctionOutcome outcome, const FunctionCall& call) {
+  switch (outcome) {
+    case FunctionOutcome::unavailable:
+    case FunctionOutcome::owner_lost:
+      return "start the service that offers module " + call.module + ", or give the values in a file";
+    case FunctionOutcome::late:
+      return "give the owner more time, or declare fewer objects";
+    case FunctionOutcome::unknown_object:
+    case FunctionOutcome::wrong_arity:
+      return "declare the function as its owner offers it, with objects that the owner knows";
+    case FunctionOutcome::not_a_number:
+      return "the owner must answer with a finite number or with 'unreachable'";
+    case FunctionOutcome::value:
+    case FunctionOutcome::unreachable:
+      break;
+  }
+  return "";
+}
+
+std::string describe(const Provenance& said) {
+  if (said.owner.empty()) return "";
+  std::string text = "; asked " + said.owner;
+  if (!said.model_version.empty()) {
+    text += ", model " + said.model_version + ", at " +
+            std::to_string(std::chrono::duration<double>(said.time).count()) + " s";
+  }
+  return text;
+}
+
+void require_usable(const FunctionCall& call, const FunctionValue& answer, const Symbols& symbols,
+                    const FunctionSymbol& symbol) {
   if (answer.outcome == FunctionOutcome::value || answer.outcome == FunctionOutcome::unreachable) return;
-  std::string reason = "external function " + describe(call) + ": " + to_string(answer.outcome);
-  if (!answer.provenance.owner.empty()) reason += ", says " + answer.provenance.owner;
-  if (!answer.detail.empty()) reason += " (" + answer.detail + ")";
-  throw Refusal(Verdict::function_unavailable, reason);
+  std::string message = "external function " + describe(call) + ": " + to_string(answer.outcome);
+  if (!answer.detail.empty()) message += ", " + answer.detail;
+  message += describe(answer.provenance);
+  throw Refusal(Verdict::function_unavailable, pddl::Diagnostic{symbols.domain_file(), symbol.declared,
+                                                                message, remedy_for(answer.outcome, call)});
 }
 
 }  // namespace
@@ -86,7 +117,7 @@ void ConstantFunctions::load_external(FunctionSource& source, const std::functio
       used.push_back({calls[k], answer});
       if (answer.outcome == FunctionOutcome::value) define(function, tuples[k], answer.value);
     }
-    for (std::size_t k = 0; k < calls.size(); ++k) require_usable(calls[k], answers[k]);
+    for (std::size_t k = 0; k < calls.size(); ++k) require_usable(calls[k], answers[k], symbols, symbol);
   }
 }
 

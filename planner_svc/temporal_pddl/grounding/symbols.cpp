@@ -2,12 +2,13 @@
 
 namespace roci::planner::temporal_pddl {
 
-Symbols::Symbols(const pddl::Domain& domain, const pddl::Problem& problem) : objects_(domain, problem) {
+Symbols::Symbols(const pddl::Domain& domain, const pddl::Problem& problem)
+    : domain_file_(domain.file), objects_(domain, problem) {
   for (const auto& signature : domain.predicates) {
     predicates_.emplace(signature.name, predicate_names_.push_back(signature.name));
   }
   const auto declare = [&](const pddl::Signature& signature, const std::string& module) {
-    FunctionSymbol symbol{signature.name, module, {}};
+    FunctionSymbol symbol{signature.name, module, {}, signature.where};
     for (const auto& parameter : signature.parameters) symbol.parameters.push_back(of_types(parameter.types));
     function_ids_.emplace(signature.name, functions_.push_back(std::move(symbol)));
   };

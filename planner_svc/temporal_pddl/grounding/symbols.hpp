@@ -15,6 +15,7 @@ struct FunctionSymbol {
   std::string name;
   std::string module;                             // empty: a fluent of the domain
   std::vector<std::vector<ObjectId>> parameters;  // the objects that each may be
+  pddl::SourceLocation declared;                  // in the domain's file
 };
 
 // Built from a checked model: every name that is looked up is there.
@@ -34,9 +35,11 @@ class Symbols {
   std::size_t functions() const { return functions_.size(); }
   const std::string& name(ObjectId id) const { return objects_[id.index()].name; }
   const std::string& name(PredicateId id) const { return predicate_names_[id]; }
+  const std::string& domain_file() const { return domain_file_; }
   const FunctionSymbol& operator[](FunctionId id) const { return functions_[id]; }
 
  private:
+  std::string domain_file_;
   pddl::ObjectTable objects_;
   std::map<std::string, PredicateId> predicates_;
   IdVector<PredicateId, std::string> predicate_names_;

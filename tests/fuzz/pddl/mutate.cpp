@@ -94,12 +94,12 @@ class Mutator {
 
   // Puts a word of some text in the place of a word: what comes out often still parses.
   void replace_word(std::string& text, std::size_t place) {
-    static constexpr std::string_view ends = " ()\n";
-    const std::size_t begin = std::min(text.find_first_not_of(ends, place), text.size());
-    const std::size_t end = std::min(text.find_first_of(ends, begin), text.size());
+    static constexpr std::string_view kEnds = " ()\n";
+    const std::size_t begin = std::min(text.find_first_not_of(kEnds, place), text.size());
+    const std::size_t end = std::min(text.find_first_of(kEnds, begin), text.size());
     const std::string& other = corpus_[below(corpus_.size())];
-    const std::size_t from = std::min(other.find_first_not_of(ends, below(other.size())), other.size());
-    const std::size_t to = std::min(other.find_first_of(ends, from), other.size());
+    const std::size_t from = std::min(other.find_first_not_of(kEnds, below(other.size())), other.size());
+    const std::size_t to = std::min(other.find_first_of(kEnds, from), other.size());
     text.replace(begin, end - begin, other, from, to - from);
   }
 

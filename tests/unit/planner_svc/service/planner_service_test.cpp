@@ -1,0 +1,189 @@
+// The planner as a service: what comes back for a request, and that nothing keeps it from the next one.
+#include "planner_svc/planner_service.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/planner_svc/service/road_planning.hpp"
+
+namespace roci::planner {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace testing;
+using services::CallStatus;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// The one reply to one request at 1 s.
+v1::PlanReply reply_to(RoadPlanning& planning, const v1::PlanRequest& request) {
+  planning.ask(1s, request);
+  planning.run_until(100s);
+  if (planning.replies().size() != 1U) {
+    ADD_FAILURE() << planning.replies().size() << " replies";
+    return {};
+  }
+  EXPECT_EQ(planning.replies()[0].result.status, CallStatus::ok) << planning.replies()[0].result.message;
+  return planning.replies()[0].result.reply;
+}
+
+v1::FunctionReply without_the_direct_road(const v1::FunctionRequest& request, services::Time now) {
+  v1::FunctionReply reply = ten_seconds(request, now);
+  reply.results()[0].outcomes()[2] = v1::FUNCTION_UNREACHABLE;  // a c
+  return reply;
+}
+
+TEST(PlannerService, AnswersWithPlanNetworkVerdictAndStatistics) {
+  RoadPlanning planning;
+  const v1::PlanReply reply = reply_to(planning, plan_request(kRoadDomain, road_problem("(and (at b))")));
+  EXPECT_EQ(reply.verdict_code(), v1::VERDICT_SOLVED) << reply.reason();
+  EXPECT_EQ(reply.solution().engine(), "temporal_pddl");
+  EXPECT_EQ(steps_of(reply.solution()), "go a b");
+  const v1::PlanActivity& activity = reply.solution().activities().at(0);
+  EXPECT_EQ(activity.duration_lower_us(), 10'000'000);
+  EXPECT_EQ(activity.duration_upper_us(), 10'000'000);
+  EXPECT_NE(activity.start_point(), activity.end_point());
+  EXPECT_EQ(reply.solution().point_count(), 3U) << "the origin, its start, its end";
+  EXPECT_EQ(reply.statistics().function_tuples(), 9U) << "all typed tuples, once (R37)";
+  EXPECT_GT(reply.statistics().evaluated(), 0U);
+  EXPECT_GT(reply.statistics().peak_rss_kb(), 0U);
+  EXPECT_EQ(planning.replies()[0].time, 1500ms) << "by the stated model of how long a call takes";
+  EXPECT_THAT(planning.events(), IsEmpty());
+}
+
+TEST(PlannerService, TheNetworkOrdersWhatDependsOnEachOther) {
+  RoadPlanning planning;
+  planning.owner_answers([&](const v1::FunctionRequest& request, auto responder) {
+    responder.reply(without_the_direct_road(request, planning.owner().now()));
+  });
+  const v1::Plan plan = reply_to(planning, plan_request(kRoadDomain, road_problem())).solution();
+  ASSERT_EQ(steps_of(plan), "go a b, go b c");
+  const bool ordered = std::ranges::any_of(plan.constraints(), [&](const v1::TemporalConstraint& constraint) {
+    return constraint.from_point() == plan.activities()[0].end_point() &&
+           constraint.to_point() == plan.activities()[1].start_point() && constraint.lower_us() > 0;
+  });
+  EXPECT_TRUE(ordered) << "the second starts after the first has ended";
+}
+
+TEST(PlannerService, AMalformedDomainIsToldWithItsPlace) {
+  RoadPlanning planning;
+  std::string domain = kRoadDomain;
+  domain.replace(domain.find("(at ?p - place)"), 15, "(at ?p - plaice)");
+  const v1::PlanReply reply = reply_to(planning, plan_request(domain, road_problem()));
+  EXPECT_EQ(reply.verdict_code(), v1::VERDICT_INVALID_INPUT);
+  EXPECT_THAT(reply.reason(), AllOf(HasSubstr("domain:4:"), HasSubstr("plaice")));
+  EXPECT_TRUE(reply.solution().activities().empty());
+  ASSERT_EQ(planning.events().size(), 1U);
+  EXPECT_EQ(planning.events()[0].code(), "planner.verdict");
+  EXPECT_THAT(planning.events()[0].text(), HasSubstr("domain:4:"));
+}
+
+TEST(PlannerService, AMalformedProblemIsToldWithItsPlace) {
+  RoadPlanning planning;
+  const v1::PlanReply reply = reply_to(planning, plan_request(kRoadDomain, road_problem("(at nowhere)")));
+  EXPECT_EQ(reply.verdict_code(), v1::VERDICT_INVALID_INPUT);
+  EXPECT_THAT(reply.reason(), AllOf(HasSubstr("problem:4:"), HasSubstr("nowhere")));
+}
+
+TEST(PlannerService, AnUnknownModuleIsToldWithItsPlaceAndWhatThereIs) {
+  RoadPlanning planning;
+  std::string domain = kRoadDomain;
+  domain.replace(domain.find(":module roads"), 13, ":module raods");
+  const v1::PlanReply reply = reply_to(planning, plan_request(domain, road_problem()));
+  EXPECT_EQ(reply.verdict_code(), v1::VERDICT_FUNCTION_UNAVAILABLE);
+  EXPECT_THAT(reply.reason(), AllOf(HasSubstr("domain:5:"), HasSubstr("no service offers module 'raods'"),
+                                    HasSubstr("offered are: roads")));
+  EXPECT_EQ(planning.requests_for_values(), 0);
+}
+
+TEST(PlannerService, AnUnknownEngineIsToldWithThoseItHas) {
+  RoadPlanning planning;
+  v1::PlanRequest request = plan_request(kRoadDomain, road_problem());
+  request.engine("crystal_ball");
+  const v1::PlanReply reply = reply_to(planning, request);
+  EXPECT_EQ(reply.verdict_code(), v1::VERDICT_UNSUPPORTED);
+  EXPECT_THAT(reply.reason(), AllOf(HasSubstr("crystal_ball"), HasSubstr("temporal_pddl")));
+}
+
+TEST(PlannerService, ASpentBudgetOfWorkIsATimeout) {
+  RoadPlanning planning;
+  planning.owner_answers([&](const v1::FunctionRequest& request, auto responder) {
+    responder.reply(without_the_direct_road(request, planning.owner().now()));
+  });
+  v1::PlanRequest request = plan_request(kRoadDomain, road_problem());
+  request.budget().work(1);
+  EXPECT_EQ(reply_to(planning, request).verdict_code(), v1::VERDICT_TIMEOUT);
+}
+
+TEST(PlannerService, AnswersRequestsOneAfterTheOtherInTheirOrder) {
+  RoadPlanning planning;
+  planning.ask(1s, plan_request(kRoadDomain, road_problem()));
+  planning.ask(1s, plan_request("(nonsense", road_problem()));
+  planning.ask(1s, plan_request(kRoadDomain, road_problem("(at b)")));
+  planning.ask(50s, plan_request(kRoadDomain, road_problem()));
+  planning.run_until(100s);
+  std::vector<std::string> answers;
+  for (const TimedReply& reply : planning.replies())
+    answers.push_back(std::to_string(reply.time / 1ms) + " " + steps_of(reply.result.reply.solution()));
+  EXPECT_THAT(answers, ElementsAre("1500 go a c", "2000 ", "2500 go a b", "50500 go a c"));
+  EXPECT_EQ(planning.replies()[1].result.reply.verdict_code(), v1::VERDICT_INVALID_INPUT);
+}
+
+// Two clients: one dies while its call waits for values and another of its calls is queued.
+TEST(PlannerService, ACallOfADeadClientIsCancelledAndTheNextOneAnswered) {
+  services::SimRun run({"client", "planner_svc", "roads_svc", "mortal"});
+  services::Node& client = run.add("client");
+  services::Node& owner = run.add("roads_svc");
+  services::Node& mortal = run.add("mortal");
+  services::RunSettings settings;
+  settings.mission = ROCI_SOURCE_DIR "/missions/planetary";
+  const auto service = make_service(run.add("planner_svc"), settings);
+  v1::FunctionOffer offer;
+  offer.module_name("roads");
+  offer.owner("roads_svc");
+  services::advertise(owner, services::topics::function_offer).write(offer);
+  int asked = 0;
+  services::serve(owner, services::topics::function_call,
+                  [&](const v1::FunctionRequest& request, auto responder) {
+                    if (++asked > 1) responder.reply(ten_seconds(request, owner.now()));
+                  });
+  const services::Client<v1::PlanRequest, v1::PlanReply> dying(mortal, services::topics::plan_request);
+  const services::Client<v1::PlanRequest, v1::PlanReply> living(client, services::topics::plan_request);
+  mortal.at(1s, [&] {
+    for (int i = 0; i < 2; ++i)
+      dying.call(plan_request(kRoadDomain, road_problem()), "planner_svc", 1000s, [](const auto&) {});
+  });
+  mortal.at(3s, [] { throw services::Crash{}; });
+  std::vector<std::string> answers;
+  client.at(2s, [&] {
+    living.call(
+        plan_request(kRoadDomain, road_problem()), "planner_svc", 1000s,
+        [&](const services::CallResult<v1::PlanReply>& result) {
+          answers.push_back(std::to_string(client.now() / 1s) + " " + steps_of(result.reply.solution()));
+        });
+  });
+  std::vector<std::string> events;
+  services::subscribe(client, services::topics::event,
+                      [&](const v1::Event& event) { events.push_back(event.text()); });
+  client.at(100s, [&client] { client.stop(); });
+  run.run();
+  EXPECT_THAT(answers, ElementsAre("4 go a c"))
+      << "at once, not after the 20 s that the dead one's would take";
+  EXPECT_EQ(asked, 2) << "the dead client's second call is never begun";
+  EXPECT_THAT(events, ElementsAre(HasSubstr("cancelled")));
+}
+
+// The thread of a call waits for values for ever: the service still ends.
+TEST(PlannerService, EndsWhileACallIsUnderWay) {
+  RoadPlanning planning;
+  planning.owner_answers([](const v1::FunctionRequest&, auto) {});
+  planning.ask(1s, plan_request(kRoadDomain, road_problem()));
+  planning.run_until(2s);
+  EXPECT_EQ(planning.requests_for_values(), 1);
+  EXPECT_THAT(planning.replies(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace roci::planner
