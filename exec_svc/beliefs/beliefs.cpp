@@ -28,21 +28,6 @@ std::optional<temporal::Value> copied(const temporal::Value* value) {
 
 }  // namespace
 
-std::vector<std::string> words_of(const std::string& fact) {
-  std::vector<std::string> out;
-  std::string word;
-  for (char c : fact) {
-    if (c == '(' || c == ')' || c == ' ' || c == '\t' || c == '\n') {
-      if (!word.empty()) out.push_back(std::move(word));
-      word.clear();
-    } else {
-      word += c;
-    }
-  }
-  if (!word.empty()) out.push_back(std::move(word));
-  return out;
-}
-
 Beliefs::Beliefs(const MissionModel& mission) : mission_(&mission) {
   const auto note = [&](const std::vector<StateModel>& states) {
     for (const StateModel& state : states) {

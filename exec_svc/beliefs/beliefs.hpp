@@ -44,7 +44,4 @@ class Beliefs {
   std::set<std::string> observable_predicates_;
 };
 
-// "(at place-1)" → {"at", "place-1"}.
-std::vector<std::string> words_of(const std::string& fact);
-
 }  // namespace roci::exec

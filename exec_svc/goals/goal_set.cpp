@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "exec_svc/beliefs/beliefs.hpp"
 #include "exec_svc/mission/template_text.hpp"
 
 namespace roci::exec {

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/mission/entry.hpp"
+#include "exec_svc/mission/domain_names.hpp"
 
 namespace roci::exec {
 namespace {
@@ -208,15 +209,6 @@ ReactorSettings read_executive(const Entry& entry) {
   return out;
 }
 
-// The name in "(define (domain NAME)": the problem must repeat it.
-std::string domain_name(const std::string& text, const Entry& entry) {
-  const auto define = text.find("(domain");
-  const auto begin = define == std::string::npos ? define : text.find_first_not_of(" \t\r\n", define + 7);
-  const auto end = begin == std::string::npos ? begin : text.find_first_of(" \t\r\n)", begin);
-  if (end == std::string::npos) entry.fail("the file has no '(define (domain NAME)'; is it a PDDL domain?");
-  return text.substr(begin, end - begin);
-}
-
 }  // namespace
 
 MissionModel read_mission(const std::filesystem::path& mission_folder) {
@@ -224,7 +216,8 @@ MissionModel read_mission(const std::filesystem::path& mission_folder) {
   MissionModel out;
   out.name = root.at("name").text();
   out.domain_text = whole_file(root.at("domain"));
-  out.domain_name = domain_name(out.domain_text, root.at("domain"));
+  const pddl::Domain domain = read_domain(out.domain_text, root.resolve(root.at("domain").text()).string());
+  out.domain_name = domain.name;
   out.objects = read_objects(root);
   for (const Entry& item : root.at("components").items()) out.components.push_back(read_component(item));
   if (const auto list = root.find("families")) {
@@ -242,6 +235,7 @@ MissionModel read_mission(const std::filesystem::path& mission_folder) {
   for (const auto& [name, entry] : root.at("goal_kinds").fields()) {
     out.goal_kinds[name] = read_goal_kind(name, entry);
   }
+  require_domain_names(root, domain);
   out.planner = read_planner(root.at("planner"));
   if (const auto executive = root.find("executive")) out.executive = read_executive(*executive);
   return out;

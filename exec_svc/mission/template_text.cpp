@@ -44,4 +44,19 @@ std::string fill_names(const std::string& text, const std::map<std::string, std:
   return out;
 }
 
+std::vector<std::string> words_of(const std::string& fact) {
+  std::vector<std::string> out;
+  std::string word;
+  for (char c : fact) {
+    if (c == '(' || c == ')' || c == ' ' || c == '\t' || c == '\n') {
+      if (!word.empty()) out.push_back(std::move(word));
+      word.clear();
+    } else {
+      word += c;
+    }
+  }
+  if (!word.empty()) out.push_back(std::move(word));
+  return out;
+}
+
 }  // namespace roci::exec

@@ -1,4 +1,5 @@
-// Templates in mission files: ?1 (a position), * (a family's object), {name} (a goal's argument).
+// Facts and templates of facts as mission files write them: ?1 (a position), * (a family's object), {name} (a
+// goal's argument).
 #pragma once
 
 #include <map>
@@ -12,5 +13,8 @@ std::string fill_positions(const std::string& text, const std::vector<std::strin
 std::string fill_star(const std::string& text, const std::string& object);
 // Replaces {name} by its value; an unknown name stays as it is.
 std::string fill_names(const std::string& text, const std::map<std::string, std::string>& values);
+
+// "(at place-1)" → {"at", "place-1"}.
+std::vector<std::string> words_of(const std::string& fact);
 
 }  // namespace roci::exec

@@ -1,0 +1,129 @@
+#include "exec_svc/mission/domain_names.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/pddl/check.hpp"
+#include "core/pddl/types.hpp"
+#include "exec_svc/mission/template_text.hpp"
+
+namespace roci::exec {
+namespace {
+
+using mission::Entry;
+
+template <class Named>
+std::string names_of(const std::vector<Named>& all) {
+  std::string out;
+  for (const Named& one : all) out += (out.empty() ? "" : ", ") + one.name;
+  return out.empty() ? "none" : out;
+}
+
+// "(at ?1)": the first word is one of the symbols, the others are its arguments.
+void require_symbol(const Entry& entry, const std::string& text, const std::vector<pddl::Signature>& symbols,
+                    const std::string& what) {
+  const auto words = words_of(text);
+  if (words.empty()) entry.fail("expected a " + what + ", e.g. \"(at home)\"");
+  const auto symbol = std::ranges::find(symbols, words.front(), &pddl::Signature::name);
+  if (symbol == symbols.end()) {
+    entry.fail("the domain has no " + what + " '" + words.front() + "'; it has: " + names_of(symbols));
+  }
+  if (symbol->parameters.size() != words.size() - 1) {
+    entry.fail("'" + words.front() + "' has " + std::to_string(symbol->parameters.size()) +
+               " arguments in the domain, not " + std::to_string(words.size() - 1));
+  }
+}
+
+class NameCheck {
+ public:
+  explicit NameCheck(const pddl::Domain& domain) : domain_(domain), types_(domain) {}
+
+  void objects(const Entry& parent) const {
+    const auto list = parent.find("objects");
+    if (!list) return;
+    for (const Entry& object : list->items()) {
+      const Entry type = object.at("type");
+      if (!types_.knows(type.text()))
+        type.fail("the domain has no type '" + type.text() + "'; it has: " + names_of(domain_.types));
+    }
+  }
+  void facts(const Entry& parent, const char* key) const {
+    const auto list = parent.find(key);
+    if (!list) return;
+    for (const Entry& fact : list->items())
+      require_symbol(fact, fact.text(), domain_.predicates, "predicate");
+  }
+  void fact(const Entry& parent, const char* key) const {
+    if (const auto entry = parent.find(key))
+      require_symbol(*entry, entry->text(), domain_.predicates, "predicate");
+  }
+  void states(const Entry& root, const char* key) const {
+    const auto list = root.find(key);
+    if (!list) return;
+    for (const Entry& item : list->items())
+      for (const auto& [name, state] : item.at("states").fields()) facts(state, "facts");
+  }
+  void fluents(const Entry& root) const {
+    const auto list = root.find("fluents");
+    if (!list) return;
+    for (const Entry& item : list->items()) {
+      const Entry fluent = item.at("fluent");
+      require_symbol(fluent, fluent.text(), domain_.functions, "function");
+    }
+  }
+  void windows(const Entry& root) const {
+    const auto list = root.find("windows");
+    if (!list) return;
+    for (const Entry& item : list->items()) fact(item, "fact");
+  }
+  void goal_kinds(const Entry& root) const {
+    for (const auto& [name, kind] : root.at("goal_kinds").fields()) {
+      objects(kind);
+      facts(kind, "facts");
+      facts(kind, "goal");
+      fact(kind, "window");
+      if (const auto unobserved = kind.find("unobserved"))
+        for (const Entry& item : unobserved->items()) facts(item, "facts");
+    }
+  }
+  void actions(const Entry& entry) const {
+    std::vector<std::string> known;
+    for (const pddl::Action& action : domain_.actions) known.push_back(action.name);
+    for (const pddl::DurativeAction& action : domain_.durative_actions) known.push_back(action.name);
+    for (const auto& [name, binding] : entry.fields()) {
+      if (std::ranges::find(known, name) == known.end())
+        binding.fail("the domain has no action '" + name + "'; name one of its actions");
+    }
+    for (const std::string& name : known) {
+      if (!entry.find(name))
+        entry.fail("the domain's action '" + name + "' is missing; say which command it means");
+    }
+  }
+
+ private:
+  const pddl::Domain& domain_;
+  pddl::TypeTree types_;
+};
+
+}  // namespace
+
+pddl::Domain read_domain(const std::string& text, const std::string& file) {
+  try {
+    return pddl::load_domain(text, file);
+  } catch (const pddl::ParseError& error) {
+    throw mission::FileError(error.what());
+  }
+}
+
+void require_domain_names(const Entry& root, const pddl::Domain& domain) {
+  const NameCheck check(domain);
+  check.objects(root);
+  check.states(root, "components");
+  check.states(root, "families");
+  check.fluents(root);
+  check.windows(root);
+  check.actions(root.at("actions"));
+  check.goal_kinds(root);
+}
+
+}  // namespace roci::exec

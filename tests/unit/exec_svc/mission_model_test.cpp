@@ -1,0 +1,99 @@
+// Every slip in a mission's files is found when they are read, with its place and what to do.
+#include "exec_svc/mission/mission_model.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/mission/entry.hpp"
+
+namespace roci::exec {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+struct Slip {
+  const char* file;
+  const char* right;  // stands there once or more; its first place is changed
+  const char* wrong;
+  const char* error;  // part of what is told
+};
+
+void PrintTo(const Slip& slip, std::ostream* out) { *out << slip.wrong; }
+
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+class MissionSlip : public ::testing::TestWithParam<Slip> {
+ protected:
+  MissionSlip() {
+    fs::create_directories(folder_);
+    for (const char* file : {"mission.yaml", "domain.pddl"})
+      fs::copy_file(fs::path(ROCI_SOURCE_DIR "/missions/planetary") / file, folder_ / file,
+                    fs::copy_options::overwrite_existing);
+  }
+  ~MissionSlip() override { fs::remove_all(folder_); }
+
+  fs::path folder_ = fs::temp_directory_path() / ("roci_slip_" + std::to_string(::getpid()));
+};
+
+TEST_F(MissionSlip, TheMissionItselfHasNone) {
+  const MissionModel mission = read_mission(folder_);
+  EXPECT_EQ(mission.domain_name, "planetary");
+  EXPECT_EQ(mission.actions.size(), 6U);
+}
+
+TEST_P(MissionSlip, IsToldWithPlaceAndRemedy) {
+  const Slip& slip = GetParam();
+  std::string text = text_of(folder_ / slip.file);
+  const auto at = text.find(slip.right);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, std::string(slip.right).size(), slip.wrong);
+  std::ofstream(folder_ / slip.file) << text;
+  try {
+    read_mission(folder_);
+    FAIL() << "read without an error";
+  } catch (const mission::FileError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(slip.error));
+    EXPECT_THAT(error.what(), ::testing::ContainsRegex("[^:]+/[a-z]+\\.(yaml|pddl):[0-9]+:[0-9]+: "));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Mission, MissionSlip,
+    ::testing::Values(
+        Slip{"domain.pddl", "(at ?l - location)", "(at ?l - locatoin)", "locatoin"},
+        Slip{"domain.pddl", "(:predicates", "(predicates", "predicates"},
+        Slip{"domain.pddl", "(define (domain planetary)", "(defin (domain planetary)", "defin"},
+        Slip{"mission.yaml", "domain: domain.pddl", "domain: nowhere.pddl", "cannot read"},
+        Slip{"mission.yaml", "  drive: {", "  drvie: {", "the domain has no action 'drvie'"},
+        Slip{"mission.yaml", "  transmit: {owner: sim_svc, component: radio", "  #",
+             "the domain's action 'transmit' is missing"},
+        Slip{"mission.yaml", "component: nav, command", "component: wheels, command",
+             "no component 'wheels'"},
+        Slip{"mission.yaml", "type: image}", "type: imgae}", "no type 'imgae'; it has: "},
+        Slip{"mission.yaml", "name: here, type: location", "name: here, type: lcoation",
+             "no type 'lcoation'"},
+        Slip{"mission.yaml", "(camera-idle)", "(camera-idel)", "no predicate 'camera-idel'; it has: "},
+        Slip{"mission.yaml", "(dropped * ?1)", "(dropped *)",
+             "'dropped' has 2 arguments in the domain, not 1"},
+        Slip{"mission.yaml", "\"(battery)\"", "\"(batery)\"",
+             "no function 'batery'; it has: battery, reserve"},
+        Slip{"mission.yaml", "fact: \"(comm-window)\"", "fact: \"(window)\"", "no predicate 'window'"},
+        Slip{"mission.yaml", "goal: [\"(sent image-{id})\"]", "goal: [\"(seen image-{id})\"]",
+             "no predicate 'seen'"},
+        Slip{"mission.yaml", "ack_timeout_s", "ack_timout_s", "unknown key 'ack_timout_s'; known here: "},
+        Slip{"mission.yaml", "lateness: replan", "lateness: never", "one of: replan, push, deadline"},
+        Slip{"mission.yaml", "[[1500, 2700]", "[[2700, 1500]", "from < to"},
+        Slip{"mission.yaml", "work: 100000", "work: much", "number"}));
+
+}  // namespace
+}  // namespace roci::exec
