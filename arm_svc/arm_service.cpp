@@ -7,9 +7,9 @@
 #include "arm_svc/setup_file.hpp"
 #include "arm_svc/wire_service.hpp"
 #include "core/mission/entry.hpp"
-#include "services/job_queue.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
+#include "services/worker.hpp"
 
 namespace roci::arm {
 namespace {
@@ -22,7 +22,8 @@ class ArmService : public services::Service {
       : node_(node),
         model_(std::move(setup)),
         offers_(services::advertise(node, topics::function_offer)),
-        events_(services::advertise(node, topics::event)) {
+        events_(services::advertise(node, topics::event)),
+        worker_(node) {
     offers_.write(function_offer(node.options().name, model_.version()));
     for (const ResolvedPlace& pose : model_.poses()) {
       if (pose.status != MotionStatus::found) report("pose.unusable", pose.detail);
@@ -31,38 +32,29 @@ class ArmService : public services::Service {
       if (request.module_name() == kModule) on_function_call(request, responder);
     });
     services::serve(node, topics::arm_motion, [this](const v1::ArmMotionRequest& request, auto responder) {
-      compute([this, request](const std::stop_token& stop) { return find_motion(model_, request, stop); },
-              [this, responder](v1::ArmMotionReply reply) {
-                if (reply.outcome() != v1::MOTION_FOUND) report("motion.refused", reply.reason());
-                responder.reply(std::move(reply));
-              });
+      worker_.compute(
+          [this, request](const std::stop_token& stop) { return find_motion(model_, request, stop); },
+          [this, responder](v1::ArmMotionReply reply) {
+            if (reply.outcome() != v1::MOTION_FOUND) report("motion.refused", reply.reason());
+            responder.reply(std::move(reply));
+          });
     });
   }
 
  private:
-  // `work` runs on the job thread, then `deliver` with its result on the loop.
-  template <class Work, class Deliver>
-  void compute(Work work, Deliver deliver) {
-    const auto id = node_.begin_work();
-    jobs_.push([this, id, work = std::move(work), deliver = std::move(deliver)](const std::stop_token& stop) {
-      auto result = work(stop);
-      node_.post_work_result(id,
-                             [deliver, result = std::move(result)]() mutable { deliver(std::move(result)); });
-    });
-  }
-
   void on_function_call(const v1::FunctionRequest& request,
                         services::Responder<v1::FunctionReply> responder) {
-    compute([this, request](const std::stop_token& stop) { return evaluate(cache_, model_, request, stop); },
-            [this, responder](FunctionAnswer answer) {
-              for (const std::string& refusal : answer.refusals) {
-                // Once each, although every replanning asks again.
-                if (reported_.insert(refusal).second) report("motion.refused", refusal);
-              }
-              answer.reply.owner(node_.options().name);
-              answer.reply.computed_us(node_.now().count());
-              responder.reply(std::move(answer.reply));
-            });
+    worker_.compute(
+        [this, request](const std::stop_token& stop) { return evaluate(cache_, model_, request, stop); },
+        [this, responder](FunctionAnswer answer) {
+          for (const std::string& refusal : answer.refusals) {
+            // Once each, although every replanning asks again.
+            if (reported_.insert(refusal).second) report("motion.refused", refusal);
+          }
+          answer.reply.owner(node_.options().name);
+          answer.reply.computed_us(node_.now().count());
+          responder.reply(std::move(answer.reply));
+        });
   }
 
   void report(const std::string& code, const std::string& text) {
@@ -75,11 +67,11 @@ class ArmService : public services::Service {
 
   services::Node& node_;
   const MotionModel model_;
-  EstimateCache cache_;  // the job thread's alone
+  EstimateCache cache_;  // the worker's alone
   std::set<std::string> reported_;
   services::Publisher<v1::FunctionOffer> offers_;
   services::Publisher<v1::Event> events_;
-  services::JobQueue jobs_;  // last: its thread ends before the model does
+  services::Worker worker_;
 };
 
 }  // namespace

@@ -11,16 +11,16 @@
 #include "core/terrain/site_file.hpp"
 #include "pathplan_svc/rover_file.hpp"
 #include "pathplan_svc/wire_service.hpp"
-#include "services/job_queue.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
+#include "services/worker.hpp"
 
 namespace roci::pathplan {
 namespace {
 
 namespace topics = services::topics;
 
-// The planner belongs to the job thread: questions and changes of the map reach it in the order of the loop,
+// The planner belongs to the worker: questions and changes of the map reach it in the order of the loop,
 // so each answer stands on the map as it was when the question came.
 class PathplanService : public services::Service {
  public:
@@ -29,7 +29,8 @@ class PathplanService : public services::Service {
         keep_out_(rover.keep_out),
         planner_(site, rover.limits, rover.drive),
         offers_(services::advertise(node, topics::function_offer)),
-        events_(services::advertise(node, topics::event)) {
+        events_(services::advertise(node, topics::event)),
+        worker_(node) {
     planner_.set_discs(keep_out_);
     offers_.write(function_offer(node.options().name, planner_.map().version()));
     services::subscribe(node, topics::hazard, [this](const v1::Hazard& hazard) { on_hazard(hazard); });
@@ -37,32 +38,22 @@ class PathplanService : public services::Service {
       if (request.module_name() == kModule) on_function_call(request, responder);
     });
     services::serve(node, topics::path_request, [this](const v1::PathRequest& request, auto responder) {
-      compute([this, request](const std::stop_token&) { return find_path(planner_, request); },
-              [responder](v1::PathReply reply) { responder.reply(std::move(reply)); });
+      worker_.compute([this, request](const std::stop_token&) { return find_path(planner_, request); },
+                      [responder](v1::PathReply reply) { responder.reply(std::move(reply)); });
     });
   }
 
  private:
-  // `work` runs on the job thread, then `deliver` with its result on the loop.
-  template <class Work, class Deliver>
-  void compute(Work work, Deliver deliver) {
-    const auto id = node_.begin_work();
-    jobs_.push([this, id, work = std::move(work), deliver = std::move(deliver)](const std::stop_token& stop) {
-      auto result = work(stop);
-      node_.post_work_result(id,
-                             [deliver, result = std::move(result)]() mutable { deliver(std::move(result)); });
-    });
-  }
-
   void on_function_call(const v1::FunctionRequest& request,
                         services::Responder<v1::FunctionReply> responder) {
-    compute([this, request](const std::stop_token& stop) { return evaluate(planner_, request, stop); },
-            [this, responder](FunctionAnswer answer) {
-              report_unusable(answer.unusable_places);
-              answer.reply.owner(node_.options().name);
-              answer.reply.computed_us(node_.now().count());
-              responder.reply(std::move(answer.reply));
-            });
+    worker_.compute(
+        [this, request](const std::stop_token& stop) { return evaluate(planner_, request, stop); },
+        [this, responder](FunctionAnswer answer) {
+          report_unusable(answer.unusable_places);
+          answer.reply.owner(node_.options().name);
+          answer.reply.computed_us(node_.now().count());
+          responder.reply(std::move(answer.reply));
+        });
   }
 
   // Each place once per map, although every replanning asks again.
@@ -96,7 +87,7 @@ class PathplanService : public services::Service {
     std::vector<Disc> discs = keep_out_;
     for (const auto& [id, disc] : hazards_) discs.push_back(disc);
     const std::size_t count = hazards_.size();
-    compute(
+    worker_.compute(
         [this, discs = std::move(discs)](const std::stop_token&) {
           const bool changed = planner_.set_discs(discs);
           return std::pair{changed, planner_.map().version()};
@@ -132,10 +123,10 @@ class PathplanService : public services::Service {
   std::vector<Disc> keep_out_;
   std::map<std::string, Disc> hazards_;
   std::set<std::string> reported_;
-  PathPlanner planner_;  // from the constructor's end on: the job thread's alone
+  PathPlanner planner_;  // from the constructor's end on: the worker's alone
   services::Publisher<v1::FunctionOffer> offers_;
   services::Publisher<v1::Event> events_;
-  services::JobQueue jobs_;  // last: its thread ends before the planner does
+  services::Worker worker_;
 };
 
 }  // namespace

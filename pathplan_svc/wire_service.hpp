@@ -23,7 +23,7 @@ struct FunctionAnswer {
 };
 
 // Every tuple gets an outcome. An object is a place if it has properties x and y, finite numbers in metres. A
-// place off the map or inside an obstacle is unreachable. Ends early, with what there is, when stopped.
+// place off the map or inside an obstacle is unreachable. Once stopped, the rest is FUNCTION_FAILED.
 FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request,
                         const std::stop_token& stop);
 

@@ -1,0 +1,82 @@
+#include "services/wire/function_wire.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace roci::services::wire {
+namespace {
+
+FunctionResult answer_tuple(const v1::FunctionRequest& request, std::span<const std::uint32_t> tuple,
+                            const OwnedFunction& function, const Evaluator& evaluate) {
+  if (tuple.size() != function.parameter_types.size()) return {v1::FUNCTION_WRONG_ARITY};
+  std::vector<const v1::PlanObject*> objects;
+  for (const std::uint32_t index : tuple) {
+    if (index >= request.objects().size()) return {v1::FUNCTION_UNKNOWN_OBJECT};
+    objects.push_back(&request.objects()[index]);
+  }
+  return evaluate(function, objects);
+}
+
+}  // namespace
+
+v1::FunctionOffer function_offer(const std::string& module_name, const std::string& owner,
+                                 std::uint64_t model_version, const std::vector<OwnedFunction>& functions) {
+  v1::FunctionOffer offer;
+  offer.module_name(module_name);
+  offer.owner(owner);
+  offer.model_version(model_version);
+  for (const OwnedFunction& function : functions) {
+    v1::FunctionSignature signature;
+    signature.name(function.name);
+    signature.parameter_types(function.parameter_types);
+    signature.unit(function.unit);
+    offer.functions().push_back(signature);
+  }
+  return offer;
+}
+
+v1::FunctionReply answer_batches(const v1::FunctionRequest& request, std::uint64_t model_version,
+                                 const std::vector<OwnedFunction>& functions, const Evaluator& evaluate,
+                                 const std::stop_token& stop) {
+  v1::FunctionReply reply;
+  reply.model_version(model_version);
+  for (const v1::FunctionBatch& batch : request.batches()) {
+    v1::FunctionValues values;
+    values.function(batch.function());
+    const auto function = std::ranges::find(functions, batch.function(), &OwnedFunction::name);
+    const std::size_t arity = std::max<std::size_t>(batch.arity(), 1);
+    const std::span<const std::uint32_t> tuples = batch.tuples();
+    for (std::size_t i = 0; i < tuples.size(); i += arity) {
+      FunctionResult result{v1::FUNCTION_UNKNOWN_FUNCTION};
+      if (stop.stop_requested()) {
+        result.outcome = v1::FUNCTION_FAILED;
+      } else if (function != functions.end()) {
+        result =
+            answer_tuple(request, tuples.subspan(i, std::min(arity, tuples.size() - i)), *function, evaluate);
+      }
+      values.numbers().push_back(result.number);
+      values.outcomes().push_back(result.outcome);
+    }
+    reply.results().push_back(values);
+  }
+  return reply;
+}
+
+const std::string* property(const v1::PlanObject& object, const std::string& name) {
+  const auto found =
+      std::ranges::find_if(object.properties(), [&](const auto& entry) { return entry.name() == name; });
+  return found == object.properties().end() ? nullptr : &found->value();
+}
+
+std::optional<double> finite_property(const v1::PlanObject& object, const std::string& name) {
+  const std::string* text = property(object, name);
+  if (text == nullptr) return std::nullopt;
+  double value = 0;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+  if (error != std::errc() || end != text->data() + text->size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+}  // namespace roci::services::wire

@@ -1,0 +1,44 @@
+// What every owner of external functions does on the wire (R35-R39): the offer, and one outcome for each
+// tuple of each batch.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "roci_idl/function.h"
+
+namespace roci::services::wire {
+
+struct OwnedFunction {
+  std::string name;
+  std::vector<std::string> parameter_types;
+  std::string unit;
+};
+
+struct FunctionResult {
+  v1::FunctionOutcome outcome = v1::FUNCTION_FAILED;
+  double number = 0;  // with FUNCTION_VALUE, in the function's unit
+};
+
+// Called with one of the owned functions and as many objects as it has parameters.
+using Evaluator = std::function<FunctionResult(const OwnedFunction&, std::span<const v1::PlanObject* const>)>;
+
+v1::FunctionOffer function_offer(const std::string& module_name, const std::string& owner,
+                                 std::uint64_t model_version, const std::vector<OwnedFunction>& functions);
+
+// Answers every tuple; unknown functions, wrong arities and indices beyond the request's objects are told as
+// such without asking `evaluate`. Once stopped, the rest is FUNCTION_FAILED.
+v1::FunctionReply answer_batches(const v1::FunctionRequest& request, std::uint64_t model_version,
+                                 const std::vector<OwnedFunction>& functions, const Evaluator& evaluate,
+                                 const std::stop_token& stop);
+
+const std::string* property(const v1::PlanObject& object,
+                            const std::string& name);  // null: has none of that name
+std::optional<double> finite_property(const v1::PlanObject& object, const std::string& name);
+
+}  // namespace roci::services::wire

@@ -1,0 +1,33 @@
+#pragma once
+#include <utility>
+
+#include "services/job_queue.hpp"
+#include "services/node.hpp"
+
+namespace roci::services {
+
+// Long computations beside the event loop: one thread, jobs in the order in which they were given; the
+// simulated clock waits for them. Make it the last member of a service: its thread ends before what the jobs
+// use.
+class Worker {
+ public:
+  explicit Worker(Node& node) : node_(node) {}
+
+  // `work(stop_token)` runs on the thread, then `deliver(its result)` on the loop.
+  template <class Work, class Deliver>
+  void compute(Work work, Deliver deliver) {
+    const auto id = node_.begin_work();
+    jobs_.push([&node = node_, id, work = std::move(work),
+                deliver = std::move(deliver)](const std::stop_token& stop) {
+      auto result = work(stop);
+      node.post_work_result(id,
+                            [deliver, result = std::move(result)]() mutable { deliver(std::move(result)); });
+    });
+  }
+
+ private:
+  Node& node_;
+  JobQueue jobs_;
+};
+
+}  // namespace roci::services
