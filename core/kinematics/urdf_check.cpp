@@ -164,8 +164,9 @@ UrdfNotes check_robot(const XMLElement& robot) {
 std::variant<UrdfNotes, UrdfError> check_urdf(const std::string& text, const std::string& file) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    return UrdfError{file, document.ErrorLineNum(), "document",
-                     std::string("not XML: ") + document.ErrorName()};
+    return UrdfError{
+        file, document.ErrorLineNum(), "document",
+        std::string("not XML (") + document.ErrorName() + "); mend the syntax at or before this line"};
   }
   const XMLElement* robot = document.RootElement();
   if (robot == nullptr || std::string(robot->Name()) != "robot") {

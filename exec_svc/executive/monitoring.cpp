@@ -98,7 +98,8 @@ bool PlanRun::monitor_activity(Index activity, Time now) {
     return true;
   }
   if (run.phase == Phase::sent && age >= settings_.ack_timeout) {
-    const std::string cause = "command not answered within " + to_text(settings_.ack_timeout);
+    const std::string cause =
+        "command not answered by " + planned.owner + " within " + to_text(settings_.ack_timeout);
     if (run.retries_used < planned.retries && starting()) {
       cancel(activity, now, AfterCancel::retry, cause);
     } else {

@@ -183,8 +183,8 @@ void Reactor::begin_pause(Time now) {
   wanted_ = false;
   note(NoteLevel::info, "plan.wanted", wanted_why_);
   if (!first_plan_ && ++counts_.replans > mission_->executive.replan_limit) {
-    make_safe(now,
-              "the limit of " + std::to_string(mission_->executive.replan_limit) + " replans is reached");
+    make_safe(now, "the limit of " + std::to_string(mission_->executive.replan_limit) +
+                       " replans is reached; the last: " + wanted_why_);
     return;
   }
   phase_ = Phase::pausing;

@@ -41,6 +41,10 @@ Progress::~Progress() {
 void Progress::take(const v1::Event& event) {
   if (event.severity_level() == v1::SEVERITY_DEBUG) return;
   last_event_ = event.code() + ": " + event.text();
+  if (event.severity_level() != v1::SEVERITY_ERROR) return;
+  std::cerr << (shown_ && terminal_ ? "\r\x1b[K" : "")
+            << clock_text(services::Time(event.header().stamp_us())) << "  " << last_event_ << std::endl;
+  drawn_.clear();
 }
 
 void Progress::report(v1::Severity severity, const std::string& code, const std::string& text) {

@@ -13,7 +13,8 @@ namespace roci::launch {
 
 class Progress {
  public:
-  // `shown`: on standard error, one line that is rewritten on a terminal, else a line for each change.
+  // `shown`: on standard error, one line that is rewritten on a terminal, else a line for each change. Errors
+  // are always told, each on a line of its own.
   Progress(services::Node&, bool shown);
   ~Progress();  // ends the line
   Progress(const Progress&) = delete;

@@ -1,0 +1,172 @@
+// Bad input to the programs that users start: each slip in a mission's files ends the start with exit code 2
+// and a message that names file, line and remedy; what shows only in flight makes the robot safe, loses no
+// goal, and is told (docs/exit-codes.md).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/scenario/flight.hpp"
+
+namespace roci::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+
+// A copy of the planetary mission, to be spoilt.
+class SpoiltMission {
+ public:
+  SpoiltMission() : folder_(fs::temp_directory_path() / ("roci_spoilt_" + std::to_string(::getpid()))) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    fs::copy(ROCI_SOURCE_DIR "/missions/planetary", folder_ / "planetary", fs::copy_options::recursive);
+  }
+  ~SpoiltMission() { fs::remove_all(folder_); }
+
+  std::string path() const { return folder_ / "planetary"; }
+
+  void replace(const std::string& file, const std::string& right, const std::string& wrong) const {
+    std::ostringstream in;
+    in << std::ifstream(folder_ / "planetary" / file, std::ios::binary).rdbuf();
+    std::string text = in.str();
+    std::size_t changes = 0;
+    for (auto at = text.find(right); at != std::string::npos; at = text.find(right, at + wrong.size())) {
+      text.replace(at, right.size(), wrong);
+      ++changes;
+    }
+    ASSERT_GT(changes, 0U) << right << " does not stand in " << file;
+    std::ofstream(folder_ / "planetary" / file, std::ios::binary) << text;
+  }
+  void halve(const std::string& file) const {
+    fs::resize_file(folder_ / "planetary" / file, fs::file_size(folder_ / "planetary" / file) / 2);
+  }
+
+  // With standard error in the output.
+  Ended fly(const std::string& dds) const {
+    return run("timeout 60 roci-launch " + path() + " --dds " + dds +
+               " --speed max --headless --json --run-folder " + (folder_ / ("run-" + dds)).string() +
+               " 2>&1");
+  }
+
+ private:
+  fs::path folder_;
+};
+
+struct Slip {
+  const char* name;
+  const char* file;
+  const char* right;  // empty: half of the file is cut off
+  const char* wrong;
+  const char* told;
+};
+
+void PrintTo(const Slip& slip, std::ostream* out) { *out << slip.name; }
+
+class BadFile : public ::testing::TestWithParam<Slip> {};
+
+TEST_P(BadFile, EndsTheStartWithPlaceAndRemedy) {
+  const Slip& slip = GetParam();
+  const SpoiltMission mission;
+  if (*slip.right == '\0') {
+    mission.halve(slip.file);
+  } else {
+    mission.replace(slip.file, slip.right, slip.wrong);
+  }
+  for (const char* dds : {"cyclonedds", "inproc"}) {
+    const Ended ended = mission.fly(dds);
+    EXPECT_EQ(ended.exit_code, 2) << dds << "\n" << ended.output;
+    EXPECT_THAT(ended.output, AllOf(ContainsRegex(std::string(slip.file) + ":[0-9]+"), HasSubstr(slip.told)))
+        << dds;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadFile,
+    ::testing::Values(
+        Slip{"domain", "domain.pddl", "(at ?l - location)", "(at ?l - locatoin)", "declare it in :types"},
+        Slip{"domain_cut_off", "domain.pddl", "", "", "never closed"},
+        Slip{"mission_syntax", "mission.yaml", "name: planetary", "name: [planetary",
+             "mend the syntax there"},
+        Slip{"mission_key", "mission.yaml", "ack_timeout_s", "ack_timout_s", "known here: ack_timeout_s"},
+        Slip{"mission_number", "mission.yaml", "radius_m: 0.8", "radius_m: wide", "expected a finite number"},
+        Slip{"mission_action", "mission.yaml", "transmit: {owner", "transmute: {owner",
+             "the domain has no action"},
+        Slip{"mission_component", "mission.yaml", "component: nav,", "component: wheels,",
+             "declare it under"},
+        Slip{"site", "site/site.yaml", "resolution:", "resolutoin:", "known here"},
+        Slip{"rocks_cut_off", "site/rocks.pgm", "", "", "generate or copy the file again"},
+        Slip{"elevation_cut_off", "site/elevation.pgm", "", "", "generate or copy the file again"},
+        Slip{"arm_syntax", "arm/arm.urdf", "</robot>", "", "mend the syntax"},
+        Slip{"arm_joint", "arm/arm.urdf", "type=\"revolute\"", "type=\"rubber\"", "is not one of revolute"},
+        Slip{"poses", "arm/poses.yaml", "joints:", "jionts:", "jionts"},
+        Slip{"scenario_key", "scenarios/nominal.yaml", "duration_s: 14400", "duration: 14400", "known here"},
+        Slip{"scenario_number", "scenarios/nominal.yaml", "at_s: 10", "at_s: ten",
+             "expected a finite number"}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+TEST(BadCommandLine, IsToldWithTheRemedy) {
+  const std::string planetary = ROCI_SOURCE_DIR "/missions/planetary";
+  Ended ended = run("timeout 60 roci-launch " + planetary + " --scenario nowhere --headless 2>&1");
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("nowhere"), HasSubstr("nominal")));
+  ended = run("timeout 60 roci-launch " + planetary + " --dds smoke --headless 2>&1");
+  EXPECT_NE(ended.exit_code, 0);
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("smoke"), HasSubstr("cyclonedds"), HasSubstr("fastdds")));
+  ended = run("timeout 60 roci goal add 2>&1");
+  EXPECT_EQ(ended.exit_code, 2);
+  const SpoiltMission mission;
+  ended = run("timeout 60 planner_svc --dds smoke --domain 99 --mission " + mission.path() +
+              " --run-folder " + mission.path() + " 2>&1");
+  EXPECT_EQ(ended.exit_code, 3);
+  EXPECT_THAT(ended.output, HasSubstr("cyclonedds"));
+}
+
+// What no file shows: the robot is made safe, its goals wait for the ground, standard error says why.
+struct Surprise {
+  const char* name;
+  const char* file;
+  const char* right;
+  const char* wrong;
+  const char* told;
+};
+
+void PrintTo(const Surprise& surprise, std::ostream* out) { *out << surprise.name; }
+
+class InFlight : public ::testing::TestWithParam<Surprise> {};
+
+TEST_P(InFlight, MakesTheRobotSafeLosesNoGoalAndIsTold) {
+  const Surprise& surprise = GetParam();
+  const SpoiltMission mission;
+  mission.replace(surprise.file, surprise.right, surprise.wrong);
+  const Ended ended = mission.fly("cyclonedds");
+  EXPECT_EQ(ended.exit_code, 1) << ended.output;
+  const nlohmann::json summary = last_line_as_json(ended.output);
+  EXPECT_EQ(summary.value("result", ""), "partial");
+  EXPECT_EQ(summary["goals"].value("achieved", 0) + summary["goals"].value("open", 0), 3) << summary.dump();
+  EXPECT_THAT(ended.output,
+              AllOf(HasSubstr("robot.safe: made safe, waiting for the ground"), HasSubstr(surprise.told)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Surprises, InFlight,
+    ::testing::Values(Surprise{"unknown_module", "domain.pddl", ":module arm", ":module arms",
+                               "no service offers module 'arms'; offered are: arm, pathplan"},
+                      Surprise{"unknown_engine", "mission.yaml", "engine: temporal_pddl", "engine: crystal",
+                               "unknown engine 'crystal'; this planner has: temporal_pddl"},
+                      Surprise{
+                          "unknown_component", "mission.yaml", ": camera", ": eye",
+                          "[unknown-component]: no component 'eye'; known: nav, arm, camera, gripper, radio"},
+                      Surprise{"unknown_command", "mission.yaml", "command: image", "command: photograph",
+                               "[unknown-command]: camera has no command 'photograph'; known: image, stop"},
+                      Surprise{"unknown_owner", "mission.yaml", "take-image: {owner: sim_svc",
+                               "take-image: {owner: eye_svc", "command not answered by eye_svc within 5 s"}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace roci::scenario
