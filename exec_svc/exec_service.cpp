@@ -64,12 +64,15 @@ class ExecService final : public services::Service {
   ~ExecService() override { write_summary(); }
 
  private:
-  // After a restart: goals and the trace so far come from the journal, the world from observations.
+  // After a restart: goals and the trace so far come from the journal, the world from observations. Who joins now
+  // hears of every goal, as before.
   void recover() {
     journal_.for_each([this](temporal::Time, std::string_view kind, std::string_view text) {
       if (kind == "trace") trace_.add(text);
     });
-    reactor_.restore(journal_.goals(), static_cast<std::uint32_t>(journal_.number("plan_version", 0)));
+    const std::vector<GoalRecord> goals = journal_.goals();
+    reactor_.restore(goals, static_cast<std::uint32_t>(journal_.number("plan_version", 0)));
+    for (const GoalRecord& goal : goals) goal_statuses_.write(wire::to_wire(goal));
   }
 
   void take(const v1::Observation& observation) {

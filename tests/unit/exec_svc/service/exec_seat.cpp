@@ -1,0 +1,190 @@
+#include "tests/unit/exec_svc/service/exec_seat.hpp"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "services/wire/plan_wire.hpp"
+#include "tests/unit/exec_svc/planetary_fixture.hpp"
+
+namespace roci::exec::testing {
+namespace {
+
+namespace fs = std::filesystem;
+namespace topics = services::topics;
+using namespace std::chrono_literals;
+
+fs::path made_folder(int domain) {
+  const fs::path folder =
+      fs::temp_directory_path() / ("roci_exec_" + std::to_string(::getpid()) + "_" + std::to_string(domain));
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+// An image for each goal fact of the problem, one after the other.
+temporal::FlexiblePlan images_for(const std::string& problem) {
+  temporal::FlexiblePlan plan;
+  const std::string goal = problem.substr(problem.find("(:goal"));
+  const std::regex wanted("\\(sent image-([a-z0-9-]+)\\)");
+  for (std::sregex_iterator match(goal.begin(), goal.end(), wanted), end; match != end; ++match) {
+    temporal::PlanActivity activity;
+    activity.id = "a" + std::to_string(plan.activities.size() + 1);
+    activity.name = "take-image";
+    activity.arguments = {{"1", "image-" + (*match)[1].str()}, {"2", "place-" + (*match)[1].str()}};
+    activity.start_point = plan.point_count++;
+    activity.end_point = plan.point_count++;
+    activity.duration_lower = activity.duration_upper = temporal::seconds(40);
+    if (!plan.activities.empty()) {
+      plan.constraints.push_back({plan.activities.back().end_point, activity.start_point,
+                                  temporal::ConstraintKind::ordering, temporal::seconds(0.001),
+                                  temporal::no_bound});
+    }
+    plan.activities.push_back(std::move(activity));
+  }
+  return plan;
+}
+
+const char* name_of(v1::GoalState state) {
+  constexpr std::array names{"rejected", "pending", "planned", "achieved", "dropped", "failed", "recalled"};
+  return names.at(static_cast<std::size_t>(state));
+}
+
+// Mission time waits for an executive that was killed to come back.
+services::Node& waiting_master(services::SimRun& run, const std::string& vendor) {
+  run.master.restart_hold_s = 1000;
+  return run.add("sim_svc", 1, vendor);
+}
+
+}  // namespace
+
+v1::Goal photo_goal(const std::string& id) {
+  v1::Goal out;
+  out.issuer("ground");
+  out.id(id);
+  out.goal_kind("photo");
+  out.arguments().resize(2);
+  out.arguments()[0].name("x");
+  out.arguments()[0].value("110");
+  out.arguments()[1].name("y");
+  out.arguments()[1].value("60");
+  return out;
+}
+
+ExecSeat::ExecSeat(const std::string& vendor, const std::string& vendor_of_others, int domain)
+    : folder_(made_folder(domain)),
+      vendor_(vendor),
+      run_({"sim_svc", "planner_svc", "exec_svc"}, domain),
+      robot_(waiting_master(run_, vendor_of_others)),
+      goals_(services::advertise(robot_, topics::goal)),
+      observations_(services::advertise(robot_, topics::observation)),
+      acks_(services::advertise(robot_, topics::command_ack)) {
+  serve_plans(run_.add("planner_svc", 1, vendor_of_others));
+  services::subscribe(robot_, topics::command, [this](const v1::Command& command) { obey(command); });
+  services::subscribe(robot_, topics::goal_status, [this](const v1::GoalStatus& status) {
+    statuses.push_back(status.id() + " " + name_of(status.goal_state()) +
+                       (status.reason().empty() ? "" : " " + status.reason()));
+  });
+  services::subscribe(robot_, topics::event,
+                      [this](const v1::Event& event) { events.push_back(event.code()); });
+  services::subscribe(robot_, topics::plan, [this](const v1::Plan& plan) { plans.push_back(plan); });
+  services::subscribe(robot_, topics::mission_status,
+                      [this](const v1::MissionStatus& status) { mission = status; });
+  robot_.at(0s, [this] {
+    for (const auto& [timeline, value] : standing_robot()) observe(timeline, value);
+  });
+  start_executive(1);
+}
+
+ExecSeat::~ExecSeat() {
+  run_.join();
+  executive_.reset();
+  fs::remove_all(folder_);
+}
+
+void ExecSeat::start_executive(std::uint32_t incarnation) {
+  services::Node& node = run_.add("exec_svc", incarnation, vendor_);
+  services::RunSettings settings;
+  settings.mission = ROCI_SOURCE_DIR "/missions/planetary";
+  settings.run_folder = folder_;
+  executive_ = make_service(node, settings);
+}
+
+void ExecSeat::kill_executive_at(services::Time when) {
+  killed_ = true;
+  run_.node("exec_svc").at(when, [this] {
+    executive_.reset();
+    throw services::Crash{};
+  });
+}
+
+void ExecSeat::serve_plans(services::Node& planner) {
+  services::serve(planner, topics::plan_request,
+                  [this, &planner](const v1::PlanRequest& request, auto responder) {
+                    ++planner_calls;
+                    v1::PlanReply reply;
+                    reply.verdict_code(v1::VERDICT_SOLVED);
+                    reply.solution(services::wire::to_wire(images_for(request.problem_text())));
+                    planner.after(500ms, [responder, reply] { responder.reply(reply); });
+                  });
+}
+
+void ExecSeat::observe(const std::string& timeline, const temporal::Value& value) {
+  v1::Observation out;
+  out.timeline(timeline);
+  out.observed(services::wire::to_wire(value));
+  out.sampled_us(robot_.now().count());
+  observations_.write(out);
+}
+
+void ExecSeat::tell(const std::string& activity, std::uint32_t attempt, v1::CommandStage stage) {
+  v1::CommandAck out;
+  out.activity(activity);
+  out.attempt(attempt);
+  out.stage(stage);
+  out.owner("sim_svc");
+  acks_.write(out);
+}
+
+void ExecSeat::obey(const v1::Command& command) {
+  commands.push_back(command);
+  if (command.command_name() == "stop" || command.action() == v1::COMMAND_CANCEL) {
+    tell(command.activity(), command.attempt(),
+         command.action() == v1::COMMAND_CANCEL ? v1::COMMAND_CANCELLED : v1::COMMAND_COMPLETED);
+    observe("rover.camera", temporal::state("idle"));
+    return;
+  }
+  tell(command.activity(), command.attempt(), v1::COMMAND_ACCEPTED);
+  observe("rover.camera", temporal::state("imaging"));
+  const std::string image = command.arguments().at(0).value();
+  robot_.after(40s, [this, image, activity = command.activity(), attempt = command.attempt()] {
+    observe("rover.camera", temporal::state("idle"));
+    observe("image." + image, temporal::state("sent"));
+    tell(activity, attempt, v1::COMMAND_COMPLETED);
+  });
+}
+
+void ExecSeat::send(services::Time when, const v1::Goal& goal) {
+  robot_.at(when, [this, goal] { goals_.write(goal); });
+}
+
+void ExecSeat::run_until(services::Time end) {
+  robot_.at(end, [this] { robot_.stop(); });
+  run_.start();
+  if (killed_) {
+    run_.wait_for_crash("exec_svc");
+    start_executive(2);
+  }
+  run_.run();
+}
+
+std::string ExecSeat::summary() const {
+  std::ostringstream text;
+  text << std::ifstream(folder_ / "summary.json").rdbuf();
+  return text.str();
+}
+
+}  // namespace roci::exec::testing

@@ -1,0 +1,67 @@
+// The executive as a service between a robot that obeys and a planner that plans one image for each goal. A
+// photo takes 40 s.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "exec_svc/exec_service.hpp"
+#include "exec_svc/journal/journal.hpp"
+#include "services/publisher.hpp"
+#include "services/rpc.hpp"
+#include "tests/unit/services/sim_run.hpp"
+
+namespace roci::exec::testing {
+
+// A goal at (110, 60).
+v1::Goal photo_goal(const std::string& id);
+
+class ExecSeat {
+ public:
+  // `vendor` of the executive's transport; the others use `vendor_of_others`.
+  explicit ExecSeat(const std::string& vendor = "inproc", const std::string& vendor_of_others = "inproc",
+                    int domain = services::next_domain());
+  ~ExecSeat();
+
+  void send(services::Time when, const v1::Goal& goal);
+  // The executive dies then without a word, and starts again as its next incarnation.
+  void kill_executive_at(services::Time when);
+  void at(services::Time when, std::function<void()> what) { robot_.at(when, std::move(what)); }
+  void run_until(services::Time end);
+
+  services::SimRun& run() { return run_; }
+  services::Node& robot() { return robot_; }
+  // As after a crash: what stands in the file now.
+  Journal journal() const { return Journal(folder_ / "journal.sqlite", Durability::process); }
+  std::string summary() const;
+
+  std::vector<std::string> statuses;  // "id state reason", as they came
+  std::vector<std::string> events;    // codes
+  std::vector<v1::Command> commands;
+  std::vector<v1::Plan> plans;
+  v1::MissionStatus mission;
+  int planner_calls = 0;
+
+ private:
+  void start_executive(std::uint32_t incarnation);
+  void serve_plans(services::Node& planner);
+  void obey(const v1::Command& command);
+  void tell(const std::string& activity, std::uint32_t attempt, v1::CommandStage stage);
+  void observe(const std::string& timeline, const temporal::Value& value);
+
+  std::filesystem::path folder_;
+  std::string vendor_;
+  services::SimRun run_;
+  services::Node& robot_;
+  services::Publisher<v1::Goal> goals_;
+  services::Publisher<v1::Observation> observations_;
+  services::Publisher<v1::CommandAck> acks_;
+  std::unique_ptr<services::Service> executive_;
+  bool killed_ = false;
+};
+
+}  // namespace roci::exec::testing

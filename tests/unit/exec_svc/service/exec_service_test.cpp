@@ -1,0 +1,152 @@
+// The executive as a service: goals over the wire, statuses back, everything in the journal first, and what a
+// restart keeps.
+#include "exec_svc/exec_service.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/unit/exec_svc/service/exec_seat.hpp"
+
+namespace roci::exec {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace testing;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+TEST(ExecService, AGoalIsJournalledAcknowledgedPlannedAndAchieved) {
+  ExecSeat seat;
+  seat.send(10s, photo_goal("ridge"));
+  std::vector<std::string> journalled;  // when the first acknowledgement is there
+  seat.at(10s + 1us, [&] {
+    for (const GoalRecord& record : seat.journal().goals()) journalled.push_back(record.request.key.text());
+  });
+  seat.run_until(200s);
+  EXPECT_THAT(seat.statuses,
+              ElementsAre("ridge pending", "ridge planned in plan 1", "ridge achieved observed"));
+  EXPECT_THAT(journalled, ElementsAre("ground/ridge"));
+  EXPECT_EQ(seat.planner_calls, 1);
+  ASSERT_EQ(seat.plans.size(), 1U);
+  EXPECT_EQ(seat.plans[0].version(), 1U);
+  ASSERT_EQ(seat.commands.size(), 1U);
+  EXPECT_EQ(seat.commands[0].command_name(), "image");
+  EXPECT_EQ(seat.commands[0].owner(), "sim_svc");
+  EXPECT_EQ(seat.commands[0].epoch(), 1U);
+  EXPECT_EQ(seat.mission.outcome(), "achieved");
+  EXPECT_EQ(seat.mission.goals_achieved(), 1U);
+  EXPECT_EQ(seat.mission.trace_sha256().size(), 64U);
+  const auto summary = nlohmann::json::parse(seat.summary());
+  EXPECT_EQ(summary["result"], "achieved");
+  EXPECT_EQ(summary["trace_sha256"], seat.mission.trace_sha256());
+  EXPECT_EQ(seat.journal().goals().at(0).state, GoalState::achieved);
+}
+
+TEST(ExecService, TheJournalHasTheRecordOfTheRun) {
+  ExecSeat seat;
+  seat.send(10s, photo_goal("ridge"));
+  seat.run_until(200s);
+  std::map<std::string, int> kinds;
+  std::vector<std::string> traced;
+  seat.journal().for_each([&](temporal::Time, std::string_view kind, std::string_view text) {
+    ++kinds[std::string(kind)];
+    if (kind == "trace") traced.emplace_back(text);
+  });
+  EXPECT_EQ(kinds["call"], 1);
+  EXPECT_GE(kinds["event"], 4);
+  EXPECT_GE(kinds["step"], 3);
+  EXPECT_THAT(traced, Contains(HasSubstr(" plan ")));
+  EXPECT_THAT(traced, Contains(HasSubstr(" command ")));
+  EXPECT_THAT(traced, Contains(HasSubstr(" ack ")));
+  EXPECT_THAT(traced, Contains(HasSubstr(" observation ")));
+}
+
+TEST(ExecService, ABadGoalIsRefusedAndTheNextOneFlies) {
+  ExecSeat seat;
+  v1::Goal bad = photo_goal("bad");
+  bad.goal_kind("photograph");
+  v1::Goal twin = photo_goal("ridge");
+  twin.issuer("somebody");
+  seat.send(10s, bad);
+  seat.send(20s, photo_goal("ridge"));
+  seat.send(21s, twin);
+  seat.send(22s, photo_goal("ridge"));  // the same again changes nothing
+  seat.run_until(200s);
+  EXPECT_THAT(seat.statuses,
+              ElementsAre(StartsWith("bad rejected unknown goal kind 'photograph'; this mission knows: "),
+                          "ridge pending", "ridge planned in plan 1",
+                          "ridge rejected id 'ridge' is in use by issuer 'ground'; choose another id",
+                          "ridge achieved observed"));
+  EXPECT_EQ(seat.mission.outcome(), "achieved");
+}
+
+TEST(ExecService, ARecalledGoalIsCancelledOnBoard) {
+  ExecSeat seat;
+  v1::Goal recall = photo_goal("ridge");
+  recall.recalled(true);
+  seat.send(10s, photo_goal("ridge"));
+  seat.send(30s, recall);
+  seat.run_until(200s);
+  EXPECT_THAT(seat.statuses,
+              ElementsAre("ridge pending", "ridge planned in plan 1", "ridge recalled recalled by ground"));
+  ASSERT_EQ(seat.commands.size(), 2U);
+  EXPECT_EQ(seat.commands[1].action(), v1::COMMAND_CANCEL);
+}
+
+TEST(ExecService, AMalformedObservationIsReportedAndIgnored) {
+  ExecSeat seat;
+  seat.send(10s, photo_goal("ridge"));
+  const auto observations = services::advertise(seat.robot(), services::topics::observation);
+  seat.at(12s, [&] {
+    v1::Observation garbled;
+    garbled.timeline("rover.camera");
+    garbled.observed().kind(static_cast<v1::ValueKind>(77));
+    observations.write(garbled);
+  });
+  seat.run_until(200s);
+  EXPECT_THAT(seat.events, Contains("observation.malformed"));
+  EXPECT_EQ(seat.mission.outcome(), "achieved");
+}
+
+// What stood in the journal is there again: goals, the numbers of plans, a later epoch; the robot is brought
+// to rest and the rest is planned anew.
+TEST(ExecService, ARestartKeepsGoalsAndFinishesThem) {
+  ExecSeat seat;
+  seat.send(10s, photo_goal("first"));
+  seat.send(10s, photo_goal("second"));
+  seat.kill_executive_at(80s);  // while the second image is taken
+  seat.run_until(500s);
+  EXPECT_THAT(seat.events, Contains("plan.wanted").Times(2));
+  ASSERT_EQ(seat.plans.size(), 2U);
+  EXPECT_EQ(seat.plans[0].version(), 1U);
+  EXPECT_EQ(seat.plans[1].version(), 2U);
+  EXPECT_EQ(seat.plans[1].activities().size(), 1U) << "the first goal is achieved and stays so";
+  EXPECT_EQ(seat.commands.front().epoch(), 1U);
+  EXPECT_EQ(seat.commands.back().epoch(), 2U);
+  EXPECT_EQ(seat.mission.outcome(), "achieved");
+  EXPECT_EQ(seat.mission.goals_achieved(), 2U);
+  EXPECT_EQ(seat.journal().goals().size(), 2U);
+}
+
+TEST(ExecService, ARestartTellsTheStateOfEveryGoalAgain) {
+  ExecSeat seat;
+  v1::Goal bad = photo_goal("bad");
+  bad.goal_kind("photograph");
+  seat.send(10s, photo_goal("done"));
+  seat.send(10s, bad);
+  seat.at(100s, [&] { seat.statuses.clear(); });
+  seat.kill_executive_at(101s);
+  seat.run_until(200s);
+  EXPECT_THAT(seat.statuses,
+              ElementsAre("done achieved observed", StartsWith("bad rejected unknown goal kind")));
+  EXPECT_EQ(seat.planner_calls, 1);
+  EXPECT_EQ(seat.mission.outcome(), "achieved");
+}
+
+}  // namespace
+}  // namespace roci::exec
