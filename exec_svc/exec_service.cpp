@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "exec_svc/wire_service.hpp"
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/trace.hpp"
+#include "exec_svc/wire_service.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "services/wire/plan_wire.hpp"
@@ -50,6 +50,10 @@ class ExecService final : public services::Service {
     services::subscribe(node, topics::observation,
                         [this](const v1::Observation& observation) { take(observation); });
     services::subscribe(node, topics::command_ack, [this](const v1::CommandAck& ack) { take(ack); });
+    services::subscribe(node, topics::function_offer, [this](const v1::FunctionOffer& offer) {
+      inputs_.models.push_back({offer.owner(), offer.model_version()});
+      step_soon();
+    });
     node.on_peer_change([this](const services::PeerChange& change) {
       if (change.alive) {
         inputs_.arrivals.push_back(change.service);

@@ -60,6 +60,18 @@ std::optional<Condition> exported(const engine::GroundCondition& condition) {
   return std::nullopt;
 }
 
+// "(decrease (battery) 12.5)" and "(increase …)" by a number; nothing for other effects.
+std::optional<temporal::Impact> exported(const engine::GroundEffect& effect, temporal::ImpactWhen moment) {
+  const bool less = effect.text.starts_with("(decrease ");
+  if (!less && !effect.text.starts_with("(increase ")) return std::nullopt;
+  const auto amount =
+      single_fluent_comparison("(= " + effect.text.substr(std::string_view("(decrease ").size()));
+  if (!amount) return std::nullopt;
+  const temporal::ConditionNode& node = amount->nodes.front();
+  const double number = std::get<double>(node.operand);
+  return temporal::Impact{node.timeline, temporal::ImpactKind::delta, moment, less ? -number : number};
+}
+
 bool achieved_by(const engine::GroundCondition& condition, const std::vector<engine::GroundEffect>& effects) {
   const std::string wanted = condition.kind == engine::GroundCondition::Kind::negated_fact
                                  ? "(not " + condition.text + ")"
@@ -89,6 +101,14 @@ temporal::PlanActivity exported(const engine::Activity& in, std::size_t index) {
     if (!part) continue;
     if (!achieved_by(condition, in.start_effects)) pre.push_back(*part);
     maintenance.push_back(std::move(*part));
+  }
+  for (const engine::GroundEffect& effect : in.start_effects) {
+    if (auto impact = exported(effect, temporal::ImpactWhen::at_start))
+      out.impacts.push_back(std::move(*impact));
+  }
+  for (const engine::GroundEffect& effect : in.end_effects) {
+    if (auto impact = exported(effect, temporal::ImpactWhen::at_end))
+      out.impacts.push_back(std::move(*impact));
   }
   out.pre = conjunction(pre);
   out.maintenance = conjunction(maintenance);

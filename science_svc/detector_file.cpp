@@ -32,9 +32,10 @@ DetectorSettings read_detector(const Entry& mission, const Entry& scenario) {
     out.limit = static_cast<int>(within(*section, "limit", out.limit, 0, 1000));
   }
   if (const auto override = scenario.find("science")) {
-    override->allow_only({"enabled", "threshold"});
+    override->allow_only({"enabled", "threshold", "limit"});
     out.enabled = out.enabled && override->truth_or("enabled", true);
     out.threshold = within(*override, "threshold", out.threshold, 0, 1);
+    out.limit = static_cast<int>(within(*override, "limit", out.limit, 0, 1000));
   }
   return out;
 }

@@ -184,9 +184,16 @@ const GoalRecord* GoalSet::find(const GoalKey& key) const {
 }
 
 std::optional<GoalKey> GoalSet::drop_candidate() const {
+  std::vector<GoalKey> all_open;
+  for (const GoalRecord* record : open()) all_open.push_back(record->request.key);
+  return drop_candidate(all_open);
+}
+
+std::optional<GoalKey> GoalSet::drop_candidate(const std::vector<GoalKey>& among) const {
   const GoalRecord* opportunistic = nullptr;
   const GoalRecord* optional = nullptr;
   for (const GoalRecord* record : open()) {
+    if (std::find(among.begin(), among.end(), record->request.key) == among.end()) continue;
     if (record->request.importance == GoalClass::opportunistic) opportunistic = record;
     if (record->request.importance == GoalClass::optional &&
         (optional == nullptr || record->request.utility <= optional->request.utility)) {

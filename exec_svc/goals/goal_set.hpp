@@ -74,6 +74,8 @@ class GoalSet {
   // Which goal goes when not all fit: the newest opportunistic one, else the optional one of the lowest
   // utility (the newest of equals), never a hard one (R52, R53; architecture, "Which goals go").
   std::optional<GoalKey> drop_candidate() const;
+  // The same among these goals alone.
+  std::optional<GoalKey> drop_candidate(const std::vector<GoalKey>& among) const;
 
  private:
   std::string fault_of(const GoalRequest& request, temporal::Time now) const;

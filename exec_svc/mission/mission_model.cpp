@@ -194,18 +194,30 @@ PlannerSettings read_planner(const Entry& entry) {
     out.memory_mb = static_cast<std::uint32_t>(budget->number_or("memory_mb", 0));
     out.wall = seconds_or(*budget, "wall_s", 0);
   }
-  out.allowance = seconds_or(entry, "allowance_s", 5);
-  out.reply_timeout = seconds_or(entry, "reply_timeout_s", 120);
+  out.allowance = seconds_or(entry, "allowance_s", temporal::to_seconds(out.allowance));
+  out.reply_timeout = seconds_or(entry, "reply_timeout_s", temporal::to_seconds(out.reply_timeout));
   return out;
 }
 
+std::uint32_t count_or(const Entry& parent, const char* key, std::uint32_t fallback, std::uint32_t least) {
+  const auto entry = parent.find(key);
+  if (!entry) return fallback;
+  const std::int64_t count = entry->integer();
+  if (count < least || count > 1'000'000)
+    entry->fail("must be a whole number from " + std::to_string(least) + " to 1000000; correct it");
+  return static_cast<std::uint32_t>(count);
+}
+
 ReactorSettings read_executive(const Entry& entry) {
-  entry.allow_only({"ack_timeout_s", "fallback_timeout_s", "replan_limit", "call_retries"});
+  entry.allow_only({"ack_timeout_s", "fallback_timeout_s", "replan_limit", "call_retries", "failure_limit",
+                    "failure_pause_s"});
   ReactorSettings out;
-  out.ack_timeout = seconds_or(entry, "ack_timeout_s", 5);
-  out.fallback_timeout = seconds_or(entry, "fallback_timeout_s", 60);
-  out.replan_limit = static_cast<std::uint32_t>(entry.number_or("replan_limit", 50));
-  out.call_retries = static_cast<std::uint32_t>(entry.number_or("call_retries", 5));
+  out.ack_timeout = seconds_or(entry, "ack_timeout_s", temporal::to_seconds(out.ack_timeout));
+  out.fallback_timeout = seconds_or(entry, "fallback_timeout_s", temporal::to_seconds(out.fallback_timeout));
+  out.replan_limit = count_or(entry, "replan_limit", out.replan_limit, 0);
+  out.call_retries = count_or(entry, "call_retries", out.call_retries, 0);
+  out.failure_limit = count_or(entry, "failure_limit", out.failure_limit, 1);
+  out.failure_pause = seconds_or(entry, "failure_pause_s", temporal::to_seconds(out.failure_pause));
   return out;
 }
 

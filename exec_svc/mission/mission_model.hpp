@@ -96,15 +96,19 @@ struct PlannerSettings {
   std::uint64_t work = 0;  // evaluations; 0: no bound
   std::uint32_t memory_mb = 0;
   temporal::Duration wall{0};
-  temporal::Duration allowance{0};      // a plan's origin lies this long after the request
-  temporal::Duration reply_timeout{0};  // mission time after which a call counts as lost
+  temporal::Duration allowance = temporal::seconds(5);  // a plan's origin lies this long after the request
+  temporal::Duration reply_timeout =
+      temporal::seconds(120);  // mission time after which a call counts as lost
 };
 
 struct ReactorSettings {
-  temporal::Duration ack_timeout{0};
-  temporal::Duration fallback_timeout{0};  // for components to become inactive
+  temporal::Duration ack_timeout = temporal::seconds(5);
+  temporal::Duration fallback_timeout = temporal::seconds(60);  // for components to become inactive
   std::uint32_t replan_limit = 50;
   std::uint32_t call_retries = 5;  // planner calls that failed for want of a service
+  std::uint32_t failure_limit =
+      5;  // failed commands of one component in a row; then their goals are given up
+  temporal::Duration failure_pause = temporal::seconds(30);  // after the second of them; doubles with each
 };
 
 struct MissionModel {

@@ -14,6 +14,7 @@
 #include "exec_svc/executive/executive.hpp"
 #include "exec_svc/goals/goal_set.hpp"
 #include "exec_svc/problem/problem_writer.hpp"
+#include "exec_svc/reactor/failure_tally.hpp"
 
 namespace roci::exec {
 
@@ -53,12 +54,19 @@ struct PlanAnswer {
   temporal::FlexiblePlan plan;  // with solved; activities not yet bound to owners
 };
 
+// The model behind an owner's functions: a map, an arm. Versions rise.
+struct ModelVersion {
+  std::string owner;
+  std::uint64_t version = 0;
+};
+
 struct ReactorInputs {
   std::vector<GoalRequest> goals;
   std::vector<Observation> observations;
   std::vector<CommandAck> acks;
   std::vector<PeerLoss> losses;
   std::vector<std::string> arrivals;  // services that came (back)
+  std::vector<ModelVersion> models;
   std::optional<PlanAnswer> answer;
 };
 
@@ -113,15 +121,19 @@ class Reactor {
   void assume_unobserved(const GoalRequest& goal);
   void note_achieved();
   void advance(temporal::Time now, const ReactorInputs& inputs);
+  void take_models(const std::vector<ModelVersion>& models);
   void follow_plan(temporal::Time now);
+  void break_plan(const std::string& why);
+  void count_failure(temporal::Time now, const Outcome& outcome);
+  void give_up(const std::vector<GoalKey>& goals, const std::string& why);
   void begin_pause(temporal::Time now);
   void continue_pause(temporal::Time now);
   void send_fallbacks(temporal::Time now);
   void begin_planning(temporal::Time now);
+  bool outdated(const PlanAnswer& answer) const;
   void take_answer(temporal::Time now, const PlanAnswer& answer);
   void adopt(temporal::Time now, const PlanAnswer& answer);
   void give_way(const PlanAnswer& answer);
-  void give_up(const GoalKey& key, const std::string& why);
   std::vector<GoalKey> named_goals(const std::string& reason) const;
   void try_again_later(temporal::Time now, const PlanAnswer& answer);
   void run_executive(temporal::Time now, const ReactorInputs& inputs);
@@ -138,6 +150,7 @@ class Reactor {
   Beliefs beliefs_;
   GoalSet goals_;
   Executive executive_;
+  FailureTally failures_;
   ReactorOutputs out_;
 
   Phase phase_ = Phase::idle;
@@ -148,13 +161,15 @@ class Reactor {
   std::uint64_t call_id_ = 0;
   PlanCall call_;
   ReactorCounts counts_;
+  std::map<std::string, std::uint64_t> models_;  // newest version by owner
+  bool models_changed_ = false;                  // since the call
+  std::uint32_t outdated_calls_ = 0;             // in a row
 
   temporal::Time pause_deadline_{0};
   std::uint32_t fallback_round_ = 0;
   bool fallbacks_sent_ = false;
   std::uint32_t failed_calls_ = 0;
-  temporal::Time not_before_{0};  // next planner call
-  bool unsafe_ = false;
+  temporal::Time not_before_{0};                       // next planner call
   std::map<std::string, temporal::Time> told_starts_;  // earliest starts last reported
   std::map<std::string, temporal::Value>
       condition_values_;  // timelines of the plan's conditions, as last told to the executive

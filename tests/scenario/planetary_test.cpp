@@ -51,15 +51,15 @@ TEST_P(PlanetaryTest, TheSameSeedGivesTheTraceOfTheReference) {
   EXPECT_EQ(fly_over(dds).summary.value("trace_sha256", ""), reference->second);
 }
 
-INSTANTIATE_TEST_SUITE_P(ScenariosTransports, PlanetaryTest,
-                         ::testing::Combine(::testing::Values(Ending{"nominal", 3, 0},
-                                                              Ending{"blocked_window", 2, 1},
-                                                              Ending{"comm_lost", 1, 0}),
-                                            ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed")),
-                         [](const auto& test) {
-                           return std::string(std::get<0>(test.param).scenario) + "_" +
-                                  std::get<1>(test.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    ScenariosTransports, PlanetaryTest,
+    ::testing::Combine(::testing::Values(Ending{"nominal", 3, 0}, Ending{"blocked_window", 2, 1},
+                                         Ending{"opportunistic", 6, 2}, Ending{"arm_fault", 1, 0},
+                                         Ending{"comm_lost", 1, 0}, Ending{"battery_low", 1, 1}),
+                       ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed")),
+    [](const auto& test) {
+      return std::string(std::get<0>(test.param).scenario) + "_" + std::get<1>(test.param);
+    });
 
 TEST(PlanetaryTraceTest, AnotherSeedGivesAnotherTrace) {
   const std::string one = fly(kMission, "inproc", 1).summary.value("trace_sha256", "");

@@ -1,0 +1,135 @@
+// Reactor: what follows from the planner's answer. A plan is adopted, a goal gives way (R52, R53), or the
+// call is made again.
+#include <algorithm>
+
+#include "exec_svc/reactor/plan_binding.hpp"
+#include "exec_svc/reactor/reactor.hpp"
+
+namespace roci::exec {
+namespace {
+
+using temporal::Time;
+
+// Calls whose answers stand on a changed model, in a row; after that many the answer is taken: what has
+// changed since shows in the execution.
+constexpr std::uint32_t kOutdatedLimit = 5;
+
+// Whether a verdict says something about the goals (they do not fit), or only about the services.
+bool speaks_of_goals(PlanVerdict verdict) {
+  return verdict == PlanVerdict::unsolvable || verdict == PlanVerdict::timeout ||
+         verdict == PlanVerdict::out_of_memory;
+}
+
+}  // namespace
+
+// A plan is out of date if a value in it stands on an older model; a verdict on the goals, if any model has
+// changed.
+bool Reactor::outdated(const PlanAnswer& answer) const {
+  if (speaks_of_goals(answer.verdict)) return models_changed_;
+  const auto& uses = answer.plan.function_values;
+  return answer.verdict == PlanVerdict::solved &&
+         std::any_of(uses.begin(), uses.end(), [this](const temporal::FunctionValueUse& use) {
+           const auto model = models_.find(use.owner);
+           return model != models_.end() && use.model_version < model->second;
+         });
+}
+
+void Reactor::take_answer(Time now, const PlanAnswer& answer) {
+  if (outdated(answer) && ++outdated_calls_ <= kOutdatedLimit) {
+    note(NoteLevel::info, "plan.outdated",
+         "a map or arm model changed during the planner call; it is made again");
+    begin_planning(now);
+    return;
+  }
+  outdated_calls_ = 0;
+  if (answer.verdict == PlanVerdict::solved) {
+    adopt(now, answer);
+  } else if (speaks_of_goals(answer.verdict)) {
+    failed_calls_ = 0;
+    give_way(answer);
+    begin_planning(now);
+  } else {
+    try_again_later(now, answer);
+  }
+}
+
+void Reactor::adopt(Time now, const PlanAnswer& answer) {
+  failed_calls_ = 0;
+  temporal::FlexiblePlan plan = answer.plan;
+  plan.origin = call_.origin;
+  std::string fault = bind_plan(plan, plan_version_ + 1, *mission_, call_.problem, beliefs_, goals_);
+  if (fault.empty()) {
+    const auto faults = executive_.load(plan, now);
+    if (!faults.empty()) fault = faults.front();
+  }
+  if (!fault.empty()) {
+    make_safe(now, "the planner's plan cannot be executed: " + fault);
+    return;
+  }
+  ++plan_version_;
+  first_plan_ = false;
+  phase_ = Phase::executing;
+  condition_values_.clear();
+  for (const temporal::PlanActivity& activity : plan.activities) {
+    for (const temporal::Condition* condition : {&activity.pre, &activity.maintenance}) {
+      for (const std::string& name : temporal::timelines_of(*condition)) condition_values_[name] = {};
+    }
+  }
+  std::string served;
+  for (const GoalRecord* record : goals_.open()) {
+    const GoalKey key = record->request.key;
+    served += (served.empty() ? "" : ", ") + key.id;
+    goals_.set_state(key, GoalState::planned, "in plan " + std::to_string(plan_version_), plan_version_);
+    out_.goal_changes.push_back(*goals_.find(key));
+  }
+  note(NoteLevel::info, "plan.adopted",
+       "plan " + std::to_string(plan_version_) + " with " + std::to_string(plan.activities.size()) +
+           " activities for " + served);
+  out_.adopted = std::move(plan);
+  told_starts_.clear();
+  tell_windows();
+  wake_at(now);
+}
+
+// What the planner proves out of reach takes no other goal with it. One goal leaves at a time, unless hard
+// ones alone are named: the others may be within reach once it is gone.
+void Reactor::give_way(const PlanAnswer& answer) {
+  const bool proved = answer.verdict == PlanVerdict::unsolvable;
+  const std::string why = std::string(proved ? "proved that not all goals fit" : to_string(answer.verdict)) +
+                          (answer.reason.empty() ? "" : ": " + answer.reason);
+  const std::vector<GoalKey> named = proved ? named_goals(answer.reason) : std::vector<GoalKey>{};
+  if (const auto soft = named.empty() ? goals_.drop_candidate() : goals_.drop_candidate(named)) {
+    give_up({*soft}, why);
+  } else {
+    give_up(named.empty() ? std::vector{goals_.open().back()->request.key} : named, why);
+  }
+}
+
+// Open goals of which a fact stands in the planner's reason.
+std::vector<GoalKey> Reactor::named_goals(const std::string& reason) const {
+  std::vector<GoalKey> out;
+  for (const GoalRecord* record : goals_.open()) {
+    const auto facts = goal_facts(*mission_, record->request);
+    const auto named = [&](const std::string& fact) { return reason.find(fact) != std::string::npos; };
+    if (std::any_of(facts.begin(), facts.end(), named)) out.push_back(record->request.key);
+  }
+  return out;
+}
+
+void Reactor::try_again_later(Time now, const PlanAnswer& answer) {
+  const std::string what = std::string("planner call ended as ") + to_string(answer.verdict) +
+                           (answer.reason.empty() ? "" : ": " + answer.reason);
+  const bool may_pass =
+      answer.verdict != PlanVerdict::unsupported && answer.verdict != PlanVerdict::invalid_input;
+  if (!may_pass || ++failed_calls_ > mission_->executive.call_retries) {
+    make_safe(now, what);
+    return;
+  }
+  note(NoteLevel::warning, "plan.retry", what + "; will be tried again");
+  phase_ = Phase::idle;
+  not_before_ = now + temporal::seconds(5.0 * static_cast<double>(1U << std::min(failed_calls_, 5U)));
+  want_plan("the planner call is tried again");
+  wake_at(not_before_);
+}
+
+}  // namespace roci::exec

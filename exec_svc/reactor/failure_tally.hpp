@@ -1,0 +1,32 @@
+// Commands that fail again and again: how long to wait before the next plan, and when to stop trying.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "core/temporal/duration.hpp"
+
+namespace roci::exec {
+
+class FailureTally {
+ public:
+  // `limit`: failures of one component in a row, at least 1. `pause`: after the second one; it doubles with
+  // each further one, up to 64 times.
+  FailureTally(std::uint32_t limit, temporal::Duration pause) : limit_(limit), pause_(pause) {}
+
+  struct Count {
+    std::uint32_t in_a_row = 0;
+    bool used_up = false;         // the limit is reached; the next failure counts as the first
+    temporal::Duration pause{0};  // before the next plan; none after the first failure and after the last
+  };
+  Count failed(const std::string& component);
+  void succeeded(const std::string& component) { in_a_row_.erase(component); }
+
+ private:
+  std::uint32_t limit_;
+  temporal::Duration pause_;
+  std::map<std::string, std::uint32_t> in_a_row_;
+};
+
+}  // namespace roci::exec

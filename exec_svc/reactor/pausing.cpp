@@ -1,0 +1,100 @@
+// Reactor: from a wish for a plan to the planner call. What runs is cancelled, what is still active falls
+// back (R43, R44), then the problem is written. Where that fails, the robot is made safe.
+#include "exec_svc/reactor/reactor.hpp"
+
+namespace roci::exec {
+namespace {
+
+using temporal::Time;
+
+std::string names_of(const std::vector<const Component*>& components) {
+  std::string out;
+  for (const Component* component : components) out += (out.empty() ? "" : ", ") + component->name;
+  return out;
+}
+
+}  // namespace
+
+void Reactor::begin_pause(Time now) {
+  if (goals_.open().empty() && phase_ != Phase::executing && phase_ != Phase::planning) {
+    wanted_ = false;
+    return;
+  }
+  if (!beliefs_.unseen().empty()) return;  // the first observation of the last component brings us here again
+  wanted_ = false;
+  note(NoteLevel::info, "plan.wanted", wanted_why_);
+  if (!first_plan_ && ++counts_.replans > mission_->executive.replan_limit) {
+    make_safe(now, "the limit of " + std::to_string(mission_->executive.replan_limit) +
+                       " replans is reached; the last: " + wanted_why_);
+    return;
+  }
+  phase_ = Phase::pausing;
+  pause_deadline_ = now + mission_->executive.fallback_timeout;
+  fallbacks_sent_ = false;
+  Outputs cancelled = executive_.cancel_all(now);
+  std::move(cancelled.commands.begin(), cancelled.commands.end(), std::back_inserter(out_.commands));
+  std::move(cancelled.changes.begin(), cancelled.changes.end(), std::back_inserter(out_.steps));
+  if (cancelled.next_wake) wake_at(*cancelled.next_wake);
+}
+
+void Reactor::continue_pause(Time now) {
+  const bool stopping = executive_.outcome().kind == OutcomeKind::cancelling;
+  if (!stopping && beliefs_.active().empty()) {
+    if (now < not_before_ && !goals_.open().empty()) {
+      wake_at(not_before_);
+    } else {
+      begin_planning(now);
+    }
+  } else if (now >= pause_deadline_) {
+    make_safe(now, names_of(beliefs_.active()) + " did not become inactive in time");
+  } else {
+    if (!stopping && !fallbacks_sent_) send_fallbacks(now);
+    wake_at(pause_deadline_);
+  }
+}
+
+void Reactor::send_fallbacks(Time) {
+  fallbacks_sent_ = true;
+  ++fallback_round_;
+  for (const Component* component : beliefs_.active()) {
+    Command command;
+    command.activity = "fallback." + std::to_string(plan_version_) + "." + std::to_string(fallback_round_) +
+                       "." + component->name;
+    command.owner = component->owner;
+    command.subsystem = component->name;
+    command.command_name = component->fallback;
+    out_.commands.push_back(std::move(command));
+  }
+}
+
+void Reactor::begin_planning(Time now) {
+  wanted_ = false;  // the problem holds all that is known now
+  if (goals_.open().empty()) {
+    phase_ = Phase::idle;
+    return;
+  }
+  phase_ = Phase::planning;
+  ++counts_.planner_calls;
+  models_changed_ = false;
+  call_.id = ++call_id_;
+  call_.problem_name = mission_->name + "-" + std::to_string(call_id_);
+  call_.origin = now + mission_->planner.allowance;
+  call_.problem = write_problem(*mission_, beliefs_, goals_, call_.problem_name, now, call_.origin);
+  out_.call = call_;
+}
+
+void Reactor::make_safe(Time now, const std::string& why) {
+  phase_ = Phase::safe;
+  wanted_ = false;
+  Outputs cancelled = executive_.cancel_all(now);
+  std::move(cancelled.commands.begin(), cancelled.commands.end(), std::back_inserter(out_.commands));
+  std::move(cancelled.changes.begin(), cancelled.changes.end(), std::back_inserter(out_.steps));
+  send_fallbacks(now);
+  for (const GoalRecord* record : goals_.open()) {
+    goals_.set_state(record->request.key, GoalState::pending, "waiting for the ground: " + why);
+    out_.goal_changes.push_back(*goals_.find(record->request.key));
+  }
+  note(NoteLevel::error, "robot.safe", "made safe, waiting for the ground: " + why);
+}
+
+}  // namespace roci::exec

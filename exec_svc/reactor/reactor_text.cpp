@@ -1,0 +1,49 @@
+#include "exec_svc/reactor/reactor.hpp"
+
+namespace roci::exec {
+
+const char* to_string(PlanVerdict verdict) {
+  switch (verdict) {
+    case PlanVerdict::solved:
+      return "solved";
+    case PlanVerdict::unsolvable:
+      return "unsolvable";
+    case PlanVerdict::timeout:
+      return "timeout";
+    case PlanVerdict::out_of_memory:
+      return "out_of_memory";
+    case PlanVerdict::unsupported:
+      return "unsupported";
+    case PlanVerdict::function_unavailable:
+      return "function_unavailable";
+    case PlanVerdict::cancelled:
+      return "cancelled";
+    case PlanVerdict::invalid_input:
+      return "invalid_input";
+    case PlanVerdict::crashed:
+      return "crashed";
+    case PlanVerdict::no_reply:
+      return "no_reply";
+  }
+  return "unknown";
+}
+
+const char* to_string(Phase phase) {
+  switch (phase) {
+    case Phase::idle:
+      return "idle";
+    case Phase::pausing:
+      return "pausing";
+    case Phase::planning:
+      return "planning";
+    case Phase::executing:
+      return "executing";
+    case Phase::safe:
+      return "safe";
+    case Phase::finished:
+      return "finished";
+  }
+  return "unknown";
+}
+
+}  // namespace roci::exec
