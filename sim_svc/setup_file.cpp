@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/mission/entry.hpp"
+#include "core/mission/scenario.hpp"
 #include "core/terrain/map_error.hpp"
 #include "core/terrain/site_file.hpp"
 #include "sim_svc/robot_file.hpp"
@@ -21,30 +22,11 @@ std::shared_ptr<const terrain::Site> load_ground(const Entry& site) {
   }
 }
 
-std::string scenarios_of(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  std::error_code missing;
-  for (const auto& file : std::filesystem::directory_iterator(folder, missing)) {
-    if (file.path().extension() == ".yaml") names.push_back(file.path().stem());
-  }
-  std::sort(names.begin(), names.end());
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
-  return out.empty() ? "none" : out;
-}
-
-Entry load_scenario(const std::filesystem::path& mission_folder, const std::string& name) {
-  const auto folder = mission_folder / "scenarios";
-  const auto file = folder / (name + ".yaml");
-  if (std::filesystem::exists(file)) return Entry::load(file);
-  throw mission::FileError(file.string() +
-                           ": there is no such scenario; choose one of: " + scenarios_of(folder));
-}
-
 // A start pose has no inverse kinematics yet: it must be given by joint coordinates.
 std::vector<double> start_joints(const Entry& poses_file, const Entry& pose) {
   const Entry poses = Entry::load(poses_file.resolve(poses_file.text())).at("poses");
   const auto entry = poses.find(pose.text());
+  if (entry) entry->allow_only({"joints", "position", "approach", "rpy"});
   const auto joints = entry ? entry->find("joints") : std::nullopt;
   if (!joints) {
     pose.fail("no pose '" + pose.text() + "' with joints stands in " + poses.file().string() +
@@ -70,7 +52,7 @@ std::vector<Window> true_windows(const Entry& mission, const std::vector<Window>
 
 RunSetup load_run(const std::filesystem::path& mission_folder, const std::string& scenario_name) {
   const Entry mission = Entry::load(mission_folder / "mission.yaml");
-  const Entry scenario_file = load_scenario(mission_folder, scenario_name);
+  const Entry scenario_file = mission::load_scenario(mission_folder, scenario_name);
   RunSetup run;
   run.scenario = read_scenario(scenario_file);
   if (const auto simulation = mission.find("simulation")) run.world.robot = read_robot(*simulation);

@@ -158,14 +158,35 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Surprise{"unknown_module", "domain.pddl", ":module arm", ":module arms",
                                "no service offers module 'arms'; offered are: arm, pathplan"},
                       Surprise{"unknown_engine", "mission.yaml", "engine: temporal_pddl", "engine: crystal",
-                               "unknown engine 'crystal'; this planner has: temporal_pddl"},
-                      Surprise{
-                          "unknown_component", "mission.yaml", ": camera", ": eye",
-                          "[unknown-component]: no component 'eye'; known: nav, arm, camera, gripper, radio"},
-                      Surprise{"unknown_command", "mission.yaml", "command: image", "command: photograph",
-                               "[unknown-command]: camera has no command 'photograph'; known: image, stop"},
-                      Surprise{"unknown_owner", "mission.yaml", "take-image: {owner: sim_svc",
-                               "take-image: {owner: eye_svc", "command not answered by eye_svc within 5 s"}),
+                               "unknown engine 'crystal'; this planner has: temporal_pddl"}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+// A command that its owner never takes costs the goal that needs it, and no other.
+class NeverTaken : public ::testing::TestWithParam<Surprise> {};
+
+TEST_P(NeverTaken, FailsItsGoalAloneAndIsTold) {
+  const Surprise& surprise = GetParam();
+  const SpoiltMission mission;
+  mission.replace(surprise.file, surprise.right, surprise.wrong);
+  const Ended ended = mission.fly("cyclonedds");
+  EXPECT_EQ(ended.exit_code, 1) << ended.output;
+  const nlohmann::json summary = last_line_as_json(ended.output);
+  EXPECT_EQ(summary.value("result", ""), "partial");
+  EXPECT_EQ(summary["goals"].value("achieved", 0), 2) << summary.dump();
+  EXPECT_EQ(summary["goals"].value("failed", 0), 1) << summary.dump();
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("goal.failed: hard goal ground/ridge failed: "),
+                                  HasSubstr("failed 5 times in a row"), HasSubstr(surprise.told)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Surprises, NeverTaken,
+    ::testing::Values(
+        Surprise{"unknown_component", "mission.yaml", ": camera", ": eye",
+                 "[unknown-component]: no component 'eye'; known: nav, arm, camera, gripper, radio"},
+        Surprise{"unknown_command", "mission.yaml", "command: image", "command: photograph",
+                 "[unknown-command]: camera has no command 'photograph'; known: image, stop"},
+        Surprise{"unknown_owner", "mission.yaml", "take-image: {owner: sim_svc",
+                 "take-image: {owner: eye_svc", "command not answered by eye_svc within 5 s"}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

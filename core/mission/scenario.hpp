@@ -1,0 +1,14 @@
+// The scenarios of a mission: scenarios/NAME.yaml in its folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/mission/entry.hpp"
+
+namespace roci::mission {
+
+// Throws FileError; for a name that no file has, with the names that there are.
+Entry load_scenario(const std::filesystem::path& mission_folder, const std::string& name);
+
+}  // namespace roci::mission
