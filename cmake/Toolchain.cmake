@@ -24,7 +24,8 @@ endif()
 
 # Warnings are for our code; generated code is compiled without them (see Idl.cmake).
 add_library(roci_warnings INTERFACE)
-target_compile_options(roci_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+target_compile_options(roci_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow
+                                               $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
                                                $<$<BOOL:${ROCI_WERROR}>:-Werror>)
 # GCC 12 sees overlapping copies in "text" + std::string at -O3 that are none (GCC bug 105651).
 target_compile_options(roci_warnings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)

@@ -74,6 +74,7 @@ struct ReaderEvents {
   std::function<void(int current_writers)> on_matched;
 };
 
+// A reliable writer that counts a reader reaches it: all that is written from then on arrives.
 struct WriterEvents {
   std::function<void(int current_readers)> on_matched;
 };

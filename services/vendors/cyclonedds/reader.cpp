@@ -2,17 +2,24 @@
 
 #include <array>
 
+extern "C" {
+#include "services/vendors/cyclonedds/session_start.h"
+}
+
 namespace roci::services::cyclonedds {
 
 CycloneReader::CycloneReader(dds_entity_t subscriber, const TopicHandle& topic,
                              const EndpointDescription& endpoint, ReaderEvents events)
-    : type_(endpoint.type), events_(std::move(events)) {
+    : type_(*topic.type),
+      reliable_volatile_(endpoint.qos.reliable && !endpoint.qos.transient_local),
+      events_(std::move(events)) {
   const ListenerPtr listener(dds_create_listener(this));
   dds_lset_data_available(listener.get(), &CycloneReader::on_data);
   dds_lset_subscription_matched(listener.get(), &CycloneReader::on_matched);
   reader_ =
       checked(dds_create_reader(subscriber, topic.topic, endpoint_qos(endpoint.qos).get(), listener.get()),
               "a reader on " + endpoint.topic);
+  look_up_early_matches();
 }
 
 CycloneReader::~CycloneReader() { dds_delete(reader_); }
@@ -42,15 +49,15 @@ void CycloneReader::take(const Serdata& data, const dds_sample_info_t& info, con
   if (!events_.on_sample) return;
   const auto payload = data.payload();
   if (info.valid_data) {
-    if (type_.keyed && !instances_.wrote(data.instance(), writer)) {
+    if (type_.type.keyed && !instances_.wrote(data.instance(), writer)) {
       Payload key;
-      if (!type_.serialized_key(payload, false, key)) return;
+      if (!type_.type.serialized_key(payload, false, key)) return;
       instances_.introduce(data.instance(), writer, key_only_payload(key));
     }
     events_.on_sample({SampleKind::data, Payload(payload.begin(), payload.end()), writer});
   }
   const bool more_of_instance_follow = info.sample_rank > 0;
-  if (!type_.keyed || info.instance_state == DDS_IST_ALIVE || more_of_instance_follow) return;
+  if (!type_.type.keyed || info.instance_state == DDS_IST_ALIVE || more_of_instance_follow) return;
   if (auto key_payload = instances_.ended(data.instance())) {
     const bool disposed = info.instance_state == DDS_IST_NOT_ALIVE_DISPOSED;
     events_.on_sample(
@@ -67,10 +74,27 @@ Guid CycloneReader::writer_of(dds_entity_t reader, dds_instance_handle_t publica
   return writers_[publication] = guid;
 }
 
+// The vendor names no writer for a match that it reports while the reader is still being created.
+void CycloneReader::look_up_early_matches() {
+  const std::lock_guard lock(mutex_);
+  std::vector<dds_instance_handle_t> writers(16);
+  dds_return_t count = 0;
+  while ((count = dds_get_matched_publications(reader_, writers.data(), writers.size())) >
+         static_cast<dds_return_t>(writers.size())) {
+    writers.resize(static_cast<std::size_t>(count));
+  }
+  for (dds_return_t i = 0; i < count; ++i) begin_with(reader_, writers[static_cast<std::size_t>(i)]);
+}
+
+void CycloneReader::begin_with(dds_entity_t reader, dds_instance_handle_t publication) {
+  const Guid writer = writer_of(reader, publication);
+  if (reliable_volatile_) roci_keep_what_precedes_first_heartbeat(&type_, writer.data());
+}
+
 void CycloneReader::on_matched(dds_entity_t entity, dds_subscription_matched_status_t status, void* self) {
   auto& reader = *static_cast<CycloneReader*>(self);
   const std::lock_guard lock(reader.mutex_);
-  reader.writer_of(entity, status.last_publication_handle);
+  if (status.current_count_change > 0) reader.begin_with(entity, status.last_publication_handle);
   reader.matched_ = static_cast<int>(status.current_count);
   if (reader.events_.on_matched) reader.events_.on_matched(reader.matched_);
 }

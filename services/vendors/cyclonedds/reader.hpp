@@ -24,8 +24,11 @@ class CycloneReader : public Reader {
   void take_all(dds_entity_t reader);
   void take(const Serdata&, const dds_sample_info_t&, const Guid& writer);
   Guid writer_of(dds_entity_t reader, dds_instance_handle_t publication);
+  void begin_with(dds_entity_t reader, dds_instance_handle_t publication);
+  void look_up_early_matches();
 
-  const TypeDescription type_;
+  const Sertype& type_;
+  const bool reliable_volatile_;
   const ReaderEvents events_;
   std::atomic<int> matched_ = 0;
   std::mutex mutex_;  // one callback at a time

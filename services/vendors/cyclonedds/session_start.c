@@ -1,0 +1,28 @@
+// In C: the private headers below are no C++.
+#include "services/vendors/cyclonedds/session_start.h"
+
+#include <dds/ddsi/ddsi_domaingv.h>
+#include <dds/ddsi/ddsi_entity_index.h>
+#include <dds/ddsi/ddsi_proxy_endpoint.h>
+#include <dds/ddsi/q_bswap.h>
+#include <dds/ddsi/q_thread.h>
+#include <string.h>
+
+static void expect_from_first_heartbeat(struct ddsi_proxy_writer* writer) {
+  ddsrt_mutex_lock(&writer->e.lock);
+  if (writer->n_readers_out_of_sync == 0) writer->have_seen_heartbeat = 1;
+  ddsrt_mutex_unlock(&writer->e.lock);
+}
+
+void roci_keep_what_precedes_first_heartbeat(const struct ddsi_sertype* type, const uint8_t writer_guid[16]) {
+  const struct ddsi_domaingv* domain = ddsrt_atomic_ldvoidp(&type->gv);
+  ddsi_guid_t guid;
+  memcpy(&guid, writer_guid, sizeof guid);
+  guid = nn_ntoh_guid(guid);
+  // What a thread has looked up is not freed while it is awake.
+  struct thread_state* thread = lookup_thread_state();
+  thread_state_awake(thread, domain);
+  struct ddsi_proxy_writer* found = entidx_lookup_proxy_writer_guid(domain->entity_index, &guid);
+  if (found && !vendor_is_eclipse(found->c.vendor)) expect_from_first_heartbeat(found);
+  thread_state_asleep(thread);
+}
