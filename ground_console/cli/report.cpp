@@ -1,5 +1,6 @@
 #include "ground_console/cli/report.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace roci::console {
@@ -12,7 +13,17 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
+std::string printable(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return text;
+}
+
 }  // namespace
+
+std::string json_text(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
 
 json to_json(const v1::GoalStatus& status) {
   return {{"issuer", status.issuer()},
@@ -77,16 +88,16 @@ json plan_json(const MissionView& view) {
 }
 
 std::string goal_line(const v1::GoalStatus& status) {
-  return padded(status.issuer() + "/" + status.id(), 24) + " " + padded(status.goal_kind(), 12) + " " +
-         padded(name_of(status.importance()), 14) + " " + padded(name_of(status.goal_state()), 9) + " " +
-         status.reason();
+  return printable(padded(status.issuer() + "/" + status.id(), 24) + " " + padded(status.goal_kind(), 12) +
+                   " " + padded(name_of(status.importance()), 14) + " " +
+                   padded(name_of(status.goal_state()), 9) + " " + status.reason());
 }
 
 std::string event_line(const v1::Event& event) {
   const bool plain =
       event.severity_level() == v1::SEVERITY_INFO || event.severity_level() == v1::SEVERITY_DEBUG;
-  return clock_text(event.header().stamp_us()) + "  " + padded(event.header().sender(), 13) +
-         (plain ? "" : std::string(name_of(event.severity_level())) + ": ") + event.text();
+  return printable(clock_text(event.header().stamp_us()) + "  " + padded(event.header().sender(), 13) +
+                   (plain ? "" : std::string(name_of(event.severity_level())) + ": ") + event.text());
 }
 
 std::string status_text(const MissionView& view) {

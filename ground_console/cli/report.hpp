@@ -14,6 +14,10 @@ nlohmann::json to_json(const v1::Event& event);
 nlohmann::json status_json(const MissionView& view);
 nlohmann::json plan_json(const MissionView& view);
 
+// One line of JSON, whatever bytes its texts hold.
+std::string json_text(const nlohmann::json& json);
+
+// Control characters of others never reach the terminal: "?" stands for each.
 std::string goal_line(const v1::GoalStatus& status);
 std::string event_line(const v1::Event& event);
 std::string status_text(const MissionView& view);

@@ -38,7 +38,7 @@ int no_mission() {
 int report_goal(const std::optional<v1::GoalStatus>& status, bool as_json) {
   if (!status) return no_mission();
   if (as_json) {
-    std::cout << to_json(*status).dump() << "\n";
+    std::cout << json_text(to_json(*status)) << "\n";
   } else {
     std::cout << goal_line(*status) << "\n";
   }
@@ -87,14 +87,14 @@ int list_goals(Client& client, bool as_json) {
       std::cout << goal_line(status) << "\n";
     }
   }
-  if (as_json) std::cout << list.dump() << "\n";
+  if (as_json) std::cout << json_text(list) << "\n";
   return kDone;
 }
 
 int show_status(Client& client, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
   client.wait([] { return false; }, std::chrono::milliseconds(300));
-  std::cout << (as_json ? status_json(client.view()).dump() + "\n" : status_text(client.view()));
+  std::cout << (as_json ? json_text(status_json(client.view())) + "\n" : status_text(client.view()));
   return kDone;
 }
 
@@ -103,7 +103,7 @@ int show_plan(Client& client, bool as_json) {
   client.wait([&] { return client.view().plan().has_value(); }, std::chrono::milliseconds(1000));
   client.wait([] { return false; }, std::chrono::milliseconds(300));
   if (as_json) {
-    std::cout << plan_json(client.view()).dump() << "\n";
+    std::cout << json_text(plan_json(client.view())) << "\n";
     return kDone;
   }
   if (!client.view().plan()) {
@@ -128,7 +128,7 @@ int follow_events(Client& client, std::size_t count, bool as_json) {
     std::size_t fresh = std::min<std::size_t>(events.size(), client.view().events_seen() - printed);
     for (; fresh > 0; --fresh) {
       const v1::Event& event = events[events.size() - fresh];
-      std::cout << (as_json ? to_json(event).dump() : event_line(event)) << std::endl;
+      std::cout << (as_json ? json_text(to_json(event)) : event_line(event)) << std::endl;
       if (++printed == count && count != 0) return kDone;
     }
     printed = client.view().events_seen();

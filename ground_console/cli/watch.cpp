@@ -45,7 +45,7 @@ bool over(const MissionView& view) { return view.mission() && !view.mission()->o
 int watch_as_json(Client& client) {
   while (!over(client.view()) && interrupted == 0) {
     client.wait([&] { return over(client.view()) || interrupted != 0; }, std::chrono::seconds(1));
-    std::cout << status_json(client.view()).dump() << std::endl;
+    std::cout << json_text(status_json(client.view())) << std::endl;
   }
   return kDone;
 }

@@ -79,7 +79,11 @@ void MissionView::take(const v1::Event& event) {
   if (events_.size() > kEvents) events_.pop_front();
 }
 
-void MissionView::take(const v1::Heartbeat& heartbeat) { heartbeats_[heartbeat.service()] = heartbeat; }
+void MissionView::take(const v1::Heartbeat& heartbeat) {
+  const auto age = [](const v1::Heartbeat& h) { return std::make_pair(h.incarnation(), h.progress()); };
+  const auto [entry, added] = heartbeats_.try_emplace(heartbeat.service(), heartbeat);
+  if (!added && age(heartbeat) >= age(entry->second)) entry->second = heartbeat;
+}
 
 const v1::Goal* MissionView::goal(const GoalKey& key) const { return found_or_null(goals_, key); }
 

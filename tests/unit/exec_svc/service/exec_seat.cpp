@@ -74,7 +74,8 @@ v1::Goal photo_goal(const std::string& id) {
   return out;
 }
 
-ExecSeat::ExecSeat(const std::string& vendor, const std::string& vendor_of_others, int domain)
+ExecSeat::ExecSeat(const std::string& vendor, const std::string& vendor_of_others, int domain,
+                   const std::vector<GoalRecord>& journalled)
     : folder_(made_folder(domain)),
       vendor_(vendor),
       run_({"sim_svc", "planner_svc", "exec_svc"}, domain),
@@ -96,6 +97,11 @@ ExecSeat::ExecSeat(const std::string& vendor, const std::string& vendor_of_other
   robot_.at(0s, [this] {
     for (const auto& [timeline, value] : standing_robot()) observe(timeline, value);
   });
+  {
+    Journal earlier = journal();
+    for (const GoalRecord& record : journalled) earlier.put_goal(record);
+    earlier.commit();
+  }
   start_executive(1);
 }
 

@@ -22,9 +22,10 @@ v1::Goal photo_goal(const std::string& id);
 
 class ExecSeat {
  public:
-  // `vendor` of the executive's transport; the others use `vendor_of_others`.
+  // `vendor` of the executive's transport; the others use `vendor_of_others`. `journalled`: what an earlier
+  // start left in the journal.
   explicit ExecSeat(const std::string& vendor = "inproc", const std::string& vendor_of_others = "inproc",
-                    int domain = services::next_domain());
+                    int domain = services::next_domain(), const std::vector<GoalRecord>& journalled = {});
   ~ExecSeat();
 
   void send(services::Time when, const v1::Goal& goal);

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/unit/exec_svc/planetary_fixture.hpp"
 #include "tests/unit/exec_svc/service/exec_seat.hpp"
 
 namespace roci::exec {
@@ -131,6 +132,18 @@ TEST(ExecService, ARestartKeepsGoalsAndFinishesThem) {
   EXPECT_EQ(seat.mission.outcome(), "achieved");
   EXPECT_EQ(seat.mission.goals_achieved(), 2U);
   EXPECT_EQ(seat.journal().goals().size(), 2U);
+}
+
+// Whoever asked may be gone when the executive comes back.
+TEST(ExecService, GoalsOfTheJournalAloneAreFinished) {
+  GoalRecord record;
+  record.request = photo("ridge");
+  record.state = GoalState::planned;
+  record.arrival = 1;
+  ExecSeat seat("inproc", "inproc", services::next_domain(), {record});
+  seat.run_until(200s);
+  EXPECT_EQ(seat.mission.outcome(), "achieved");
+  EXPECT_EQ(seat.mission.goals_achieved(), 1U);
 }
 
 TEST(ExecService, ARestartTellsTheStateOfEveryGoalAgain) {

@@ -1,0 +1,111 @@
+// The ground's client against a flying executive, on every transport: a console that joins late sees the
+// state of the mission; goals go up and their answers come down.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ground_console/lib/client.hpp"
+#include "services/domain_claim.hpp"
+#include "tests/unit/exec_svc/service/exec_seat.hpp"
+
+namespace roci::console {
+namespace {
+
+using namespace std::chrono_literals;
+using exec::testing::ExecSeat;
+using exec::testing::photo_goal;
+using testing::HasSubstr;
+
+struct Vendors {
+  const char* name;
+  std::string console;
+  std::string executive;
+};
+
+class ConsoleTest : public testing::TestWithParam<Vendors> {
+ protected:
+  services::Connection connection() const {
+    services::Connection out;
+    out.dds = GetParam().console;
+    out.transport.domain = domain_.id();
+    out.transport.participant = "console";
+    return out;
+  }
+
+  static constexpr std::chrono::seconds kLimit{30};
+
+  services::DomainClaim domain_;
+  ExecSeat seat_{GetParam().executive, GetParam().executive, domain_.id()};
+};
+
+TEST_P(ConsoleTest, ALateOneSeesTheStateOfTheMission) {
+  seat_.send(10s, photo_goal("ridge"));
+  seat_.run().start();
+  {
+    Client first(connection());  // until the mission is over and stands still
+    ASSERT_TRUE(first.wait(
+        [&] { return first.view().mission() && !first.view().mission()->outcome().empty(); }, kLimit));
+  }
+  // State comes in its own time: what a run keeps of each key may pass by before the newest.
+  Client late(connection());
+  const MissionView& view = late.view();
+  EXPECT_TRUE(late.wait([&] { return view.mission() && view.mission()->outcome() == "achieved"; }, kLimit));
+  EXPECT_TRUE(late.wait(
+      [&] {
+        const auto goal = view.goals().find({"ground", "ridge"});
+        return goal != view.goals().end() && goal->second.goal_state() == v1::GOAL_ACHIEVED;
+      },
+      kLimit));
+  EXPECT_TRUE(late.wait(
+      [&] {
+        const v1::StepStatus* step = view.step("p1.1-take-image");
+        return view.plan() && view.plan()->version() == 1 && step != nullptr &&
+               step->state() == v1::ACTIVITY_SUCCEEDED;
+      },
+      kLimit));
+  EXPECT_TRUE(late.wait(
+      [&] {
+        const v1::TimelineValue* image = view.timeline("image.image-ridge");
+        return image != nullptr && value_text(*image) == "sent";
+      },
+      kLimit));
+  EXPECT_TRUE(late.wait([&] { return view.services().size() == 3; }, kLimit));
+  seat_.robot().stop();
+}
+
+TEST_P(ConsoleTest, GoalsGoUpAndAnswersComeDown) {
+  seat_.run().start();
+  Client client(connection());
+  const auto added = client.send_goal(photo_goal("more"), kLimit);
+  ASSERT_TRUE(added);
+  EXPECT_NE(added->goal_state(), v1::GOAL_REJECTED) << added->reason();
+  v1::Goal bad = photo_goal("bad");
+  bad.arguments()[0].value("far");
+  const auto refused = client.send_goal(bad, kLimit);
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->goal_state(), v1::GOAL_REJECTED);
+  EXPECT_THAT(refused->reason(), HasSubstr("expected a number"));
+  EXPECT_TRUE(client.wait(
+      [&] { return client.view().mission() && client.view().mission()->outcome() == "achieved"; }, kLimit));
+  v1::Goal recall = photo_goal("more");
+  recall.recalled(true);
+  const auto recalled = client.send_goal(recall, kLimit);
+  ASSERT_TRUE(recalled);
+  EXPECT_EQ(recalled->goal_state(), v1::GOAL_ACHIEVED) << "too late";
+  seat_.robot().stop();
+}
+
+TEST_P(ConsoleTest, NobodyAnswers) {
+  Client client(connection());
+  EXPECT_FALSE(client.wait_for_mission(0ms));
+  EXPECT_FALSE(client.send_goal(photo_goal("alone"), 0ms));
+}
+
+INSTANTIATE_TEST_SUITE_P(Transports, ConsoleTest,
+                         testing::Values(Vendors{"inproc", "inproc", "inproc"},
+                                         Vendors{"fastdds", "fastdds", "fastdds"},
+                                         Vendors{"cyclonedds", "cyclonedds", "cyclonedds"},
+                                         Vendors{"mixed", "cyclonedds", "fastdds"}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace roci::console

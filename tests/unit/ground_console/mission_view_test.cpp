@@ -1,0 +1,135 @@
+// The fold of messages into what the ground knows: the newest of each, in whatever order they come.
+#include "ground_console/lib/mission_view.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <random>
+
+#include "tests/unit/ground_console/messages.hpp"
+
+namespace roci::console {
+namespace {
+
+using namespace testing;
+
+TEST(MissionViewTest, IsEmptyAtFirst) {
+  const MissionView view;
+  EXPECT_FALSE(view.mission());
+  EXPECT_FALSE(view.plan());
+  EXPECT_TRUE(view.goals().empty());
+  EXPECT_EQ(view.goal({"ground", "ridge"}), nullptr);
+  EXPECT_EQ(view.step("1.a1"), nullptr);
+  EXPECT_EQ(view.timeline("rover.nav"), nullptr);
+  EXPECT_EQ(view.now_us(), 0);
+}
+
+TEST(MissionViewTest, KeepsTheNewestOfEachKey) {
+  MissionView view = flying_mission();
+  view.take(goal_status("ridge", v1::GOAL_ACHIEVED, 7));
+  EXPECT_EQ(view.goals().at({"ground", "ridge"}).goal_state(), v1::GOAL_ACHIEVED);
+  EXPECT_EQ(view.goals().at({"ground", "far"}).goal_state(), v1::GOAL_REJECTED);
+  EXPECT_EQ(view.now_us(), 300'000'000) << "of the newest sample, whichever it is";
+}
+
+TEST(MissionViewTest, ARestartedSenderCountsAnew) {
+  MissionView view;
+  view.take(goal_status("ridge", v1::GOAL_PENDING, 900));
+  v1::GoalStatus again = goal_status("ridge", v1::GOAL_PLANNED, 1);
+  again.header(sent("exec_svc", 1, 11, 2));
+  view.take(again);
+  view.take(goal_status("ridge", v1::GOAL_PENDING, 901));
+  EXPECT_EQ(view.goals().at({"ground", "ridge"}).goal_state(), v1::GOAL_PLANNED);
+}
+
+TEST(MissionViewTest, AnOlderPlanNeverReplacesANewerOne) {
+  MissionView view = flying_mission();
+  v1::Plan old;
+  old.version(1);
+  view.take(old);
+  EXPECT_EQ(view.plan()->version(), 2U);
+}
+
+TEST(MissionViewTest, AHeartbeatOfAnEarlierLifeIsNoNews) {
+  MissionView view;
+  v1::Heartbeat beat;
+  beat.service("arm_svc");
+  beat.incarnation(2);
+  beat.progress(1);
+  view.take(beat);
+  beat.incarnation(1);
+  beat.progress(900);
+  view.take(beat);
+  EXPECT_EQ(view.services().at("arm_svc").incarnation(), 2U);
+}
+
+TEST(MissionViewTest, KeepsABoundedNumberOfEventsAndCountsThemAll) {
+  MissionView view;
+  for (std::size_t i = 0; i < MissionView::kEvents + 5; ++i) view.take(event(std::to_string(i), 1));
+  EXPECT_EQ(view.events().size(), MissionView::kEvents);
+  EXPECT_EQ(view.events().front().text(), "5");
+  EXPECT_EQ(view.events_seen(), MissionView::kEvents + 5);
+}
+
+// Any order, any repetition: the same view of everything that has a key.
+TEST(MissionViewTest, TheOrderOfArrivalDoesNotMatter) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    std::mt19937_64 random(seed);
+    std::vector<std::function<void(MissionView&)>> messages;
+    for (std::uint64_t seq = 1; seq <= 4; ++seq) {
+      for (const char* id : {"a", "b"}) {
+        const auto state = static_cast<v1::GoalState>(random() % 7);
+        messages.emplace_back([=](MissionView& view) { view.take(goal_status(id, state, seq)); });
+        messages.emplace_back(
+            [=](MissionView& view) { view.take(observation(id, std::to_string(seq), seq)); });
+        messages.emplace_back([=](MissionView& view) {
+          view.take(step(id, v1::ACTIVITY_RUNNING, seq, 0, static_cast<double>(seq), -1));
+        });
+      }
+      messages.emplace_back([=](MissionView& view) {
+        v1::Plan plan;
+        plan.version(static_cast<std::uint32_t>(seq));
+        view.take(plan);
+      });
+    }
+    MissionView in_order;
+    for (const auto& message : messages) message(in_order);
+    for (std::size_t i = 0, count = messages.size(); i < count / 2; ++i)
+      messages.push_back(messages[random() % count]);
+    std::ranges::shuffle(messages, random);
+    MissionView shuffled;
+    for (const auto& message : messages) message(shuffled);
+    EXPECT_EQ(shuffled.goals(), in_order.goals()) << "seed " << seed;
+    EXPECT_EQ(shuffled.timelines(), in_order.timelines()) << "seed " << seed;
+    EXPECT_EQ(shuffled.plan()->version(), 4U) << "seed " << seed;
+    for (const char* id : {"a", "b"})
+      EXPECT_EQ(shuffled.step(id)->started_us(), 4'000'000) << "seed " << seed;
+  }
+}
+
+TEST(ValueText, IsWhatPeopleRead) {
+  v1::TimelineValue value;
+  EXPECT_EQ(value_text(value), "none");
+  value.kind(v1::VALUE_BOOLEAN);
+  value.truth(true);
+  EXPECT_EQ(value_text(value), "true");
+  value.kind(v1::VALUE_NUMBER);
+  value.number(12.5);
+  EXPECT_EQ(value_text(value), "12.5");
+  value.kind(v1::VALUE_STATE);
+  value.state("going-to");
+  value.arguments({"ridge"});
+  EXPECT_EQ(value_text(value), "going-to ridge");
+  EXPECT_EQ(clock_text(3'723'999'999), "01:02:03");
+}
+
+TEST(Names, OfValuesFromANewerVersionAreUnknown) {
+  EXPECT_STREQ(name_of(static_cast<v1::GoalState>(77)), "unknown");
+  EXPECT_STREQ(name_of(static_cast<v1::MissionPhase>(77)), "unknown");
+  EXPECT_STREQ(name_of(v1::PHASE_SAFE), "safe");
+}
+
+}  // namespace
+}  // namespace roci::console
