@@ -40,6 +40,10 @@ bool Orderings::only_adds(SnapId step, VariableId variable) const {
                              [&](FactId added) { return task_.variable(added) == variable; });
 }
 
+bool Orderings::writes(SnapId step, VariableId variable) const {
+  return std::ranges::find(task_.writes[step], variable) != task_.writes[step].end();
+}
+
 void Orderings::add(std::span<const SnapId> steps, SnapId next, std::span<const ActionId> running,
                     std::vector<StepConstraint>& constraints) {
   marked_.clear();
@@ -54,7 +58,9 @@ void Orderings::add(std::span<const SnapId> steps, SnapId next, std::span<const 
     }
     if (task_.snaps[step].kind == SnapKind::end) {
       for (const VariableId variable : task_.invariant_reads[task_.snaps[step].action]) {
-        after = after || (interests_[variable] & (changes | ends)) != 0;
+        // A step that writes the variable too is ordered before the adding step, and so before the new one.
+        const bool open_end = interests_[variable] == ends && !writes(step, variable);
+        after = after || open_end || (interests_[variable] & changes) != 0;
       }
     }
     for (const VariableId variable : task_.writes[step]) {

@@ -36,6 +36,7 @@ class Orderings {
   void mark(VariableId variable, std::uint8_t interest);
   void mark_new_step(SnapId next, std::span<const ActionId> running);
   bool only_adds(SnapId step, VariableId variable) const;
+  bool writes(SnapId step, VariableId variable) const;
 
   const Task& task_;
   Duration epsilon_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <optional>
 
 #include "planner_svc/temporal_pddl/grounding/prune.hpp"
@@ -29,23 +30,31 @@ bool intersect(const Groups& a, const Groups& b) {
   return false;
 }
 
-// What may touch a variable, boiled down to the groups of which every toucher needs a member.
+// What may touch a variable: a single action, or several, boiled down to the groups of which every toucher
+// needs a member.
 class Touch {
  public:
-  void by(const Groups& needed) {
+  void by(std::size_t action, const Groups& needed) {
     if (!common_) {
       common_ = needed;
+      sole_ = action;
       return;
     }
+    if (sole_ != action) sole_ = nobody;
     Groups kept;
     std::ranges::set_intersection(*common_, needed, std::back_inserter(kept));
     common_ = std::move(kept);
   }
-  // Is it out of reach for others while a member of one of these groups, "a is running", holds?
-  bool isolated(const Groups& running) const { return common_ && intersect(*common_, running); }
+  // Is it out of reach for others while the action runs, a member of these groups?
+  bool isolated(std::size_t action, const Groups& running) const {
+    return common_ && (sole_ == action || intersect(*common_, running));
+  }
+
+  static constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
 
  private:
   std::optional<Groups> common_;
+  std::size_t sole_ = nobody;
 };
 
 class Analysis {
@@ -64,22 +73,22 @@ class Analysis {
       for (const std::uint32_t action : groups[group].running) running_[action].push_back(group);
     }
     for (std::size_t i = 0; i < model.actions.size(); ++i) touch_by_action(i);
-    for (const auto& timed : model.timed) touch_by_snap(timed.effects, {}, {});
+    for (const auto& timed : model.timed) touch_by_snap(Touch::nobody, timed.effects, {}, {});
   }
 
   Compression judge(std::size_t index) const {
     const GroundAction& action = model_.actions[index];
     const Groups& running = running_[index];
     Compression result;
-    if (!action.durative || !ends_freely(action, running)) return result;
+    if (!action.durative || !ends_freely(index, running)) return result;
     for (const std::uint32_t atom : action.end_effects.deletes) {
-      if (!atoms_[atom].isolated(running)) return result;
+      if (!atoms_[atom].isolated(index, running)) return result;
     }
     for (const std::uint32_t atom : action.end_effects.adds) {
-      if (atoms_[atom].isolated(running) || only_goals_ask_[atom]) continue;
+      if (atoms_[atom].isolated(index, running) || only_goals_ask_[atom]) continue;
       if (facts_[atom].deleted || facts_[atom].negated || contains(action.start_effects.adds, atom))
         return result;
-      if (!adders_[atom].isolated(running)) return result;
+      if (!adders_[atom].isolated(index, running)) return result;
       result.absent.push_back(atom);
     }
     result.safe = true;
@@ -109,36 +118,38 @@ class Analysis {
     std::ranges::set_union(action.at_end.literals, action.over_all.literals,
                            std::back_inserter(end_literals));
     const Groups start_needs = needs(start_literals);
-    touch_by_conditions(action.at_start, start_needs);
-    touch_by_snap(action.start_effects, start_needs, start_literals);
-    for (const auto& rule : action.duration_rules) touch_by_expression(rule.bound, start_needs);
+    touch_by_conditions(index, action.at_start, start_needs);
+    touch_by_snap(index, action.start_effects, start_needs, start_literals);
+    for (const auto& rule : action.duration_rules) touch_by_expression(index, rule.bound, start_needs);
     if (!action.durative) return;
     const Groups end_needs = united(running_[index], needs(end_literals));
-    touch_by_conditions(action.at_end, end_needs);
-    touch_by_snap(action.end_effects, end_needs, end_literals);
-    for (const auto& rule : action.duration_rules) touch_by_expression(rule.bound, end_needs);
-    touch_by_conditions(action.over_all, united(running_[index], needs(action.over_all.literals)));
-    touch_by_conditions(action.over_all, start_needs);
-    touch_by_conditions(action.over_all, end_needs);
+    touch_by_conditions(index, action.at_end, end_needs);
+    touch_by_snap(index, action.end_effects, end_needs, end_literals);
+    for (const auto& rule : action.duration_rules) touch_by_expression(index, rule.bound, end_needs);
+    touch_by_conditions(index, action.over_all, united(running_[index], needs(action.over_all.literals)));
+    touch_by_conditions(index, action.over_all, start_needs);
+    touch_by_conditions(index, action.over_all, end_needs);
   }
 
-  void touch_by_expression(ExpressionId expression, const Groups& needed) {
-    for (const auto& term : model_.expressions[expression].terms) numbers_[term.variable.index()].by(needed);
+  void touch_by_expression(std::size_t index, ExpressionId expression, const Groups& needed) {
+    for (const auto& term : model_.expressions[expression].terms)
+      numbers_[term.variable.index()].by(index, needed);
   }
 
-  void touch_by_conditions(const Conjunction& conditions, const Groups& needed) {
+  void touch_by_conditions(std::size_t index, const Conjunction& conditions, const Groups& needed) {
     for (const auto literal : conditions.literals) {
-      atoms_[literal.atom].by(needed);
+      atoms_[literal.atom].by(index, needed);
       facts_[literal.atom].negated = facts_[literal.atom].negated || literal.negated;
     }
-    for (const auto& comparison : conditions.comparisons) touch_by_expression(comparison.expression, needed);
+    for (const auto& comparison : conditions.comparisons)
+      touch_by_expression(index, comparison.expression, needed);
   }
 
-  void touch_by_snap(const GroundEffects& effects, const Groups& needed,
+  void touch_by_snap(std::size_t index, const GroundEffects& effects, const Groups& needed,
                      const std::vector<GroundLiteral>& literals) {
     for (const std::uint32_t atom : effects.adds) {
-      atoms_[atom].by(needed);
-      adders_[atom].by(needed);
+      atoms_[atom].by(index, needed);
+      adders_[atom].by(index, needed);
       const bool only_while_false =
           std::ranges::any_of(literals,
                               [&](GroundLiteral literal) {
@@ -152,38 +163,40 @@ class Analysis {
       facts_[atom].redundantly_added = facts_[atom].redundantly_added || !only_while_false;
     }
     for (const std::uint32_t atom : effects.deletes) {
-      atoms_[atom].by(needed);
+      atoms_[atom].by(index, needed);
       facts_[atom].deleted = true;
       if (!std::ranges::binary_search(literals, GroundLiteral{atom, false}))
         facts_[atom].redundantly_deleted = true;
     }
     for (const auto& effect : effects.numeric) {
-      numbers_[effect.variable.index()].by(needed);
-      touch_by_expression(effect.expression, needed);
+      numbers_[effect.variable.index()].by(index, needed);
+      touch_by_expression(index, effect.expression, needed);
     }
   }
 
-  bool isolated(const Conjunction& conditions, const Groups& running) const {
+  bool isolated(std::size_t index, const Conjunction& conditions, const Groups& running) const {
     return std::ranges::all_of(conditions.comparisons, [&](const NumericCondition& comparison) {
       return std::ranges::all_of(model_.expressions[comparison.expression].terms, [&](const auto& term) {
-        return numbers_[term.variable.index()].isolated(running);
+        return numbers_[term.variable.index()].isolated(index, running);
       });
     });
   }
 
   // Points 1, 2 and 4 of the criterion.
-  bool ends_freely(const GroundAction& action, const Groups& running) const {
+  bool ends_freely(std::size_t index, const Groups& running) const {
+    const GroundAction& action = model_.actions[index];
     const bool literals_free = std::ranges::all_of(action.at_end.literals, [&](GroundLiteral literal) {
-      if (atoms_[literal.atom].isolated(running)) return true;
+      if (atoms_[literal.atom].isolated(index, running)) return true;
       const FactUse& use = facts_[literal.atom];
       return std::ranges::binary_search(action.over_all.literals, literal) &&
              !(literal.negated ? use.redundantly_deleted : use.redundantly_added);
     });
-    return literals_free && isolated(action.over_all, running) && isolated(action.at_end, running) &&
+    return literals_free && isolated(index, action.over_all, running) &&
+           isolated(index, action.at_end, running) &&
            std::ranges::none_of(action.duration_rules,
                                 [](const DurationRule& rule) { return rule.at == pddl::TimePoint::end; }) &&
            std::ranges::all_of(action.end_effects.numeric, [&](const NumericEffect& effect) {
-             return numbers_[effect.variable.index()].isolated(running);
+             return numbers_[effect.variable.index()].isolated(index, running);
            });
   }
 

@@ -6,9 +6,9 @@
 // and only adds facts: the orderings R22 and R23 follow the order of the steps, so an early end must not push
 // any step of B behind itself.
 //
-// A variable is isolated from a if no step of B can touch it: every other snap action that has it in a
-// condition or an effect needs a fact that is mutex with "a is running", and no action with an invariant on
-// it can run beside a.
+// A variable is isolated from a if no step of B can touch it: no other action ever does (and a does not run
+// beside itself), or every snap action that has it in a condition or an effect needs a fact that is mutex
+// with "a is running", and no action with an invariant on it can run beside a.
 //
 // a is compression safe if
 //  1. each fact at its end is an invariant of a that is never added while it is true (deleted while it is

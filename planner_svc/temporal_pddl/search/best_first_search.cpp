@@ -27,8 +27,9 @@ class BestFirstSearch {
         store_(task.layout.words()),
         check_(task, options.epsilon),
         builder_(task, store_, check_, options.epsilon),
-        goal_(task, options.epsilon),
+        goal_(task, check_, options.epsilon),
         dominance_(task, store_, bounds_, check_, options.epsilon, goal_.has_deadlines()),
+        dominate_(options.dominance && !goal_.has_openings()),
         tree_(task),
         random_(options.seed) {}
 
@@ -44,7 +45,7 @@ class BestFirstSearch {
       const Rejection rejection = builder_.build(prefix_, entry->snap, successor_);
       if (rejection == Rejection::temporal) ++statistics_.temporally_inconsistent;
       if (rejection != Rejection::none) continue;
-      if (options_.dominance && dominance_.dominated(successor_.state, successor_.prefix)) {
+      if (dominate_ && dominance_.dominated(successor_.state, successor_.prefix)) {
         ++statistics_.dominated;
         continue;
       }
@@ -71,12 +72,8 @@ class BestFirstSearch {
     for (const StepConstraint& constraint : fresh) encode(constraint, options_.epsilon, bounds_, code_);
     const NodeId node = store_.add(successor_.state, parent, transition, code_);
     prefix.node = node;
-    if (options_.dominance) dominance_.insert(node, successor_.state, prefix);
-    if (const auto deadline = goal_.deadline_of_complete(successor_.state, prefix)) {
-      prefix.deadline = *deadline;
-      if (check_.earliest(prefix)) return true;
-      prefix.deadline = kNever;
-    }
+    if (dominate_) dominance_.insert(node, successor_.state, prefix);
+    if (goal_.complete(successor_.state, prefix)) return true;
 
     watch_.poll();
     watch_.evaluations(++statistics_.evaluated);
@@ -127,6 +124,7 @@ class BestFirstSearch {
   SuccessorBuilder builder_;
   GoalTest goal_;
   Dominance dominance_;
+  bool dominate_;
   SuccessorTree tree_;
   OpenList open_;
   std::mt19937_64 random_;

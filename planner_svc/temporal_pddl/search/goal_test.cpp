@@ -4,33 +4,72 @@
 
 namespace roci::planner::temporal_pddl {
 
-GoalTest::GoalTest(const Task& task, Duration epsilon) : task_(task), semantics_(task), epsilon_(epsilon) {
+GoalTest::GoalTest(const Task& task, TemporalCheck& check, Duration epsilon)
+    : task_(task),
+      check_(check),
+      semantics_(task),
+      epsilon_(epsilon),
+      opens_(task.timed_steps.size(), false) {
   for (const Goal& goal : task.goals) {
     held_.emplace_back(goal.facts.size(), false);
-    for (const TimedStep& timed : task.timed_steps) {
-      const bool deletes = std::ranges::any_of(
-          task.deletes[timed.snap], [&](FactId fact) { return std::ranges::count(goal.facts, fact) > 0; });
-      const bool changes = !goal.comparisons.empty() && !task.numeric_effects[timed.snap].empty();
-      has_deadlines_ = has_deadlines_ || deletes || changes;
+    const auto wanted = [&](FactId fact) { return std::ranges::count(goal.facts, fact) > 0; };
+    for (std::size_t i = 0; i < opens_.size(); ++i) {
+      const SnapId snap = task.timed_steps[i].snap;
+      const bool changes = !goal.comparisons.empty() && !task.numeric_effects[snap].empty();
+      has_deadlines_ = has_deadlines_ || changes || std::ranges::any_of(task.deletes[snap], wanted);
+      opens_[i] = opens_[i] || changes || std::ranges::any_of(task.adds[snap], wanted);
+      has_openings_ = has_openings_ || opens_[i];
     }
   }
 }
 
-std::optional<Ticks> GoalTest::deadline_of_complete(StateView state, const PlanPrefix& prefix) {
+void GoalTest::note_held(StateView state) {
   for (std::size_t goal = 0; goal < task_.goals.size(); ++goal) {
     const auto& facts = task_.goals[goal].facts;
     for (std::size_t i = 0; i < facts.size(); ++i) {
       if (!held_[goal][i] && task_.layout.holds(state, facts[i])) held_[goal][i] = true;
     }
   }
-  if (!prefix.running.empty() || !semantics_.goal_satisfied(state)) return std::nullopt;
+}
+
+Ticks GoalTest::deadline(StateView state, std::uint32_t timed_done) const {
   if (!has_deadlines_) return kNever;
   std::vector<Word> later(state.begin(), state.end());
-  for (std::size_t i = prefix.timed_done; i < task_.timed_steps.size(); ++i) {
+  for (std::size_t i = timed_done; i < task_.timed_steps.size(); ++i) {
     semantics_.apply(task_.timed_steps[i].snap, 0, later);
     if (!semantics_.goal_satisfied(later)) return (task_.timed_steps[i].time - epsilon_).count();
   }
   return kNever;
+}
+
+Ticks GoalTest::opening(std::uint32_t timed_done) const {
+  for (std::size_t i = timed_done; i-- > 0;) {
+    if (opens_[i]) return task_.timed_steps[i].time.count();
+  }
+  return 0;
+}
+
+// Any step may be the closing one; later ones are tried first.
+bool GoalTest::close(PlanPrefix& prefix) {
+  for (std::size_t i = prefix.steps.size(); i-- > 0;) {
+    if (task_.snaps[prefix.steps[i]].kind == SnapKind::timed_literal) continue;
+    prefix.closing_step = static_cast<std::uint32_t>(i);
+    if (check_.earliest(prefix)) return true;
+  }
+  return false;
+}
+
+bool GoalTest::complete(StateView state, PlanPrefix& prefix) {
+  note_held(state);
+  if (!prefix.running.empty() || !semantics_.goal_satisfied(state)) return false;
+  prefix.deadline = deadline(state, prefix.timed_done);
+  prefix.closing_time = opening(prefix.timed_done);
+  const bool fits = prefix.closing_time == 0 ? check_.earliest(prefix) != nullptr : close(prefix);
+  if (fits) return true;
+  prefix.deadline = kNever;
+  prefix.closing_time = 0;
+  prefix.closing_step = 0;
+  return false;
 }
 
 std::string GoalTest::explain_failure(std::size_t states) const {

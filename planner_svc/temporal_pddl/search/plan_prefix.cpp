@@ -13,6 +13,8 @@ void rebuild(const Task& task, const StateStore& store, const BoundTable& bounds
   prefix.running.clear();
   prefix.running_actions.clear();
   prefix.deadline = kNever;
+  prefix.closing_time = 0;
+  prefix.closing_step = 0;
   prefix.timed_done = 0;
   std::vector<NodeId> path;
   for (NodeId n = node; !store.parent(n).is_none(); n = store.parent(n)) path.push_back(n);

@@ -26,7 +26,9 @@ struct PlanPrefix {
   std::vector<Running> running;             // in order of their starts
   std::vector<ActionId> running_actions;    // the same
   Ticks deadline = kNever;                  // no step may be later; set for complete plans, see GoalTest
-  std::uint32_t timed_done = 0;             // timed literals among the steps
+  Ticks closing_time = 0;                   // likewise: `closing_step` may be no earlier
+  std::uint32_t closing_step = 0;
+  std::uint32_t timed_done = 0;  // timed literals among the steps
 };
 
 // Refills `prefix`, keeping its memory.

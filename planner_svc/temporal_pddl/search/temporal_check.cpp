@@ -62,6 +62,7 @@ bool TemporalCheck::fit_windows(const PlanPrefix& prefix, bool& changed) {
 const std::vector<Ticks>* TemporalCheck::earliest(const PlanPrefix& prefix) {
   fill(prefix, network_);
   times_.assign(prefix.steps.size(), 0);
+  if (!times_.empty()) times_[prefix.closing_step] = prefix.closing_time;
   for (bool changed = true; changed;) {
     changed = false;
     if (!fit_windows(prefix, changed)) return nullptr;
@@ -91,6 +92,7 @@ std::vector<TimeWindow> TemporalCheck::chosen_windows(const PlanPrefix& prefix,
     restrict(result[i], span);
     restrict(result[prefix.start_of[i]], span);
   }
+  if (!result.empty()) restrict(result[prefix.closing_step], {Duration(prefix.closing_time), kUnbounded});
   return result;
 }
 

@@ -1,0 +1,76 @@
+// The engine against brute force on random tasks, with every switch on and off; every plan is validated.
+#include "tests/unit/planner_svc/temporal_pddl/brute_force.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/pddl/printer.hpp"
+#include "tests/unit/planner_svc/temporal_pddl/random_task.hpp"
+#include "tests/unit/planner_svc/temporal_pddl/validated.hpp"
+
+namespace roci::planner::temporal_pddl {
+namespace {
+
+constexpr std::size_t kActions = 3;  // of the brute force plans
+
+struct Named {
+  const char* name;
+  Options options;
+};
+
+std::vector<Named> configurations() {
+  std::vector<Named> result{{"default", {}}};
+  result.push_back({"no compression", {}});
+  result.back().options.compression_safety = false;
+  result.push_back({"no dominance", {}});
+  result.back().options.dominance = false;
+  result.push_back({"no preferred operators", {}});
+  result.back().options.preferred_operators = false;
+  result.push_back({"timed literals as steps", {}});
+  result.back().options.windows = WindowExtraction::none;
+  result.push_back({"one-off windows", {}});
+  result.back().options.windows = WindowExtraction::one_off;
+  result.push_back({"bare, shuffled", {}});
+  result.back().options = {Duration{1000}, false, false, false, WindowExtraction::none, 17};
+  return result;
+}
+
+std::string text(const testing::Model& model) {
+  return pddl::print(model.domain) + pddl::print(model.problem);
+}
+
+class AgainstBruteForce : public ::testing::TestWithParam<int> {};
+
+TEST_P(AgainstBruteForce, AgreesOnSolvability) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(GetParam()));
+  Budget budget;
+  budget.evaluations = 2000;
+  std::size_t solved = 0, unsolvable = 0, unknown = 0, missed = 0;
+  for (int round = 0; round < 100; ++round) {
+    const testing::Model model = testing::random_task(random);
+    const bool expected = testing::has_plan(model, kActions);
+    for (const auto& [name, options] : configurations()) {
+      const Result result = testing::solved(model, options, budget);
+      ASSERT_TRUE(result.verdict == Verdict::solved || result.verdict == Verdict::unsolvable ||
+                  result.verdict == Verdict::timeout)
+          << to_string(result.verdict) << " " << result.reason << text(model);
+      if (result.plan) testing::expect_valid(model, result, options);
+      if (HasFailure()) FAIL() << name << text(model);
+      if (expected) {
+        EXPECT_NE(result.verdict, Verdict::unsolvable) << name << ": " << result.reason << text(model);
+      }
+      missed += expected && result.verdict == Verdict::timeout;
+      solved += result.verdict == Verdict::solved;
+      unsolvable += result.verdict == Verdict::unsolvable;
+      unknown += result.verdict == Verdict::timeout;
+    }
+  }
+  EXPECT_GT(solved, 80u);
+  EXPECT_GT(unsolvable, 80u);
+  EXPECT_LT(unknown, unsolvable / 2);
+  EXPECT_LT(missed, solved / 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, AgainstBruteForce, ::testing::Range(1, 9));
+
+}  // namespace
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include "planner_svc/temporal_pddl/plan/plan_text.hpp"
+#include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
+
+namespace roci::planner::temporal_pddl {
+namespace {
+
+// Counts x up to a goal that needs many steps, without an end if the goal is out of reach.
+testing::Model counting(int goal) {
+  return testing::model(
+      R"((:requirements :numeric-fluents) (:predicates (odd)) (:functions (x) (y))
+    (:action up :parameters () :precondition () :effect (increase (x) 1))
+    (:action down :parameters () :precondition () :effect (decrease (y) 1)))",
+      "(:init (= (x) 0) (= (y) 0)) (:goal (and (= (x) " + std::to_string(goal) + ") (= (y) 0.5)))");
+}
+
+Result plan_with(const Budget& budget, const Monitor& monitor) {
+  const auto model = counting(5);
+  NoFunctions functions;
+  return plan(model.domain, model.problem, functions, budget, monitor);
+}
+
+TEST(Budget, Evaluations) {
+  Budget budget;
+  budget.evaluations = 100;
+  const Result result = plan_with(budget, {});
+  EXPECT_EQ(result.verdict, Verdict::timeout);
+  EXPECT_EQ(result.statistics.evaluated, 101u);
+  EXPECT_FALSE(result.reason.empty());
+}
+
+TEST(Budget, Time) {
+  int polls = 0;
+  Budget budget;
+  budget.out_of_time = [&] { return ++polls > 50; };
+  EXPECT_EQ(plan_with(budget, {}).verdict, Verdict::timeout);
+  EXPECT_EQ(polls, 51);
+}
+
+TEST(Budget, Memory) {
+  const auto wide = testing::model(
+      R"((:requirements :typing :numeric-fluents) (:types t) (:predicates (p)) (:functions (x ?i - t))
+    (:action up :parameters (?i - t) :precondition () :effect (increase (x ?i) 1)))",
+      "(:objects a b c d e f g h - t) (:init (= (x a) 0) (= (x b) 0) (= (x c) 0) (= (x d) 0) (= (x e) 0)"
+      " (= (x f) 0) (= (x g) 0) (= (x h) 0)) (:goal (= (+ (x a) (x b) (x c) (x d) (x e) (x f) (x g) (x h)) "
+      "99.5))");
+  Budget budget;
+  budget.memory_bytes = 3 << 20;
+  NoFunctions functions;
+  const Result result = plan(wide.domain, wide.problem, functions, budget, {});
+  EXPECT_EQ(result.verdict, Verdict::out_of_memory);
+  EXPECT_GT(result.statistics.peak_bytes, std::size_t{3} << 20);
+  EXPECT_LT(result.statistics.peak_bytes, std::size_t{6} << 20);
+}
+
+TEST(Budget, CancellationAndProgress) {
+  std::size_t reports = 0;
+  Monitor monitor;
+  monitor.progress = [&](const Statistics& statistics) {
+    ++reports;
+    EXPECT_GT(statistics.expanded, 0u);
+  };
+  monitor.cancelled = [&] { return reports == 2; };
+  EXPECT_EQ(plan_with({}, monitor).verdict, Verdict::cancelled);
+}
+
+TEST(Budget, SameCallSameAnswer) {
+  const auto model = testing::model(R"((:requirements :typing :durative-actions)
+    (:types t) (:predicates (p ?x - t) (q ?x - t))
+    (:durative-action a :parameters (?x - t) :duration (= ?duration 2) :condition (at start (q ?x))
+      :effect (and (at start (not (q ?x))) (at end (p ?x)) (at end (q ?x)))))",
+                                    "(:objects a b c d e - t) (:init (q a) (q b) (q c) (q d) (q e))"
+                                    "(:goal (and (p a) (p b) (p c) (p d) (p e)))");
+  for (const std::uint64_t seed : {0u, 1u, 2u}) {
+    Options options;
+    options.seed = seed;
+    const Result first = testing::solved(model, options);
+    const Result second = testing::solved(model, options);
+    ASSERT_TRUE(first.plan);
+    EXPECT_EQ(to_ipc(*first.plan), to_ipc(*second.plan));
+    EXPECT_EQ(first.statistics.generated, second.statistics.generated);
+  }
+}
+
+}  // namespace
+}  // namespace roci::planner::temporal_pddl

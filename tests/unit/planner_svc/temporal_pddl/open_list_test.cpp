@@ -1,0 +1,36 @@
+#include "planner_svc/temporal_pddl/search/open_list.hpp"
+
+#include <gtest/gtest.h>
+
+namespace roci::planner::temporal_pddl {
+namespace {
+
+OpenEntry entry(std::size_t n) { return {NodeId(n), SnapId(n)}; }
+
+TEST(OpenList, BestFirstThenOldest) {
+  OpenList open;
+  open.push({2, 0}, false, entry(1));
+  open.push({1, 5}, false, entry(2));
+  open.push({1, 4}, false, entry(3));
+  open.push({1, 4}, false, entry(4));
+  EXPECT_EQ(open.size(), 4u);
+  for (const std::size_t expected : {3u, 4u, 2u, 1u}) EXPECT_EQ(open.pop()->parent, NodeId(expected));
+  EXPECT_FALSE(open.pop());
+}
+
+TEST(OpenList, PreferredTakeTurnsAndGoFirstAfterProgress) {
+  OpenList open;
+  for (std::size_t i = 0; i < 10; ++i) {
+    open.push({1, 0}, true, entry(100 + i));
+    open.push({1, 0}, false, entry(i));
+  }
+  std::size_t preferred = 0;
+  for (int i = 0; i < 10; ++i) preferred += open.pop()->parent.value >= 100;
+  EXPECT_EQ(preferred, 5u);
+  open.boost();
+  for (int i = 0; i < 5; ++i) EXPECT_GE(open.pop()->parent.value, 100u);
+  for (int i = 0; i < 5; ++i) EXPECT_LT(open.pop()->parent.value, 100u);
+}
+
+}  // namespace
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,90 @@
+#include "tests/unit/planner_svc/temporal_pddl/random_task.hpp"
+
+namespace roci::planner::temporal_pddl::testing {
+
+namespace {
+
+constexpr int kFacts = 5;
+
+class Writer {
+ public:
+  explicit Writer(std::mt19937_64& random) : random_(random) {}
+
+  Model run() {
+    std::string domain =
+        "(:requirements :durative-actions :duration-inequalities :negative-preconditions :numeric-fluents "
+        ":timed-initial-literals)\n(:predicates";
+    for (int i = 0; i < kFacts; ++i) domain += " (p" + std::to_string(i) + ")";
+    domain += ")\n(:functions (x))\n";
+    const int actions = 2 + below(3);
+    for (int i = 0; i < actions; ++i) domain += below(6) == 0 ? plain_action(i) : durative_action(i);
+    return model(domain, problem());
+  }
+
+ private:
+  int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+  std::string fact() { return "(p" + std::to_string(below(kFacts)) + ")"; }
+  std::string literal() { return below(4) == 0 ? "(not " + fact() + ")" : fact(); }
+  std::string condition() {
+    if (below(6) > 0) return literal();
+    return below(2) == 0 ? "(>= (x) " + std::to_string(below(3)) + ")"
+                         : "(<= (x) " + std::to_string(below(3)) + ")";
+  }
+  std::string effect() {
+    if (below(6) > 0) return below(3) == 0 ? "(not " + fact() + ")" : fact();
+    const char* const ops[] = {"(increase (x) 1)", "(decrease (x) 1)", "(assign (x) 1)"};
+    return ops[below(3)];
+  }
+
+  std::string plain_action(int i) {
+    return "(:action a" + std::to_string(i) + " :parameters () :precondition " + condition() + " :effect " +
+           effect() + ")\n";
+  }
+
+  std::string durative_action(int i) {
+    const int least = 1 + below(4);
+    const std::string duration = below(3) == 0
+                                     ? "(and (>= ?duration " + std::to_string(least) + ") (<= ?duration " +
+                                           std::to_string(least + below(3)) + "))"
+                                     : "(= ?duration " + std::to_string(least) + ")";
+    std::string conditions, effects;
+    const auto add = [&](std::string& list, const char* when, const std::string& what) {
+      list += " (" + std::string(when) + " " + what + ")";
+    };
+    if (below(2) == 0) add(conditions, "at start", condition());
+    if (below(2) == 0) add(conditions, "over all", condition());
+    if (below(3) == 0) add(conditions, "at end", condition());
+    if (below(3) == 0) {  // an envelope: something holds just while the action runs
+      const std::string held = fact();
+      add(effects, "at start", held);
+      add(effects, "at end", "(not " + held + ")");
+    }
+    if (below(2) == 0) add(effects, "at start", effect());
+    add(effects, "at end", effect());
+    return "(:durative-action a" + std::to_string(i) + " :parameters () :duration " + duration +
+           " :condition (and" + conditions + ") :effect (and" + effects + "))\n";
+  }
+
+  std::string problem() {
+    std::string init = "(:init (= (x) " + std::to_string(below(2)) + ")";
+    for (int i = 0; i < kFacts; ++i) {
+      if (below(4) == 0) init += " (p" + std::to_string(i) + ")";
+    }
+    int time = 0;
+    for (int n = below(4); n > 0; --n) {
+      time += 1 + below(4);
+      init += " (at " + std::to_string(time) + " " + literal() + ")";
+    }
+    std::string goal = "(:goal (and " + fact() + " " + literal();
+    if (below(5) == 0) goal += " (>= (x) 2)";
+    return init + ")\n" + goal + "))";
+  }
+
+  std::mt19937_64& random_;
+};
+
+}  // namespace
+
+Model random_task(std::mt19937_64& random) { return Writer(random).run(); }
+
+}  // namespace roci::planner::temporal_pddl::testing

@@ -1,0 +1,14 @@
+// Small random temporal tasks: envelopes, invariants, conditions at ends, numbers, timed literals, flexible
+// durations.
+#pragma once
+
+#include <random>
+
+#include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
+
+namespace roci::planner::temporal_pddl::testing {
+
+// Predicates and actions have no parameters; durations and times are whole seconds.
+Model random_task(std::mt19937_64& random);
+
+}  // namespace roci::planner::temporal_pddl::testing
