@@ -193,6 +193,15 @@ class ExecService final : public services::Service {
     status.goals_failed(counts.failed);
     status.goals_open(counts.open);
     status.outcome(reactor_.outcome());
+    for (const WindowModel& window : mission_.windows) {
+      for (const auto& [opens, closes] : window.open) {
+        v1::PredictedWindow predicted;
+        predicted.timeline(window.timeline);
+        predicted.opens_us(opens.count());
+        predicted.closes_us(closes.count());
+        status.windows().push_back(predicted);
+      }
+    }
     if (status == last_status_) return;
     last_status_ = status;
     status.trace_sha256(trace_.sha256());

@@ -1,7 +1,6 @@
 // What roci prints: as text for people, as JSON for scripts.
 #pragma once
 
-#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -21,8 +20,5 @@ std::string json_text(const nlohmann::json& json);
 std::string goal_line(const v1::GoalStatus& status);
 std::string event_line(const v1::Event& event);
 std::string status_text(const MissionView& view);
-
-// The whole screen of `roci watch`, `width` columns by at most `height` lines, without control codes.
-std::string watch_screen(const MissionView& view, std::size_t width, std::size_t height);
 
 }  // namespace roci::console

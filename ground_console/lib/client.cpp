@@ -66,6 +66,7 @@ Client::Client(const services::Connection& connection)
   follow(topics::step_status);
   follow(topics::observation);
   follow(topics::data_product);
+  follow(topics::hazard);
   follow(topics::event);
   follow(topics::heartbeat);
 }

@@ -65,6 +65,24 @@ void MissionView::take(const v1::StepStatus& step) {
 void MissionView::take(const v1::Observation& observation) {
   note_time(observation.header());
   keep_newest(observations_, observation.timeline(), observation);
+  extend_way(observation.timeline());
+}
+
+// Both coordinates of a place carry the same stamp; whichever comes second completes it.
+void MissionView::extend_way(const std::string& timeline) {
+  if (!timeline.ends_with(".x") && !timeline.ends_with(".y")) return;
+  const std::string robot = timeline.substr(0, timeline.size() - 2);
+  const auto* x = found_or_null(observations_, robot + ".x");
+  const auto* y = found_or_null(observations_, robot + ".y");
+  if (x == nullptr || y == nullptr || x->header().stamp_us() != y->header().stamp_us()) return;
+  std::vector<Place>& way = ways_[robot];
+  const Place place{x->observed().number(), y->observed().number()};
+  if (!way.empty() && way.back() == place) return;
+  way.push_back(place);
+  if (way.size() <= kWay) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < way.size(); i += 2) way[kept++] = way[i];
+  way.resize(kept);
 }
 
 void MissionView::take(const v1::DataProduct& product) {
@@ -77,6 +95,11 @@ void MissionView::take(const v1::Event& event) {
   events_.push_back(event);
   ++events_seen_;
   if (events_.size() > kEvents) events_.pop_front();
+}
+
+void MissionView::take(const v1::Hazard& hazard) {
+  note_time(hazard.header());
+  keep_newest(hazards_, hazard.id(), hazard);
 }
 
 void MissionView::take(const v1::Heartbeat& heartbeat) {
@@ -122,16 +145,20 @@ const char* name_of(v1::ServiceState state) {
   return name_in(std::array{"starting", "running", "degraded", "stopping"}, state);
 }
 
-std::string value_text(const v1::TimelineValue& value) {
+std::string value_text(double number) {
   std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.6g", number);
+  return buffer.data();
+}
+
+std::string value_text(const v1::TimelineValue& value) {
   switch (value.kind()) {
     case v1::VALUE_NONE:
       return "none";
     case v1::VALUE_BOOLEAN:
       return value.truth() ? "true" : "false";
     case v1::VALUE_NUMBER:
-      std::snprintf(buffer.data(), buffer.size(), "%.6g", value.number());
-      return buffer.data();
+      return value_text(value.number());
     case v1::VALUE_STATE:
       break;
   }

@@ -12,9 +12,16 @@
 #include "roci_idl/command.h"
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
+#include "roci_idl/motion.h"
 #include "roci_idl/plan.h"
 
 namespace roci::console {
+
+struct Place {
+  double x_m = 0;
+  double y_m = 0;
+  bool operator==(const Place&) const = default;
+};
 
 class MissionView {
  public:
@@ -27,6 +34,7 @@ class MissionView {
   void take(const v1::Observation& observation);
   void take(const v1::DataProduct& product);
   void take(const v1::Event& event);
+  void take(const v1::Hazard& hazard);
   void take(const v1::Heartbeat& heartbeat);
 
   using GoalKey = std::pair<std::string, std::string>;  // issuer, id
@@ -40,15 +48,21 @@ class MissionView {
   const std::map<std::string, v1::Observation>& timelines() const { return observations_; }
   const std::map<std::string, v1::DataProduct>& products() const { return products_; }
   const std::map<std::string, v1::Heartbeat>& services() const { return heartbeats_; }
+  const std::map<std::string, v1::Hazard>& hazards() const { return hazards_; }
+  // Where each robot was, oldest first: a robot is whatever observes its `<name>.x` and `<name>.y`, in
+  // metres. Long ways are thinned out to at most kWay places.
+  const std::map<std::string, std::vector<Place>>& ways() const { return ways_; }
   const std::deque<v1::Event>& events() const { return events_; }  // oldest first, at most kEvents
   std::uint64_t events_seen() const { return events_seen_; }
   // Mission time of the newest sample seen, in microseconds.
   std::int64_t now_us() const { return now_us_; }
 
   static constexpr std::size_t kEvents = 1000;
+  static constexpr std::size_t kWay = 2000;
 
  private:
   void note_time(const v1::SampleHeader& header);
+  void extend_way(const std::string& timeline);
 
   std::optional<v1::MissionStatus> mission_;
   std::map<GoalKey, v1::Goal> goals_;
@@ -58,6 +72,8 @@ class MissionView {
   std::map<std::string, v1::Observation> observations_;
   std::map<std::string, v1::DataProduct> products_;
   std::map<std::string, v1::Heartbeat> heartbeats_;
+  std::map<std::string, v1::Hazard> hazards_;
+  std::map<std::string, std::vector<Place>> ways_;
   std::deque<v1::Event> events_;
   std::uint64_t events_seen_ = 0;
   std::int64_t now_us_ = 0;
@@ -70,6 +86,7 @@ const char* name_of(v1::ActivityState state);
 const char* name_of(v1::Severity severity);
 const char* name_of(v1::ServiceState state);
 std::string value_text(const v1::TimelineValue& value);
+std::string value_text(double number);
 std::string clock_text(std::int64_t time_us);  // "01:23:45"
 
 }  // namespace roci::console

@@ -2,11 +2,13 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/verbs.hpp"
+#include "ground_console/cli/watch/screen.hpp"
 
 namespace roci::console {
 namespace {
@@ -25,6 +27,13 @@ class Screen {
     winsize window{};
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) != 0 || window.ws_col == 0) return {100, 40};
     return {window.ws_col, window.ws_row};
+  }
+
+  // Colours as https://no-color.org asks.
+  static std::string text_of(const Canvas& canvas) {
+    const char* no_colour = std::getenv("NO_COLOR");
+    const bool plain = isatty(STDOUT_FILENO) == 0 || (no_colour != nullptr && *no_colour != '\0');
+    return plain ? canvas.plain() : canvas.coloured();
   }
 
   static void draw(const std::string& text) {
@@ -57,7 +66,7 @@ int watch(Client& client, bool json) {
   if (json) return watch_as_json(client);
   const auto draw = [&] {
     const auto [width, height] = Screen::size();
-    return watch_screen(client.view(), width, height - 1);
+    return Screen::text_of(watch_screen(client.view(), width, height - 1));
   };
   std::string last;
   {

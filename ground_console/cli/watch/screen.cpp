@@ -1,0 +1,70 @@
+#include "ground_console/cli/watch/screen.hpp"
+
+#include <algorithm>
+
+#include "ground_console/cli/watch/panels.hpp"
+
+namespace roci::console {
+namespace {
+
+constexpr std::size_t kGoals = 96;  // columns; the map takes what is left beside them
+constexpr std::size_t kMapRows = 12;
+constexpr std::size_t kEventRows = 9;
+
+void draw_head(const MissionView& view, Canvas& canvas) {
+  if (!view.mission()) {
+    canvas.put(0, 0, "waiting for exec_svc", Style::warning);
+    return;
+  }
+  const v1::MissionStatus& mission = *view.mission();
+  std::size_t column = canvas.put(0, 0, mission.mission(), Style::title) + 3;
+  column = canvas.put(0, column, clock_text(view.now_us()), Style::title) + 3;
+  column = canvas.put(0, column, name_of(mission.phase()),
+                      mission.phase() == v1::PHASE_SAFE ? Style::bad : Style::active) +
+           3;
+  column = canvas.put(0, column,
+                      "plan " + std::to_string(mission.plan_version()) + ", " +
+                          std::to_string(mission.replans()) + " replans") +
+           3;
+  if (!mission.outcome().empty()) {
+    canvas.put(0, column, "result: " + mission.outcome(),
+               mission.outcome() == "achieved" ? Style::good : Style::bad);
+  }
+}
+
+// States and levels as last observed, the subsystem's name without its owner's.
+void draw_robot(const MissionView& view, std::size_t row, Canvas& canvas) {
+  std::size_t column = canvas.put(row, 0, "Robot", Style::title) + 2;
+  for (const auto& [name, observation] : view.timelines()) {
+    const auto dot = name.find('.');
+    const bool battery = name.ends_with(".battery");
+    const bool robot = dot != std::string::npos && view.ways().contains(name.substr(0, dot));
+    if (!robot || (observation.observed().kind() != v1::VALUE_STATE && !battery)) continue;
+    column = canvas.put(row, column, name.substr(dot + 1) + " ", Style::dim);
+    column = canvas.put(row, column, value_text(observation.observed())) + 3;
+  }
+}
+
+}  // namespace
+
+Canvas watch_screen(const MissionView& view, std::size_t width, std::size_t height) {
+  Canvas canvas(width, height);
+  draw_head(view, canvas);
+  const bool map_fits = width >= kGoals + 24;
+  const std::size_t wanted =
+      std::max(view.goals().size() + 1, map_fits && !view.ways().empty() ? kMapRows : 0);
+  const std::size_t top = std::min(wanted, height / 3);
+  draw_goals(view, {2, 0, std::min(width, kGoals), top}, canvas);
+  if (map_fits) draw_map(view, {2, kGoals + 1, width - kGoals - 1, top}, canvas);
+  draw_robot(view, top + 3, canvas);
+  const std::size_t plan_row = top + 5;
+  const std::size_t events_row = height > plan_row + kEventRows ? height - kEventRows : plan_row;
+  const std::size_t steps = view.plan() ? view.plan()->activities().size() + 2 : 0;
+  const std::size_t plan_height = std::min(steps, events_row > plan_row ? events_row - plan_row - 1 : 0);
+  draw_plan(view, {plan_row, 0, width, plan_height}, canvas);
+  const std::size_t after = plan_row + plan_height + (plan_height > 0 ? 1 : 0);
+  draw_events(view, {after, 0, width, height > after ? height - after : 0}, canvas);
+  return canvas;
+}
+
+}  // namespace roci::console

@@ -1,0 +1,12 @@
+// The whole screen of `roci watch`: mission, goals, a map of the way, the plan as bars over time, what
+// happened last.
+#pragma once
+
+#include "ground_console/cli/watch/canvas.hpp"
+#include "ground_console/lib/mission_view.hpp"
+
+namespace roci::console {
+
+Canvas watch_screen(const MissionView& view, std::size_t width, std::size_t height);
+
+}  // namespace roci::console
