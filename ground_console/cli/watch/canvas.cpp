@@ -5,6 +5,15 @@ namespace {
 
 bool continues(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
 
+// One code point as it may go to a terminal: control characters and broken UTF-8 become "?".
+std::string printable(std::string_view glyph) {
+  const auto lead = static_cast<unsigned char>(glyph.front());
+  const std::size_t length = lead < 0x80U ? 1 : lead < 0xC2U ? 0 : lead < 0xE0U ? 2 : lead < 0xF0U ? 3 : 4;
+  const bool control = lead < 0x20U || lead == 0x7FU ||
+                       (lead == 0xC2U && glyph.size() > 1 && static_cast<unsigned char>(glyph[1]) < 0xA0U);
+  return control || glyph.size() != length || lead > 0xF4U ? "?" : std::string(glyph);
+}
+
 const char* code_of(Style style) {
   switch (style) {
     case Style::plain:
@@ -33,7 +42,7 @@ std::size_t Canvas::put(std::size_t row, std::size_t column, std::string_view te
     std::size_t end = begin + 1;
     while (end < text.size() && continues(text[end])) ++end;
     if (row < height() && column < width_) {
-      cells_[row * width_ + column] = {std::string(text.substr(begin, end - begin)), style};
+      cells_[row * width_ + column] = {printable(text.substr(begin, end - begin)), style};
     }
     begin = end;
   }

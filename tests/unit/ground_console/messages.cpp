@@ -71,6 +71,29 @@ v1::StepStatus step(const std::string& id, v1::ActivityState state, std::uint64_
   return out;
 }
 
+v1::Goal goal(const std::string& id, const std::string& x, const std::string& y) {
+  v1::Goal out;
+  out.issuer("ground");
+  out.id(id);
+  v1::Property first, second;
+  first.name("x");
+  first.value(x);
+  second.name("y");
+  second.value(y);
+  out.arguments({first, second});
+  out.closes_us(us(900));
+  return out;
+}
+
+v1::Observation number(const std::string& timeline, double value, double s) {
+  v1::Observation out;
+  out.header(sent("sim_svc", static_cast<std::uint64_t>(s), s));
+  out.timeline(timeline);
+  out.observed().kind(v1::VALUE_NUMBER);
+  out.observed().number(value);
+  return out;
+}
+
 MissionView flying_mission() {
   MissionView view;
   v1::MissionStatus status;
@@ -79,7 +102,23 @@ MissionView flying_mission() {
   status.phase(v1::PHASE_EXECUTING);
   status.plan_version(2);
   status.replans(1);
+  v1::PredictedWindow window;
+  window.timeline("comm.window");
+  window.opens_us(us(200));
+  window.closes_us(us(260));
+  status.windows({window});
   view.take(status);
+  view.take(goal("ridge", "30", "40"));
+  view.take(goal("far", "900", "none"));  // no place: y is no number
+  v1::Hazard rock;
+  rock.header(sent("sim_svc", 3, 200));
+  rock.x_m(10);
+  rock.y_m(25);
+  view.take(rock);
+  for (int i = 0; i <= 6; ++i) {
+    view.take(number("rover.x", 5.0 * i, 100 + 20.0 * i));
+    view.take(number("rover.y", i < 4 ? 10.0 : 10.0 * (i - 2), 100 + 20.0 * i));
+  }
   view.take(goal_status("ridge", v1::GOAL_PLANNED, 1, "in plan 2"));
   view.take(goal_status("far", v1::GOAL_REJECTED, 2, "outside the map"));
   v1::Plan plan;

@@ -14,6 +14,8 @@ v1::GoalStatus goal_status(const std::string& id, v1::GoalState state, std::uint
                            const std::string& reason = "");
 v1::Event event(const std::string& text, double s, v1::Severity severity = v1::SEVERITY_INFO);
 v1::Observation observation(const std::string& timeline, const std::string& state, std::uint64_t seq);
+v1::Observation number(const std::string& timeline, double value, double s);
+v1::Goal goal(const std::string& id, const std::string& x, const std::string& y);
 v1::StepStatus step(const std::string& activity, v1::ActivityState state, std::uint64_t seq, double from_s,
                     double started_s, double ended_s);
 

@@ -109,6 +109,31 @@ TEST(MissionViewTest, TheOrderOfArrivalDoesNotMatter) {
   }
 }
 
+TEST(Ways, JoinCoordinatesOfTheSameTime) {
+  MissionView view;
+  view.take(number("rover.x", 1, 10));
+  view.take(number("rover.y", 2, 10));
+  view.take(number("rover.y", 5, 20));
+  view.take(number("rover.x", 1, 20));
+  view.take(number("rover.x", 9, 30));  // its y is still to come
+  view.take(number("mast.x", 7, 30));   // has no y
+  ASSERT_EQ(view.ways().size(), 1U);
+  EXPECT_THAT(view.ways().at("rover"), ::testing::ElementsAre(Place{1, 2}, Place{1, 5}));
+}
+
+TEST(Ways, LongOnesAreThinnedOut) {
+  MissionView view;
+  for (int i = 1; i <= 10'000; ++i) {
+    view.take(number("rover.x", i, i));
+    view.take(number("rover.y", 0, i));
+  }
+  const auto& way = view.ways().at("rover");
+  EXPECT_LE(way.size(), MissionView::kWay);
+  EXPECT_EQ(way.front(), (Place{1, 0}));
+  EXPECT_NEAR(way.back().x_m, 10'000, 0);
+  EXPECT_TRUE(std::ranges::is_sorted(way, {}, &Place::x_m));
+}
+
 TEST(ValueText, IsWhatPeopleRead) {
   v1::TimelineValue value;
   EXPECT_EQ(value_text(value), "none");

@@ -1,13 +1,10 @@
-// What roci prints: the screen of `roci watch` to the character, and JSON that parses whatever came down.
+// What roci prints: lines for people, and JSON that parses whatever came down.
 #include "ground_console/cli/report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <random>
-#include <sstream>
 
 #include "tests/unit/ground_console/messages.hpp"
 
@@ -16,79 +13,8 @@ namespace {
 
 using namespace testing;
 using nlohmann::json;
-using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> out;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) out.push_back(line);
-  return out;
-}
-
-std::size_t columns_of(const std::string& line) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(line, [](unsigned char c) { return (c & 0xC0U) != 0x80U; }));
-}
-
-const std::string kFrame = R"(planetary   00:05:00   executing   plan 2   replans 1
-
-Goals
-  ground/far               photo        hard           rejected  outside the map
-  ground/ridge             photo        hard           planned   in plan 2
-
-Plan 2                                      00:01:40                             00:05:35
-  drive place-ridge              succeeded  ████████████████████████████████████ │       
-  take-image image-ridge         running                                        ██▒▒▒▒▒▒▒
-
-Robot  camera imaging   nav idle-at
-
-Events
-  00:00:10  exec_svc     goal ground/ridge accepted
-  00:01:30  exec_svc     warning: plan 1 is broken
-)";
-
-TEST(WatchScreen, ShowsAMissionInFlight) { EXPECT_EQ(watch_screen(flying_mission(), 90, 30), kFrame); }
-
-// 60 columns: bars at their shortest, lines cut.
-TEST(WatchScreen, CutsWhatDoesNotFit) {
-  const auto lines = lines_of(watch_screen(flying_mission(), 60, 12));
-  ASSERT_LE(lines.size(), 12U);
-  EXPECT_EQ(lines[3],
-            std::string("  ground/far               photo        hard           rejected  o").substr(0, 60));
-}
-
-TEST(WatchScreen, WaitsForAMission) {
-  EXPECT_EQ(lines_of(watch_screen(MissionView(), 80, 24)).at(0), "waiting for exec_svc   00:00:00");
-}
-
-TEST(WatchScreen, NeverLeavesTheTerminal) {
-  std::mt19937_64 random(1);
-  for (int i = 0; i < 500; ++i) {
-    MissionView view = flying_mission();
-    for (std::uint64_t extra = random() % 40; extra > 0; --extra) {
-      view.take(
-          goal_status("goal" + std::to_string(extra), v1::GOAL_PENDING, 1, std::string(random() % 200, 'x')));
-      view.take(event("größe " + std::string(random() % 200, 'y'), 1));
-    }
-    const std::size_t width = 1 + random() % 150;
-    const std::size_t height = 1 + random() % 60;
-    const auto lines = lines_of(watch_screen(view, width, height));
-    EXPECT_LE(lines.size(), height);
-    for (const std::string& line : lines) EXPECT_LE(columns_of(line), width);
-  }
-}
-
-TEST(WatchScreen, TakesNoControlCharactersFromOutside) {
-  MissionView view = flying_mission();
-  view.take(goal_status("evil", v1::GOAL_REJECTED, 9, "unknown goal kind '\x1b[2J\nnothing\x7f'"));
-  view.take(event("a\rb\x1b]0;c\a", 5));
-  const std::string screen = watch_screen(view, 200, 40);
-  EXPECT_THAT(screen, HasSubstr("'?[2J?nothing?'"));
-  EXPECT_TRUE(
-      std::ranges::none_of(screen, [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7f; }));
-}
 
 TEST(Json, OfTheStatusHasEveryPart) {
   MissionView view = flying_mission();

@@ -1,0 +1,122 @@
+// The screen of `roci watch`, to the character.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <sstream>
+
+#include "ground_console/cli/watch/screen.hpp"
+#include "tests/unit/ground_console/messages.hpp"
+
+namespace roci::console {
+namespace {
+
+using namespace testing;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> out;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) out.push_back(line);
+  return out;
+}
+
+std::size_t columns_of(const std::string& line) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(line, [](unsigned char c) { return (c & 0xC0U) != 0x80U; }));
+}
+
+const std::string kFrame = R"(planetary   00:05:00   executing   plan 2, 1 replans
+
+Goals                                                                                            Way  ├──────────┤ 20 m   ▲ robot
+A ✘ far               photo       hard          rejected, until 00:15:00, outside the map                        ▲
+B ◔ ridge             photo       hard          planned, until 00:15:00, in plan 2
+
+                                                                                                              ·
+                                                                                                      ×
+                                                                                                            ·
+
+
+                                                                                                 ·  · ·  ·
+
+Robot  camera imaging   nav idle-at
+
+Plan 2                              00:01:40                                                                              00:05:35
+    windows                                                                ▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁
+  ✔ drive place-ridge               ████████████████████████████████████████████████████████████████████████████   │
+  ▶ take-image image-ridge                                                                                       ███░░░░░░░░░░░░░░
+
+Events
+  00:00:10  exec_svc      goal ground/ridge accepted
+  00:01:30  exec_svc      plan 1 is broken
+
+
+
+
+
+
+
+
+
+)";
+
+TEST(WatchScreen, ShowsAMissionInFlight) {
+  EXPECT_EQ(watch_screen(flying_mission(), 130, 32).plain(), kFrame);
+}
+
+TEST(WatchScreen, LeavesTheMapOutWhereItDoesNotFit) {
+  EXPECT_THAT(watch_screen(flying_mission(), 130, 32).plain(), HasSubstr("▲"));
+  EXPECT_THAT(watch_screen(flying_mission(), 80, 26).plain(), Not(HasSubstr("▲")));
+}
+
+TEST(WatchScreen, WaitsForAMission) {
+  EXPECT_EQ(lines_of(watch_screen(MissionView(), 80, 24).plain()).at(0), "waiting for exec_svc");
+}
+
+TEST(WatchScreen, NeverLeavesTheTerminal) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 500; ++i) {
+    MissionView view = flying_mission();
+    for (std::uint64_t extra = random() % 40; extra > 0; --extra) {
+      view.take(
+          goal_status("goal" + std::to_string(extra), v1::GOAL_PENDING, 1, std::string(random() % 200, 'x')));
+      view.take(event("größe " + std::string(random() % 200, 'y'), 1));
+    }
+    const std::size_t width = 1 + random() % 150;
+    const std::size_t height = 1 + random() % 60;
+    const auto lines = lines_of(watch_screen(view, width, height).plain());
+    EXPECT_LE(lines.size(), height);
+    for (const std::string& line : lines) EXPECT_LE(columns_of(line), width);
+  }
+}
+
+TEST(WatchScreen, TakesNoControlCharactersFromOutside) {
+  MissionView view = flying_mission();
+  view.take(goal_status("evil", v1::GOAL_REJECTED, 9, "kind '\x1b[2J\nno\x7f\xc2\x9b\xff'"));
+  view.take(event("a\rb\x1b]0;c\a", 5));
+  const std::string screen = watch_screen(view, 200, 40).plain();
+  EXPECT_THAT(screen, HasSubstr("'?[2J?no?"
+                                "?"
+                                "?'"));
+  EXPECT_TRUE(
+      std::ranges::none_of(screen, [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7f; }));
+}
+
+TEST(WatchScreen, ColoursChangeNothingElse) {
+  const Canvas canvas = watch_screen(flying_mission(), 130, 32);
+  std::string bare;
+  const std::string coloured = canvas.coloured();
+  for (std::size_t i = 0; i < coloured.size(); ++i) {
+    if (coloured[i] == '\x1b')
+      i = coloured.find('m', i);
+    else
+      bare += coloured[i];
+  }
+  EXPECT_NE(coloured, bare);
+  EXPECT_EQ(bare, canvas.plain());
+}
+
+}  // namespace
+}  // namespace roci::console
