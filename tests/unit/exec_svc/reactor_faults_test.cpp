@@ -1,0 +1,314 @@
+// What goes wrong around the reactor: components that do not stop, owners that die, commands that keep
+// failing, energy that is gone, goals and maps that change during a planner call.
+#include "tests/unit/exec_svc/reactor_fixture.hpp"
+
+namespace roci::exec::testing {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Active {
+  const char* component;
+  temporal::State seen;
+  temporal::State rest;
+};
+void PrintTo(const Active& active, std::ostream* out) { *out << active.component << " " << active.seen.name; }
+
+class FallbackTest : public ReactorTest, public ::testing::WithParamInterface<Active> {};
+
+// R43, R44: planning begins only from inactive states, and the way there is each component's own command.
+TEST_P(FallbackTest, BeforePlanningAnActiveComponentFallsBack) {
+  const std::string timeline = std::string("rover.") + GetParam().component;
+  ReactorInputs inputs = robot_and({photo("a")});
+  inputs.observations.push_back({timeline, GetParam().seen});
+  run(10, std::move(inputs));
+  ASSERT_EQ(commands.size(), 1U);
+  EXPECT_EQ(commands[0].owner, "sim_svc");
+  EXPECT_EQ(commands[0].subsystem, GetParam().component);
+  EXPECT_EQ(commands[0].command_name, "stop");
+  EXPECT_THAT(trace, Not(Contains("call")));
+  ReactorInputs stopped;
+  stopped.observations = {{timeline, GetParam().rest}};
+  run(500, std::move(stopped));
+  EXPECT_THAT(trace, Contains("call"));
+  EXPECT_EQ(reactor.outcome(), "achieved");
+}
+
+// R45: these are all the active states there are.
+TEST_F(ReactorTest, EveryComponentHasTheStatesOfThePaper) {
+  std::vector<std::string> active;
+  for (const Component& component : mission.components) {
+    for (const StateModel& one : component.states)
+      if (one.active) active.push_back(component.name + " " + one.name);
+  }
+  EXPECT_THAT(active, ElementsAre("nav going-to", "arm going-to", "camera imaging", "radio sending",
+                                  "gripper working"));
+  for (const TimelineFamily& family : mission.families)
+    for (const StateModel& one : family.states) EXPECT_FALSE(one.active) << family.prefix << one.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    States, FallbackTest,
+    ::testing::Values(Active{"nav", {"going-to", {"place-a"}}, {"idle-at", {"here"}}},
+                      Active{"arm", {"going-to", {"sampling"}}, {"idle-pose", {"arm-here"}}},
+                      Active{"camera", {"imaging", {}}, {"idle", {}}},
+                      Active{"radio", {"sending", {}}, {"idle", {}}},
+                      Active{"gripper", {"working", {}}, {"empty", {}}},
+                      Active{"nav", {"tumbling", {}}, {"idle-at", {"here"}}}),
+    [](const auto& test) {
+      return test.param.component + std::string("_") + test.param.seen.name.substr(0, 4);
+    });
+
+// The robot dies while it is paused: nothing answers the cancel, nothing confirms the fallback.
+TEST_F(ReactorTest, AnOwnerLostDuringThePauseMakesTheRobotSafeAndItsReturnResumes) {
+  run(20, robot_and({photo("a")}));
+  ASSERT_EQ(reactor.phase(), Phase::executing);
+  robot_is_dead = true;
+  robot_events.clear();
+  ReactorInputs lost;
+  lost.goals = {photo("b", GoalClass::opportunistic)};
+  lost.losses = {{"sim_svc", "killed"}};
+  run(70, std::move(lost));
+  EXPECT_EQ(reactor.phase(), Phase::pausing);
+  run(200, {});
+  EXPECT_EQ(reactor.phase(), Phase::safe);
+  EXPECT_EQ(reactor.outcome(), "failed") << "nobody knows that the camera has stopped";
+  EXPECT_THAT(reasons["a"], HasSubstr("camera did not become inactive in time"));
+  EXPECT_THAT(trace, Not(Contains("goal.dropped")));
+  EXPECT_EQ(reactor.goals().open().size(), 2U);
+
+  robot_is_dead = false;
+  ReactorInputs back;
+  back.arrivals = {"sim_svc"};
+  back.observations = {{"rover.camera", state("idle")}};
+  run(1000, std::move(back));
+  EXPECT_EQ(reactor.outcome(), "achieved");
+  EXPECT_EQ(reactor.counts().achieved, 2U);
+}
+
+TEST_F(ReactorTest, AnOwnerThatComesBackWithinThePauseHearsTheFallbackAgain) {
+  run(20, robot_and({photo("a")}));
+  robot_is_dead = true;
+  robot_events.clear();
+  ReactorInputs more;
+  more.goals = {photo("b")};
+  run(60, std::move(more));
+  const auto stops = [this] {
+    return std::count_if(commands.begin(), commands.end(),
+                         [](const Command& command) { return command.command_name == "stop"; });
+  };
+  EXPECT_EQ(stops(), 1);
+  ReactorInputs back;
+  back.arrivals = {"sim_svc"};
+  run(61, std::move(back));
+  EXPECT_EQ(stops(), 2);
+  EXPECT_EQ(reactor.phase(), Phase::pausing);
+}
+
+TEST_F(ReactorTest, AComponentThatKeepsFailingGetsTimeThenItsGoalsGoAlone) {
+  camera_works = false;
+  std::vector<double> calls;
+  planner = [&](const PlanCall& call) {
+    calls.push_back(temporal::to_seconds(now));
+    return image_every_goal(call);
+  };
+  run(3000, robot_and({photo("hard"), photo("soft", GoalClass::optional, 1)}));
+  EXPECT_THAT(reasons["hard"], HasSubstr("camera failed 5 times in a row, last as p5.1-take-image "));
+  EXPECT_THAT(reasons["hard"], HasSubstr("shutter"));
+  EXPECT_THAT(reasons["soft"], HasSubstr("camera failed 5 times in a row, last as p10.1-take-image "));
+  EXPECT_EQ(reactor.goals().find({"ground", "hard"})->state, GoalState::failed);
+  EXPECT_EQ(reactor.goals().find({"ground", "soft"})->state, GoalState::dropped);
+  EXPECT_EQ(reactor.outcome(), "partial");
+  ASSERT_EQ(calls.size(), 10U);
+  const double origin_and_image = 45;  // from a call to the end of the failing image
+  EXPECT_EQ(calls[1] - calls[0], origin_and_image);
+  EXPECT_EQ(calls[2] - calls[1], origin_and_image + 30);
+  EXPECT_EQ(calls[3] - calls[2], origin_and_image + 60);
+  EXPECT_EQ(calls[4] - calls[3], origin_and_image + 120);
+  EXPECT_EQ(calls[5] - calls[4], origin_and_image);
+}
+
+TEST_F(ReactorTest, AComponentThatRecoversInTimeLosesNoGoal) {
+  camera_works = false;
+  run(150, robot_and({photo("a")}));
+  camera_works = true;
+  run(1000, {});
+  EXPECT_EQ(reactor.outcome(), "achieved");
+  EXPECT_EQ(reactor.counts().replans, 2U);
+}
+
+TEST_F(ReactorTest, EnergyThatIsGoneBreaksThePlanAtOnce) {
+  planner = [this](const PlanCall& call) {
+    PlanAnswer out = image_every_goal(call);
+    for (temporal::PlanActivity& activity : out.plan.activities) {
+      activity.pre = temporal::compare("(battery)", temporal::ConditionOp::ge, 300000.0);
+      activity.impacts = {
+          {"(battery)", temporal::ImpactKind::delta, temporal::ImpactWhen::at_start, -200000.0}};
+    }
+    const bool fits =
+        std::get<double>(battery) >= 100000.0 + 200000.0 * static_cast<double>(out.plan.activities.size());
+    return fits ? out : answer(PlanVerdict::unsolvable, "too little energy");
+  };
+  run(20, robot_and({photo("a"), photo("b", GoalClass::optional, 1), photo("c", GoalClass::optional, 2)}));
+  ASSERT_EQ(reactor.phase(), Phase::executing);
+  trace.clear();
+  battery = 450000.0;
+  ReactorInputs loss;
+  loss.observations = {{"rover.battery", battery}};
+  run(21, std::move(loss));
+  EXPECT_THAT(trace, ElementsAre("plan.broken", "plan.wanted", "cancel", "call", "goal.dropped", "call",
+                                 "goal.dropped", "call", "plan.adopted"));
+  EXPECT_EQ(reactor.goals().find({"ground", "a"})->state, GoalState::planned);
+}
+
+TEST_F(ReactorTest, AGoalThatArrivesDuringAPlannerCallGetsAPlanOfItsOwnAfterwards) {
+  planning_time = seconds(30);
+  run(10, robot_and({photo("a")}));
+  ASSERT_EQ(reactor.phase(), Phase::planning);
+  ReactorInputs more;
+  more.goals = {photo("b")};
+  run(20, std::move(more));
+  more.goals = {photo("c")};
+  run(1000, std::move(more));
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), "call"), 2);
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), "plan.adopted"), 1);
+  EXPECT_EQ(reactor.counts().achieved, 3U);
+}
+
+// The verdict on a problem with the recalled goal says nothing about the one without it.
+TEST_F(ReactorTest, AGoalRecalledDuringAPlannerCallTakesNoOtherWithIt) {
+  planning_time = seconds(30);
+  planner = [this](const PlanCall& call) {
+    return call.problem.text.find("image-walled") != std::string::npos
+               ? answer(PlanVerdict::unsolvable, "goals do not fit")
+               : image_every_goal(call);
+  };
+  run(10, robot_and({photo("walled"), photo("soft", GoalClass::opportunistic)}));
+  ReactorInputs recall;
+  recall.goals = {photo("walled")};
+  recall.goals[0].recalled = true;
+  run(1000, std::move(recall));
+  EXPECT_EQ(reactor.goals().find({"ground", "walled"})->state, GoalState::recalled);
+  EXPECT_EQ(reactor.goals().find({"ground", "soft"})->state, GoalState::achieved);
+  EXPECT_THAT(trace, Not(Contains("goal.dropped")));
+}
+
+TEST_F(ReactorTest, TheLastGoalRecalledDuringAPlannerCallEndsTheMission) {
+  planning_time = seconds(30);
+  run(10, robot_and({photo("a")}));
+  ReactorInputs recall;
+  recall.goals = {photo("a")};
+  recall.goals[0].recalled = true;
+  run(1000, std::move(recall));
+  EXPECT_EQ(reactor.phase(), Phase::finished);
+  EXPECT_TRUE(commands.empty());
+}
+
+TEST_F(ReactorTest, TheGoalBeingExecutedIsRecalledAndTheRestGoesOn) {
+  run(20, robot_and({photo("a"), photo("b")}));
+  ReactorInputs recall;
+  recall.goals = {photo("a")};
+  recall.goals[0].recalled = true;
+  trace.clear();
+  run(1000, std::move(recall));
+  EXPECT_THAT(trace, ElementsAre("goal.recalled", "plan.wanted", "cancel", "call", "plan.adopted", "image",
+                                 "goal.achieved", "plan.finished"));
+  EXPECT_EQ(reactor.goals().find({"ground", "b"})->state, GoalState::achieved);
+}
+
+TEST_F(ReactorTest, AWindowInThePastAndAnIdInUseAreRejectedAndChangeNothing) {
+  run(20, robot_and({photo("a")}));
+  GoalRequest past = photo("past");
+  past.closes = seconds(15);
+  GoalRequest twin = photo("a");
+  twin.key.issuer = "science_svc";
+  ReactorInputs inputs;
+  inputs.goals = {past, twin, photo("a")};
+  trace.clear();
+  run(1000, std::move(inputs));
+  EXPECT_THAT(trace, ElementsAre("goal.rejected", "goal.rejected", "goal.achieved", "plan.finished"));
+  EXPECT_THAT(reasons["past"], HasSubstr("has passed"));
+}
+
+class MapChangeTest : public ReactorTest {
+ protected:
+  void SetUp() override {
+    planning_time = seconds(30);
+    ReactorInputs inputs = robot_and({photo("a"), photo("soft", GoalClass::opportunistic)});
+    inputs.models = {{"pathplan_svc", 1}, {"arm_svc", 7}};
+    run(1, std::move(inputs));
+  }
+  void change_map_at(double time_s, std::uint64_t version) {
+    other_events.emplace(seconds(time_s), [this, version] {
+      pending.models = {{"pathplan_svc", version}};
+      newest = version;
+    });
+  }
+  PlanAnswer plan_on_version(const PlanCall& call, std::uint64_t version) {
+    PlanAnswer out = image_every_goal(call);
+    out.plan.function_values = {{"traverse_time", {"here", "place-a"}, 100, "pathplan_svc", version}};
+    return out;
+  }
+  std::uint64_t newest = 1;
+};
+
+TEST_F(MapChangeTest, TwoChangesDuringACallCostOneMoreCall) {
+  planner = [&, first = true](const PlanCall& call) mutable {
+    return plan_on_version(call, std::exchange(first, false) ? 1 : newest);
+  };
+  change_map_at(10, 2);
+  change_map_at(20, 3);
+  run(1000, {});
+  EXPECT_THAT(trace, ElementsAre("goal.accepted", "goal.accepted", "plan.wanted", "call", "plan.outdated",
+                                 "call", "plan.adopted", "image", "goal.achieved", "image", "goal.achieved",
+                                 "plan.finished"));
+  EXPECT_EQ(reactor.counts().replans, 0U);
+}
+
+TEST_F(MapChangeTest, APlanOnTheNewestMapIsTakenEvenIfTheMapChangedDuringTheCall) {
+  planner = [&](const PlanCall& call) { return plan_on_version(call, newest); };
+  change_map_at(10, 2);
+  run(1000, {});
+  EXPECT_THAT(trace, Not(Contains("plan.outdated")));
+}
+
+TEST_F(MapChangeTest, NoGoalGoesByAVerdictOnAnOldMap) {
+  planner = [&, first = true](const PlanCall& call) mutable {
+    return std::exchange(first, false) ? answer(PlanVerdict::unsolvable, "no way")
+                                       : plan_on_version(call, newest);
+  };
+  change_map_at(10, 2);
+  run(1000, {});
+  EXPECT_THAT(trace, Not(Contains("goal.dropped")));
+  EXPECT_EQ(reactor.counts().achieved, 2U);
+}
+
+TEST_F(MapChangeTest, AMapThatNeverRestsDoesNotStopTheMission) {
+  planner = [&](const PlanCall& call) { return plan_on_version(call, newest - 1); };
+  for (int i = 1; i < 100; ++i) change_map_at(29.0 + 30.0 * i, static_cast<std::uint64_t>(i) + 1);
+  change_map_at(10, 2);
+  run(5000, {});
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), "plan.outdated"), 5);
+  EXPECT_EQ(reactor.outcome(), "achieved");
+}
+
+TEST_F(ReactorTest, AmongNamedGoalsASoftOneGoesFirst) {
+  planner = [this](const PlanCall& call) {
+    return reactor.goals().open().size() > 2
+               ? answer(PlanVerdict::unsolvable,
+                        "never reached: (sent image-hard) (sent image-one) (sent image-two)")
+               : image_every_goal(call);
+  };
+  run(1000, robot_and({photo("hard"), photo("other", GoalClass::opportunistic),
+                       photo("one", GoalClass::opportunistic), photo("two", GoalClass::opportunistic)}));
+  EXPECT_EQ(reactor.goals().find({"ground", "two"})->state, GoalState::dropped);
+  EXPECT_EQ(reactor.goals().find({"ground", "one"})->state, GoalState::dropped);
+  EXPECT_EQ(reactor.goals().find({"ground", "hard"})->state, GoalState::achieved);
+  EXPECT_EQ(reactor.goals().find({"ground", "other"})->state, GoalState::achieved);
+}
+
+}  // namespace
+}  // namespace roci::exec::testing
