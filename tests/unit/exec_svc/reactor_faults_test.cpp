@@ -140,6 +140,39 @@ TEST_F(ReactorTest, AComponentThatRecoversInTimeLosesNoGoal) {
   EXPECT_EQ(reactor.counts().replans, 2U);
 }
 
+TEST_F(ReactorTest, ASuccessBetweenFailuresStartsTheCountAnew) {
+  camera_works = false;
+  run(150, robot_and({photo("a")}));  // two failures
+  camera_works = true;
+  run(400, {});
+  camera_works = false;
+  ReactorInputs more;
+  more.goals = {photo("b")};
+  run(640, std::move(more));  // three more
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), "plan.broken"), 5);
+  camera_works = true;
+  run(2000, {});
+  EXPECT_EQ(reactor.counts().achieved, 2U);
+}
+
+TEST_F(ReactorTest, GoalsThatArriveDuringAPauseAreInThePlanThatFollows) {
+  run(20, robot_and({photo("a")}));
+  robot_is_dead = true;
+  robot_events.clear();
+  trace.clear();
+  for (const char* id : {"b", "c"}) {
+    ReactorInputs more;
+    more.goals = {photo(id)};
+    run(id[0] == 'b' ? 30 : 40, std::move(more));
+  }
+  robot_is_dead = false;
+  ReactorInputs stopped;
+  stopped.observations = {{"rover.camera", state("idle")}};
+  run(1000, std::move(stopped));
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), "call"), 1);
+  EXPECT_EQ(reactor.counts().achieved, 3U);
+}
+
 TEST_F(ReactorTest, EnergyThatIsGoneBreaksThePlanAtOnce) {
   planner = [this](const PlanCall& call) {
     PlanAnswer out = image_every_goal(call);
@@ -284,6 +317,21 @@ TEST_F(MapChangeTest, NoGoalGoesByAVerdictOnAnOldMap) {
   run(1000, {});
   EXPECT_THAT(trace, Not(Contains("goal.dropped")));
   EXPECT_EQ(reactor.counts().achieved, 2U);
+}
+
+TEST_F(MapChangeTest, AVerdictOnAMapThatChangedBeforeTheCallCounts) {
+  planner = [&](const PlanCall& call) { return plan_on_version(call, newest); };
+  change_map_at(50, 2);
+  run(60, {});
+  planner = [&](const PlanCall& call) {
+    return reactor.goals().open().size() > 2 ? answer(PlanVerdict::unsolvable, "no way")
+                                             : plan_on_version(call, newest);
+  };
+  ReactorInputs more;
+  more.goals = {photo("late", GoalClass::opportunistic)};
+  run(1000, std::move(more));
+  EXPECT_EQ(reactor.goals().find({"ground", "late"})->state, GoalState::dropped);
+  EXPECT_THAT(trace, Not(Contains("plan.outdated")));
 }
 
 TEST_F(MapChangeTest, AMapThatNeverRestsDoesNotStopTheMission) {
