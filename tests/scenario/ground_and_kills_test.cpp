@@ -1,0 +1,75 @@
+// A flying mission as its ground sees and commands it, while its services are killed one after the other:
+// every goal is achieved all the same, and all that `roci --json` prints is JSON.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "services/domain_claim.hpp"
+#include "tests/scenario/flight.hpp"
+
+namespace roci::scenario {
+namespace {
+
+struct Step {
+  int exit_code = -1;
+  nlohmann::json printed;  // discarded if it was no JSON
+};
+
+std::map<std::string, Step> steps_of(const std::string& output) {
+  std::map<std::string, Step> out;
+  std::istringstream lines(output);
+  for (std::string line; std::getline(lines, line);) {
+    const auto first = line.find('\t');
+    const auto second = line.find('\t', first + 1);
+    if (second == std::string::npos) continue;
+    out[line.substr(0, first)] = {std::stoi(line.substr(first + 1)),
+                                  nlohmann::json::parse(line.substr(second + 1), nullptr, false)};
+  }
+  return out;
+}
+
+class GroundAndKills : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(GroundAndKills, NothingIsLost) {
+  const services::DomainClaim domain;
+  const Ended ended =
+      run("timeout 200 " ROCI_SOURCE_DIR "/tests/scenario/ground_and_kills.sh " ROCI_BINARY_DIR
+          "/bin " ROCI_SOURCE_DIR "/missions/planetary " +
+          std::string(GetParam()) + " " + std::to_string(domain.id()));
+  auto steps = steps_of(ended.output);
+  for (const auto& [name, step] : steps) {
+    const bool speaks = name != "cancel-unknown";  // else: nothing, and why on standard error
+    EXPECT_EQ(step.printed.is_discarded(), !speaks) << name << "\n" << ended.output;
+  }
+  const auto state_after = [&](const std::string& name) { return steps[name].printed.value("state", ""); };
+  EXPECT_EQ(steps["add"].exit_code, 0);
+  EXPECT_NE(state_after("add"), "rejected");
+  EXPECT_EQ(steps["refused"].exit_code, 1);
+  EXPECT_EQ(state_after("refused"), "rejected");
+  EXPECT_EQ(steps["cancel-unknown"].exit_code, 1);
+  EXPECT_EQ(steps["cancel"].exit_code, 0);
+  EXPECT_EQ(state_after("cancel"), "recalled");
+  const nlohmann::json& goals = steps["list"].printed;
+  ASSERT_TRUE(goals.is_array()) << ended.output;
+  const auto listed = [&](const char* id) {
+    return std::ranges::count_if(goals,
+                                 [id](const nlohmann::json& goal) { return goal.value("id", "") == id; });
+  };
+  for (const char* id : {"more", "bad", "second", "ridge", "soil", "depot"}) EXPECT_EQ(listed(id), 1) << id;
+  for (const char* service : {"exec_svc", "planner_svc", "arm_svc", "pathplan_svc"})
+    EXPECT_EQ(steps[std::string("event-after-") + service].exit_code, 0) << service;
+  EXPECT_EQ(steps["status"].printed.value("mission", ""), "planetary");
+  EXPECT_EQ(steps["status"].printed["goals"].size(), goals.size()) << "after the executive's restart";
+  EXPECT_TRUE(steps["plan"].printed["activities"].is_array());
+  EXPECT_EQ(steps["launch"].exit_code, 0) << ended.output;
+  EXPECT_EQ(steps["launch"].printed.value("result", ""), "achieved");
+  EXPECT_EQ(steps["launch"].printed["goals"].value("achieved", 0), 4) << steps["launch"].printed;
+}
+
+INSTANTIATE_TEST_SUITE_P(Transports, GroundAndKills, ::testing::Values("fastdds", "cyclonedds", "mixed"),
+                         [](const auto& test) { return std::string(test.param); });
+
+}  // namespace
+}  // namespace roci::scenario
