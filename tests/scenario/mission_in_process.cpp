@@ -31,7 +31,7 @@ std::vector<std::string> roster() {
 
 }  // namespace
 
-MissionInProcess::MissionInProcess(const std::map<std::string, std::string>& changed)
+MissionInProcess::MissionInProcess(const std::map<std::string, std::string>& changed, std::uint64_t seed)
     : folder_(made_folder()),
       run_folder_(folder_ / "run"),
       run_(roster()),
@@ -42,6 +42,7 @@ MissionInProcess::MissionInProcess(const std::map<std::string, std::string>& cha
   services::RunSettings settings;
   settings.mission = folder_ / "planetary";
   settings.run_folder = run_folder_;
+  settings.seed = seed;
   for (const rehearsal::Member& member : rehearsal::members())
     services_.push_back(member.make(run_.add(member.name), settings));
   services::subscribe(ground_, topics::goal_status, [this](const v1::GoalStatus& status) {
@@ -52,6 +53,11 @@ MissionInProcess::MissionInProcess(const std::map<std::string, std::string>& cha
   });
   services::subscribe(ground_, topics::mission_status,
                       [this](const v1::MissionStatus& status) { mission_ = status; });
+  services::subscribe(ground_, topics::plan, [this](const v1::Plan& plan) { plans_.push_back(plan); });
+  services::subscribe(ground_, topics::step_status,
+                      [this](const v1::StepStatus& step) { steps_.push_back(step); });
+  services::subscribe(ground_, topics::plan_request.request,
+                      [this](const v1::PlanRequest& call) { calls_.push_back(call); });
   services::subscribe(ground_, topics::event, [this](const v1::Event& event) {
     events_.push_back(event.code() + " " + event.text());
   });
@@ -60,6 +66,15 @@ MissionInProcess::MissionInProcess(const std::map<std::string, std::string>& cha
 MissionInProcess::~MissionInProcess() {
   services_.clear();
   fs::remove_all(folder_);
+}
+
+std::string planetary_file(const std::string& name, const std::string& from, const std::string& to) {
+  std::ifstream in(fs::path(ROCI_SOURCE_DIR "/missions/planetary") / name);
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  if (from.empty()) return text;
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
 }
 
 void MissionInProcess::send(services::Time when, const v1::Goal& goal) {

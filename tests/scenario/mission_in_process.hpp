@@ -22,7 +22,7 @@ struct GoalFate {
 class MissionInProcess {
  public:
   // The folder of a mission; files of it that `changed` names are replaced by these texts.
-  explicit MissionInProcess(const std::map<std::string, std::string>& changed = {});
+  explicit MissionInProcess(const std::map<std::string, std::string>& changed = {}, std::uint64_t seed = 1);
   ~MissionInProcess();
 
   void send(services::Time when, const v1::Goal& goal);
@@ -33,6 +33,11 @@ class MissionInProcess {
   const v1::MissionStatus& mission() const { return mission_; }
   // "code text" of each.
   const std::vector<std::string>& events() const { return events_; }
+  const std::vector<v1::Plan>& plans() const { return plans_; }
+  // Every state of every activity, as told.
+  const std::vector<v1::StepStatus>& steps() const { return steps_; }
+  // The planner calls, as sent.
+  const std::vector<v1::PlanRequest>& calls() const { return calls_; }
   const std::filesystem::path& run_folder() const { return run_folder_; }
 
  private:
@@ -45,7 +50,13 @@ class MissionInProcess {
   std::map<std::string, GoalFate> goals_;
   v1::MissionStatus mission_;
   std::vector<std::string> events_;
+  std::vector<v1::Plan> plans_;
+  std::vector<v1::StepStatus> steps_;
+  std::vector<v1::PlanRequest> calls_;
 };
+
+// The text of a file of the planetary mission, with every `from` replaced.
+std::string planetary_file(const std::string& name, const std::string& from = "", const std::string& to = "");
 
 v1::Goal goal(const std::string& id, const std::string& kind,
               const std::vector<std::pair<std::string, std::string>>& arguments,
