@@ -24,6 +24,13 @@ Durability durability_for(const Node& node) {
 
 v1::MissionPhase phase_to_wire(Phase phase) { return static_cast<v1::MissionPhase>(phase); }
 
+// Activity, state, window of its start in microseconds of mission time (-1: no bound), cause.
+std::string journal_line(const StepStatus& step) {
+  const std::int64_t latest = step.latest_start == temporal::no_bound ? -1 : step.latest_start.count();
+  return step.activity + " " + std::to_string(static_cast<int>(step.state)) + " [" +
+         std::to_string(step.earliest_start.count()) + "," + std::to_string(latest) + "] " + step.cause;
+}
+
 // Collects what comes in one turn of the loop, steps the reactor once, journals what it decided, then sends
 // it.
 class ExecService final : public services::Service {
@@ -68,8 +75,8 @@ class ExecService final : public services::Service {
   ~ExecService() override { write_summary(); }
 
  private:
-  // After a restart: goals and the trace so far come from the journal, the world from observations. Who joins now
-  // hears of every goal, as before.
+  // After a restart: goals and the trace so far come from the journal, the world from observations. Who joins
+  // now hears of every goal, as before.
   void recover() {
     journal_.for_each([this](temporal::Time, std::string_view kind, std::string_view text) {
       if (kind == "trace") trace_.add(text);
@@ -130,10 +137,7 @@ class ExecService final : public services::Service {
   void write_ahead(const ReactorOutputs& out) {
     for (const GoalRecord& goal : out.goal_changes) journal_.put_goal(goal);
     for (const Note& note : out.notes) journal_.append(node_.now(), "event", note.code + " " + note.text);
-    for (const StepStatus& step : out.steps) {
-      journal_.append(node_.now(), "step",
-                      step.activity + " " + std::to_string(static_cast<int>(step.state)) + " " + step.cause);
-    }
+    for (const StepStatus& step : out.steps) journal_.append(node_.now(), "step", journal_line(step));
     if (out.adopted) {
       journal_.set_number("plan_version", reactor_.plan_version());
       record(wire::trace_line(services::wire::to_wire(*out.adopted)));

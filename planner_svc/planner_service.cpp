@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/mission/entry.hpp"
+#include "planner_svc/call_record.hpp"
 #include "planner_svc/planning_call.hpp"
 #include "services/clock/wall.hpp"
 #include "services/publisher.hpp"
@@ -86,6 +87,7 @@ class PlannerService final : public services::Service, private FunctionSource {
   PlannerService(Node& node, const services::RunSettings& settings)
       : node_(node),
         settings_(read_settings(settings.mission)),
+        records_(settings.run_folder.empty() ? "" : settings.run_folder / "planner_calls"),
         events_(services::advertise(node, services::topics::event)),
         functions_(node, services::topics::function_call) {
     services::subscribe(node, services::topics::function_offer,
@@ -270,6 +272,7 @@ class PlannerService final : public services::Service, private FunctionSource {
     reply.statistics().wall_s(wall_s);
     reply.statistics().peak_rss_kb(peak_resident_kb());
     tuples_ = 0;
+    records_.keep(job_->request.problem_text(), answer, wall_s);
     if (answer.verdict != PlanningVerdict::solved) {
       report(std::string("planning ended as ") + to_string(answer.verdict) + ": " + answer.reason);
     }
@@ -297,6 +300,7 @@ class PlannerService final : public services::Service, private FunctionSource {
 
   Node& node_;
   Settings settings_;
+  CallRecords records_;
   services::Publisher<v1::Event> events_;
   services::Client<v1::FunctionRequest, v1::FunctionReply> functions_;
   std::map<std::string, v1::FunctionOffer> offers_;

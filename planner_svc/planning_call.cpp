@@ -40,10 +40,21 @@ PlanningAnswer refused(PlanningVerdict verdict, std::string reason) {
   return out;
 }
 
+pddl::FunctionTable table_of(const std::vector<temporal_pddl::FunctionUse>& uses) {
+  pddl::FunctionTable table;
+  for (const temporal_pddl::FunctionUse& use : uses) {
+    std::string application = "(" + use.call.function;
+    for (const std::string& argument : use.call.arguments) application += " " + argument;
+    const bool has_value = use.answer.outcome == FunctionOutcome::value;
+    table[application + ")"] = has_value ? std::optional(use.answer.value) : std::nullopt;
+  }
+  return table;
+}
+
 // What the independent validator has against the plan, empty if nothing. It sees the printed steps and the
 // function values alone.
 std::string fault_of(const pddl::Domain& domain, const pddl::Problem& problem,
-                     const temporal_pddl::Result& result) {
+                     const temporal_pddl::Result& result, const pddl::FunctionTable& table) {
   std::vector<pddl::PlanStep> steps;
   for (const temporal_pddl::Activity& activity : result.plan->activities) {
     pddl::PlanStep step;
@@ -52,13 +63,6 @@ std::string fault_of(const pddl::Domain& domain, const pddl::Problem& problem,
     for (const std::string& object : activity.arguments) step.action.arguments.push_back({object, {}});
     if (activity.durative) step.duration = activity.end - activity.start;
     steps.push_back(std::move(step));
-  }
-  pddl::FunctionTable table;
-  for (const temporal_pddl::FunctionUse& use : result.functions) {
-    std::string application = "(" + use.call.function;
-    for (const std::string& argument : use.call.arguments) application += " " + argument;
-    const bool has_value = use.answer.outcome == FunctionOutcome::value;
-    table[application + ")"] = has_value ? std::optional(use.answer.value) : std::nullopt;
   }
   const validate::Report report = validate::validate(domain, problem, steps, table);
   return report.valid ? "" : validate::to_text(report, steps, "plan");
@@ -79,8 +83,9 @@ PlanningAnswer search(const PlanningCall& call, FunctionSource& functions) {
   out.reason = result.where ? to_string(*result.where) : result.reason;
   out.statistics = {result.statistics.expanded, result.statistics.evaluated,
                     result.statistics.bytes_per_state};
+  out.function_values = table_of(result.functions);
   if (result.plan) {
-    const std::string fault = fault_of(domain, problem, result);
+    const std::string fault = fault_of(domain, problem, result, out.function_values);
     if (!fault.empty())
       return refused(PlanningVerdict::crashed, "the validator rejects the engine's plan: " + fault);
     out.plan = export_plan(*result.plan, result.functions);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "core/pddl/function_table.hpp"
 #include "core/temporal/flexible_plan.hpp"
 #include "planner_svc/function_source.hpp"
 
@@ -48,6 +49,7 @@ struct PlanningAnswer {
   std::string reason;  // in words, with line and column where the input is at fault
   std::optional<temporal::FlexiblePlan> plan;
   PlanningStatistics statistics;
+  pddl::FunctionTable function_values;  // every tuple asked for; one without a value stands as unreachable
 };
 
 // Never throws: what goes wrong inside is crashed with its reason. A plan that the independent validator

@@ -1,5 +1,8 @@
 #include "core/pddl/function_table.hpp"
 
+#include <array>
+#include <charconv>
+
 #include "core/pddl/line_scanner.hpp"
 #include "core/pddl/printer.hpp"
 #include "core/pddl/sexpr.hpp"
@@ -30,6 +33,17 @@ FunctionTable parse_function_table(std::string_view text, std::string_view file)
   FunctionTable table;
   for_each_line(text, file, [&](LineScanner& scanner) { read_entry(scanner, table); });
   return table;
+}
+
+std::string print(const FunctionTable& table) {
+  std::string out;
+  for (const auto& [application, value] : table) {
+    std::array<char, 32> digits{};
+    char* end = digits.data();
+    if (value) end = std::to_chars(digits.data(), digits.data() + digits.size(), *value).ptr;
+    out += application + " " + (value ? std::string(digits.data(), end) : "unreachable") + "\n";
+  }
+  return out;
 }
 
 }  // namespace roci::pddl

@@ -18,4 +18,7 @@ using FunctionTable = std::map<std::string, std::optional<double>, std::less<>>;
 // Throws ParseError: another form, or a tuple that stands twice with different values.
 FunctionTable parse_function_table(std::string_view text, std::string_view file);
 
+// One tuple per line; parsed again, it is the same table to the last bit.
+std::string print(const FunctionTable& table);
+
 }  // namespace roci::pddl

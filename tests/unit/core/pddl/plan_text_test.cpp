@@ -99,6 +99,12 @@ TEST(FunctionTable, ReadsValues) {
   EXPECT_EQ(table.at("(k)"), -3);
 }
 
+TEST(FunctionTable, PrintedAndReadAgainItIsTheSame) {
+  const FunctionTable table = {
+      {"(k)", -3}, {"(time a b)", 0.1 + 0.2}, {"(time b a)", std::nullopt}, {"(z x)", 1e-30}};
+  EXPECT_EQ(parse_function_table(print(table), "printed"), table);
+}
+
 TEST(FunctionTable, RefusesOtherThings) {
   const std::vector<Refused> cases = {
       {"(f a)", {1, 6}},        {"(f a) x", {1, 7}}, {"f 3", {1, 1}},     {"(f) 1 2", {1, 7}},

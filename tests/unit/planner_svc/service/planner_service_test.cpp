@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
 #include "tests/unit/planner_svc/service/road_planning.hpp"
 
 namespace roci::planner {
@@ -51,6 +55,28 @@ TEST(PlannerService, AnswersWithPlanNetworkVerdictAndStatistics) {
   EXPECT_GT(reply.statistics().peak_rss_kb(), 0U);
   EXPECT_EQ(planning.replies()[0].time, 1500ms) << "by the stated model of how long a call takes";
   EXPECT_THAT(planning.events(), IsEmpty());
+}
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// R41: what the planner was given and what it answered stands in the run's folder.
+TEST(PlannerService, KeepsEachCallSoThatItCanBeMadeAgain) {
+  RoadPlanning planning;
+  planning.owner_answers([&](const v1::FunctionRequest& request, auto responder) {
+    responder.reply(without_the_direct_road(request, planning.owner().now()));
+  });
+  planning.ask(1s, plan_request(kRoadDomain, road_problem()));
+  planning.ask(10s, plan_request(kRoadDomain, road_problem("(and (at b) (at c))")));
+  planning.run_until(100s);
+  const std::filesystem::path folder = planning.run_folder() / "planner_calls";
+  EXPECT_EQ(content_of(folder / "1.pddl"), road_problem());
+  EXPECT_THAT(content_of(folder / "1.values"),
+              AllOf(HasSubstr("(travel_time a b) 10\n"), HasSubstr("(travel_time a c) unreachable\n")));
+  EXPECT_THAT(content_of(folder / "1.json"), HasSubstr("\"verdict\": \"solved\""));
+  EXPECT_THAT(content_of(folder / "2.json"), HasSubstr("\"verdict\": \"unsolvable\""));
 }
 
 TEST(PlannerService, TheNetworkOrdersWhatDependsOnEachOther) {

@@ -91,6 +91,7 @@ RoadPlanning::RoadPlanning(const RoadVendors& vendors, int domain, bool offered)
       planner_(client_, topics::plan_request) {
   services::RunSettings settings;
   settings.mission = mission_;
+  settings.run_folder = mission_;
   service_ = make_service(run_.add("planner_svc", 1, vendors.planner), settings);
   if (offered) services::advertise(owner_, topics::function_offer).write(offer());
   owner_answers([this](const v1::FunctionRequest& request, auto responder) {

@@ -2,6 +2,7 @@
 // with roads between them: how long a road takes, only the owner knows.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -54,6 +55,7 @@ class RoadPlanning {
   services::Node& owner() { return owner_; }
   services::Node& client() { return client_; }
   services::SimRun& run() { return run_; }
+  std::filesystem::path run_folder() const { return mission_; }
   int requests_for_values() const { return requests_for_values_; }
   const std::vector<TimedReply>& replies() const { return replies_; }
   const std::vector<v1::Event>& events() const { return events_; }
