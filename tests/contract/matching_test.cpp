@@ -29,6 +29,11 @@ class Matching : public PairingTest {
 
 constexpr int kBurst = 50;
 
+// A topic of its own for each round: a writer may still count the reader of the round before.
+EndpointDescription round_endpoint(int round, const QosSettings& qos) {
+  return endpoint<v1::Goal>("roci/goal/" + std::to_string(round), "roci::v1::Goal", qos);
+}
+
 TEST_P(Matching, WhatAWriterSendsAtOnceReachesTheReaderItCounts) {
   const auto sender = open_writing();
   const auto receiver = open_reading();
@@ -37,9 +42,11 @@ TEST_P(Matching, WhatAWriterSendsAtOnceReachesTheReaderItCounts) {
     std::unique_ptr<Writer> writer;
     std::unique_ptr<Reader> reader;
     const bool reader_first = round % 2 == 0;
-    if (reader_first) reader = receiver->create_reader(goal_endpoint(request()), inbox.reader_events());
-    writer = sender->create_writer(goal_endpoint(request()), matches.writer_events());
-    if (!reader_first) reader = receiver->create_reader(goal_endpoint(request()), inbox.reader_events());
+    if (reader_first)
+      reader = receiver->create_reader(round_endpoint(round, request()), inbox.reader_events());
+    writer = sender->create_writer(round_endpoint(round, request()), matches.writer_events());
+    if (!reader_first)
+      reader = receiver->create_reader(round_endpoint(round, request()), inbox.reader_events());
     ASSERT_TRUE(matches.wait_for_match());
     for (int i = 1; i <= kBurst; ++i) ASSERT_TRUE(writer->write(goal("goal", i)));
     ASSERT_TRUE(inbox.wait_for_samples(kBurst)) << "round " << round << ": " << inbox.samples().size();
@@ -51,9 +58,9 @@ TEST_P(Matching, SoItIsBetweenParticipantsThatHaveJustMet) {
   for (int round = 0; round < 5; ++round) {
     Inbox matches, inbox;
     const auto receiver = open_reading();
-    const auto reader = receiver->create_reader(goal_endpoint(request()), inbox.reader_events());
+    const auto reader = receiver->create_reader(round_endpoint(round, request()), inbox.reader_events());
     const auto sender = open_writing();
-    const auto writer = sender->create_writer(goal_endpoint(request()), matches.writer_events());
+    const auto writer = sender->create_writer(round_endpoint(round, request()), matches.writer_events());
     ASSERT_TRUE(matches.wait_for_match());
     for (int i = 1; i <= kBurst; ++i) ASSERT_TRUE(writer->write(goal("goal", i)));
     ASSERT_TRUE(inbox.wait_for_samples(kBurst)) << "round " << round << ": " << inbox.samples().size();
@@ -66,9 +73,10 @@ TEST_P(Matching, AndForAVolatileReaderOfAWriterThatKeepsThePastForOthers) {
   const auto receiver = open_reading();
   for (int round = 0; round < 10; ++round) {
     Inbox matches, inbox;
-    const auto writer = sender->create_writer(goal_endpoint(latched(2 * kBurst)), matches.writer_events());
+    const auto writer =
+        sender->create_writer(round_endpoint(round, latched(2 * kBurst)), matches.writer_events());
     for (int i = 1; i <= kBurst; ++i) ASSERT_TRUE(writer->write(goal("past", i)));
-    const auto reader = receiver->create_reader(goal_endpoint(request()), inbox.reader_events());
+    const auto reader = receiver->create_reader(round_endpoint(round, request()), inbox.reader_events());
     ASSERT_TRUE(matches.wait_for_match());
     for (int i = 1; i <= kBurst; ++i) ASSERT_TRUE(writer->write(goal("goal", i)));
     const auto newest = goals(kBurst, kBurst);
