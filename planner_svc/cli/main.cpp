@@ -32,6 +32,7 @@ struct Arguments {
   std::size_t megabytes = 0;
   std::uint64_t seed = 0;
   bool json = false;
+  bool plain_search = false;
 };
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -122,6 +123,11 @@ engine::Result plan(const Arguments& arguments, const std::function<bool()>& out
   monitor.cancelled = [] { return interrupted != 0; };
   engine::Options options;
   options.seed = arguments.seed;
+  if (arguments.plain_search) {
+    options.compression_safety = false;
+    options.dominance = false;
+    options.windows = engine::WindowExtraction::none;
+  }
   return engine::plan(domain, problem, *functions, budget, monitor, options);
 }
 
@@ -168,6 +174,8 @@ int main(int argc, char** argv) {
                  "values of external functions: (traverse_time a b) 12.5");
   app.add_option("--stats", arguments.stats, "write statistics as JSON to this file");
   app.add_flag("--json", arguments.json, "plan and statistics as one JSON object");
+  app.add_flag("--plain-search", arguments.plain_search,
+               "no dominance check, no compressed actions, timed literals as steps: slower, the same verdicts");
   app.add_option("--seed", arguments.seed, "order among equally good successors; 0: as generated");
   std::signal(SIGINT, [](int) { interrupted = 1; });
   std::signal(SIGTERM, [](int) { interrupted = 1; });
