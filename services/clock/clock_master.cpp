@@ -46,7 +46,7 @@ void ClockMaster::lost(const std::string& service, std::uint32_t incarnation, co
   if (waiting != waiting_.end() && waiting->second.incarnation() == incarnation) waiting_.erase(waiting);
   const auto found = members_.find(service);
   if (found == members_.end() || found->second.incarnation != incarnation) return;
-  if (found->second.owes) revise_ = true;
+  revise_ = true;  // whoever still owes may be waiting for samples that the dead one never gets across
   members_.erase(found);
   std::erase(participants_, service);
   v1::RosterLoss loss;

@@ -155,6 +155,18 @@ TEST_F(ClockMasterTest, ARevisionIsTheSameMicroStepForThoseWhoStillOwe) {
   EXPECT_THAT(master.owing(), ElementsAre("c"));
 }
 
+// A newcomer may be waiting for the state that the dead one never gets across.
+TEST_F(ClockMasterTest, ADeathAfterTheAnswerRevisesTheStepToo) {
+  const auto step = first_step();
+  master.done(done("a", step));
+  master.done(done("b", step, -1, {count("t", "b", 3)}));
+  master.lost("b", 1, "killed");
+  const auto revision = master.take_revision();
+  ASSERT_TRUE(revision);
+  EXPECT_THAT(names(revision->roster()), ElementsAre("a#1", "c#1"));
+  EXPECT_THAT(master.owing(), ElementsAre("c"));
+}
+
 TEST_F(ClockMasterTest, ARestartedServiceIsAdmittedAtTheNextBoundary) {
   const auto step = first_step();
   master.done(done("a", step));
