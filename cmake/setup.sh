@@ -15,6 +15,7 @@ packages=(
   libyaml-cpp-dev libsqlite3-dev libssl-dev                        # missions, journal, trace digest
   nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev
   libgtest-dev libgmock-dev libbenchmark-dev
+  python3                                                          # the field trial
   iproute2                                                         # network namespaces in the tests
 )
 

@@ -13,7 +13,7 @@ from pathlib import Path
 CLASSES = ["hard", "optional", "opportunistic"]  # exec_svc/goals/goal_set.hpp
 STATES = ["rejected", "pending", "planned", "achieved", "dropped", "failed", "recalled"]
 FINAL = {"rejected", "achieved", "dropped", "failed", "recalled"}
-FLIGHT_LIMIT_S = 300
+FLIGHT_LIMIT_S = 3000  # of wall time; only for a flight that hangs
 
 
 @dataclass
@@ -30,6 +30,10 @@ class Programs:
     @property
     def plan(self) -> Path:
         return self.bin / "roci-plan"
+
+    @property
+    def validate(self) -> Path:
+        return self.bin / "roci-validate"
 
 
 @dataclass

@@ -28,7 +28,7 @@ class Hindsight:
     seed: int
     flight: Flight
     hard: dict[str, bool | None] = field(default_factory=dict)  # failed hard goals: was it achievable
-    reachable: dict[str, bool] = field(default_factory=dict)  # every goal alone, with no other wish and no energy spared
+    no_way: set[str] = field(default_factory=set)  # goals given up whose place no way leads to
     oracle: float | None = None  # best utility; None: not enumerated
     achieved: float = 0
     best: frozenset[str] = frozenset()  # ids
@@ -112,6 +112,11 @@ class Instance:
             self.problem.facts.remove(sample)
             self.problem.timed.append((time, True, sample))
 
+    def reaches(self, place: str) -> bool:
+        start = next(fact[1] for fact in self.problem.facts if fact[0] == "at")
+        times = self.values["traverse_time"]
+        return place == start or (start, place) in reference.ways(times, times, by_energy=False)
+
     def solvable(self, goals: list[Goal], idle_w: float = IDLE_W) -> bool | None:
         self.problem.goals = [fact for goal in goals for fact in facts_of(goal)]
         return reference.schedule(self.problem, self.values, idle_w).solvable
@@ -139,8 +144,9 @@ def look_back(programs: Programs, scenario: Scenario, flight: Flight, folder: Pa
         return out
     instance = Instance(programs, scenario, folder)
     for goal in given_up:
-        first = [other for other in wanted if other.id == goal.sample]
-        out.reachable[goal.id] = instance.solvable(first + [goal]) is not False
+        places = [other.id for other in wanted if other.id in (goal.id, goal.sample)]
+        if not all(instance.reaches(f"place-{name}") for name in places):
+            out.no_way.add(goal.id)
     done = [goal for goal in wanted if goal.importance == "hard" and ends[goal.id].state == "achieved"]
     for goal in failed:
         first = [other for other in wanted if other.id == goal.sample and other not in done]

@@ -11,7 +11,9 @@ Hindsight (hindsight.py) counts what the domain does not know as well: the power
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from problem import INFINITY, Problem
 
@@ -20,50 +22,69 @@ IMAGE = (40.0, 600.0)
 PICK = (60.0, 900.0)
 DROP = (30.0, 450.0)
 SEND = (120.0, 3000.0)
-GAP_S = 0.001
+GAP_S = 0.00101  # more than the planner's separation, so that rounding to microseconds does no harm
 LABEL_LIMIT = 400000  # a problem with more is left undecided
 
-Label = tuple[float, float, float]  # time, energy used, time from which the radio is free
 Values = dict[tuple[str, str], float]
 
 
-@dataclass(frozen=True)
-class Stop:
+class Stop(NamedTuple):
     kind: str  # image, pick, drop
     what: str
     place: str
 
 
+class State(NamedTuple):
+    done: int  # bits, by the index of the stop
+    place: str
+    pose: str
+    held: str
+
+
+class Label(NamedTuple):
+    time: float
+    energy: float  # used
+    radio: float  # free from then on
+    steps: tuple  # the way here, newest first: (step, (step, (… ()))), each "start: (action) [duration]"
+
+    def beats(self, other: Label) -> bool:
+        return self.time <= other.time and self.energy <= other.energy and self.radio <= other.radio
+
+
 @dataclass
 class Schedule:
-    solvable: bool | None  # None: too many labels
+    solvable: bool | None  # None: undecided
     makespan_s: float = INFINITY
+    plan: str = ""  # in the form of the planning competitions
 
 
-def closure(times: Values, energies: Values, by_energy: bool) -> tuple[Values, Values]:
-    """Ways over other places: the fastest with its energy, or the cheapest with its time."""
+class Way(NamedTuple):
+    seconds: float
+    joules: float
+    places: tuple[str, ...]
+
+
+def ways(times: Values, energies: Values, by_energy: bool) -> dict[tuple[str, str], Way]:
+    """Between all places, over others if that is faster; or cheaper."""
+    best = {(a, b): Way(times[a, b], energies[a, b], (a, b)) for a, b in times}
+    measure = (lambda way: way.joules) if by_energy else (lambda way: way.seconds)
     places = sorted({a for a, _ in times})
-    best = {(a, b): (energies[a, b], times[a, b]) if by_energy else (times[a, b], energies[a, b]) for a, b in times}
     for middle in places:
         for a in places:
             for b in places:
-                if (a, middle) in best and (middle, b) in best:
-                    first, second = best[a, middle], best[middle, b]
-                    way = (first[0] + second[0] + GAP_S, first[1] + second[1])
-                    if (a, b) not in best or way < best[a, b]:
-                        best[a, b] = way
-    leading = {pair: value[0] for pair, value in best.items()}
-    following = {pair: value[1] for pair, value in best.items()}
-    return (following, leading) if by_energy else (leading, following)
+                first, second = best.get((a, middle)), best.get((middle, b))
+                if first is None or second is None or middle in (a, b):
+                    continue
+                over = Way(
+                    first.seconds + second.seconds + GAP_S, first.joules + second.joules, first.places + second.places[1:]
+                )
+                if (a, b) not in best or measure(over) < measure(best[a, b]):
+                    best[a, b] = over
+    return best
 
 
-def send(label: Label, windows: list[tuple[float, float]]) -> Label | None:
-    time, energy, radio = label
-    for opens, closes in windows:
-        start = max(time + GAP_S, radio, opens)
-        if start + SEND[0] <= closes:
-            return time, energy + SEND[1], start + SEND[0] + GAP_S
-    return None
+def step(start: float, action: str, duration: float) -> str:
+    return f"{start:.6f}: ({action}) [{duration:.6f}]"
 
 
 class Scheduler:
@@ -72,40 +93,41 @@ class Scheduler:
     def __init__(self, problem: Problem, values: dict[str, Values], generous: bool, idle_w: float = 0):
         self.problem = problem
         self.idle_w = idle_w
-        drive_s, drive_j = values.get("traverse_time", {}), values.get("traverse_energy", {})
-        self.drive_s, self.drive_j = closure(drive_s, drive_j, by_energy=False)
+        self.drive_s = values.get("traverse_time", {})
+        drive_j = values.get("traverse_energy", {})
+        self.ways = ways(self.drive_s, drive_j, by_energy=False)
         if generous:
-            self.drive_j = closure(drive_s, drive_j, by_energy=True)[1]
-        self.arm_s, self.arm_j = closure(values["arm_move_time"], values["arm_move_energy"], by_energy=False)
+            cheap = ways(self.drive_s, drive_j, by_energy=True)
+            self.ways = {pair: way._replace(joules=cheap[pair].joules) for pair, way in self.ways.items()}
+        self.arm_s, self.arm_j = values["arm_move_time"], values["arm_move_energy"]
         self.comm = problem.windows(("comm-window",))
         self.energy = problem.numbers["battery"] - problem.numbers["reserve"]
         self.stops, self.stored, self.possible = self._stops()
         self.labels = 0
 
-    def _stops(self) -> tuple[list[Stop], int, bool]:
+    def _stops(self) -> tuple[list[Stop], list[str], bool]:
         """The stops that the goals need, images that only wait to be sent, and whether each goal has its stop."""
         facts = self.problem.facts
         targets = {fact[1]: fact[2] for fact in facts if fact[0] == "target"}
-        places = {fact[1]: fact[2] for fact in facts if fact[0] == "sample-at"}
-        held = {fact[1] for fact in facts if fact[0] == "holding"}
+        samples = {fact[1]: fact[2] for fact in [*facts, *(fact for _, _, fact in self.problem.timed)] if fact[0] == "sample-at"}
+        held = self._first("holding")
         stops: set[Stop] = set()
-        stored = 0
+        stored = []
         possible = True
         for goal in self.problem.goals:
             if goal in facts:
                 continue
-            if goal[0] == "sent":
-                if ("have-image", goal[1]) in facts:
-                    stored += 1
-                else:
-                    stops.add(Stop("image", goal[1], targets[goal[1]]))
-                continue
-            if goal[0] == "dropped":
-                stops.add(Stop("drop", goal[1], goal[2]))
-            if goal[1] not in held:
-                possible = possible and goal[1] in places
-                stops.add(Stop("pick", goal[1], places.get(goal[1], "")))
-        return sorted(stops, key=lambda stop: (stop.kind, stop.what)), stored, possible
+            if goal[0] == "sent" and ("have-image", goal[1]) in facts:
+                stored.append(goal[1])
+            elif goal[0] == "sent":
+                stops.add(Stop("image", goal[1], targets[goal[1]]))
+            else:
+                if goal[0] == "dropped":
+                    stops.add(Stop("drop", goal[1], goal[2]))
+                if goal[1] != held:
+                    possible = possible and goal[1] in samples
+                    stops.add(Stop("pick", goal[1], samples.get(goal[1], "")))
+        return sorted(stops), sorted(stored), possible
 
     def _first(self, name: str) -> str:
         return next((fact[1] for fact in self.problem.facts if fact[0] == name), "")
@@ -113,103 +135,121 @@ class Scheduler:
     def run(self) -> Schedule:
         if not self.possible:
             return Schedule(False)
-        label: Label | None = (0.0, 0.0, 0.0)
-        for _ in range(self.stored):
-            label = send(label, self.comm) if label else None
+        label: Label | None = Label(0, 0, 0, ())
+        for image in self.stored:
+            label = self._send(label, image) if label else None
         if label is None or not self._has_energy(label):
             return Schedule(False)
-        start = (0, self._first("at"), self._first("arm-at"), self._first("holding"))
+        start = State(0, self._first("at"), self._first("arm-at"), self._first("holding"))
         everything = (1 << len(self.stops)) - 1
-        fronts: dict[tuple, list[Label]] = {start: [label]}
+        fronts: dict[State, list[Label]] = {start: [label]}
         queue = [(start, label)]
-        best = INFINITY
+        best: Label | None = None
         while queue:
             state, label = queue.pop()
-            if label not in fronts[state]:
+            if not any(label is one for one in fronts[state]):
                 continue  # beaten since
-            if state[0] == everything:
-                best = min(best, max(label[0], label[2]))
+            if state.done == everything:
+                if best is None or max(label.time, label.radio) < max(best.time, best.radio):
+                    best = label
                 continue
             for following, reached in self._moves(state, label):
                 if self._has_energy(reached) and self._keep(fronts, following, reached):
                     queue.append((following, reached))
             if self.labels > LABEL_LIMIT:
-                return Schedule(True, best) if best < INFINITY else Schedule(None)
-        return Schedule(best < INFINITY, best)
+                break
+        if best is None:
+            return Schedule(None if queue else False)
+        return Schedule(True, max(best.time, best.radio), self._plan(best))
+
+    def _plan(self, label: Label) -> str:
+        steps, rest = [], label.steps
+        while rest:
+            steps.append(rest[0])
+            rest = rest[1]
+        return "\n".join(sorted(steps, key=lambda line: float(line.split(":")[0]))) + "\n"
 
     def _has_energy(self, label: Label) -> bool:
-        return label[1] + self.idle_w * max(label[0], label[2]) <= self.energy + 1e-6
+        return label.energy + self.idle_w * max(label.time, label.radio) <= self.energy + 1e-6
 
-    def _keep(self, fronts: dict, state: tuple, label: Label) -> bool:
+    def _keep(self, fronts: dict[State, list[Label]], state: State, label: Label) -> bool:
         front = fronts.setdefault(state, [])
-        if any(a <= label[0] and b <= label[1] and c <= label[2] for a, b, c in front):
+        if any(one.beats(label) for one in front):
             return False
-        front[:] = [one for one in front if not all(x <= y for x, y in zip(label, one))]
+        front[:] = [one for one in front if not label.beats(one)]
         front.append(label)
         self.labels += 1
         return True
 
-    def _arm(self, label: Label, pose: str, to: str) -> Label | None:
+    def _act(self, label: Label, action: str, duration: float, energy: float, start: float | None = None) -> Label:
+        start = label.time if start is None else start
+        return Label(
+            start + duration + GAP_S, label.energy + energy, label.radio, (step(start, action, duration), label.steps)
+        )
+
+    def _send(self, label: Label, image: str) -> Label | None:
+        for opens, closes in self.comm:
+            start = max(label.time + GAP_S, label.radio, opens)
+            if start + SEND[0] <= closes:
+                steps = (step(start, f"transmit {image}", SEND[0]), label.steps)
+                return Label(label.time, label.energy + SEND[1], start + SEND[0] + GAP_S, steps)
+        return None
+
+    def _turn(self, label: Label, pose: str, to: str) -> Label | None:
         if pose == to:
             return label
         if (pose, to) not in self.arm_s:
             return None
-        return label[0] + self.arm_s[pose, to] + GAP_S, label[1] + self.arm_j[pose, to], label[2]
+        return self._act(label, f"move-arm {pose} {to}", self.arm_s[pose, to], self.arm_j[pose, to])
 
-    def _go(self, state: tuple, label: Label, place: str) -> tuple[str, Label] | None:
+    def _go(self, state: State, label: Label, place: str) -> tuple[str, Label] | None:
         """The arm's pose and the label at the place."""
-        _, here, pose, _ = state
-        if here == place:
-            return pose, label
-        stowed = self._arm(label, pose, "stow")
-        if stowed is None or (here, place) not in self.drive_s:
+        if state.place == place:
+            return state.pose, label
+        stowed = self._turn(label, state.pose, "stow")
+        way = self.ways.get((state.place, place))
+        if stowed is None or way is None:
             return None
-        return "stow", (
-            stowed[0] + self.drive_s[here, place] + GAP_S,
-            stowed[1] + self.drive_j[here, place],
-            stowed[2],
-        )
+        energy = stowed.energy + way.joules
+        for a, b in zip(way.places, way.places[1:]):
+            stowed = self._act(stowed, f"drive {a} {b}", self.drive_s[a, b], 0)
+        return "stow", stowed._replace(energy=energy)
 
-    def _moves(self, state: tuple, label: Label):
-        done, here, pose, held = state
+    def _moves(self, state: State, label: Label) -> Iterator[tuple[State, Label]]:
         for i, stop in enumerate(self.stops):
-            if done >> i & 1:
-                continue
-            if stop.kind == "pick" and held or stop.kind == "drop" and held != stop.what:
+            full = stop.kind == "pick" and state.held
+            if state.done >> i & 1 or full or (stop.kind == "drop" and state.held != stop.what):
                 continue
             there = self._go(state, label, stop.place)
             if there is not None:
-                yield from self._do(stop, (done | 1 << i, stop.place, there[0], held), there[1])
-        wanted_later = any(stop.kind == "drop" and stop.what == held and not done >> i & 1 for i, stop in enumerate(self.stops))
-        if held and not wanted_later:  # the gripper is to be empty for another sample
-            yield from self._do(Stop("drop", held, here), state, label)
+                arrived = State(state.done | 1 << i, stop.place, there[0], state.held)
+                yield from self._do(stop, arrived, there[1])
+        if state.held and not any(
+            stop.kind == "drop" and stop.what == state.held and not state.done >> i & 1 for i, stop in enumerate(self.stops)
+        ):  # nobody wants it anywhere: the gripper can be emptied for another sample
+            yield from self._do(Stop("drop", state.held, state.place), state, label)
 
-    def _do(self, stop: Stop, state: tuple, label: Label):
-        done, here, pose, held = state
+    def _do(self, stop: Stop, state: State, label: Label) -> Iterator[tuple[State, Label]]:
         if stop.kind == "image":
             for opens, closes in self.problem.windows(("available", stop.what)):
-                start = max(label[0], opens)
+                start = max(label.time, opens)
                 if start + IMAGE[0] <= closes:
-                    sent = send((start + IMAGE[0] + GAP_S, label[1] + IMAGE[1], label[2]), self.comm)
+                    sent = self._send(self._act(label, f"take-image {stop.what} {stop.place}", *IMAGE, start), stop.what)
                     if sent is not None:
                         yield state, sent
                     return
-            return
-        turned = self._arm(label, pose, "sampling" if stop.kind == "pick" else "deposit")
-        if turned is None:
-            return
-        duration, energy = PICK if stop.kind == "pick" else DROP
-        start = turned[0]
-        if stop.kind == "pick":
+        elif stop.kind == "pick":
+            turned = self._turn(label, state.pose, "sampling")
             known = self.problem.windows(("sample-at", stop.what, stop.place))
-            if not known:
-                return
-            start = max(start, known[0][0])
-        reached = (start + duration + GAP_S, turned[1] + energy, turned[2])
-        if stop.kind == "pick":
-            yield (done, here, "sampling", stop.what), reached
+            if turned and known:
+                start = max(turned.time, known[0][0])
+                picked = self._act(turned, f"pick {stop.what} {stop.place}", *PICK, start)
+                yield state._replace(pose="sampling", held=stop.what), picked
         else:
-            yield (done, here, "deposit", ""), reached
+            turned = self._turn(label, state.pose, "deposit")
+            if turned:
+                dropped = self._act(turned, f"drop {stop.what} {stop.place}", *DROP)
+                yield state._replace(pose="deposit", held=""), dropped
 
 
 def schedule(problem: Problem, values: dict[str, Values], idle_w: float = 0) -> Schedule:

@@ -16,7 +16,7 @@ from flights import Call, Programs
 class SecondLook:
     seed: int
     call: Call
-    reference: bool | None  # whether the reference scheduler finds a schedule; None: undecided
+    reference: bool | None  # whether the reference scheduler finds a schedule that is valid; None: undecided
     longer: str = ""  # roci-plan's verdict with a longer budget; empty: not asked
     longer_s: float = 0
 
@@ -42,14 +42,23 @@ def plan_again(programs: Programs, call: Call, limit_s: float, plain: bool) -> d
     return json.loads(done.stdout)
 
 
-def decide(call: Call) -> reference.Schedule:
-    return reference.schedule(problem.parse(call.problem.read_text()), problem.read_values(call.values))
+def decide(programs: Programs, call: Call) -> reference.Schedule:
+    """A schedule counts only if the validator accepts it."""
+    out = reference.schedule(problem.parse(call.problem.read_text()), problem.read_values(call.values))
+    if out.solvable:
+        plan = call.problem.with_suffix(".reference")
+        plan.write_text(out.plan)
+        command = [programs.validate, programs.mission / "domain.pddl", call.problem, plan, "--functions", call.values]
+        done = subprocess.run([str(word) for word in command], capture_output=True)
+        if done.returncode != 0:
+            return reference.Schedule(None)
+    return out
 
 
 def look_again(programs: Programs, seed: int, call: Call, longer_s: float) -> SecondLook:
     """The reference decides. The planner gets its longer search where there is something to find, and where it said
     `unsolvable` after a search: that proof is tried without the checks that cut the search."""
-    out = SecondLook(seed, call, decide(call).solvable)
+    out = SecondLook(seed, call, decide(programs, call).solvable)
     proved_by_search = call.verdict == "unsolvable" and call.evaluated > 0
     if out.reference is not False or proved_by_search:
         limit_s = longer_s if out.reference is not False else min(longer_s, 1)

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""The field trial (R61): flies seeded missions of missions/planetary, looks at what was lost, writes a report.
+
+    ninja -C build/release roci-rehearse roci-plan roci-validate roci_transport_inproc
+    bench/field_trial/run.py --runs 400 --out FOLDER --report docs/field-trial.md
+
+Exit code 0: every invariant holds; 1: one does not; 2: wrong use. See README.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import report
+from flights import Flight, Programs, fly, lay_out_mission
+from hindsight import Hindsight, look_back
+from losses import Loss, losses_of
+from scenarios import Scenario, Site, draw
+from second_look import SecondLook, decide, look_again, read_makespan
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@dataclass
+class Record:
+    """All that is known of one seed."""
+
+    scenario: Scenario
+    flight: Flight
+    looks: list[SecondLook] = field(default_factory=list)
+    back: Hindsight | None = None
+    losses: list[Loss] = field(default_factory=list)
+    first_plan_s: float | None = None  # makespan of the first plan (R62)
+    reference_s: float | None = None  # the shortest that there is
+
+
+def first_plan(programs: Programs, record: Record) -> None:
+    solved = [call for call in record.flight.calls if call.verdict == "solved"]
+    if not solved:
+        return
+    best = decide(programs, solved[0])
+    if best.solvable is False:
+        record.flight.faults.append(f"call {solved[0].number}: the planner has a plan, the reference none")
+    elif best.solvable:
+        record.first_plan_s = read_makespan(programs, solved[0])
+        record.reference_s = best.makespan_s
+
+
+def examine(programs: Programs, record: Record, folder: Path, longer_s: float) -> None:
+    seed = record.scenario.seed
+    failed = [call for call in record.flight.calls if call.verdict != "solved"]
+    record.looks = [look_again(programs, seed, call, longer_s) for call in failed]
+    for look in record.looks:
+        if look.contradiction:
+            record.flight.faults.append(f"call {look.call.number}: the planner finds a plan, the reference none")
+        if look.solvable and look.call.verdict == "unsolvable":
+            record.flight.faults.append(f"call {look.call.number}: called unsolvable, and is not")
+    record.back = look_back(programs, record.scenario, record.flight, folder / "hindsight" / record.scenario.name)
+    record.losses = losses_of(record.flight, record.looks, record.back)
+    first_plan(programs, record)
+
+
+def try_seed(programs: Programs, mission: Path, site: Site, seed: int, arguments: argparse.Namespace) -> Record:
+    scenario = draw(seed, site)
+    (mission / "scenarios" / f"{scenario.name}.yaml").write_text(scenario.yaml())
+    flight = fly(programs, mission, scenario.name, seed, arguments.out / "flights" / scenario.name)
+    record = Record(scenario, flight)
+    if flight.result != "crashed":
+        examine(programs, record, arguments.out, arguments.longer)
+    tell(record)
+    return record
+
+
+def tell(record: Record) -> None:
+    flight = record.flight
+    ends = " ".join(f"{goal.id}:{goal.state}" for goal in flight.goals)
+    missed = sum(look.solvable is True for look in record.looks)
+    print(f"seed {flight.seed}: {flight.result}, {len(flight.calls)} calls, {missed} missed, {ends}", flush=True)
+    for fault in flight.faults:
+        print(f"seed {flight.seed}: INVARIANT: {fault}", flush=True)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description="Flies seeded planetary missions and reports what was lost.")
+    parser.add_argument("--runs", type=int, default=400, help="number of flights (400)")
+    parser.add_argument("--seed", type=int, default=1, help="of the first; the others count up (1)")
+    parser.add_argument("--out", type=Path, required=True, help="folder for scenarios, journals and results")
+    parser.add_argument("--report", type=Path, help="Markdown file to write (default: OUT/field-trial.md)")
+    parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin", help="programs (build/release/bin)")
+    parser.add_argument("--jobs", type=int, default=2, help="flights at the same time (2)")
+    parser.add_argument("--longer", type=float, default=30, help="seconds for a planner call's second try (30)")
+    arguments = parser.parse_args()
+    programs = Programs(arguments.bin, ROOT / "missions/planetary")
+    for program in (programs.rehearse, programs.plan, programs.validate):
+        if not program.exists():
+            parser.error(f"{program} is missing; build it: ninja -C build/release {program.name}")
+    arguments.out = arguments.out.resolve()
+    mission = lay_out_mission(programs.mission, arguments.out / "planetary")
+    site = Site(programs.mission / "site")
+    seeds = range(arguments.seed, arguments.seed + arguments.runs)
+    with ThreadPoolExecutor(arguments.jobs) as workers:
+        records = list(workers.map(lambda seed: try_seed(programs, mission, site, seed, arguments), seeds))
+    target = arguments.report or arguments.out / "field-trial.md"
+    report.write(records, target)
+    print(f"report: {target}")
+    return 1 if any(record.flight.faults for record in records) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
