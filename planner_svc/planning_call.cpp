@@ -11,6 +11,9 @@
 namespace roci::planner {
 namespace {
 
+// Evaluations spent on better plans once there is one: some 50 ms in the missions at hand.
+constexpr std::size_t kImprovementEvaluations = 1000;
+
 PlanningVerdict verdict_of(temporal_pddl::Verdict verdict) {
   switch (verdict) {
     case temporal_pddl::Verdict::solved:
@@ -77,7 +80,10 @@ PlanningAnswer search(const PlanningCall& call, FunctionSource& functions) {
   budget.out_of_time = call.out_of_time;
   temporal_pddl::Monitor monitor;
   monitor.cancelled = call.cancelled;
-  const temporal_pddl::Result result = temporal_pddl::plan(domain, problem, functions, budget, monitor);
+  temporal_pddl::Options options;
+  options.improvement_evaluations = kImprovementEvaluations;
+  const temporal_pddl::Result result =
+      temporal_pddl::plan(domain, problem, functions, budget, monitor, options);
   PlanningAnswer out;
   out.verdict = verdict_of(result.verdict);
   out.reason = result.where ? to_string(*result.where) : result.reason;

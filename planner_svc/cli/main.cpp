@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -31,6 +32,7 @@ struct Arguments {
   double seconds = 0;  // 0: no limit
   std::size_t megabytes = 0;
   std::uint64_t seed = 0;
+  std::size_t improve = 0;
   bool json = false;
   bool plain_search = false;
 };
@@ -128,6 +130,9 @@ engine::Result plan(const Arguments& arguments, const std::function<bool()>& out
     options.dominance = false;
     options.windows = engine::WindowExtraction::none;
   }
+  options.improvement_evaluations = arguments.improve;
+  if (arguments.seconds > 0 && arguments.improve == 0)
+    options.improvement_evaluations = std::numeric_limits<std::size_t>::max();
   return engine::plan(domain, problem, *functions, budget, monitor, options);
 }
 
@@ -168,7 +173,9 @@ int main(int argc, char** argv) {
   CLI::App app("Plans: temporal PDDL domain and problem to a first plan; the exit code is the verdict");
   app.add_option("DOMAIN", arguments.domain)->required();
   app.add_option("PROBLEM", arguments.problem)->required();
-  app.add_option("--time", arguments.seconds, "limit in seconds of wall time");
+  app.add_option("--time", arguments.seconds,
+                 "limit in seconds of wall time; spent on better plans to its end");
+  app.add_option("--improve", arguments.improve, "look for better plans with so many evaluations");
   app.add_option("--memory", arguments.megabytes, "limit in MiB");
   app.add_option("--functions", arguments.functions,
                  "values of external functions: (traverse_time a b) 12.5");

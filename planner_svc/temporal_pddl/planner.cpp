@@ -8,6 +8,7 @@
 #include "planner_svc/temporal_pddl/grounding/grounder.hpp"
 #include "planner_svc/temporal_pddl/grounding/refusal.hpp"
 #include "planner_svc/temporal_pddl/heuristics/ff.hpp"
+#include "planner_svc/temporal_pddl/improvement/improvement.hpp"
 #include "planner_svc/temporal_pddl/plan/plan_builder.hpp"
 #include "planner_svc/temporal_pddl/search/best_first_search.hpp"
 #include "planner_svc/temporal_pddl/watch.hpp"
@@ -38,7 +39,9 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   FfHeuristic heuristic(grounding.task);
   SearchOutcome outcome = search(grounding.task, heuristic, options, watch, result.statistics);
   if (outcome.plan) {
-    result.plan = build_plan(domain, grounding, *outcome.plan, options.epsilon);
+    const PlanPrefix best =
+        improve(grounding.task, std::move(*outcome.plan), heuristic, options, watch, result.statistics);
+    result.plan = build_plan(domain, grounding, best, options.epsilon);
     result.verdict = Verdict::solved;
   } else {
     result.verdict = Verdict::unsolvable;

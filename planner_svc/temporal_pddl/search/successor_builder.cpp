@@ -31,7 +31,12 @@ bool SuccessorBuilder::applicable(const PlanPrefix& prefix, SnapId snap_id) cons
   return false;
 }
 
-Rejection SuccessorBuilder::build(const PlanPrefix& prefix, SnapId snap_id, Successor& successor) {
+Rejection SuccessorBuilder::build(const PlanPrefix& prefix, SnapId snap, Successor& successor) {
+  if (!extend(prefix, snap, successor)) return Rejection::logical;
+  return check_.earliest(successor.prefix) ? Rejection::none : Rejection::temporal;
+}
+
+bool SuccessorBuilder::extend(const PlanPrefix& prefix, SnapId snap_id, Successor& successor) {
   const Snap& snap = task_.snaps[snap_id];
   const StateView before = store_.state(prefix.node);
   successor.transition = {snap_id, false};
@@ -53,9 +58,8 @@ Rejection SuccessorBuilder::build(const PlanPrefix& prefix, SnapId snap_id, Succ
       break;
     }
   }
-  if (!possible) return Rejection::logical;
   successor.new_constraints = successor.prefix.constraints.size() - constraints;
-  return check_.earliest(successor.prefix) ? Rejection::none : Rejection::temporal;
+  return possible;
 }
 
 // One step: orderings, effects, invariants of what runs then.

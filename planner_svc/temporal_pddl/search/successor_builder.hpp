@@ -32,6 +32,9 @@ class SuccessorBuilder {
   // The state after an applicable snap action: all invariants hold (R13) and the plan can be scheduled (R25).
   // A compression safe action is ended at once (R14).
   Rejection build(const PlanPrefix& prefix, SnapId snap, Successor& successor);
+  // As build(), but does not ask whether the plan can be scheduled. False: an invariant breaks, or no
+  // duration is possible.
+  bool extend(const PlanPrefix& prefix, SnapId snap, Successor& successor);
 
  private:
   bool take(SnapId snap, double seconds, Successor& successor);

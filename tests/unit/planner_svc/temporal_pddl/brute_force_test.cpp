@@ -29,8 +29,10 @@ std::vector<Named> configurations() {
   result.back().options.windows = WindowExtraction::none;
   result.push_back({"one-off windows", {}});
   result.back().options.windows = WindowExtraction::one_off;
+  result.push_back({"improved", {}});
+  result.back().options.improvement_evaluations = 200;
   result.push_back({"bare, shuffled", {}});
-  result.back().options = {Duration{1000}, false, false, false, WindowExtraction::none, 17};
+  result.back().options = {Duration{1000}, false, false, false, WindowExtraction::none, 0, 17};
   return result;
 }
 

@@ -1,0 +1,81 @@
+#include "planner_svc/temporal_pddl/improvement/improvement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "planner_svc/temporal_pddl/grounding/refusal.hpp"
+#include "planner_svc/temporal_pddl/improvement/elimination.hpp"
+#include "planner_svc/temporal_pddl/improvement/weighted_search.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+// Taken again in one elimination: keeps it to about a tenth of a second.
+constexpr std::size_t kStepsTakenAgain = 20'000;
+constexpr std::size_t kFirstLimit = 500;  // evaluations of one search; twice as many in each round
+constexpr std::array<std::int64_t, 4> kWeights = {5, 3, 2, 1};
+
+class Improvement {
+ public:
+  Improvement(const Task& task, PlanPrefix& plan, Heuristic& heuristic, const Options& options, Watch& watch,
+              Statistics& statistics)
+      : task_(task),
+        plan_(plan),
+        heuristic_(heuristic),
+        options_(options),
+        watch_(watch),
+        statistics_(statistics),
+        replay_(task, options.epsilon) {}
+
+  void run() {
+    drop_useless();
+    std::size_t left = options_.improvement_evaluations;
+    for (std::size_t limit = kFirstLimit; left > 0; limit *= 2) {
+      bool exhausted = true;
+      for (const std::int64_t weight : kWeights) exhausted = search(weight, limit, left) && exhausted;
+      if (exhausted) return;
+    }
+  }
+
+ private:
+  void drop_useless() { drop_useless_actions(task_, plan_, replay_, kStepsTakenAgain, watch_); }
+
+  // True: nothing better is left to be found.
+  bool search(std::int64_t weight, std::size_t limit, std::size_t& left) {
+    while (left > 0) {
+      const Quality known = quality_of(task_, plan_, replay_.check());
+      const WeightedSearchLimits limits{weight, std::min(limit, left)};
+      auto better = find_better(task_, known, heuristic_, options_, limits, watch_, statistics_);
+      left -= better.evaluations;
+      if (!better.plan) return better.exhausted;
+      plan_ = std::move(*better.plan);
+      drop_useless();
+    }
+    return false;
+  }
+
+  const Task& task_;
+  PlanPrefix& plan_;
+  Heuristic& heuristic_;
+  const Options& options_;
+  Watch& watch_;
+  Statistics& statistics_;
+  Replay replay_;
+};
+
+}  // namespace
+
+PlanPrefix improve(const Task& task, PlanPrefix first, Heuristic& heuristic, const Options& options,
+                   Watch& watch, Statistics& statistics) {
+  PlanPrefix plan = std::move(first);
+  try {
+    Improvement(task, plan, heuristic, options, watch, statistics).run();
+  } catch (const Refusal& refusal) {
+    if (refusal.verdict() == Verdict::cancelled) throw;
+  }
+  return plan;
+}
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,17 @@
+// From a first plan to better ones, within a stated amount of work.
+#pragma once
+
+#include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
+#include "planner_svc/temporal_pddl/options.hpp"
+#include "planner_svc/temporal_pddl/plan/result.hpp"
+#include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
+#include "planner_svc/temporal_pddl/watch.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+// The given plan without useless actions, or a better one. Options::improvement_evaluations bounds the work.
+// A spent budget ends it with the best plan so far; throws Refusal (cancelled) only.
+PlanPrefix improve(const Task& task, PlanPrefix first, Heuristic& heuristic, const Options& options,
+                   Watch& watch, Statistics& statistics);
+
+}  // namespace roci::planner::temporal_pddl
