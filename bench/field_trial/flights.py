@@ -13,6 +13,7 @@ from pathlib import Path
 CLASSES = ["hard", "optional", "opportunistic"]  # exec_svc/goals/goal_set.hpp
 STATES = ["rejected", "pending", "planned", "achieved", "dropped", "failed", "recalled"]
 FINAL = {"rejected", "achieved", "dropped", "failed", "recalled"}
+MISSION_WORK = 40000  # evaluations of a planner call, as in mission.yaml
 FLIGHT_LIMIT_S = 3000  # of wall time; only for a flight that hangs
 
 
@@ -77,14 +78,25 @@ class Flight:
     faults: list[str] = field(default_factory=list)  # invariants that do not hold
 
 
-def lay_out_mission(mission: Path, folder: Path) -> Path:
-    """A mission folder of links to `mission`, with scenarios of its own."""
+def lay_out_mission(mission: Path, folder: Path, changes: dict[str, str] | None = None) -> Path:
+    """A mission folder of links to `mission`, with scenarios of its own; `changes` replace texts of mission.yaml."""
     folder.mkdir(parents=True, exist_ok=True)
     for item in mission.iterdir():
         link = folder / item.name
-        if item.name != "scenarios" and not link.exists():
-            link.symlink_to(item.resolve())
+        if item.name == "scenarios":
+            continue
+        if link.is_symlink() or link.is_file():  # of an earlier trial
+            link.unlink()
+        link.symlink_to(item.resolve())
     (folder / "scenarios").mkdir(exist_ok=True)
+    if changes:
+        text = (mission / "mission.yaml").read_text()
+        for old, new in changes.items():
+            if old not in text:
+                raise ValueError(f"{mission}/mission.yaml has no '{old}' any more; correct the field trial")
+            text = text.replace(old, new)
+        (folder / "mission.yaml").unlink()
+        (folder / "mission.yaml").write_text(text)
     return folder
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import problem
 import reference
-from flights import Flight, Programs, lay_out_mission, rehearse
+from flights import MISSION_WORK, Flight, Programs, lay_out_mission, rehearse
 from scenarios import PREDICTED_WINDOWS, UPLOAD_S, Goal, Scenario, read_pgm
 
 MODEL_SPEED_M_S = 0.1  # mission.yaml: rover.speed_m_s
@@ -50,16 +50,11 @@ def draw_rocks(source: Path, target: Path, rocks: list[tuple[float, float, float
 def lay_out(scenario: Scenario, mission: Path, folder: Path) -> None:
     """The mission as it truly was, all goals known at once."""
     shutil.rmtree(folder, ignore_errors=True)
-    lay_out_mission(mission, folder)
+    changes = {f"open: {PREDICTED_WINDOWS}": f"open: {scenario.windows}", f"work: {MISSION_WORK}": "work: 1"}
+    lay_out_mission(mission, folder, changes)  # the values of that call are wanted, not its plan
     (folder / "site").unlink()
     shutil.copytree(mission / "site", folder / "site")
     draw_rocks(mission / "site" / "rocks.pgm", folder / "site" / "rocks.pgm", scenario.rocks)
-    (folder / "mission.yaml").unlink()
-    text = (mission / "mission.yaml").read_text()
-    predicted = f"open: {PREDICTED_WINDOWS}"
-    if predicted not in text:
-        raise ValueError(f"{mission}/mission.yaml predicts other windows than scenarios.py; correct PREDICTED_WINDOWS")
-    (folder / "mission.yaml").write_text(text.replace(predicted, f"open: {scenario.windows}"))
     known = Scenario(
         seed=scenario.seed,
         x=scenario.x,

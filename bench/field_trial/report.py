@@ -86,7 +86,7 @@ def shorten(reason: str) -> str:
     return text if len(text) < 100 else text[:97] + "…"
 
 
-def calls_section(records: list[Record]) -> str:
+def calls_section(records: list[Record], work: int) -> str:
     calls = [call for record in records for call in record.flight.calls]
     looks = [look for record in records for look in record.looks]
     verdicts = Counter(call.verdict for call in calls)
@@ -97,7 +97,11 @@ def calls_section(records: list[Record]) -> str:
         solvable = "–" if verdict == "solved" else sum(look.solvable is True for look in some)
         undecided = "–" if verdict == "solved" else sum(look.solvable is None for look in some)
         rows.append([verdict, count, solvable, undecided])
-    out = f"\n## Planner calls (R61)\n\n{len(calls)} calls; solvable problems missed: **{len(missed)}**.\n\n"
+    most = max((call.evaluated for call in calls if call.verdict == "solved"), default=0)
+    out = (
+        f"\n## Planner calls (R61)\n\n{len(calls)} calls with a budget of {work:,} evaluations; a solved one took {most:,} at most. "
+        f"Solvable problems missed: **{len(missed)}**.\n\n"
+    )
     out += table(["verdict", "calls", "of these solvable", "undecided"], rows)
     if missed:
         rows = [
@@ -206,7 +210,7 @@ def makespan_section(records: list[Record]) -> str:
     )
 
 
-def write(records: list[Record], target: Path) -> None:
+def write(records: list[Record], work: int, target: Path) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     pictures = target.parent / "pictures"
     pictures.mkdir(exist_ok=True)
@@ -218,12 +222,12 @@ def write(records: list[Record], target: Path) -> None:
 
 {len(records)} missions of `missions/planetary`, seeds {first} to {last}, each drawn at random: goals of all kinds and classes, some in
 flight, narrow windows, hard terrain, rocks that no map shows, slip, faults of components, lost communication windows,
-little energy. Written by `bench/field_trial/run.py --runs {len(records)} --seed {first} --out FOLDER --report {target.name}`
+little energy. Written by `bench/field_trial/run.py --runs {len(records)} --seed {first} --work {work} --out FOLDER --report docs/field-trial.md`
 ([how it works](../bench/field_trial/README.md)). One flight again, alone, with all processes:
 
     bench/field_trial/run.py --runs 1 --seed 17 --out FOLDER && ./run FOLDER/planetary --scenario seed-0017 --seed 17
 
 """
-    sections = [losses_section(records, f"pictures/{picture.name}"), hard_section(records), calls_section(records)]
+    sections = [losses_section(records, f"pictures/{picture.name}"), hard_section(records), calls_section(records, work)]
     sections += [oracle_section(records), makespan_section(records), goals_section(records), wall_section(records)]
     target.write_text(head + "".join(sections))

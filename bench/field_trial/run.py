@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import report
-from flights import Flight, Programs, fly, lay_out_mission
+from flights import MISSION_WORK, Flight, Programs, fly, lay_out_mission
 from hindsight import Hindsight, look_back
 from losses import Loss, losses_of
 from scenarios import Scenario, Site, draw
@@ -93,19 +93,21 @@ def main() -> int:
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin", help="programs (build/release/bin)")
     parser.add_argument("--jobs", type=int, default=2, help="flights at the same time (2)")
     parser.add_argument("--longer", type=float, default=30, help="seconds for a planner call's second try (30)")
+    parser.add_argument("--work", type=int, default=MISSION_WORK, help="evaluations of a planner call (the mission's)")
     arguments = parser.parse_args()
     programs = Programs(arguments.bin, ROOT / "missions/planetary")
     for program in (programs.rehearse, programs.plan, programs.validate):
         if not program.exists():
             parser.error(f"{program} is missing; build it: ninja -C build/release {program.name}")
     arguments.out = arguments.out.resolve()
-    mission = lay_out_mission(programs.mission, arguments.out / "planetary")
+    changes = {f"work: {MISSION_WORK}": f"work: {arguments.work}"} if arguments.work != MISSION_WORK else {}
+    mission = lay_out_mission(programs.mission, arguments.out / "planetary", changes)
     site = Site(programs.mission / "site")
     seeds = range(arguments.seed, arguments.seed + arguments.runs)
     with ThreadPoolExecutor(arguments.jobs) as workers:
         records = list(workers.map(lambda seed: try_seed(programs, mission, site, seed, arguments), seeds))
     target = arguments.report or arguments.out / "field-trial.md"
-    report.write(records, target)
+    report.write(records, arguments.work, target)
     print(f"report: {target}")
     return 1 if any(record.flight.faults for record in records) else 0
 
