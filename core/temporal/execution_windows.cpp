@@ -47,6 +47,7 @@ ExecutionWindows::ExecutionWindows(std::vector<BoundField::Edge> edges, std::vec
                                    Time origin)
     : latest_(edges, potential), earliest_(mirrored(std::move(edges)), negated(std::move(potential))) {
   happen(origin_point, origin);
+  settle();
 }
 
 Window ExecutionWindows::window(TimePoint point) const {
@@ -61,6 +62,11 @@ void ExecutionWindows::happen(TimePoint point, Time at) {
 void ExecutionWindows::undo_happen(TimePoint point) {
   latest_.undo_fix(point);
   earliest_.undo_fix(point);
+}
+
+void ExecutionWindows::settle() const {
+  latest_.settle();
+  earliest_.settle();
 }
 
 void ExecutionWindows::set_bounds(std::size_t constraint, Duration lower, Duration upper) {

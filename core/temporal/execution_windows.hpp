@@ -12,8 +12,8 @@ namespace roci::temporal {
 /// [earliest, latest] of every point that has not happened, from those that have and the constraints between
 /// them. An event replaces every constraint into its point by its real time, so an event that contradicts the
 /// network makes no inconsistency: it only moves the windows of others (a latest time may then lie in the
-/// past). Durations are contingent in just this sense. Times are mission times. Cost per event: the points
-/// whose window moves.
+/// past). Durations are contingent in just this sense. Times are mission times. A window is computed when it
+/// is asked for: cost per event as of BoundField.
 class ExecutionWindows {
  public:
   /// The constraints must be consistent and bound every point from below by the origin, as all_constraints()
@@ -31,9 +31,16 @@ class ExecutionWindows {
   /// The point will not happen: its constraints are gone.
   void drop(TimePoint point);
 
-  /// Windows that the last operation moved; `before` of earliest changes is negated.
+  /// Computes the windows of all points at once: for whoever asks for many.
+  void settle() const;
+
+  /// Windows that were known and that the last operation may have moved; `before` of earliest changes is
+  /// negated.
   const std::vector<BoundField::Change>& latest_changes() const { return latest_.changes(); }
   const std::vector<BoundField::Change>& earliest_changes() const { return earliest_.changes(); }
+
+  /// As of BoundField.
+  std::uint64_t work() const { return latest_.work() + earliest_.work(); }
 
  private:
   ExecutionWindows(std::vector<BoundField::Edge> edges, std::vector<Duration> potential, Time origin);

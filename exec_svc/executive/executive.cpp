@@ -71,11 +71,10 @@ const temporal::FlexiblePlan& Executive::plan() const {
 }
 
 std::vector<StepStatus> Executive::steps() const {
-  std::vector<StepStatus> all;
-  if (!impl_->run) return all;
-  for (std::size_t i = 0; i < impl_->run->plan().activities.size(); ++i) all.push_back(impl_->run->status(i));
-  return all;
+  return impl_->run ? impl_->run->statuses() : std::vector<StepStatus>{};
 }
+
+std::uint64_t Executive::window_work() const { return impl_->run ? impl_->run->window_work() : 0; }
 
 std::vector<Executive::TokenStatus> Executive::tokens() const {
   return impl_->run ? impl_->run->tokens() : std::vector<TokenStatus>{};

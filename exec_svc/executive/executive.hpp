@@ -49,8 +49,12 @@ class Executive {
   Outcome outcome() const;
   const temporal::FlexiblePlan& plan() const;
 
-  /// All activities in plan order, with the windows of the plan's network as of the last event.
+  /// All activities in plan order, with the windows of the plan's network as of the last event: work in the
+  /// size of the plan.
   std::vector<StepStatus> steps() const;
+
+  /// Edges of the network looked at for windows since the plan was loaded.
+  std::uint64_t window_work() const;
 
   /// Start and end of each token of the plan, in plan order, as far as they have happened.
   struct TokenStatus {

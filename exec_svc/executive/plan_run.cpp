@@ -120,6 +120,13 @@ StepStatus PlanRun::status(Index activity) const {
           window.upper, run.started,  run.ended,   run.cause};
 }
 
+std::vector<StepStatus> PlanRun::statuses() const {
+  points_.settle();
+  std::vector<StepStatus> all;
+  for (Index i = 0; i < runs_.size(); ++i) all.push_back(status(i));
+  return all;
+}
+
 std::vector<Executive::TokenStatus> PlanRun::tokens() const {
   std::vector<Executive::TokenStatus> all;
   for (const temporal::Token& token : plan_.tokens)

@@ -39,6 +39,9 @@ class PlanRun {
   const Outcome& outcome() const { return outcome_; }
   const temporal::FlexiblePlan& plan() const { return plan_; }
   StepStatus status(std::size_t activity) const;
+  /// Of all activities, in plan order.
+  std::vector<StepStatus> statuses() const;
+  std::uint64_t window_work() const { return points_.work(); }
   std::vector<Executive::TokenStatus> tokens() const;
 
  private:

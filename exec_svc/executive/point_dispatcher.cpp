@@ -24,8 +24,12 @@ PointDispatcher::PointDispatcher(const temporal::FlexiblePlan& plan)
     ends_[i] = activity.end_point;
   }
   for (TimePoint p = 1; p < points_.size(); ++p) {
-    points_[p].pending = points_[p].unbegun = static_cast<std::uint32_t>(precedence_.predecessors[p].size());
-    enter_times(p);
+    points_[p].pending = points_[p].unbegun = points_[p].unreached =
+        static_cast<std::uint32_t>(precedence_.predecessors[p].size());
+  }
+  for (TimePoint p = 1; p < points_.size(); ++p) {
+    if (precedence_.predecessors[p].empty()) reach(p);
+    if (near(p)) enter_times(p);
   }
 }
 
@@ -59,7 +63,7 @@ bool PointDispatcher::try_happen(TimePoint point, Time now) {
   windows_.happen(point, now);
   std::vector<TimePoint> first;
   for (const auto& [other, before] : windows_.latest_changes())
-    if (open(other) && other != point && before >= now && windows_.window(other).upper < now)
+    if (watched(other) && other != point && before >= now && windows_.window(other).upper < now)
       first.push_back(other);
   if (first.empty()) {
     note_changes();
@@ -68,7 +72,7 @@ bool PointDispatcher::try_happen(TimePoint point, Time now) {
     pass(point);
     return true;
   }
-  windows_.undo_happen(point);
+  take_back(point);
   ready_.erase(point);
   for (const TimePoint other : first) {
     precedence_.successors[other].push_back(point);
@@ -76,6 +80,20 @@ bool PointDispatcher::try_happen(TimePoint point, Time now) {
     ++points_[point].pending;
   }
   return false;
+}
+
+/// Windows at the front stay known: only known ones are told when they move.
+void PointDispatcher::take_back(TimePoint point) {
+  std::vector<TimePoint> unsettled;
+  const auto collect = [&] {
+    for (const auto* changes : {&windows_.earliest_changes(), &windows_.latest_changes()})
+      for (const auto& change : *changes) unsettled.push_back(change.point);
+  };
+  collect();
+  windows_.undo_happen(point);
+  collect();
+  for (const TimePoint other : unsettled)
+    if (near(other) || watched(other)) static_cast<void>(windows_.window(other));
 }
 
 void PointDispatcher::happen(TimePoint point, Time at) {
@@ -112,34 +130,57 @@ Time PointDispatcher::next_time(Time now) {
   return next;
 }
 
+/// Points behind the front have no business yet, and cost nothing.
+bool PointDispatcher::watched(TimePoint point) const { return open(point) && points_[point].unreached == 0; }
+
 void PointDispatcher::enter_times(TimePoint point) {
-  const temporal::Window window = windows_.window(point);
-  const bool near = points_[point].unbegun == 0;
-  if (near && commanded(point) && bounded(window.lower)) earliest_.enter(window.lower, point);
-  if (owners_[point].role == PointRole::start && bounded(window.upper)) latest_.enter(window.upper, point);
+  if (near(point) && commanded(point)) {
+    const Time lower = windows_.window(point).lower;
+    if (bounded(lower)) earliest_.enter(lower, point);
+  }
+  if (points_[point].unreached > 0) return;
+  const Time upper =
+      windows_.window(point).upper;  // of ends too: from now on it is known, and told when it moves
+  const bool may_be_late = owners_[point].role != PointRole::start || points_[point].may_be_late;
+  if (!may_be_late && bounded(upper)) latest_.enter(upper, point);
 }
 
 void PointDispatcher::note_changes() {
-  const auto note = [&](const std::vector<temporal::BoundField::Change>& changes, bool earliest) {
-    for (const auto& change : changes) {
-      if (!open(change.point) || windows_.happened(change.point)) continue;
-      if (earliest) {
-        points_[change.point].due = false;
-        ready_.erase(change.point);
-      }
-      enter_times(change.point);
-    }
-  };
-  note(windows_.earliest_changes(), true);
-  note(windows_.latest_changes(), false);
+  for (const auto& [point, before] : windows_.earliest_changes()) {
+    if (!open(point) || windows_.happened(point) || !near(point)) continue;
+    if (-before == windows_.window(point).lower) continue;
+    points_[point].due = false;
+    ready_.erase(point);
+    enter_times(point);
+  }
+  for (const auto& [point, before] : windows_.latest_changes())
+    if (watched(point) && !windows_.happened(point) && before != windows_.window(point).upper)
+      enter_times(point);
 }
 
-/// The frontier moves on: points behind it have no business yet, and cost nothing.
 void PointDispatcher::begin(TimePoint point) {
   if (std::exchange(points_[point].begun, true)) return;
   for (const TimePoint successor : precedence_.successors[point])
     if (points_[successor].unbegun > 0 && --points_[successor].unbegun == 0 && open(successor))
       enter_times(successor);
+  reach(point);
+}
+
+/// Looks for late starts go on behind what has begun and behind what cannot be late itself.
+void PointDispatcher::reach(TimePoint point) {
+  std::vector<TimePoint> reached{point};
+  while (!reached.empty()) {
+    const TimePoint at = reached.back();
+    reached.pop_back();
+    PointState& state = points_[at];
+    if (!state.begun && owners_[at].role == PointRole::start && !state.may_be_late) continue;
+    if (std::exchange(state.reached_on, true)) continue;
+    for (const TimePoint successor : precedence_.successors[at]) {
+      if (points_[successor].unreached == 0 || --points_[successor].unreached > 0) continue;
+      if (open(successor)) enter_times(successor);
+      reached.push_back(successor);
+    }
+  }
 }
 
 void PointDispatcher::satisfied(TimePoint point) {

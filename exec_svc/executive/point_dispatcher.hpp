@@ -18,6 +18,10 @@ class PointDispatcher {
   explicit PointDispatcher(const temporal::FlexiblePlan& plan);
 
   temporal::Window window(temporal::TimePoint point) const { return windows_.window(point); }
+  /// Makes window() cheap for every point.
+  void settle() const { windows_.settle(); }
+  /// What the windows have cost so far, as of temporal::BoundField.
+  std::uint64_t work() const { return windows_.work(); }
   const PointOwner& owner(temporal::TimePoint point) const { return owners_[point]; }
   /// As planned.
   temporal::Window duration(std::size_t activity) const {
@@ -53,7 +57,8 @@ class PointDispatcher {
   /// New duration bounds of a started activity.
   void set_duration(std::size_t activity, temporal::Duration lower, temporal::Duration upper);
 
-  /// A start that has to happen before its latest time, which lies before now; the earliest such.
+  /// A start that has to happen before its latest time, which lies before now; the earliest such. (A start
+  /// whose time has passed has a predecessor whose time has passed, so those next to the front suffice.)
   std::optional<temporal::TimePoint> late_start(temporal::Time now);
   /// When, after now, advance() or late_start() will next have something new; no_bound: never.
   temporal::Time next_time(temporal::Time now);
@@ -63,8 +68,10 @@ class PointDispatcher {
     std::optional<temporal::Time> happened;
     std::uint32_t pending = 0;  ///< predecessors that have not happened, and holds
     std::uint32_t holds = 0;
-    std::uint32_t unbegun = 0;  ///< predecessors that have not begun
+    std::uint32_t unbegun = 0;    ///< predecessors that have not begun
+    std::uint32_t unreached = 0;  ///< predecessors that would be late before it
     bool begun = false;
+    bool reached_on = false;  ///< its successors count it no more
     bool due = false;
     bool dropped = false;
     bool passed = false;       ///< successors have been told
@@ -75,7 +82,11 @@ class PointDispatcher {
   bool commanded(temporal::TimePoint point) const { return owners_[point].role != PointRole::observed_end; }
   void enter_times(temporal::TimePoint point);
   void note_changes();
+  void take_back(temporal::TimePoint point);
+  bool near(temporal::TimePoint point) const { return points_[point].unbegun == 0; }
+  bool watched(temporal::TimePoint point) const;
   void begin(temporal::TimePoint point);
+  void reach(temporal::TimePoint point);
   void satisfied(temporal::TimePoint point);
   void pass(temporal::TimePoint point);
   std::optional<Agenda::Entry> first_earliest();

@@ -138,17 +138,19 @@ TEST(Commands, NoAnswerFailsWithItsCause) {
   world.answers("drive", {{.accepts = false, .answers_cancel = false}});
   EXPECT_THAT(
       world.run(),
-      ElementsAre("0 execute drive#1", "5 cancel drive#1",
-                  "5 plan broken: activity_failed, drive, command not answered by sim within 5 s",
-                  "10 drive failed (command not answered by sim within 5 s; cancel not answered within 5 s)"));
+      ElementsAre(
+          "0 execute drive#1", "5 cancel drive#1",
+          "5 plan broken: activity_failed, drive, command not answered by sim within 5 s",
+          "10 drive failed (command not answered by sim within 5 s; cancel not answered within 5 s)"));
 }
 
 TEST(Commands, NoAnswerIsTriedAgainOnceTheOwnerConfirmsTheCancel) {
   ScriptedWorld world(one([](PlanActivity& a) { a.retries = 1; }).plan);
   world.answers("drive", {{.accepts = false}, {}});
-  EXPECT_THAT(world.run(), ElementsAre("0 execute drive#1", "5 cancel drive#1", "5 execute drive#2",
-                                       "5 drive running (retry after: command not answered by sim within 5 s)",
-                                       "105 drive succeeded", "105 plan finished"));
+  EXPECT_THAT(world.run(),
+              ElementsAre("0 execute drive#1", "5 cancel drive#1", "5 execute drive#2",
+                          "5 drive running (retry after: command not answered by sim within 5 s)",
+                          "105 drive succeeded", "105 plan finished"));
 }
 
 TEST(Commands, FailureIsRetriedAtOnceWhilePreconditionsHold) {
