@@ -45,7 +45,8 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
     result.verdict = Verdict::solved;
   } else {
     result.verdict = Verdict::unsolvable;
-    result.reason = std::move(outcome.reason);
+    result.reason = heuristic.why_too_late();
+    if (result.reason.empty()) result.reason = std::move(outcome.reason);
   }
 }
 

@@ -8,6 +8,7 @@ namespace roci::planner::temporal_pddl {
 FfHeuristic::FfHeuristic(const Task& task)
     : task_(task),
       relaxed_(task),
+      earliest_(task, relaxed_),
       reached_at_(relaxed_.propositions(), kUnreached),
       supporter_(relaxed_.propositions()),
       needed_(relaxed_.propositions(), false),
@@ -19,14 +20,15 @@ FfHeuristic::FfHeuristic(const Task& task)
   }
 }
 
-void FfHeuristic::evaluate(StateView state, std::span<const ActionId> running, std::uint32_t timed_done,
-                           Estimate& estimate) {
+void FfHeuristic::evaluate(const Situation& situation, Estimate& estimate) {
+  const auto& running = situation.running;
   estimate = {};
   reset();
-  explore(state, running, timed_done);
+  if (earliest_.matters()) earliest_.measure(situation);
+  explore(situation);
   const Goal* goal = cheapest_goal();
   const bool ends_reached =
-      std::ranges::all_of(running, [&](ActionId action) { return open_[task_.actions[action].end] == 0; });
+      std::ranges::all_of(running, [&](ActionId action) { return possible(task_.actions[action].end); });
   if (!goal || !ends_reached) {
     estimate.dead_end = true;
     return;
@@ -34,7 +36,22 @@ void FfHeuristic::evaluate(StateView state, std::span<const ActionId> running, s
   for (const FactId fact : goal->facts) need(relaxed_.proposition(fact));
   for (const ActionId action : running) include(task_.actions[action].end);
   extract();
-  collect(timed_done, estimate);
+  collect(situation.timed_done, estimate);
+}
+
+std::string FfHeuristic::why_too_late() {
+  if (!earliest_.matters()) return {};
+  earliest_.measure({task_.initial_state, {}, 0, nullptr, {}});
+  std::string reason;
+  for (const Goal& goal : task_.goals) {
+    const auto never = std::ranges::find_if(
+        goal.facts, [&](FactId fact) { return earliest_.of(relaxed_.proposition(fact)) == kNever; });
+    if (never == goal.facts.end()) return {};
+    const std::string why = earliest_.why_never(relaxed_.proposition(*never));
+    if (why.empty()) return {};
+    reason = name(task_, *never) + " cannot be reached in time: " + why;
+  }
+  return reason;
 }
 
 void FfHeuristic::reset() {
@@ -58,17 +75,12 @@ void FfHeuristic::reach(PropositionId proposition, std::int64_t cost, SnapId sup
   std::ranges::push_heap(queue_, std::greater{});
 }
 
-void FfHeuristic::explore(StateView state, std::span<const ActionId> running, std::uint32_t timed_done) {
-  const auto variables = task_.layout.variables();
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    const std::uint32_t value = task_.layout.value(state, i);
-    if (value > 0) reach(relaxed_.proposition(variables[i].facts[value - 1]), 0, SnapId());
-  }
-  for (const FactId fact : task_.layout.negations()) {
-    if (task_.layout.holds(state, fact)) reach(relaxed_.proposition(fact), 0, SnapId());
-  }
-  for (const ActionId action : running) reach(relaxed_.running(action), 0, SnapId());
-  for (std::size_t i = timed_done; i < task_.timed_steps.size(); ++i) fire(task_.timed_steps[i].snap);
+void FfHeuristic::explore(const Situation& situation) {
+  relaxed_.each_fact(task_, situation.state,
+                     [&](FactId fact) { reach(relaxed_.proposition(fact), 0, SnapId()); });
+  for (const ActionId action : situation.running) reach(relaxed_.running(action), 0, SnapId());
+  for (std::size_t i = situation.timed_done; i < task_.timed_steps.size(); ++i)
+    fire(task_.timed_steps[i].snap);
   for (const SnapId op : relaxed_.free()) fire(op);
   while (!queue_.empty()) {
     std::ranges::pop_heap(queue_, std::greater{});
@@ -83,7 +95,12 @@ void FfHeuristic::explore(StateView state, std::span<const ActionId> running, st
 }
 
 void FfHeuristic::fire(SnapId op) {
+  if (!possible(op)) return;
   for (const PropositionId added : relaxed_.adds(op)) reach(added, costs_[op], op);
+}
+
+bool FfHeuristic::possible(SnapId op) const {
+  return open_[op] == 0 && (!earliest_.matters() || earliest_.of(op) != kNever);
 }
 
 const Goal* FfHeuristic::cheapest_goal() const {
@@ -118,7 +135,7 @@ void FfHeuristic::include(SnapId op) {
   const Snap& snap = task_.snaps[op];
   if (snap.kind != SnapKind::start) return;
   const SnapId end = task_.actions[snap.action].end;
-  if (open_[end] == 0) include(end);
+  if (possible(end)) include(end);
 }
 
 void FfHeuristic::extract() {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner_svc/temporal_pddl/heuristics/earliest_times.hpp"
 #include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
 #include "planner_svc/temporal_pddl/heuristics/relaxed_task.hpp"
 
@@ -17,17 +18,21 @@ class FfHeuristic final : public Heuristic {
 
   // The state is extended by r_a of the running actions (R19). Ends of actions that run or that the relaxed
   // plan starts belong to the relaxed plan (R20), with what they need. A dead end: a goal or the end of a
-  // running action is out of reach.
-  void evaluate(StateView state, std::span<const ActionId> running, std::uint32_t timed_done,
-                Estimate& estimate) override;
+  // running action is out of reach, or what it takes can no longer happen in time (EarliestTimes).
+  void evaluate(const Situation& situation, Estimate& estimate) override;
+
+  // Why time alone forbids every plan from the task's initial state on, or nothing.
+  std::string why_too_late();
 
  private:
   static constexpr std::int64_t kUnreached = -1;
 
   void reset();
   void reach(PropositionId proposition, std::int64_t cost, SnapId supporter);
-  void explore(StateView state, std::span<const ActionId> running, std::uint32_t timed_done);
+  void explore(const Situation& situation);
   void fire(SnapId op);
+  // All it needs is reached, and it can still happen in time.
+  bool possible(SnapId op) const;
   const Goal* cheapest_goal() const;
   void need(PropositionId proposition);
   void include(SnapId op);
@@ -36,6 +41,7 @@ class FfHeuristic final : public Heuristic {
 
   const Task& task_;
   RelaxedTask relaxed_;
+  EarliestTimes earliest_;
 
   // By proposition, for the state at hand. A proposition of the state has no supporter.
   IdVector<PropositionId, std::int64_t> reached_at_;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "planner_svc/temporal_pddl/constraints/time_freedom.hpp"
 #include "planner_svc/temporal_pddl/task/task.hpp"
 
 namespace roci::planner::temporal_pddl {
@@ -16,14 +17,22 @@ struct Estimate {
   std::vector<SnapId> preferred;  // applicable in the state and useful, as far as the heuristic sees (R21)
 };
 
+// What a heuristic may look at.
+struct Situation {
+  StateView state;
+  std::span<const ActionId> running;  // actions that have started and not ended
+  std::uint32_t timed_done = 0;       // how many timed literals have happened
+  // The plan's schedule of earliest times; null and empty where nothing is known of it.
+  const TimeFreedom* freedom = nullptr;
+  std::span<const Ticks> started;  // by position in `running`
+};
+
 class Heuristic {
  public:
   virtual ~Heuristic() = default;
 
-  // running: actions that have started and not ended; timed_done: how many timed literals have happened. The
-  // estimate's memory is reused.
-  virtual void evaluate(StateView state, std::span<const ActionId> running, std::uint32_t timed_done,
-                        Estimate& estimate) = 0;
+  // The estimate's memory is reused.
+  virtual void evaluate(const Situation& situation, Estimate& estimate) = 0;
 };
 
 }  // namespace roci::planner::temporal_pddl

@@ -26,6 +26,19 @@ class RelaxedTask {
   PropositionId proposition(FactId fact) const { return PropositionId(fact.index()); }
   PropositionId running(ActionId action) const { return PropositionId(facts_ + action.index()); }
 
+  // Calls visit(fact) for each fact that holds in the state.
+  template <typename Visit>
+  static void each_fact(const Task& task, StateView state, const Visit& visit) {
+    const auto variables = task.layout.variables();
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      const std::uint32_t value = task.layout.value(state, i);
+      if (value > 0) visit(variables[i].facts[value - 1]);
+    }
+    for (const FactId fact : task.layout.negations()) {
+      if (task.layout.holds(state, fact)) visit(fact);
+    }
+  }
+
   // Operators are numbered as the snap actions. Costs in microseconds.
   std::int64_t cost(SnapId op) const { return costs_[op]; }
   std::span<const PropositionId> needs(SnapId op) const { return needs_[op]; }

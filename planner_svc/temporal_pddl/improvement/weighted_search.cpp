@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "planner_svc/temporal_pddl/search/dominance.hpp"
+#include "planner_svc/temporal_pddl/search/evaluation.hpp"
 #include "planner_svc/temporal_pddl/search/goal_test.hpp"
 #include "planner_svc/temporal_pddl/search/open_list.hpp"
 #include "planner_svc/temporal_pddl/search/state_store.hpp"
@@ -29,7 +30,8 @@ class WeightedSearch {
         builder_(task, store_, check_, options.epsilon),
         goal_(task, check_, options.epsilon),
         dominance_(task, store_, bounds_, check_, options.epsilon, true),
-        tree_(task) {}
+        tree_(task),
+        evaluation_(task) {}
 
   Better run() {
     successor_.state = task_.initial_state;
@@ -77,7 +79,7 @@ class WeightedSearch {
 
     ++evaluated_;
     ++statistics_.evaluated;
-    heuristic_.evaluate(successor_.state, prefix.running_actions, prefix.timed_done, estimate_);
+    evaluation_.evaluate(successor_, heuristic_, estimate_);
     if (estimate_.dead_end) return false;
     const std::int64_t total = committed(prefix, quality.busy) + limits_.weight * estimate_.cost;
     open_.push({total, estimate_.steps}, false, {prefix.node, SnapId()});
@@ -104,6 +106,7 @@ class WeightedSearch {
   GoalTest goal_;
   Dominance dominance_;
   SuccessorTree tree_;
+  Evaluation evaluation_;
   OpenList open_;
 
   PlanPrefix prefix_;  // of the node that is expanded

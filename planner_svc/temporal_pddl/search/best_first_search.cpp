@@ -5,6 +5,7 @@
 
 #include "planner_svc/temporal_pddl/grounding/refusal.hpp"
 #include "planner_svc/temporal_pddl/search/dominance.hpp"
+#include "planner_svc/temporal_pddl/search/evaluation.hpp"
 #include "planner_svc/temporal_pddl/search/goal_test.hpp"
 #include "planner_svc/temporal_pddl/search/open_list.hpp"
 #include "planner_svc/temporal_pddl/search/state_store.hpp"
@@ -31,6 +32,7 @@ class BestFirstSearch {
         dominance_(task, store_, bounds_, check_, options.epsilon, goal_.has_deadlines()),
         dominate_(options.dominance && !goal_.has_openings()),
         tree_(task),
+        evaluation_(task),
         random_(options.seed) {}
 
   SearchOutcome run() {
@@ -77,7 +79,7 @@ class BestFirstSearch {
 
     watch_.poll();
     watch_.evaluations(++statistics_.evaluated);
-    heuristic_.evaluate(successor_.state, prefix.running_actions, prefix.timed_done, estimate_);
+    evaluation_.evaluate(successor_, heuristic_, estimate_);
     if (!estimate_.dead_end) expand(prefix);
     account();
     return false;
@@ -126,6 +128,7 @@ class BestFirstSearch {
   Dominance dominance_;
   bool dominate_;
   SuccessorTree tree_;
+  Evaluation evaluation_;
   OpenList open_;
   std::mt19937_64 random_;
 

@@ -33,7 +33,10 @@ bool SuccessorBuilder::applicable(const PlanPrefix& prefix, SnapId snap_id) cons
 
 Rejection SuccessorBuilder::build(const PlanPrefix& prefix, SnapId snap, Successor& successor) {
   if (!extend(prefix, snap, successor)) return Rejection::logical;
-  return check_.earliest(successor.prefix) ? Rejection::none : Rejection::temporal;
+  const std::vector<Ticks>* times = check_.earliest(successor.prefix);
+  if (!times) return Rejection::temporal;
+  successor.times = *times;
+  return Rejection::none;
 }
 
 bool SuccessorBuilder::extend(const PlanPrefix& prefix, SnapId snap_id, Successor& successor) {

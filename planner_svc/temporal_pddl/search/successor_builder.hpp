@@ -18,6 +18,7 @@ struct Successor {
   Transition transition;
   std::vector<Word> state;
   PlanPrefix prefix;                // of the new state; its node is not set
+  std::vector<Ticks> times;         // of the prefix's steps, at the earliest; after build() without rejection
   std::size_t new_constraints = 0;  // how many of prefix.constraints the transition added, at their end
 };
 

@@ -235,7 +235,7 @@ TEST(Planner, NothingToDo) {
   EXPECT_TRUE(result.plan->activities.empty());
 }
 
-TEST(Planner, AnExhaustedSearchSaysWhatWasNeverReached) {
+TEST(Planner, AMissedWindowIsToldWithHowMuchIsMissing) {
   const auto made =
       model(R"((:requirements :durative-actions :timed-initial-literals) (:predicates (open) (p) (g) (h))
     (:durative-action slow :parameters () :duration (= ?duration 9) :condition () :effect (at end (p)))
@@ -243,6 +243,20 @@ TEST(Planner, AnExhaustedSearchSaysWhatWasNeverReached) {
       :effect (at end (g)))
     (:action b :parameters () :precondition () :effect (h)))",
             "(:init (open) (at 9 (not (open)))) (:goal (and (g) (h)))");
+  const Result result = solved(made);
+  EXPECT_EQ(result.verdict, Verdict::unsolvable);
+  EXPECT_EQ(
+      result.reason,
+      "(g) cannot be reached in time: (a) can be over no sooner than 10.000 s, its last window closes at "
+      "9.000 s: 1.000 s too late");
+}
+
+TEST(Planner, AnExhaustedSearchSaysWhatWasNeverReached) {
+  const auto made = model(R"((:predicates (p) (q) (g) (h))
+    (:action a :parameters () :precondition (p) :effect (and (not (p)) (q)))
+    (:action c :parameters () :precondition (and (p) (q)) :effect (g))
+    (:action b :parameters () :precondition () :effect (h)))",
+                          "(:init (p)) (:goal (and (g) (h)))");
   const Result result = solved(made);
   EXPECT_EQ(result.verdict, Verdict::unsolvable);
   EXPECT_THAT(result.reason, ::testing::HasSubstr("(g)"));

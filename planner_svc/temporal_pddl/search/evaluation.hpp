@@ -1,0 +1,30 @@
+// Asks a heuristic about a successor: puts together what it may look at.
+#pragma once
+
+#include <vector>
+
+#include "planner_svc/temporal_pddl/constraints/time_freedom.hpp"
+#include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
+#include "planner_svc/temporal_pddl/search/successor_builder.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+class Evaluation {
+ public:
+  explicit Evaluation(const Task& task) : freedom_(task) {}
+
+  void evaluate(const Successor& successor, Heuristic& heuristic, Estimate& estimate) {
+    const PlanPrefix& prefix = successor.prefix;
+    freedom_.measure(prefix.steps, successor.times);
+    started_.clear();
+    for (const Running& running : prefix.running) started_.push_back(successor.times[running.step]);
+    heuristic.evaluate({successor.state, prefix.running_actions, prefix.timed_done, &freedom_, started_},
+                       estimate);
+  }
+
+ private:
+  TimeFreedom freedom_;
+  std::vector<Ticks> started_;  // by running action
+};
+
+}  // namespace roci::planner::temporal_pddl
