@@ -245,10 +245,9 @@ TEST(Planner, AMissedWindowIsToldWithHowMuchIsMissing) {
             "(:init (open) (at 9 (not (open)))) (:goal (and (g) (h)))");
   const Result result = solved(made);
   EXPECT_EQ(result.verdict, Verdict::unsolvable);
-  EXPECT_EQ(
-      result.reason,
-      "(g) cannot be reached in time: (a) can be over no sooner than 10.000 s, its last window closes at "
-      "9.000 s: 1.000 s too late");
+  EXPECT_EQ(result.reason,
+            "(g) cannot be reached in time: (a) can start no sooner than 9.000 s, but must by 8.000 s: "
+            "1.000 s too late");
 }
 
 TEST(Planner, AnExhaustedSearchSaysWhatWasNeverReached) {
