@@ -1,12 +1,19 @@
 #include "exec_svc/exec_service.hpp"
 
 #include <algorithm>
+#include <csignal>
+#include <cstdlib>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "exec_svc/journal/crash_points.hpp"
 #include "exec_svc/journal/journal.hpp"
-#include "exec_svc/journal/trace.hpp"
+#include "exec_svc/journal/journaled_reactor.hpp"
 #include "exec_svc/wire_service.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
@@ -22,14 +29,16 @@ Durability durability_for(const Node& node) {
   return node.options().clock == services::ClockMode::live ? Durability::power : Durability::process;
 }
 
-v1::MissionPhase phase_to_wire(Phase phase) { return static_cast<v1::MissionPhase>(phase); }
+// For known services to be heard of after a restart.
+constexpr temporal::Duration kReunion = std::chrono::seconds(5);
 
-// Activity, state, window of its start in microseconds of mission time (-1: no bound), cause.
-std::string journal_line(const StepStatus& step) {
-  const std::int64_t latest = step.latest_start == temporal::no_bound ? -1 : step.latest_start.count();
-  return step.activity + " " + std::to_string(static_cast<int>(step.state)) + " [" +
-         std::to_string(step.earliest_start.count()) + "," + std::to_string(latest) + "] " + step.cause;
+CrashPoints crash_points(const Node& node) {
+  const char* setting = std::getenv("ROCI_CRASH");
+  return CrashPoints(setting == nullptr ? "" : setting, node.options().incarnation,
+                     [] { std::raise(SIGKILL); });
 }
+
+v1::MissionPhase phase_to_wire(Phase phase) { return static_cast<v1::MissionPhase>(phase); }
 
 // Collects what comes in one turn of the loop, steps the reactor once, journals what it decided, then sends
 // it.
@@ -41,7 +50,8 @@ class ExecService final : public services::Service {
         mission_(read_mission(settings.mission)),
         journal_(settings.run_folder / "journal.sqlite", durability_for(node)),
         epoch_(journal_.next_epoch()),
-        reactor_(mission_),
+        reactor_(mission_, journal_),
+        crash_(crash_points(node)),
         planner_(node, topics::plan_request),
         commands_(services::advertise(node, topics::command)),
         goal_statuses_(services::advertise(node, topics::goal_status)),
@@ -52,6 +62,7 @@ class ExecService final : public services::Service {
     recover();
     services::subscribe(node, topics::goal, [this](const v1::Goal& goal) {
       inputs_.goals.push_back(wire::from_wire(goal));
+      crash_.pass("after-goal");
       step_soon();
     });
     services::subscribe(node, topics::observation,
@@ -61,29 +72,56 @@ class ExecService final : public services::Service {
       inputs_.models.push_back({offer.owner(), offer.model_version()});
       step_soon();
     });
-    node.on_peer_change([this](const services::PeerChange& change) {
-      if (change.alive) {
-        inputs_.arrivals.push_back(change.service);
-      } else {
-        inputs_.losses.push_back({change.service, change.cause});
-      }
-      step_soon();
-    });
+    node.on_peer_change([this](const services::PeerChange& change) { take(change); });
     step_soon();
   }
 
   ~ExecService() override { write_summary(); }
 
  private:
-  // After a restart: goals and the trace so far come from the journal, the world from observations. Who joins
-  // now hears of every goal, as before.
+  // After a restart: who joins now hears of every goal and of the running plan, as before; the reactor itself
+  // asks again for what was under way.
   void recover() {
-    journal_.for_each([this](temporal::Time, std::string_view kind, std::string_view text) {
-      if (kind == "trace") trace_.add(text);
-    });
-    const std::vector<GoalRecord> goals = journal_.goals();
-    reactor_.restore(goals, static_cast<std::uint32_t>(journal_.number("plan_version", 0)));
-    for (const GoalRecord& goal : goals) goal_statuses_.write(wire::to_wire(goal));
+    const Recovery& recovery = reactor_.recovery();
+    if (!recovery.restarted) return;
+    slowest_call_s_ = temporal::to_seconds(temporal::Duration(journal_.number("slowest_call_us", 0)));
+    planner_peak_kb_ = static_cast<std::uint32_t>(journal_.number("planner_peak_kb", 0));
+    const Reactor& reactor = reactor_.reactor();
+    for (const GoalRecord* goal : reactor.goals().all()) goal_statuses_.write(wire::to_wire(*goal));
+    if (!recovery.resumed) return report_divergence(*recovery.divergence);
+    if (reactor.plan().version != 0) plans_.write(services::wire::to_wire(reactor.plan()));
+    for (const StepStatus& step : reactor.steps()) steps_.write(wire::to_wire(step, reactor.plan_version()));
+    for (const Note& note : recovery.last_notes) report(note);
+    missed_ = journal_.peers();
+    node_.after(kReunion, [this] { give_up_missed(); });
+  }
+
+  void report_divergence(const Divergence& divergence) {
+    report({NoteLevel::warning, "journal.diverged",
+            "the journal does not lead to the state before the restart, all is planned anew: expected " +
+                divergence.expected + ", got " + divergence.got});
+  }
+
+  void take(const services::PeerChange& change) {
+    const auto known = missed_.extract(change.service);
+    if (!change.alive) {
+      journal_.remove_peer(change.service);
+      inputs_.losses.push_back({change.service, change.cause});
+    } else if (known.empty() || known.mapped() != change.incarnation) {
+      journal_.put_peer(change.service, change.incarnation);
+      if (!known.empty())
+        inputs_.losses.push_back({change.service, "restarted while the executive was away"});
+      inputs_.arrivals.push_back(change.service);
+    }
+    step_soon();
+  }
+
+  void give_up_missed() {
+    for (const auto& [service, incarnation] : std::exchange(missed_, {})) {
+      journal_.remove_peer(service);
+      inputs_.losses.push_back({service, "gone since the executive was away"});
+    }
+    step_soon();
   }
 
   void take(const v1::Observation& observation) {
@@ -93,13 +131,14 @@ class ExecService final : public services::Service {
       report({NoteLevel::warning, "observation.malformed", observation.timeline() + ": " + error.what()});
       return;
     }
-    record(wire::trace_line(observation));
+    seen_.push_back(wire::trace_line(observation));
     step_soon();
   }
 
   void take(const v1::CommandAck& ack) {
     inputs_.acks.push_back(wire::from_wire(ack));
-    record(wire::trace_line(ack));
+    seen_.push_back(wire::trace_line(ack));
+    crash_.pass("after-ack");
     step_soon();
   }
 
@@ -111,10 +150,12 @@ class ExecService final : public services::Service {
 
   void step() {
     step_due_ = false;
-    const ReactorInputs inputs = std::exchange(inputs_, {});
-    const ReactorOutputs out = reactor_.step(node_.now(), inputs);
-    write_ahead(out);
+    crash_.pass("before-write-ahead");
+    const ReactorOutputs out =
+        reactor_.step(node_.now(), std::exchange(inputs_, {}), std::exchange(seen_, {}));
+    crash_.pass("after-write-ahead");
     send(out);
+    crash_.pass("after-send");
     publish_mission();
     if (out.wake) wake_at(*out.wake);
   }
@@ -127,40 +168,22 @@ class ExecService final : public services::Service {
     });
   }
 
-  void record(const std::string& line) {
-    const std::string stamped = std::to_string(node_.now().count()) + " " + line;
-    journal_.append(node_.now(), "trace", stamped);
-    trace_.add(stamped);
-  }
-
-  // Nothing is acknowledged or commanded before it stands in the journal.
-  void write_ahead(const ReactorOutputs& out) {
-    for (const GoalRecord& goal : out.goal_changes) journal_.put_goal(goal);
-    for (const Note& note : out.notes) journal_.append(node_.now(), "event", note.code + " " + note.text);
-    for (const StepStatus& step : out.steps) journal_.append(node_.now(), "step", journal_line(step));
-    if (out.adopted) {
-      journal_.set_number("plan_version", reactor_.plan_version());
-      record(wire::trace_line(services::wire::to_wire(*out.adopted)));
-    }
-    for (const Command& command : out.commands)
-      record(wire::trace_line(wire::to_wire(command, reactor_.plan_version(), epoch_)));
-    journal_.commit();
-  }
-
   void send(const ReactorOutputs& out) {
-    for (const GoalRecord& goal : out.goal_changes) goal_statuses_.write(wire::to_wire(goal));
-    if (out.adopted) plans_.write(services::wire::to_wire(*out.adopted));
+    const std::uint32_t version = reactor_.reactor().plan_version();
+    for (const GoalRecord& goal : out.goal_changes) sent(goal_statuses_.write(wire::to_wire(goal)));
+    if (out.adopted) sent(plans_.write(services::wire::to_wire(*out.adopted)));
     for (const Command& command : out.commands)
-      commands_.write(wire::to_wire(command, reactor_.plan_version(), epoch_));
-    for (const StepStatus& step : out.steps) steps_.write(wire::to_wire(step, reactor_.plan_version()));
+      sent(commands_.write(wire::to_wire(command, version, epoch_)));
+    for (const StepStatus& step : out.steps) sent(steps_.write(wire::to_wire(step, version)));
     for (const Note& note : out.notes) report(note);
     if (out.call) call_planner(*out.call);
   }
 
+  void sent(bool) { crash_.pass("during-send"); }
+
   void report(const Note& note) { events_.write(wire::to_wire(note)); }
 
   void call_planner(const PlanCall& call) {
-    journal_.append(node_.now(), "call", call.problem.text);
     planner_.call(
         wire::to_wire(call, mission_), "planner_svc", mission_.planner.reply_timeout,
         [this, id = call.id](const services::CallResult<v1::PlanReply>& result) { take(id, result); });
@@ -174,6 +197,8 @@ class ExecService final : public services::Service {
     if (result.status == services::CallStatus::ok) {
       slowest_call_s_ = std::max(slowest_call_s_, result.reply.statistics().wall_s());
       planner_peak_kb_ = std::max(planner_peak_kb_, result.reply.statistics().peak_rss_kb());
+      journal_.set_number("slowest_call_us", temporal::seconds(slowest_call_s_).count());
+      journal_.set_number("planner_peak_kb", planner_peak_kb_);
       try {
         answer = wire::from_wire(call, result.reply);
       } catch (const services::wire::WireError& error) {
@@ -182,21 +207,23 @@ class ExecService final : public services::Service {
       }
     }
     inputs_.answer = std::move(answer);
+    crash_.pass("after-answer");
     step_soon();
   }
 
   void publish_mission() {
     v1::MissionStatus status;
-    const ReactorCounts counts = reactor_.counts();
+    const Reactor& reactor = reactor_.reactor();
+    const ReactorCounts counts = reactor.counts();
     status.mission(mission_.name);
-    status.phase(phase_to_wire(reactor_.phase()));
-    status.plan_version(reactor_.plan_version());
+    status.phase(phase_to_wire(reactor.phase()));
+    status.plan_version(reactor.plan_version());
     status.replans(counts.replans);
     status.goals_achieved(counts.achieved);
     status.goals_dropped(counts.dropped);
     status.goals_failed(counts.failed);
     status.goals_open(counts.open);
-    status.outcome(reactor_.outcome());
+    status.outcome(reactor.outcome());
     for (const WindowModel& window : mission_.windows) {
       for (const auto& [opens, closes] : window.open) {
         v1::PredictedWindow predicted;
@@ -208,15 +235,15 @@ class ExecService final : public services::Service {
     }
     if (status == last_status_) return;
     last_status_ = status;
-    status.trace_sha256(trace_.sha256());
+    status.trace_sha256(reactor_.trace_sha256());
     missions_.write(status);
     if (!status.outcome().empty()) write_summary();
   }
 
   // The part of the run's summary that this service knows; the launcher adds the rest.
   void write_summary() const {
-    const ReactorCounts counts = reactor_.counts();
-    const std::string outcome = reactor_.outcome();
+    const ReactorCounts counts = reactor_.reactor().counts();
+    const std::string outcome = reactor_.reactor().outcome();
     const nlohmann::json summary{{"mission", mission_.name},
                                  {"scenario", settings_.scenario},
                                  {"seed", settings_.seed},
@@ -232,7 +259,7 @@ class ExecService final : public services::Service {
                                    {"max_rss_mb", planner_peak_kb_ / 1024.0}}},
                                  {"replans", counts.replans},
                                  {"sim_s", temporal::to_seconds(node_.now())},
-                                 {"trace_sha256", trace_.sha256()}};
+                                 {"trace_sha256", reactor_.trace_sha256()}};
     std::ofstream(settings_.run_folder / "summary.json") << summary.dump(2) << "\n";
   }
 
@@ -241,9 +268,11 @@ class ExecService final : public services::Service {
   MissionModel mission_;
   Journal journal_;
   std::uint64_t epoch_;
-  Trace trace_;
-  Reactor reactor_;
+  JournaledReactor reactor_;
+  CrashPoints crash_;
   ReactorInputs inputs_;
+  std::vector<std::string> seen_;                // the inputs' lines of the trace
+  std::map<std::string, std::uint32_t> missed_;  // services of before the restart, not heard of since
   bool step_due_ = false;
   std::optional<Node::TimerId> wake_timer_;
   v1::MissionStatus last_status_;

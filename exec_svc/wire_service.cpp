@@ -1,20 +1,10 @@
 #include "exec_svc/wire_service.hpp"
 
-#include <sstream>
+#include <algorithm>
 
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::exec::wire {
-namespace {
-
-std::string properties_text(const std::vector<v1::Property>& properties) {
-  std::string out;
-  for (const v1::Property& property : properties) out += " " + property.name() + "=" + property.value();
-  return out;
-}
-
-}  // namespace
-
 GoalRequest from_wire(const v1::Goal& in) {
   GoalRequest out;
   out.key = {in.issuer(), in.id()};
@@ -119,12 +109,6 @@ v1::Event to_wire(const Note& in) {
   return out;
 }
 
-std::string trace_line(const v1::Command& in) {
-  return "command " + in.activity() + " " + std::to_string(in.attempt()) +
-         " action=" + std::to_string(in.action()) + " " + in.owner() + " " + in.subsystem() + " " +
-         in.command_name() + properties_text(in.arguments());
-}
-
 std::string trace_line(const v1::CommandAck& in) {
   return "ack " + in.activity() + " " + std::to_string(in.attempt()) +
          " stage=" + std::to_string(in.stage()) + " " + in.owner() + " " + in.code() + " " + in.reason();
@@ -133,20 +117,6 @@ std::string trace_line(const v1::CommandAck& in) {
 std::string trace_line(const v1::Observation& in) {
   return "observation " + in.timeline() + " " + temporal::to_text(services::wire::from_wire(in.observed())) +
          " sampled " + std::to_string(in.sampled_us());
-}
-
-std::string trace_line(const v1::Plan& in) {
-  std::ostringstream out;
-  out << "plan " << in.id() << " " << in.version() << " origin " << in.origin_us();
-  for (const v1::PlanActivity& activity : in.activities()) {
-    out << "; " << activity.id() << " [" << activity.duration_lower_us() << ","
-        << activity.duration_upper_us() << "]" << properties_text(activity.arguments());
-  }
-  for (const v1::TemporalConstraint& constraint : in.constraints()) {
-    out << "; " << constraint.from_point() << "-" << constraint.to_point() << " [" << constraint.lower_us()
-        << "," << constraint.upper_us() << "]";
-  }
-  return out.str();
 }
 
 }  // namespace roci::exec::wire

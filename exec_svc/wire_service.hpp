@@ -21,10 +21,9 @@ v1::StepStatus to_wire(const StepStatus&, std::uint32_t plan_version);
 v1::PlanRequest to_wire(const PlanCall&, const MissionModel&);
 v1::Event to_wire(const Note&);
 
-// One line of the trace each: all that a run decided or saw, nothing that depends on the machine.
-std::string trace_line(const v1::Command&);
+// One line of the trace each, for what was seen; journal/decisions.hpp has those for what was decided. Nothing in them
+// depends on the machine.
 std::string trace_line(const v1::CommandAck&);
 std::string trace_line(const v1::Observation&);
-std::string trace_line(const v1::Plan&);
 
 }  // namespace roci::exec::wire

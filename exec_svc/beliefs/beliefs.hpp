@@ -21,6 +21,8 @@ class Beliefs {
   // Facts that hold for as long as a timeline has not been observed.
   void assume(const std::string& timeline, std::vector<std::string> facts);
   const temporal::Value* value(const std::string& timeline) const;
+  const std::map<std::string, temporal::Value>& values() const { return values_; }
+  const std::map<std::string, std::vector<std::string>>& assumed() const { return assumed_; }
 
   // Facts that observed states stand for, as text "(at place-1)", in a stable order.
   std::set<std::string> component_facts() const;

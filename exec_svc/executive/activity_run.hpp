@@ -32,6 +32,7 @@ struct ActivityRun {
   bool maintenance_held = false;             ///< seen true since the start: from then on it must stay true
   bool overrun_noted = false;                ///< its longest duration has passed and no longer bounds its end
   AfterCancel after_cancel = AfterCancel::fail;
+  bool asked = false;  ///< its owner was asked, after a restart, what became of it; not answered yet
   std::string cause;
 
   bool active() const { return phase != Phase::waiting && phase != Phase::done; }

@@ -57,6 +57,13 @@ Outputs Executive::step(temporal::Time now, const Inputs& inputs) {
   return run->take_outputs(impl_->now);
 }
 
+Outputs Executive::resume(temporal::Time now) {
+  impl_->move_to(now);
+  if (!impl_->run) return {};
+  impl_->run->resume(impl_->now);
+  return impl_->run->take_outputs(impl_->now);
+}
+
 Outputs Executive::cancel_all(temporal::Time now) {
   impl_->move_to(now);
   if (!impl_->run) return {};

@@ -43,6 +43,10 @@ class Executive {
   /// kept.
   Outputs step(temporal::Time now, const Inputs& inputs);
 
+  /// After a restart, with the state of before: asks the owners of everything that runs what became of it. What an
+  /// owner never heard of is sent again under its key; a cancel that it never heard of too.
+  Outputs resume(temporal::Time now);
+
   /// First phase of the cancel: asks the owners of everything that runs; step() takes their answers.
   Outputs cancel_all(temporal::Time now);
 

@@ -31,6 +31,7 @@ bool PlanRun::take_ack(const CommandAck& ack, Time now) {
   const Index activity = found->second;
   ActivityRun& run = runs_[activity];
   if (!run.active() || run.attempt != ack.attempt || plan_.activities[activity].owner.empty()) return false;
+  if (take_query_answer(activity, ack, now)) return true;
   if (run.phase == Phase::cancelling) {
     take_cancel_answer(activity, ack, now);
     return true;

@@ -33,6 +33,8 @@ class PlanRun {
   /// Acts on everything that holds at `now`, until nothing more happens.
   void advance(temporal::Time now);
   void cancel_all(temporal::Time now);
+  /// Asks what became of all that runs.
+  void resume(temporal::Time now);
 
   /// What was said and asked for since the last call, with the outcome as it is now.
   Outputs take_outputs(temporal::Time now);
@@ -57,6 +59,9 @@ class PlanRun {
   void send(Index activity, CommandAction action);
   temporal::Lookup lookup() const;
   bool starting() const { return outcome_.kind == OutcomeKind::running; }
+
+  // resuming.cpp: after a restart
+  bool take_query_answer(Index activity, const CommandAck& ack, temporal::Time now);
 
   // dispatching.cpp: points that may happen now
   bool dispatch(temporal::Time now);

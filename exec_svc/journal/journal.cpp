@@ -13,6 +13,7 @@ constexpr char kSchema[] =
     "CREATE TABLE IF NOT EXISTS goal(issuer TEXT, id TEXT, request TEXT NOT NULL, state INTEGER NOT NULL, "
     "reason TEXT NOT NULL,"
     " arrival INTEGER NOT NULL, plan_version INTEGER NOT NULL, PRIMARY KEY(issuer, id));"
+    "CREATE TABLE IF NOT EXISTS peer(service TEXT PRIMARY KEY, incarnation INTEGER NOT NULL);"
     "CREATE TABLE IF NOT EXISTS record(seq INTEGER PRIMARY KEY, time_us INTEGER NOT NULL, kind TEXT NOT "
     "NULL, text TEXT NOT NULL);";
 
@@ -63,6 +64,10 @@ class Statement {
     sqlite3_bind_text(statement_, ++bound_, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
     return *this;
   }
+  Statement& bind_bytes(std::string_view bytes) {
+    sqlite3_bind_blob64(statement_, ++bound_, bytes.data(), bytes.size(), SQLITE_TRANSIENT);
+    return *this;
+  }
   Statement& bind(std::int64_t value) {
     sqlite3_bind_int64(statement_, ++bound_, value);
     return *this;
@@ -79,7 +84,7 @@ class Statement {
     bound_ = 0;
   }
   std::string text(int column) const {
-    const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+    const auto* data = static_cast<const char*>(sqlite3_column_blob(statement_, column));
     return data == nullptr
                ? ""
                : std::string(data, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)));
@@ -182,14 +187,47 @@ std::vector<GoalRecord> Journal::goals() const {
   return out;
 }
 
+void Journal::put_peer(const std::string& service, std::uint32_t incarnation) {
+  database_->begin();
+  Statement(database_->handle, "INSERT OR REPLACE INTO peer VALUES(?,?)")
+      .bind(service)
+      .bind(static_cast<std::int64_t>(incarnation))
+      .run();
+}
+
+void Journal::remove_peer(const std::string& service) {
+  database_->begin();
+  Statement(database_->handle, "DELETE FROM peer WHERE service = ?").bind(service).run();
+}
+
+std::map<std::string, std::uint32_t> Journal::peers() const {
+  Statement rows(database_->handle, "SELECT service, incarnation FROM peer");
+  std::map<std::string, std::uint32_t> out;
+  while (rows.row()) out[rows.text(0)] = static_cast<std::uint32_t>(rows.number(1));
+  return out;
+}
+
 void Journal::append(temporal::Time time, std::string_view kind, std::string_view text) {
   database_->begin();
   database_->append_record->bind(time.count()).bind(kind).bind(text).run();
 }
 
-void Journal::for_each(
-    const std::function<void(temporal::Time, std::string_view, std::string_view)>& visit) const {
-  Statement rows(database_->handle, "SELECT time_us, kind, text FROM record ORDER BY seq");
+std::int64_t Journal::append_bytes(temporal::Time time, std::string_view kind, std::string_view bytes) {
+  database_->begin();
+  database_->append_record->bind(time.count()).bind(kind).bind_bytes(bytes).run();
+  return sqlite3_last_insert_rowid(database_->handle);
+}
+
+void Journal::forget_inputs_before(std::int64_t number) {
+  database_->begin();
+  Statement(database_->handle, "DELETE FROM record WHERE seq < ? AND kind IN ('input', 'anchor', 'restored')")
+      .bind(number)
+      .run();
+}
+
+void Journal::for_each_from(std::int64_t number, const Visit& visit) const {
+  Statement rows(database_->handle, "SELECT time_us, kind, text FROM record WHERE seq >= ? ORDER BY seq");
+  rows.bind(number);
   while (rows.row()) visit(temporal::Time(rows.number(0)), rows.text(1), rows.text(2));
 }
 

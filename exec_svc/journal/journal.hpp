@@ -1,11 +1,12 @@
-// What must survive a crash of exec_svc, in one SQLite file (write-ahead log): the goals, the epoch, and a
-// record of all that was planned, commanded, answered and observed. A goal is acknowledged only after
-// commit().
+// What must survive a crash of exec_svc, in one SQLite file (write-ahead log): the goals, the epoch, who was
+// there, and a record of all that came in, was planned, commanded, answered and observed. A goal is
+// acknowledged only after commit().
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -43,12 +44,25 @@ class Journal {
   void put_goal(const GoalRecord& record);
   std::vector<GoalRecord> goals() const;
 
-  // kind: "plan", "command", "ack", "observation" (these four make the trace), "event", "product", "step",
+  // The services that were there when the last turn was journaled, with their incarnations.
+  void put_peer(const std::string& service, std::uint32_t incarnation);
+  void remove_peer(const std::string& service);
+  std::map<std::string, std::uint32_t> peers() const;
+
+  // Text, kind: "trace" (plans, commands, acknowledgements and observations), "goal", "event", "step",
   // "call".
   void append(temporal::Time time, std::string_view kind, std::string_view text);
-  // In order of writing.
-  void for_each(
-      const std::function<void(temporal::Time, std::string_view kind, std::string_view text)>& visit) const;
+  // Bytes, kind: "input" (of one step of the reactor; its decisions follow), "anchor", "restored" (snapshots
+  // of the reactor). Returns the number of the record; numbers rise.
+  std::int64_t append_bytes(temporal::Time time, std::string_view kind, std::string_view bytes);
+
+  using Visit = std::function<void(temporal::Time, std::string_view kind, std::string_view text)>;
+  // In order of writing; the second: from the record of this number on.
+  void for_each(const Visit& visit) const { for_each_from(0, visit); }
+  void for_each_from(std::int64_t number, const Visit& visit) const;
+
+  // Removes inputs and snapshots before this record: nobody can replay what was before it any more.
+  void forget_inputs_before(std::int64_t number);
 
   void set_number(std::string_view name, std::int64_t value);
   std::int64_t number(std::string_view name, std::int64_t fallback) const;

@@ -210,7 +210,7 @@ std::uint32_t count_or(const Entry& parent, const char* key, std::uint32_t fallb
 
 ReactorSettings read_executive(const Entry& entry) {
   entry.allow_only({"ack_timeout_s", "fallback_timeout_s", "replan_limit", "call_retries", "failure_limit",
-                    "failure_pause_s"});
+                    "failure_pause_s", "keep_inputs"});
   ReactorSettings out;
   out.ack_timeout = seconds_or(entry, "ack_timeout_s", temporal::to_seconds(out.ack_timeout));
   out.fallback_timeout = seconds_or(entry, "fallback_timeout_s", temporal::to_seconds(out.fallback_timeout));
@@ -218,6 +218,7 @@ ReactorSettings read_executive(const Entry& entry) {
   out.call_retries = count_or(entry, "call_retries", out.call_retries, 0);
   out.failure_limit = count_or(entry, "failure_limit", out.failure_limit, 1);
   out.failure_pause = seconds_or(entry, "failure_pause_s", temporal::to_seconds(out.failure_pause));
+  out.keep_inputs = entry.truth_or("keep_inputs", out.keep_inputs);
   return out;
 }
 

@@ -108,6 +108,7 @@ struct ReactorSettings {
   std::uint32_t call_retries = 5;  // planner calls that failed for want of a service
   std::uint32_t failure_limit =
       5;  // failed commands of one component in a row; then their goals are given up
+  bool keep_inputs = true;  // of the whole mission in the journal; false: since the last anchor
   temporal::Duration failure_pause = temporal::seconds(30);  // after the second of them; doubles with each
 };
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "core/temporal/duration.hpp"
 
@@ -21,6 +22,8 @@ class FailureTally {
     temporal::Duration pause{0};  // before the next plan; none after the first failure and after the last
   };
   Count failed(const std::string& component);
+  const std::map<std::string, std::uint32_t>& in_a_row() const { return in_a_row_; }
+  void restore(std::map<std::string, std::uint32_t> in_a_row) { in_a_row_ = std::move(in_a_row); }
   void succeeded(const std::string& component) { in_a_row_.erase(component); }
 
  private:

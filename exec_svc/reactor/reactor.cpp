@@ -69,6 +69,7 @@ ReactorOutputs Reactor::step(Time now, const ReactorInputs& inputs) {
   take_goals(now, inputs.goals);
   note_achieved();
   run_executive(now, inputs);
+  if (inputs.restarted) resume(now);
   advance(now, inputs);
   return std::move(out_);
 }

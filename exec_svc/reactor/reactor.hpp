@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/temporal/flexible_plan.hpp"
@@ -61,6 +62,7 @@ struct ModelVersion {
 };
 
 struct ReactorInputs {
+  bool restarted = false;  // the executive was started anew and stands as before; its owners may not
   std::vector<GoalRequest> goals;
   std::vector<Observation> observations;
   std::vector<CommandAck> acks;
@@ -107,6 +109,15 @@ class Reactor {
 
   ReactorOutputs step(temporal::Time now, const ReactorInputs& inputs);
 
+  // Nothing is commanded and no end of a command awaited: snapshot() is all there is to know.
+  bool at_rest() const;
+  std::string snapshot() const;
+  // Before the first step: goes on as the reactor of which the snapshot was taken. Throws ArchiveError.
+  void restore(std::string_view snapshot);
+
+  const temporal::FlexiblePlan& plan() const { return executive_.plan(); }
+  std::vector<StepStatus> steps() const { return executive_.steps(); }
+
   Phase phase() const { return phase_; }
   std::uint32_t plan_version() const { return plan_version_; }
   ReactorCounts counts() const;
@@ -121,6 +132,9 @@ class Reactor {
   void assume_unobserved(const GoalRequest& goal);
   void note_achieved();
   void advance(temporal::Time now, const ReactorInputs& inputs);
+  void resume(temporal::Time now);
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
   void take_models(const std::vector<ModelVersion>& models);
   void follow_plan(temporal::Time now);
   void break_plan(const std::string& why);

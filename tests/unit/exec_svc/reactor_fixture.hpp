@@ -39,6 +39,11 @@ inline temporal::FlexiblePlan images(const std::vector<std::string>& ids) {
   return plan;
 }
 
+inline bool is_empty(const ReactorInputs& inputs) {
+  return inputs.goals.empty() && inputs.observations.empty() && inputs.acks.empty() &&
+         inputs.losses.empty() && inputs.arrivals.empty() && inputs.models.empty() && !inputs.answer;
+}
+
 class ReactorTest : public ::testing::Test {
  protected:
   // The answer to a planner call; by default a plan with an image of every goal in the problem.
@@ -68,11 +73,6 @@ class ReactorTest : public ::testing::Test {
       }
     }
     now = seconds(until_s);
-  }
-
-  static bool is_empty(const ReactorInputs& inputs) {
-    return inputs.goals.empty() && inputs.observations.empty() && inputs.acks.empty() &&
-           inputs.losses.empty() && inputs.arrivals.empty() && inputs.models.empty() && !inputs.answer;
   }
 
   void take(const ReactorOutputs& out) {

@@ -152,11 +152,19 @@ void ExecSeat::tell(const std::string& activity, std::uint32_t attempt, v1::Comm
   out.attempt(attempt);
   out.stage(stage);
   out.owner("sim_svc");
+  if (stage != v1::COMMAND_UNKNOWN) words_[{activity, attempt}] = stage;
   acks_.write(out);
 }
 
 void ExecSeat::obey(const v1::Command& command) {
   commands.push_back(command);
+  const std::pair key(command.activity(), command.attempt());
+  const auto word = words_.find(key);
+  if (command.action() == v1::COMMAND_QUERY ||
+      (command.action() == v1::COMMAND_EXECUTE && word != words_.end())) {
+    tell(command.activity(), command.attempt(), word == words_.end() ? v1::COMMAND_UNKNOWN : word->second);
+    return;
+  }
   if (command.command_name() == "stop" || command.action() == v1::COMMAND_CANCEL) {
     tell(command.activity(), command.attempt(),
          command.action() == v1::COMMAND_CANCEL ? v1::COMMAND_CANCELLED : v1::COMMAND_COMPLETED);

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "exec_svc/exec_service.hpp"
@@ -62,6 +63,7 @@ class ExecSeat {
   services::Publisher<v1::Observation> observations_;
   services::Publisher<v1::CommandAck> acks_;
   std::unique_ptr<services::Service> executive_;
+  std::map<std::pair<std::string, std::uint32_t>, v1::CommandStage> words_;  // the last on each key
   bool killed_ = false;
 };
 

@@ -114,24 +114,61 @@ TEST(ExecService, AMalformedObservationIsReportedAndIgnored) {
   EXPECT_EQ(seat.mission.outcome(), "achieved");
 }
 
-// What stood in the journal is there again: goals, the numbers of plans, a later epoch; the robot is brought
-// to rest and the rest is planned anew.
-TEST(ExecService, ARestartKeepsGoalsAndFinishesThem) {
+// The journal leads to where it was: the same plan goes on, nothing is planned or commanded again.
+TEST(ExecService, ARestartGoesOnWithTheRunningPlan) {
   ExecSeat seat;
   seat.send(10s, photo_goal("first"));
   seat.send(10s, photo_goal("second"));
   seat.kill_executive_at(80s);  // while the second image is taken
   seat.run_until(500s);
-  EXPECT_THAT(seat.events, Contains("plan.wanted").Times(2));
+  EXPECT_THAT(seat.events, Contains("executive.resumed"));
+  EXPECT_THAT(seat.events, Contains("plan.wanted").Times(1));
+  EXPECT_EQ(seat.planner_calls, 1);
   ASSERT_EQ(seat.plans.size(), 2U);
-  EXPECT_EQ(seat.plans[0].version(), 1U);
-  EXPECT_EQ(seat.plans[1].version(), 2U);
-  EXPECT_EQ(seat.plans[1].activities().size(), 1U) << "the first goal is achieved and stays so";
-  EXPECT_EQ(seat.commands.front().epoch(), 1U);
-  EXPECT_EQ(seat.commands.back().epoch(), 2U);
+  EXPECT_EQ(seat.plans[1].version(), 1U) << "told again to whoever joins now";
+  EXPECT_EQ(seat.plans[1].activities().size(), 2U);
+  ASSERT_EQ(seat.commands.size(), 3U);
+  EXPECT_EQ(seat.commands[1].epoch(), 1U);
+  EXPECT_EQ(seat.commands[2].action(), v1::COMMAND_QUERY);
+  EXPECT_EQ(seat.commands[2].activity(), seat.commands[1].activity());
+  EXPECT_EQ(seat.commands[2].epoch(), 2U);
   EXPECT_EQ(seat.mission.outcome(), "achieved");
   EXPECT_EQ(seat.mission.goals_achieved(), 2U);
   EXPECT_EQ(seat.journal().goals().size(), 2U);
+}
+
+// A planner call dies with who made it.
+TEST(ExecService, ARestartDuringAPlannerCallMakesItAgain) {
+  ExecSeat seat;
+  seat.send(10s, photo_goal("ridge"));
+  seat.kill_executive_at(10s + 200ms);
+  seat.run_until(200s);
+  EXPECT_EQ(seat.planner_calls, 2);
+  EXPECT_EQ(seat.plans.at(0).version(), 1U);
+  EXPECT_EQ(seat.mission.outcome(), "achieved");
+}
+
+// A journal that another version of the code wrote: goals, the numbers of plans and a later epoch stay; the
+// robot is brought to rest and the rest is planned anew.
+TEST(ExecService, AJournalThatLeadsElsewhereKeepsTheGoals) {
+  ExecSeat seat;
+  seat.send(10s, photo_goal("first"));
+  seat.send(10s, photo_goal("second"));
+  seat.at(79s, [&] {
+    Journal journal = seat.journal();
+    journal.append(79s, "event", "plan.broken by what this code never decides");
+    journal.commit();
+  });
+  seat.kill_executive_at(80s);
+  seat.run_until(500s);
+  EXPECT_THAT(seat.events, Contains("journal.diverged"));
+  EXPECT_THAT(seat.events, Contains("plan.wanted").Times(2));
+  ASSERT_EQ(seat.plans.size(), 2U);
+  EXPECT_EQ(seat.plans[1].version(), 2U);
+  EXPECT_EQ(seat.plans[1].activities().size(), 1U) << "the first goal is achieved and stays so";
+  EXPECT_EQ(seat.commands.back().epoch(), 2U);
+  EXPECT_EQ(seat.mission.outcome(), "achieved");
+  EXPECT_EQ(seat.mission.goals_achieved(), 2U);
 }
 
 // Whoever asked may be gone when the executive comes back.

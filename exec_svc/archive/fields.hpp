@@ -1,0 +1,139 @@
+// The fields of what goes into a journal, each type once, for reading and writing. A type that gains a member
+// gains it here too: what is left out is lost at a restart.
+#pragma once
+
+#include "exec_svc/archive/archive.hpp"
+#include "exec_svc/reactor/reactor.hpp"
+
+namespace roci::temporal {
+
+template <class T, class A>
+using Of = exec::Of<T, A>;
+
+template <class A>
+void fields(A& a, Of<State, A>& v) {
+  a(v.name, v.arguments);
+}
+template <class A>
+void fields(A& a, Of<Property, A>& v) {
+  a(v.name, v.value);
+}
+template <class A>
+void fields(A& a, Of<ConditionNode, A>& v) {
+  a(v.op, v.child_count, v.timeline, v.operand);
+}
+template <class A>
+void fields(A& a, Of<Condition, A>& v) {
+  a(v.nodes);
+}
+template <class A>
+void fields(A& a, Of<Impact, A>& v) {
+  a(v.timeline, v.kind, v.moment, v.amount);
+}
+template <class A>
+void fields(A& a, Of<TemporalConstraint, A>& v) {
+  a(v.from_point, v.to_point, v.kind, v.lower, v.upper);
+}
+template <class A>
+void fields(A& a, Of<PlanActivity, A>& v) {
+  a(v.id, v.name, v.owner, v.subsystem, v.command_name, v.arguments, v.start_point, v.end_point);
+  a(v.duration_lower, v.duration_upper, v.pre, v.maintenance, v.post, v.impacts, v.wait_timeout, v.retries);
+  a(v.may_skip, v.skip_if, v.lateness, v.commit, v.contingency, v.parent, v.goals_served, v.utility);
+}
+template <class A>
+void fields(A& a, Of<Token, A>& v) {
+  a(v.timeline, v.held, v.start_point, v.end_point);
+}
+template <class A>
+void fields(A& a, Of<DecisionChoice, A>& v) {
+  a(v.name, v.activities);
+}
+template <class A>
+void fields(A& a, Of<DecisionPoint, A>& v) {
+  a(v.id, v.resolver, v.choices, v.decide_before);
+}
+template <class A>
+void fields(A& a, Of<FunctionValueUse, A>& v) {
+  a(v.function, v.arguments, v.number, v.owner, v.model_version, v.computed);
+}
+template <class A>
+void fields(A& a, Of<FlexiblePlan, A>& v) {
+  a(v.id, v.version, v.engine, v.origin, v.point_count);
+  a(v.activities, v.tokens, v.decisions, v.constraints, v.function_values);
+}
+
+}  // namespace roci::temporal
+
+namespace roci::exec {
+
+template <class A>
+void fields(A& a, Of<GoalKey, A>& v) {
+  a(v.issuer, v.id);
+}
+template <class A>
+void fields(A& a, Of<GoalRequest, A>& v) {
+  a(v.key, v.kind, v.arguments, v.importance, v.utility, v.priority, v.opens, v.closes, v.recalled);
+}
+template <class A>
+void fields(A& a, Of<GoalRecord, A>& v) {
+  a(v.request, v.state, v.reason, v.arrival, v.plan_version);
+}
+template <class A>
+void fields(A& a, Of<Observation, A>& v) {
+  a(v.timeline, v.value);
+}
+template <class A>
+void fields(A& a, Of<CommandAck, A>& v) {
+  a(v.activity, v.attempt, v.stage, v.code, v.reason);
+}
+template <class A>
+void fields(A& a, Of<PeerLoss, A>& v) {
+  a(v.service, v.cause);
+}
+template <class A>
+void fields(A& a, Of<ModelVersion, A>& v) {
+  a(v.owner, v.version);
+}
+template <class A>
+void fields(A& a, Of<PlanAnswer, A>& v) {
+  a(v.call, v.verdict, v.reason, v.plan);
+}
+template <class A>
+void fields(A& a, Of<ReactorInputs, A>& v) {
+  a(v.restarted, v.goals, v.observations, v.acks, v.losses, v.arrivals, v.models, v.answer);
+}
+template <class A>
+void fields(A& a, Of<ProblemObject, A>& v) {
+  a(v.name, v.type, v.properties);
+}
+template <class A>
+void fields(A& a, Of<Problem, A>& v) {
+  a(v.text, v.objects);
+}
+template <class A>
+void fields(A& a, Of<PlanCall, A>& v) {
+  a(v.id, v.problem_name, v.problem, v.origin);
+}
+template <class A>
+void fields(A& a, Of<ReactorCounts, A>& v) {
+  a(v.planner_calls, v.replans, v.achieved, v.dropped, v.failed, v.open);
+}
+
+template <class T>
+std::string to_bytes(const T& value) {
+  Writer writer;
+  writer(value);
+  return writer.take();
+}
+
+// Throws ArchiveError.
+template <class T>
+T from_bytes(std::string_view bytes) {
+  T out{};
+  Reader reader(bytes);
+  reader(out);
+  reader.finish();
+  return out;
+}
+
+}  // namespace roci::exec

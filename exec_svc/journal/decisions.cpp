@@ -1,0 +1,69 @@
+#include "exec_svc/journal/decisions.hpp"
+
+#include <sstream>
+
+namespace roci::exec {
+namespace {
+
+std::string properties_text(const std::vector<temporal::Property>& properties) {
+  std::string out;
+  for (const temporal::Property& property : properties) out += " " + property.name + "=" + property.value;
+  return out;
+}
+
+std::int64_t number(temporal::Duration bound) { return bound == temporal::no_bound ? -1 : bound.count(); }
+
+std::string line_of(const GoalRecord& goal) {
+  return goal.request.key.text() + " " + std::to_string(static_cast<int>(goal.state)) + " " + goal.reason;
+}
+
+// Activity, state, window of its start in microseconds of mission time (-1: no bound), cause.
+std::string line_of(const StepStatus& step) {
+  return step.activity + " " + std::to_string(static_cast<int>(step.state)) + " [" +
+         std::to_string(step.earliest_start.count()) + "," + std::to_string(number(step.latest_start)) +
+         "] " + step.cause;
+}
+
+std::string line_of(const temporal::FlexiblePlan& plan) {
+  std::ostringstream out;
+  out << "plan " << plan.id << " " << plan.version << " origin " << plan.origin.count();
+  for (const temporal::PlanActivity& activity : plan.activities) {
+    out << "; " << activity.id << " [" << activity.duration_lower.count() << ","
+        << number(activity.duration_upper) << "]" << properties_text(activity.arguments);
+  }
+  for (const temporal::TemporalConstraint& constraint : plan.constraints) {
+    out << "; " << constraint.from_point << "-" << constraint.to_point << " [" << constraint.lower.count()
+        << "," << number(constraint.upper) << "]";
+  }
+  return out.str();
+}
+
+std::string line_of(const Command& command) {
+  return "command " + command.activity + " " + std::to_string(command.attempt) +
+         " action=" + std::to_string(static_cast<int>(command.action)) + " " + command.owner + " " +
+         command.subsystem + " " + command.command_name + properties_text(command.arguments);
+}
+
+}  // namespace
+
+std::vector<Line> decisions(temporal::Time now, const ReactorOutputs& out) {
+  const std::string stamp = std::to_string(now.count()) + " ";
+  std::vector<Line> lines;
+  for (const GoalRecord& goal : out.goal_changes) lines.push_back({"goal", line_of(goal)});
+  for (const Note& note : out.notes) lines.push_back({"event", note.code + " " + note.text});
+  for (const StepStatus& step : out.steps) lines.push_back({"step", line_of(step)});
+  if (out.adopted) lines.push_back({"trace", stamp + line_of(*out.adopted)});
+  for (const Command& command : out.commands) lines.push_back({"trace", stamp + line_of(command)});
+  if (out.call) lines.push_back({"call", out.call->problem.text});
+  return lines;
+}
+
+bool is_decision(std::string_view kind, std::string_view text) {
+  if (kind == "trace") {
+    text.remove_prefix(std::min(text.find(' '), text.size()));
+    return text.starts_with(" plan ") || text.starts_with(" command ");
+  }
+  return kind == "goal" || kind == "event" || kind == "step" || kind == "call";
+}
+
+}  // namespace roci::exec

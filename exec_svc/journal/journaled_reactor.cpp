@@ -1,0 +1,126 @@
+#include "exec_svc/journal/journaled_reactor.hpp"
+
+#include <algorithm>
+
+#include "exec_svc/archive/fields.hpp"
+
+namespace roci::exec {
+namespace {
+
+// Of inputs and snapshots. Rises when fields.hpp or the reactor's snapshot change.
+constexpr std::int64_t kFormat = 1;
+
+// A replay of so many turns takes a moment, no more; an anchor is written then wherever the reactor rests.
+constexpr std::size_t kTurnsUntilAnchor = 500;
+
+// Of requests the journal's table keeps what can be shown; the inputs have them exactly.
+bool same(const GoalRecord& a, const GoalRecord& b) {
+  return a.request.key == b.request.key && a.state == b.state && a.reason == b.reason &&
+         a.arrival == b.arrival && a.plan_version == b.plan_version;
+}
+
+}  // namespace
+
+JournaledReactor::JournaledReactor(const MissionModel& mission, Journal& journal)
+    : mission_(&mission), journal_(&journal), reactor_(std::make_unique<Reactor>(mission)) {
+  recover();
+}
+
+void JournaledReactor::recover() {
+  bool empty = true;
+  journal_->for_each([&](temporal::Time, std::string_view kind, std::string_view text) {
+    empty = false;
+    if (kind == "trace") trace_.add(text);
+  });
+  if (empty && journal_->goals().empty()) {
+    journal_->set_number("format", kFormat);
+    return;
+  }
+  recovery_.restarted = true;
+  recovery_.resumed = replay();
+  if (recovery_.resumed) {
+    resume_due_ = true;
+  } else {
+    begin_anew();
+  }
+}
+
+bool JournaledReactor::replay() {
+  Replay replay(*reactor_);
+  const auto fail = [this](std::string expected, std::string got) {
+    recovery_.divergence = Divergence{temporal::Time{0}, std::move(expected), std::move(got)};
+    return false;
+  };
+  const std::int64_t format = journal_->number("format", 0);
+  if (format != kFormat)
+    return fail("a journal of format " + std::to_string(kFormat), "format " + std::to_string(format));
+  try {
+    journal_->for_each_from(journal_->number("anchor", 0),
+                            [&](temporal::Time time, std::string_view kind, std::string_view bytes) {
+                              const bool snapshot = kind == "anchor" || kind == "restored";
+                              if (snapshot && replay.turns() == 0) reactor_->restore(bytes);
+                              replay.take(time, kind, bytes);
+                            });
+  } catch (const ArchiveError& error) {
+    return fail("a snapshot that can be read", error.what());
+  }
+  replay.finish();
+  recovery_.turns = replay.turns();
+  recovery_.divergence = replay.divergence();
+  if (recovery_.divergence) return false;
+  recovery_.last_notes = replay.outputs().notes;
+  const auto replayed = reactor_->goals().all();
+  const auto journaled = journal_->goals();
+  const auto equal = [](const GoalRecord* a, const GoalRecord& b) { return same(*a, b); };
+  if (!std::equal(replayed.begin(), replayed.end(), journaled.begin(), journaled.end(), equal))
+    return fail("the goals of the journal", "others");
+  return true;
+}
+
+// Goals and plan numbers from the journal, the rest from observations to come.
+void JournaledReactor::begin_anew() {
+  reactor_ = std::make_unique<Reactor>(*mission_);
+  reactor_->restore(journal_->goals(), static_cast<std::uint32_t>(journal_->number("plan_version", 0)));
+  journal_->set_number("format", kFormat);
+  anchor(temporal::Time{0}, "restored");
+}
+
+ReactorOutputs JournaledReactor::step(temporal::Time now, ReactorInputs inputs,
+                                      const std::vector<std::string>& seen) {
+  inputs.restarted = std::exchange(resume_due_, false);
+  ReactorOutputs out = reactor_->step(now, inputs);
+  write(now, inputs, seen, out);
+  return out;
+}
+
+void JournaledReactor::write(temporal::Time now, const ReactorInputs& inputs,
+                             const std::vector<std::string>& seen, const ReactorOutputs& out) {
+  journal_->append_bytes(now, "input", to_bytes(inputs));
+  for (const std::string& line : seen) trace(now, std::to_string(now.count()) + " " + line);
+  for (const Line& line : decisions(now, out)) {
+    if (line.kind == "trace") {
+      trace(now, line.text);
+    } else {
+      journal_->append(now, line.kind, line.text);
+    }
+  }
+  for (const GoalRecord& goal : out.goal_changes) journal_->put_goal(goal);
+  if (out.adopted) journal_->set_number("plan_version", reactor_->plan_version());
+  ++turns_since_anchor_;
+  if (reactor_->at_rest() && (out.call || turns_since_anchor_ >= kTurnsUntilAnchor)) anchor(now, "anchor");
+  journal_->commit();
+}
+
+void JournaledReactor::trace(temporal::Time now, const std::string& line) {
+  journal_->append(now, "trace", line);
+  trace_.add(line);
+}
+
+void JournaledReactor::anchor(temporal::Time now, std::string_view kind) {
+  const std::int64_t number = journal_->append_bytes(now, kind, reactor_->snapshot());
+  journal_->set_number("anchor", number);
+  if (!mission_->executive.keep_inputs) journal_->forget_inputs_before(number);
+  turns_since_anchor_ = 0;
+}
+
+}  // namespace roci::exec

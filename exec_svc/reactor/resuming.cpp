@@ -1,0 +1,67 @@
+// Reactor: after a restart. Its state comes from a snapshot and the inputs since; what was on its way to
+// owners and planner is asked for again.
+#include <iterator>
+
+#include "exec_svc/archive/fields.hpp"
+#include "exec_svc/reactor/reactor.hpp"
+
+namespace roci::exec {
+
+void Reactor::resume(temporal::Time now) {
+  note(NoteLevel::info, "executive.resumed",
+       std::string("goes on where it was: ") + to_string(phase_) +
+           (phase_ == Phase::executing ? " plan " + std::to_string(plan_version_) : ""));
+  Outputs asked = executive_.resume(now);
+  std::move(asked.commands.begin(), asked.commands.end(), std::back_inserter(out_.commands));
+  if (asked.next_wake) wake_at(*asked.next_wake);
+  if (phase_ == Phase::planning && !wanted_) begin_planning(now);  // nobody waits for the old answer
+  if (phase_ == Phase::planning && wanted_) phase_ = Phase::idle;
+  fallbacks_sent_ = false;
+  if (phase_ == Phase::safe && !beliefs_.active().empty()) send_fallbacks(now);
+}
+
+bool Reactor::at_rest() const {
+  const OutcomeKind kind = executive_.outcome().kind;
+  return phase_ != Phase::executing &&
+         (kind == OutcomeKind::idle || kind == OutcomeKind::finished || kind == OutcomeKind::cancelled);
+}
+
+template <class Archive, class Self>
+void Reactor::fields(Archive& a, Self& self) {
+  a(self.phase_, self.wanted_, self.wanted_why_, self.first_plan_, self.plan_version_, self.call_id_,
+    self.call_);
+  a(self.counts_, self.models_, self.models_changed_, self.outdated_calls_, self.pause_deadline_);
+  a(self.fallback_round_, self.fallbacks_sent_, self.failed_calls_, self.not_before_, self.told_starts_);
+  a(self.condition_values_);
+}
+
+std::string Reactor::snapshot() const {
+  Writer writer;
+  fields(writer, *this);
+  std::vector<GoalRecord> goals;
+  for (const GoalRecord* record : goals_.all()) goals.push_back(*record);
+  writer(goals, beliefs_.values(), beliefs_.assumed(), failures_.in_a_row());
+  return writer.take();
+}
+
+void Reactor::restore(std::string_view snapshot) {
+  Reader reader(snapshot);
+  fields(reader, *this);
+  std::vector<GoalRecord> goals;
+  std::map<std::string, temporal::Value> values;
+  std::map<std::string, std::vector<std::string>> assumed;
+  std::map<std::string, std::uint32_t> in_a_row;
+  reader(goals, values, assumed, in_a_row);
+  reader.finish();
+  for (const GoalRecord& record : goals) goals_.restore(record);
+  Inputs observed;
+  for (auto& [timeline, value] : values) {
+    beliefs_.observe(timeline, value);
+    observed.observations.push_back({timeline, value});
+  }
+  executive_.step(temporal::Time{0}, observed);
+  for (auto& [timeline, facts] : assumed) beliefs_.assume(timeline, std::move(facts));
+  failures_.restore(std::move(in_a_row));
+}
+
+}  // namespace roci::exec
