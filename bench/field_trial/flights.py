@@ -132,7 +132,8 @@ def fly(programs: Programs, mission: Path, scenario: str, seed: int, folder: Pat
 
 def read_journal(flight: Flight) -> None:
     database = sqlite3.connect(f"file:{flight.folder / 'journal.sqlite'}?mode=ro", uri=True)
-    records = [(us / 1e6, kind, text) for us, kind, text in database.execute("SELECT time_us, kind, text FROM record ORDER BY seq")]
+    rows = database.execute("SELECT time_us, kind, text FROM record ORDER BY seq")
+    records = [(us / 1e6, kind, text) for us, kind, text in rows]
     goals = list(database.execute("SELECT issuer, id, request, state, reason FROM goal ORDER BY arrival"))
     database.close()
     for time_s, kind, text in records:

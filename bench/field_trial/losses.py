@@ -11,12 +11,14 @@ from second_look import SecondLook
 
 # In the order in which they are asked for; the first that applies counts.
 EXPLANATIONS = {
-    "missed": "The planner spent its budget on a problem that has a plan.",
+    "missed": "The planner spent its budget on a problem that has a plan. A bound on the earliest time at which each window "
+    "can still be met would end such a search early.",
     "budget": "The planner spent its budget on a problem that has no plan: the goal had to go, but it took long to see.",
     "no way": "No way leads there: closed terrain, rocks, or a place that the rover would touch.",
-    "component": "A component failed five times in a row; its goals are given up, since nobody knows for how long.",
+    "component": "A component failed five times in a row; its goals are given up, since nobody knows for how long. Longer "
+    "pauses between the tries would outlast the fault.",
     "energy": "Not enough energy: little at the start, a loss on the way, or what the robot draws while it waits for a "
-    "window, which the domain does not know.",
+    "window. The domain does not know the last; a larger reserve would.",
     "too late": "The world was slower than the model (slip, rocks on the way): a latest start passed, and no plan had "
     "all goals any more.",
     "does not fit": "With the goals that were there before, no plan had this one; it was given up as it came, newest first "

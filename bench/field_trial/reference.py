@@ -109,7 +109,8 @@ class Scheduler:
         """The stops that the goals need, images that only wait to be sent, and whether each goal has its stop."""
         facts = self.problem.facts
         targets = {fact[1]: fact[2] for fact in facts if fact[0] == "target"}
-        samples = {fact[1]: fact[2] for fact in [*facts, *(fact for _, _, fact in self.problem.timed)] if fact[0] == "sample-at"}
+        some_time = facts | {fact for _, _, fact in self.problem.timed}
+        samples = {fact[1]: fact[2] for fact in some_time if fact[0] == "sample-at"}
         held = self._first("holding")
         stops: set[Stop] = set()
         stored = []
