@@ -5,24 +5,10 @@
 
 namespace roci::planner::temporal_pddl {
 
-namespace {
-
-bool has_windows(const Task& task) {
-  for (std::size_t i = 0; i < task.snaps.size(); ++i) {
-    if (!task.windows[i].empty()) return true;
-  }
-  for (std::size_t i = 0; i < task.actions.size(); ++i) {
-    if (!task.span_windows[i].empty()) return true;
-  }
-  return false;
-}
-
-}  // namespace
-
 EarliestTimes::EarliestTimes(const Task& task, const RelaxedTask& relaxed)
     : task_(task),
       relaxed_(relaxed),
-      matters_(has_windows(task)),
+      matters_(task.has_absolute_times()),
       times_(relaxed.propositions(), kNever),
       initially_open_(relaxed.operators(), 0),
       ready_(relaxed.operators(), 0),

@@ -20,7 +20,7 @@ class EarliestTimes {
  public:
   EarliestTimes(const Task& task, const RelaxedTask& relaxed);
 
-  // Without windows and timed literals, time can block nothing: measuring says no more than reachability.
+  // Without absolute times, time can block nothing: measuring says no more than reachability.
   bool matters() const { return matters_; }
   void measure(const Situation& situation);
   // After measure(). kNever: not at all.

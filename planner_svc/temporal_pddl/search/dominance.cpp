@@ -40,6 +40,7 @@ Dominance::Dominance(const Task& task, const StateStore& store, const BoundTable
       check_(check),
       epsilon_(epsilon),
       end_counts_(end_counts),
+      absolute_(end_counts || task.has_absolute_times()),
       preferences_(number_preferences(task)),
       slots_(1024),
       position_(task.variables(), kAbsent) {}
@@ -48,7 +49,9 @@ std::uint32_t Dominance::hash(StateView state, const PlanPrefix& prefix) const {
   std::uint64_t h = prefix.timed_done;
   for (const Word word : state.first(state.size() - preferences_.size())) h = mix(h ^ word);
   for (const ActionId action : prefix.running_actions) h += mix(action.value + 0x9e3779b97f4a7c15ull);
-  return static_cast<std::uint32_t>(mix(h));
+  // The last bit tells plans in which nothing runs.
+  const auto result = static_cast<std::uint32_t>(mix(h));
+  return prefix.running.empty() ? result | 1u : result & ~1u;
 }
 
 // Equal facts, and numbers that are equal or better.
@@ -77,6 +80,7 @@ bool Dominance::dominated(StateView state, const PlanPrefix& prefix) {
   for (std::size_t slot = h & mask; !slots_[slot].node.is_none(); slot = (slot + 1) & mask) {
     const NodeId node = slots_[slot].node;
     if (slots_[slot].hash != h || !as_good(store_.state(node), state)) continue;
+    if (!absolute_ && prefix.running.empty()) return true;
     rebuild(task_, store_, bounds_, epsilon_, node, other_);
     if (other_.timed_done != prefix.timed_done || !same_running(other_, prefix)) continue;
     if (compared == 0) fresh = profile(prefix, false);
@@ -130,11 +134,11 @@ Dominance::Profile Dominance::profile(const PlanPrefix& prefix, bool stored) {
     for (const std::size_t i : order) starts.push_back(distances[prefix.running[i].step]);
     if (end_counts_) starts.push_back(distances.empty() ? kNoPath : std::ranges::max(distances));
   };
-  const std::vector<Ticks> earliest = *check_.earliest(prefix);
-  add_source(earliest);
-  if (!prefix.running.empty()) {
-    const Stn network = TemporalCheck::network(prefix);
-    for (const std::size_t i : order) add_source(*network.longest_from(prefix.running[i].step));
+  const Stn network = TemporalCheck::network(prefix);
+  for (const std::size_t i : order) add_source(*network.longest_from(prefix.running[i].step));
+  if (absolute_) {
+    const std::vector<Ticks> earliest = *check_.earliest(prefix);
+    add_source(earliest);
     const auto windows = stored ? check_.chosen_windows(prefix, earliest) : check_.widest_windows(prefix);
     const auto latest = TemporalCheck::latest(prefix, windows);
     for (const std::size_t i : order) result.latest.push_back(latest[prefix.running[i].step]);

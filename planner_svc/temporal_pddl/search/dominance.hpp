@@ -8,6 +8,9 @@
 // running starts at least those of the new plan, then every schedule of a continuation of the new plan is one
 // of the same continuation of the stored plan. "Equal" means: the same packed state and numbers, the same
 // running actions, as many timed literals.
+//
+// Where it does not matter when a plan happens as a whole, the origin is no source; and if nothing runs
+// either, no time matters and equal states are enough.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +24,7 @@ namespace roci::planner::temporal_pddl {
 
 class Dominance {
  public:
-  // end_counts: a plan may have a deadline, so that the time of its last step matters too.
+  // end_counts: the time of the last step matters, because plans have deadlines or shorter ones are wanted.
   Dominance(const Task& task, const StateStore& store, const BoundTable& bounds, TemporalCheck& check,
             Duration epsilon, bool end_counts);
 
@@ -42,7 +45,7 @@ class Dominance {
     Ticks change = kNoPath;  // for adding: also after the last readers
     Ticks erase = kNoPath;   // for other changes: also after the ends of invariants
   };
-  // Sources are the origin and then the running starts, by action.
+  // Sources are the origin, if it is one, and then the running starts, by action.
   struct Profile {
     std::vector<VariableId> touched;
     std::vector<std::vector<Freedom>> freedoms;  // by source, by position in touched
@@ -70,6 +73,7 @@ class Dominance {
   TemporalCheck& check_;
   Duration epsilon_;
   bool end_counts_;
+  bool absolute_;  // the origin is a source
   IdVector<NumberId, Preference> preferences_;
   std::vector<Slot> slots_;  // open addressing, a power of two; none: free
   std::size_t size_ = 0;

@@ -11,18 +11,23 @@ namespace roci::planner::temporal_pddl {
 
 class Evaluation {
  public:
-  explicit Evaluation(const Task& task) : freedom_(task) {}
+  explicit Evaluation(const Task& task) : absolute_(task.has_absolute_times()), freedom_(task) {}
 
   void evaluate(const Successor& successor, Heuristic& heuristic, Estimate& estimate) {
     const PlanPrefix& prefix = successor.prefix;
-    freedom_.measure(prefix.steps, successor.times);
-    started_.clear();
-    for (const Running& running : prefix.running) started_.push_back(successor.times[running.step]);
-    heuristic.evaluate({successor.state, prefix.running_actions, prefix.timed_done, &freedom_, started_},
-                       estimate);
+    Situation situation{successor.state, prefix.running_actions, prefix.timed_done, nullptr, {}};
+    if (absolute_) {
+      freedom_.measure(prefix.steps, successor.times);
+      started_.clear();
+      for (const Running& running : prefix.running) started_.push_back(successor.times[running.step]);
+      situation.freedom = &freedom_;
+      situation.started = started_;
+    }
+    heuristic.evaluate(situation, estimate);
   }
 
  private:
+  bool absolute_;  // else times tell a heuristic nothing
   TimeFreedom freedom_;
   std::vector<Ticks> started_;  // by running action
 };

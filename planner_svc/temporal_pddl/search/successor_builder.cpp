@@ -33,6 +33,10 @@ bool SuccessorBuilder::applicable(const PlanPrefix& prefix, SnapId snap_id) cons
 
 Rejection SuccessorBuilder::build(const PlanPrefix& prefix, SnapId snap, Successor& successor) {
   if (!extend(prefix, snap, successor)) return Rejection::logical;
+  if (!absolute_ && prefix.running.empty() && successor.prefix.running.empty()) {
+    successor.times.clear();
+    return Rejection::none;
+  }
   const std::vector<Ticks>* times = check_.earliest(successor.prefix);
   if (!times) return Rejection::temporal;
   successor.times = *times;

@@ -18,20 +18,26 @@ struct Successor {
   Transition transition;
   std::vector<Word> state;
   PlanPrefix prefix;                // of the new state; its node is not set
-  std::vector<Ticks> times;         // of the prefix's steps, at the earliest; after build() without rejection
+  std::vector<Ticks> times;         // of the prefix's steps, at the earliest, if build() has scheduled them
   std::size_t new_constraints = 0;  // how many of prefix.constraints the transition added, at their end
 };
 
 class SuccessorBuilder {
  public:
   SuccessorBuilder(const Task& task, const StateStore& store, TemporalCheck& check, Duration epsilon)
-      : task_(task), store_(store), check_(check), semantics_(task), orderings_(task, epsilon) {}
+      : task_(task),
+        store_(store),
+        check_(check),
+        absolute_(task.has_absolute_times()),
+        semantics_(task),
+        orderings_(task, epsilon) {}
 
   // Is it worth a try? Conditions hold, and an end belongs to a running action (R11), a start does not, the
   // timed literal is the next one.
   bool applicable(const PlanPrefix& prefix, SnapId snap) const;
   // The state after an applicable snap action: all invariants hold (R13) and the plan can be scheduled (R25).
-  // A compression safe action is ended at once (R14).
+  // A compression safe action is ended at once (R14). If nothing runs before and after, and only the order of
+  // things matters, the new steps can be late enough for everything: then nothing is scheduled.
   Rejection build(const PlanPrefix& prefix, SnapId snap, Successor& successor);
   // As build(), but does not ask whether the plan can be scheduled. False: an invariant breaks, or no
   // duration is possible.
@@ -47,6 +53,7 @@ class SuccessorBuilder {
   const Task& task_;
   const StateStore& store_;
   TemporalCheck& check_;
+  bool absolute_;
   Semantics semantics_;
   Orderings orderings_;
 };

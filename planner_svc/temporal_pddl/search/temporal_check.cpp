@@ -63,6 +63,7 @@ const std::vector<Ticks>* TemporalCheck::earliest(const PlanPrefix& prefix) {
   fill(prefix, network_);
   times_.assign(prefix.steps.size(), 0);
   if (!times_.empty()) times_[prefix.closing_step] = prefix.closing_time;
+  if (!absolute_) return network_.raise(times_) ? &times_ : nullptr;
   for (bool changed = true; changed;) {
     changed = false;
     if (!fit_windows(prefix, changed)) return nullptr;

@@ -16,7 +16,8 @@ namespace roci::planner::temporal_pddl {
 
 class TemporalCheck {
  public:
-  TemporalCheck(const Task& task, Duration epsilon) : task_(task), bounds_(task, epsilon) {}
+  TemporalCheck(const Task& task, Duration epsilon)
+      : task_(task), bounds_(task, epsilon), absolute_(task.has_absolute_times()) {}
 
   // The least time of each step; null if the plan is temporally inconsistent. Valid until the next call.
   const std::vector<Ticks>* earliest(const PlanPrefix& prefix);
@@ -38,6 +39,7 @@ class TemporalCheck {
 
   const Task& task_;
   TimeBounds bounds_;
+  bool absolute_;
   Stn network_;
   std::vector<Ticks> times_;
 };

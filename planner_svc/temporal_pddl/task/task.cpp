@@ -23,4 +23,15 @@ std::string name(const Task& task, ActionId action) {
   return application(task, task.schemas[task.actions[action].schema.index()], task.action_arguments[action]);
 }
 
+bool Task::has_absolute_times() const {
+  if (!timed_steps.empty()) return true;
+  for (std::size_t i = 0; i < snaps.size(); ++i) {
+    if (!windows[i].empty()) return true;
+  }
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    if (!span_windows[i].empty()) return true;
+  }
+  return false;
+}
+
 }  // namespace roci::planner::temporal_pddl
