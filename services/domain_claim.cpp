@@ -30,6 +30,17 @@ int bind_alone(std::uint16_t port) {
   return -1;
 }
 
+// Participants need no claim (a run with --domain has none), and the first of them may have left.
+bool has_participants(int domain) {
+  for (int participant = 0; participant < kMaxParticipantsPerHost; ++participant) {
+    const int probe =
+        bind_alone(static_cast<std::uint16_t>(first_participant_port(domain) + 2 * participant));
+    if (probe < 0) return true;
+    close(probe);
+  }
+  return false;
+}
+
 }  // namespace
 
 DomainClaim::DomainClaim() {
@@ -39,11 +50,7 @@ DomainClaim::DomainClaim() {
     id_ = 1 + (start + i) % kLastDomain;
     socket_ = bind_alone(claim_port(id_));
     if (socket_ < 0) continue;
-    const int probe = bind_alone(static_cast<std::uint16_t>(first_participant_port(id_)));
-    if (probe >= 0) {
-      close(probe);
-      return;
-    }
+    if (!has_participants(id_)) return;
     close(socket_);
   }
   throw TransportError(

@@ -7,6 +7,8 @@ namespace roci::services {
 // RTPS 2.2, 9.6.1.1: participant p of a domain listens at this UDP port + 2 p and at the one above.
 constexpr int first_participant_port(int domain) { return 7400 + 250 * domain + 10; }
 
+inline constexpr int kMaxParticipantsPerHost = 40;  // of one domain
+
 // Holds a domain id from 1 to 100 until it is destroyed or the process ends, against every other DomainClaim
 // on this host (in this network namespace) and against participants that are there already. Children inherit
 // the claim over fork(), not over exec().

@@ -9,8 +9,7 @@
 
 namespace roci::services {
 
-inline constexpr int kMaxParticipantsPerHost = 40;  // of one domain
-inline constexpr int kLeaseSeconds = 3;             // a killed participant is noticed after at most this time
+inline constexpr int kLeaseSeconds = 3;  // a killed participant is noticed after at most this time
 
 bool is_loopback(const std::string& address);
 

@@ -9,6 +9,7 @@ extern "C" {
 #include <map>
 #include <mutex>
 
+#include "services/domain_claim.hpp"
 #include "services/vendors/peers.hpp"
 
 namespace roci::services::cyclonedds {

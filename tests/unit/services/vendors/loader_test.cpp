@@ -93,5 +93,19 @@ TEST(DomainClaim, ClaimsAreDistinctAndEnd) {
   EXPECT_EQ(DomainClaim().id(), freed);
 }
 
+TEST(DomainClaim, LeavesOutADomainWhoseFirstParticipantHasLeft) {
+  for (const std::string vendor : {"fastdds", "cyclonedds"}) {
+    int domain = 0;
+    std::unique_ptr<Transport> second;
+    {
+      const DomainClaim claim;
+      domain = claim.id();
+      const auto first = open_transport("fastdds", {.domain = domain});
+      second = open_transport(vendor, {.domain = domain});
+    }
+    EXPECT_NE(DomainClaim().id(), domain) << vendor;
+  }
+}
+
 }  // namespace
 }  // namespace roci::services
