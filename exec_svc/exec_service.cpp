@@ -59,6 +59,7 @@ class ExecService final : public services::Service {
         steps_(services::advertise(node, topics::step_status)),
         missions_(services::advertise(node, topics::mission_status)),
         events_(services::advertise(node, topics::event)) {
+    journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
     recover();
     services::subscribe(node, topics::goal, [this](const v1::Goal& goal) {
       inputs_.goals.push_back(wire::from_wire(goal));

@@ -145,6 +145,7 @@ class SimService final : public services::Service {
 
   void end(const std::string& code, const std::string& text) {
     announce(v1::SEVERITY_INFO, code, text);
+    report_begun();
     if (order_.expected() > 0) report_order();
     node_.stop();
   }
@@ -152,6 +153,19 @@ class SimService final : public services::Service {
   void announce(v1::Severity severity, const std::string& code, const std::string& text) {
     events_.write(wire::event(severity, code, text));
     order_.note(code, text);
+  }
+
+  // What was really done, for whoever asks after the run whether anything was done twice.
+  void report_begun() const {
+    nlohmann::json report = nlohmann::json::array();
+    for (const Begun& one : world_.begun()) {
+      report.push_back({{"time_us", one.at.count()},
+                        {"activity", one.task.key.activity},
+                        {"attempt", one.task.key.attempt},
+                        {"command", one.task.command},
+                        {"arguments", one.task.arguments}});
+    }
+    std::ofstream(run_folder_ / "begun.json") << report.dump(1) << "\n";
   }
 
   // For whoever started the run; the summary takes it up as `expected`.

@@ -42,6 +42,12 @@ struct Request {
   std::uint64_t epoch = 0;  ///< of the commanding executive
 };
 
+/// A command that a component took up; what bench/kill counts.
+struct Begun {
+  Time at{};
+  Task task;
+};
+
 class World {
  public:
   World(WorldSetup setup, std::uint64_t seed);
@@ -61,6 +67,8 @@ class World {
 
   /// Nothing leaves the world by itself before this time. It may turn out that nothing happens then, either.
   std::optional<Time> next_change() const;
+
+  const std::vector<Begun>& begun() const { return begun_; }
 
  private:
   template <class Visit>
@@ -112,6 +120,7 @@ class World {
   std::map<std::string, ActivityKey, std::less<>> running_;  // by component
   std::map<std::string, Time, std::less<>> faults_;          // by component: until when
   CommandLedger ledger_;
+  std::vector<Begun> begun_;
   Reporter reporter_;
   bool task_ended_ = false;  // since the last publish()
   Time now_{};               // of the last event

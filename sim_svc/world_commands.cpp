@@ -97,6 +97,7 @@ void World::begin(Component& component, Time now, const Request& request) {
     failure = component.begin({request.key, request.command, request.arguments}, now, around);
   }
   if (failure) return acknowledge(request.key, Stage::failed, failure->code, failure->reason, now);
+  begun_.push_back({now, {request.key, request.command, request.arguments}});
   running_[name] = request.key;
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr char kSchema[] =
     "CREATE TABLE IF NOT EXISTS number(name TEXT PRIMARY KEY, value INTEGER NOT NULL);"
+    "CREATE TABLE IF NOT EXISTS setting(name TEXT PRIMARY KEY, value TEXT NOT NULL);"
     "CREATE TABLE IF NOT EXISTS goal(issuer TEXT, id TEXT, request TEXT NOT NULL, state INTEGER NOT NULL, "
     "reason TEXT NOT NULL,"
     " arrival INTEGER NOT NULL, plan_version INTEGER NOT NULL, PRIMARY KEY(issuer, id));"
@@ -229,6 +230,17 @@ void Journal::for_each_from(std::int64_t number, const Visit& visit) const {
   Statement rows(database_->handle, "SELECT time_us, kind, text FROM record WHERE seq >= ? ORDER BY seq");
   rows.bind(number);
   while (rows.row()) visit(temporal::Time(rows.number(0)), rows.text(1), rows.text(2));
+}
+
+void Journal::set_text(std::string_view name, std::string_view value) {
+  database_->begin();
+  Statement(database_->handle, "INSERT OR REPLACE INTO setting VALUES(?,?)").bind(name).bind(value).run();
+}
+
+std::string Journal::text(std::string_view name) const {
+  Statement row(database_->handle, "SELECT value FROM setting WHERE name = ?");
+  row.bind(name);
+  return row.row() ? row.text(0) : "";
 }
 
 void Journal::set_number(std::string_view name, std::int64_t value) {

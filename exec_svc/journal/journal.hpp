@@ -64,6 +64,9 @@ class Journal {
   // Removes inputs and snapshots before this record: nobody can replay what was before it any more.
   void forget_inputs_before(std::int64_t number);
 
+  // Empty when never set.
+  void set_text(std::string_view name, std::string_view value);
+  std::string text(std::string_view name) const;
   void set_number(std::string_view name, std::int64_t value);
   std::int64_t number(std::string_view name, std::int64_t fallback) const;
 

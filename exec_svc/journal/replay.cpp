@@ -1,13 +1,30 @@
 #include "exec_svc/journal/replay.hpp"
 
+#include <algorithm>
+
 #include "exec_svc/archive/fields.hpp"
 
 namespace roci::exec {
+namespace {
+
+// Of long texts (problems) the kind and the first line that differs.
+void keep_different_line(std::string& a, std::string& b) {
+  const auto differs = std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first;
+  const std::size_t line = a.rfind('\n', static_cast<std::size_t>(differs - a.begin()));
+  if (line == std::string::npos || a.empty() || b.empty()) return;
+  for (std::string* text : {&a, &b}) {
+    const std::string shown = text->substr(line + 1, text->find('\n', line + 1) - line - 1);
+    *text = text->substr(0, text->find(' ')) + ": " + shown;
+  }
+}
+
+}  // namespace
 
 void Replay::take(temporal::Time time, std::string_view kind, std::string_view bytes) {
   if (divergence_) return;
   if (kind == "input") return turn(time, bytes);
-  if (!is_decision(kind, bytes)) return;
+  if (turns_ == 0 || !is_decision(kind, bytes))
+    return;  // what came before the first inputs has no cause here
   const Line journaled{std::string(kind), std::string(bytes)};
   if (matched_ < lines_.size() && lines_[matched_] == journaled) {
     ++matched_;
@@ -39,6 +56,7 @@ void Replay::finish() {
 }
 
 void Replay::differ(std::string expected, std::string got) {
+  keep_different_line(expected, got);
   divergence_ = Divergence{now_, std::move(expected), std::move(got)};
 }
 

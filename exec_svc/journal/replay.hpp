@@ -34,7 +34,8 @@ class Replay {
   temporal::Time now() const { return now_; }
   // Of the newest turn.
   const ReactorOutputs& outputs() const { return outputs_; }
-  const std::vector<Line>& lines() const { return lines_; }
+  // The decision that equalled the newest journaled one.
+  const Line& matched() const { return lines_.at(matched_ - 1); }
 
  private:
   void turn(temporal::Time time, std::string_view bytes);

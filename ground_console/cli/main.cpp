@@ -1,5 +1,8 @@
 // roci: the ground tool. `roci --help` lists the verbs.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 
 #include "ground_console/cli/verbs.hpp"
@@ -47,9 +50,22 @@ void add_goal_verbs(CLI::App& app, Line& line) {
            [](Client& client, const Line& l) { return list_goals(client, l.json); });
 }
 
+// The program beside this one takes over; it knows the executive, the ground tool does not.
+int become_replay(std::vector<std::string> arguments) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "roci-replay";
+  arguments.insert(arguments.begin(), "roci-replay");
+  std::vector<char*> words;
+  for (std::string& argument : arguments) words.push_back(argument.data());
+  words.push_back(nullptr);
+  execv(program.c_str(), words.data());
+  std::cerr << "roci: cannot start " << program.string() << "; install it beside roci\n";
+  return kBadUsage;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "replay") return become_replay({argv + 2, argv + argc});
   Line line;
   CLI::App app("Ground tool of Rocinante");
   app.require_subcommand(1);
@@ -71,6 +87,7 @@ int main(int argc, char** argv) {
   events->add_option("--count", line.count, "End after so many events");
   add_verb(app, line, "watch", "Live view of the mission in the terminal",
            [](Client& client, const Line& l) { return watch(client, l.json); });
+  app.add_subcommand("replay", "Repeat a run from its journal: roci replay JOURNAL (--help tells more)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

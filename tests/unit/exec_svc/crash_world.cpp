@@ -173,6 +173,7 @@ Flight CrashWorld::fly(double until_s) {
   for (const GoalRecord* goal : executive_->reactor().goals().all())
     flight_.goals[goal->request.key.id] = goal->state;
   flight_.plan_version = executive_->reactor().plan_version();
+  flight_.trace_sha256 = executive_->trace_sha256();
   flight_.outcome = executive_->reactor().outcome();
   return flight_;
 }

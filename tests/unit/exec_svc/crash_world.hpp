@@ -41,6 +41,7 @@ struct Flight {
   std::size_t turns = 0;
   std::size_t not_resumed = 0;
   std::string outcome;
+  std::string trace_sha256;
 };
 
 class CrashWorld {

@@ -1,0 +1,63 @@
+// A run again from its journal: the same trace, also across restarts and forgotten inputs; and what is told
+// when the code or the mission is another.
+#include "exec_svc/journal/run_replay.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/exec_svc/crash_world.hpp"
+#include "tests/unit/exec_svc/planetary_fixture.hpp"
+
+namespace roci::exec::testing {
+namespace {
+
+using ::testing::StartsWith;
+
+class RunReplayTest : public ::testing::Test {
+ protected:
+  RunReplay flown(const CrashPlan& crash, const MissionModel& mission = planetary()) {
+    CrashWorld world(crash);
+    world.send(10, photo("first"));
+    world.send(30, photo("second"));
+    trace = world.fly(600).trace_sha256;
+    return replay_run(Journal(world.file(), Durability::process), mission);
+  }
+  std::string trace;
+};
+
+TEST_F(RunReplayTest, ComesToTheSameTrace) {
+  const RunReplay run = flown({});
+  EXPECT_FALSE(run.divergence);
+  EXPECT_GT(run.decisions, 20U);
+  EXPECT_EQ(run.replayed_sha256, trace);
+  EXPECT_EQ(run.trace_sha256, trace);
+}
+
+TEST_F(RunReplayTest, ComesToTheSameTraceAcrossRestarts) {
+  const RunReplay run = flown({{5, 8, 12}, Moment::after_write_ahead});
+  EXPECT_FALSE(run.divergence);
+  EXPECT_EQ(run.restarts, 3U);
+  EXPECT_EQ(run.replayed_sha256, trace);
+}
+
+TEST_F(RunReplayTest, BeginsAtTheAnchorWhereInputsWereForgotten) {
+  const RunReplay run = flown({{9}, Moment::after_send, temporal::Duration{0}, true});
+  EXPECT_FALSE(run.divergence);
+  EXPECT_GT(run.from, temporal::seconds(29));
+  EXPECT_EQ(run.replayed_sha256, trace);
+}
+
+TEST_F(RunReplayTest, TellsWhereOtherRulesDecideOtherwise) {
+  MissionModel other = planetary();
+  other.planner.allowance = temporal::seconds(9);
+  const RunReplay run = flown({}, other);
+  ASSERT_TRUE(run.divergence);
+  EXPECT_EQ(run.divergence->time, temporal::seconds(10));
+  EXPECT_THAT(run.divergence->expected, StartsWith("call: "));
+  EXPECT_THAT(run.divergence->got, StartsWith("call: "));
+  EXPECT_NE(run.divergence->got, run.divergence->expected);
+  EXPECT_NE(run.replayed_sha256, trace);
+}
+
+}  // namespace
+}  // namespace roci::exec::testing
