@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -21,6 +20,7 @@
 #include "services/connection.hpp"
 #include "sim_svc/setup_file.hpp"
 #include "tests/fuzz/missions/mutate.hpp"
+#include "tests/fuzz/rounds.hpp"
 
 namespace roci::fuzz {
 namespace {
@@ -93,12 +93,6 @@ class FuzzMissions : public testing::TestWithParam<const char*> {
   }
   ~FuzzMissions() override { fs::remove_all(folder_); }
 
-  // ROCI_FUZZ_ROUNDS makes it longer.
-  static int rounds() {
-    const char* text = std::getenv("ROCI_FUZZ_ROUNDS");
-    return text == nullptr ? 150 : std::atoi(text);
-  }
-
   fs::path folder_;
 };
 
@@ -108,7 +102,7 @@ TEST_P(FuzzMissions, IsTakenOrRefusedWithItsPlace) {
   ASSERT_FALSE(whole.empty());
   for (const Reader& reader : kReaders) EXPECT_NO_THROW(reader.read(folder_)) << reader.name;
   std::mt19937_64 random(std::string_view(GetParam()).size());
-  for (int round = 0; round < rounds(); ++round) {
+  for (int round = 0; round < rounds(150); ++round) {
     const std::string text = damage(whole, random);
     write(path, text);
     for (const Reader& reader : kReaders)

@@ -10,6 +10,7 @@
 #include "core/pddl/sexpr.hpp"
 #include "tests/fuzz/pddl/mutate.hpp"
 #include "tests/fuzz/pddl/target.hpp"
+#include "tests/fuzz/rounds.hpp"
 
 namespace roci::fuzz {
 namespace {
@@ -33,7 +34,7 @@ TEST(FuzzPddl, MutatedCorpusNeverCrashes) {
   ASSERT_GE(corpus.size(), 4u);
   std::mt19937_64 random(42);
   for (const std::string& text : corpus) run_all(text);
-  for (int i = 0; i < 8000; ++i) {
+  for (int i = 0; i < rounds(8000); ++i) {
     const std::string& seed =
         corpus[std::uniform_int_distribution<std::size_t>(0, corpus.size() - 1)(random)];
     const std::string text = mutate(seed, corpus, random);
