@@ -40,7 +40,7 @@ class BestFirstSearch {
     first.state = task_.initial_state;
     if (take_up(NodeId(), Transition{})) return found();
     while (const auto entry = open_.pop()) {
-      watch_.step();
+      watch_.poll();
       if (prefix_.node != entry->parent) {
         rebuild(task_, store_, bounds_, options_.epsilon, entry->parent, prefix_);
       }

@@ -5,14 +5,15 @@ namespace roci::planner::temporal_pddl {
 std::optional<OpenEntry> OpenList::pop() {
   if (size_ == 0) return std::nullopt;
   const bool others_first = queues_[0].served < queues_[1].served;
-  Queue& queue =
-      queues_[1].buckets.empty() || (others_first && !queues_[0].buckets.empty()) ? queues_[0] : queues_[1];
+  const bool others = queues_[1].buckets.empty() || (others_first && !queues_[0].buckets.empty());
+  Queue& queue = queues_[others ? 0 : 1];
   ++queue.served;
   --size_;
   const auto best = queue.buckets.begin();
-  const OpenEntry entry = best->second.front();
-  best->second.pop_front();
-  if (best->second.empty()) queue.buckets.erase(best);
+  std::deque<OpenEntry>& bucket = best->second;
+  const OpenEntry entry = others ? bucket.front() : bucket.back();
+  others ? bucket.pop_front() : bucket.pop_back();
+  if (bucket.empty()) queue.buckets.erase(best);
   return entry;
 }
 

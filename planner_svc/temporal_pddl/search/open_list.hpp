@@ -1,4 +1,4 @@
-// Successors that wait to be tried: two queues, ordered by estimate and age; the preferred one is served
+// Successors that wait to be tried: two queues, ordered by estimate; the preferred one is served
 // first as long as that leads on (Helmert 2006, section 6; Richter and Helmert 2009).
 #pragma once
 
@@ -29,7 +29,8 @@ class OpenList {
     queues_[preferred].buckets[priority].push_back(entry);
     ++size_;
   }
-  // The oldest of the best ones of one of the queues.
+  // One of the best of one of the queues: of the preferred ones the youngest, which goes on with the plan at
+  // hand; of the others the oldest, which goes back to where there was a choice.
   std::optional<OpenEntry> pop();
   // The search has made progress: what is preferred is served first for a while.
   void boost() { queues_[1].served -= kBoost; }

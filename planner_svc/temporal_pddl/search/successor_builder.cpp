@@ -35,12 +35,24 @@ Rejection SuccessorBuilder::build(const PlanPrefix& prefix, SnapId snap, Success
   if (!extend(prefix, snap, successor)) return Rejection::logical;
   if (!absolute_ && prefix.running.empty() && successor.prefix.running.empty()) {
     successor.times.clear();
-    return Rejection::none;
+    return long_enough(successor) ? Rejection::none : Rejection::temporal;
   }
   const std::vector<Ticks>* times = check_.earliest(successor.prefix);
   if (!times) return Rejection::temporal;
   successor.times = *times;
   return Rejection::none;
+}
+
+// Does the compressed action's longest duration suffice for what keeps its start and its end apart?
+bool SuccessorBuilder::long_enough(const Successor& successor) {
+  const auto fresh = std::span(successor.prefix.constraints).last(successor.new_constraints);
+  Duration least{0}, most = kUnbounded;
+  for (const StepConstraint& constraint : fresh) {
+    if (constraint.from + 1 != constraint.to || constraint.to + 1 != successor.prefix.steps.size()) continue;
+    least = std::max(least, constraint.lower);
+    most = std::min(most, constraint.upper);
+  }
+  return least <= most;
 }
 
 bool SuccessorBuilder::extend(const PlanPrefix& prefix, SnapId snap_id, Successor& successor) {

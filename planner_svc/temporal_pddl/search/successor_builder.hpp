@@ -47,6 +47,7 @@ class SuccessorBuilder {
   bool take(SnapId snap, double seconds, Successor& successor);
   bool start(ActionId action, NodeId before, Successor& successor);
   bool end(ActionId action, StateView before_start, Successor& successor);
+  static bool long_enough(const Successor& successor);
   bool running_invariants_hold(const Successor& successor) const;
   double seconds_of(const Running& running) const;
 

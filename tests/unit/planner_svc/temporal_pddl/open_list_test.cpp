@@ -18,6 +18,14 @@ TEST(OpenList, BestFirstThenOldest) {
   EXPECT_FALSE(open.pop());
 }
 
+TEST(OpenList, OfPreferredOnesTheYoungest) {
+  OpenList open;
+  open.push({1, 4}, true, entry(1));
+  open.push({1, 4}, true, entry(2));
+  open.push({1, 3}, true, entry(3));
+  for (const std::size_t expected : {3u, 2u, 1u}) EXPECT_EQ(open.pop()->parent, NodeId(expected));
+}
+
 TEST(OpenList, PreferredTakeTurnsAndGoFirstAfterProgress) {
   OpenList open;
   for (std::size_t i = 0; i < 10; ++i) {

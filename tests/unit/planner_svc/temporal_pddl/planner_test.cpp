@@ -235,6 +235,16 @@ TEST(Planner, NothingToDo) {
   EXPECT_TRUE(result.plan->activities.empty());
 }
 
+TEST(Planner, AnActionWithoutDurationCannotUndoWhatItsStartDoes) {
+  const auto made = model(R"((:requirements :durative-actions) (:predicates (at-a) (at-b) (g))
+    (:durative-action stay :parameters () :duration (= ?duration 0) :condition (at start (at-a))
+      :effect (and (at start (not (at-a))) (at end (at-a)) (at end (g)))))",
+                          "(:init (at-a)) (:goal (g))");
+  const Result result = solved(made);
+  EXPECT_EQ(result.verdict, Verdict::unsolvable);
+  EXPECT_EQ(result.statistics.temporally_inconsistent, 1u);
+}
+
 TEST(Planner, AMissedWindowIsToldWithHowMuchIsMissing) {
   const auto made =
       model(R"((:requirements :durative-actions :timed-initial-literals) (:predicates (open) (p) (g) (h))
