@@ -75,6 +75,7 @@ class Flight:
     calls: list[Call] = field(default_factory=list)
     events: list[tuple[float, str, str]] = field(default_factory=list)  # seconds, code, text
     branches: dict[str, int] = field(default_factory=dict)  # R49
+    first_plan_s: float | None = None  # makespan of the first plan, as adopted
     faults: list[str] = field(default_factory=list)  # invariants that do not hold
 
 
@@ -148,6 +149,7 @@ def read_journal(flight: Flight) -> None:
     trace_ends(flight)
     read_calls(flight, [(time_s, text) for time_s, kind, text in records if kind == "call"])
     flight.branches = branches(records, flight.events)
+    flight.first_plan_s = first_makespan(records)
     flight.faults += broken_invariants(flight, records)
 
 
@@ -188,6 +190,22 @@ def read_calls(flight: Flight, calls: list[tuple[float, str]]) -> None:
                 end["evaluated"],
             )
         )
+
+
+def first_makespan(records: list[tuple[float, str, str]]) -> float | None:
+    """From the plan's origin to its last end, if all goes as planned."""
+    plan = next((text for _, kind, text in records if kind == "trace" and text.split(" ")[1] == "plan"), None)
+    if plan is None:
+        return None
+    origin = int(re.search(r"origin (\d+)", plan)[1])
+    durations = {activity: int(low) for activity, low in re.findall(r"(p\d+\.\d+-[\w-]+) \[(\d+),", plan)}
+    ends = []
+    for _, kind, text in records:
+        if kind == "step":
+            activity, _, window, *_ = text.split(" ")
+            if activity in durations:  # the first that is told of it
+                ends.append(int(window.strip("[]").split(",")[0]) + durations.pop(activity))
+    return (max(ends) - origin) / 1e6 if ends else None
 
 
 def branches(records: list[tuple[float, str, str]], events: list[tuple[float, str, str]]) -> dict[str, int]:

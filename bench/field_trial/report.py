@@ -68,15 +68,14 @@ def losses_section(records: list[Record], picture: str) -> str:
 
 def hard_section(records: list[Record]) -> str:
     rows: list[list[object]] = []
-    words = {True: "**yes**", False: "no", None: "undecided"}
-    for record in records:
-        for loss in record.losses:
-            if loss.goal.state == "failed":
-                rows.append([record.scenario.seed, loss.goal.id, loss.kind, words[loss.possible], shorten(loss.goal.reason)])
-    possible = sum(row[3] == "**yes**" for row in rows)
+    words = {True: "yes", None: "undecided"}
+    failed = [loss for record in records for loss in record.losses if loss.goal.state == "failed"]
+    for loss in failed:
+        if loss.possible is not False:
+            rows.append([loss.seed, loss.goal.id, loss.kind, words[loss.possible], shorten(loss.goal.reason)])
     text = (
-        f"\n## Hard goals that failed\n\n{len(rows)} failed; with hindsight {possible} of them were achievable besides the "
-        "hard goals achieved (faults of components not counted).\n\n"
+        f"\n## Hard goals that failed\n\n{len(failed)} failed. With hindsight {len(failed) - len(rows)} of them were out of reach "
+        "besides the hard goals achieved; the others (faults of components are not counted):\n\n"
     )
     return text + table(["seed", "goal", "class", "achievable", "reason"], rows)
 
@@ -205,8 +204,8 @@ def makespan_section(records: list[Record]) -> str:
     return (
         f"\n## Makespan of the first plan (R62)\n\nOf {len(some)} first plans {equal} are as short as the shortest there is (within "
         f"1 %). Makespan over shortest: median {statistics.median(ratios):.2f}, 90th percentile "
-        f"{ratios[int(0.9 * (len(ratios) - 1))]:.2f}, largest {ratios[-1]:.2f} (seed {worst.scenario.seed}). The first plan found is "
-        "executed, as the paper says; the order of goals is not optimal.\n"
+        f"{ratios[int(0.9 * (len(ratios) - 1))]:.2f}, largest {ratios[-1]:.2f} (seed {worst.scenario.seed}). What the planner has "
+        "when its budget for improvements is spent is executed; the order of goals is not optimal.\n"
     )
 
 

@@ -20,7 +20,7 @@ from flights import MISSION_WORK, Flight, Programs, fly, lay_out_mission
 from hindsight import Hindsight, look_back
 from losses import Loss, losses_of
 from scenarios import Scenario, Site, draw
-from second_look import SecondLook, decide, look_again, read_makespan
+from second_look import SecondLook, decide, look_again
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -46,7 +46,7 @@ def first_plan(programs: Programs, record: Record) -> None:
     if best.solvable is False:
         record.flight.faults.append(f"call {solved[0].number}: the planner has a plan, the reference none")
     elif best.solvable:
-        record.first_plan_s = read_makespan(programs, solved[0])
+        record.first_plan_s = record.flight.first_plan_s
         record.reference_s = best.makespan_s
 
 

@@ -65,9 +65,3 @@ def look_again(programs: Programs, seed: int, call: Call, longer_s: float) -> Se
         again = plan_again(programs, call, limit_s, plain=proved_by_search)
         out.longer, out.longer_s = again["verdict"], again["wall_s"]
     return out
-
-
-def read_makespan(programs: Programs, call: Call) -> float | None:
-    """Of the plan that the flight executed first; planned again, since the call's record has none."""
-    again = plan_again(programs, call, limit_s=60, plain=False)
-    return again["makespan"]
