@@ -29,8 +29,11 @@ Durability durability_for(const Node& node) {
   return node.options().clock == services::ClockMode::live ? Durability::power : Durability::process;
 }
 
-// For known services to be heard of after a restart.
-constexpr temporal::Duration kReunion = std::chrono::seconds(5);
+// For known services to be heard of after a restart; of wall time, live.
+temporal::Duration reunion(const Node& node) {
+  const bool live = node.options().clock == services::ClockMode::live;
+  return temporal::seconds(5 * (live ? node.options().live_scale : 1));
+}
 
 CrashPoints crash_points(const Node& node) {
   const char* setting = std::getenv("ROCI_CRASH");
@@ -94,7 +97,7 @@ class ExecService final : public services::Service {
     for (const StepStatus& step : reactor.steps()) steps_.write(wire::to_wire(step, reactor.plan_version()));
     for (const Note& note : recovery.last_notes) report(note);
     missed_ = journal_.peers();
-    node_.after(kReunion, [this] { give_up_missed(); });
+    node_.after(reunion(node_), [this] { give_up_missed(); });
   }
 
   void report_divergence(const Divergence& divergence) {

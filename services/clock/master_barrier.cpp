@@ -90,8 +90,10 @@ class MasterBarrier : public Barrier {
  private:
   void lose(const PeerChange& change, wall::Instant now) {
     master_.lost(change.service, change.incarnation, change.cause);
-    // Somebody is about to start it again; one that left or hangs will not be back soon.
-    if (change.cause == "killed") hold_until_ = now + wall::seconds(node_.options().master.restart_hold_s);
+    // Somebody is about to start it again, or has, and it is about to say that it is ready; one that left or
+    // hangs will not be back soon.
+    if (change.cause == "killed" || change.cause == "restarted")
+      hold_until_ = now + wall::seconds(node_.options().master.restart_hold_s);
   }
 
   void advance(wall::Instant now) {

@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 struct Record {
   int exit_code = -1;
   std::string result;
+  std::string trace;
+  nlohmann::json replayed;
   std::set<std::string> commanded;       // "activity attempt"
   std::multiset<std::string> completed;  // likewise, as often as their owner said so
   std::vector<std::string> events;
@@ -45,6 +47,8 @@ Record fly_and_read(const std::string& dds, const std::string& crash) {
   Record out;
   out.exit_code = ended.exit_code;
   out.result = last_line_as_json(ended.output).value("result", "");
+  out.trace = last_line_as_json(ended.output).value("trace_sha256", "");
+  out.replayed = last_line_as_json(run("roci replay --json " + folder.string()).output);
   exec::Journal(folder / "journal.sqlite", exec::Durability::process)
       .for_each([&](temporal::Time, std::string_view kind, std::string_view text) {
         if (kind == "event") out.events.emplace_back(text);
@@ -73,6 +77,8 @@ TEST_P(Restart, GoesOnWithTheRunningPlan) {
     EXPECT_EQ(flight.count("plan.adopted"), 1) << "the plan of before";
     EXPECT_EQ(flight.count("goal.achieved"), undisturbed.count("goal.achieved"));
     EXPECT_EQ(flight.commanded, undisturbed.commanded);
+    EXPECT_EQ(flight.replayed.value("same", false), true) << flight.replayed;
+    EXPECT_EQ(flight.replayed.value("replayed_sha256", ""), flight.trace);
     for (const std::string& key : undisturbed.commanded) EXPECT_GE(flight.completed.count(key), 1U) << key;
   }
 }
