@@ -127,6 +127,12 @@ void ExecSeat::kill_executive_at(services::Time when) {
   });
 }
 
+void ExecSeat::kill_both_at(services::Time when) {
+  kill_executive_at(when);
+  planner_killed_ = true;
+  run_.node("planner_svc").at(when, [] { throw services::Crash{}; });
+}
+
 void ExecSeat::serve_plans(services::Node& planner) {
   services::serve(planner, topics::plan_request,
                   [this, &planner](const v1::PlanRequest& request, auto responder) {
@@ -190,6 +196,11 @@ void ExecSeat::run_until(services::Time end) {
   run_.start();
   if (killed_) {
     run_.wait_for_crash("exec_svc");
+    if (planner_killed_) {
+      run_.wait_for_crash("planner_svc");
+      serve_plans(run_.add("planner_svc", 2, vendor_));
+      run_.start();
+    }
     start_executive(2);
   }
   run_.run();

@@ -32,6 +32,8 @@ class ExecSeat {
   void send(services::Time when, const v1::Goal& goal);
   // The executive dies then without a word, and starts again as its next incarnation.
   void kill_executive_at(services::Time when);
+  // With it the planner dies, and is back before it.
+  void kill_both_at(services::Time when);
   void at(services::Time when, std::function<void()> what) { robot_.at(when, std::move(what)); }
   void run_until(services::Time end);
 
@@ -65,6 +67,7 @@ class ExecSeat {
   std::unique_ptr<services::Service> executive_;
   std::map<std::pair<std::string, std::uint32_t>, v1::CommandStage> words_;  // the last on each key
   bool killed_ = false;
+  bool planner_killed_ = false;
 };
 
 }  // namespace roci::exec::testing

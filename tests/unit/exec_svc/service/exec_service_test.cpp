@@ -148,6 +148,19 @@ TEST(ExecService, ARestartDuringAPlannerCallMakesItAgain) {
   EXPECT_EQ(seat.mission.outcome(), "achieved");
 }
 
+// Who was there before and is there under the same incarnation never left; another incarnation has forgotten
+// everything.
+TEST(ExecService, AfterARestartAServiceThatWasStartedAnewMeanwhileIsNoticed) {
+  ExecSeat seat;
+  seat.send(10s, photo_goal("ridge"));
+  seat.at(29s, [&] { seat.events.clear(); });
+  seat.kill_both_at(30s);
+  seat.run_until(200s);
+  EXPECT_THAT(seat.events, Contains("service.lost").Times(1));
+  EXPECT_THAT(seat.events, Contains("service.found").Times(1));
+  EXPECT_EQ(seat.mission.outcome(), "achieved");
+}
+
 // A journal that another version of the code wrote: goals, the numbers of plans and a later epoch stay; the
 // robot is brought to rest and the rest is planned anew.
 TEST(ExecService, AJournalThatLeadsElsewhereKeepsTheGoals) {
