@@ -11,8 +11,9 @@ std::optional<OpenEntry> OpenList::pop() {
   --size_;
   const auto best = queue.buckets.begin();
   std::deque<OpenEntry>& bucket = best->second;
-  const OpenEntry entry = others ? bucket.front() : bucket.back();
-  others ? bucket.pop_front() : bucket.pop_back();
+  const bool oldest = others || (queue.served / kStreak) % 2 == 0;
+  const OpenEntry entry = oldest ? bucket.front() : bucket.back();
+  oldest ? bucket.pop_front() : bucket.pop_back();
   if (bucket.empty()) queue.buckets.erase(best);
   return entry;
 }

@@ -29,8 +29,9 @@ class OpenList {
     queues_[preferred].buckets[priority].push_back(entry);
     ++size_;
   }
-  // One of the best of one of the queues: of the preferred ones the youngest, which goes on with the plan at
-  // hand; of the others the oldest, which goes back to where there was a choice.
+  // One of the best of one of the queues. Of the preferred ones for a while the youngest, which goes on with
+  // the plan at hand, then for as long the oldest, which goes back to where there was a choice; of the others
+  // the oldest.
   std::optional<OpenEntry> pop();
   // The search has made progress: what is preferred is served first for a while.
   void boost() { queues_[1].served -= kBoost; }
@@ -40,6 +41,7 @@ class OpenList {
 
  private:
   static constexpr std::int64_t kBoost = 1000;
+  static constexpr std::int64_t kStreak = 64;  // 1 and 16 lose floor-tile, endless ones crew-planning
 
   struct Queue {
     std::map<Priority, std::deque<OpenEntry>> buckets;

@@ -18,12 +18,21 @@ TEST(OpenList, BestFirstThenOldest) {
   EXPECT_FALSE(open.pop());
 }
 
-TEST(OpenList, OfPreferredOnesTheYoungest) {
+TEST(OpenList, PreferredComeInStreaksOfYoungestAndOldest) {
   OpenList open;
-  open.push({1, 4}, true, entry(1));
-  open.push({1, 4}, true, entry(2));
-  open.push({1, 3}, true, entry(3));
-  for (const std::size_t expected : {3u, 2u, 1u}) EXPECT_EQ(open.pop()->parent, NodeId(expected));
+  for (std::size_t i = 0; i < 1000; ++i) open.push({1, 4}, true, entry(i));
+  open.push({1, 3}, true, entry(5000));
+  EXPECT_EQ(open.pop()->parent, NodeId(std::size_t{5000}));
+  std::size_t youngest = 0;
+  std::size_t low = 0;
+  std::size_t high = 999;
+  for (int i = 0; i < 640; ++i) {
+    const NodeId next = open.pop()->parent;
+    ASSERT_TRUE(next == NodeId(low) || next == NodeId(high));
+    youngest += next == NodeId(high);
+    next == NodeId(high) ? --high : ++low;
+  }
+  EXPECT_NEAR(static_cast<double>(youngest), 320, 2);
 }
 
 TEST(OpenList, PreferredTakeTurnsAndGoFirstAfterProgress) {
