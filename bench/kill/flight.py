@@ -78,7 +78,7 @@ def fly(options, folder: Path, dds: str, scenario: str, seed: int, kills: Kills,
     flight = Flight(folder)
     environment = dict(os.environ, ROCI_CRASH=kills.crash)
     command = [options.bin / "roci-launch", options.mission, "--dds", dds, "--scenario", scenario, "--seed", str(seed),
-               "--speed", "max", "--headless", "--json", "--run-folder", folder]
+               "--clock", options.clock, "--speed", options.speed, "--headless", "--json", "--run-folder", folder]
     launcher = subprocess.Popen([str(word) for word in command], env=environment, text=True, stdout=subprocess.PIPE,
                                 stderr=subprocess.PIPE)
     kill_in_flight(launcher, flight, kills, sim_s)

@@ -34,6 +34,8 @@ def parse() -> argparse.Namespace:
     parser.add_argument("--jobs", type=int, default=2, help="flights at a time")
     parser.add_argument("--mission", type=Path, default=ROOT / "missions/planetary")
     parser.add_argument("--scenarios", default="nominal,opportunistic,blocked_window,comm_lost,battery_low,too_many,arm_fault")
+    parser.add_argument("--clock", default="simulated", help="live: samples may leave by halves; flights take their time")
+    parser.add_argument("--speed", default="max", help="with --clock live e.g. 300")
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin")
     parser.add_argument("--out", type=Path, help="keep the run folders of flights that were not as they should be here")
     parser.add_argument("--json", action="store_true", help="the last line of standard output is the result as JSON")
