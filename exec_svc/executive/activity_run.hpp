@@ -15,16 +15,30 @@ enum class Phase {
   running,     ///< accepted, or without a command
   settling,    ///< completed by its owner; shortest duration or post condition still to come
   cancelling,  ///< cancel sent
+  recovering,  ///< its command has failed, its contingency runs
   done,
 };
 
 enum class AfterCancel { retry, fail, withdraw };
+
+/// A contingency under way.
+struct Recovering {
+  std::size_t command = 0;  ///< index of the one that runs; as many as there are: all are done
+  std::string command_id;
+  temporal::Time since{0};
+  temporal::Time command_since{0};
+  bool accepted = false;
+  std::string failure;  ///< of the activity
+};
 
 struct ActivityRun {
   Phase phase = Phase::waiting;
   temporal::ActivityState state = temporal::ActivityState::waiting;
   std::uint32_t attempt = 0;  ///< part of the command's key: never reset
   std::uint32_t retries_used = 0;
+  std::uint32_t contingencies_used = 0;
+  std::uint32_t contingency_commands = 0;  ///< part of their keys: never reset
+  Recovering recovering;
   std::optional<temporal::Time> started, ended;
   temporal::Time attempt_started{0};
   temporal::Time phase_since{0};

@@ -111,6 +111,11 @@ void PlanRun::begin_wait(Index activity, Time now, Duration bound) {
   if (run.wait_until) return;
   run.wait_until = plus(now, bound);
   waits_.emplace(*run.wait_until, activity);
+  const PlanActivity& planned = plan_.activities[activity];
+  if (planned.lateness != LatenessPolicy::push || !points_.due(planned.start_point)) return;
+  const std::string unmet = explain(planned.pre, lookup());
+  if (!unmet.empty())
+    recover(Rung::push, activity, "waits until " + to_text(*run.wait_until) + " for " + unmet);
 }
 
 bool PlanRun::expire_waits(Time now) {

@@ -3,16 +3,21 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/temporal/flexible_plan.hpp"
+#include "exec_svc/executive/contingency.hpp"
 #include "exec_svc/executive/messages.hpp"
 
 namespace roci::exec {
 
-/// Bounds of waits that no plan states.
+/// When an activity starts within its window (R144). Latest: at its upper bound, if it has one.
+enum class StartPolicy { earliest, latest };
+
+/// Bounds of waits that no plan states, and what plans name but do not hold.
 struct ExecutiveSettings {
   temporal::Duration ack_timeout = temporal::seconds(5);  ///< command sent -> accepted, rejected or completed
   temporal::Duration cancel_timeout = temporal::seconds(5);  ///< cancel sent -> any answer
@@ -22,6 +27,10 @@ struct ExecutiveSettings {
   temporal::Duration decision_timeout = temporal::seconds(600);  ///< where decide_before has no latest time
   double overrun_factor = 3.0;  ///< a command fails as hung after this many times its longest duration ...
   temporal::Duration overrun_grace = temporal::seconds(600);  ///< ... plus this
+  StartPolicy start = StartPolicy::earliest;
+  std::map<std::string, Contingency> contingencies{};  ///< by name, as PlanActivity::contingency names them
+  std::map<std::string, temporal::Duration>
+      retry_within{};  ///< after its start, by PlanActivity::name; else no bound
 };
 
 /// Rules (docs in README.md): a start whose predecessors happened at t <= lb starts at lb, in (lb, ub] at
@@ -43,8 +52,8 @@ class Executive {
   /// kept.
   Outputs step(temporal::Time now, const Inputs& inputs);
 
-  /// After a restart, with the state of before: asks the owners of everything that runs what became of it. What an
-  /// owner never heard of is sent again under its key; a cancel that it never heard of too.
+  /// After a restart, with the state of before: asks the owners of everything that runs what became of it.
+  /// What an owner never heard of is sent again under its key; a cancel that it never heard of too.
   Outputs resume(temporal::Time now);
 
   /// First phase of the cancel: asks the owners of everything that runs; step() takes their answers.

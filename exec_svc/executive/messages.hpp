@@ -75,6 +75,20 @@ struct DecisionRequest {
   temporal::Time answer_before = temporal::no_bound;  ///< later answers are ignored
 };
 
+/// The rungs of the recovery ladder that need no planner, cheapest first.
+enum class Rung {
+  push,         ///< a start waits for its preconditions, until its wait timeout (R98)
+  retry,        ///< the same command again (R99)
+  contingency,  ///< commands of a template, then the same command again or a broken plan (R69, R70)
+};
+
+/// A rung was entered, or a contingency ended.
+struct RecoveryStep {
+  Rung rung = Rung::push;
+  std::string activity;
+  std::string cause;  ///< why, and what is done
+};
+
 enum class OutcomeKind {
   idle,  ///< no plan loaded
   running,
@@ -98,13 +112,14 @@ struct Outcome {
   BreakReason reason = BreakReason::none;  ///< of broken
   std::string activity;                    ///< that broke it; for decision_missing the decision
   std::string cause;                       ///< in plain words
-  std::string contingency;                 ///< the one that the activity names
+  std::string contingency;  ///< the one that the activity names; it has been used up, or is none of ours
 };
 
 struct Outputs {
   std::vector<Command> commands{};    ///< in the order of sending
   std::vector<StepStatus> changes{};  ///< every change of state, in the order of events
   std::vector<DecisionRequest> decision_requests{};
+  std::vector<RecoveryStep> recoveries{};
   Outcome outcome{};                          ///< after this step
   std::optional<temporal::Time> next_wake{};  ///< step again then, if nothing happens before
 };

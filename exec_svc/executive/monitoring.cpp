@@ -1,5 +1,6 @@
 // Activities under way: answers of their owners, conditions, timers, failure, retry, cancel.
 #include <algorithm>
+#include <limits>
 
 #include "exec_svc/executive/plan_run.hpp"
 
@@ -27,10 +28,11 @@ std::string with_reason(const std::string& what, const CommandAck& ack) {
 
 bool PlanRun::take_ack(const CommandAck& ack, Time now) {
   const auto found = index_of_.find(ack.activity);
-  if (found == index_of_.end()) return false;
+  if (found == index_of_.end()) return take_contingency_ack(ack, now);
   const Index activity = found->second;
   ActivityRun& run = runs_[activity];
   if (!run.active() || run.attempt != ack.attempt || plan_.activities[activity].owner.empty()) return false;
+  if (run.phase == Phase::recovering) return false;
   if (take_query_answer(activity, ack, now)) return true;
   if (run.phase == Phase::cancelling) {
     take_cancel_answer(activity, ack, now);
@@ -39,9 +41,12 @@ bool PlanRun::take_ack(const CommandAck& ack, Time now) {
   if (run.phase == Phase::settling) return ack.stage == CommandStage::completed;
   switch (ack.stage) {
     case CommandStage::accepted:
-      if (run.phase != Phase::sent) return true;
-      enter(activity, Phase::running, now);
-      change(activity, ActivityState::running, run.cause);
+      if (run.phase == Phase::sent) {
+        enter(activity, Phase::running, now);
+        change(activity, ActivityState::running, run.cause);
+      } else if (!ack.code.empty() || !ack.reason.empty()) {
+        change(activity, ActivityState::running, with_reason("its owner repairs", ack));  // R146
+      }
       return true;
     case CommandStage::completed:
       if (now > deadline(activity)) {
@@ -70,12 +75,19 @@ bool PlanRun::take_ack(const CommandAck& ack, Time now) {
 
 void PlanRun::lose_owner(const std::string& owner, Time now) {
   const std::set<Index> active = active_;
+  const std::string lost = "owner " + owner + " is lost";
   for (const Index activity : active) {
+    if (runs_[activity].phase == Phase::recovering) {
+      if (contingency_owner(activity) == owner) end_contingency(activity, now, lost);
+      continue;
+    }
     if (plan_.activities[activity].owner != owner || runs_[activity].phase == Phase::settling) continue;
-    if (runs_[activity].phase == Phase::cancelling && runs_[activity].after_cancel != AfterCancel::retry) {
-      close(activity, now, ActivityState::failed, runs_[activity].cause + "; owner " + owner + " is lost");
+    const bool given_up =
+        runs_[activity].phase == Phase::cancelling && runs_[activity].after_cancel != AfterCancel::retry;
+    if (given_up && !starting()) {
+      close(activity, now, ActivityState::failed, runs_[activity].cause + "; " + lost);
     } else {
-      fail(activity, now, BreakReason::activity_failed, "owner " + owner + " is lost", false);
+      fail(activity, now, BreakReason::activity_failed, lost, false);
     }
   }
 }
@@ -93,6 +105,7 @@ bool PlanRun::monitor_activity(Index activity, Time now) {
   const ActivityRun& run = runs_[activity];
   const Time age = now - run.phase_since;
   const bool commanded = !planned.owner.empty();
+  if (run.phase == Phase::recovering) return monitor_contingency(activity, now);
   if (run.phase == Phase::cancelling) {
     if (age < settings_.cancel_timeout) return false;
     cancel_is_over(activity, now, "cancel not answered within " + to_text(settings_.cancel_timeout));
@@ -162,6 +175,12 @@ void PlanRun::succeed(Index activity, Time now) {
 
 void PlanRun::fail(Index activity, Time now, BreakReason reason, const std::string& cause,
                    bool still_commanded) {
+  const bool may_recover = reason == BreakReason::activity_failed && contingency_of(activity) != nullptr;
+  if (may_recover && !still_commanded && begin_contingency(activity, now, cause)) return;
+  if (may_recover && still_commanded) {
+    cancel(activity, now, AfterCancel::fail, cause);
+    return;
+  }
   break_plan(reason, plan_.activities[activity].id, cause, plan_.activities[activity].contingency);
   if (still_commanded) {
     cancel(activity, now, AfterCancel::fail, cause);
@@ -179,8 +198,19 @@ bool PlanRun::retry(Index activity, Time now, const std::string& cause) {
   const PlanActivity& planned = plan_.activities[activity];
   ActivityRun& run = runs_[activity];
   if (!starting() || run.retries_used >= planned.retries || now > deadline(activity)) return false;
+  const auto within = settings_.retry_within.find(planned.name);
+  if (within != settings_.retry_within.end() && now > plus(*run.started, within->second)) return false;
   if (evaluate(planned.pre, lookup()) != Truth::yes) return false;
   ++run.retries_used;
+  recover(Rung::retry, activity,
+          "retry " + std::to_string(run.retries_used) + " of " + std::to_string(planned.retries) +
+              " after: " + cause);
+  try_again(activity, now, "retry after: " + cause);
+  return true;
+}
+
+void PlanRun::try_again(Index activity, Time now, const std::string& cause) {
+  ActivityRun& run = runs_[activity];
   ++run.attempt;
   run.attempt_started = now;
   run.overrun_noted = false;
@@ -189,8 +219,7 @@ bool PlanRun::retry(Index activity, Time now, const std::string& cause) {
   points_.set_duration(activity, plus(spent, duration.lower), plus(spent, duration.upper));
   enter(activity, Phase::sent, now);
   send(activity, CommandAction::execute);
-  change(activity, ActivityState::dispatched, "retry after: " + cause);
-  return true;
+  change(activity, ActivityState::dispatched, cause);
 }
 
 void PlanRun::close(Index activity, Time now, ActivityState state, const std::string& cause) {
@@ -228,14 +257,19 @@ void PlanRun::take_cancel_answer(Index activity, const CommandAck& ack, Time now
     fail_or_retry(activity, now, cause);
   } else {
     const bool failed = run.after_cancel == AfterCancel::fail;
+    if (failed && starting()) {
+      fail(activity, now, BreakReason::activity_failed, cause, false);
+      return;
+    }
     close(activity, now, failed ? ActivityState::failed : ActivityState::cancelled, cause);
   }
 }
 
-/// The cancel did not take: the command may still be running.
+/// The cancel did not take: the command may still be running, and no contingency is begun on top of it.
 void PlanRun::cancel_is_over(Index activity, Time now, const std::string& answer) {
   const std::string cause = runs_[activity].cause + "; " + answer;
-  if (runs_[activity].after_cancel == AfterCancel::retry) {
+  runs_[activity].contingencies_used = std::numeric_limits<std::uint32_t>::max();
+  if (runs_[activity].after_cancel == AfterCancel::retry || starting()) {
     fail(activity, now, BreakReason::activity_failed, cause, false);
   } else {
     close(activity, now, ActivityState::failed, cause);
@@ -274,6 +308,7 @@ Time PlanRun::next_timer(Index activity, Time now) const {
   const PlanActivity& planned = plan_.activities[activity];
   const ActivityRun& run = runs_[activity];
   if (run.phase == Phase::cancelling) return run.phase_since + settings_.cancel_timeout;
+  if (run.phase == Phase::recovering) return contingency_timer(activity);
   if (run.phase == Phase::settling) {
     const Time from = settled_from(activity);
     return now < from ? from : from + settings_.settle_time;

@@ -14,7 +14,7 @@ PlanRun::PlanRun(temporal::FlexiblePlan plan, const ExecutiveSettings& settings,
     : plan_(std::move(plan)),
       settings_(settings),
       store_(store),
-      points_(plan_),
+      points_(plan_, settings.start == StartPolicy::latest),
       runs_(plan_.activities.size()),
       decisions_(plan_.decisions.size()),
       held_by_(plan_.decisions.size()),
@@ -49,17 +49,21 @@ void PlanRun::adopt(PlanRun& before) {
   std::vector<std::pair<Time, TimePoint>> events;
   for (const Index old : before.active_) {
     const PlanActivity& activity = before.plan_.activities[old];
-    if (index_of_.contains(activity.id)) continue;
-    if (!activity.owner.empty() && before.runs_[old].phase != Phase::settling)
+    if (index_of_.contains(activity.id) && before.runs_[old].phase != Phase::recovering) continue;
+    if (before.runs_[old].phase == Phase::recovering) {
+      before.send_contingency(old, CommandAction::cancel);
+    } else if (!activity.owner.empty() && before.runs_[old].phase != Phase::settling) {
       before.send(old, CommandAction::cancel);
+    }
     store_.end(activity, false);
   }
   for (Index i = 0; i < runs_.size(); ++i) {
     const auto found = before.index_of_.find(plan_.activities[i].id);
     if (found == before.index_of_.end()) continue;
     const ActivityRun& run = before.runs_[found->second];
-    if (!run.active() && run.state != ActivityState::succeeded) {
+    if ((!run.active() && run.state != ActivityState::succeeded) || run.phase == Phase::recovering) {
       runs_[i].attempt = run.attempt;
+      runs_[i].contingency_commands = run.contingency_commands;
       continue;
     }
     runs_[i] = run;
@@ -99,6 +103,7 @@ void PlanRun::cancel_all(Time now) {
     } else if (owner_works && !plan_.activities[i].owner.empty()) {
       cancel(i, now, AfterCancel::withdraw, "cancel requested");
     } else {
+      if (run.phase == Phase::recovering) send_contingency(i, CommandAction::cancel);
       close(i, now, ActivityState::cancelled,
             run.phase == Phase::settling ? "cancelled before its end was confirmed" : "");
     }
@@ -185,6 +190,10 @@ void PlanRun::send(Index activity, CommandAction action) {
   const PlanActivity& planned = plan_.activities[activity];
   outputs_.commands.push_back({action, planned.id, runs_[activity].attempt, planned.owner, planned.subsystem,
                                planned.command_name, planned.arguments, points_.duration(activity).lower});
+}
+
+void PlanRun::recover(Rung rung, Index activity, std::string cause) {
+  outputs_.recoveries.push_back({rung, plan_.activities[activity].id, std::move(cause)});
 }
 
 temporal::Lookup PlanRun::lookup() const {

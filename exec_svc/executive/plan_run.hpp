@@ -73,6 +73,7 @@ class PlanRun {
   void skip(Index activity, const std::string& cause);
   void consider_wait(Index activity, temporal::Time now);
   void begin_wait(Index activity, temporal::Time now, temporal::Duration bound);
+  void recover(Rung rung, Index activity, std::string cause);
 
   bool expire_waits(temporal::Time now);
   void break_if_late(temporal::Time now);
@@ -88,6 +89,7 @@ class PlanRun {
             bool still_commanded);
   void fail_or_retry(Index activity, temporal::Time now, const std::string& cause);
   bool retry(Index activity, temporal::Time now, const std::string& cause);
+  void try_again(Index activity, temporal::Time now, const std::string& cause);
   void close(Index activity, temporal::Time now, temporal::ActivityState state, const std::string& cause);
   void cancel(Index activity, temporal::Time now, AfterCancel after, const std::string& cause);
   void take_cancel_answer(Index activity, const CommandAck& ack, temporal::Time now);
@@ -96,6 +98,16 @@ class PlanRun {
   temporal::Time hung_after(Index activity) const;
   temporal::Time settled_from(Index activity) const;
   temporal::Time next_timer(Index activity, temporal::Time now) const;
+
+  // contingency.cpp: commands from a template after a failure
+  const Contingency* contingency_of(Index activity) const;
+  std::string contingency_owner(Index activity) const;
+  bool begin_contingency(Index activity, temporal::Time now, const std::string& cause);
+  void send_contingency(Index activity, CommandAction action);
+  bool take_contingency_ack(const CommandAck& ack, temporal::Time now);
+  bool monitor_contingency(Index activity, temporal::Time now);
+  void end_contingency(Index activity, temporal::Time now, const std::string& fault);
+  temporal::Time contingency_timer(Index activity) const;
 
   // deciding.cpp: open choices
   bool decide(temporal::Time now);
@@ -110,7 +122,8 @@ class PlanRun {
   std::vector<std::vector<temporal::TimePoint>> held_by_;   // by decision
   std::vector<std::vector<temporal::TimePoint>> asked_by_;  // of these, those that make it be asked for
   std::unordered_map<std::string, Index> index_of_;
-  std::vector<std::vector<std::size_t>> tokens_from_;  // by activity: tokens that begin with it
+  std::vector<std::vector<std::size_t>> tokens_from_;      // by activity: tokens that begin with it
+  std::unordered_map<std::string, Index> contingency_of_;  // by id of its command
   std::set<Index> active_;
   std::set<Index> open_decisions_;
   std::set<std::pair<temporal::Time, Index>> waits_;  // by end of the wait

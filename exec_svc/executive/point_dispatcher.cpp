@@ -10,8 +10,9 @@ using temporal::Duration;
 using temporal::Time;
 using temporal::TimePoint;
 
-PointDispatcher::PointDispatcher(const temporal::FlexiblePlan& plan)
-    : owners_(point_owners(plan)),
+PointDispatcher::PointDispatcher(const temporal::FlexiblePlan& plan, bool latest_starts)
+    : latest_starts_(latest_starts),
+      owners_(point_owners(plan)),
       constraints_(all_constraints(plan)),
       precedence_(precedence_of(constraints_, owners_)),
       windows_(plan.point_count, constraints_, plan.origin),
@@ -133,10 +134,16 @@ Time PointDispatcher::next_time(Time now) {
 /// Points behind the front have no business yet, and cost nothing.
 bool PointDispatcher::watched(TimePoint point) const { return open(point) && points_[point].unreached == 0; }
 
+Time PointDispatcher::due_time(TimePoint point) const {
+  const temporal::Window window = windows_.window(point);
+  const bool waits = latest_starts_ && owners_[point].role == PointRole::start && bounded(window.upper);
+  return waits ? std::max(window.lower, window.upper) : window.lower;
+}
+
 void PointDispatcher::enter_times(TimePoint point) {
   if (near(point) && commanded(point)) {
-    const Time lower = windows_.window(point).lower;
-    if (bounded(lower)) earliest_.enter(lower, point);
+    const Time due = due_time(point);
+    if (bounded(due)) earliest_.enter(due, point);
   }
   if (points_[point].unreached > 0) return;
   const Time upper =
@@ -153,9 +160,14 @@ void PointDispatcher::note_changes() {
     ready_.erase(point);
     enter_times(point);
   }
-  for (const auto& [point, before] : windows_.latest_changes())
-    if (watched(point) && !windows_.happened(point) && before != windows_.window(point).upper)
-      enter_times(point);
+  for (const auto& [point, before] : windows_.latest_changes()) {
+    if (!watched(point) || windows_.happened(point) || before == windows_.window(point).upper) continue;
+    if (latest_starts_ && owners_[point].role == PointRole::start) {
+      points_[point].due = false;
+      ready_.erase(point);
+    }
+    enter_times(point);
+  }
 }
 
 void PointDispatcher::begin(TimePoint point) {
@@ -214,9 +226,8 @@ void PointDispatcher::pass(TimePoint point) {
 }
 
 std::optional<Agenda::Entry> PointDispatcher::first_earliest() {
-  return earliest_.first([&](Time at, TimePoint point) {
-    return open(point) && !points_[point].due && windows_.window(point).lower == at;
-  });
+  return earliest_.first(
+      [&](Time at, TimePoint point) { return open(point) && !points_[point].due && due_time(point) == at; });
 }
 
 std::optional<Agenda::Entry> PointDispatcher::first_latest() {

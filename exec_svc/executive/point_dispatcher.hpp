@@ -14,8 +14,9 @@ namespace roci::exec {
 
 class PointDispatcher {
  public:
-  /// The plan has passed check().
-  explicit PointDispatcher(const temporal::FlexiblePlan& plan);
+  /// The plan has passed check(). latest_starts: starts are due at the end of their windows, where these have
+  /// one (R144).
+  explicit PointDispatcher(const temporal::FlexiblePlan& plan, bool latest_starts = false);
 
   temporal::Window window(temporal::TimePoint point) const { return windows_.window(point); }
   /// Makes window() cheap for every point.
@@ -38,8 +39,8 @@ class PointDispatcher {
   bool held(temporal::TimePoint point) const { return points_[point].holds > 0; }
   bool only_held(temporal::TimePoint point) const { return points_[point].pending == points_[point].holds; }
 
-  /// Points whose predecessors have all begun (an end has begun when its activity has started) and whose
-  /// earliest time has come since the last call. They may still wait for predecessors to end.
+  /// Points whose predecessors have all begun (an end has begun when its activity has started) and which
+  /// have become due since the last call. They may still wait for predecessors to end.
   std::vector<temporal::TimePoint> advance(temporal::Time now);
   bool due(temporal::TimePoint point) const { return points_[point].due; }
 
@@ -83,6 +84,7 @@ class PointDispatcher {
   void enter_times(temporal::TimePoint point);
   void note_changes();
   void take_back(temporal::TimePoint point);
+  temporal::Time due_time(temporal::TimePoint point) const;
   bool near(temporal::TimePoint point) const { return points_[point].unbegun == 0; }
   bool watched(temporal::TimePoint point) const;
   void begin(temporal::TimePoint point);
@@ -92,6 +94,7 @@ class PointDispatcher {
   std::optional<Agenda::Entry> first_earliest();
   std::optional<Agenda::Entry> first_latest();
 
+  bool latest_starts_;
   std::vector<PointOwner> owners_;
   std::vector<temporal::TemporalConstraint> constraints_;
   Precedence precedence_;

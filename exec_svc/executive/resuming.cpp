@@ -11,6 +11,11 @@ void PlanRun::resume(Time now) {
   for (const Index activity : active_) {
     ActivityRun& run = runs_[activity];
     if (plan_.activities[activity].owner.empty() || run.phase == Phase::settling) continue;
+    if (run.phase == Phase::recovering) {
+      run.recovering.command_since = now;
+      send_contingency(activity, CommandAction::query);
+      continue;
+    }
     run.asked = true;
     if (run.phase != Phase::running) run.phase_since = now;  // the time for an answer counts anew
     send(activity, CommandAction::query);

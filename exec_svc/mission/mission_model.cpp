@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/mission/entry.hpp"
+#include "exec_svc/mission/action_entries.hpp"
 #include "exec_svc/mission/domain_names.hpp"
 
 namespace roci::exec {
@@ -156,35 +157,6 @@ GoalKind read_goal_kind(const std::string& name, const Entry& entry) {
   return out;
 }
 
-temporal::LatenessPolicy read_lateness(const Entry& entry) {
-  const std::string text = entry.text();
-  if (text == "replan") return temporal::LatenessPolicy::replan;
-  if (text == "push") return temporal::LatenessPolicy::push;
-  if (text == "deadline") return temporal::LatenessPolicy::deadline;
-  entry.fail("unknown lateness policy '" + text + "'; one of: replan, push, deadline");
-}
-
-ActionBinding read_action(const Entry& entry, const std::vector<Component>& components) {
-  entry.allow_only({"owner", "component", "command", "arguments", "lateness", "retries", "wait_timeout_s"});
-  ActionBinding out;
-  out.owner = entry.at("owner").text();
-  out.component = entry.at("component").text();
-  out.command = entry.at("command").text();
-  bool known = false;
-  for (const Component& component : components) known = known || component.name == out.component;
-  if (!known)
-    entry.at("component")
-        .fail("no component '" + out.component + "' in this mission; declare it under 'components'");
-  if (const auto arguments = entry.find("arguments")) {
-    for (const auto& [name, value] : arguments->fields()) out.arguments.emplace_back(name, value.text());
-  }
-  if (const auto lateness = entry.find("lateness")) out.lateness = read_lateness(*lateness);
-  if (const auto retries = entry.find("retries"))
-    out.retries = static_cast<std::uint32_t>(retries->integer());
-  if (const auto timeout = entry.find("wait_timeout_s")) out.wait_timeout = seconds(*timeout);
-  return out;
-}
-
 PlannerSettings read_planner(const Entry& entry) {
   PlannerSettings out;
   out.engine = entry.text_or("engine", out.engine);
@@ -199,18 +171,9 @@ PlannerSettings read_planner(const Entry& entry) {
   return out;
 }
 
-std::uint32_t count_or(const Entry& parent, const char* key, std::uint32_t fallback, std::uint32_t least) {
-  const auto entry = parent.find(key);
-  if (!entry) return fallback;
-  const std::int64_t count = entry->integer();
-  if (count < least || count > 1'000'000)
-    entry->fail("must be a whole number from " + std::to_string(least) + " to 1000000; correct it");
-  return static_cast<std::uint32_t>(count);
-}
-
 ReactorSettings read_executive(const Entry& entry) {
   entry.allow_only({"ack_timeout_s", "fallback_timeout_s", "replan_limit", "call_retries", "failure_limit",
-                    "failure_pause_s", "keep_inputs"});
+                    "failure_pause_s", "keep_inputs", "recovery", "start"});
   ReactorSettings out;
   out.ack_timeout = seconds_or(entry, "ack_timeout_s", temporal::to_seconds(out.ack_timeout));
   out.fallback_timeout = seconds_or(entry, "fallback_timeout_s", temporal::to_seconds(out.fallback_timeout));
@@ -219,6 +182,8 @@ ReactorSettings read_executive(const Entry& entry) {
   out.failure_limit = count_or(entry, "failure_limit", out.failure_limit, 1);
   out.failure_pause = seconds_or(entry, "failure_pause_s", temporal::to_seconds(out.failure_pause));
   out.keep_inputs = entry.truth_or("keep_inputs", out.keep_inputs);
+  if (const auto recovery = entry.find("recovery")) out.recovery = read_strategy(*recovery);
+  if (const auto start = entry.find("start")) out.start = read_start(*start);
   return out;
 }
 
@@ -242,8 +207,12 @@ MissionModel read_mission(const std::filesystem::path& mission_folder) {
   if (const auto list = root.find("windows")) {
     for (const Entry& item : list->items()) out.windows.push_back(read_window(item));
   }
+  if (const auto contingencies = root.find("contingencies")) {
+    for (const auto& [name, entry] : contingencies->fields())
+      out.contingencies[name] = read_contingency(name, entry, out.components);
+  }
   for (const auto& [name, entry] : root.at("actions").fields()) {
-    out.actions[name] = read_action(entry, out.components);
+    out.actions[name] = read_action(entry, out.components, out.contingencies);
   }
   for (const auto& [name, entry] : root.at("goal_kinds").fields()) {
     out.goal_kinds[name] = read_goal_kind(name, entry);

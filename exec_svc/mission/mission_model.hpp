@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "core/temporal/flexible_plan.hpp"
+#include "exec_svc/executive/contingency.hpp"
+#include "exec_svc/executive/executive.hpp"
 
 namespace roci::exec {
 
@@ -89,6 +91,17 @@ struct ActionBinding {
   temporal::LatenessPolicy lateness = temporal::LatenessPolicy::replan;
   std::uint32_t retries = 0;
   temporal::Duration wait_timeout = temporal::no_bound;
+  temporal::Duration retry_within = temporal::no_bound;  // after its start
+  std::string contingency;                               // empty: none
+};
+
+// What is done when a plan breaks or a step fails (R102); the same plans, other rungs of the ladder.
+enum class RecoveryStrategy {
+  cascade,     // push, retry, contingency, then replan, drop goals, and at last the ground
+  as_planned,  // "static": nothing; the open goals fail
+  ground,      // the robot is made safe and the ground asked at once
+  flexible,    // "fe": push, retry, contingency, then the ground
+  replan,      // replan at once, drop goals, then the ground
 };
 
 struct PlannerSettings {
@@ -110,6 +123,8 @@ struct ReactorSettings {
       5;  // failed commands of one component in a row; then their goals are given up
   bool keep_inputs = true;  // of the whole mission in the journal; false: since the last anchor
   temporal::Duration failure_pause = temporal::seconds(30);  // after the second of them; doubles with each
+  RecoveryStrategy recovery = RecoveryStrategy::cascade;
+  StartPolicy start = StartPolicy::earliest;
 };
 
 struct MissionModel {
@@ -122,6 +137,7 @@ struct MissionModel {
   std::vector<FluentSource> fluents;
   std::vector<WindowModel> windows;
   std::map<std::string, ActionBinding> actions;
+  std::map<std::string, Contingency> contingencies;
   std::map<std::string, GoalKind> goal_kinds;
   PlannerSettings planner;
   ReactorSettings executive;

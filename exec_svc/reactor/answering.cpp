@@ -58,6 +58,7 @@ void Reactor::adopt(Time now, const PlanAnswer& answer) {
   temporal::FlexiblePlan plan = answer.plan;
   plan.origin = call_.origin;
   std::string fault = bind_plan(plan, plan_version_ + 1, *mission_, call_.problem, beliefs_, goals_);
+  if (!ladder_.flexible) make_inflexible(plan);
   if (fault.empty()) {
     const auto faults = executive_.load(plan, now);
     if (!faults.empty()) fault = faults.front();

@@ -72,6 +72,7 @@ std::string bind_plan(temporal::FlexiblePlan& plan, std::uint32_t version, const
     activity.lateness = binding.lateness;
     activity.retries = binding.retries;
     activity.wait_timeout = binding.wait_timeout;
+    activity.contingency = binding.contingency;
     activity.goals_served = goals_served(objects, mission, goals);
     activity.arguments.clear();
     for (const auto& [name, text] : binding.arguments) {

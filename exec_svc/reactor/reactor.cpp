@@ -10,11 +10,16 @@ namespace {
 
 using temporal::Time;
 
-ExecutiveSettings executive_settings(const MissionModel& mission) {
-  ExecutiveSettings settings;
-  settings.ack_timeout = mission.executive.ack_timeout;
-  settings.cancel_timeout = mission.executive.ack_timeout;
-  return settings;
+const char* code_of(Rung rung) {
+  switch (rung) {
+    case Rung::push:
+      return "recovery.push";
+    case Rung::retry:
+      return "recovery.retry";
+    case Rung::contingency:
+      return "recovery.contingency";
+  }
+  return "recovery";
 }
 
 // The goals that an activity works for: those it serves, else those of the next one that serves any.
@@ -48,6 +53,7 @@ Reactor::Reactor(const MissionModel& mission)
       beliefs_(mission),
       goals_(mission),
       executive_(executive_settings(mission)),
+      ladder_(ladder_of(mission.executive.recovery)),
       failures_(mission.executive.failure_limit, mission.executive.failure_pause) {}
 
 void Reactor::restore(const std::vector<GoalRecord>& goals, std::uint32_t last_plan_version) {
@@ -150,6 +156,8 @@ void Reactor::run_executive(Time now, const ReactorInputs& inputs) {
       failures_.succeeded(activity->subsystem);
   }
   std::move(done.changes.begin(), done.changes.end(), std::back_inserter(out_.steps));
+  for (const RecoveryStep& recovery : done.recoveries)
+    note(NoteLevel::info, code_of(recovery.rung), recovery.activity + ": " + recovery.cause);
   if (done.next_wake) wake_at(*done.next_wake);
   if (!out_.steps.empty() && phase_ == Phase::executing) tell_windows();
 }
@@ -192,8 +200,8 @@ void Reactor::advance(Time now, const ReactorInputs& inputs) {
 void Reactor::follow_plan(Time now) {
   const Outcome outcome = executive_.outcome();
   if (outcome.kind == OutcomeKind::broken) {
-    break_plan((outcome.activity.empty() ? "" : outcome.activity + ": ") + outcome.cause);
-    if (outcome.reason == BreakReason::activity_failed) count_failure(now, outcome);
+    break_plan(now, (outcome.activity.empty() ? "" : outcome.activity + ": ") + outcome.cause);
+    if (wanted_ && outcome.reason == BreakReason::activity_failed) count_failure(now, outcome);
   } else if (outcome.kind == OutcomeKind::finished) {
     note(NoteLevel::info, "plan.finished", "plan " + std::to_string(plan_version_) + " finished");
     phase_ = Phase::idle;
@@ -202,14 +210,24 @@ void Reactor::follow_plan(Time now) {
     const std::string lacking =
         shortfall(executive_.plan(), executive_.steps(),
                   [this](const std::string& timeline) { return beliefs_.lookup(timeline); });
-    if (!lacking.empty()) break_plan(lacking);
+    if (!lacking.empty()) break_plan(now, lacking);
   }
 }
 
-void Reactor::break_plan(const std::string& why) {
+// The way on is what the ladder still has: a new plan, else the ground, else nothing (R102).
+void Reactor::break_plan(Time now, const std::string& why) {
   const std::string plan = "plan " + std::to_string(plan_version_);
   note(NoteLevel::warning, "plan.broken", plan + " is broken: " + why);
-  want_plan(plan + " broke: " + why);
+  if (ladder_.replans) {
+    want_plan(plan + " broke: " + why);
+    return;
+  }
+  if (!ladder_.asks_ground) {
+    std::vector<GoalKey> open;
+    for (const GoalRecord* record : goals_.open()) open.push_back(record->request.key);
+    give_up(open, plan + " broke, and nothing is mended in this run: " + why);
+  }
+  make_safe(now, plan + " broke: " + why);
 }
 
 // A component that keeps failing gets ever more time to recover; in the end its goals are given up.

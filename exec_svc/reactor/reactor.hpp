@@ -16,6 +16,7 @@
 #include "exec_svc/goals/goal_set.hpp"
 #include "exec_svc/problem/problem_writer.hpp"
 #include "exec_svc/reactor/failure_tally.hpp"
+#include "exec_svc/reactor/ladder.hpp"
 
 namespace roci::exec {
 
@@ -137,7 +138,7 @@ class Reactor {
   static void fields(Archive& archive, Self& self);
   void take_models(const std::vector<ModelVersion>& models);
   void follow_plan(temporal::Time now);
-  void break_plan(const std::string& why);
+  void break_plan(temporal::Time now, const std::string& why);
   void count_failure(temporal::Time now, const Outcome& outcome);
   void give_up(const std::vector<GoalKey>& goals, const std::string& why);
   void begin_pause(temporal::Time now);
@@ -164,6 +165,7 @@ class Reactor {
   Beliefs beliefs_;
   GoalSet goals_;
   Executive executive_;
+  Ladder ladder_;
   FailureTally failures_;
   ReactorOutputs out_;
 

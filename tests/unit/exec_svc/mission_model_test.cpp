@@ -92,6 +92,16 @@ INSTANTIATE_TEST_SUITE_P(
              "no predicate 'seen'"},
         Slip{"mission.yaml", "ack_timeout_s", "ack_timout_s", "unknown key 'ack_timout_s'; known here: "},
         Slip{"mission.yaml", "lateness: replan", "lateness: never", "one of: replan, push, deadline"},
+        Slip{"mission.yaml", "lateness: replan", "contingency: pray",
+             "no contingency 'pray' in this mission"},
+        Slip{"mission.yaml", "lateness: replan", "retries: -1", "must be a whole number from 0"},
+        Slip{"mission.yaml", "executive:", "executive:\n  recovery: hope",
+             "cascade, static, ground, fe, replan"},
+        Slip{"mission.yaml", "executive:", "executive:\n  start: soon", "one of: earliest, latest"},
+        Slip{"mission.yaml", "executive:",
+             "contingencies: {stop-arm: {commands: [{owner: sim_svc, component: leg, command: "
+             "stop}]}}\nexecutive:",
+             "no component 'leg'"},
         Slip{"mission.yaml", "[[1500, 2700]", "[[2700, 1500]", "from < to"},
         Slip{"mission.yaml", "work: 40000", "work: much", "number"}));
 

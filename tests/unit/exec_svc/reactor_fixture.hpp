@@ -90,7 +90,7 @@ class ReactorTest : public ::testing::Test {
     for (const Command& command : out.commands) obey(command);
   }
 
-  void obey(const Command& command) {
+  virtual void obey(const Command& command) {
     commands.push_back(command);
     if (robot_is_dead) return;
     if (command.action == CommandAction::cancel) {

@@ -93,8 +93,13 @@ void ScriptedWorld::note(const Outputs& outputs) {
     const bool execute = command.action == CommandAction::execute;
     trace.push_back(at + (execute ? "execute " : "cancel ") + command.activity + "#" +
                     std::to_string(command.attempt));
+    if (!command.arguments.empty()) arguments[command.activity] = command.arguments.front().value;
     answer(command);
   }
+  static constexpr std::array rungs{"push", "retry", "contingency"};
+  for (const RecoveryStep& recovery : outputs.recoveries)
+    recoveries.push_back(at + rungs.at(static_cast<std::size_t>(recovery.rung)) + " " + recovery.activity +
+                         ": " + recovery.cause);
   for (const DecisionRequest& request : outputs.decision_requests) {
     std::string line = at + "ask " + request.resolver + ": " + request.decision + "?";
     for (const std::string& choice : request.choices) line += " " + choice;

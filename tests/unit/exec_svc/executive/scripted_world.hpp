@@ -39,6 +39,8 @@ class ScriptedWorld {
 
   Executive executive;
   std::vector<std::string> trace;
+  std::vector<std::string> recoveries;           ///< "30 retry drive: cause"
+  std::map<std::string, std::string> arguments;  ///< first argument of each command, by activity
 
  private:
   struct Event {

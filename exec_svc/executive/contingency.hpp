@@ -1,0 +1,31 @@
+// What is done about a failed activity before its plan is given up (R69, R70): commands from a template, sent
+// at once and without a planner.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/temporal/duration.hpp"
+#include "core/temporal/flexible_plan.hpp"
+
+namespace roci::exec {
+
+struct ContingencyCommand {
+  std::string owner;
+  std::string subsystem;
+  std::string command_name;
+  std::vector<temporal::Property> arguments;  ///< {name}: the failed command's argument of that name
+};
+
+/// A task that nobody requested; a failure makes an instance of it.
+struct Contingency {
+  std::string name;
+  std::vector<ContingencyCommand> commands;  ///< one after the other
+  bool retries =
+      false;  ///< then the activity is tried again, if its preconditions hold; else the plan is broken
+  std::uint32_t times = 1;                             ///< for one activity
+  temporal::Duration within = temporal::seconds(300);  ///< for all of its commands
+};
+
+}  // namespace roci::exec

@@ -1,0 +1,121 @@
+#include "exec_svc/mission/action_entries.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace roci::exec {
+namespace {
+
+using mission::Entry;
+
+// One of the words that may stand there.
+template <typename Meaning, std::size_t Count>
+Meaning read_word(const Entry& entry, const char* what,
+                  const std::pair<const char*, Meaning> (&words)[Count]) {
+  const std::string text = entry.text();
+  std::string known;
+  for (const auto& [word, meaning] : words) {
+    if (text == word) return meaning;
+    known += (known.empty() ? "" : ", ") + std::string(word);
+  }
+  entry.fail("unknown " + std::string(what) + " '" + text + "'; one of: " + known);
+}
+
+std::string read_component_name(const Entry& entry, const std::vector<Component>& components) {
+  std::string name = entry.text();
+  const bool known = std::any_of(components.begin(), components.end(),
+                                 [&](const Component& component) { return component.name == name; });
+  if (!known) entry.fail("no component '" + name + "' in this mission; declare it under 'components'");
+  return name;
+}
+
+temporal::Duration read_time(const Entry& entry) {
+  const double seconds = entry.number();
+  if (seconds <= 0) entry.fail("expected a time above 0 in seconds; correct it");
+  return temporal::seconds(seconds);
+}
+
+}  // namespace
+
+std::uint32_t count_or(const Entry& parent, const char* key, std::uint32_t fallback, std::uint32_t least) {
+  const auto entry = parent.find(key);
+  if (!entry) return fallback;
+  const std::int64_t count = entry->integer();
+  if (count < least || count > 1'000'000)
+    entry->fail("must be a whole number from " + std::to_string(least) + " to 1000000; correct it");
+  return static_cast<std::uint32_t>(count);
+}
+
+Contingency read_contingency(const std::string& name, const Entry& entry,
+                             const std::vector<Component>& components) {
+  entry.allow_only({"commands", "then", "times", "within_s"});
+  Contingency out;
+  out.name = name;
+  for (const Entry& item : entry.at("commands").items()) {
+    item.allow_only({"owner", "component", "command", "arguments"});
+    ContingencyCommand command{item.at("owner").text(),
+                               read_component_name(item.at("component"), components),
+                               item.at("command").text(),
+                               {}};
+    if (const auto arguments = item.find("arguments")) {
+      for (const auto& [argument, value] : arguments->fields())
+        command.arguments.push_back({argument, value.text()});
+    }
+    out.commands.push_back(std::move(command));
+  }
+  if (out.commands.empty()) entry.at("commands").fail("a contingency needs at least one command; add it");
+  static constexpr std::pair<const char*, bool> ways[]{{"retry", true}, {"replan", false}};
+  if (const auto then = entry.find("then")) out.retries = read_word(*then, "way to go on", ways);
+  out.times = count_or(entry, "times", out.times, 1);
+  if (const auto within = entry.find("within_s")) out.within = read_time(*within);
+  return out;
+}
+
+ActionBinding read_action(const Entry& entry, const std::vector<Component>& components,
+                          const std::map<std::string, Contingency>& contingencies) {
+  entry.allow_only({"owner", "component", "command", "arguments", "lateness", "retries", "retry_within_s",
+                    "wait_timeout_s", "contingency"});
+  ActionBinding out;
+  out.owner = entry.at("owner").text();
+  out.component = read_component_name(entry.at("component"), components);
+  out.command = entry.at("command").text();
+  if (const auto arguments = entry.find("arguments")) {
+    for (const auto& [name, value] : arguments->fields()) out.arguments.emplace_back(name, value.text());
+  }
+  static constexpr std::pair<const char*, temporal::LatenessPolicy> policies[]{
+      {"replan", temporal::LatenessPolicy::replan},
+      {"push", temporal::LatenessPolicy::push},
+      {"deadline", temporal::LatenessPolicy::deadline}};
+  if (const auto lateness = entry.find("lateness"))
+    out.lateness = read_word(*lateness, "lateness policy", policies);
+  out.retries = count_or(entry, "retries", out.retries, 0);
+  if (const auto within = entry.find("retry_within_s")) out.retry_within = read_time(*within);
+  if (const auto timeout = entry.find("wait_timeout_s"))
+    out.wait_timeout = temporal::seconds(timeout->number());
+  if (const auto contingency = entry.find("contingency")) {
+    out.contingency = contingency->text();
+    if (!contingencies.contains(out.contingency))
+      contingency->fail("no contingency '" + out.contingency +
+                        "' in this mission; declare it under 'contingencies'");
+  }
+  return out;
+}
+
+RecoveryStrategy read_strategy(const Entry& entry) {
+  static constexpr std::pair<const char*, RecoveryStrategy> strategies[]{
+      {"cascade", RecoveryStrategy::cascade},
+      {"static", RecoveryStrategy::as_planned},
+      {"ground", RecoveryStrategy::ground},
+      {"fe", RecoveryStrategy::flexible},
+      {"replan", RecoveryStrategy::replan}};
+  return read_word(entry, "recovery strategy", strategies);
+}
+
+StartPolicy read_start(const Entry& entry) {
+  static constexpr std::pair<const char*, StartPolicy> policies[]{{"earliest", StartPolicy::earliest},
+                                                                  {"latest", StartPolicy::latest}};
+  return read_word(entry, "start policy", policies);
+}
+
+}  // namespace roci::exec

@@ -1,0 +1,28 @@
+// What mission.yaml says of commands: actions with their policies, contingencies, and the recovery ladder.
+// Every reader throws mission::FileError with the place and the remedy.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/mission/entry.hpp"
+#include "exec_svc/mission/mission_model.hpp"
+
+namespace roci::exec {
+
+Contingency read_contingency(const std::string& name, const mission::Entry& entry,
+                             const std::vector<Component>& components);
+
+ActionBinding read_action(const mission::Entry& entry, const std::vector<Component>& components,
+                          const std::map<std::string, Contingency>& contingencies);
+
+RecoveryStrategy read_strategy(const mission::Entry& entry);
+StartPolicy read_start(const mission::Entry& entry);
+
+// A whole number from `least` to 1000000, or the fallback where the key is missing.
+std::uint32_t count_or(const mission::Entry& parent, const char* key, std::uint32_t fallback,
+                       std::uint32_t least);
+
+}  // namespace roci::exec

@@ -1,0 +1,25 @@
+// The recovery ladder: which rungs a strategy has (R102). Push, retry and contingency are the executive's;
+// replanning, dropping goals and asking the ground the reactor's. One plan generator serves all strategies.
+#pragma once
+
+#include "core/temporal/flexible_plan.hpp"
+#include "exec_svc/executive/executive.hpp"
+#include "exec_svc/mission/mission_model.hpp"
+
+namespace roci::exec {
+
+struct Ladder {
+  bool flexible = true;  // push, retry, contingency
+  bool replans = true;   // from observations; goals are dropped where not all fit
+  bool asks_ground = true;
+};
+
+Ladder ladder_of(RecoveryStrategy strategy);
+
+// Takes the executive's rungs out of a plan.
+void make_inflexible(temporal::FlexiblePlan& plan);
+
+// Bounds, contingencies and start policy of the mission.
+ExecutiveSettings executive_settings(const MissionModel& mission);
+
+}  // namespace roci::exec
