@@ -11,8 +11,8 @@ from second_look import SecondLook
 
 # In the order in which they are asked for; the first that applies counts.
 EXPLANATIONS = {
-    "missed": "The planner spent its budget on a problem that has a plan. A bound on the earliest time at which each window "
-    "can still be met would end such a search early.",
+    "missed": "The planner spent its budget on a problem that has a plan. Nearly all have energy for at most twice the best "
+    "order; a bound on the energy that open goals still take would end such a search early.",
     "budget": "The planner spent its budget on a problem that has no plan: the goal had to go, but it took long to see.",
     "no way": "No way leads there: closed terrain, rocks, or a place that the rover would touch.",
     "component": "A component failed five times in a row; its goals are given up, since nobody knows for how long. Longer "

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import problem
-from flights import Call
+from flights import MISSION_WORK, Call
 from losses import EXPLANATIONS, Loss
 
 if TYPE_CHECKING:
@@ -98,7 +98,8 @@ def calls_section(records: list[Record], work: int) -> str:
         rows.append([verdict, count, solvable, undecided])
     most = max((call.evaluated for call in calls if call.verdict == "solved"), default=0)
     out = (
-        f"\n## Planner calls (R61)\n\n{len(calls)} calls with a budget of {work:,} evaluations; a solved one took {most:,} at most. "
+        f"\n## Planner calls (R61)\n\n{len(calls)} calls with a budget of {work:,} evaluations (the mission's: {MISSION_WORK:,}); a solved one took {most:,} "
+        "at most. "
         f"Solvable problems missed: **{len(missed)}**.\n\n"
     )
     out += table(["verdict", "calls", "of these solvable", "undecided"], rows)
@@ -224,7 +225,7 @@ flight, narrow windows, hard terrain, rocks that no map shows, slip, faults of c
 little energy. Written by `bench/field_trial/run.py --runs {len(records)} --seed {first} --work {work} --out FOLDER --report docs/field-trial.md`
 ([how it works](../bench/field_trial/README.md)). One flight again, alone, with all processes:
 
-    bench/field_trial/run.py --runs 1 --seed 17 --out FOLDER && ./run FOLDER/planetary --scenario seed-0017 --seed 17
+    bench/field_trial/run.py --runs 1 --seed 17 --work {work} --out FOLDER && ./run FOLDER/planetary --scenario seed-0017 --seed 17
 
 """
     sections = [losses_section(records, f"pictures/{picture.name}"), hard_section(records), calls_section(records, work)]
