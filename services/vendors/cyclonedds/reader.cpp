@@ -1,6 +1,7 @@
 #include "services/vendors/cyclonedds/reader.hpp"
 
 #include <array>
+#include <vector>
 
 extern "C" {
 #include "services/vendors/cyclonedds/session_start.h"
@@ -76,7 +77,6 @@ Guid CycloneReader::writer_of(dds_entity_t reader, dds_instance_handle_t publica
 
 // The vendor names no writer for a match that it reports while the reader is still being created.
 void CycloneReader::look_up_early_matches() {
-  const std::lock_guard lock(mutex_);
   std::vector<dds_instance_handle_t> writers(16);
   dds_return_t count = 0;
   while ((count = dds_get_matched_publications(reader_, writers.data(), writers.size())) >
@@ -87,14 +87,19 @@ void CycloneReader::look_up_early_matches() {
 }
 
 void CycloneReader::begin_with(dds_entity_t reader, dds_instance_handle_t publication) {
-  const Guid writer = writer_of(reader, publication);
+  Guid writer;
+  {
+    const std::lock_guard lock(mutex_);
+    writer = writer_of(reader, publication);
+  }
+  // Without our lock: the vendor holds the writer's while it delivers to take_all().
   if (reliable_volatile_) roci_keep_what_precedes_first_heartbeat(&type_, writer.data());
 }
 
 void CycloneReader::on_matched(dds_entity_t entity, dds_subscription_matched_status_t status, void* self) {
   auto& reader = *static_cast<CycloneReader*>(self);
-  const std::lock_guard lock(reader.mutex_);
   if (status.current_count_change > 0) reader.begin_with(entity, status.last_publication_handle);
+  const std::lock_guard lock(reader.mutex_);
   reader.matched_ = static_cast<int>(status.current_count);
   if (reader.events_.on_matched) reader.events_.on_matched(reader.matched_);
 }
