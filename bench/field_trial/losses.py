@@ -18,7 +18,8 @@ EXPLANATIONS = {
     "component": "A component failed five times in a row; its goals are given up, since nobody knows for how long. Longer "
     "pauses between the tries would outlast the fault.",
     "energy": "Not enough energy: little at the start, a loss on the way, or what the robot draws while it waits for a "
-    "window. The domain does not know the last; a larger reserve would.",
+    "window. The domain does not know the last, nor that the same draw comes on top of a drive (`rover.idle_power_w`: 42 "
+    "instead of 28 would count that).",
     "too late": "The world was slower than the model (slip, rocks on the way): a latest start passed, and no plan had "
     "all goals any more.",
     "does not fit": "With the goals that were there before, no plan had this one; it was given up as it came, newest first "

@@ -98,9 +98,8 @@ def calls_section(records: list[Record], work: int) -> str:
         rows.append([verdict, count, solvable, undecided])
     most = max((call.evaluated for call in calls if call.verdict == "solved"), default=0)
     out = (
-        f"\n## Planner calls (R61)\n\n{len(calls)} calls with a budget of {work:,} evaluations (the mission's: {MISSION_WORK:,}); a solved one took {most:,} "
-        "at most. "
-        f"Solvable problems missed: **{len(missed)}**.\n\n"
+        f"\n## Planner calls (R61)\n\n{len(calls)} calls with a budget of {work:,} evaluations (the mission's: "
+        f"{MISSION_WORK:,}); a solved one took {most:,} at most. Solvable problems missed: **{len(missed)}**.\n\n"
     )
     out += table(["verdict", "calls", "of these solvable", "undecided"], rows)
     if missed:
