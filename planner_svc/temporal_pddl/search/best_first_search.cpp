@@ -8,9 +8,7 @@
 #include "planner_svc/temporal_pddl/search/evaluation.hpp"
 #include "planner_svc/temporal_pddl/search/goal_test.hpp"
 #include "planner_svc/temporal_pddl/search/open_list.hpp"
-#include "planner_svc/temporal_pddl/search/state_store.hpp"
-#include "planner_svc/temporal_pddl/search/successor_builder.hpp"
-#include "planner_svc/temporal_pddl/search/successor_tree.hpp"
+#include "planner_svc/temporal_pddl/search/state_space.hpp"
 
 namespace roci::planner::temporal_pddl {
 
@@ -25,55 +23,46 @@ class BestFirstSearch {
         options_(options),
         watch_(watch),
         statistics_(statistics),
-        store_(task.layout.words()),
-        check_(task, options.epsilon),
-        builder_(task, store_, check_, options.epsilon),
-        goal_(task, check_, options.epsilon),
-        dominance_(task, store_, bounds_, check_, options.epsilon, goal_.has_deadlines()),
+        space_(task, options.epsilon),
+        goal_(task, space_.check(), options.epsilon),
+        dominance_(task, space_.store(), space_.bounds(), space_.check(), options.epsilon,
+                   goal_.has_deadlines()),
         dominate_(options.dominance && !goal_.has_openings()),
-        tree_(task),
         evaluation_(task),
         random_(options.seed) {}
 
   SearchOutcome run() {
-    Successor& first = successor_;
-    first.state = task_.initial_state;
-    if (take_up(NodeId(), Transition{})) return found();
+    successor_.state = task_.initial_state;
+    if (take_up(NodeId())) return found();
     while (const auto entry = open_.pop()) {
       watch_.poll();
-      if (prefix_.node != entry->parent) {
-        rebuild(task_, store_, bounds_, options_.epsilon, entry->parent, prefix_);
-      }
-      const Rejection rejection = builder_.build(prefix_, entry->snap, successor_);
+      if (prefix_.node != entry->parent) space_.restore(entry->parent, prefix_);
+      const Rejection rejection = space_.build(prefix_, entry->snap, successor_);
       if (rejection == Rejection::temporal) ++statistics_.temporally_inconsistent;
       if (rejection != Rejection::none) continue;
       if (dominate_ && dominance_.dominated(successor_.state, successor_.prefix)) {
         ++statistics_.dominated;
         continue;
       }
-      if (take_up(entry->parent, successor_.transition)) return found();
+      if (take_up(entry->parent)) return found();
     }
     if (too_long_)
       throw Refusal(Verdict::out_of_memory,
                     "a plan may have at most 32767 steps, and none so short was found");
-    return {std::nullopt, {}, goal_.explain_failure(store_.size())};
+    return {std::nullopt, {}, goal_.explain_failure(space_.store().size())};
   }
 
  private:
   SearchOutcome found() { return {std::move(successor_.prefix), std::move(successor_.state), {}}; }
 
   // Stores the state in successor_, evaluates it and queues what can follow. True: it is a goal state.
-  bool take_up(NodeId parent, Transition transition) {
+  bool take_up(NodeId parent) {
     PlanPrefix& prefix = successor_.prefix;
     if (prefix.steps.size() + 2 > kMaxSteps) {
       too_long_ = true;
       return false;
     }
-    code_.clear();
-    const auto fresh = std::span(prefix.constraints).last(successor_.new_constraints);
-    for (const StepConstraint& constraint : fresh) encode(constraint, options_.epsilon, bounds_, code_);
-    const NodeId node = store_.add(successor_.state, parent, transition, code_);
-    prefix.node = node;
+    const NodeId node = space_.add(parent, successor_);
     if (dominate_) dominance_.insert(node, successor_.state, prefix);
     if (goal_.complete(successor_.state, prefix)) return true;
 
@@ -92,16 +81,11 @@ class BestFirstSearch {
       best_ = priority;
       open_.boost();
     }
-    candidates_.clear();
-    for (const ActionId action : prefix.running_actions) candidates_.push_back(task_.actions[action].end);
-    tree_.collect(store_.state(prefix.node), candidates_);
-    if (prefix.timed_done < task_.timed_steps.size()) {
-      candidates_.push_back(task_.timed_steps[prefix.timed_done].snap);
-    }
+    const auto applicable = space_.applicable(prefix);
+    candidates_.assign(applicable.begin(), applicable.end());
     if (options_.seed != 0) std::ranges::shuffle(candidates_, random_);
     std::ranges::sort(estimate_.preferred);
     for (const SnapId snap : candidates_) {
-      if (!builder_.applicable(prefix, snap)) continue;
       const bool preferred =
           options_.preferred_operators && std::ranges::binary_search(estimate_.preferred, snap);
       open_.push(priority, preferred, {prefix.node, snap});
@@ -110,8 +94,8 @@ class BestFirstSearch {
   }
 
   void account() {
-    statistics_.bytes_per_state = store_.mean_bytes_per_state();
-    watch_.memory(store_.bytes() + open_.bytes() + dominance_.bytes());
+    statistics_.bytes_per_state = space_.store().mean_bytes_per_state();
+    watch_.memory(space_.store().bytes() + open_.bytes() + dominance_.bytes());
     if (statistics_.expanded % 1024 == 0) watch_.progress(statistics_);
   }
 
@@ -120,14 +104,10 @@ class BestFirstSearch {
   const Options& options_;
   Watch& watch_;
   Statistics& statistics_;
-  StateStore store_;
-  BoundTable bounds_;
-  TemporalCheck check_;
-  SuccessorBuilder builder_;
+  StateSpace space_;
   GoalTest goal_;
   Dominance dominance_;
   bool dominate_;
-  SuccessorTree tree_;
   Evaluation evaluation_;
   OpenList open_;
   std::mt19937_64 random_;
@@ -137,7 +117,6 @@ class BestFirstSearch {
   Estimate estimate_;
   std::optional<Priority> best_;
   std::vector<SnapId> candidates_;
-  std::vector<std::uint8_t> code_;
   bool too_long_ = false;
 };
 

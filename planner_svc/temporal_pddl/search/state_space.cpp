@@ -1,0 +1,23 @@
+#include "planner_svc/temporal_pddl/search/state_space.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+std::span<const SnapId> StateSpace::applicable(const PlanPrefix& prefix) {
+  candidates_.clear();
+  for (const ActionId action : prefix.running_actions) candidates_.push_back(task_.actions[action].end);
+  tree_.collect(store_.state(prefix.node), candidates_);
+  if (prefix.timed_done < task_.timed_steps.size())
+    candidates_.push_back(task_.timed_steps[prefix.timed_done].snap);
+  std::erase_if(candidates_, [&](SnapId snap) { return !builder_.applicable(prefix, snap); });
+  return candidates_;
+}
+
+NodeId StateSpace::add(NodeId parent, Successor& successor) {
+  code_.clear();
+  const auto fresh = std::span(successor.prefix.constraints).last(successor.new_constraints);
+  for (const StepConstraint& constraint : fresh) encode(constraint, epsilon_, bounds_, code_);
+  successor.prefix.node = store_.add(successor.state, parent, successor.transition, code_);
+  return successor.prefix.node;
+}
+
+}  // namespace roci::planner::temporal_pddl
