@@ -1,4 +1,5 @@
-// roci-plan DOMAIN PROBLEM [--time S] [--memory MB] [--functions FILE] [--stats FILE] [--json] [--seed N]
+// roci-plan DOMAIN PROBLEM [--time S] [--evaluations N] [--memory MB] [--functions FILE] [--stats FILE] [--json]
+//           [--seed N]
 //
 // The plan goes to standard output, what is wrong to standard error, the verdict into the exit code
 // (docs/exit-codes.md).
@@ -31,6 +32,7 @@ struct Arguments {
   std::string domain, problem, functions, stats;
   double seconds = 0;  // 0: no limit
   std::size_t megabytes = 0;
+  std::size_t evaluations = 0;  // 0: no limit
   std::uint64_t seed = 0;
   std::size_t improve = 0;
   bool json = false;
@@ -121,6 +123,7 @@ engine::Result plan(const Arguments& arguments, const std::function<bool()>& out
   engine::Budget budget;
   budget.out_of_time = out_of_time;
   if (arguments.megabytes > 0) budget.memory_bytes = arguments.megabytes << 20;
+  if (arguments.evaluations > 0) budget.evaluations = arguments.evaluations;
   engine::Monitor monitor;
   monitor.cancelled = [] { return interrupted != 0; };
   engine::Options options;
@@ -176,6 +179,8 @@ int main(int argc, char** argv) {
   app.add_option("--time", arguments.seconds,
                  "limit in seconds of wall time; spent on better plans to its end");
   app.add_option("--improve", arguments.improve, "look for better plans with so many evaluations");
+  app.add_option("--evaluations", arguments.evaluations,
+                 "limit in heuristic evaluations until the first plan; 1: what grounding costs");
   app.add_option("--memory", arguments.megabytes, "limit in MiB");
   app.add_option("--functions", arguments.functions,
                  "values of external functions: (traverse_time a b) 12.5");

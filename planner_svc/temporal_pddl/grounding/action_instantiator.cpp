@@ -122,6 +122,9 @@ bool ActionInstantiator::collect_effect(const LiftedEffect& effect, bool at_end,
     return at_end ? draft.end_effects : draft.start_effects;
   };
   if (!effect.conditional()) return add_effect(effect, binding, effects_of(unconditional_));
+  const World& world = formulas_.world();
+  if (!world.possible(effect.start_condition, binding) || !world.possible(effect.end_condition, binding))
+    return true;
 
   const Disjunction at_start = formulas_.ground(effect.start_condition, binding);
   const Disjunction before_end = formulas_.ground(effect.end_condition, binding);

@@ -35,6 +35,10 @@ Disjunction simplified(Disjunction alternatives) {
 
 Disjunction always() { return {Conjunction{}}; }
 
+bool is_certain(const Disjunction& alternatives) {
+  return alternatives.size() == 1 && alternatives.front().empty();
+}
+
 std::optional<Conjunction> merged(const Conjunction& a, const Conjunction& b) {
   Conjunction result;
   std::ranges::set_union(a.literals, b.literals, std::back_inserter(result.literals));
@@ -63,14 +67,16 @@ Disjunction either(Disjunction a, const Disjunction& b) {
 Disjunction FormulaGrounder::ground(const LiftedFormula& formula, Binding& binding) {
   Disjunction result;
   const auto conjoin = [&](const LiftedFormula& part) {
-    if (!result.empty()) result = both(result, ground(part, binding));
+    if (result.empty()) return;
+    const Disjunction more = ground(part, binding);
+    if (!is_certain(more)) result = is_certain(result) ? more : both(result, more);
     if (result.size() > kMaxAlternatives) {
       refuse(part.where, "the condition has over " + std::to_string(kMaxAlternatives) + " alternatives",
              "split the action or replace the disjunction by a predicate");
     }
   };
   const auto disjoin = [&](const LiftedFormula& part) {
-    result = either(std::move(result), ground(part, binding));
+    if (!is_certain(result)) result = either(std::move(result), ground(part, binding));
   };
   switch (formula.kind) {
     case Kind::conjunction:

@@ -55,6 +55,7 @@ class FormulaGrounder {
 };
 
 Disjunction always();
+bool is_certain(const Disjunction& alternatives);
 // All ways to satisfy both; contradictions and alternatives that another one implies are dropped.
 Disjunction both(const Disjunction& a, const Disjunction& b);
 Disjunction either(Disjunction a, const Disjunction& b);

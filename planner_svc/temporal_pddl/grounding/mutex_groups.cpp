@@ -77,32 +77,34 @@ class Synthesis {
   }
 
   void add_snap(std::size_t action, bool end) {
-    for (const auto& member : view(2 * action + end).adds) {
+    look_at(2 * action + end);
+    for (const auto& member : view_.adds) {
       auto& list = adders_[member.symbol];
       if (list.empty() || list.back() != 2 * action + end) list.push_back(2 * action + end);
     }
   }
 
-  SnapView view(std::size_t snap) const {
+  // Fills view_.
+  void look_at(std::size_t snap) {
     const GroundAction& action = model_.actions[snap / 2];
     const bool end = snap % 2 == 1;
-    SnapView result;
-    for (const auto literal : end ? action.at_end.literals : start_requirements(action)) {
-      if (!literal.negated) result.needs.push_back(atom(literal.atom));
-    }
     const GroundEffects& effects = end ? action.end_effects : action.start_effects;
-    for (const std::uint32_t id : effects.adds) result.adds.push_back(atom(id));
-    for (const std::uint32_t id : effects.deletes) result.deletes.push_back(atom(id));
-    if (end) {
-      for (const auto literal : action.over_all.literals) {
-        if (!literal.negated) result.needs.push_back(atom(literal.atom));
-      }
-      result.needs.push_back(running(snap / 2));
-      result.deletes.push_back(running(snap / 2));
-    } else if (action.durative) {
-      result.adds.push_back(running(snap / 2));
+    for (auto* members : {&view_.needs, &view_.adds, &view_.deletes}) members->clear();
+    for (const auto literal : end ? action.at_end.literals : action.at_start.literals) {
+      if (!literal.negated) view_.needs.push_back(atom(literal.atom));
     }
-    return result;
+    for (const auto literal : action.over_all.literals) {
+      const bool own = !end && std::ranges::binary_search(effects.adds, literal.atom);
+      if (!literal.negated && !own) view_.needs.push_back(atom(literal.atom));
+    }
+    for (const std::uint32_t id : effects.adds) view_.adds.push_back(atom(id));
+    for (const std::uint32_t id : effects.deletes) view_.deletes.push_back(atom(id));
+    if (end) {
+      view_.needs.push_back(running(snap / 2));
+      view_.deletes.push_back(running(snap / 2));
+    } else if (action.durative) {
+      view_.adds.push_back(running(snap / 2));
+    }
   }
 
   // Every predicate that changes, with every subset of its positions as key; larger sets of atoms first.
@@ -155,9 +157,9 @@ class Synthesis {
     for (const auto& part : candidate) {
       for (const std::size_t snap : adders_[part.symbol]) {
         watch_.step();
-        const SnapView actual = view(snap);
-        for (const auto& added : actual.adds) {
-          if (added.symbol != part.symbol || balanced(candidate, added, actual)) continue;
+        look_at(snap);
+        for (const auto& added : view_.adds) {
+          if (added.symbol != part.symbol || balanced(candidate, added, view_)) continue;
           return false;
         }
       }
@@ -232,6 +234,7 @@ class Synthesis {
   std::set<std::uint32_t> timed_adds_;
   std::deque<Candidate> queue_;
   std::set<Candidate> seen_;
+  SnapView view_;  // of the snap action at hand
   Watch& watch_;
 };
 
