@@ -81,6 +81,10 @@ std::vector<StepStatus> Executive::steps() const {
   return impl_->run ? impl_->run->statuses() : std::vector<StepStatus>{};
 }
 
+std::vector<StepStatus> Executive::upcoming(std::size_t most) const {
+  return impl_->run ? impl_->run->upcoming(most) : std::vector<StepStatus>{};
+}
+
 std::uint64_t Executive::window_work() const { return impl_->run ? impl_->run->window_work() : 0; }
 
 std::vector<Executive::TokenStatus> Executive::tokens() const {

@@ -66,6 +66,9 @@ class Executive {
   /// size of the plan.
   std::vector<StepStatus> steps() const;
 
+  /// The first `most` waiting activities in plan order, as in steps(): work in their number.
+  std::vector<StepStatus> upcoming(std::size_t most) const;
+
   /// Edges of the network looked at for windows since the plan was loaded.
   std::uint64_t window_work() const;
 

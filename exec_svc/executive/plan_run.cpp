@@ -132,6 +132,13 @@ std::vector<StepStatus> PlanRun::statuses() const {
   return all;
 }
 
+std::vector<StepStatus> PlanRun::upcoming(std::size_t most) const {
+  std::vector<StepStatus> next;
+  for (Index i = first_waiting_; i < runs_.size() && next.size() < most; ++i)
+    if (runs_[i].state == ActivityState::waiting) next.push_back(status(i));
+  return next;
+}
+
 std::vector<Executive::TokenStatus> PlanRun::tokens() const {
   std::vector<Executive::TokenStatus> all;
   for (const temporal::Token& token : plan_.tokens)
@@ -170,6 +177,8 @@ std::optional<Time> PlanRun::next_wake(Time now) {
 void PlanRun::change(Index activity, ActivityState state, std::string cause) {
   runs_[activity].state = state;
   runs_[activity].cause = std::move(cause);
+  while (first_waiting_ < runs_.size() && runs_[first_waiting_].state != ActivityState::waiting)
+    ++first_waiting_;
   outputs_.changes.push_back(status(activity));
 }
 

@@ -43,6 +43,7 @@ class PlanRun {
   StepStatus status(std::size_t activity) const;
   /// Of all activities, in plan order.
   std::vector<StepStatus> statuses() const;
+  std::vector<StepStatus> upcoming(std::size_t most) const;
   std::uint64_t window_work() const { return points_.work(); }
   std::vector<Executive::TokenStatus> tokens() const;
 
@@ -129,6 +130,7 @@ class PlanRun {
   std::set<std::pair<temporal::Time, Index>> waits_;  // by end of the wait
   std::vector<Index> ended_now_;                      // observed ends since the last look at their order
   std::size_t unfinished_ = 0;
+  Index first_waiting_ = 0;  // none before it waits any more
   Outcome outcome_;
   Outputs outputs_;
 };

@@ -70,6 +70,7 @@ void Reactor::adopt(Time now, const PlanAnswer& answer) {
   ++plan_version_;
   first_plan_ = false;
   phase_ = Phase::executing;
+  margins_ = Margins(plan);
   condition_values_.clear();
   for (const temporal::PlanActivity& activity : plan.activities) {
     for (const temporal::Condition* condition : {&activity.pre, &activity.maintenance}) {

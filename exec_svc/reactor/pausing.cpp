@@ -31,10 +31,7 @@ void Reactor::begin_pause(Time now) {
   phase_ = Phase::pausing;
   pause_deadline_ = now + mission_->executive.fallback_timeout;
   fallbacks_sent_ = false;
-  Outputs cancelled = executive_.cancel_all(now);
-  std::move(cancelled.commands.begin(), cancelled.commands.end(), std::back_inserter(out_.commands));
-  std::move(cancelled.changes.begin(), cancelled.changes.end(), std::back_inserter(out_.steps));
-  if (cancelled.next_wake) wake_at(*cancelled.next_wake);
+  pass_on(executive_.cancel_all(now));
 }
 
 void Reactor::continue_pause(Time now) {
@@ -48,12 +45,12 @@ void Reactor::continue_pause(Time now) {
   } else if (now >= pause_deadline_) {
     make_safe(now, names_of(beliefs_.active()) + " did not become inactive in time");
   } else {
-    if (!stopping && !fallbacks_sent_) send_fallbacks(now);
+    if (!stopping && !fallbacks_sent_) send_fallbacks();
     wake_at(pause_deadline_);
   }
 }
 
-void Reactor::send_fallbacks(Time) {
+void Reactor::send_fallbacks() {
   fallbacks_sent_ = true;
   ++fallback_round_;
   for (const Component* component : beliefs_.active()) {
@@ -86,10 +83,8 @@ void Reactor::begin_planning(Time now) {
 void Reactor::make_safe(Time now, const std::string& why) {
   phase_ = Phase::safe;
   wanted_ = false;
-  Outputs cancelled = executive_.cancel_all(now);
-  std::move(cancelled.commands.begin(), cancelled.commands.end(), std::back_inserter(out_.commands));
-  std::move(cancelled.changes.begin(), cancelled.changes.end(), std::back_inserter(out_.steps));
-  send_fallbacks(now);
+  pass_on(executive_.cancel_all(now));
+  send_fallbacks();
   for (const GoalRecord* record : goals_.open()) {
     goals_.set_state(record->request.key, GoalState::pending, "waiting for the ground: " + why);
     out_.goal_changes.push_back(*goals_.find(record->request.key));

@@ -3,12 +3,15 @@
 #include <algorithm>
 
 #include "exec_svc/mission/template_text.hpp"
-#include "exec_svc/reactor/shortfall.hpp"
 
 namespace roci::exec {
 namespace {
 
 using temporal::Time;
+
+// Activities whose windows are told to the ground when these move: what a screen shows, and no work in the
+// size of the plan.
+constexpr std::size_t kToldAhead = 32;
 
 const char* code_of(Rung rung) {
   switch (rung) {
@@ -149,23 +152,27 @@ void Reactor::run_executive(Time now, const ReactorInputs& inputs) {
   told.acks = inputs.acks;
   for (const PeerLoss& loss : inputs.losses) told.lost_owners.push_back(loss.service);
   Outputs done = executive_.step(now, told);
-  std::move(done.commands.begin(), done.commands.end(), std::back_inserter(out_.commands));
   for (const StepStatus& step : done.changes) {
+    if (step.state != temporal::ActivityState::waiting) margins_.leave(step.activity);
     if (step.state != temporal::ActivityState::succeeded) continue;
     if (const auto* activity = find_activity(executive_.plan(), step.activity))
       failures_.succeeded(activity->subsystem);
   }
-  std::move(done.changes.begin(), done.changes.end(), std::back_inserter(out_.steps));
   for (const RecoveryStep& recovery : done.recoveries)
     note(NoteLevel::info, code_of(recovery.rung), recovery.activity + ": " + recovery.cause);
-  if (done.next_wake) wake_at(*done.next_wake);
+  pass_on(std::move(done));
   if (!out_.steps.empty() && phase_ == Phase::executing) tell_windows();
 }
 
-// Windows of what has not started yet, where real events have moved them.
+void Reactor::pass_on(Outputs done) {
+  std::move(done.commands.begin(), done.commands.end(), std::back_inserter(out_.commands));
+  std::move(done.changes.begin(), done.changes.end(), std::back_inserter(out_.steps));
+  if (done.next_wake) wake_at(*done.next_wake);
+}
+
+// Windows of what starts next, where real events have moved them.
 void Reactor::tell_windows() {
-  for (const StepStatus& step : executive_.steps()) {
-    if (step.state != temporal::ActivityState::waiting) continue;
+  for (const StepStatus& step : executive_.upcoming(kToldAhead)) {
     const auto [told, added] = told_starts_.try_emplace(step.activity, step.earliest_start);
     if (!added && told->second == step.earliest_start) continue;
     told->second = step.earliest_start;
@@ -208,8 +215,7 @@ void Reactor::follow_plan(Time now) {
     if (!goals_.open().empty()) want_plan("the plan ended with goals open");
   } else if (outcome.kind == OutcomeKind::running && !wanted_) {
     const std::string lacking =
-        shortfall(executive_.plan(), executive_.steps(),
-                  [this](const std::string& timeline) { return beliefs_.lookup(timeline); });
+        margins_.lacking([this](const std::string& timeline) { return beliefs_.lookup(timeline); });
     if (!lacking.empty()) break_plan(now, lacking);
   }
 }
@@ -219,7 +225,7 @@ void Reactor::break_plan(Time now, const std::string& why) {
   const std::string plan = "plan " + std::to_string(plan_version_);
   note(NoteLevel::warning, "plan.broken", plan + " is broken: " + why);
   if (ladder_.replans) {
-    want_plan(plan + " broke: " + why);
+    want_plan(plan + " is broken");
     return;
   }
   if (!ladder_.asks_ground) {

@@ -17,6 +17,7 @@
 #include "exec_svc/problem/problem_writer.hpp"
 #include "exec_svc/reactor/failure_tally.hpp"
 #include "exec_svc/reactor/ladder.hpp"
+#include "exec_svc/reactor/margins.hpp"
 
 namespace roci::exec {
 
@@ -143,7 +144,7 @@ class Reactor {
   void give_up(const std::vector<GoalKey>& goals, const std::string& why);
   void begin_pause(temporal::Time now);
   void continue_pause(temporal::Time now);
-  void send_fallbacks(temporal::Time now);
+  void send_fallbacks();
   void begin_planning(temporal::Time now);
   bool outdated(const PlanAnswer& answer) const;
   void take_answer(temporal::Time now, const PlanAnswer& answer);
@@ -152,6 +153,7 @@ class Reactor {
   std::vector<GoalKey> named_goals(const std::string& reason) const;
   void try_again_later(temporal::Time now, const PlanAnswer& answer);
   void run_executive(temporal::Time now, const ReactorInputs& inputs);
+  void pass_on(Outputs done);
   void make_safe(temporal::Time now, const std::string& why);
   void finish_if_done();
   void want_plan(const std::string& why);
@@ -167,6 +169,7 @@ class Reactor {
   Executive executive_;
   Ladder ladder_;
   FailureTally failures_;
+  Margins margins_;  // of the running plan
   ReactorOutputs out_;
 
   Phase phase_ = Phase::idle;

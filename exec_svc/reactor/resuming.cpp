@@ -1,7 +1,5 @@
 // Reactor: after a restart. Its state comes from a snapshot and the inputs since; what was on its way to
 // owners and planner is asked for again.
-#include <iterator>
-
 #include "exec_svc/archive/fields.hpp"
 #include "exec_svc/reactor/reactor.hpp"
 
@@ -11,13 +9,11 @@ void Reactor::resume(temporal::Time now) {
   note(NoteLevel::info, "executive.resumed",
        std::string("goes on where it was: ") + to_string(phase_) +
            (phase_ == Phase::executing ? " plan " + std::to_string(plan_version_) : ""));
-  Outputs asked = executive_.resume(now);
-  std::move(asked.commands.begin(), asked.commands.end(), std::back_inserter(out_.commands));
-  if (asked.next_wake) wake_at(*asked.next_wake);
+  pass_on(executive_.resume(now));
   if (phase_ == Phase::planning && !wanted_) begin_planning(now);  // nobody waits for the old answer
   if (phase_ == Phase::planning && wanted_) phase_ = Phase::idle;
   fallbacks_sent_ = false;
-  if (phase_ == Phase::safe && !beliefs_.active().empty()) send_fallbacks(now);
+  if (phase_ == Phase::safe && !beliefs_.active().empty()) send_fallbacks();
 }
 
 bool Reactor::at_rest() const {
