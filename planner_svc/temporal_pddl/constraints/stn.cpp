@@ -2,18 +2,49 @@
 
 namespace roci::planner::temporal_pddl {
 
-// Bellman and Ford; in plan order most edges go forward, so that the first pass settles most points.
+namespace {
+
+constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
+constexpr int kPlainPasses = 2;
+
+// raised_by: by point, the point that raised it last. Do some of them raise each other in a circle?
+bool circular(const std::vector<std::uint32_t>& raised_by, std::vector<std::uint32_t>& seen_from) {
+  seen_from.assign(raised_by.size(), kNobody);
+  for (std::uint32_t first = 0; first < raised_by.size(); ++first) {
+    std::uint32_t point = first;
+    while (point != kNobody && seen_from[point] == kNobody) {
+      seen_from[point] = first;
+      point = raised_by[point];
+    }
+    if (point != kNobody && seen_from[point] == first) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+// Bellman and Ford; in plan order most edges go forward, so that the first pass settles most points. What is
+// not settled soon is watched: points that raise each other in a circle lie on a cycle of positive length
+// (Cherkassky and Goldberg 1999).
 bool Stn::raise(std::vector<Ticks>& times) const {
-  for (std::size_t pass = 0; pass <= points_; ++pass) {
+  const auto pass = [&](const auto& raised) {
     bool changed = false;
     for (const Edge& edge : edges_) {
       if (times[edge.from] == kNoPath || times[edge.from] + edge.least <= times[edge.to]) continue;
       times[edge.to] = times[edge.from] + edge.least;
+      raised(edge);
       changed = true;
     }
-    if (!changed) return true;
+    return changed;
+  };
+  for (int i = 0; i < kPlainPasses; ++i) {
+    if (!pass([](const Edge&) {})) return true;
   }
-  return false;
+  std::vector<std::uint32_t> raised_by(points_, kNobody), seen_from;
+  while (pass([&](const Edge& edge) { raised_by[edge.to] = edge.from; })) {
+    if (circular(raised_by, seen_from)) return false;
+  }
+  return true;
 }
 
 std::optional<std::vector<Ticks>> Stn::longest_from(std::size_t source) const {

@@ -14,12 +14,14 @@ void append(GroundEffects& to, const GroundEffects& more) {
   to.numeric.insert(to.numeric.end(), more.numeric.begin(), more.numeric.end());
 }
 
-// Sorts; what is both deleted and added is added.
+// Sorts; what is both deleted and added is added, and noted.
 void normalise(GroundEffects& effects) {
   for (auto* list : {&effects.adds, &effects.deletes}) {
     std::ranges::sort(*list);
     list->erase(std::unique(list->begin(), list->end()), list->end());
   }
+  effects.resets.clear();
+  std::ranges::set_intersection(effects.deletes, effects.adds, std::back_inserter(effects.resets));
   std::vector<std::uint32_t> deletes;
   std::ranges::set_difference(effects.deletes, effects.adds, std::back_inserter(deletes));
   effects.deletes = std::move(deletes);

@@ -162,6 +162,7 @@ class Analysis {
            std::ranges::none_of(literals, [&](GroundLiteral literal) { return literal.atom == atom; }));
       facts_[atom].redundantly_added = facts_[atom].redundantly_added || !only_while_false;
     }
+    for (const std::uint32_t atom : effects.resets) facts_[atom].deleted = true;
     for (const std::uint32_t atom : effects.deletes) {
       atoms_[atom].by(index, needed);
       facts_[atom].deleted = true;
@@ -225,6 +226,7 @@ std::vector<bool> only_goals_ask(const GroundModel& model) {
     }
     for (const auto* effects : {&action.start_effects, &action.end_effects}) {
       for (const std::uint32_t atom : effects->deletes) result[atom] = false;
+      for (const std::uint32_t atom : effects->resets) result[atom] = false;
     }
   }
   for (const auto& timed : model.timed) {

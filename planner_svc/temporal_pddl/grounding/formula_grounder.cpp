@@ -111,7 +111,7 @@ Disjunction FormulaGrounder::ground_atom(const LiftedFormula& formula, const Bin
   if (!atom) return positive ? Disjunction{} : always();
   const PredicateId predicate = formula.atom.predicate;
   const auto objects = reachability_.atoms.objects(*atom);
-  if (world_.holds_initially(predicate, objects) && !deletable_.find(predicate.value, objects)) {
+  if (world_.holds_initially(predicate, objects) && !touched_.find(predicate.value, objects)) {
     return positive ? always() : Disjunction{};
   }
   return {Conjunction{{{*atom, !positive}}, {}}};

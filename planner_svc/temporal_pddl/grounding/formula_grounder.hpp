@@ -16,13 +16,13 @@ inline constexpr std::size_t kMaxAlternatives = 256;
 
 class FormulaGrounder {
  public:
-  // `deletable`: the atoms that something may delete. Atoms that hold at first and are not among them are
-  // true for ever; what is not reached is false for ever.
-  FormulaGrounder(const World& world, const Reachability& reachability, const TupleTable& deletable,
+  // `touched`: of the atoms that hold at first those that some effect is about. The others are true for ever;
+  // what is not reached is false for ever.
+  FormulaGrounder(const World& world, const Reachability& reachability, const TupleTable& touched,
                   TupleTable& numbers, ExpressionPool& expressions, const std::string& file)
       : world_(world),
         reachability_(reachability),
-        deletable_(deletable),
+        touched_(touched),
         numbers_(numbers),
         expressions_(expressions),
         file_(file) {}
@@ -48,7 +48,7 @@ class FormulaGrounder {
 
   const World& world_;
   const Reachability& reachability_;
-  const TupleTable& deletable_;
+  const TupleTable& touched_;
   TupleTable& numbers_;
   ExpressionPool& expressions_;
   const std::string& file_;

@@ -35,6 +35,7 @@ using Disjunction = std::vector<Conjunction>;
 struct GroundEffects {
   std::vector<std::uint32_t> adds, deletes;  // atoms, sorted; no atom is in both
   std::vector<NumericEffect> numeric;
+  std::vector<std::uint32_t> resets;  // of adds: also deleted, which is seen by what happens at that moment
   auto operator<=>(const GroundEffects&) const = default;
 };
 

@@ -13,13 +13,47 @@ namespace roci::planner::temporal_pddl {
 
 namespace {
 
-// The atoms that some instance or timed literal may delete.
-TupleTable deletable_atoms(const std::vector<LiftedAction>& actions, const World& world,
-                           const Reachability& reachability) {
-  TupleTable result;
-  for (const auto& timed : world.timed_atoms()) {
-    if (timed.negated) result.intern(timed.predicate.value, timed.objects);
+void note_negated(const LiftedFormula& formula, IdVector<PredicateId, bool>& negated) {
+  if (formula.kind == LiftedFormula::Kind::not_atom) negated[formula.atom.predicate] = true;
+  for (const LiftedFormula& part : formula.parts) note_negated(part, negated);
+}
+
+// The predicates that a condition at a time point may want to be false.
+IdVector<PredicateId, bool> negated_predicates(const std::vector<LiftedAction>& actions,
+                                               std::size_t predicates) {
+  IdVector<PredicateId, bool> result(predicates, false);
+  for (const LiftedAction& action : actions) {
+    note_negated(action.at_start, result);
+    note_negated(action.at_end, result);
+    for (const auto* effects : {&action.start_effects, &action.end_effects}) {
+      for (const LiftedEffect& effect : *effects) {
+        for (const auto* condition : {&effect.start_condition, &effect.start_otherwise, &effect.end_condition,
+                                      &effect.end_otherwise}) {
+          note_negated(*condition, result);
+        }
+      }
+    }
   }
+  return result;
+}
+
+// What effects of instances and timed literals are about, of the atoms that hold at first or are never
+// reached. Of the latter those that a condition may want to be false count as reached from now on.
+TupleTable touched_atoms(const std::vector<LiftedAction>& actions, const World& world,
+                         Reachability& reachability) {
+  TupleTable result;
+  const auto negated = negated_predicates(actions, world.symbols().predicates());
+  const auto touch = [&](PredicateId predicate, std::span<const ObjectId> objects, bool removes) {
+    if (world.holds_initially(predicate, objects)) {
+      result.intern(predicate.value, objects);
+      return;
+    }
+    if (!removes || !negated[predicate]) return;
+    const std::uint32_t atom = reachability.atoms.intern(predicate.value, objects);
+    if (atom >= reachability.reached.size()) reachability.reached.resize(reachability.atoms.size(), false);
+    reachability.reached[atom] = true;
+  };
+  for (const auto& timed : world.timed_atoms()) touch(timed.predicate, timed.objects, timed.negated);
   for (std::size_t schema = 0; schema < actions.size(); ++schema) {
     const LiftedAction& action = actions[schema];
     const auto& instances = reachability.instances[SchemaId(schema)];
@@ -28,9 +62,10 @@ TupleTable deletable_atoms(const std::vector<LiftedAction>& actions, const World
       std::ranges::copy(instances[i], binding.begin());
       for (const auto* effects : {&action.start_effects, &action.end_effects}) {
         for (const auto& effect : *effects) {
-          if (effect.kind != LiftedEffect::Kind::remove) continue;
+          if (effect.kind == LiftedEffect::Kind::numeric) continue;
           for_each_value(effect.quantified, binding, [&] {
-            result.intern(effect.atom.predicate.value, objects_of(effect.atom.arguments, binding));
+            touch(effect.atom.predicate, objects_of(effect.atom.arguments, binding),
+                  effect.kind == LiftedEffect::Kind::remove);
           });
         }
       }
@@ -101,8 +136,8 @@ GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem
                         const std::vector<LiftedAction>& actions, const World& world,
                         Reachability reachability, Watch& watch) {
   GroundModel model;
-  const TupleTable deletable = deletable_atoms(actions, world, reachability);
-  FormulaGrounder formulas(world, reachability, deletable, model.numbers, model.expressions, domain.file);
+  const TupleTable touched = touched_atoms(actions, world, reachability);
+  FormulaGrounder formulas(world, reachability, touched, model.numbers, model.expressions, domain.file);
   ActionInstantiator instantiator(formulas);
   for (std::size_t schema = 0; schema < actions.size(); ++schema) {
     const auto& instances = reachability.instances[SchemaId(schema)];
@@ -113,7 +148,7 @@ GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem
       instantiator.instantiate(SchemaId(schema), actions[schema], binding, model.actions);
     }
   }
-  FormulaGrounder goals(world, reachability, deletable, model.numbers, model.expressions, problem.file);
+  FormulaGrounder goals(world, reachability, touched, model.numbers, model.expressions, problem.file);
   ground_goal(problem, goals, model);
   add_timed(problem, world, reachability, formulas, model);
   set_initial(problem, world, reachability, model);

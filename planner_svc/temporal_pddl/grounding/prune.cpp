@@ -78,6 +78,21 @@ class RelaxedReach {
   std::vector<std::size_t> queue_;
 };
 
+// By literal: is there an effect that brings it about?
+std::vector<bool> brought_about(const GroundModel& model) {
+  std::vector<bool> result(2 * model.atoms.size(), false);
+  const auto note = [&](const GroundEffects& effects) {
+    for (const std::uint32_t atom : effects.adds) result[literal_index({atom, false})] = true;
+    for (const std::uint32_t atom : effects.deletes) result[literal_index({atom, true})] = true;
+  };
+  for (const auto& action : model.actions) {
+    note(action.start_effects);
+    note(action.end_effects);
+  }
+  for (const auto& timed : model.timed) note(timed.effects);
+  return result;
+}
+
 }  // namespace
 
 std::vector<GroundLiteral> start_requirements(const GroundAction& action) {
@@ -103,14 +118,18 @@ std::vector<bool> prune(GroundModel& model) {
     if (model.actions.size() < before) continue;
 
     const auto& reached = reach.reached();
-    const auto drop_certain = [&](Conjunction& conjunction) {
-      std::erase_if(conjunction.literals, [&](GroundLiteral literal) {
-        return !reached[literal_index({literal.atom, !literal.negated})];
-      });
+    const std::vector<bool> brought = brought_about(model);
+    const auto certain = [&](GroundLiteral literal) {
+      return !reached[literal_index({literal.atom, !literal.negated})];
     };
+    const auto drop_certain = [&](Conjunction& conjunction) { std::erase_if(conjunction.literals, certain); };
     for (auto& action : model.actions) {
-      for (auto* conjunction : {&action.at_start, &action.over_all, &action.at_end})
-        drop_certain(*conjunction);
+      drop_certain(action.over_all);
+      for (auto* conjunction : {&action.at_start, &action.at_end}) {
+        std::erase_if(conjunction->literals, [&](GroundLiteral literal) {
+          return certain(literal) && !brought[literal_index(literal)];
+        });
+      }
     }
     std::erase_if(model.goal, [&](const Conjunction& goal) {
       return !std::ranges::all_of(goal.literals,

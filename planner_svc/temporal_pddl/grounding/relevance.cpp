@@ -62,7 +62,9 @@ void drop_irrelevant_effects(GroundModel& model) {
   });
   for_each_effects(model, [&](GroundEffects& effects) {
     for (const std::uint32_t atom : effects.adds) added[atom] = true;
-    for (const std::uint32_t atom : effects.deletes) deleted[atom] = true;
+    for (const auto* list : {&effects.deletes, &effects.resets}) {
+      for (const std::uint32_t atom : *list) deleted[atom] = true;
+    }
   });
   const std::vector<bool> relevant = relevant_numbers(model);
   const auto irrelevant_atom = [&](std::uint32_t atom) {
@@ -71,6 +73,7 @@ void drop_irrelevant_effects(GroundModel& model) {
   for_each_effects(model, [&](GroundEffects& effects) {
     std::erase_if(effects.adds, irrelevant_atom);
     std::erase_if(effects.deletes, irrelevant_atom);
+    std::erase_if(effects.resets, irrelevant_atom);
     std::erase_if(effects.numeric,
                   [&](const NumericEffect& effect) { return !relevant[effect.variable.index()]; });
   });

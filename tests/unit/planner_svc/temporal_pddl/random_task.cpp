@@ -42,7 +42,7 @@ class Writer {
   }
 
   std::string durative_action(int i) {
-    const int least = 1 + below(4);
+    const int least = below(5);
     const std::string duration = below(3) == 0
                                      ? "(and (>= ?duration " + std::to_string(least) + ") (<= ?duration " +
                                            std::to_string(least + below(3)) + "))"
