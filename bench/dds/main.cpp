@@ -30,8 +30,9 @@ using services::contract::ChildProcess;
 
 const std::vector<std::string> kVendors = {"fastdds", "cyclonedds"};
 // bare: the vendor's API; ours: writer and reader of our transport; call: services/rpc.hpp on top of it;
-// tuples: 1,000 argument tuples in one request of ours.
-const std::vector<std::string> kKinds = {"bare", "ours", "call", "tuples"};
+// tuples: 1,000 argument tuples in one request of ours; reaction: from an observation to the executive's
+// command.
+const std::vector<std::string> kKinds = {"bare", "ours", "call", "tuples", "reaction"};
 
 std::unique_ptr<Port> open(const std::string& variant, PortOptions options) {
   const auto dash = variant.find('-');
@@ -40,6 +41,7 @@ std::unique_ptr<Port> open(const std::string& variant, PortOptions options) {
   if (variant == "bare-cyclonedds") return open_cyclonedds(std::move(options));
   if (kind == "ours") return open_ours(vendor, std::move(options));
   if (kind == "call") return open_calls(vendor, std::move(options));
+  if (kind == "reaction") return open_reaction(vendor, std::move(options));
   if (kind == "tuples") return open_ours_with_tuples(vendor, std::move(options));
   throw std::invalid_argument("unknown variant " + variant);
 }
@@ -195,7 +197,7 @@ nlohmann::json measure(const std::string& program, int rounds, int pings, std::u
   for (auto& [variant, rally] : rallies) record["results"][variant] = rally.result();
   for (const auto& vendor : kVendors) {
     const double bare = record["results"]["bare-" + vendor]["median_us"];
-    for (const std::string kind : {"ours", "call"}) {
+    for (const std::string kind : {"ours", "call", "reaction"}) {
       const double median = record["results"][kind + "-" + vendor]["median_us"];
       record["ratio_to_bare"][kind + "-" + vendor] = median / bare;
     }

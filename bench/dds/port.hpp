@@ -41,4 +41,8 @@ std::unique_ptr<Port> open_ours_with_tuples(const std::string& vendor, PortOptio
 // A call over services/rpc.hpp between two nodes: loops, health and repetition included.
 std::unique_ptr<Port> open_calls(const std::string& vendor, PortOptions);
 
+// An observation to exec_svc there, the command that waited for it back: event loop, reactor and the journal's
+// write to disk included.
+std::unique_ptr<Port> open_reaction(const std::string& vendor, PortOptions);
+
 }  // namespace roci::bench

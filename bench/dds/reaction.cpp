@@ -1,0 +1,181 @@
+// The executive between an observation and the command that waited for it: exec_svc as it is, live, with its
+// journal; the client plays the robot and the planner.
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <thread>
+
+#include "bench/dds/port.hpp"
+#include "exec_svc/exec_service.hpp"
+#include "services/publisher.hpp"
+#include "services/rpc.hpp"
+#include "services/transport.hpp"
+#include "services/wire/plan_wire.hpp"
+#include "tests/unit/exec_svc/planetary_fixture.hpp"
+
+namespace roci::bench {
+namespace {
+
+namespace fs = std::filesystem;
+namespace topics = services::topics;
+
+// More than any bench plays; the cost of an event does not depend on it (bench_executive).
+constexpr std::size_t kActivities = 8000;
+
+std::unique_ptr<services::Node> open_node(const std::string& name, const std::string& vendor, int domain) {
+  services::NodeOptions options;
+  options.name = name;
+  options.vendor = vendor;
+  return std::make_unique<services::Node>(
+      options, services::open_transport(vendor, {.domain = domain, .participant = name}));
+}
+
+// Images one after the other; each waits for the camera to be observed idle after the one before.
+temporal::FlexiblePlan chain_of_images() {
+  temporal::FlexiblePlan plan;
+  for (std::size_t i = 0; i < kActivities; ++i) {
+    temporal::PlanActivity activity;
+    activity.id = "a" + std::to_string(i);
+    activity.name = "take-image";
+    activity.arguments = {{"1", "image-1"}, {"2", "place-1"}};
+    activity.start_point = plan.point_count++;
+    activity.end_point = plan.point_count++;
+    activity.pre = temporal::compare("(camera-idle)", temporal::ConditionOp::eq, true);
+    if (i > 0) {
+      plan.constraints.push_back({plan.activities.back().end_point, activity.start_point,
+                                  temporal::ConstraintKind::ordering, temporal::Duration{0},
+                                  temporal::no_bound});
+    }
+    plan.activities.push_back(std::move(activity));
+  }
+  return plan;
+}
+
+class ExecutivePort : public Port {
+ public:
+  ExecutivePort(const std::string& vendor, const PortOptions& options)
+      : folder_(fs::temp_directory_path() / ("rocinante-bench-" + std::to_string(getpid()))),
+        node_(open_node("exec_svc", vendor, options.domain)) {
+    fs::create_directories(folder_);
+    services::RunSettings settings;
+    settings.mission = ROCI_SOURCE_DIR "/missions/planetary";
+    settings.run_folder = folder_;
+    service_ = exec::make_service(*node_, settings);
+    loop_ = std::jthread([this] { node_->run(); });
+  }
+  ~ExecutivePort() override {
+    node_->stop();
+    loop_.join();
+    service_.reset();
+    fs::remove_all(folder_);
+  }
+  bool send(const Ball&) override { return false; }
+  bool matched() const override { return true; }
+
+ private:
+  const fs::path folder_;
+  std::unique_ptr<services::Node> node_;
+  std::unique_ptr<services::Service> service_;
+  std::jthread loop_;
+};
+
+// send(): the camera is observed idle and the image that is being taken is reported complete, in one go; the
+// command for the next one is the answer.
+class RobotPort : public Port {
+ public:
+  RobotPort(const std::string& vendor, PortOptions options)
+      : on_ball_(std::move(options.on_ball)),
+        robot_(open_node("sim_svc", vendor, options.domain)),
+        planner_(open_node("planner_svc", vendor, options.domain)),
+        goals_(services::advertise(*robot_, topics::goal)),
+        observations_(services::advertise(*robot_, topics::observation)),
+        acks_(services::advertise(*robot_, topics::command_ack)) {
+    services::serve(*planner_, topics::plan_request, [](const v1::PlanRequest&, auto responder) {
+      v1::PlanReply reply;
+      reply.verdict_code(v1::VERDICT_SOLVED);
+      reply.solution(services::wire::to_wire(chain_of_images()));
+      responder.reply(reply);
+    });
+    services::subscribe(*robot_, topics::command, [this](const v1::Command& command) { take(command); });
+    for (const exec::Observation& seen : exec::testing::standing_robot()) observe(seen.timeline, seen.value);
+    v1::Goal goal;
+    goal.issuer("bench");
+    goal.id("1");
+    goal.goal_kind("photo");
+    goal.arguments().resize(2);
+    goal.arguments()[0].name("x");
+    goal.arguments()[0].value("110");
+    goal.arguments()[1].name("y");
+    goal.arguments()[1].value("60");
+    goals_.write(goal);
+    planner_loop_ = std::jthread([this] { planner_->run(); });
+    robot_loop_ = std::jthread([this] { robot_->run(); });
+  }
+  ~RobotPort() override {
+    planner_->stop();
+    robot_->stop();
+  }
+
+  // False as long as no image is being taken.
+  bool send(const Ball& ball) override {
+    const auto turn = turn_.exchange(kNoTurn);
+    if (turn == kNoTurn) return false;
+    ball_ = ball;
+    robot_->post_work_result(turn, [this] {
+      answer(v1::COMMAND_COMPLETED);
+      observe("rover.camera", temporal::state("idle"));
+    });
+    return true;
+  }
+  bool matched() const override { return turn_ != kNoTurn; }
+
+ private:
+  static constexpr services::Node::WorkId kNoTurn = ~services::Node::WorkId{0};
+
+  void observe(const std::string& timeline, const temporal::Value& value) {
+    v1::Observation out;
+    out.timeline(timeline);
+    out.observed(services::wire::to_wire(value));
+    observations_.write(out);
+  }
+
+  void answer(v1::CommandStage stage) {
+    v1::CommandAck out;
+    out.activity(running_.activity());
+    out.attempt(running_.attempt());
+    out.stage(stage);
+    out.owner("sim_svc");
+    acks_.write(out);
+  }
+
+  void take(const v1::Command& command) {
+    if (command.command_name() != "image" || command.action() != v1::COMMAND_EXECUTE) return;
+    running_ = command;
+    observe("rover.camera", temporal::state("imaging"));
+    answer(v1::COMMAND_ACCEPTED);
+    const bool answers_a_ball = ball_.sequence != 0;
+    const Ball ball = ball_;
+    turn_ = robot_->begin_work();
+    if (answers_a_ball) on_ball_(ball);
+  }
+
+  const std::function<void(const Ball&)> on_ball_;
+  std::unique_ptr<services::Node> robot_, planner_;
+  services::Publisher<v1::Goal> goals_;
+  services::Publisher<v1::Observation> observations_;
+  services::Publisher<v1::CommandAck> acks_;
+  v1::Command running_;
+  Ball ball_;                                           // handed over with the turn
+  std::atomic<services::Node::WorkId> turn_ = kNoTurn;  // to report the image that is being taken
+  std::jthread planner_loop_, robot_loop_;
+};
+
+}  // namespace
+
+std::unique_ptr<Port> open_reaction(const std::string& vendor, PortOptions options) {
+  if (options.side == Side::server) return std::make_unique<ExecutivePort>(vendor, options);
+  return std::make_unique<RobotPort>(vendor, std::move(options));
+}
+
+}  // namespace roci::bench
