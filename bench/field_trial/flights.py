@@ -45,7 +45,9 @@ class GoalEnd:
     utility: float
     state: str
     reason: str
+    place: tuple[str, str] = ("", "")  # x, y
     arrived_s: float = 0
+    ended_s: float = 0
     cause: str = ""  # of one given up: why planning was under way when it left
 
 
@@ -143,8 +145,9 @@ def read_journal(flight: Flight) -> None:
             flight.events.append((time_s, code, words))
     for issuer, name, request, state, reason in goals:
         wish = json.loads(request)
+        place = wish["arguments"].get("x", ""), wish["arguments"].get("y", "")
         flight.goals.append(
-            GoalEnd(f"{issuer}/{name}", name, CLASSES[wish["class"]], wish["utility"], STATES[state], reason)
+            GoalEnd(f"{issuer}/{name}", name, CLASSES[wish["class"]], wish["utility"], STATES[state], reason, place)
         )
     trace_ends(flight)
     read_calls(flight, [(time_s, text) for time_s, kind, text in records if kind == "call"])
@@ -158,7 +161,7 @@ def trace_ends(flight: Flight) -> None:
     by_key = {goal.key: goal for goal in flight.goals}
     wanted = ""
     for time_s, code, words in flight.events:
-        if code == "plan.wanted":
+        if code == "plan.broken" or (code == "plan.wanted" and not words.endswith("is broken")):
             wanted = words
         key = re.match(r"(?:hard )?(?:goal )?(\S+)", words.removeprefix("hard goal ").removeprefix("goal "))
         goal = by_key.get(key.group(1)) if key else None
@@ -166,6 +169,8 @@ def trace_ends(flight: Flight) -> None:
             goal.arrived_s = time_s
         if goal and code in ("goal.dropped", "goal.failed"):
             goal.cause = wanted
+        if goal and code in ("goal.dropped", "goal.failed", "goal.recalled"):
+            goal.ended_s = time_s
 
 
 def read_calls(flight: Flight, calls: list[tuple[float, str]]) -> None:

@@ -1,13 +1,12 @@
 """What could have been had with hindsight: rocks, windows, arrivals, losses of energy and slip known from the start.
 
 The estimators of the mission value the ways on a map that has the hidden rocks (a short flight to the first planner
-call gives the values); the reference scheduler then tries sets of goals, best first. Faults of components are not
-counted: they pass. The result is an upper bound up to the noise of drives."""
+call gives the values); the reference scheduler then tries sets of goals, best first, past the faults of components. What
+science asked for in the flight counts from when it did. The result is an upper bound up to the noise of drives."""
 
 from __future__ import annotations
 
 import itertools
-import math
 import shutil
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,11 +14,12 @@ from pathlib import Path
 import problem
 import reference
 from flights import MISSION_WORK, Flight, Programs, lay_out_mission, rehearse
-from scenarios import PREDICTED_WINDOWS, UPLOAD_S, Goal, Scenario, read_pgm
+from scenarios import PREDICTED_WINDOWS, UPLOAD_S, Goal, Rock, Scenario
 
 MODEL_SPEED_M_S = 0.1  # mission.yaml: rover.speed_m_s
 TRUE_SPEED_M_S = 0.105  # simulation.drive.wheel_speed_m_s, before slip
 IDLE_W = 14  # simulation.power.idle_w
+Known = list[tuple[float, Goal]]  # with the time from which it is known
 LARGEST = 4  # optional and opportunistic goals of an instance that is enumerated
 
 
@@ -34,27 +34,16 @@ class Hindsight:
     best: frozenset[str] = frozenset()  # ids
 
 
-def draw_rocks(source: Path, target: Path, rocks: list[tuple[float, float, float]]) -> None:
-    """The rocks' picture with more rocks: cells under one become black."""
-    width, height, offset, data = read_pgm(source)
-    pixels = bytearray(data)
-    for x, y, radius in rocks:
-        for row in range(height):
-            for column in range(width):
-                distance = math.hypot(column + 0.5 - x, height - 1 - row + 0.5 - y)
-                if distance <= max(radius, 0.71):
-                    pixels[offset + row * width + column] = 0
-    target.write_bytes(bytes(pixels))
-
-
-def lay_out(scenario: Scenario, mission: Path, folder: Path) -> None:
-    """The mission as it truly was, all goals known at once."""
+def lay_out(scenario: Scenario, goals: Known, rocks: list[Rock], mission: Path, folder: Path) -> None:
+    """The mission as it truly was, all goals and rocks known at once."""
     shutil.rmtree(folder, ignore_errors=True)
-    changes = {f"open: {PREDICTED_WINDOWS}": f"open: {scenario.windows}", f"work: {MISSION_WORK}": "work: 1"}
-    lay_out_mission(mission, folder, changes)  # the values of that call are wanted, not its plan
-    (folder / "site").unlink()
-    shutil.copytree(mission / "site", folder / "site")
-    draw_rocks(mission / "site" / "rocks.pgm", folder / "site" / "rocks.pgm", scenario.rocks)
+    discs = ", ".join(f"{{x: {x}, y: {y}, radius_m: {radius}}}" for x, y, radius in rocks)
+    changes = {
+        f"open: {PREDICTED_WINDOWS}": f"open: {scenario.windows}",
+        f"work: {MISSION_WORK}": "work: 1",  # the values of that call are wanted, not its plan
+        "\nrover:\n  {": f"\nrover:\n  {{keep_out: [{discs}], ",
+    }
+    lay_out_mission(mission, folder, changes)
     known = Scenario(
         seed=scenario.seed,
         x=scenario.x,
@@ -63,12 +52,22 @@ def lay_out(scenario: Scenario, mission: Path, folder: Path) -> None:
         battery_j=max(scenario.battery_j - scenario.losses_j, 0),
         slip=scenario.slip,
         rocks=[],
+        fallen=[],
         windows=PREDICTED_WINDOWS,
         science=False,
-        stimuli=[(UPLOAD_S, goal) for _, goal in scenario.goals],
+        stimuli=[(UPLOAD_S, goal) for _, goal in goals],
     )
     text = known.yaml().replace("duration_s: 30000", "duration_s: 14")
     (folder / "scenarios" / "known.yaml").write_text(text)
+
+
+def finds(flight: Flight) -> Known:
+    """What science asked for, and when."""
+    return [
+        (end.arrived_s, Goal(end.id, "science_svc", "photo", end.importance, end.utility, *end.place))
+        for end in flight.goals
+        if end.key.startswith("science_svc/")
+    ]
 
 
 def facts_of(goal: Goal) -> list[tuple[str, ...]]:
@@ -82,8 +81,8 @@ def facts_of(goal: Goal) -> list[tuple[str, ...]]:
 class Instance:
     """One scenario with all that was to come known at the first planner call."""
 
-    def __init__(self, programs: Programs, scenario: Scenario, folder: Path):
-        lay_out(scenario, programs.mission, folder / "planetary")
+    def __init__(self, programs: Programs, scenario: Scenario, goals: Known, rocks: list[Rock], folder: Path):
+        lay_out(scenario, goals, rocks, programs.mission, folder / "planetary")
         rehearse(programs, folder / "planetary", "known", scenario.seed, folder / "flight")
         call = folder / "flight" / "planner_calls" / "1.pddl"
         self.problem = problem.parse(call.read_text())
@@ -91,7 +90,10 @@ class Instance:
         slower = MODEL_SPEED_M_S / (TRUE_SPEED_M_S * (1 - scenario.slip))
         times = self.values.get("traverse_time", {})
         self.values["traverse_time"] = {pair: slower * seconds for pair, seconds in times.items()}
-        for arrived_s, goal in scenario.goals:
+        self.outages: reference.Outages = {}
+        for component, failed, works in scenario.faults:
+            self.outages.setdefault(component, []).append((failed - UPLOAD_S, works - UPLOAD_S))
+        for arrived_s, goal in goals:
             if arrived_s > UPLOAD_S:
                 self._not_before(goal, arrived_s - UPLOAD_S)
         shutil.rmtree(folder)
@@ -114,7 +116,7 @@ class Instance:
 
     def solvable(self, goals: list[Goal], idle_w: float = IDLE_W) -> bool | None:
         self.problem.goals = [fact for goal in goals for fact in facts_of(goal)]
-        return reference.schedule(self.problem, self.values, idle_w).solvable
+        return reference.schedule(self.problem, self.values, idle_w, self.outages).solvable
 
 
 def best_subset(instance: Instance, given: list[Goal], soft: list[Goal]) -> tuple[float, frozenset[str]]:
@@ -130,17 +132,21 @@ def best_subset(instance: Instance, given: list[Goal], soft: list[Goal]) -> tupl
 def look_back(programs: Programs, scenario: Scenario, flight: Flight, folder: Path) -> Hindsight:
     ends = {end.id: end for end in flight.goals}
     out = Hindsight(scenario.seed, flight)
-    wanted = [goal for _, goal in scenario.goals if goal.id in ends and ends[goal.id].state != "recalled"]
+    goals = scenario.goals + finds(flight)
+    wanted = [goal for _, goal in goals if goal.id in ends and ends[goal.id].state != "recalled"]
     soft = [goal for goal in wanted if goal.importance != "hard"]
     failed = [goal for goal in wanted if ends[goal.id].state == "failed"]
     given_up = [goal for goal in wanted if ends[goal.id].state in ("failed", "dropped")]
-    enumerated = 0 < len(soft) <= LARGEST and not scenario.science
+    enumerated = 0 < len(soft) <= LARGEST
     if not given_up and not enumerated:
         return out
-    instance = Instance(programs, scenario, folder)
+    instance = Instance(programs, scenario, goals, scenario.rocks, folder)
+    buried = instance
+    if scenario.fallen:
+        buried = Instance(programs, scenario, goals, scenario.rocks + scenario.fallen, folder)
     for goal in given_up:
         places = [other.id for other in wanted if other.id in (goal.id, goal.sample)]
-        if not all(instance.reaches(f"place-{name}") for name in places):
+        if not all(buried.reaches(f"place-{name}") for name in places):
             out.no_way.add(goal.id)
     done = [goal for goal in wanted if goal.importance == "hard" and ends[goal.id].state == "achieved"]
     for goal in failed:

@@ -11,21 +11,34 @@ from second_look import SecondLook
 
 # In the order in which they are asked for; the first that applies counts.
 EXPLANATIONS = {
-    "missed": "The planner spent its budget on a problem that has a plan. Nearly all have energy for at most twice the best "
-    "order; a bound on the energy that open goals still take would end such a search early.",
+    "missed": "The planner spent its budget on a problem that has a plan.",
     "budget": "The planner spent its budget on a problem that has no plan: the goal had to go, but it took long to see.",
-    "no way": "No way leads there: closed terrain, rocks, or a place that the rover would touch.",
-    "component": "A component failed five times in a row; its goals are given up, since nobody knows for how long. Longer "
-    "pauses between the tries would outlast the fault.",
+    "no way": "No way leads there: closed terrain, rocks (on no map, or fallen during the flight), or a place nearer to one "
+    "than the rover's margin.",
+    "component": "A component was out of order for longer than all tries of the recovery ladder together.",
+    "partner": "The goal that was to pick the sample had been recalled or given up.",
     "energy": "Not enough energy: little at the start, a loss on the way, or what the robot draws while it waits for a "
-    "window. The domain does not know the last, nor that the same draw comes on top of a drive (`rover.idle_power_w`: 42 "
-    "instead of 28 would count that).",
-    "too late": "The world was slower than the model (slip, rocks on the way): a latest start passed, and no plan had "
-    "all goals any more.",
+    "window, which the domain cannot say.",
+    "lost window": "A communication window that was predicted did not come, and with it went the last plan that had "
+    "all goals.",
+    "too late": "The world was slower than the model (slip, rocks on the way, faults): a latest start passed, and no plan "
+    "had all goals any more.",
     "does not fit": "With the goals that were there before, no plan had this one; it was given up as it came, newest first "
     "(R53), whatever its utility.",
     "other": "Given up after another change of plans.",
 }
+# What a cause says, in words of the services; the first that fits.
+CAUSES = [
+    ("no-path", "no way"),
+    ("battery", "energy"),
+    ("(comm-window) = true (is false)", "lost window"),
+    ("latest start", "too late"),
+    ("[blocked]", "too late"),
+    ("[stuck]", "too late"),
+    ("[collision]", "too late"),
+    ("[fault]", "too late"),
+    ("arrived", "does not fit"),
+]
 
 
 @dataclass
@@ -43,13 +56,15 @@ def classify(flight: Flight, goal: GoalEnd, looks: Iterable[SecondLook], back: H
         return "no way"
     if "times in a row" in goal.reason:
         return "component"
-    if "battery" in goal.cause:
-        return "energy"
-    if "latest start" in goal.cause or "blocked" in goal.cause or "stuck" in goal.cause or "collision" in goal.cause:
-        return "too late"
-    if goal.cause.endswith("arrived"):
-        return "does not fit"
-    return "other"
+    if bereft(flight, goal):
+        return "partner"
+    return next((kind for words, kind in CAUSES if words in goal.cause), "other")
+
+
+def bereft(flight: Flight, goal: GoalEnd) -> bool:
+    """Whether the sample that the goal is to set down was never picked, since the goal for it had gone."""
+    picker = next((other for other in flight.goals if goal.id == f"{other.id}-drop"), None)
+    return picker is not None and picker.state in ("recalled", "dropped", "failed") and picker.ended_s <= goal.ended_s
 
 
 def losses_of(flight: Flight, looks: list[SecondLook], back: Hindsight | None) -> list[Loss]:

@@ -6,7 +6,9 @@ all labels (time, energy, radio free) that no other label beats. Images are sent
 for jobs of one length. Exact up to the separation of 1 ms, with these liberties: two activities at one place do not
 overlap (the rover's stops are places of their own), and it takes the fastest way between two places.
 
-Hindsight (hindsight.py) counts what the domain does not know as well: the power that the robot draws all the time.
+Hindsight (hindsight.py) also counts what the robot draws while it waits: `idle_w` for the whole time, and for what the
+domain charges with it (all but transmissions) only what comes on top. And it knows when components are out of order:
+a drive then stands and goes on, all else begins afterwards.
 """
 
 from __future__ import annotations
@@ -17,15 +19,17 @@ from typing import NamedTuple
 
 from problem import INFINITY, Problem
 
-# Durations and energies of missions/planetary/domain.pddl.
-IMAGE = (40.0, 600.0)
-PICK = (60.0, 900.0)
-DROP = (30.0, 450.0)
+# Durations and energies of missions/planetary/domain.pddl, which hold what the robot draws all the time.
+IMAGE = (40.0, 1160.0)
+PICK = (60.0, 1740.0)
+DROP = (30.0, 870.0)
 SEND = (120.0, 3000.0)
+COMPONENT = {"drive": "nav", "move-arm": "arm", "take-image": "camera", "pick": "gripper", "drop": "gripper"}
 GAP_S = 0.00101  # more than the planner's separation, so that rounding to microseconds does no harm
 LABEL_LIMIT = 400000  # a problem with more is left undecided
 
 Values = dict[tuple[str, str], float]
+Outages = dict[str, list[tuple[float, float]]]  # component → from, to
 
 
 class Stop(NamedTuple):
@@ -90,9 +94,12 @@ def step(start: float, action: str, duration: float) -> str:
 class Scheduler:
     """`generous`: energies are underestimated, so that no schedule means no plan. Otherwise a schedule is a plan."""
 
-    def __init__(self, problem: Problem, values: dict[str, Values], generous: bool, idle_w: float = 0):
+    def __init__(
+        self, problem: Problem, values: dict[str, Values], generous: bool, idle_w: float = 0, outages: Outages | None = None
+    ):
         self.problem = problem
         self.idle_w = idle_w
+        self.outages = {component: sorted(times) for component, times in (outages or {}).items()}
         self.drive_s = values.get("traverse_time", {})
         drive_j = values.get("traverse_energy", {})
         self.ways = ways(self.drive_s, drive_j, by_energy=False)
@@ -182,15 +189,38 @@ class Scheduler:
         self.labels += 1
         return True
 
+    def _free(self, component: str, start: float, duration: float) -> float:
+        """The first time from `start` on at which the component works for so long."""
+        for failed, works in self.outages.get(component, []):
+            if start + duration > failed and start < works:
+                start = works
+        return start
+
+    def _drive_end(self, start: float, duration: float) -> float:
+        end = start + duration
+        for failed, works in self.outages.get("nav", []):
+            if end > failed and start < works:
+                end += works - max(start, failed)
+        return end
+
     def _act(self, label: Label, action: str, duration: float, energy: float, start: float | None = None) -> Label:
         start = label.time if start is None else start
+        component = COMPONENT[action.split(" ")[0]]
+        if component == "nav":
+            end = self._drive_end(start, duration)
+        else:
+            start = self._free(component, start, duration)
+            end = start + duration
         return Label(
-            start + duration + GAP_S, label.energy + energy, label.radio, (step(start, action, duration), label.steps)
+            end + GAP_S,
+            label.energy + energy - self.idle_w * duration,
+            label.radio,
+            (step(start, action, duration), label.steps),
         )
 
     def _send(self, label: Label, image: str) -> Label | None:
         for opens, closes in self.comm:
-            start = max(label.time + GAP_S, label.radio, opens)
+            start = self._free("radio", max(label.time + GAP_S, label.radio, opens), SEND[0])
             if start + SEND[0] <= closes:
                 steps = (step(start, f"transmit {image}", SEND[0]), label.steps)
                 return Label(label.time, label.energy + SEND[1], start + SEND[0] + GAP_S, steps)
@@ -214,6 +244,7 @@ class Scheduler:
         energy = stowed.energy + way.joules
         for a, b in zip(way.places, way.places[1:]):
             stowed = self._act(stowed, f"drive {a} {b}", self.drive_s[a, b], 0)
+            energy -= self.idle_w * self.drive_s[a, b]
         return "stow", stowed._replace(energy=energy)
 
     def _moves(self, state: State, label: Label) -> Iterator[tuple[State, Label]]:
@@ -233,7 +264,7 @@ class Scheduler:
     def _do(self, stop: Stop, state: State, label: Label) -> Iterator[tuple[State, Label]]:
         if stop.kind == "image":
             for opens, closes in self.problem.windows(("available", stop.what)):
-                start = max(label.time, opens)
+                start = self._free("camera", max(label.time, opens), IMAGE[0])
                 if start + IMAGE[0] <= closes:
                     sent = self._send(self._act(label, f"take-image {stop.what} {stop.place}", *IMAGE, start), stop.what)
                     if sent is not None:
@@ -253,10 +284,12 @@ class Scheduler:
                 yield state._replace(pose="deposit", held=""), dropped
 
 
-def schedule(problem: Problem, values: dict[str, Values], idle_w: float = 0) -> Schedule:
+def schedule(
+    problem: Problem, values: dict[str, Values], idle_w: float = 0, outages: Outages | None = None
+) -> Schedule:
     """solvable: true only with a schedule in hand; false only if there is none even with too little energy counted."""
-    strict = Scheduler(problem, values, False, idle_w).run()
+    strict = Scheduler(problem, values, False, idle_w, outages).run()
     if strict.solvable is not False:
         return strict
-    generous = Scheduler(problem, values, True, idle_w).run()
+    generous = Scheduler(problem, values, True, idle_w, outages).run()
     return Schedule(False) if generous.solvable is False else Schedule(None)

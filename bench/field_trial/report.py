@@ -75,7 +75,7 @@ def hard_section(records: list[Record]) -> str:
             rows.append([loss.seed, loss.goal.id, loss.kind, words[loss.possible], shorten(loss.goal.reason)])
     text = (
         f"\n## Hard goals that failed\n\n{len(failed)} failed. With hindsight {len(failed) - len(rows)} of them were out of reach "
-        "besides the hard goals achieved; the others (faults of components are not counted):\n\n"
+        "besides the hard goals achieved; the others:\n\n"
     )
     return text + table(["seed", "goal", "class", "achievable", "reason"], rows)
 

@@ -88,6 +88,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Flies seeded planetary missions and reports what was lost.")
     parser.add_argument("--runs", type=int, default=400, help="number of flights (400)")
     parser.add_argument("--seed", type=int, default=1, help="of the first; the others count up (1)")
+    parser.add_argument("--seeds", type=int, nargs="+", help="these instead, e.g. to look at some losses again")
     parser.add_argument("--out", type=Path, required=True, help="folder for scenarios, journals and results")
     parser.add_argument("--report", type=Path, help="Markdown file to write (default: OUT/field-trial.md)")
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin", help="programs (build/release/bin)")
@@ -103,7 +104,7 @@ def main() -> int:
     changes = {f"work: {MISSION_WORK}": f"work: {arguments.work}"} if arguments.work != MISSION_WORK else {}
     mission = lay_out_mission(programs.mission, arguments.out / "planetary", changes)
     site = Site(programs.mission / "site")
-    seeds = range(arguments.seed, arguments.seed + arguments.runs)
+    seeds = arguments.seeds or range(arguments.seed, arguments.seed + arguments.runs)
     with ThreadPoolExecutor(arguments.jobs) as workers:
         records = list(workers.map(lambda seed: try_seed(programs, mission, site, seed, arguments), seeds))
     target = arguments.report or arguments.out / "field-trial.md"

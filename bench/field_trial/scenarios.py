@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import random
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 DURATION_S = 30000  # a flight ends with its last goal; this is for one that never ends
 UPLOAD_S = 10
 PREDICTED_WINDOWS = [[1500, 2700], [5400, 6600], [9300, 10500], [13200, 14400]]  # as in mission.yaml
+Rock = tuple[float, float, float]  # x, y, radius in metres
 COMPONENTS = ["nav", "arm", "camera", "gripper", "radio"]
 # Closed regions of missions/planetary/site/README.md: x, y, radius in metres.
 CLOSED = [(190.0, 60.0, 20.0), (50.0, 180.0, 10.0)]
@@ -101,11 +102,13 @@ class Scenario:
     heading: float
     battery_j: int
     slip: float
-    rocks: list[tuple[float, float, float]]  # x, y, radius; on no map
+    rocks: list[Rock]  # on no map
+    fallen: list[Rock]  # likewise, of those that come down in flight
     windows: list[list[int]]  # the true ones of comm.window
     science: bool
     stimuli: list[tuple[int, Goal | str]]  # seconds; a goal, or another stimulus as YAML
     losses_j: int = 0
+    faults: list[tuple[str, int, int]] = field(default_factory=list)  # component, from, to
     recalled: frozenset[str] = frozenset()  # ids
 
     @property
@@ -200,7 +203,7 @@ class _Draw:
         drop = Goal(f"{first.id}-drop", issuer, "drop_sample", importance, utility, x, y, sample=first.id)
         return [first, drop]
 
-    def barrier(self, targets: list[Goal]) -> list[tuple[float, float, float]]:
+    def barrier(self, targets: list[Goal]) -> list[Rock]:
         """A row of rocks across the straight way to some goal."""
         target = self.random.choice(targets)
         dx, dy = target.x - self.x, target.y - self.y
@@ -240,15 +243,16 @@ def draw(seed: int, site: Site) -> Scenario:
         for name in sorted(recalled, reverse=True):
             stimuli.append((d.random.randint(20, 3000), f"recall: {{issuer: ground, id: {name}}}"))
     rocks = [rock for _ in range(d.random.choice([0, 0, 1, 2])) for rock in d.barrier(goals)]
-    if d.chance(0.1):
-        for x, y, radius in d.barrier(goals):
-            stimuli.append((d.random.randint(50, 600), f"rock: {{x: {x}, y: {y}, radius: {radius}}}"))
+    fallen = d.barrier(goals) if d.chance(0.1) else []
+    for x, y, radius in fallen:
+        stimuli.append((d.random.randint(50, 600), f"rock: {{x: {x}, y: {y}, radius: {radius}}}"))
+    faults: list[tuple[str, int, int]] = []
     if d.chance(0.3):
         for _ in range(d.random.randint(1, 2)):
             component = d.random.choice(COMPONENTS)
-            stimuli.append(
-                (d.random.randint(30, 3000), f"fault: {{component: {component}, for_s: {d.random.randint(20, 400)}}}")
-            )
+            at, lasts = d.random.randint(30, 3000), d.random.randint(20, 400)
+            stimuli.append((at, f"fault: {{component: {component}, for_s: {lasts}}}"))
+            faults.append((component, at, at + lasts))
     loss = d.random.randint(100000, 600000) if d.chance(0.12) else 0
     if loss:
         stimuli.append((d.random.randint(50, 3000), f"battery_loss_j: {loss}"))
@@ -264,9 +268,11 @@ def draw(seed: int, site: Site) -> Scenario:
         battery_j=d.random.randint(80000, 350000) if d.chance(0.2) else 900000,
         slip=round(d.random.uniform(0, 0.15), 3),
         rocks=rocks,
+        fallen=fallen,
         windows=windows,
         science=d.chance(0.2),
         stimuli=sorted(stimuli, key=lambda item: item[0]),
         losses_j=loss,
+        faults=faults,
         recalled=frozenset(recalled),
     )

@@ -55,6 +55,17 @@ class ByHand(unittest.TestCase):
         self.assertIs(schedule(task, values({("here", "p"): 50}), idle_w=1).solvable, False)
 
 
+    def test_a_drive_stands_while_the_wheels_are_out_of_order_and_an_image_waits_for_the_camera(self):
+        task = made("(target i p)\n(available i)\n(comm-window)", ["(sent i)"])
+        outages = {"nav": [(20, 70)], "camera": [(110, 300)], "radio": [(0, 5)]}
+        found = schedule(task, values({("here", "p"): 50}), outages=outages)  # arrives at 100; 40 s do not fit before 110
+        self.assertAlmostEqual(found.makespan_s, 300 + IMAGE[0] + SEND[0], delta=1)
+
+    def test_idling_is_counted_once(self):
+        task = made("(sample-at s p)", ["(picked s)"], battery=1010 + PICK[1] + 0.1)
+        self.assertTrue(schedule(task, values({("here", "p"): 50}), idle_w=14).solvable)  # no wait, nothing on top
+
+
 class AgainstExhaustiveSearch(unittest.TestCase):
     """Images in windows, the orbiter always in view: the first order that meets every window proves it."""
 
