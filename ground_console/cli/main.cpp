@@ -14,6 +14,7 @@ using namespace roci::console;
 struct Line {
   roci::services::ConnectionFlags connection;
   bool json = false;
+  bool waits = false;  // for a mission to run
   GoalArguments goal;
   std::size_t count = 0;
   int (*verb)(Client&, const Line&) = nullptr;
@@ -48,6 +49,10 @@ void add_goal_verbs(CLI::App& app, Line& line) {
   cancel->add_option("--issuer", line.goal.issuer, "Who asked")->capture_default_str();
   add_verb(*goal, line, "list", "All goals with their states and reasons",
            [](Client& client, const Line& l) { return list_goals(client, l.json); });
+}
+
+void tell_waiting() {
+  std::cerr << "roci: no mission runs on this machine yet; waiting for one (Ctrl-C ends, ./run starts one)\n";
 }
 
 // The program beside this one takes over; it knows the executive, the ground tool does not.
@@ -85,8 +90,10 @@ int main(int argc, char** argv) {
       add_verb(app, line, "events", "What happens, as it happens",
                [](Client& client, const Line& l) { return follow_events(client, l.count, l.json); });
   events->add_option("--count", line.count, "End after so many events");
-  add_verb(app, line, "watch", "Live view of the mission in the terminal",
-           [](Client& client, const Line& l) { return watch(client, l.json); });
+  CLI::App* watching =
+      add_verb(app, line, "watch", "Live view of the mission in the terminal; waits for one to run",
+               [](Client& client, const Line& l) { return watch(client, l.json); });
+  watching->preparse_callback([&line](std::size_t) { line.waits = true; });
   app.add_subcommand("replay", "Repeat a run from its journal: roci replay JOURNAL (--help tells more)");
   try {
     app.parse(argc, argv);
@@ -94,7 +101,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? kDone : kBadUsage;
   }
   try {
-    Client client(choose_run(line.connection));
+    Client client(line.waits ? wait_for_run(line.connection, tell_waiting) : choose_run(line.connection));
     return line.verb(client, line);
   } catch (const std::invalid_argument& error) {
     std::cerr << "roci: " << error.what() << "\n";

@@ -2,7 +2,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <thread>
+#include <utility>
 
 #include "services/clock/wall.hpp"
 #include "services/launch/run_record.hpp"
@@ -23,6 +26,18 @@ services::NodeOptions observer(const services::Connection& connection) {
   return options;
 }
 
+// For what a run keeps of a goal that it already knows.
+constexpr milliseconds kHistoryLimit{500};
+
+bool is_newer(const v1::SampleHeader& a, const v1::SampleHeader& b) {
+  return std::pair{a.incarnation(), a.seq()} > std::pair{b.incarnation(), b.seq()};
+}
+
+bool same_wish(v1::Goal a, const v1::Goal& b) {
+  a.header(b.header());
+  return a == b;
+}
+
 std::string described(const services::RunRecord& run) {
   return "  --domain " + std::to_string(run.domain) + "   " + run.mission.filename().string() + " (" +
          run.scenario + ", " + run.dds + ")";
@@ -36,7 +51,7 @@ services::Connection choose_run(const services::ConnectionFlags& flags) {
   if (!flags.domain && !flags.network && !environment("ROCI_DOMAIN") && !environment("ROCI_NETWORK")) {
     const auto runs = services::find_runs(services::runtime_folder());
     if (runs.empty())
-      throw std::runtime_error("no mission runs on this machine; start one with ./run, or name its --domain");
+      throw NoRun("no mission runs on this machine; start one with ./run, or name its --domain");
     if (runs.size() > 1) {
       std::string text = "several missions run on this machine; name one:";
       for (const services::RunRecord& run : runs) text += "\n" + described(run);
@@ -54,6 +69,18 @@ services::Connection choose_run(const services::ConnectionFlags& flags) {
   services::Connection connection = services::resolve_connection(chosen, environment, {});
   if (connection.dds == "mixed") connection.dds = "cyclonedds";
   return connection;
+}
+
+services::Connection wait_for_run(const services::ConnectionFlags& flags,
+                                  const std::function<void()>& tell_waiting) {
+  for (bool told = false;; told = true) {
+    try {
+      return choose_run(flags);
+    } catch (const NoRun&) {
+      if (!told) tell_waiting();
+    }
+    std::this_thread::sleep_for(milliseconds(200));
+  }
 }
 
 Client::Client(const services::Connection& connection)
@@ -87,14 +114,21 @@ bool Client::wait(const std::function<bool()>& done, milliseconds limit) {
 
 std::optional<v1::GoalStatus> Client::send_goal(const v1::Goal& goal, milliseconds limit) {
   const MissionView::GoalKey key{goal.issuer(), goal.id()};
+  const auto known = [&] { return view_.goals().contains(key); };
+  if (wait_for_mission(limit)) wait(known, std::min(limit, kHistoryLimit));
+  std::optional<v1::GoalStatus> before;
+  if (known()) before = view_.goals().at(key);
   const auto answered = [&] {
-    const auto status = view_.goals().find(key);
-    if (status == view_.goals().end()) return false;
-    const v1::GoalState state = status->second.goal_state();
-    return !goal.recalled() || (state != v1::GOAL_PENDING && state != v1::GOAL_PLANNED);
+    if (!known()) return false;
+    const v1::GoalStatus& status = view_.goals().at(key);
+    if (goal.recalled())
+      return status.goal_state() != v1::GOAL_PENDING && status.goal_state() != v1::GOAL_PLANNED;
+    return !before || is_newer(status.header(), before->header());
   };
+  const v1::Goal* asked = view_.goal(key);
+  if (before && asked != nullptr && same_wish(*asked, goal)) return before;
   goals_.write(goal);
-  if (!wait(answered, limit)) return std::nullopt;
+  if (!wait(answered, limit) && !before) return std::nullopt;
   return view_.goals().at(key);
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
 #include "ground_console/lib/mission_view.hpp"
 #include "services/connection.hpp"
@@ -13,9 +14,18 @@
 
 namespace roci::console {
 
+class NoRun : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // Where to join: what the command line and the environment say, else the one mission that runs on this
-// machine. Throws std::runtime_error when none or several run, with the remedy.
+// machine. Throws NoRun when there is none, std::runtime_error when several run, with the remedy.
 services::Connection choose_run(const services::ConnectionFlags& flags);
+
+// The same, but waits until a mission runs; calls `tell_waiting` once if it has to. Wall time.
+services::Connection wait_for_run(const services::ConnectionFlags& flags,
+                                  const std::function<void()>& tell_waiting);
 
 class Client {
  public:
@@ -26,8 +36,9 @@ class Client {
   // Handles what comes until `done` or for at most `limit` of wall time; returns whether `done`.
   bool wait(const std::function<bool()>& done, std::chrono::milliseconds limit);
 
-  // Sends a goal and waits for exec_svc's answer, which stands in its journal then; nothing if none came in
-  // time.
+  // Sends a goal and waits for exec_svc's answer to it, which stands in its journal then; nothing if none
+  // came in time. A goal that already stands there in these very words is not sent again: its state is the
+  // answer.
   std::optional<v1::GoalStatus> send_goal(const v1::Goal& goal, std::chrono::milliseconds limit);
 
   // Waits until the mission's state has come down (late joiners get the newest of everything).

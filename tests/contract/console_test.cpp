@@ -94,6 +94,27 @@ TEST_P(ConsoleTest, GoalsGoUpAndAnswersComeDown) {
   seat_.robot().stop();
 }
 
+// The answer to a change is not the state from before it, however late the console joined.
+TEST_P(ConsoleTest, AChangedGoalIsAnsweredForTheChange) {
+  seat_.send(10s, photo_goal("ridge"));
+  seat_.run().start();
+  {
+    Client first(connection());
+    ASSERT_TRUE(first.wait(
+        [&] { return first.view().mission() && first.view().mission()->outcome() == "achieved"; }, kLimit));
+  }
+  Client late(connection());
+  v1::Goal changed = photo_goal("ridge");
+  changed.arguments()[0].value("far");
+  const auto refused = late.send_goal(changed, kLimit);
+  ASSERT_TRUE(refused);
+  EXPECT_THAT(refused->reason(), HasSubstr("change refused"));
+  const auto again = late.send_goal(changed, kLimit);  // in the same words
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->header().seq(), refused->header().seq());
+  seat_.robot().stop();
+}
+
 TEST_P(ConsoleTest, NobodyAnswers) {
   Client client(connection());
   EXPECT_FALSE(client.wait_for_mission(0ms));
