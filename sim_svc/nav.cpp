@@ -75,6 +75,8 @@ Ending Nav::finish(Surroundings& around) {
   if (!rock.empty() && detours_ < around.robot.drive.detours) {
     ++detours_;
     looks_until_ = trace.end + seconds(around.robot.drive.look_s);
+    around.out.push_back(Ack{target_->key, Stage::accepted, "repairing",
+                             rock + " lies on the way and on no map; it looks for a way around", trace.end});
     return std::nullopt;
   }
   stand(trace.outcome == DriveEnd::arrived ? target_->place : stop_place_);

@@ -13,7 +13,9 @@
 namespace roci::scenario {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 // One optional photo, 30 m away, in a window; the ground is more slippery than the path planner takes it for.
@@ -178,6 +180,24 @@ TEST(Reality, TheDomainIsTheSameInEveryCall) {
     problems.insert(call.problem_text());
   }
   EXPECT_EQ(problems.size(), mission.calls().size());
+}
+
+// R146: the rover looks for a way around by itself; that shows as the drive's state, and no new plan follows.
+TEST(Reality, AWayAroundARockIsTheOwnersRepairAndVisible) {
+  const std::map<std::string, std::string> one_rock{
+      {"scenarios/nominal.yaml",
+       "duration_s: 9000\nstart: {x: 40, y: 40, arm: stow, battery: 900000}\n"
+       "world: {rocks: [{x: 55, y: 42, radius: 1}]}\nscience: {enabled: false}\nstimuli:\n"
+       "  - {at_s: 10, goal: {id: spot, kind: photo, arguments: {x: 70, y: 45}}}\n"}};
+  MissionInProcess mission(one_rock);
+  mission.run();
+  std::vector<std::string> told;
+  for (const v1::StepStatus& step : mission.steps())
+    if (step.name() == "drive" && step.state() == v1::ACTIVITY_RUNNING && !step.cause().empty())
+      told.push_back(step.cause());
+  EXPECT_THAT(told, ElementsAre(AllOf(HasSubstr("its owner repairs [repairing]"), HasSubstr("rock-1"))));
+  EXPECT_EQ(mission.mission().replans(), 0U);
+  EXPECT_EQ(mission.goal("spot").states.back(), v1::GOAL_ACHIEVED);
 }
 
 // The shoulder no longer reaches the ground: no plan has the sample, and the reason names it.

@@ -1,5 +1,6 @@
 #include "sim_svc/world.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sim_svc/preview.hpp"
@@ -138,6 +139,18 @@ TEST(World, ALookTakesItsTimeBeforeTheNextPathIsAskedFor) {
       EXPECT_EQ(change - seen.value(), seconds(20));
     }
   }
+}
+
+// R146: the rover's own repair, which nobody has to do anything about.
+TEST(World, ALookForAWayAroundIsToldAsTheOwnersRepair) {
+  Flight run(setup_with_rock_and_detours(1));
+  run.drive(seconds(1), "d", "there", 60, 20);
+  run.advance(seconds(210));
+  const auto word = last_ack(run.said, "d");
+  ASSERT_TRUE(word);
+  EXPECT_EQ(word->stage, Stage::accepted);
+  EXPECT_EQ(word->code, "repairing");
+  EXPECT_THAT(word->reason, testing::HasSubstr("rock-1"));
 }
 
 TEST(World, AfterItsLastDetourADriveFailsAsBlocked) {
