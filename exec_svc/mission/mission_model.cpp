@@ -72,13 +72,14 @@ TimelineFamily read_family(const Entry& entry) {
 }
 
 FluentSource read_fluent(const Entry& entry) {
-  entry.allow_only({"fluent", "timeline", "value"});
+  entry.allow_only({"fluent", "timeline", "value", "last"});
   FluentSource out;
   out.fluent = entry.at("fluent").text();
   if (const auto timeline = entry.find("timeline")) {
     out.timeline = timeline->text();
   } else {
     out.value = entry.at("value").number();
+    if (const auto last = entry.find("last")) out.last = last->number();
   }
   return out;
 }
@@ -173,7 +174,7 @@ PlannerSettings read_planner(const Entry& entry) {
 
 ReactorSettings read_executive(const Entry& entry) {
   entry.allow_only({"ack_timeout_s", "fallback_timeout_s", "replan_limit", "call_retries", "failure_limit",
-                    "failure_pause_s", "keep_inputs", "recovery", "start"});
+                    "failure_pause_s", "failure_pause_max_s", "keep_inputs", "recovery", "start"});
   ReactorSettings out;
   out.ack_timeout = seconds_or(entry, "ack_timeout_s", temporal::to_seconds(out.ack_timeout));
   out.fallback_timeout = seconds_or(entry, "fallback_timeout_s", temporal::to_seconds(out.fallback_timeout));
@@ -181,6 +182,8 @@ ReactorSettings read_executive(const Entry& entry) {
   out.call_retries = count_or(entry, "call_retries", out.call_retries, 0);
   out.failure_limit = count_or(entry, "failure_limit", out.failure_limit, 1);
   out.failure_pause = seconds_or(entry, "failure_pause_s", temporal::to_seconds(out.failure_pause));
+  out.failure_pause_max =
+      seconds_or(entry, "failure_pause_max_s", temporal::to_seconds(out.failure_pause_max));
   out.keep_inputs = entry.truth_or("keep_inputs", out.keep_inputs);
   if (const auto recovery = entry.find("recovery")) out.recovery = read_strategy(*recovery);
   if (const auto start = entry.find("start")) out.start = read_start(*start);

@@ -44,6 +44,7 @@ struct FluentSource {
   std::string fluent;                   // "(battery)"
   std::optional<std::string> timeline;  // its newest observed value, or else
   double value = 0;
+  std::optional<double> last;  // instead of the value, before a hard goal is given up
 };
 
 // A fact that comes and goes by the clock, as predicted.
@@ -121,8 +122,9 @@ struct ReactorSettings {
   std::uint32_t call_retries = 5;  // planner calls that failed for want of a service
   std::uint32_t failure_limit =
       5;  // failed commands of one component in a row; then their goals are given up
-  bool keep_inputs = true;  // of the whole mission in the journal; false: since the last anchor
   temporal::Duration failure_pause = temporal::seconds(30);  // after the second of them; doubles with each
+  temporal::Duration failure_pause_max = temporal::seconds(600);  // but is never longer
+  bool keep_inputs = true;  // of the whole mission in the journal; false: since the last anchor
   RecoveryStrategy recovery = RecoveryStrategy::cascade;
   StartPolicy start = StartPolicy::earliest;
 };

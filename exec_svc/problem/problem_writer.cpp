@@ -25,8 +25,8 @@ std::string seconds_text(Time time) { return number_text(static_cast<double>(tim
 // The problem while it is put together.
 class Draft {
  public:
-  Draft(const MissionModel& mission, const Beliefs& beliefs, Time now, Time origin)
-      : mission_(mission), beliefs_(beliefs), now_(now), origin_(origin) {}
+  Draft(const MissionModel& mission, const Beliefs& beliefs, Time now, Time origin, Reserves reserves)
+      : mission_(mission), beliefs_(beliefs), now_(now), origin_(origin), reserves_(reserves) {}
 
   void add_goals(const GoalSet& goals) {
     for (const GoalRecord* record : goals.present()) {
@@ -78,6 +78,7 @@ class Draft {
     for (const FluentSource& source : mission_.fluents) {
       const auto value = beliefs_.lookup(source.fluent);
       const double* number = value ? std::get_if<double>(&*value) : nullptr;
+      if (reserves_ == Reserves::spent && source.last) number = &*source.last;
       if (number != nullptr) out.text += "    (= " + source.fluent + " " + number_text(*number) + ")\n";
     }
     for (const auto& [time, literal] : timed_) {
@@ -151,6 +152,7 @@ class Draft {
   const Beliefs& beliefs_;
   Time now_;
   Time origin_;
+  Reserves reserves_;
   std::map<std::string, ObjectModel> known_;
   std::set<std::string> declared_;
   std::set<std::string> facts_;
@@ -169,8 +171,8 @@ std::vector<std::string> goal_facts(const MissionModel& mission, const GoalReque
 }
 
 Problem write_problem(const MissionModel& mission, const Beliefs& beliefs, const GoalSet& goals,
-                      const std::string& name, Time now, Time origin) {
-  Draft draft(mission, beliefs, now, origin);
+                      const std::string& name, Time now, Time origin, Reserves reserves) {
+  Draft draft(mission, beliefs, now, origin, reserves);
   draft.add_state();
   draft.add_goals(goals);
   return draft.finish(name);

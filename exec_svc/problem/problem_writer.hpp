@@ -23,9 +23,13 @@ struct Problem {
   std::vector<ProblemObject> objects;
 };
 
+// What the mission keeps back for waiting and surprises (FluentSource::last).
+enum class Reserves { kept, spent };
+
 // `origin`: the mission time that the problem calls 0. Windows that ended before it are left out.
 Problem write_problem(const MissionModel& mission, const Beliefs& beliefs, const GoalSet& goals,
-                      const std::string& name, temporal::Time now, temporal::Time origin);
+                      const std::string& name, temporal::Time now, temporal::Time origin,
+                      Reserves reserves = Reserves::kept);
 
 // The goal's PDDL facts; it is achieved when all are observed.
 std::vector<std::string> goal_facts(const MissionModel& mission, const GoalRequest& goal);

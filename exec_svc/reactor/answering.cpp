@@ -103,8 +103,21 @@ void Reactor::give_way(const PlanAnswer& answer) {
   if (const auto soft = named.empty() ? goals_.drop_candidate() : goals_.drop_candidate(named)) {
     give_up({*soft}, why);
   } else {
-    give_up(named.empty() ? std::vector{goals_.open().back()->request.key} : named, why);
+    const auto hard = named.empty() ? std::vector{goals_.open().back()->request.key} : named;
+    if (!spend_reserves(hard, why)) give_up(hard, why);
   }
+}
+
+// Before hard goals go, what the mission keeps back is offered to one more call; false if there is nothing
+// left to offer.
+bool Reactor::spend_reserves(const std::vector<GoalKey>& leaving, const std::string& why) {
+  const bool any = std::any_of(mission_->fluents.begin(), mission_->fluents.end(),
+                               [](const FluentSource& source) { return source.last.has_value(); });
+  if (!any || reserves_ == Reserves::spent) return false;
+  reserves_ = Reserves::spent;
+  note(NoteLevel::warning, "reserve.spent",
+       "what is kept back is now used, before hard goal " + leaving.front().text() + " is given up: " + why);
+  return true;
 }
 
 // Open goals of which a fact stands in the planner's reason.

@@ -12,9 +12,11 @@ namespace roci::exec {
 
 class FailureTally {
  public:
-  // `limit`: failures of one component in a row, at least 1. `pause`: after the second one; it doubles with
-  // each further one, up to 64 times.
-  FailureTally(std::uint32_t limit, temporal::Duration pause) : limit_(limit), pause_(pause) {}
+  // `limit`: failures of one component in a row, at least 1. `first_pause`: after the second one; it doubles
+  // with each further one, up to `longest_pause`. All tries together thus wait for less than
+  // limit × longest_pause.
+  FailureTally(std::uint32_t limit, temporal::Duration first_pause, temporal::Duration longest_pause)
+      : limit_(limit), first_pause_(first_pause), longest_pause_(longest_pause) {}
 
   struct Count {
     std::uint32_t in_a_row = 0;
@@ -28,7 +30,8 @@ class FailureTally {
 
  private:
   std::uint32_t limit_;
-  temporal::Duration pause_;
+  temporal::Duration first_pause_;
+  temporal::Duration longest_pause_;
   std::map<std::string, std::uint32_t> in_a_row_;
 };
 

@@ -76,7 +76,8 @@ void Reactor::begin_planning(Time now) {
   call_.id = ++call_id_;
   call_.problem_name = mission_->name + "-" + std::to_string(call_id_);
   call_.origin = now + mission_->planner.allowance;
-  call_.problem = write_problem(*mission_, beliefs_, goals_, call_.problem_name, now, call_.origin);
+  call_.problem =
+      write_problem(*mission_, beliefs_, goals_, call_.problem_name, now, call_.origin, reserves_);
   out_.call = call_;
 }
 

@@ -57,7 +57,8 @@ Reactor::Reactor(const MissionModel& mission)
       goals_(mission),
       executive_(executive_settings(mission)),
       ladder_(ladder_of(mission.executive.recovery)),
-      failures_(mission.executive.failure_limit, mission.executive.failure_pause) {}
+      failures_(mission.executive.failure_limit, mission.executive.failure_pause,
+                mission.executive.failure_pause_max) {}
 
 void Reactor::restore(const std::vector<GoalRecord>& goals, std::uint32_t last_plan_version) {
   for (const GoalRecord& record : goals) {
@@ -121,6 +122,7 @@ void Reactor::take_goals(Time now, const std::vector<GoalRequest>& requests) {
     } else if (record->state == GoalState::pending) {
       note(NoteLevel::info, "goal.accepted", name + " accepted");
       assume_unobserved(record->request);
+      reserves_ = Reserves::kept;
       want_plan(name + " arrived");
     }
   }

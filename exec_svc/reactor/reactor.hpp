@@ -150,6 +150,7 @@ class Reactor {
   void take_answer(temporal::Time now, const PlanAnswer& answer);
   void adopt(temporal::Time now, const PlanAnswer& answer);
   void give_way(const PlanAnswer& answer);
+  bool spend_reserves(const std::vector<GoalKey>& leaving, const std::string& why);
   std::vector<GoalKey> named_goals(const std::string& reason) const;
   void try_again_later(temporal::Time now, const PlanAnswer& answer);
   void run_executive(temporal::Time now, const ReactorInputs& inputs);
@@ -188,6 +189,7 @@ class Reactor {
   std::uint32_t fallback_round_ = 0;
   bool fallbacks_sent_ = false;
   std::uint32_t failed_calls_ = 0;
+  Reserves reserves_ = Reserves::kept;                 // spent: for hard goals, until another goal comes
   temporal::Time not_before_{0};                       // next planner call
   std::map<std::string, temporal::Time> told_starts_;  // earliest starts last reported
   std::map<std::string, temporal::Value>

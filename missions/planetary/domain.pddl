@@ -1,5 +1,6 @@
 ; A rover with a camera, a sampling arm and a radio on a planetary site (Stellar, section 3.3; R57).
-; This file never changes during a mission (R8). Times are in seconds, energy is in joules.
+; This file never changes during a mission (R8). Times are in seconds, energy is in joules. Energies contain what the
+; robot draws anyway (14 W) for as long as the action takes; a transmission runs beside others and goes without.
 (define (domain planetary)
   (:requirements :typing :durative-actions :numeric-fluents :timed-initial-literals)
 
@@ -65,10 +66,10 @@
       (at start (camera-idle))
       (over all (at ?l))
       (over all (available ?i))
-      (at start (>= (battery) (+ (reserve) 600))))
+      (at start (>= (battery) (+ (reserve) 1160))))
     :effect (and
       (at start (not (camera-idle)))
-      (at start (decrease (battery) 600))
+      (at start (decrease (battery) 1160))
       (at end (camera-idle))
       (at end (have-image ?i))))
 
@@ -80,10 +81,10 @@
       (at start (gripper-empty))
       (over all (at ?l))
       (over all (arm-at sampling))
-      (at start (>= (battery) (+ (reserve) 900))))
+      (at start (>= (battery) (+ (reserve) 1740))))
     :effect (and
       (at start (not (gripper-empty)))
-      (at start (decrease (battery) 900))
+      (at start (decrease (battery) 1740))
       (at end (not (sample-at ?s ?l)))
       (at end (holding ?s))
       (at end (picked ?s))))
@@ -95,9 +96,9 @@
       (at start (holding ?s))
       (over all (at ?l))
       (over all (arm-at deposit))
-      (at start (>= (battery) (+ (reserve) 450))))
+      (at start (>= (battery) (+ (reserve) 870))))
     :effect (and
-      (at start (decrease (battery) 450))
+      (at start (decrease (battery) 870))
       (at end (not (holding ?s)))
       (at end (gripper-empty))
       (at end (dropped ?s ?l))))

@@ -8,7 +8,7 @@ namespace {
 using temporal::seconds;
 
 TEST(FailureTally, PausesDoubleFromTheSecondFailureUntilTheLimit) {
-  FailureTally tally(5, seconds(30));
+  FailureTally tally(5, seconds(30), seconds(600));
   const double pauses[] = {0, 30, 60, 120};
   for (std::uint32_t i = 0; i < 4; ++i) {
     const auto count = tally.failed("arm");
@@ -23,7 +23,7 @@ TEST(FailureTally, PausesDoubleFromTheSecondFailureUntilTheLimit) {
 }
 
 TEST(FailureTally, ASuccessForgetsTheComponentsFailuresAndNoOthers) {
-  FailureTally tally(5, seconds(30));
+  FailureTally tally(5, seconds(30), seconds(600));
   tally.failed("arm");
   tally.failed("nav");
   tally.succeeded("arm");
@@ -31,15 +31,23 @@ TEST(FailureTally, ASuccessForgetsTheComponentsFailuresAndNoOthers) {
   EXPECT_EQ(tally.failed("nav").in_a_row, 2U);
 }
 
-TEST(FailureTally, PausesStopDoubling) {
-  FailureTally tally(1000, seconds(1));
+TEST(FailureTally, PausesGrowUpToTheLongest) {
+  FailureTally tally(1000, seconds(1), seconds(50));
+  const double pauses[] = {0, 1, 2, 4, 8, 16, 32, 50, 50, 50};
+  for (const double pause : pauses) EXPECT_EQ(tally.failed("arm").pause, seconds(pause));
   FailureTally::Count count;
   for (int i = 0; i < 100; ++i) count = tally.failed("arm");
-  EXPECT_EQ(count.pause, seconds(64));
+  EXPECT_EQ(count.pause, seconds(50));
+}
+
+TEST(FailureTally, NoPauseIsLongerThanTheLongest) {
+  FailureTally tally(5, seconds(30), seconds(20));
+  tally.failed("arm");
+  EXPECT_EQ(tally.failed("arm").pause, seconds(20));
 }
 
 TEST(FailureTally, ALimitOfOneGivesUpAtOnce) {
-  EXPECT_TRUE(FailureTally(1, seconds(1)).failed("arm").used_up);
+  EXPECT_TRUE(FailureTally(1, seconds(1), seconds(1)).failed("arm").used_up);
 }
 
 }  // namespace

@@ -86,6 +86,34 @@ TEST_F(ReactorTest, WhatThePlannerProvesOutOfReachTakesNothingElseWithIt) {
   EXPECT_EQ(reactor.outcome(), "achieved");
 }
 
+// What is kept back is for hard goals: spent before one is given up, and kept again when another goal comes.
+TEST_F(ReactorTest, ReservesAreSpentBeforeAHardGoalIsGivenUp) {
+  std::vector<std::string> asked;
+  planner = [&](const PlanCall& call) {
+    const bool kept = call.problem.text.find("(= (reserve) 20000.000000)") != std::string::npos;
+    asked.push_back(kept ? "kept" : "spent");
+    if (kept) return answer(PlanVerdict::unsolvable, "never reached: (sent image-hard)");
+    return image_every_goal(call);
+  };
+  run(20, robot_and({photo("hard")}));
+  EXPECT_EQ(asked, (std::vector<std::string>{"kept", "spent"}));
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), "reserve.spent"), 1);
+  EXPECT_EQ(reactor.goals().find({"ground", "hard"})->state, GoalState::planned);
+  ReactorInputs more;
+  more.goals = {photo("far")};
+  asked.clear();
+  planner = [&](const PlanCall& call) {
+    asked.push_back(call.problem.text.find("(= (reserve) 5000.000000)") != std::string::npos ? "spent"
+                                                                                             : "kept");
+    return answer(PlanVerdict::unsolvable, "never reached: (sent image-far)");
+  };
+  run(30, std::move(more));
+  ASSERT_GE(asked.size(), 2U);
+  EXPECT_EQ(asked[0], "kept");
+  EXPECT_EQ(asked[1], "spent");
+  EXPECT_EQ(reactor.goals().find({"ground", "far"})->state, GoalState::failed);
+}
+
 TEST_F(ReactorTest, AChangeThatIsRefusedLeavesGoalAndPlanAsTheyWere) {
   run(20, robot_and({photo("a")}));
   trace.clear();
