@@ -24,6 +24,12 @@ void Orderings::mark_new_step(SnapId next, std::span<const ActionId> running) {
     for (const VariableId variable : task_.invariant_reads[snap.action]) mark(variable, guards);
   }
   for (const ActionId action : running) {
+    if (snap.kind == SnapKind::end && snap.action == action) continue;  // its invariants end before
+    const auto derived = task_.derived_invariant_reads[action];
+    if (std::ranges::any_of(derived,
+                            [&](VariableId variable) { return (interests_[variable] & changes) != 0; })) {
+      for (const VariableId variable : derived) mark(variable, reads);
+    }
     for (const auto& invariant : task_.numeric_invariants[action]) {
       const auto& terms = task_.expressions[invariant.expression].terms;
       const auto changed = [&](const auto& term) {

@@ -74,6 +74,7 @@ class Analysis {
     }
     for (std::size_t i = 0; i < model.actions.size(); ++i) touch_by_action(i);
     for (const auto& timed : model.timed) touch_by_snap(Touch::nobody, timed.effects, {}, {});
+    for (const auto& rule : model.rules) touch_by_rule(rule);
   }
 
   Compression judge(std::size_t index) const {
@@ -113,7 +114,7 @@ class Analysis {
 
   void touch_by_action(std::size_t index) {
     const GroundAction& action = model_.actions[index];
-    const auto start_literals = start_requirements(action);
+    const auto start_literals = start_requirements(model_, action);
     std::vector<GroundLiteral> end_literals;
     std::ranges::set_union(action.at_end.literals, action.over_all.literals,
                            std::back_inserter(end_literals));
@@ -129,6 +130,14 @@ class Analysis {
     touch_by_conditions(index, action.over_all, united(running_[index], needs(action.over_all.literals)));
     touch_by_conditions(index, action.over_all, start_needs);
     touch_by_conditions(index, action.over_all, end_needs);
+  }
+
+  // Whoever asks for a derived atom may ask for what it hangs on, at any time and true or false.
+  void touch_by_rule(const GroundRule& rule) {
+    touch_by_conditions(Touch::nobody, rule.body, {});
+    atoms_[rule.head.atom].by(Touch::nobody, {});
+    facts_[rule.head.atom] = {true, true, true, true};
+    for (const auto literal : rule.body.literals) facts_[literal.atom].negated = true;
   }
 
   void touch_by_expression(std::size_t index, ExpressionId expression, const Groups& needed) {
@@ -192,7 +201,10 @@ class Analysis {
       return std::ranges::binary_search(action.over_all.literals, literal) &&
              !(literal.negated ? use.redundantly_deleted : use.redundantly_added);
     });
-    return literals_free && isolated(index, action.over_all, running) &&
+    // A derived one may hold for one reason, then for another.
+    const bool simple = std::ranges::none_of(
+        action.over_all.literals, [&](GroundLiteral literal) { return model_.derived[literal.atom]; });
+    return literals_free && simple && isolated(index, action.over_all, running) &&
            isolated(index, action.at_end, running) &&
            std::ranges::none_of(action.duration_rules,
                                 [](const DurationRule& rule) { return rule.at == pddl::TimePoint::end; }) &&
@@ -231,6 +243,9 @@ std::vector<bool> only_goals_ask(const GroundModel& model) {
   }
   for (const auto& timed : model.timed) {
     for (const std::uint32_t atom : timed.effects.deletes) result[atom] = false;
+  }
+  for (const auto& rule : model.rules) {
+    for (const auto literal : rule.body.literals) result[literal.atom] = false;
   }
   for (const auto& goal : model.goal) {
     for (const auto literal : goal.literals) {

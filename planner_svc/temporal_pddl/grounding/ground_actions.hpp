@@ -53,6 +53,13 @@ struct GroundAction {
   TimeWindows start_windows = any_time(), end_windows = any_time(), span_windows = any_time();
 };
 
+// Wherever the body holds, so does the head, a derived atom.
+struct GroundRule {
+  GroundLiteral head;
+  int layer = 0;
+  Conjunction body;
+};
+
 struct TimedChange {
   Duration time{0};
   GroundEffects effects;
@@ -60,11 +67,13 @@ struct TimedChange {
 
 struct GroundModel {
   TupleTable atoms;
+  std::vector<bool> derived;  // by atom
   TupleTable numbers;  // fluents that change; their index is the NumberId
   ExpressionPool expressions;
   std::vector<std::uint32_t> initial_atoms;
   std::vector<double> initial_numbers;  // NaN: undefined
   std::vector<GroundAction> actions;
+  std::vector<GroundRule> rules;   // by layer
   std::vector<TimedChange> timed;  // by time, one per instant
   Disjunction goal;
   std::vector<std::string> unreachable_goals;  // as text, if `goal` has no alternative from the beginning

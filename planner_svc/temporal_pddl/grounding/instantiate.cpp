@@ -99,6 +99,12 @@ void add_timed(const pddl::Problem& problem, const World& world, const Reachabil
   }
 }
 
+void add_rules(const LiftedAction& rule, Binding& binding, FormulaGrounder& formulas, GroundModel& model) {
+  const GroundLiteral head{*formulas.reached_atom(rule.start_effects.front().atom, binding), false};
+  for (auto& body : formulas.ground(rule.at_start, binding))
+    model.rules.push_back({head, *rule.layer, std::move(body)});
+}
+
 void ground_goal(const pddl::Problem& problem, FormulaGrounder& formulas, GroundModel& model) {
   const auto ground = [&](const pddl::Condition& condition) {
     std::uint32_t slots = 0;
@@ -145,7 +151,11 @@ GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem
     for (std::size_t i = 0; i < instances.size(); ++i) {
       watch.step();
       std::ranges::copy(instances[i], binding.begin());
-      instantiator.instantiate(SchemaId(schema), actions[schema], binding, model.actions);
+      if (actions[schema].layer) {
+        add_rules(actions[schema], binding, formulas, model);
+      } else {
+        instantiator.instantiate(SchemaId(schema), actions[schema], binding, model.actions);
+      }
     }
   }
   FormulaGrounder goals(world, reachability, touched, model.numbers, model.expressions, problem.file);
@@ -153,6 +163,8 @@ GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem
   add_timed(problem, world, reachability, formulas, model);
   set_initial(problem, world, reachability, model);
   model.atoms = std::move(reachability.atoms);
+  for (std::uint32_t atom = 0; atom < model.atoms.size(); ++atom)
+    model.derived.push_back(world.is_derived(PredicateId(std::size_t{model.atoms.symbol(atom)})));
   return model;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -85,6 +86,7 @@ struct LiftedDuration {
 struct LiftedAction {
   std::string name;
   bool durative = true;
+  std::optional<int> layer;  // set: no action, but a rule that derives its one start effect from at_start
   std::vector<std::vector<ObjectId>> parameters;  // the objects that each may be, ascending
   std::uint32_t slots = 0;                        // parameters and quantified variables
   std::vector<LiftedDuration> duration;

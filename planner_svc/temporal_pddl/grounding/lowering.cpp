@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/pddl/overloaded.hpp"
+#include "planner_svc/temporal_pddl/grounding/derived_rules.hpp"
 #include "planner_svc/temporal_pddl/grounding/refusal.hpp"
 
 namespace roci::planner::temporal_pddl {
@@ -257,16 +258,13 @@ LiftedAction lower(const pddl::DurativeAction& source, const Symbols& symbols, c
 }  // namespace
 
 std::vector<LiftedAction> lower_actions(const pddl::Domain& domain, const Symbols& symbols) {
-  if (!domain.derived.empty()) {
-    const auto& head = domain.derived.front().head;
-    throw Refusal(
-        Verdict::unsupported,
-        pddl::Diagnostic{domain.file, head.where, "derived predicates are not supported: " + head.name,
-                         "make it a predicate that the actions' effects change"});
-  }
   std::vector<LiftedAction> result;
   for (const auto& action : domain.actions) result.push_back(lower(action, symbols, domain.file));
   for (const auto& action : domain.durative_actions) result.push_back(lower(action, symbols, domain.file));
+  for (const auto& derived : derived_rules(domain)) {
+    result.push_back(lower(derived.rule, symbols, domain.file));
+    result.back().layer = derived.layer;
+  }
   return result;
 }
 

@@ -7,8 +7,9 @@
 
 namespace roci::planner::temporal_pddl {
 
-// The domain's actions in their order: plain ones, then durative ones. Throws Refusal (unsupported) for
-// derived predicates, and for conditional effects that look at `over all` or, in a start effect, at the end.
+// The domain's actions in their order: plain ones, then durative ones; then the rules of derived predicates,
+// by layer. Throws Refusal (unsupported) for conditional effects that look at `over all` or, in a start
+// effect, at the end.
 std::vector<LiftedAction> lower_actions(const pddl::Domain& domain, const Symbols& symbols);
 
 // A formula without free variables; `slots` grows by those of its quantifiers.

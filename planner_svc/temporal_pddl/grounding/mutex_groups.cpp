@@ -107,10 +107,12 @@ class Synthesis {
     }
   }
 
-  // Every predicate that changes, with every subset of its positions as key; larger sets of atoms first.
+  // Every predicate that effects change, with every subset of its positions as key; larger sets of atoms
+  // first.
   void seed() {
     std::map<std::uint32_t, std::size_t> arities;
     for (std::uint32_t id = 0; id < model_.atoms.size(); ++id) {
+      if (model_.derived[id]) continue;
       if (reached_[literal_index({id, true})] && reached_[literal_index({id, false})]) {
         arities[model_.atoms.symbol(id)] = model_.atoms.objects(id).size();
       }

@@ -17,19 +17,21 @@ class RelaxedReach {
       : model_(model),
         reached_(2 * model.atoms.size(), false),
         waiting_(2 * model.atoms.size()),
-        missing_(2 * model.actions.size(), 0) {}
+        missing_(2 * model.actions.size() + model.rules.size(), 0) {}
 
   void run() {
     std::vector<bool> initially(model_.atoms.size(), false);
     for (const std::uint32_t atom : model_.initial_atoms) initially[atom] = true;
     for (std::uint32_t atom = 0; atom < initially.size(); ++atom) reach({atom, !initially[atom]});
     for (const auto& timed : model_.timed) take_effects(timed.effects);
+    for (std::size_t i = 0; i < model_.rules.size(); ++i)
+      await(2 * model_.actions.size() + i, model_.rules[i].body.literals, 0);
     for (std::size_t i = 0; i < model_.actions.size(); ++i) {
       const GroundAction& action = model_.actions[i];
       std::vector<GroundLiteral> end;
       std::ranges::set_union(action.over_all.literals, action.at_end.literals, std::back_inserter(end));
       await(2 * i + 1, end, 1);  // and the start
-      await(2 * i, start_requirements(action), 0);
+      await(2 * i, start_requirements(model_, action), 0);
     }
     while (!queue_.empty()) {
       const std::size_t literal = queue_.back();
@@ -40,6 +42,7 @@ class RelaxedReach {
 
   const std::vector<bool>& reached() const { return reached_; }
   bool ends(std::size_t action) const { return missing_[2 * action + 1] == 0; }
+  bool derives(std::size_t rule) const { return missing_[2 * model_.actions.size() + rule] == 0; }
 
  private:
   void reach(GroundLiteral literal) {
@@ -61,6 +64,7 @@ class RelaxedReach {
   }
 
   void happen(std::size_t snap) {
+    if (snap >= 2 * model_.actions.size()) return reach(model_.rules[snap - 2 * model_.actions.size()].head);
     const GroundAction& action = model_.actions[snap / 2];
     take_effects(snap % 2 == 0 ? action.start_effects : action.end_effects);
     if (snap % 2 == 0) count_down(snap + 1);
@@ -74,7 +78,7 @@ class RelaxedReach {
   const GroundModel& model_;
   std::vector<bool> reached_;
   std::vector<std::vector<std::size_t>> waiting_;
-  std::vector<std::size_t> missing_;
+  std::vector<std::size_t> missing_;  // by start and end of each action, then by rule
   std::vector<std::size_t> queue_;
 };
 
@@ -95,10 +99,10 @@ std::vector<bool> brought_about(const GroundModel& model) {
 
 }  // namespace
 
-std::vector<GroundLiteral> start_requirements(const GroundAction& action) {
+std::vector<GroundLiteral> start_requirements(const GroundModel& model, const GroundAction& action) {
   std::vector<GroundLiteral> result = action.at_start.literals;
   for (const auto literal : action.over_all.literals) {
-    if (!achieves(action.start_effects, literal)) result.push_back(literal);
+    if (!model.derived[literal.atom] && !achieves(action.start_effects, literal)) result.push_back(literal);
   }
   std::ranges::sort(result);
   result.erase(std::unique(result.begin(), result.end()), result.end());
@@ -117,20 +121,29 @@ std::vector<bool> prune(GroundModel& model) {
     model.actions = std::move(kept);
     if (model.actions.size() < before) continue;
 
+    std::vector<GroundRule> rules;
+    for (std::size_t i = 0; i < model.rules.size(); ++i) {
+      if (reach.derives(i)) rules.push_back(std::move(model.rules[i]));
+    }
+    model.rules = std::move(rules);
+
     const auto& reached = reach.reached();
     const std::vector<bool> brought = brought_about(model);
     const auto certain = [&](GroundLiteral literal) {
       return !reached[literal_index({literal.atom, !literal.negated})];
     };
     const auto drop_certain = [&](Conjunction& conjunction) { std::erase_if(conjunction.literals, certain); };
+    const auto drop_untouched = [&](Conjunction& conjunction) {
+      std::erase_if(conjunction.literals, [&](GroundLiteral literal) {
+        return certain(literal) && !brought[literal_index(literal)];
+      });
+    };
     for (auto& action : model.actions) {
       drop_certain(action.over_all);
-      for (auto* conjunction : {&action.at_start, &action.at_end}) {
-        std::erase_if(conjunction->literals, [&](GroundLiteral literal) {
-          return certain(literal) && !brought[literal_index(literal)];
-        });
-      }
+      drop_untouched(action.at_start);
+      drop_untouched(action.at_end);
     }
+    for (auto& rule : model.rules) drop_untouched(rule.body);
     std::erase_if(model.goal, [&](const Conjunction& goal) {
       return !std::ranges::all_of(goal.literals,
                                   [&](auto literal) { return reached[literal_index(literal)]; });

@@ -1,5 +1,6 @@
 #include "planner_svc/temporal_pddl/grounding/relevance.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace roci::planner::temporal_pddl {
@@ -22,7 +23,30 @@ void for_each_condition(const GroundModel& model, const Visit& visit) {
     visit(action.over_all);
     visit(action.at_end);
   }
+  for (const auto& rule : model.rules) visit(rule.body);
   for (const auto& goal : model.goal) visit(goal);
+}
+
+// Rules whose heads nothing asks for, directly or through other rules.
+void drop_irrelevant_rules(GroundModel& model) {
+  std::vector<bool> asked(model.atoms.size(), false);
+  const auto ask = [&](const Conjunction& conjunction) {
+    for (const auto literal : conjunction.literals) asked[literal.atom] = true;
+  };
+  const std::vector<GroundRule> rules = std::exchange(model.rules, {});
+  for_each_condition(model, ask);
+  std::vector<bool> kept(rules.size(), false);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = rules.size(); i-- > 0;) {
+      if (kept[i] || !asked[rules[i].head.atom]) continue;
+      kept[i] = changed = true;
+      ask(rules[i].body);
+    }
+  }
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    if (kept[i]) model.rules.push_back(rules[i]);
+  }
 }
 
 std::vector<bool> relevant_numbers(GroundModel& model) {
@@ -55,6 +79,7 @@ std::vector<bool> relevant_numbers(GroundModel& model) {
 }  // namespace
 
 void drop_irrelevant_effects(GroundModel& model) {
+  drop_irrelevant_rules(model);
   const std::size_t atoms = model.atoms.size();
   std::vector<bool> read(atoms, false), added(atoms, false), deleted(atoms, false);
   for_each_condition(model, [&](const Conjunction& conjunction) {

@@ -37,8 +37,9 @@ SchemaJoin::SchemaJoin(const LiftedAction& action, const World& world) : action_
     });
   };
   collect(action.at_start, [](const LiftedAtom&) { return false; });
-  collect(action.over_all,
-          [&](const LiftedAtom& atom) { return may_be_added_at_start(action, atom.predicate); });
+  collect(action.over_all, [&](const LiftedAtom& atom) {
+    return world.is_derived(atom.predicate) || may_be_added_at_start(action, atom.predicate);
+  });
   collect(action.at_end, [](const LiftedAtom&) { return true; });
   for (const auto& domain : action.parameters) {
     std::vector<bool> allowed(world.symbols().objects(), false);

@@ -21,7 +21,7 @@ class SchemaJoin {
   // The atoms that must be reachable before the action can start: fluents first.
   const std::vector<LiftedAtom>& fluents() const { return fluents_; }
   // Positive fluent conditions that may hold only after the start: `at end` ones, and `over all` ones that
-  // the action's own start might add.
+  // the action's own start might bring about.
   const std::vector<LiftedAtom>& deferred() const { return deferred_; }
 
   using Found = std::function<void(Binding&)>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "planner_svc/temporal_pddl/grounding/derived_support.hpp"
 #include "planner_svc/temporal_pddl/grounding/prune.hpp"
 #include "planner_svc/temporal_pddl/grounding/variable_cover.hpp"
 
@@ -13,7 +14,11 @@ namespace {
 class Builder {
  public:
   Builder(const GroundModel& model, const Symbols& symbols)
-      : model_(model), symbols_(symbols), facts_(2 * model.atoms.size()), unordered_(only_goals_ask(model)) {}
+      : model_(model),
+        symbols_(symbols),
+        facts_(2 * model.atoms.size()),
+        unordered_(only_goals_ask(model)),
+        support_(model) {}
 
   Task run(const std::vector<LiftedAction>& schemas, const std::vector<MutexGroup>& groups,
            const std::vector<Compression>& compression) {
@@ -26,7 +31,11 @@ class Builder {
           {add_snap({SnapKind::timed_literal, ActionId()}, {}, timed.effects, {{timed.time, timed.time}}, {}),
            timed.time});
     }
-    for (const auto& goal : model_.goal) task_.goals.push_back({facts_of(goal.literals), goal.comparisons});
+    for (const auto& goal : model_.goal) {
+      task_.goals.push_back({facts_of(goal.literals), goal.comparisons});
+      task_.derived_goal_reads.push_back(derived_reads(goal));
+    }
+    add_rules();
     lay_out(groups);
     return std::move(task_);
   }
@@ -48,10 +57,17 @@ class Builder {
   // goal asks for it.
   void number_facts() {
     std::vector<bool> atom_needed(model_.atoms.size(), false), negation_needed(model_.atoms.size(), false);
+    const auto need_literal = [&](GroundLiteral literal) {
+      atom_needed[literal.atom] = true;
+      if (literal.negated) negation_needed[literal.atom] = true;
+    };
+    std::vector<bool> supported(facts_.size(), false);
     const auto need = [&](const Conjunction& conjunction) {
       for (const auto literal : conjunction.literals) {
-        atom_needed[literal.atom] = true;
-        if (literal.negated) negation_needed[literal.atom] = true;
+        need_literal(literal);
+        if (!support_.is_derived(literal.atom) || supported[literal_index(literal)]) continue;
+        supported[literal_index(literal)] = true;
+        for (const auto part : support_.of(literal).literals) need_literal(part);
       }
     };
     const auto touch = [&](const GroundEffects& effects) {
@@ -65,6 +81,13 @@ class Builder {
     }
     for (const auto& timed : model_.timed) touch(timed.effects);
     for (const auto& goal : model_.goal) need(goal);
+    for (const auto& rule : model_.rules) need(rule.body);
+    std::vector<std::uint32_t> negated;
+    for (std::uint32_t atom = 0; atom < model_.atoms.size(); ++atom) {
+      if (negation_needed[atom]) negated.push_back(atom);
+    }
+    negations_ = support_.negations(std::move(negated));
+    for (const auto& rule : negations_) need(rule.body);
     for (std::uint32_t atom = 0; atom < model_.atoms.size(); ++atom) {
       if (atom_needed[atom]) add_fact({atom, false}, FactId());
       if (negation_needed[atom]) add_fact({atom, true}, fact({atom, false}));
@@ -75,6 +98,7 @@ class Builder {
     const PredicateId predicate(std::size_t{model_.atoms.symbol(literal.atom)});
     const auto name_index = static_cast<std::uint32_t>(task_.atom_arguments.size());
     task_.atom_arguments.push_back(model_.atoms.objects(literal.atom));
+    task_.is_derived.push_back(model_.derived[literal.atom]);
     facts_[literal_index(literal)] = task_.fact_names.push_back({name_index, predicate, literal.negated});
     negation_of_.push_back(negation_of);
   }
@@ -108,6 +132,7 @@ class Builder {
     task_.invariants.push_back(invariants);
     task_.numeric_invariants.push_back(source.over_all.comparisons);
     task_.invariant_reads.push_back(reads(source.over_all, {}, {}));
+    task_.derived_invariant_reads.push_back(derived_reads(source.over_all));
     std::vector<FactId> absent;
     for (const std::uint32_t atom : compression.absent) absent.push_back(fact({atom, false}));
     task_.absent_for_compression.push_back(absent);
@@ -149,7 +174,7 @@ class Builder {
   std::vector<VariableId> reads(const Conjunction& conditions, const std::vector<NumericEffect>& effects,
                                 const std::vector<ExpressionId>& measured_here) const {
     std::vector<VariableId> result;
-    for (const auto literal : conditions.literals) result.push_back(task_.variable(fact(literal)));
+    for (const auto literal : conditions.literals) add_reads(literal, result);
     const auto add = [&](ExpressionId expression) {
       for (const auto& term : model_.expressions[expression].terms)
         result.push_back(task_.variable(term.variable));
@@ -158,6 +183,45 @@ class Builder {
     for (const auto& effect : effects) add(effect.expression);
     for (const ExpressionId expression : measured_here) add(expression);
     return unique(std::move(result));
+  }
+
+  // What a literal hangs on: itself, or what it is derived from.
+  void add_reads(GroundLiteral literal, std::vector<VariableId>& result) const {
+    if (!support_.is_derived(literal.atom)) return result.push_back(task_.variable(fact(literal)));
+    const Support support = support_.of(literal);
+    for (const auto part : support.literals) result.push_back(task_.variable(fact(part)));
+    for (const NumberId number : support.numbers) result.push_back(task_.variable(number));
+  }
+
+  std::vector<VariableId> derived_reads(const Conjunction& conditions) const {
+    std::vector<VariableId> result;
+    for (const auto literal : conditions.literals) {
+      if (support_.is_derived(literal.atom)) add_reads(literal, result);
+    }
+    return unique(std::move(result));
+  }
+
+  // After the actions, so that plans' steps have the lowest ids.
+  void add_rules() {
+    std::vector<FactRule> rules;
+    for (const auto& rule : model_.rules) {
+      rules.push_back({fact(rule.head), rule.layer, facts_of(rule.body.literals), rule.body.comparisons});
+      add_derivation(rule);
+    }
+    for (const auto& rule : negations_) add_derivation(rule);
+    task_.derived = DerivedFacts(rules);
+  }
+
+  void add_derivation(const GroundRule& rule) {
+    task_.conditions.push_back(facts_of(rule.body.literals));
+    task_.comparisons.push_back({});
+    task_.adds.push_back(std::array{fact(rule.head)});
+    task_.deletes.push_back({});
+    task_.numeric_effects.push_back({});
+    task_.reads.push_back({});
+    task_.writes.push_back({});
+    task_.windows.push_back({});
+    task_.snaps.push_back({SnapKind::derivation, ActionId()});
   }
 
   std::vector<VariableId> writes(const GroundEffects& effects, const std::vector<FactId>& adds,
@@ -210,12 +274,15 @@ class Builder {
     for (std::size_t i = 0; i < model_.numbers.size(); ++i) {
       task_.layout.set_number(task_.initial_state, NumberId(i), model_.initial_numbers[i]);
     }
+    task_.derived.complete(task_.layout, task_.expressions, task_.initial_state);
   }
 
   const GroundModel& model_;
   const Symbols& symbols_;
   std::vector<FactId> facts_;  // by literal index; none for literals without a fact
   std::vector<bool> unordered_;
+  DerivedSupport support_;
+  std::vector<GroundRule> negations_;
   IdVector<FactId, FactId> negation_of_;
   Task task_;
 };

@@ -19,8 +19,12 @@ std::vector<ObjectId> objects_of(const pddl::Atom& atom, const Symbols& symbols)
 
 World::World(const pddl::Problem& problem, const std::vector<LiftedAction>& actions, const Symbols& symbols,
              const ConstantFunctions& constants)
-    : symbols_(symbols), constants_(constants), static_(symbols.predicates(), true) {
+    : symbols_(symbols),
+      constants_(constants),
+      static_(symbols.predicates(), true),
+      derived_(symbols.predicates(), false) {
   for (const auto& action : actions) {
+    if (action.layer) derived_[action.start_effects.front().atom.predicate] = true;
     for (const auto* effects : {&action.start_effects, &action.end_effects}) {
       for (const auto& effect : *effects) {
         if (effect.kind != LiftedEffect::Kind::numeric) static_[effect.atom.predicate] = false;

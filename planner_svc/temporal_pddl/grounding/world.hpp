@@ -28,6 +28,7 @@ class World {
   const TupleTable& initial_atoms() const { return initial_; }          // timed literals at time 0 included
   const std::vector<TimedAtom>& timed_atoms() const { return timed_; }  // by time
 
+  bool is_derived(PredicateId predicate) const { return derived_[predicate]; }
   bool is_static(PredicateId predicate) const { return static_[predicate]; }
   bool holds_initially(PredicateId predicate, std::span<const ObjectId> objects) const {
     return initial_.find(predicate.value, objects).has_value();
@@ -45,7 +46,7 @@ class World {
  private:
   const Symbols& symbols_;
   const ConstantFunctions& constants_;
-  IdVector<PredicateId, bool> static_;
+  IdVector<PredicateId, bool> static_, derived_;
   TupleTable initial_;
   std::vector<TimedAtom> timed_;
 };

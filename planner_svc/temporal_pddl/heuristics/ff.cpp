@@ -149,6 +149,7 @@ void FfHeuristic::extract() {
 void FfHeuristic::collect(std::uint32_t timed_done, Estimate& estimate) const {
   bool waits_for_timed = false;
   for (const SnapId op : plan_) {
+    if (task_.snaps[op].kind == SnapKind::derivation) continue;
     estimate.cost += relaxed_.cost(op);
     ++estimate.steps;
     if (task_.snaps[op].kind == SnapKind::timed_literal) {

@@ -28,11 +28,17 @@ RelaxedTask::RelaxedTask(const Task& task) : facts_(task.fact_names.size()), run
     for (const FactId fact : task.adds[op]) adds.push_back(proposition(fact));
     if (snap.kind == SnapKind::start) {
       for (const FactId fact : task.invariants[snap.action]) {
-        if (std::ranges::count(task.adds[op], fact) == 0) needs.push_back(proposition(fact));
+        if (!task.is_derived[fact] && std::ranges::count(task.adds[op], fact) == 0)
+          needs.push_back(proposition(fact));
       }
       adds.push_back(running(snap.action));
     }
-    if (snap.kind == SnapKind::end) needs.push_back(running(snap.action));
+    if (snap.kind == SnapKind::end) {
+      needs.push_back(running(snap.action));
+      for (const FactId fact : task.invariants[snap.action]) {  // which the start may have brought about
+        if (task.is_derived[fact]) needs.push_back(proposition(fact));
+      }
+    }
     std::ranges::sort(needs);
     needs.erase(std::unique(needs.begin(), needs.end()), needs.end());
     for (const PropositionId need : needs) needed_by[need.index()].push_back(op);

@@ -10,12 +10,19 @@ GoalTest::GoalTest(const Task& task, TemporalCheck& check, Duration epsilon)
       semantics_(task),
       epsilon_(epsilon),
       opens_(task.timed_steps.size(), false) {
-  for (const Goal& goal : task.goals) {
+  for (std::size_t g = 0; g < task.goals.size(); ++g) {
+    const Goal& goal = task.goals[g];
+    const auto derived = task.derived_goal_reads[g];
     held_.emplace_back(goal.facts.size(), false);
-    const auto wanted = [&](FactId fact) { return std::ranges::count(goal.facts, fact) > 0; };
+    const auto wanted = [&](FactId fact) {
+      return std::ranges::count(goal.facts, fact) > 0 || std::ranges::count(derived, task.variable(fact)) > 0;
+    };
+    const auto measured = [&](const NumericEffect& effect) {
+      return !goal.comparisons.empty() || std::ranges::count(derived, task.variable(effect.variable)) > 0;
+    };
     for (std::size_t i = 0; i < opens_.size(); ++i) {
       const SnapId snap = task.timed_steps[i].snap;
-      const bool changes = !goal.comparisons.empty() && !task.numeric_effects[snap].empty();
+      const bool changes = std::ranges::any_of(task.numeric_effects[snap], measured);
       has_deadlines_ = has_deadlines_ || changes || std::ranges::any_of(task.deletes[snap], wanted);
       opens_[i] = opens_[i] || changes || std::ranges::any_of(task.adds[snap], wanted);
       has_openings_ = has_openings_ || opens_[i];

@@ -49,6 +49,7 @@ void append_step(const Task& task, SnapId snap, NodeId before, PlanPrefix& prefi
       ++prefix.timed_done;
       break;
     case SnapKind::instant:
+    case SnapKind::derivation:
       break;
   }
 }

@@ -13,6 +13,8 @@ bool SuccessorBuilder::applicable(const PlanPrefix& prefix, SnapId snap_id) cons
   const Snap& snap = task_.snaps[snap_id];
   const StateView state = store_.state(prefix.node);
   switch (snap.kind) {
+    case SnapKind::derivation:
+      return false;
     case SnapKind::timed_literal:
       return prefix.timed_done < task_.timed_steps.size() &&
              task_.timed_steps[prefix.timed_done].snap == snap_id;
@@ -64,6 +66,8 @@ bool SuccessorBuilder::extend(const PlanPrefix& prefix, SnapId snap_id, Successo
   const std::size_t constraints = prefix.constraints.size();
   bool possible = false;
   switch (snap.kind) {
+    case SnapKind::derivation:
+      break;
     case SnapKind::timed_literal:
     case SnapKind::instant:
       possible = take(snap_id, 0, successor);

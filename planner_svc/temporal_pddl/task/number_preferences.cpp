@@ -15,6 +15,10 @@ class Analysis {
 
   IdVector<NumberId, Preference> run() {
     for (std::size_t snap = 0; snap < task_.snaps.size(); ++snap) use(task_.comparisons[snap]);
+    for (std::size_t rule = 0; rule < task_.derived.rules(); ++rule) {
+      for (const NumericCondition& condition : task_.derived.comparisons(rule))
+        use(condition.expression, Preference::exact);
+    }
     for (std::size_t action = 0; action < task_.actions.size(); ++action) {
       use(task_.numeric_invariants[action]);
       for (const DurationRule& rule : task_.duration_rules[action]) use(rule.bound, Preference::exact);

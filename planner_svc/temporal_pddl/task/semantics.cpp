@@ -39,6 +39,7 @@ void Semantics::apply(SnapId snap, double seconds, MutableState state) const {
   }
   for (const FactId fact : task_.deletes[snap]) task_.layout.remove(state, fact);
   for (const FactId fact : task_.adds[snap]) task_.layout.add(state, fact);
+  if (!task_.derived.empty()) task_.derived.complete(task_.layout, task_.expressions, state);
 }
 
 std::optional<DurationBounds> Semantics::duration(ActionId id, StateView before_start,

@@ -11,6 +11,7 @@
 
 #include "core/pddl/ast.hpp"
 #include "planner_svc/temporal_pddl/plan/result.hpp"
+#include "planner_svc/temporal_pddl/task/derived_facts.hpp"
 #include "planner_svc/temporal_pddl/task/flat_lists.hpp"
 #include "planner_svc/temporal_pddl/task/ids.hpp"
 #include "planner_svc/temporal_pddl/task/numbers.hpp"
@@ -22,11 +23,17 @@ namespace roci::planner::temporal_pddl {
 // What temporal constraints are about (v of R22, R23): a fact or a number.
 using VariableId = Id<struct VariableTag>;
 
-enum class SnapKind : std::uint8_t { start, end, instant, timed_literal };
+enum class SnapKind : std::uint8_t {
+  start,
+  end,
+  instant,
+  timed_literal,
+  derivation,  // no step of a plan: how a derived fact or its negation comes to hold, for heuristics
+};
 
 struct Snap {
   SnapKind kind = SnapKind::start;
-  ActionId action;  // none for timed_literal
+  ActionId action;  // none for timed_literal and derivation
 };
 
 // ?duration OP expression (in seconds), evaluated in the state before the start or before the end.
@@ -88,11 +95,15 @@ struct Task {
   FlatLists<VariableId> invariant_reads;
   FlatLists<TimeWindow> span_windows;  // one of them must contain the whole action; none: any time
   FlatLists<DurationRule> duration_rules;
+  FlatLists<VariableId> derived_invariant_reads;  // what derived facts among the invariants hang on
   FlatLists<FactId> absent_for_compression;  // must be false before the start; see Action::compression_safe
 
   // ---- The rest
-  std::vector<TimedStep> timed_steps;  // by time; those that windows replace are not among them
-  std::vector<Goal> goals;             // alternatives
+  std::vector<TimedStep> timed_steps;        // by time; those that windows replace are not among them
+  std::vector<Goal> goals;                   // alternatives
+  FlatLists<VariableId> derived_goal_reads;  // by goal: what derived facts in it hang on
+  IdVector<FactId, bool> is_derived;
+  DerivedFacts derived;
   ExpressionPool expressions;
   StateLayout layout;
   std::vector<Word> initial_state;

@@ -20,24 +20,42 @@ struct State {
 
 std::string of(const pddl::Atom& atom) { return atom.symbol; }
 
-bool holds(const pddl::Condition& condition, const State& state) {
+// Derived predicates by name; they depend on one another without circles.
+using Rules = std::multimap<std::string, pddl::Condition>;
+
+bool holds(const pddl::Condition& condition, const State& state, const Rules& rules) {
+  const auto part_holds = [&](const pddl::Condition& part) { return holds(part, state, rules); };
   if (const auto* all = std::get_if<pddl::And>(&condition.node)) {
-    return std::ranges::all_of(all->parts, [&](const auto& part) { return holds(part, state); });
+    return std::ranges::all_of(all->parts, part_holds);
   }
-  if (const auto* negation = std::get_if<pddl::Not>(&condition.node)) return !holds(*negation->body, state);
-  if (const auto* atom = std::get_if<pddl::Atom>(&condition.node)) return state.facts.contains(of(*atom));
+  if (const auto* any = std::get_if<pddl::Or>(&condition.node)) {
+    return std::ranges::any_of(any->parts, part_holds);
+  }
+  if (const auto* negation = std::get_if<pddl::Not>(&condition.node)) return !part_holds(*negation->body);
+  if (const auto* atom = std::get_if<pddl::Atom>(&condition.node)) {
+    const auto [begin, end] = rules.equal_range(of(*atom));
+    return state.facts.contains(of(*atom)) ||
+           std::any_of(begin, end, [&](const auto& rule) { return part_holds(rule.second); });
+  }
   const auto& comparison = std::get<pddl::Comparison>(condition.node);
   const double bound = std::get<pddl::Number>(comparison.right.node).value;
   return comparison.op == pddl::ComparisonOperator::greater_equal ? state.x >= bound : state.x <= bound;
 }
 
-void collect_reads(const pddl::Condition& condition, std::set<std::string>& reads) {
+void collect_reads(const pddl::Condition& condition, const Rules& rules, std::set<std::string>& reads) {
+  const auto collect_all = [&](const std::vector<pddl::Condition>& parts) {
+    for (const auto& part : parts) collect_reads(part, rules, reads);
+  };
   if (const auto* all = std::get_if<pddl::And>(&condition.node)) {
-    for (const auto& part : all->parts) collect_reads(part, reads);
+    collect_all(all->parts);
+  } else if (const auto* any = std::get_if<pddl::Or>(&condition.node)) {
+    collect_all(any->parts);
   } else if (const auto* negation = std::get_if<pddl::Not>(&condition.node)) {
-    collect_reads(*negation->body, reads);
+    collect_reads(*negation->body, rules, reads);
   } else if (const auto* atom = std::get_if<pddl::Atom>(&condition.node)) {
-    reads.insert(of(*atom));
+    const auto [begin, end] = rules.equal_range(of(*atom));
+    for (auto rule = begin; rule != end; ++rule) collect_reads(rule->second, rules, reads);
+    if (begin == end) reads.insert(of(*atom));
   } else {
     reads.insert("x");
   }
@@ -48,8 +66,8 @@ struct Happening {
   std::vector<pddl::Effect> effects;
   std::set<std::string> reads, writes;
 
-  void complete() {
-    collect_reads(condition, reads);
+  void complete(const Rules& rules) {
+    collect_reads(condition, rules, reads);
     for (const auto& effect : effects) {
       const auto* literal = std::get_if<pddl::Literal>(&effect.node);
       writes.insert(literal ? of(literal->atom) : "x");
@@ -92,18 +110,19 @@ struct Doing {
 class Search {
  public:
   Search(const Model& model, std::size_t max_actions) : goal_(model.problem.goal), left_(max_actions) {
+    for (const auto& derived : model.domain.derived) rules_.emplace(derived.head.name, derived.body);
     for (const auto& action : model.domain.actions) {
       Doing doing;
       doing.start = {action.precondition, action.effects, {}, {}};
-      doing.start.complete();
+      doing.start.complete(rules_);
       doings_.push_back(std::move(doing));
     }
     for (const auto& action : model.domain.durative_actions) {
       Doing doing;
       doing.start = {action.condition.at_start, action.start_effects, {}, {}};
-      doing.start.complete();
+      doing.start.complete(rules_);
       doing.end = Happening{action.condition.at_end, action.end_effects, {}, {}};
-      doing.end->complete();
+      doing.end->complete(rules_);
       doing.over_all = action.condition.over_all;
       doing.most = std::numeric_limits<long>::max();
       for (const auto& rule : action.duration) {
@@ -117,7 +136,7 @@ class Search {
       pddl::Effect effect;
       effect.node = timed.literal;
       Happening happening{{}, {effect}, {}, {}};
-      happening.complete();
+      happening.complete(rules_);
       timed_.emplace_back(static_cast<long>(timed.time) * kSecond, happening);
     }
     for (const auto& fact : model.problem.facts) first_.facts.insert(of(fact));
@@ -166,14 +185,14 @@ class Search {
 
   bool invariants_hold(const State& state) const {
     for (std::size_t i = 0; i < doings_.size(); ++i) {
-      if (running_[i] != kIdle && !holds(doings_[i].over_all, state)) return false;
+      if (running_[i] != kIdle && !holds(doings_[i].over_all, state, rules_)) return false;
     }
     return true;
   }
 
   bool is_goal(const State& state) {
     const bool idle = std::ranges::all_of(running_, [](std::size_t since) { return since == kIdle; });
-    if (!idle || !holds(goal_, state) || !ends_with_an_action()) return false;
+    if (!idle || !holds(goal_, state, rules_) || !ends_with_an_action()) return false;
     if (next_timed_ == timed_.size() || happenings_.empty()) return true;
     return require(happenings_.size(), 0, -(timed_[next_timed_].first - kEpsilon));
   }
@@ -215,7 +234,7 @@ class Search {
     --left_;
     bool found = false;
     for (std::size_t i = 0; i < doings_.size() && !found; ++i) {
-      if (running_[i] != kIdle || !holds(doings_[i].start.condition, state)) continue;
+      if (running_[i] != kIdle || !holds(doings_[i].start.condition, state, rules_)) continue;
       if (push(doings_[i].start)) {
         const State after = doings_[i].start.apply(state);
         if (doings_[i].end) running_[i] = happenings_.size();
@@ -231,7 +250,7 @@ class Search {
   bool extend_by_ends(const State& state) {
     bool found = false;
     for (std::size_t i = 0; i < doings_.size() && !found; ++i) {
-      if (running_[i] == kIdle || !holds(doings_[i].end->condition, state)) continue;
+      if (running_[i] == kIdle || !holds(doings_[i].end->condition, state, rules_)) continue;
       const std::size_t since = running_[i];
       if (push(*doings_[i].end) && require(since, happenings_.size(), doings_[i].least) &&
           require(happenings_.size(), since, -doings_[i].most)) {
@@ -245,6 +264,7 @@ class Search {
     return found;
   }
 
+  Rules rules_;
   pddl::Condition goal_;
   std::size_t left_;
   std::vector<Doing> doings_;

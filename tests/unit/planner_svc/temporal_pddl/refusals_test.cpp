@@ -16,13 +16,6 @@ void expect_refusal(const Result& result, Verdict verdict, int line, const char*
   EXPECT_FALSE(result.plan);
 }
 
-TEST(Refusals, DerivedPredicates) {
-  const auto made =
-      testing::model("(:requirements :derived-predicates)\n(:predicates (p) (q))\n(:derived (q) (p))",
-                     "(:init (p)) (:goal (q))");
-  expect_refusal(testing::solved(made), Verdict::unsupported, 4, "derived predicates");
-}
-
 TEST(Refusals, ProductsOfNumbersThatChange) {
   const auto made = testing::model(R"((:requirements :numeric-fluents)
     (:predicates (g)) (:functions (x) (y))

@@ -1,0 +1,40 @@
+// What the truth of derived atoms hangs on, and what makes them false.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/grounding/ground_actions.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+// Changes outside of these lists cannot make the literal false: of a literal, only its becoming false can.
+struct Support {
+  std::vector<GroundLiteral> literals;  // of atoms that are not derived; sorted
+  std::vector<NumberId> numbers;        // sorted
+};
+
+class DerivedSupport {
+ public:
+  explicit DerivedSupport(const GroundModel& model);
+
+  bool is_derived(std::uint32_t atom) const { return !rules_[atom].empty(); }
+  // Of a literal that is not derived: itself.
+  Support of(GroundLiteral literal) const;
+
+  // When the given negations of derived atoms hold, and those that these ask for, relaxed: each rule has a
+  // negation as its head, and as its body one way in which that may hold: one literal for each rule of the
+  // atom that breaks it. Rules that are hard to break (numbers, recursion, more than kMaxWays ways) are taken
+  // as broken.
+  std::vector<GroundRule> negations(std::vector<std::uint32_t> atoms) const;
+
+ private:
+  static constexpr std::size_t kMaxWays = 16;
+
+  void add_negations(std::uint32_t atom, std::vector<GroundRule>& result) const;
+
+  const GroundModel& model_;
+  std::vector<std::vector<std::uint32_t>> rules_;  // by atom: indices of model.rules
+};
+
+}  // namespace roci::planner::temporal_pddl
