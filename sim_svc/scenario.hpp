@@ -33,9 +33,15 @@ struct RecallStimulus {
   std::string id;
 };
 
+/// The ground knows of an obstacle and tells those who keep a map.
+struct HazardStimulus {
+  std::string id;
+  Rock rock;
+};
+
 struct Stimulus {
   Time at{};
-  std::variant<GoalStimulus, RecallStimulus, Disturbance> what;
+  std::variant<GoalStimulus, RecallStimulus, HazardStimulus, Disturbance> what;
 };
 
 /// What happens in a run: scenarios/<name>.yaml of a mission.

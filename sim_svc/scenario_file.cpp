@@ -64,6 +64,12 @@ RecallStimulus read_recall(const Entry& entry) {
   return {entry.text_or("issuer", "ground"), entry.at("id").text()};
 }
 
+HazardStimulus read_hazard(const Entry& entry) {
+  entry.allow_only({"id", "x", "y", "radius"});
+  return {entry.at("id").text(),
+          {entry.at("x").number(), entry.at("y").number(), at_least(entry.at("radius"), 0.01)}};
+}
+
 ComponentFault read_fault(const Entry& entry, Time at) {
   entry.allow_only({"component", "for_s"});
   const Entry component = entry.at("component");
@@ -74,15 +80,17 @@ ComponentFault read_fault(const Entry& entry, Time at) {
 }
 
 Stimulus read_stimulus(const Entry& entry) {
-  entry.allow_only({"at_s", "goal", "recall", "fault", "rock", "battery_loss_j"});
+  entry.allow_only({"at_s", "goal", "recall", "hazard", "fault", "rock", "battery_loss_j"});
   if (entry.fields().size() != 2) {
     entry.fail(
-        "a stimulus is at_s and one of goal, recall, fault, rock, battery_loss_j; split it into several");
+        "a stimulus is at_s and one of goal, recall, hazard, fault, rock, battery_loss_j; split it into "
+        "several");
   }
   Stimulus out;
   out.at = time_of(entry.at("at_s"));
   if (const auto goal = entry.find("goal")) out.what = read_goal(*goal);
   if (const auto recall = entry.find("recall")) out.what = read_recall(*recall);
+  if (const auto hazard = entry.find("hazard")) out.what = read_hazard(*hazard);
   if (const auto fault = entry.find("fault")) out.what = Disturbance{read_fault(*fault, out.at)};
   if (const auto rock = entry.find("rock")) out.what = Disturbance{RockFall{read_rock(*rock)}};
   if (const auto loss = entry.find("battery_loss_j")) out.what = Disturbance{EnergyLoss{at_least(*loss, 0)}};

@@ -126,6 +126,10 @@ class SimService final : public services::Service {
               [this](const RecallStimulus& recall) {
                 goals_.write(wire::to_wire(*uploaded_.at({recall.issuer, recall.id}), true));
               },
+              [this](const HazardStimulus& hazard) {
+                const Rock& rock = hazard.rock;
+                hazards_.write(wire::to_wire(RockSeen{hazard.id, rock.x, rock.y, rock.radius, node_.now()}));
+              },
               [this](const Disturbance& disturbance) { tell(world_.disturb(node_.now(), disturbance)); }},
         stimulus.what);
     end_if_over();

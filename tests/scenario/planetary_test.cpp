@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Combine(::testing::Values(Ending{"nominal", 3, 0}, Ending{"blocked_window", 2, 1},
                                          Ending{"opportunistic", 6, 1}, Ending{"too_many", 2, 2},
                                          Ending{"arm_fault", 1, 0}, Ending{"comm_lost", 1, 0},
-                                         Ending{"battery_low", 1, 1}),
+                                         Ending{"battery_low", 1, 1}, Ending{"map_changes", 2, 0}),
                        ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed")),
     [](const auto& test) {
       return std::string(std::get<0>(test.param).scenario) + "_" + std::get<1>(test.param);
