@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import problem
 from flights import MISSION_WORK, Call
+from long_calls import LONG_S, LongCall
 from losses import EXPLANATIONS, Loss
 
 if TYPE_CHECKING:
@@ -115,14 +116,16 @@ def goals_of(call: Call) -> str:
     return ", ".join(" ".join(goal) for goal in problem.parse(call.problem.read_text()).goals)
 
 
-def wall_section(records: list[Record]) -> str:
+def wall_section(records: list[Record], long: list[LongCall]) -> str:
     """The only part that another run of the same seeds may change."""
     calls = [(call.wall_s, call, record.scenario.seed) for record in records for call in record.flight.calls]
     if not calls:
         return ""
     solved = [item for item in calls if item[1].verdict == "solved"]
     rows = []
-    for name, some in (("all", calls), ("solved", solved)):
+    unsolved = {call.verdict for _, call, _ in calls} - {"solved"}
+    kinds = [(verdict, [item for item in calls if item[1].verdict == verdict]) for verdict in sorted(unsolved)]
+    for name, some in (("all", calls), ("solved", solved), *kinds):
         if not some:
             continue
         walls = sorted(wall for wall, _, _ in some)
@@ -145,6 +148,26 @@ def wall_section(records: list[Record]) -> str:
         f"\n## Wall times\n\nOf this machine and its other load; flights took {flown:.0f} s in all.\n\n"
         + table(["calls", "number", "median s", "99th percentile s", "longest s", "over 2 s"], rows)
         + f"\nOf the {len(missed)} missed problems roci-plan solves {later} with a longer budget (`--longer`).\n"
+        + alone(long)
+    )
+
+
+def alone(long: list[LongCall]) -> str:
+    """The longest calls again, alone."""
+    if not long:
+        return ""
+    over = [one for one in long if one.cpu_s > LONG_S]
+    most = max(long, key=lambda one: one.cpu_s)
+    rate = sum(one.cpu_s for one in long) / max(1, sum(one.evaluated for one in long))
+    rows = [
+        [one.seed, one.call.number, one.call.verdict, f"{one.call.wall_s:.2f}", f"{one.cpu_s:.2f}", one.evaluated]
+        for one in long[:20]
+    ]
+    return (
+        f"\nThe {len(long)} longest calls again, one after the other, each a process of its own (`roci-plan`): {len(over)} of them "
+        f"took over {LONG_S:.0f} s of processor time, the longest {most.cpu_s:.2f} s (seed {most.seed}, call {most.call.number}); "
+        f"{1000 * rate:.2f} ms for an evaluation.\n\n"
+        + table(["seed", "call", "verdict", "wall s in the trial", "processor s alone", "evaluated"], rows)
     )
 
 
@@ -209,7 +232,7 @@ def makespan_section(records: list[Record]) -> str:
     )
 
 
-def write(records: list[Record], work: int, target: Path) -> None:
+def write(records: list[Record], long: list[LongCall], work: int, target: Path) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     pictures = target.parent / "pictures"
     pictures.mkdir(exist_ok=True)
@@ -228,5 +251,5 @@ little energy. Written by `bench/field_trial/run.py --runs {len(records)} --seed
 
 """
     sections = [losses_section(records, f"pictures/{picture.name}"), hard_section(records), calls_section(records, work)]
-    sections += [oracle_section(records), makespan_section(records), goals_section(records), wall_section(records)]
+    sections += [oracle_section(records), makespan_section(records), goals_section(records), wall_section(records, long)]
     target.write_text(head + "".join(sections))

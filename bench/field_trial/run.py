@@ -16,8 +16,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import report
+from drop_order import broken_drop_order
 from flights import MISSION_WORK, Flight, Programs, fly, lay_out_mission
 from hindsight import Hindsight, look_back
+from long_calls import repeat_longest
 from losses import Loss, losses_of
 from scenarios import Scenario, Site, draw
 from second_look import SecondLook, decide, look_again
@@ -68,6 +70,7 @@ def try_seed(programs: Programs, mission: Path, site: Site, seed: int, arguments
     scenario = draw(seed, site)
     (mission / "scenarios" / f"{scenario.name}.yaml").write_text(scenario.yaml())
     flight = fly(programs, mission, scenario.name, seed, arguments.out / "flights" / scenario.name)
+    flight.faults += broken_drop_order(flight)
     record = Record(scenario, flight)
     if flight.result != "crashed":
         examine(programs, record, arguments.out, arguments.longer)
@@ -107,8 +110,10 @@ def main() -> int:
     seeds = arguments.seeds or range(arguments.seed, arguments.seed + arguments.runs)
     with ThreadPoolExecutor(arguments.jobs) as workers:
         records = list(workers.map(lambda seed: try_seed(programs, mission, site, seed, arguments), seeds))
+    calls = [(record.scenario.seed, call) for record in records for call in record.flight.calls]
+    long = repeat_longest(programs, calls, arguments.work)
     target = arguments.report or arguments.out / "field-trial.md"
-    report.write(records, arguments.work, target)
+    report.write(records, long, arguments.work, target)
     print(f"report: {target}")
     return 1 if any(record.flight.faults for record in records) else 0
 
