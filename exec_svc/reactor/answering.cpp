@@ -104,7 +104,9 @@ void Reactor::give_way(const PlanAnswer& answer) {
     give_up({*soft}, why);
   } else {
     const auto hard = named.empty() ? std::vector{goals_.open().back()->request.key} : named;
-    if (!spend_reserves(hard, why)) give_up(hard, why);
+    if (spend_reserves(hard, why)) return;
+    give_up(hard, why);
+    reserves_ = Reserves::kept;  // the goals that remain may not need them
   }
 }
 

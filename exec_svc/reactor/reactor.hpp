@@ -189,7 +189,7 @@ class Reactor {
   std::uint32_t fallback_round_ = 0;
   bool fallbacks_sent_ = false;
   std::uint32_t failed_calls_ = 0;
-  Reserves reserves_ = Reserves::kept;                 // spent: for hard goals, until another goal comes
+  Reserves reserves_ = Reserves::kept;                 // spent: for hard goals, until one fails or comes
   temporal::Time not_before_{0};                       // next planner call
   std::map<std::string, temporal::Time> told_starts_;  // earliest starts last reported
   std::map<std::string, temporal::Value>
