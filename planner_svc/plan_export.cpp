@@ -1,6 +1,7 @@
 #include "planner_svc/plan_export.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <optional>
 #include <string>
@@ -60,10 +61,23 @@ std::optional<Condition> exported(const engine::GroundCondition& condition) {
   return std::nullopt;
 }
 
-// "(decrease (battery) 12.5)" and "(increase …)" by a number; nothing for other effects.
+// "(at place-1)" and "(not (at place-1))": the fact as a timeline becomes true or false.
+temporal::Impact exported_fact(const std::string& text, temporal::ImpactWhen moment) {
+  constexpr std::string_view kNot = "(not ";
+  const bool becomes_false = text.starts_with(kNot);
+  const std::string fact = becomes_false ? text.substr(kNot.size(), text.size() - kNot.size() - 1) : text;
+  return {fact, temporal::ImpactKind::assign, moment, !becomes_false};
+}
+
+// "(decrease (battery) 12.5)" and "(increase …)" by a number, and facts; nothing for other effects.
 std::optional<temporal::Impact> exported(const engine::GroundEffect& effect, temporal::ImpactWhen moment) {
   const bool less = effect.text.starts_with("(decrease ");
-  if (!less && !effect.text.starts_with("(increase ")) return std::nullopt;
+  if (!less && !effect.text.starts_with("(increase ")) {
+    constexpr std::array kOfNumbers{"(assign ", "(scale-up ", "(scale-down "};
+    const bool of_number = std::any_of(kOfNumbers.begin(), kOfNumbers.end(),
+                                       [&](const char* start) { return effect.text.starts_with(start); });
+    return of_number ? std::nullopt : std::optional(exported_fact(effect.text, moment));
+  }
   const auto amount =
       single_fluent_comparison("(= " + effect.text.substr(std::string_view("(decrease ").size()));
   if (!amount) return std::nullopt;

@@ -28,7 +28,7 @@ bool PlanRun::dispatch(Time now) {
 
 bool PlanRun::attempt(TimePoint point, Time now) {
   const PointOwner& owner = points_.owner(point);
-  if (owner.role == PointRole::start) return starting() && try_start(owner.activity, now);
+  if (owner.role == PointRole::start) return starting() && !held_ && try_start(owner.activity, now);
   if (owner.role == PointRole::internal_end) return try_internal_end(owner.activity, now);
   return points_.try_happen(point, now);
 }

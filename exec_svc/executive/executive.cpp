@@ -71,6 +71,14 @@ Outputs Executive::cancel_all(temporal::Time now) {
   return impl_->run->take_outputs(impl_->now);
 }
 
+void Executive::hold_starts(bool hold) {
+  if (impl_->run) impl_->run->hold_starts(hold);
+}
+
+std::vector<StepStatus> Executive::running() const {
+  return impl_->run ? impl_->run->running() : std::vector<StepStatus>{};
+}
+
 Outcome Executive::outcome() const { return impl_->run ? impl_->run->outcome() : Outcome{}; }
 
 const temporal::FlexiblePlan& Executive::plan() const {

@@ -59,6 +59,12 @@ class Executive {
   /// First phase of the cancel: asks the owners of everything that runs; step() takes their answers.
   Outputs cancel_all(temporal::Time now);
 
+  /// While held, no activity starts; what runs goes on, and latest starts still pass. load() ends it.
+  void hold_starts(bool hold);
+
+  /// Activities that were started and have not ended, in plan order.
+  std::vector<StepStatus> running() const;
+
   Outcome outcome() const;
   const temporal::FlexiblePlan& plan() const;
 

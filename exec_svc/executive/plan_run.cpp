@@ -139,6 +139,12 @@ std::vector<StepStatus> PlanRun::upcoming(std::size_t most) const {
   return next;
 }
 
+std::vector<StepStatus> PlanRun::running() const {
+  std::vector<StepStatus> all;
+  for (const Index i : active_) all.push_back(status(i));
+  return all;
+}
+
 std::vector<Executive::TokenStatus> PlanRun::tokens() const {
   std::vector<Executive::TokenStatus> all;
   for (const temporal::Token& token : plan_.tokens)

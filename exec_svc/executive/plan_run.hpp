@@ -33,6 +33,7 @@ class PlanRun {
   /// Acts on everything that holds at `now`, until nothing more happens.
   void advance(temporal::Time now);
   void cancel_all(temporal::Time now);
+  void hold_starts(bool hold) { held_ = hold; }
   /// Asks what became of all that runs.
   void resume(temporal::Time now);
 
@@ -44,6 +45,7 @@ class PlanRun {
   /// Of all activities, in plan order.
   std::vector<StepStatus> statuses() const;
   std::vector<StepStatus> upcoming(std::size_t most) const;
+  std::vector<StepStatus> running() const;
   std::uint64_t window_work() const { return points_.work(); }
   std::vector<Executive::TokenStatus> tokens() const;
 
@@ -131,6 +133,7 @@ class PlanRun {
   std::vector<Index> ended_now_;                      // observed ends since the last look at their order
   std::size_t unfinished_ = 0;
   Index first_waiting_ = 0;  // none before it waits any more
+  bool held_ = false;        // nothing starts
   Outcome outcome_;
   Outputs outputs_;
 };

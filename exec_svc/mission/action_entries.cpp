@@ -118,4 +118,10 @@ StartPolicy read_start(const Entry& entry) {
   return read_word(entry, "start policy", policies);
 }
 
+Replanning read_replanning(const Entry& entry) {
+  static constexpr std::pair<const char*, Replanning> ways[]{{"paused", Replanning::paused},
+                                                             {"situated", Replanning::situated}};
+  return read_word(entry, "way of replanning", ways);
+}
+
 }  // namespace roci::exec

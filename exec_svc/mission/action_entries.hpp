@@ -20,6 +20,7 @@ ActionBinding read_action(const mission::Entry& entry, const std::vector<Compone
 
 RecoveryStrategy read_strategy(const mission::Entry& entry);
 StartPolicy read_start(const mission::Entry& entry);
+Replanning read_replanning(const mission::Entry& entry);
 
 // A whole number from `least` to 1000000, or the fallback where the key is missing.
 std::uint32_t count_or(const mission::Entry& parent, const char* key, std::uint32_t fallback,

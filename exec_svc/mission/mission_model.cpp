@@ -174,7 +174,8 @@ PlannerSettings read_planner(const Entry& entry) {
 
 ReactorSettings read_executive(const Entry& entry) {
   entry.allow_only({"ack_timeout_s", "fallback_timeout_s", "replan_limit", "call_retries", "failure_limit",
-                    "failure_pause_s", "failure_pause_max_s", "keep_inputs", "recovery", "start"});
+                    "failure_pause_s", "failure_pause_max_s", "keep_inputs", "recovery", "start",
+                    "replanning"});
   ReactorSettings out;
   out.ack_timeout = seconds_or(entry, "ack_timeout_s", temporal::to_seconds(out.ack_timeout));
   out.fallback_timeout = seconds_or(entry, "fallback_timeout_s", temporal::to_seconds(out.fallback_timeout));
@@ -187,6 +188,7 @@ ReactorSettings read_executive(const Entry& entry) {
   out.keep_inputs = entry.truth_or("keep_inputs", out.keep_inputs);
   if (const auto recovery = entry.find("recovery")) out.recovery = read_strategy(*recovery);
   if (const auto start = entry.find("start")) out.start = read_start(*start);
+  if (const auto replanning = entry.find("replanning")) out.replanning = read_replanning(*replanning);
   return out;
 }
 

@@ -105,6 +105,12 @@ enum class RecoveryStrategy {
   replan,      // replan at once, drop goals, then the ground
 };
 
+// What goes on while the planner works.
+enum class Replanning {
+  paused,    // nothing: what runs is cancelled, all components fall back first (R43, R44)
+  situated,  // what runs: it is planned from the state that it will leave, and the plans change there
+};
+
 struct PlannerSettings {
   std::string engine = "temporal_pddl";
   std::uint64_t work = 0;  // evaluations; 0: no bound
@@ -127,6 +133,7 @@ struct ReactorSettings {
   bool keep_inputs = true;  // of the whole mission in the journal; false: since the last anchor
   RecoveryStrategy recovery = RecoveryStrategy::cascade;
   StartPolicy start = StartPolicy::earliest;
+  Replanning replanning = Replanning::paused;
 };
 
 struct MissionModel {

@@ -28,6 +28,18 @@ class Draft {
   Draft(const MissionModel& mission, const Beliefs& beliefs, Time now, Time origin, Reserves reserves)
       : mission_(mission), beliefs_(beliefs), now_(now), origin_(origin), reserves_(reserves) {}
 
+  void foresee(const Forecast& forecast) {
+    for (const auto& [fact, holds] : forecast.facts) {
+      if (holds) {
+        facts_.insert(fact);
+        declare_words(fact);
+      } else {
+        facts_.erase(fact);
+      }
+    }
+    changes_ = forecast.changes;
+  }
+
   void add_goals(const GoalSet& goals) {
     for (const GoalRecord* record : goals.present()) {
       const GoalRequest& goal = record->request;
@@ -79,7 +91,10 @@ class Draft {
       const auto value = beliefs_.lookup(source.fluent);
       const double* number = value ? std::get_if<double>(&*value) : nullptr;
       if (reserves_ == Reserves::spent && source.last) number = &*source.last;
-      if (number != nullptr) out.text += "    (= " + source.fluent + " " + number_text(*number) + ")\n";
+      if (number == nullptr) continue;
+      const auto change = changes_.find(source.fluent);
+      const double then = *number + (change == changes_.end() ? 0.0 : change->second);
+      out.text += "    (= " + source.fluent + " " + number_text(then) + ")\n";
     }
     for (const auto& [time, literal] : timed_) {
       if (is_declared(literal)) out.text += "    (at " + seconds_text(time) + " " + literal + ")\n";
@@ -158,6 +173,7 @@ class Draft {
   std::set<std::string> facts_;
   std::vector<std::pair<Time, std::string>> timed_;
   std::vector<std::string> goal_;
+  std::map<std::string, double> changes_;
 };
 
 }  // namespace
@@ -171,9 +187,11 @@ std::vector<std::string> goal_facts(const MissionModel& mission, const GoalReque
 }
 
 Problem write_problem(const MissionModel& mission, const Beliefs& beliefs, const GoalSet& goals,
-                      const std::string& name, Time now, Time origin, Reserves reserves) {
+                      const std::string& name, Time now, Time origin, Reserves reserves,
+                      const Forecast& forecast) {
   Draft draft(mission, beliefs, now, origin, reserves);
   draft.add_state();
+  draft.foresee(forecast);
   draft.add_goals(goals);
   return draft.finish(name);
 }

@@ -2,6 +2,7 @@
 // domain file never changes (R8); everything that does change stands here.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,10 +27,16 @@ struct Problem {
 // What the mission keeps back for waiting and surprises (FluentSource::last).
 enum class Reserves { kept, spent };
 
+// What will have changed before the problem's 0: facts come and go, fluents by so much.
+struct Forecast {
+  std::map<std::string, bool> facts{};
+  std::map<std::string, double> changes{};
+};
+
 // `origin`: the mission time that the problem calls 0. Windows that ended before it are left out.
 Problem write_problem(const MissionModel& mission, const Beliefs& beliefs, const GoalSet& goals,
                       const std::string& name, temporal::Time now, temporal::Time origin,
-                      Reserves reserves = Reserves::kept);
+                      Reserves reserves = Reserves::kept, const Forecast& forecast = {});
 
 // The goal's PDDL facts; it is achieved when all are observed.
 std::vector<std::string> goal_facts(const MissionModel& mission, const GoalRequest& goal);

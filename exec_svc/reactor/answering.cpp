@@ -14,13 +14,12 @@ using temporal::Time;
 // changed since shows in the execution.
 constexpr std::uint32_t kOutdatedLimit = 5;
 
-// Whether a verdict says something about the goals (they do not fit), or only about the services.
+}  // namespace
+
 bool speaks_of_goals(PlanVerdict verdict) {
   return verdict == PlanVerdict::unsolvable || verdict == PlanVerdict::timeout ||
          verdict == PlanVerdict::out_of_memory;
 }
-
-}  // namespace
 
 // A plan is out of date if a value in it stands on an older model; a verdict on the goals, if any model has
 // changed.

@@ -15,6 +15,14 @@ std::string names_of(const std::vector<const Component*>& components) {
 
 }  // namespace
 
+// False: there were too many, and the robot is safe.
+bool Reactor::count_replan(Time now) {
+  if (first_plan_ || ++counts_.replans <= mission_->executive.replan_limit) return true;
+  make_safe(now, "the limit of " + std::to_string(mission_->executive.replan_limit) +
+                     " replans is reached; the last: " + wanted_why_);
+  return false;
+}
+
 void Reactor::begin_pause(Time now) {
   if (goals_.open().empty() && phase_ != Phase::executing && phase_ != Phase::planning) {
     wanted_ = false;
@@ -23,11 +31,9 @@ void Reactor::begin_pause(Time now) {
   if (!beliefs_.unseen().empty()) return;  // the first observation of the last component brings us here again
   wanted_ = false;
   note(NoteLevel::info, "plan.wanted", wanted_why_);
-  if (!first_plan_ && ++counts_.replans > mission_->executive.replan_limit) {
-    make_safe(now, "the limit of " + std::to_string(mission_->executive.replan_limit) +
-                       " replans is reached; the last: " + wanted_why_);
-    return;
-  }
+  if (!count_replan(now)) return;
+  meanwhile_.reset();
+  unfit_ = false;
   phase_ = Phase::pausing;
   pause_deadline_ = now + mission_->executive.fallback_timeout;
   fallbacks_sent_ = false;
@@ -37,6 +43,7 @@ void Reactor::begin_pause(Time now) {
 void Reactor::continue_pause(Time now) {
   const bool stopping = executive_.outcome().kind == OutcomeKind::cancelling;
   if (!stopping && beliefs_.active().empty()) {
+    if (call_open_) return;  // of before the pause; its answer brings us here again
     if (now < not_before_ && !goals_.open().empty()) {
       wake_at(not_before_);
     } else {
@@ -71,19 +78,26 @@ void Reactor::begin_planning(Time now) {
     return;
   }
   phase_ = Phase::planning;
+  call_planner(now, now + mission_->planner.allowance, {});
+}
+
+void Reactor::call_planner(Time now, Time origin, const Forecast& forecast) {
   ++counts_.planner_calls;
   models_changed_ = false;
+  call_open_ = true;
   call_.id = ++call_id_;
   call_.problem_name = mission_->name + "-" + std::to_string(call_id_);
-  call_.origin = now + mission_->planner.allowance;
+  call_.origin = origin;
   call_.problem =
-      write_problem(*mission_, beliefs_, goals_, call_.problem_name, now, call_.origin, reserves_);
+      write_problem(*mission_, beliefs_, goals_, call_.problem_name, now, origin, reserves_, forecast);
   out_.call = call_;
 }
 
 void Reactor::make_safe(Time now, const std::string& why) {
   phase_ = Phase::safe;
   wanted_ = false;
+  meanwhile_.reset();
+  unfit_ = false;
   pass_on(executive_.cancel_all(now));
   send_fallbacks();
   for (const GoalRecord* record : goals_.open()) {

@@ -198,10 +198,21 @@ std::vector<Observation> Reactor::changed_conditions() {
 // A wish for a plan that comes up during a planner call waits for the answer, which is then out of date:
 // there is never more than one call.
 void Reactor::advance(Time now, const ReactorInputs& inputs) {
-  const bool answered = inputs.answer && phase_ == Phase::planning && inputs.answer->call == call_id_;
-  if (answered && !wanted_) take_answer(now, *inputs.answer);
+  const bool answered = call_open_ && inputs.answer && inputs.answer->call == call_id_;
+  if (answered) {
+    call_open_ = false;
+    if (phase_ == Phase::planning && !wanted_) take_answer(now, *inputs.answer);
+    if (meanwhile_) meanwhile_->answer = *inputs.answer;
+  }
   if (phase_ == Phase::executing) follow_plan(now);
-  if (wanted_ && phase_ != Phase::pausing && (phase_ != Phase::planning || answered)) begin_pause(now);
+  if (meanwhile_) continue_meanwhile(now);
+  if (wanted_ && phase_ != Phase::pausing && (phase_ != Phase::planning || answered)) {
+    if (!may_go_on()) {
+      begin_pause(now);
+    } else if (!call_open_) {
+      begin_meanwhile(now);
+    }
+  }
   if (phase_ == Phase::pausing) continue_pause(now);
   finish_if_done();
 }
@@ -211,7 +222,7 @@ void Reactor::follow_plan(Time now) {
   if (outcome.kind == OutcomeKind::broken) {
     break_plan(now, (outcome.activity.empty() ? "" : outcome.activity + ": ") + outcome.cause);
     if (wanted_ && outcome.reason == BreakReason::activity_failed) count_failure(now, outcome);
-  } else if (outcome.kind == OutcomeKind::finished) {
+  } else if (outcome.kind == OutcomeKind::finished && !meanwhile_) {
     note(NoteLevel::info, "plan.finished", "plan " + std::to_string(plan_version_) + " finished");
     phase_ = Phase::idle;
     if (!goals_.open().empty()) want_plan("the plan ended with goals open");
@@ -225,6 +236,7 @@ void Reactor::follow_plan(Time now) {
 // The way on is what the ladder still has: a new plan, else the ground, else nothing (R102).
 void Reactor::break_plan(Time now, const std::string& why) {
   const std::string plan = "plan " + std::to_string(plan_version_);
+  unfit_ = true;
   note(NoteLevel::warning, "plan.broken", plan + " is broken: " + why);
   if (ladder_.replans) {
     want_plan(plan + " is broken");

@@ -49,6 +49,8 @@ enum class PlanVerdict {
   no_reply
 };
 const char* to_string(PlanVerdict verdict);
+// Whether it says something about the goals (they do not fit), or only about the services.
+bool speaks_of_goals(PlanVerdict verdict);
 
 struct PlanAnswer {
   std::uint64_t call = 0;
@@ -142,10 +144,19 @@ class Reactor {
   void break_plan(temporal::Time now, const std::string& why);
   void count_failure(temporal::Time now, const Outcome& outcome);
   void give_up(const std::vector<GoalKey>& goals, const std::string& why);
+  bool count_replan(temporal::Time now);
   void begin_pause(temporal::Time now);
   void continue_pause(temporal::Time now);
   void send_fallbacks();
   void begin_planning(temporal::Time now);
+  void call_planner(temporal::Time now, temporal::Time origin, const Forecast& forecast);
+  bool may_go_on() const;
+  void begin_meanwhile(temporal::Time now);
+  void ask_meanwhile(temporal::Time now);
+  void continue_meanwhile(temporal::Time now);
+  void keep_plan(temporal::Time now);
+  void change_plans(temporal::Time now);
+  std::string surprise_of(const Forecast& forecast) const;
   bool outdated(const PlanAnswer& answer) const;
   void take_answer(temporal::Time now, const PlanAnswer& answer);
   void adopt(temporal::Time now, const PlanAnswer& answer);
@@ -164,6 +175,13 @@ class Reactor {
   void tell_windows();
   std::vector<Observation> changed_conditions();
 
+  // A planner call during which what runs goes on.
+  struct Meanwhile {
+    Forecast forecast;  // of the state that the running activities leave
+    std::optional<PlanAnswer> answer;
+    std::optional<temporal::Time> doubt_until;  // for that state to be observed
+  };
+
   const MissionModel* mission_;
   Beliefs beliefs_;
   GoalSet goals_;
@@ -180,6 +198,9 @@ class Reactor {
   std::uint32_t plan_version_ = 0;
   std::uint64_t call_id_ = 0;
   PlanCall call_;
+  bool call_open_ = false;  // made, not answered: there is never more than one
+  std::optional<Meanwhile> meanwhile_;
+  bool unfit_ = false;  // the running plan must not go on
   ReactorCounts counts_;
   std::map<std::string, std::uint64_t> models_;  // newest version by owner
   bool models_changed_ = false;                  // since the call

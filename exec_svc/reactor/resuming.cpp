@@ -10,8 +10,14 @@ void Reactor::resume(temporal::Time now) {
        std::string("goes on where it was: ") + to_string(phase_) +
            (phase_ == Phase::executing ? " plan " + std::to_string(plan_version_) : ""));
   pass_on(executive_.resume(now));
-  if (phase_ == Phase::planning && !wanted_) begin_planning(now);  // nobody waits for the old answer
+  call_open_ = false;  // nobody waits for the old answer
+  if (phase_ == Phase::planning && !wanted_) begin_planning(now);
   if (phase_ == Phase::planning && wanted_) phase_ = Phase::idle;
+  if (meanwhile_ && !meanwhile_->answer) {
+    call_.id = ++call_id_;
+    call_open_ = true;
+    out_.call = call_;
+  }
   fallbacks_sent_ = false;
   if (phase_ == Phase::safe && !beliefs_.active().empty()) send_fallbacks();
 }
@@ -25,7 +31,7 @@ bool Reactor::at_rest() const {
 template <class Archive, class Self>
 void Reactor::fields(Archive& a, Self& self) {
   a(self.phase_, self.wanted_, self.wanted_why_, self.first_plan_, self.plan_version_, self.call_id_,
-    self.call_);
+    self.call_, self.call_open_, self.unfit_);
   a(self.counts_, self.models_, self.models_changed_, self.outdated_calls_, self.pause_deadline_);
   a(self.fallback_round_, self.fallbacks_sent_, self.failed_calls_, self.not_before_, self.told_starts_);
   a(self.condition_values_, self.reserves_);

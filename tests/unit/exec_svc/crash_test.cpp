@@ -29,20 +29,25 @@ void expect_nothing_doubled(const Flight& flight) {
 
 struct Case {
   Moment moment;
-  bool compact;
+  bool compact = false;
+  Replanning replanning = Replanning::paused;
 };
 
 class CrashTest : public ::testing::TestWithParam<Case> {
  protected:
-  const Flight undisturbed = mission({});
+  static CrashPlan crash_at(std::set<std::size_t> turns, temporal::Duration away = {}) {
+    return {std::move(turns), GetParam().moment, away, GetParam().compact, GetParam().replanning};
+  }
+
+  const Flight undisturbed = mission(crash_at({}));
 };
 
 TEST_P(CrashTest, AtEveryStepLosesNothing) {
   ASSERT_EQ(undisturbed.outcome, "achieved");
-  ASSERT_GE(undisturbed.plan_version, 4U);
+  ASSERT_GE(undisturbed.plan_version, 3U);
   for (std::size_t turn = 0; turn < undisturbed.turns; ++turn) {
     SCOPED_TRACE("turn " + std::to_string(turn));
-    const Flight flight = mission({{turn}, GetParam().moment, temporal::Duration{0}, GetParam().compact});
+    const Flight flight = mission(crash_at({turn}));
     EXPECT_EQ(flight.not_resumed, 0U);
     EXPECT_EQ(flight.goals, undisturbed.goals);
     EXPECT_EQ(flight.outcome, undisturbed.outcome);
@@ -58,7 +63,7 @@ TEST_P(CrashTest, AtEveryStepLosesNothing) {
 TEST_P(CrashTest, AtEveryStepAndAwayForAMinuteLosesNoGoal) {
   for (std::size_t turn = 0; turn < undisturbed.turns; ++turn) {
     SCOPED_TRACE("turn " + std::to_string(turn));
-    Flight flight = mission({{turn}, GetParam().moment, temporal::seconds(61), GetParam().compact});
+    Flight flight = mission(crash_at({turn}, temporal::seconds(61)));
     EXPECT_EQ(flight.not_resumed, 0U);
     if (flight.goals["recalled"] == GoalState::rejected) flight.goals["recalled"] = GoalState::recalled;
     EXPECT_EQ(flight.goals, undisturbed.goals);
@@ -71,7 +76,7 @@ TEST_P(CrashTest, AtEveryStepAndAwayForAMinuteLosesNoGoal) {
 TEST_P(CrashTest, AgainAndAgainLosesNothing) {
   for (std::size_t every = 2; every < 9; ++every) {
     SCOPED_TRACE("every " + std::to_string(every));
-    CrashPlan crash{{}, GetParam().moment, temporal::Duration{0}, GetParam().compact};
+    CrashPlan crash = crash_at({});
     for (std::size_t turn = every; turn < 500; turn += every) crash.turns.insert(turn);
     const Flight flight = mission(crash);
     EXPECT_EQ(flight.not_resumed, 0U);
@@ -83,15 +88,18 @@ TEST_P(CrashTest, AgainAndAgainLosesNothing) {
 
 std::string name_of(const ::testing::TestParamInfo<Case>& test) {
   constexpr const char* names[] = {"before_write_ahead", "after_write_ahead", "during_send", "after_send"};
-  return names[static_cast<int>(test.param.moment)] + std::string(test.param.compact ? "_compacted" : "");
+  return names[static_cast<int>(test.param.moment)] + std::string(test.param.compact ? "_compacted" : "") +
+         (test.param.replanning == Replanning::situated ? "_situated" : "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Moments, CrashTest,
-                         ::testing::Values(Case{Moment::before_write_ahead, false},
-                                           Case{Moment::after_write_ahead, false},
-                                           Case{Moment::during_send, false}, Case{Moment::after_send, false},
+                         ::testing::Values(Case{Moment::before_write_ahead}, Case{Moment::after_write_ahead},
+                                           Case{Moment::during_send}, Case{Moment::after_send},
                                            Case{Moment::after_write_ahead, true},
-                                           Case{Moment::after_send, true}),
+                                           Case{Moment::after_send, true},
+                                           Case{Moment::before_write_ahead, false, Replanning::situated},
+                                           Case{Moment::after_write_ahead, true, Replanning::situated},
+                                           Case{Moment::after_send, false, Replanning::situated}),
                          name_of);
 
 }  // namespace

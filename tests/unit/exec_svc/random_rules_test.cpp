@@ -14,8 +14,8 @@ TEST(RandomRules, WhateverHappensNoInvariantBreaksAndEveryGoalEnds) {
     if (HasFailure()) return;
   }
   for (const char* event : {"goal.achieved", "goal.dropped", "goal.failed", "goal.recalled", "goal.rejected",
-                            "plan.broken", "plan.retry", "plan.outdated", "recovery.push", "recovery.retry",
-                            "recovery.contingency", "robot.safe", "service.lost"})
+                            "plan.broken", "plan.kept", "plan.retry", "plan.outdated", "recovery.push",
+                            "recovery.retry", "recovery.contingency", "robot.safe", "service.lost"})
     EXPECT_GT(events[event], 20) << event;
 }
 

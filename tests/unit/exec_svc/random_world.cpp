@@ -16,6 +16,7 @@ MissionModel random_mission(std::mt19937_64& random) {
   mission.executive.recovery = static_cast<RecoveryStrategy>(random() % 8 < 5 ? 0 : random() % 5);
   mission.executive.replan_limit = 30;
   mission.executive.start = random() % 8 == 0 ? StartPolicy::latest : StartPolicy::earliest;
+  if (random() % 2 == 0) mission.executive.replanning = Replanning::situated;
   ActionBinding& image = mission.actions["take-image"];
   image.retries = static_cast<std::uint32_t>(random() % 3);
   image.lateness = static_cast<temporal::LatenessPolicy>(random() % 3);
@@ -169,6 +170,9 @@ PlanAnswer RandomWorld::answer_of(const PlanCall& call) {
     activity.end_point = answer.plan.point_count++;
     activity.duration_lower = activity.duration_upper = seconds(40);
     if (one_in(3)) activity.pre = temporal::compare("(camera-idle)", temporal::ConditionOp::eq, true);
+    activity.impacts = {
+        {"(camera-idle)", temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, !wild_ || !one_in(10)},
+        {"(battery)", temporal::ImpactKind::delta, temporal::ImpactWhen::at_start, -600.0}};
     if (!answer.plan.activities.empty()) {
       answer.plan.constraints.push_back({answer.plan.activities.back().end_point, activity.start_point,
                                          temporal::ConstraintKind::ordering, seconds(0.001),

@@ -1,0 +1,130 @@
+// Reactor: replanning while what runs goes on. The problem is written for the state that the running
+// activities will leave; nothing else starts meanwhile; the plans change when they have ended, if that state
+// has come about. Where the old plan must not go on, the pause follows.
+#include <algorithm>
+
+#include "exec_svc/reactor/reactor.hpp"
+
+namespace roci::exec {
+namespace {
+
+using temporal::Impact;
+using temporal::ImpactKind;
+using temporal::PlanActivity;
+using temporal::Time;
+
+struct Remainder {
+  const PlanActivity* activity;
+  Time ends;
+  double part;  // of the duration, that is still to come
+};
+
+Remainder remainder_of(const PlanActivity& activity, Time started, Time now) {
+  const Time ends = std::max(now, started + activity.duration_lower);
+  const auto whole = static_cast<double>(activity.duration_lower.count());
+  return {&activity, ends, whole > 0 ? static_cast<double>((ends - now).count()) / whole : 0.0};
+}
+
+// Amounts of fluents come little by little over an activity, whatever the domain says for simplicity.
+void foresee(const Remainder& remainder, Forecast& forecast) {
+  for (const temporal::ImpactWhen moment : {temporal::ImpactWhen::at_start, temporal::ImpactWhen::at_end}) {
+    for (const Impact& impact : remainder.activity->impacts) {
+      if (impact.moment != moment) continue;
+      if (const bool* holds = std::get_if<bool>(&impact.amount)) forecast.facts[impact.timeline] = *holds;
+      if (const double* amount = std::get_if<double>(&impact.amount);
+          amount && impact.kind == ImpactKind::delta)
+        forecast.changes[impact.timeline] += *amount * remainder.part;
+    }
+  }
+}
+
+}  // namespace
+
+bool Reactor::may_go_on() const {
+  return mission_->executive.replanning == Replanning::situated && phase_ == Phase::executing && !unfit_ &&
+         executive_.outcome().kind == OutcomeKind::running && !executive_.running().empty() &&
+         !goals_.open().empty();
+}
+
+void Reactor::begin_meanwhile(Time now) {
+  wanted_ = false;
+  note(NoteLevel::info, "plan.wanted", wanted_why_ + "; what runs goes on");
+  if (count_replan(now)) ask_meanwhile(now);
+}
+
+void Reactor::ask_meanwhile(Time now) {
+  std::vector<Remainder> running;
+  for (const StepStatus& step : executive_.running()) {
+    const auto& all = executive_.plan().activities;
+    const auto activity = std::find_if(all.begin(), all.end(),
+                                       [&](const PlanActivity& one) { return one.id == step.activity; });
+    running.push_back(remainder_of(*activity, step.started.value_or(now), now));
+  }
+  std::stable_sort(running.begin(), running.end(),
+                   [](const Remainder& a, const Remainder& b) { return a.ends < b.ends; });
+  meanwhile_ = Meanwhile{};
+  for (const Remainder& remainder : running) foresee(remainder, meanwhile_->forecast);
+  executive_.hold_starts(true);
+  call_planner(now, std::max(now + mission_->planner.allowance, running.back().ends), meanwhile_->forecast);
+}
+
+void Reactor::continue_meanwhile(Time now) {
+  if (unfit_) {
+    meanwhile_.reset();
+  } else if (meanwhile_->answer && wanted_) {
+    meanwhile_.reset();  // goals have changed since it was asked for
+  } else if (meanwhile_->answer) {
+    const PlanVerdict verdict = meanwhile_->answer->verdict;
+    if (verdict == PlanVerdict::solved) return change_plans(now);
+    const PlanAnswer answer = *std::exchange(meanwhile_, std::nullopt)->answer;
+    if (!speaks_of_goals(verdict))
+      return break_plan(now, std::string("planner call ended as ") + to_string(verdict));
+    if (!goals_.open().empty()) give_way(answer);  // none: what ran has achieved them
+    keep_plan(now);
+  }
+}
+
+// One goal less than was asked for: if the running plan serves all others, it goes on.
+void Reactor::keep_plan(Time now) {
+  const auto open = goals_.open();
+  const bool all_served = std::all_of(open.begin(), open.end(), [this](const GoalRecord* record) {
+    return record->state == GoalState::planned && record->plan_version == plan_version_;
+  });
+  if (all_served) {
+    executive_.hold_starts(false);
+    note(NoteLevel::info, "plan.kept", "plan " + std::to_string(plan_version_) + " goes on");
+    wake_at(now);
+  } else if (may_go_on()) {
+    ask_meanwhile(now);
+  } else {
+    want_plan("without the goal that does not fit");
+  }
+}
+
+void Reactor::change_plans(Time now) {
+  if (!executive_.running().empty()) return;
+  const std::string surprise = surprise_of(meanwhile_->forecast);
+  if (surprise.empty() && !outdated(*meanwhile_->answer)) {
+    adopt(now, *std::exchange(meanwhile_, std::nullopt)->answer);
+    return;
+  }
+  if (!meanwhile_->doubt_until) meanwhile_->doubt_until = now + mission_->executive.ack_timeout;
+  if (!surprise.empty() && now < *meanwhile_->doubt_until) {
+    wake_at(*meanwhile_->doubt_until);  // observations may follow the acknowledgement
+    return;
+  }
+  meanwhile_.reset();
+  want_plan(surprise.empty() ? "a map or arm model changed during the planner call" : surprise);
+}
+
+// What has come about differently; empty if nothing has.
+std::string Reactor::surprise_of(const Forecast& forecast) const {
+  for (const auto& [fact, holds] : forecast.facts) {
+    const auto value = beliefs_.lookup(fact);
+    if (value && *value != temporal::Value(holds))
+      return fact + (holds ? " was foreseen and is not so" : " is still so, unforeseen");
+  }
+  return "";
+}
+
+}  // namespace roci::exec
