@@ -1,4 +1,5 @@
-// roci-plan DOMAIN PROBLEM [--time S] [--evaluations N] [--memory MB] [--functions FILE] [--stats FILE] [--json]
+// roci-plan DOMAIN PROBLEM [--time S] [--evaluations N] [--memory MB] [--functions FILE] [--stats FILE]
+// [--json]
 //           [--seed N]
 //
 // The plan goes to standard output, what is wrong to standard error, the verdict into the exit code
@@ -81,6 +82,7 @@ nlohmann::json statistics_json(const engine::Result& result, double wall_s) {
   return {{"verdict", engine::to_string(result.verdict)},
           {"reason", result.reason},
           {"makespan", result.plan ? nlohmann::json(seconds(result.plan->makespan)) : nlohmann::json()},
+          {"metric", result.plan ? nlohmann::json(result.plan->metric) : nlohmann::json()},
           {"actions", result.plan ? nlohmann::json(result.plan->activities.size()) : nlohmann::json()},
           {"wall_s", wall_s},
           {"peak_rss_kb", usage.ru_maxrss},
@@ -186,8 +188,9 @@ int main(int argc, char** argv) {
                  "values of external functions: (traverse_time a b) 12.5");
   app.add_option("--stats", arguments.stats, "write statistics as JSON to this file");
   app.add_flag("--json", arguments.json, "plan and statistics as one JSON object");
-  app.add_flag("--plain-search", arguments.plain_search,
-               "no dominance check, no compressed actions, timed literals as steps: slower, the same verdicts");
+  app.add_flag(
+      "--plain-search", arguments.plain_search,
+      "no dominance check, no compressed actions, timed literals as steps: slower, the same verdicts");
   app.add_option("--seed", arguments.seed, "order among equally good successors; 0: as generated");
   std::signal(SIGINT, [](int) { interrupted = 1; });
   std::signal(SIGTERM, [](int) { interrupted = 1; });

@@ -31,6 +31,13 @@ void describe(const Task& task, Statistics& statistics) {
   statistics.actions = task.actions.size();
 }
 
+PlanPrefix improved(const Task& task, PlanPrefix first, Heuristic& heuristic, const Options& options,
+                    Watch& watch, Statistics& statistics) {
+  if (task.metric.only_time()) return improve(task, std::move(first), heuristic, options, watch, statistics);
+  FfHeuristic by_metric(task, CostMeasure::metric);
+  return improve(task, std::move(first), by_metric, options, watch, statistics);
+}
+
 void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
            const Options& options, Watch& watch, Result& result) {
   require_model(domain, problem);
@@ -40,7 +47,7 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   SearchOutcome outcome = search(grounding.task, heuristic, options, watch, result.statistics);
   if (outcome.plan) {
     const PlanPrefix best =
-        improve(grounding.task, std::move(*outcome.plan), heuristic, options, watch, result.statistics);
+        improved(grounding.task, std::move(*outcome.plan), heuristic, options, watch, result.statistics);
     result.plan = build_plan(domain, grounding, best, options.epsilon);
     result.verdict = Verdict::solved;
   } else {

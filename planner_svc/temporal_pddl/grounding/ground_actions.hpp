@@ -68,7 +68,7 @@ struct TimedChange {
 struct GroundModel {
   TupleTable atoms;
   std::vector<bool> derived;  // by atom
-  TupleTable numbers;  // fluents that change; their index is the NumberId
+  TupleTable numbers;         // fluents that change; their index is the NumberId
   ExpressionPool expressions;
   std::vector<std::uint32_t> initial_atoms;
   std::vector<double> initial_numbers;  // NaN: undefined
@@ -76,6 +76,8 @@ struct GroundModel {
   std::vector<GroundRule> rules;   // by layer
   std::vector<TimedChange> timed;  // by time, one per instant
   Disjunction goal;
+  Metric metric;
+  std::vector<bool> only_metric_asks;          // by number: nothing else does, and it is never assigned
   std::vector<std::string> unreachable_goals;  // as text, if `goal` has no alternative from the beginning
 };
 

@@ -120,6 +120,18 @@ void ground_goal(const pddl::Problem& problem, FormulaGrounder& formulas, Ground
   }
 }
 
+void ground_metric(const pddl::Metric& source, FormulaGrounder& formulas, const std::string& file,
+                   GroundModel& model) {
+  const LiftedExpression lifted = lower_metric(source.expression, file, formulas.world().symbols());
+  const auto value = formulas.linear(lifted, {});
+  if (!value) {
+    formulas.refuse(source.where, "the metric depends on a constant without a value",
+                    "give each fluent in it an initial value");
+  }
+  model.metric.maximized = source.sense == pddl::Metric::Sense::maximize;
+  model.metric.expression = scaled(*value, model.metric.maximized ? -1 : 1);
+}
+
 void set_initial(const pddl::Problem& problem, const World& world, const Reachability& reachability,
                  GroundModel& model) {
   const TupleTable& initial = world.initial_atoms();
@@ -160,6 +172,7 @@ GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem
   }
   FormulaGrounder goals(world, reachability, touched, model.numbers, model.expressions, problem.file);
   ground_goal(problem, goals, model);
+  if (problem.metric) ground_metric(*problem.metric, goals, problem.file, model);
   add_timed(problem, world, reachability, formulas, model);
   set_initial(problem, world, reachability, model);
   model.atoms = std::move(reachability.atoms);

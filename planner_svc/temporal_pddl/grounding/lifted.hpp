@@ -36,7 +36,12 @@ struct LiftedAtom {
 };
 
 struct LiftedExpression {
-  enum class Kind { number, function, duration, arithmetic };
+  enum class Kind {
+    number,
+    function,
+    duration,
+    arithmetic
+  };  // duration: of the action, in a metric of the plan
   Kind kind = Kind::number;
   double number = 0;
   FunctionId function;

@@ -55,6 +55,7 @@ class Lowering {
                      for (const auto& term : call.arguments) result.arguments.push_back(argument(term));
                    },
                    [&](const pddl::DurationVariable&) { result.kind = LiftedExpression::Kind::duration; },
+                   [&](const pddl::TotalTime&) { result.kind = LiftedExpression::Kind::duration; },
                    [&](const pddl::Arithmetic& arithmetic) {
                      result.kind = LiftedExpression::Kind::arithmetic;
                      result.op = arithmetic.op;
@@ -266,6 +267,11 @@ std::vector<LiftedAction> lower_actions(const pddl::Domain& domain, const Symbol
     result.back().layer = derived.layer;
   }
   return result;
+}
+
+LiftedExpression lower_metric(const pddl::Expression& metric, const std::string& file,
+                              const Symbols& symbols) {
+  return Lowering(symbols, file, 0).expression(metric);
 }
 
 LiftedFormula lower_goal(const pddl::Condition& goal, const std::string& file, const Symbols& symbols,

@@ -12,6 +12,10 @@ namespace roci::planner::temporal_pddl {
 // effect, at the end.
 std::vector<LiftedAction> lower_actions(const pddl::Domain& domain, const Symbols& symbols);
 
+// The duration in it is the plan's: (total-time).
+LiftedExpression lower_metric(const pddl::Expression& metric, const std::string& file,
+                              const Symbols& symbols);
+
 // A formula without free variables; `slots` grows by those of its quantifiers.
 LiftedFormula lower_goal(const pddl::Condition& goal, const std::string& file, const Symbols& symbols,
                          std::uint32_t& slots);

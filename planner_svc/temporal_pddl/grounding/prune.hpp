@@ -15,10 +15,12 @@ inline std::size_t literal_index(GroundLiteral literal) {
 
 // Removes the actions that can never start or never end, the rules that never derive anything, the conditions
 // that always hold, and goal alternatives that are out of reach. A condition at a time point stays if some
-// effect brings about what holds anyway: the two must not coincide (R6). Returns by literal index what can hold.
+// effect brings about what holds anyway: the two must not coincide (R6). Returns by literal index what can
+// hold.
 std::vector<bool> prune(GroundModel& model);
 
-// The conditions of the start snap action: at_start, and what of over_all the start itself cannot bring about.
+// The conditions of the start snap action: at_start, and what of over_all the start itself cannot bring
+// about.
 std::vector<GroundLiteral> start_requirements(const GroundModel& model, const GroundAction& action);
 
 }  // namespace roci::planner::temporal_pddl

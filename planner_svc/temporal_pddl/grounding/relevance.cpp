@@ -65,14 +65,30 @@ std::vector<bool> relevant_numbers(GroundModel& model) {
   for (const auto& action : model.actions) {
     for (const auto& rule : action.duration_rules) mark(rule.bound);
   }
-  for (bool changed = true; changed;) {
-    changed = false;
-    for_each_effects(model, [&](GroundEffects& effects) {
-      for (const auto& effect : effects.numeric) {
-        if (relevant[effect.variable.index()]) changed = mark(effect.expression) || changed;
-      }
-    });
+  const auto close = [&] {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for_each_effects(model, [&](GroundEffects& effects) {
+        for (const auto& effect : effects.numeric) {
+          if (relevant[effect.variable.index()]) changed = mark(effect.expression) || changed;
+        }
+      });
+    }
+  };
+  close();
+  model.only_metric_asks.assign(relevant.size(), false);
+  for (const auto& term : model.metric.expression.terms) {
+    model.only_metric_asks[term.variable.index()] = !relevant[term.variable.index()];
+    relevant[term.variable.index()] = true;
   }
+  close();
+  for_each_effects(model, [&](GroundEffects& effects) {
+    for (const auto& effect : effects.numeric) {
+      if (effect.assigns) model.only_metric_asks[effect.variable.index()] = false;
+      for (const auto& term : model.expressions[effect.expression].terms)
+        model.only_metric_asks[term.variable.index()] = false;
+    }
+  });
   return relevant;
 }
 

@@ -25,6 +25,7 @@ class Builder {
     name_symbols(schemas);
     number_facts();
     task_.expressions = model_.expressions;
+    task_.metric = model_.metric;
     for (std::size_t i = 0; i < model_.actions.size(); ++i) add_action(model_.actions[i], compression[i]);
     for (const auto& timed : model_.timed) {
       task_.timed_steps.push_back(
@@ -231,7 +232,10 @@ class Builder {
       if (!is_unordered(added)) result.push_back(task_.variable(added));
     }
     for (const FactId deleted : deletes) result.push_back(task_.variable(deleted));
-    for (const auto& effect : effects.numeric) result.push_back(task_.variable(effect.variable));
+    for (const auto& effect : effects.numeric) {
+      if (!model_.only_metric_asks[effect.variable.index()])
+        result.push_back(task_.variable(effect.variable));
+    }
     return unique(std::move(result));
   }
 

@@ -5,9 +5,9 @@
 
 namespace roci::planner::temporal_pddl {
 
-FfHeuristic::FfHeuristic(const Task& task)
+FfHeuristic::FfHeuristic(const Task& task, CostMeasure measure)
     : task_(task),
-      relaxed_(task),
+      relaxed_(task, measure),
       earliest_(task, relaxed_),
       reached_at_(relaxed_.propositions(), kUnreached),
       supporter_(relaxed_.propositions()),

@@ -14,7 +14,8 @@ namespace roci::planner::temporal_pddl {
 
 class FfHeuristic final : public Heuristic {
  public:
-  explicit FfHeuristic(const Task& task);
+  // measure: what Estimate::cost counts.
+  explicit FfHeuristic(const Task& task, CostMeasure measure = CostMeasure::duration);
 
   // The state is extended by r_a of the running actions (R19). Ends of actions that run or that the relaxed
   // plan starts belong to the relaxed plan (R20), with what they need. A dead end: a goal or the end of a

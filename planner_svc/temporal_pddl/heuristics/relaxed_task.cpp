@@ -1,6 +1,7 @@
 #include "planner_svc/temporal_pddl/heuristics/relaxed_task.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "planner_svc/temporal_pddl/task/semantics.hpp"
@@ -15,9 +16,28 @@ std::int64_t least_duration(const Task& task, const Semantics& semantics, Action
   return std::max<std::int64_t>(0, (bounds ? bounds->min : task.actions[action].min_duration).count());
 }
 
+// What the snap action adds to the metric if it is taken at first.
+std::int64_t metric_cost(const Task& task, const Semantics& semantics, SnapId op, std::int64_t duration) {
+  double millionths = task.metric.expression.duration_weight * static_cast<double>(duration);
+  const Snap& snap = task.snaps[op];
+  const bool timed = snap.kind == SnapKind::start || snap.kind == SnapKind::end;
+  const auto bounds =
+      timed ? semantics.duration(snap.action, task.initial_state, std::nullopt) : std::nullopt;
+  const NumbersView numbers = task.layout.numbers(task.initial_state);
+  for (const NumericEffect& effect : task.numeric_effects[op]) {
+    const double value = evaluate(task.expressions[effect.expression], numbers, bounds ? bounds->seconds : 0);
+    const double change = effect.assigns ? value - numbers[effect.variable] : value;
+    for (const auto& term : task.metric.expression.terms) {
+      if (term.variable == effect.variable) millionths += 1e6 * term.weight * change;
+    }
+  }
+  return std::isfinite(millionths) ? std::llround(std::clamp(millionths, 0.0, 1e15)) : 0;
+}
+
 }  // namespace
 
-RelaxedTask::RelaxedTask(const Task& task) : facts_(task.fact_names.size()), running_(task.actions.size()) {
+RelaxedTask::RelaxedTask(const Task& task, CostMeasure measure)
+    : facts_(task.fact_names.size()), running_(task.actions.size()) {
   const Semantics semantics(task);
   std::vector<std::vector<SnapId>> needed_by(propositions());
   for (std::size_t i = 0; i < task.snaps.size(); ++i) {
@@ -43,7 +63,9 @@ RelaxedTask::RelaxedTask(const Task& task) : facts_(task.fact_names.size()), run
     needs.erase(std::unique(needs.begin(), needs.end()), needs.end());
     for (const PropositionId need : needs) needed_by[need.index()].push_back(op);
     if (needs.empty() && snap.kind != SnapKind::timed_literal) free_.push_back(op);
-    costs_.push_back(snap.kind == SnapKind::start ? least_duration(task, semantics, snap.action) : 0);
+    const std::int64_t duration =
+        snap.kind == SnapKind::start ? least_duration(task, semantics, snap.action) : 0;
+    costs_.push_back(measure == CostMeasure::metric ? metric_cost(task, semantics, op, duration) : duration);
     needs_.push_back(needs);
     adds_.push_back(adds);
   }

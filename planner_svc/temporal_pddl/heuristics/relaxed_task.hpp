@@ -17,9 +17,14 @@ namespace roci::planner::temporal_pddl {
 
 using PropositionId = Id<struct PropositionTag>;
 
+enum class CostMeasure {
+  duration,  // of each action, at least, in microseconds
+  metric,    // what it adds to the metric at first, in millionths
+};
+
 class RelaxedTask {
  public:
-  explicit RelaxedTask(const Task& task);
+  explicit RelaxedTask(const Task& task, CostMeasure measure = CostMeasure::duration);
 
   std::size_t propositions() const { return facts_ + running_; }
   std::size_t operators() const { return costs_.size(); }
@@ -39,7 +44,7 @@ class RelaxedTask {
     }
   }
 
-  // Operators are numbered as the snap actions. Costs in microseconds.
+  // Operators are numbered as the snap actions.
   std::int64_t cost(SnapId op) const { return costs_[op]; }
   std::span<const PropositionId> needs(SnapId op) const { return needs_[op]; }
   std::span<const PropositionId> adds(SnapId op) const { return adds_[op]; }

@@ -1,8 +1,55 @@
 #include "planner_svc/temporal_pddl/improvement/quality.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/task/semantics.hpp"
 
 namespace roci::planner::temporal_pddl {
+
+namespace {
+
+double in_seconds(Ticks ticks) { return static_cast<double>(ticks) * 1e-6; }
+
+// The state after the last step.
+std::vector<Word> final_state(const Task& task, const PlanPrefix& plan) {
+  const Semantics semantics(task);
+  std::vector<Word> state = task.initial_state;
+  std::vector<std::vector<Word>> before(plan.steps.size());  // the starts of durative actions
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    const Snap& snap = task.snaps[plan.steps[i]];
+    std::optional<DurationBounds> bounds;
+    if (snap.kind == SnapKind::start) {
+      before[i] = state;
+      bounds = semantics.duration(snap.action, state, std::nullopt);
+    } else if (snap.kind == SnapKind::end) {
+      bounds = semantics.duration(snap.action, before[plan.start_of[i]], StateView(state));
+    }
+    semantics.apply(plan.steps[i], bounds ? bounds->seconds : 0, state);
+  }
+  return state;
+}
+
+// The metric to be minimized.
+double cost_of(const Task& task, const PlanPrefix& plan, Ticks makespan) {
+  const LinearExpression& metric = task.metric.expression;
+  const bool numbers = !metric.terms.empty();
+  const std::vector<Word> state = numbers ? final_state(task, plan) : task.initial_state;
+  return evaluate(metric, task.layout.numbers(state), in_seconds(makespan));
+}
+
+bool only_grows(const Task& task, SnapId snap, const LinearExpression::Term& term) {
+  return std::ranges::all_of(task.numeric_effects[snap], [&](const NumericEffect& effect) {
+    if (effect.variable != term.variable) return true;
+    const LinearExpression& change = task.expressions[effect.expression];
+    return !effect.assigns && change.terms.empty() && term.weight * change.duration_weight >= 0 &&
+           term.weight * change.constant >= 0;
+  });
+}
+
+}  // namespace
 
 Quality quality_of(const Task& task, const PlanPrefix& plan, TemporalCheck& check) {
   const std::vector<Ticks>& times = *check.earliest(plan);
@@ -13,7 +60,26 @@ Quality quality_of(const Task& task, const PlanPrefix& plan, TemporalCheck& chec
     result.makespan = std::max(result.makespan, times[i]);
     result.busy += times[i] - times[plan.start_of[i]];
   }
+  constexpr double kWorst = 9e18;
+  const double millionths = task.metric.only_time() ? 0 : 1e6 * cost_of(task, plan, result.makespan);
+  result.metric = std::isnan(millionths) ? std::numeric_limits<std::int64_t>::max()
+                                         : std::llround(std::clamp(millionths, -kWorst, kWorst));
   return result;
+}
+
+bool only_grows(const Task& task) {
+  const LinearExpression& metric = task.metric.expression;
+  return metric.duration_weight >= 0 && std::ranges::all_of(metric.terms, [&](const auto& term) {
+           for (std::size_t i = 0; i < task.snaps.size(); ++i) {
+             if (!only_grows(task, SnapId(i), term)) return false;
+           }
+           return true;
+         });
+}
+
+double metric_of(const Task& task, const PlanPrefix& plan, Ticks makespan) {
+  const double cost = cost_of(task, plan, makespan);
+  return task.metric.maximized ? -cost : cost;
 }
 
 }  // namespace roci::planner::temporal_pddl

@@ -25,7 +25,8 @@ class WeightedSearch {
         statistics_(statistics),
         space_(task, options.epsilon),
         goal_(task, space_.check(), options.epsilon),
-        dominance_(task, space_.store(), space_.bounds(), space_.check(), options.epsilon, true),
+        dominance_(task, space_.store(), space_.bounds(), space_.check(), options.epsilon, true, true),
+        only_grows_(only_grows(task)),
         evaluation_(task) {}
 
   Better run() {
@@ -53,7 +54,7 @@ class WeightedSearch {
   bool take_up(NodeId parent) {
     PlanPrefix& prefix = successor_.prefix;
     const Quality quality = quality_of(task_, prefix, space_.check());
-    if (quality >= known_ || prefix.steps.size() + 2 > kMaxSteps) return false;
+    if ((only_grows_ && quality >= known_) || prefix.steps.size() + 2 > kMaxSteps) return false;
     if (dominance_.dominated(successor_.state, prefix)) return false;
     dominance_.insert(space_.add(parent, successor_), successor_.state, prefix);
     if (goal_.complete(successor_.state, prefix) && quality_of(task_, prefix, space_.check()) < known_)
@@ -63,13 +64,15 @@ class WeightedSearch {
     ++statistics_.evaluated;
     evaluation_.evaluate(successor_, heuristic_, estimate_);
     if (estimate_.dead_end) return false;
-    const std::int64_t total = committed(prefix, quality.busy) + limits_.weight * estimate_.cost;
+    const std::int64_t total = committed(prefix, quality) + limits_.weight * estimate_.cost;
     open_.push({total, estimate_.steps}, false, {prefix.node, SnapId()});
     return false;
   }
 
-  // What is done so far: all durations, those of running actions at least.
-  Ticks committed(const PlanPrefix& prefix, Ticks busy) const {
+  // What is done so far: the metric; if that is the time, all durations, those of running actions at least.
+  std::int64_t committed(const PlanPrefix& prefix, const Quality& quality) const {
+    if (!task_.metric.only_time()) return quality.metric;
+    Ticks busy = quality.busy;
     for (const ActionId action : prefix.running_actions) busy += task_.actions[action].min_duration.count();
     return busy;
   }
@@ -84,6 +87,7 @@ class WeightedSearch {
   StateSpace space_;
   GoalTest goal_;
   Dominance dominance_;
+  bool only_grows_;
   Evaluation evaluation_;
   OpenList open_;
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "planner_svc/temporal_pddl/improvement/quality.hpp"
 #include "planner_svc/temporal_pddl/plan/ground_text.hpp"
 #include "planner_svc/temporal_pddl/search/temporal_check.hpp"
 
@@ -27,6 +28,7 @@ class PlanBuilder {
     add_points();
     add_constraints();
     add_activities();
+    plan_.metric = metric_of(task_, steps_, plan_.makespan.count());
     return std::move(plan_);
   }
 

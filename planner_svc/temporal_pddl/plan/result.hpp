@@ -82,6 +82,7 @@ struct Plan {
   std::vector<Activity> activities;  // by start time
   Network network;
   Duration makespan{0};
+  double metric = 0;  // as the problem states it; without a metric, the makespan in seconds
 };
 
 enum class Verdict {

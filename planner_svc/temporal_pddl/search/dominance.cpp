@@ -33,7 +33,7 @@ bool same_running(const PlanPrefix& a, const PlanPrefix& b) {
 }  // namespace
 
 Dominance::Dominance(const Task& task, const StateStore& store, const BoundTable& bounds,
-                     TemporalCheck& check, Duration epsilon, bool end_counts)
+                     TemporalCheck& check, Duration epsilon, bool end_counts, bool metric_counts)
     : task_(task),
       store_(store),
       bounds_(bounds),
@@ -41,7 +41,7 @@ Dominance::Dominance(const Task& task, const StateStore& store, const BoundTable
       epsilon_(epsilon),
       end_counts_(end_counts),
       absolute_(end_counts || task.has_absolute_times()),
-      preferences_(number_preferences(task)),
+      preferences_(number_preferences(task, metric_counts)),
       slots_(1024),
       position_(task.variables(), kAbsent) {}
 

@@ -25,8 +25,9 @@ namespace roci::planner::temporal_pddl {
 class Dominance {
  public:
   // end_counts: the time of the last step matters, because plans have deadlines or shorter ones are wanted.
+  // metric_counts: so do the numbers of the metric.
   Dominance(const Task& task, const StateStore& store, const BoundTable& bounds, TemporalCheck& check,
-            Duration epsilon, bool end_counts);
+            Duration epsilon, bool end_counts, bool metric_counts = false);
 
   // state, prefix: of a state that is not stored yet.
   bool dominated(StateView state, const PlanPrefix& prefix);

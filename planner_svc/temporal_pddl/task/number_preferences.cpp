@@ -11,7 +11,8 @@ Preference opposite(Preference preference) {
 
 class Analysis {
  public:
-  explicit Analysis(const Task& task) : task_(task), result_(task.layout.numbers(), Preference::none) {}
+  Analysis(const Task& task, bool metric_counts)
+      : task_(task), metric_counts_(metric_counts), result_(task.layout.numbers(), Preference::none) {}
 
   IdVector<NumberId, Preference> run() {
     for (std::size_t snap = 0; snap < task_.snaps.size(); ++snap) use(task_.comparisons[snap]);
@@ -24,6 +25,7 @@ class Analysis {
       for (const DurationRule& rule : task_.duration_rules[action]) use(rule.bound, Preference::exact);
     }
     for (const Goal& goal : task_.goals) use(goal.comparisons);
+    if (metric_counts_) use(task_.metric.expression, Preference::lower);
     for (changed_ = true; changed_;) {
       changed_ = false;
       for (std::size_t snap = 0; snap < task_.snaps.size(); ++snap) {
@@ -43,9 +45,11 @@ class Analysis {
     }
   }
 
-  void use(ExpressionId expression, Preference wanted) {
+  void use(ExpressionId expression, Preference wanted) { use(task_.expressions[expression], wanted); }
+
+  void use(const LinearExpression& expression, Preference wanted) {
     if (wanted == Preference::none) return;
-    for (const auto& term : task_.expressions[expression].terms) {
+    for (const auto& term : expression.terms) {
       const Preference here = term.weight > 0 ? wanted : opposite(wanted);
       Preference& known = result_[term.variable];
       const Preference both = known == Preference::none || known == here ? here : Preference::exact;
@@ -55,12 +59,15 @@ class Analysis {
   }
 
   const Task& task_;
+  bool metric_counts_;
   IdVector<NumberId, Preference> result_;
   bool changed_ = false;
 };
 
 }  // namespace
 
-IdVector<NumberId, Preference> number_preferences(const Task& task) { return Analysis(task).run(); }
+IdVector<NumberId, Preference> number_preferences(const Task& task, bool metric_counts) {
+  return Analysis(task, metric_counts).run();
+}
 
 }  // namespace roci::planner::temporal_pddl

@@ -14,6 +14,7 @@ enum class Preference : std::uint8_t {
 
 // By number: from the signs with which it enters conditions, goals, and effects on other numbers. What
 // durations or equalities depend on is exact.
-IdVector<NumberId, Preference> number_preferences(const Task& task);
+// metric_counts: a worse metric is worse too.
+IdVector<NumberId, Preference> number_preferences(const Task& task, bool metric_counts = false);
 
 }  // namespace roci::planner::temporal_pddl

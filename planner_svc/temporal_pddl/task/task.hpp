@@ -64,6 +64,15 @@ struct Goal {
   std::vector<NumericCondition> comparisons;
 };
 
+// What plans are judged by (:metric). The smaller the better; the duration in it is the plan's.
+struct Metric {
+  LinearExpression expression{{}, 1, 0};  // over the numbers after the last step
+  bool maximized = false;                 // the problem wants the negation to be large
+
+  // The time of the last step and nothing else counts.
+  bool only_time() const { return expression.terms.empty() && expression.duration_weight > 0; }
+};
+
 // A ground atom, for names in reports.
 struct FactName {
   std::uint32_t atom = 0;  // index of Task::atom_arguments
@@ -104,6 +113,7 @@ struct Task {
   FlatLists<VariableId> derived_goal_reads;  // by goal: what derived facts in it hang on
   IdVector<FactId, bool> is_derived;
   DerivedFacts derived;
+  Metric metric;
   ExpressionPool expressions;
   StateLayout layout;
   std::vector<Word> initial_state;
