@@ -98,8 +98,8 @@ void Reactor::give_way(const PlanAnswer& answer) {
   const bool proved = answer.verdict == PlanVerdict::unsolvable;
   const std::string why = std::string(proved ? "proved that not all goals fit" : to_string(answer.verdict)) +
                           (answer.reason.empty() ? "" : ": " + answer.reason);
-  const std::vector<GoalKey> named = proved ? named_goals(answer.reason) : std::vector<GoalKey>{};
-  if (const auto soft = named.empty() ? goals_.drop_candidate() : goals_.drop_candidate(named)) {
+  const std::vector<GoalKey> named = goals_to_blame(answer);
+  if (const auto soft = soft_goal_to_leave(answer)) {
     give_up({*soft}, why);
   } else {
     const auto hard = named.empty() ? std::vector{goals_.open().back()->request.key} : named;
@@ -107,6 +107,15 @@ void Reactor::give_way(const PlanAnswer& answer) {
     give_up(hard, why);
     reserves_ = Reserves::kept;  // the goals that remain may not need them
   }
+}
+
+std::vector<GoalKey> Reactor::goals_to_blame(const PlanAnswer& answer) const {
+  return answer.verdict == PlanVerdict::unsolvable ? named_goals(answer.reason) : std::vector<GoalKey>{};
+}
+
+std::optional<GoalKey> Reactor::soft_goal_to_leave(const PlanAnswer& answer) const {
+  const std::vector<GoalKey> named = goals_to_blame(answer);
+  return named.empty() ? goals_.drop_candidate() : goals_.drop_candidate(named);
 }
 
 // Before hard goals go, what the mission keeps back is offered to one more call; false if there is nothing

@@ -162,6 +162,8 @@ class Reactor {
   void adopt(temporal::Time now, const PlanAnswer& answer);
   void give_way(const PlanAnswer& answer);
   bool spend_reserves(const std::vector<GoalKey>& leaving, const std::string& why);
+  std::vector<GoalKey> goals_to_blame(const PlanAnswer& answer) const;
+  std::optional<GoalKey> soft_goal_to_leave(const PlanAnswer& answer) const;
   std::vector<GoalKey> named_goals(const std::string& reason) const;
   void try_again_later(temporal::Time now, const PlanAnswer& answer);
   void run_executive(temporal::Time now, const ReactorInputs& inputs);

@@ -79,8 +79,14 @@ void Reactor::continue_meanwhile(Time now) {
     const PlanAnswer answer = *std::exchange(meanwhile_, std::nullopt)->answer;
     if (!speaks_of_goals(verdict))
       return break_plan(now, std::string("planner call ended as ") + to_string(verdict));
-    if (!goals_.open().empty()) give_way(answer);  // none: what ran has achieved them
-    keep_plan(now);
+    if (goals_.open().empty()) return keep_plan(now);  // what ran has achieved them
+    if (soft_goal_to_leave(answer)) {
+      give_way(answer);
+      keep_plan(now);
+    } else {  // no hard goal is given up for the sake of what runs
+      unfit_ = true;
+      want_plan("a hard goal may fit if what runs is cancelled");
+    }
   }
 }
 

@@ -116,6 +116,22 @@ TEST_F(Situated, AHardGoalMayTakeThePlaceOfAnOptionalOne) {
   EXPECT_THAT(trace, Not(Contains("cancel")));
 }
 
+// A window may close before what runs has ended.
+TEST_F(Situated, NoHardGoalIsGivenUpForWhatRuns) {
+  const Planner all = planner;
+  planner = [this, all](const PlanCall& call) {
+    return problems.size() == 1 && call.origin > now + mission.planner.allowance
+               ? answer(PlanVerdict::unsolvable, "too late")
+               : all(call);
+  };
+  send(20, photo("2"));
+  run(1000, robot_and({photo("1")}));
+  EXPECT_EQ(reactor.outcome(), "achieved");
+  EXPECT_EQ(reactor.counts().failed, 0U);
+  EXPECT_EQ(reactor.counts().planner_calls, 3U);
+  EXPECT_THAT(trace, Contains("cancel"));
+}
+
 TEST_F(Situated, WhatFailsMeanwhileLeadsToThePause) {
   planning_time = seconds(60);
   send(70, photo("2"));
