@@ -65,6 +65,15 @@ struct TimedChange {
   GroundEffects effects;
 };
 
+// An action instance that none of its windows has room for.
+struct TooLong {
+  SchemaId schema;
+  std::vector<ObjectId> arguments;
+  std::vector<std::uint32_t> adds;  // atoms
+  Duration duration{0};             // at least
+  Duration window{0};               // the longest
+};
+
 struct GroundModel {
   TupleTable atoms;
   std::vector<bool> derived;  // by atom
@@ -73,6 +82,7 @@ struct GroundModel {
   std::vector<std::uint32_t> initial_atoms;
   std::vector<double> initial_numbers;  // NaN: undefined
   std::vector<GroundAction> actions;
+  std::vector<TooLong> too_long;   // taken out of `actions`
   std::vector<GroundRule> rules;   // by layer
   std::vector<TimedChange> timed;  // by time, one per instant
   Disjunction goal;

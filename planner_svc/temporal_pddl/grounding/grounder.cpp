@@ -1,5 +1,6 @@
 #include "planner_svc/temporal_pddl/grounding/grounder.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -29,9 +30,34 @@ std::string literal_text(const GroundModel& model, const Symbols& symbols, Groun
   return literal.negated ? "(not " + text + ")" : text;
 }
 
+std::string seconds(Duration duration) {
+  const std::string text = std::to_string(std::chrono::duration<double>(duration).count());
+  return text.substr(0, text.size() - 3) + " s";
+}
+
+// Of the actions that are longer than their windows and would bring about what nothing else does, the one
+// that lacks least.
+std::string window_too_short(const GroundModel& model, const std::vector<bool>& reached,
+                             const Symbols& symbols, const std::vector<LiftedAction>& actions) {
+  const TooLong* nearest = nullptr;
+  for (const TooLong& note : model.too_long) {
+    const bool missed = std::ranges::any_of(note.adds, [&](std::uint32_t atom) {
+      return !reached[literal_index({atom, false})];
+    });
+    const auto lack = [](const TooLong& action) { return action.duration - action.window; };
+    if (missed && (!nearest || lack(note) < lack(*nearest))) nearest = &note;
+  }
+  if (!nearest) return {};
+  std::string name = "(" + actions[nearest->schema.index()].name;
+  for (const ObjectId object : nearest->arguments) name += " " + symbols.name(object);
+  return "; " + name + ") takes " + seconds(nearest->duration) + ", its longest window is " +
+         seconds(nearest->window) + ": " + seconds(nearest->duration - nearest->window) + " too short";
+}
+
 // Throws if no alternative of the goal survives pruning, naming what stands in the way.
 void require_reachable_goal(const pddl::Problem& problem, const Disjunction& before, const GroundModel& model,
-                            const std::vector<bool>& reached, const Symbols& symbols) {
+                            const std::vector<bool>& reached, const Symbols& symbols,
+                            const std::vector<LiftedAction>& actions) {
   if (!model.goal.empty()) return;
   std::string blocked;
   for (const auto& goal : model.unreachable_goals) blocked += " " + goal;
@@ -44,7 +70,7 @@ void require_reachable_goal(const pddl::Problem& problem, const Disjunction& bef
   throw Refusal(
       Verdict::unsolvable,
       "no sequence of actions reaches, even if nothing were ever deleted and numbers did not count:" +
-          blocked);
+          blocked + window_too_short(model, reached, symbols, actions));
 }
 
 }  // namespace
@@ -62,7 +88,7 @@ Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, Funct
   extract_timed_windows(model, options.windows, options.epsilon);
   const Disjunction goal = model.goal;
   const std::vector<bool> reached = prune(model);
-  require_reachable_goal(problem, goal, model, reached, symbols);
+  require_reachable_goal(problem, goal, model, reached, symbols, actions);
   drop_irrelevant_effects(model);
   const auto groups = find_mutex_groups(model, reached, symbols.predicates(), actions.size(), watch);
   std::vector<Compression> compression(model.actions.size());

@@ -47,6 +47,7 @@ class Extraction {
     }
     if (windows_.empty()) return;
     for (auto& action : model_.actions) restrict(action);
+    for (const auto& action : model_.actions) note_too_long(action);
     std::erase_if(model_.actions, [](const GroundAction& action) {
       return action.start_windows.empty() || action.end_windows.empty() || action.span_windows.empty();
     });
@@ -107,6 +108,16 @@ class Extraction {
       return true;
     });
     return result;
+  }
+
+  void note_too_long(const GroundAction& action) {
+    const auto& span = action.span_windows;
+    if (span.empty() || !shrunk(span, Duration{0}, action.min_duration).empty()) return;
+    TooLong note{action.schema, action.arguments, action.start_effects.adds, action.min_duration, {}};
+    const auto& adds = action.end_effects.adds;
+    note.adds.insert(note.adds.end(), adds.begin(), adds.end());
+    for (const TimeWindow& window : span) note.window = std::max(note.window, window.close - window.open);
+    model_.too_long.push_back(std::move(note));
   }
 
   void restrict(GroundAction& action) const {

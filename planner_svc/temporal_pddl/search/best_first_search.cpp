@@ -4,6 +4,7 @@
 #include <random>
 
 #include "planner_svc/temporal_pddl/grounding/refusal.hpp"
+#include "planner_svc/temporal_pddl/search/blockage.hpp"
 #include "planner_svc/temporal_pddl/search/dominance.hpp"
 #include "planner_svc/temporal_pddl/search/evaluation.hpp"
 #include "planner_svc/temporal_pddl/search/goal_test.hpp"
@@ -49,7 +50,10 @@ class BestFirstSearch {
     if (too_long_)
       throw Refusal(Verdict::out_of_memory,
                     "a plan may have at most 32767 steps, and none so short was found");
-    return {std::nullopt, {}, goal_.explain_failure(space_.store().size())};
+    std::string reason = goal_.explain_failure(space_.store().size());
+    const std::string number = blocking_number(task_, space_.store());
+    if (!number.empty()) reason += "; " + number;
+    return {std::nullopt, {}, std::move(reason)};
   }
 
  private:

@@ -170,15 +170,20 @@ TEST(Grounding, ConstantsAreFoldedAndUndefinedOnesForbidTheInstance) {
   EXPECT_EQ(task.expressions[needs.expression].constant, -20);
 }
 
-TEST(Grounding, NumbersThatNothingReadsAreDropped) {
-  const auto made = model(R"(
-    (:requirements :numeric-fluents) (:predicates (g)) (:functions (total-cost) (x))
+TEST(Grounding, NumbersThatNothingReadsAreDroppedUnlessTheMetricDoes) {
+  for (const bool measured : {false, true}) {
+    const auto made =
+        model(R"((:requirements :numeric-fluents) (:predicates (g)) (:functions (total-cost) (x))
     (:action a :parameters () :precondition (>= (x) 1) :effect (and (g) (increase (total-cost) 5)))
     (:action b :parameters () :precondition () :effect (increase (x) 1)))",
-                          "(:init (= (total-cost) 0) (= (x) 0)) (:goal (g)) (:metric minimize (total-cost))");
-  const Task task = grounded(made).task;
-  EXPECT_EQ(task.numeric_effects[task.actions[action(task, "(a)")].start].size(), 0u);
-  EXPECT_EQ(task.numeric_effects[task.actions[action(task, "(b)")].start].size(), 1u);
+              std::string("(:init (= (total-cost) 0) (= (x) 0)) (:goal (g))") +
+                  (measured ? "(:metric minimize (total-cost))" : ""));
+    const Task task = grounded(made).task;
+    const SnapId a = task.actions[action(task, "(a)")].start;
+    EXPECT_EQ(task.numeric_effects[a].size(), measured ? 1u : 0u);
+    EXPECT_EQ(task.numeric_effects[task.actions[action(task, "(b)")].start].size(), 1u);
+    EXPECT_TRUE(task.writes[a].empty());  // what only goals or the metric ask for keeps no actions apart
+  }
 }
 
 class Windows : public ::testing::Test {
