@@ -41,12 +41,18 @@ void Reactor::take_answer(Time now, const PlanAnswer& answer) {
     return;
   }
   outdated_calls_ = 0;
-  if (answer.verdict == PlanVerdict::solved) {
+  if (answer.verdict == PlanVerdict::solved && !suspicion_.empty()) {
+    give_up({*goals_.drop_candidate()}, suspicion_);
+    begin_planning(now);
+  } else if (answer.verdict == PlanVerdict::solved) {
     adopt(now, answer);
   } else if (speaks_of_goals(answer.verdict)) {
     failed_calls_ = 0;
-    give_way(answer);
-    begin_planning(now);
+    if (give_way(answer)) {
+      begin_planning(now);
+    } else {
+      call_planner(now, now + mission_->planner.allowance, {});
+    }
   } else {
     try_again_later(now, answer);
   }
@@ -93,20 +99,43 @@ void Reactor::adopt(Time now, const PlanAnswer& answer) {
 }
 
 // What the planner proves out of reach takes no other goal with it. One goal leaves at a time, unless hard
-// ones alone are named: the others may be within reach once it is gone.
-void Reactor::give_way(const PlanAnswer& answer) {
+// ones alone are named: the others may be within reach once it is gone. A proof that names hard goals alone
+// may hold only because of what the soft ones demand (a search leaves out what cannot serve all goals): one
+// more call, without them, tells.
+bool Reactor::give_way(const PlanAnswer& answer) {
   const bool proved = answer.verdict == PlanVerdict::unsolvable;
   const std::string why = std::string(proved ? "proved that not all goals fit" : to_string(answer.verdict)) +
                           (answer.reason.empty() ? "" : ": " + answer.reason);
   const std::vector<GoalKey> named = goals_to_blame(answer);
   if (const auto soft = soft_goal_to_leave(answer)) {
     give_up({*soft}, why);
+  } else if (!named.empty() && suspicion_.empty() && goals_.drop_candidate()) {
+    suspicion_ = why;
+    return false;
   } else {
-    const auto hard = named.empty() ? std::vector{goals_.open().back()->request.key} : named;
-    if (spend_reserves(hard, why)) return;
-    give_up(hard, why);
-    reserves_ = Reserves::kept;  // the goals that remain may not need them
+    const auto hard = named.empty() ? std::vector{newest_hard()} : named;
+    if (!spend_reserves(hard, why)) {
+      give_up(hard, why);
+      reserves_ = Reserves::kept;  // the goals that remain may not need them
+    }
   }
+  return true;
+}
+
+GoalKey Reactor::newest_hard() const {
+  GoalKey out;
+  for (const GoalRecord* record : goals_.open())
+    if (record->request.importance == GoalClass::hard) out = record->request.key;
+  return out;
+}
+
+// The goals as they are, but soft ones that are open count as gone.
+GoalSet Reactor::hard_goals() const {
+  GoalSet out = goals_;
+  for (const GoalRecord* record : goals_.open())
+    if (record->request.importance != GoalClass::hard)
+      out.set_state(record->request.key, GoalState::dropped, "");
+  return out;
 }
 
 std::vector<GoalKey> Reactor::goals_to_blame(const PlanAnswer& answer) const {
@@ -115,7 +144,8 @@ std::vector<GoalKey> Reactor::goals_to_blame(const PlanAnswer& answer) const {
 
 std::optional<GoalKey> Reactor::soft_goal_to_leave(const PlanAnswer& answer) const {
   const std::vector<GoalKey> named = goals_to_blame(answer);
-  return named.empty() ? goals_.drop_candidate() : goals_.drop_candidate(named);
+  const bool of_hard_alone = answer.verdict == PlanVerdict::unsolvable && !suspicion_.empty();
+  return named.empty() && !of_hard_alone ? goals_.drop_candidate() : goals_.drop_candidate(named);
 }
 
 // Before hard goals go, what the mission keeps back is offered to one more call; false if there is nothing

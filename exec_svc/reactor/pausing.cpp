@@ -78,6 +78,7 @@ void Reactor::begin_planning(Time now) {
     return;
   }
   phase_ = Phase::planning;
+  suspicion_.clear();
   call_planner(now, now + mission_->planner.allowance, {});
 }
 
@@ -88,8 +89,8 @@ void Reactor::call_planner(Time now, Time origin, const Forecast& forecast) {
   call_.id = ++call_id_;
   call_.problem_name = mission_->name + "-" + std::to_string(call_id_);
   call_.origin = origin;
-  call_.problem =
-      write_problem(*mission_, beliefs_, goals_, call_.problem_name, now, origin, reserves_, forecast);
+  call_.problem = write_problem(*mission_, beliefs_, suspicion_.empty() ? goals_ : hard_goals(),
+                                call_.problem_name, now, origin, reserves_, forecast);
   out_.call = call_;
 }
 

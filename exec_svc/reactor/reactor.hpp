@@ -160,7 +160,10 @@ class Reactor {
   bool outdated(const PlanAnswer& answer) const;
   void take_answer(temporal::Time now, const PlanAnswer& answer);
   void adopt(temporal::Time now, const PlanAnswer& answer);
-  void give_way(const PlanAnswer& answer);
+  // False: no goal has gone, the next call is to leave out the soft ones.
+  bool give_way(const PlanAnswer& answer);
+  GoalKey newest_hard() const;
+  GoalSet hard_goals() const;
   bool spend_reserves(const std::vector<GoalKey>& leaving, const std::string& why);
   std::vector<GoalKey> goals_to_blame(const PlanAnswer& answer) const;
   std::optional<GoalKey> soft_goal_to_leave(const PlanAnswer& answer) const;
@@ -212,6 +215,7 @@ class Reactor {
   std::uint32_t fallback_round_ = 0;
   bool fallbacks_sent_ = false;
   std::uint32_t failed_calls_ = 0;
+  std::string suspicion_;  // why soft goals are left out of the call under way; empty: they are in it
   Reserves reserves_ = Reserves::kept;                 // spent: for hard goals, until one fails or comes
   temporal::Time not_before_{0};                       // next planner call
   std::map<std::string, temporal::Time> told_starts_;  // earliest starts last reported

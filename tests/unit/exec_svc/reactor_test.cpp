@@ -86,6 +86,32 @@ TEST_F(ReactorTest, WhatThePlannerProvesOutOfReachTakesNothingElseWithIt) {
   EXPECT_EQ(reactor.outcome(), "achieved");
 }
 
+// A search under the demands of all goals says nothing of one alone: without the soft ones the planner tells.
+TEST_F(ReactorTest, AHardGoalThatFitsWithoutTheSoftOnesStays) {
+  planner = [this](const PlanCall& call) {
+    const bool soft = call.problem.text.find("(sent image-late)\n  ") != std::string::npos;
+    return soft ? answer(PlanVerdict::unsolvable, "never reached: (sent image-hard)")
+                : image_every_goal(call);
+  };
+  run(1000, robot_and({photo("hard"), photo("soft", GoalClass::optional, 9),
+                       photo("late", GoalClass::opportunistic)}));
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), "call"), 3);
+  EXPECT_EQ(reasons["late"], "proved that not all goals fit: never reached: (sent image-hard)");
+  EXPECT_EQ(reactor.goals().find({"ground", "soft"})->state, GoalState::achieved);
+  EXPECT_EQ(reactor.outcome(), "achieved");
+}
+
+TEST_F(ReactorTest, AHardGoalOutOfReachTakesNoSoftOneWithIt) {
+  planner = [this](const PlanCall& call) {
+    const bool hard = call.problem.text.find("(sent image-walled)\n  ") != std::string::npos;
+    return hard ? answer(PlanVerdict::unsolvable, "never reached: (sent image-walled)")
+                : image_every_goal(call);
+  };
+  run(1000, robot_and({photo("walled"), photo("soft", GoalClass::opportunistic)}));
+  EXPECT_EQ(reactor.goals().find({"ground", "walled"})->state, GoalState::failed);
+  EXPECT_EQ(reactor.goals().find({"ground", "soft"})->state, GoalState::achieved);
+}
+
 // What is kept back is for hard goals: spent before one is given up, and kept again when another goal comes.
 TEST_F(ReactorTest, ReservesAreSpentBeforeAHardGoalIsGivenUp) {
   std::vector<std::string> asked;
