@@ -91,6 +91,7 @@ nlohmann::json statistics_json(const engine::Result& result, double wall_s) {
           {"generated", statistics.generated},
           {"temporally_inconsistent", statistics.temporally_inconsistent},
           {"dominated", statistics.dominated},
+          {"hopeless", statistics.hopeless},
           {"bytes_per_state", statistics.bytes_per_state},
           {"engine_peak_bytes", statistics.peak_bytes},
           {"facts", statistics.facts},

@@ -8,6 +8,7 @@
 #include "planner_svc/temporal_pddl/grounding/grounder.hpp"
 #include "planner_svc/temporal_pddl/grounding/refusal.hpp"
 #include "planner_svc/temporal_pddl/heuristics/ff.hpp"
+#include "planner_svc/temporal_pddl/heuristics/within_resources.hpp"
 #include "planner_svc/temporal_pddl/improvement/improvement.hpp"
 #include "planner_svc/temporal_pddl/plan/plan_builder.hpp"
 #include "planner_svc/temporal_pddl/search/best_first_search.hpp"
@@ -43,7 +44,8 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   require_model(domain, problem);
   const Grounding grounding = ground(domain, problem, functions, options, watch, result.functions);
   describe(grounding.task, result.statistics);
-  FfHeuristic heuristic(grounding.task);
+  FfHeuristic ff(grounding.task);
+  WithinResources heuristic(grounding.task, ff, options.resource_patience, watch);
   SearchOutcome outcome = search(grounding.task, heuristic, options, watch, result.statistics);
   if (outcome.plan) {
     const PlanPrefix best =
@@ -52,7 +54,8 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
     result.verdict = Verdict::solved;
   } else {
     result.verdict = Verdict::unsolvable;
-    result.reason = heuristic.why_too_late();
+    result.reason = ff.why_too_late();
+    if (result.reason.empty()) result.reason = heuristic.why_too_little();
     if (result.reason.empty()) result.reason = std::move(outcome.reason);
   }
 }

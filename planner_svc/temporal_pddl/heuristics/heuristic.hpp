@@ -33,6 +33,10 @@ class Heuristic {
 
   // The estimate's memory is reused.
   virtual void evaluate(const Situation& situation, Estimate& estimate) = 0;
+  // Proved at little cost that no plan goes through the state? Asked before anything is stored or evaluated.
+  virtual bool hopeless(StateView /*state*/, std::span<const ActionId> /*running*/) { return false; }
+  // What it keeps that grows with the problem.
+  virtual std::size_t bytes() const { return 0; }
 };
 
 }  // namespace roci::planner::temporal_pddl

@@ -40,6 +40,7 @@ class WeightedSearch {
         if (evaluated_ == limits_.evaluations) return {std::nullopt, false, evaluated_};
         ++statistics_.generated;
         if (space_.build(prefix_, snap, successor_) != Rejection::none) continue;
+        if (heuristic_.hopeless(successor_.state, successor_.prefix.running_actions)) continue;
         if (take_up(prefix_.node)) return found();
       }
       watch_.memory(space_.store().bytes() + open_.bytes() + dominance_.bytes());

@@ -41,6 +41,10 @@ class BestFirstSearch {
       const Rejection rejection = space_.build(prefix_, entry->snap, successor_);
       if (rejection == Rejection::temporal) ++statistics_.temporally_inconsistent;
       if (rejection != Rejection::none) continue;
+      if (heuristic_.hopeless(successor_.state, successor_.prefix.running_actions)) {
+        ++statistics_.hopeless;
+        continue;
+      }
       if (dominate_ && dominance_.dominated(successor_.state, successor_.prefix)) {
         ++statistics_.dominated;
         continue;
@@ -99,7 +103,7 @@ class BestFirstSearch {
 
   void account() {
     statistics_.bytes_per_state = space_.store().mean_bytes_per_state();
-    watch_.memory(space_.store().bytes() + open_.bytes() + dominance_.bytes());
+    watch_.memory(space_.store().bytes() + open_.bytes() + dominance_.bytes() + heuristic_.bytes());
     if (statistics_.expanded % 1024 == 0) watch_.progress(statistics_);
   }
 

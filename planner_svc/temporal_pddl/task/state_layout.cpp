@@ -34,7 +34,8 @@ StateLayout::StateLayout(std::vector<std::vector<FactId>> variables,
     while (first_open < used.size() && used[first_open] == kWordBits) ++first_open;
     for (std::size_t i = 0; i < variable.facts.size(); ++i) {
       places_[variable.facts[i]] = Place{variable.word, static_cast<std::uint8_t>(variable.shift), false,
-                                         static_cast<std::uint32_t>(i + 1), variable.mask};
+                                         static_cast<std::uint32_t>(i + 1),
+                                         static_cast<std::uint32_t>(variables_.size()), variable.mask};
     }
     variables_.push_back(std::move(variable));
   }

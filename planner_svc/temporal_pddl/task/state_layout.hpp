@@ -52,6 +52,8 @@ class StateLayout {
   void add(MutableState state, FactId fact) const;
   void remove(MutableState state, FactId fact) const;
 
+  // The variable that a fact, or the one that it negates, is a value of.
+  std::size_t variable_of(FactId fact) const { return places_[fact].variable; }
   bool is_negation(FactId fact) const { return places_[fact].negated; }
   std::span<const FactId> negations() const { return negations_; }
 
@@ -66,6 +68,7 @@ class StateLayout {
     std::uint8_t shift = 0;
     bool negated = false;
     std::uint32_t value = 0;
+    std::uint32_t variable = 0;
     Word mask = 0;
   };
 

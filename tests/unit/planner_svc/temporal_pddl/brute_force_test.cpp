@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/pddl/printer.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/random_task.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/validated.hpp"
@@ -12,6 +14,8 @@ namespace {
 
 constexpr std::size_t kActions = 3;  // of the brute force plans
 
+constexpr std::size_t kNeverMeasured = std::numeric_limits<std::size_t>::max();
+
 struct Named {
   const char* name;
   Options options;
@@ -19,6 +23,8 @@ struct Named {
 
 std::vector<Named> configurations() {
   std::vector<Named> result{{"default", {}}};
+  result.push_back({"resources at once", {}});
+  result.back().options.resource_patience = 0;
   result.push_back({"no compression", {}});
   result.back().options.compression_safety = false;
   result.push_back({"no dominance", {}});
@@ -32,7 +38,8 @@ std::vector<Named> configurations() {
   result.push_back({"improved", {}});
   result.back().options.improvement_evaluations = 200;
   result.push_back({"bare, shuffled", {}});
-  result.back().options = {Duration{1000}, false, false, false, WindowExtraction::none, 0, 17};
+  result.back().options = {Duration{1000},         false,          false, false,
+                           WindowExtraction::none, kNeverMeasured, 0,     17};
   return result;
 }
 
@@ -45,11 +52,12 @@ class AgainstBruteForce : public ::testing::TestWithParam<int> {};
 TEST_P(AgainstBruteForce, AgreesOnSolvability) {
   std::mt19937_64 random(static_cast<std::uint64_t>(GetParam()));
   Budget budget;
-  budget.evaluations = 2000;
+  budget.evaluations = 1000;
   std::size_t solved = 0, unsolvable = 0, unknown = 0, missed = 0;
   for (int round = 0; round < 100; ++round) {
     const testing::Model model = testing::random_task(random);
     const bool expected = testing::has_plan(model, kActions);
+    const std::size_t solved_before = solved, unsolvable_before = unsolvable;
     for (const auto& [name, options] : configurations()) {
       const Result result = testing::solved(model, options, budget);
       ASSERT_TRUE(result.verdict == Verdict::solved || result.verdict == Verdict::unsolvable ||
@@ -65,11 +73,35 @@ TEST_P(AgainstBruteForce, AgreesOnSolvability) {
       unsolvable += result.verdict == Verdict::unsolvable;
       unknown += result.verdict == Verdict::timeout;
     }
+    EXPECT_TRUE(solved == solved_before || unsolvable == unsolvable_before) << "contradictory" << text(model);
   }
   EXPECT_GT(solved, 80u);
   EXPECT_GT(unsolvable, 80u);
   EXPECT_LT(unknown, unsolvable / 2);
   EXPECT_LT(missed, solved / 4);
+}
+
+// Many small tasks: what resources are said not to suffice for has no plan.
+TEST(AgainstBruteForce, ResourcesCutOffNoPlan) {
+  std::mt19937_64 random(99);
+  Budget budget;
+  budget.evaluations = 200;
+  Options with, without;
+  with.resource_patience = 0;
+  without.resource_patience = kNeverMeasured;
+  std::size_t cut = 0, told = 0;
+  for (int round = 0; round < 4000; ++round) {
+    const testing::Model model = testing::random_task(random);
+    with.compression_safety = round % 2 == 0;
+    const Result result = testing::solved(model, with, budget);
+    cut += result.statistics.hopeless > 0;
+    told += result.reason.starts_with("the goals take");
+    if (result.statistics.hopeless == 0 || result.verdict != Verdict::unsolvable) continue;
+    EXPECT_NE(testing::solved(model, without, budget).verdict, Verdict::solved) << text(model);
+    EXPECT_FALSE(testing::has_plan(model, kActions)) << result.reason << text(model);
+  }
+  EXPECT_GT(cut, 100u);
+  EXPECT_GT(told, 20u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, AgainstBruteForce, ::testing::Range(1, 9));

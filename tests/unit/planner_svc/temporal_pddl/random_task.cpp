@@ -17,6 +17,7 @@ class Writer {
     for (int i = 0; i < kFacts; ++i) domain += " (p" + std::to_string(i) + ")";
     domain += ")\n(:functions (x))\n";
     const int actions = 2 + below(3);
+    only_decreases_ = below(2) == 0;
     for (int i = 0; i < actions; ++i) domain += below(6) == 0 ? plain_action(i) : durative_action(i);
     return model(domain, problem());
   }
@@ -31,14 +32,22 @@ class Writer {
                          : "(<= (x) " + std::to_string(below(3)) + ")";
   }
   std::string effect() {
-    if (below(6) > 0) return below(3) == 0 ? "(not " + fact() + ")" : fact();
+    if (below(only_decreases_ ? 3 : 6) > 0) return below(3) == 0 ? "(not " + fact() + ")" : fact();
+    if (only_decreases_) return "(decrease (x) " + std::to_string(1 + below(2)) + ")";
     const char* const ops[] = {"(increase (x) 1)", "(decrease (x) 1)", "(assign (x) 1)"};
     return ops[below(3)];
   }
 
+  // Where x only falls, what takes of it mostly asks for it, so that it is a resource.
+  std::string asked_for(const std::string& effect) {
+    if (!only_decreases_ || !effect.starts_with("(decrease") || below(10) == 0) return "";
+    return "(>= (x) " + std::to_string(below(3)) + ")";
+  }
+
   std::string plain_action(int i) {
-    return "(:action a" + std::to_string(i) + " :parameters () :precondition " + condition() + " :effect " +
-           effect() + ")\n";
+    const std::string does = effect();
+    return "(:action a" + std::to_string(i) + " :parameters () :precondition (and " + condition() +
+           asked_for(does) + ") :effect " + does + ")\n";
   }
 
   std::string durative_action(int i) {
@@ -59,14 +68,18 @@ class Writer {
       add(effects, "at start", held);
       add(effects, "at end", "(not " + held + ")");
     }
-    if (below(2) == 0) add(effects, "at start", effect());
-    add(effects, "at end", effect());
+    for (const char* when : {"at start", "at end"}) {
+      if (when[3] == 's' && below(2) == 0) continue;
+      const std::string does = effect();
+      add(effects, when, does);
+      if (const std::string asked = asked_for(does); !asked.empty()) add(conditions, when, asked);
+    }
     return "(:durative-action a" + std::to_string(i) + " :parameters () :duration " + duration +
            " :condition (and" + conditions + ") :effect (and" + effects + "))\n";
   }
 
   std::string problem() {
-    std::string init = "(:init (= (x) " + std::to_string(below(2)) + ")";
+    std::string init = "(:init (= (x) " + std::to_string(below(only_decreases_ ? 5 : 2)) + ")";
     for (int i = 0; i < kFacts; ++i) {
       if (below(4) == 0) init += " (p" + std::to_string(i) + ")";
     }
@@ -81,6 +94,7 @@ class Writer {
   }
 
   std::mt19937_64& random_;
+  bool only_decreases_ = false;  // x
 };
 
 }  // namespace
