@@ -11,7 +11,7 @@ TimelessSpace::TimelessSpace(const Task& task, std::span<const FactId> goals)
       mask_(words_, 0),
       goals_(goals.begin(), goals.end()) {
   if (!goals.empty()) keep_relevant(goals);
-  leave_out_timed();
+  leave_out_unsteered();
   const auto variables = task.layout.variables();
   for (std::size_t i = 0; i < known_.size(); ++i) {
     if (known_[i]) mask_[variables[i].word] |= variables[i].mask << variables[i].shift;
@@ -52,7 +52,10 @@ void TimelessSpace::keep_relevant(std::span<const FactId> goals) {
   }
 }
 
-void TimelessSpace::leave_out_timed() {
+void TimelessSpace::leave_out_unsteered() {
+  for (std::size_t i = 0; i < task_.is_derived.size(); ++i) {
+    if (task_.is_derived[FactId(i)]) known_[task_.layout.variable_of(FactId(i))] = false;
+  }
   for (const TimedStep& timed : task_.timed_steps) {
     for (const auto facts : {task_.adds[timed.snap], task_.deletes[timed.snap]}) {
       for (const FactId fact : facts) known_[task_.layout.variable_of(fact)] = false;

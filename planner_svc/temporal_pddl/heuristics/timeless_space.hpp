@@ -2,7 +2,7 @@
 // which every plan of the task walks a path. So what is cheapest in it is never dearer in the task.
 //
 // It has the search's transitions: starts, ends, plain actions, and compressed actions (R14). What timed
-// literals change is always left out.
+// literals change, and what is derived, is always left out.
 #pragma once
 
 #include <array>
@@ -75,7 +75,7 @@ class TimelessSpace {
   };
 
   void keep_relevant(std::span<const FactId> goals);
-  void leave_out_timed();
+  void leave_out_unsteered();
   bool known(FactId fact) const { return known_[task_.layout.variable_of(fact)]; }
   bool changes_known(SnapId snap) const;
   std::vector<Test> tests_of(std::span<const FactId> facts) const;

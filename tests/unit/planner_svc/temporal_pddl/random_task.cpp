@@ -8,7 +8,7 @@ constexpr int kFacts = 5;
 
 class Writer {
  public:
-  explicit Writer(std::mt19937_64& random) : random_(random) {}
+  Writer(std::mt19937_64& random, int shortest) : random_(random), shortest_(shortest) {}
 
   Model run() {
     std::string domain =
@@ -51,7 +51,7 @@ class Writer {
   }
 
   std::string durative_action(int i) {
-    const int least = below(5);
+    const int least = shortest_ + below(5 - shortest_);
     const std::string duration = below(3) == 0
                                      ? "(and (>= ?duration " + std::to_string(least) + ") (<= ?duration " +
                                            std::to_string(least + below(3)) + "))"
@@ -94,11 +94,12 @@ class Writer {
   }
 
   std::mt19937_64& random_;
+  int shortest_;
   bool only_decreases_ = false;  // x
 };
 
 }  // namespace
 
-Model random_task(std::mt19937_64& random) { return Writer(random).run(); }
+Model random_task(std::mt19937_64& random, int shortest) { return Writer(random, shortest).run(); }
 
 }  // namespace roci::planner::temporal_pddl::testing

@@ -9,6 +9,7 @@
 namespace roci::planner::temporal_pddl::testing {
 
 // Predicates and actions have no parameters; durations and times are whole seconds.
-Model random_task(std::mt19937_64& random);
+// shortest: of the durations, in seconds.
+Model random_task(std::mt19937_64& random, int shortest = 0);
 
 }  // namespace roci::planner::temporal_pddl::testing

@@ -159,6 +159,21 @@ TEST(Resources, ALittleTooLittleIsProvedAndJustEnoughIsFound) {
   }
 }
 
+TEST(Resources, DerivedFactsAreLeftOut) {
+  const auto made = model(R"(
+    (:requirements :durative-actions :numeric-fluents :derived-predicates)
+    (:predicates (p) (ready) (done)) (:functions (x))
+    (:derived (ready) (p))
+    (:durative-action make :parameters () :duration (= ?duration 1) :condition () :effect (at end (p)))
+    (:durative-action spend :parameters () :duration (= ?duration 1)
+      :condition (and (at start (ready)) (at start (>= (x) 1)))
+      :effect (and (at start (decrease (x) 1)) (at end (done)))))",
+                          "(:init (= (x) 1)) (:goal (done))");
+  Options options;
+  options.resource_patience = 0;
+  testing::expect_valid(made, solved(made, options), options);
+}
+
 // Too many states for one table: some of the goals at a time.
 TEST(Resources, HalfOfTheGoalsWhereAllAreTooMany) {
   std::mt19937_64 random(7);
