@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
+#include <exception>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +14,8 @@
 #include "exec_svc/journal/crash_points.hpp"
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/journaled_reactor.hpp"
+#include "exec_svc/mission_report_service.hpp"
+#include "exec_svc/standby/leading_service.hpp"
 #include "exec_svc/wire_service.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
@@ -25,9 +27,8 @@ namespace {
 namespace topics = services::topics;
 using services::Node;
 
-Durability durability_for(const Node& node) {
-  return node.options().clock == services::ClockMode::live ? Durability::power : Durability::process;
-}
+// The key of the query that tells owners a leader's epoch; no activity has it.
+constexpr char kEpochKey[] = "epoch";
 
 // For known services to be heard of after a restart; of wall time, live.
 temporal::Duration reunion(const Node& node) {
@@ -41,19 +42,19 @@ CrashPoints crash_points(const Node& node) {
                      [] { std::raise(SIGKILL); });
 }
 
-v1::MissionPhase phase_to_wire(Phase phase) { return static_cast<v1::MissionPhase>(phase); }
-
 // Collects what comes in one turn of the loop, steps the reactor once, journals what it decided, then sends
 // it.
 class ExecService final : public services::Service {
  public:
-  ExecService(Node& node, const services::RunSettings& settings)
+  ExecService(Node& node, const services::RunSettings& settings, Journal& journal, std::uint64_t epoch,
+              LeadingService* leading, bool doubtful)
       : node_(node),
         settings_(settings),
         mission_(read_mission(settings.mission)),
-        journal_(settings.run_folder / "journal.sqlite", durability_for(node)),
-        epoch_(journal_.next_epoch()),
-        reactor_(mission_, journal_),
+        journal_(journal),
+        epoch_(epoch),
+        leading_(leading),
+        reactor_(mission_, journal_, doubtful),
         crash_(crash_points(node)),
         planner_(node, topics::plan_request),
         commands_(services::advertise(node, topics::command)),
@@ -77,10 +78,15 @@ class ExecService final : public services::Service {
       step_soon();
     });
     node.on_peer_change([this](const services::PeerChange& change) { take(change); });
+    if (leading_ != nullptr && node.options().clock == services::ClockMode::live)
+      node.on_turn([this] { announce_epoch(); });
     step_soon();
   }
 
-  ~ExecService() override { write_summary(); }
+  // The one of a leader that stood down would replace its successor's.
+  ~ExecService() override {
+    if (leading_ == nullptr || std::uncaught_exceptions() == 0) write_summary();
+  }
 
  private:
   // After a restart: who joins now hears of every goal and of the running plan, as before; the reactor itself
@@ -104,6 +110,21 @@ class ExecService final : public services::Service {
     report({NoteLevel::warning, "journal.diverged",
             "the journal does not lead to the state before the restart, all is planned anew: expected " +
                 divergence.expected + ", got " + divergence.got});
+  }
+
+  // Owners that know this epoch refuse what an earlier leader may still send. (The simulated clock drops it.)
+  void announce_epoch() {
+    if (epoch_announced_ || commands_.matched_readers() == 0) return;
+    epoch_announced_ = true;
+    std::set<std::string> owners;
+    for (const Component& component : mission_.components) owners.insert(component.owner);
+    for (const std::string& owner : owners) {
+      Command query;
+      query.action = CommandAction::query;
+      query.activity = kEpochKey;
+      query.owner = owner;
+      commands_.write(wire::to_wire(query, 0, epoch_));
+    }
   }
 
   void take(const services::PeerChange& change) {
@@ -140,6 +161,11 @@ class ExecService final : public services::Service {
   }
 
   void take(const v1::CommandAck& ack) {
+    if (ack.activity() == kEpochKey) return;
+    if (ack.refused_epoch() != 0 && leading_ != nullptr) {
+      if (ack.refused_epoch() == epoch_) leading_->refused();
+      return;  // of an earlier leader
+    }
     inputs_.acks.push_back(wire::from_wire(ack));
     seen_.push_back(wire::trace_line(ack));
     crash_.pass("after-ack");
@@ -158,10 +184,17 @@ class ExecService final : public services::Service {
     const ReactorOutputs out =
         reactor_.step(node_.now(), std::exchange(inputs_, {}), std::exchange(seen_, {}));
     crash_.pass("after-write-ahead");
-    send(out);
-    crash_.pass("after-send");
-    publish_mission();
     if (out.wake) wake_at(*out.wake);
+    const Reactor& reactor = reactor_.reactor();
+    auto send_all = [this, out, version = reactor.plan_version(), status = mission_status(reactor, mission_),
+                     hash = reactor_.trace_sha256()] {
+      if (leading_ != nullptr) crash_.pass("after-copy");
+      send(out, version);
+      crash_.pass("after-send");
+      publish(status, hash);
+    };
+    if (leading_ == nullptr) return send_all();
+    leading_->hold(std::move(send_all));
   }
 
   void wake_at(temporal::Time time) {
@@ -172,14 +205,15 @@ class ExecService final : public services::Service {
     });
   }
 
-  void send(const ReactorOutputs& out) {
-    const std::uint32_t version = reactor_.reactor().plan_version();
+  void send(const ReactorOutputs& out, std::uint32_t version) {
     for (const GoalRecord& goal : out.goal_changes) sent(goal_statuses_.write(wire::to_wire(goal)));
     if (out.adopted) sent(plans_.write(services::wire::to_wire(*out.adopted)));
     for (const Command& command : out.commands)
       sent(commands_.write(wire::to_wire(command, version, epoch_)));
     for (const StepStatus& step : out.steps) sent(steps_.write(wire::to_wire(step, version)));
     for (const Note& note : out.notes) report(note);
+    if (leading_ != nullptr)
+      for (const Note& note : leading_->take_notes()) report(note);
     if (out.call) call_planner(*out.call);
   }
 
@@ -215,69 +249,34 @@ class ExecService final : public services::Service {
     step_soon();
   }
 
-  void publish_mission() {
-    v1::MissionStatus status;
-    const Reactor& reactor = reactor_.reactor();
-    const ReactorCounts counts = reactor.counts();
-    status.mission(mission_.name);
-    status.phase(phase_to_wire(reactor.phase()));
-    status.plan_version(reactor.plan_version());
-    status.replans(counts.replans);
-    status.goals_achieved(counts.achieved);
-    status.goals_dropped(counts.dropped);
-    status.goals_failed(counts.failed);
-    status.goals_open(counts.open);
-    status.outcome(reactor.outcome());
-    for (const WindowModel& window : mission_.windows) {
-      for (const auto& [opens, closes] : window.open) {
-        v1::PredictedWindow predicted;
-        predicted.timeline(window.timeline);
-        predicted.opens_us(opens.count());
-        predicted.closes_us(closes.count());
-        status.windows().push_back(predicted);
-      }
-    }
+  void publish(v1::MissionStatus status, const std::string& trace_sha256) {
     if (status == last_status_) return;
     last_status_ = status;
-    status.trace_sha256(reactor_.trace_sha256());
-    missions_.write(status);
-    if (!status.outcome().empty()) write_summary();
+    status.trace_sha256(trace_sha256);
+    const bool ended = !status.outcome().empty();
+    missions_.write(std::move(status));
+    if (ended) write_summary();
   }
 
-  // The part of the run's summary that this service knows; the launcher adds the rest.
   void write_summary() const {
-    const ReactorCounts counts = reactor_.reactor().counts();
-    const std::string outcome = reactor_.reactor().outcome();
-    const nlohmann::json summary{{"mission", mission_.name},
-                                 {"scenario", settings_.scenario},
-                                 {"seed", settings_.seed},
-                                 {"result", outcome.empty() ? "failed" : outcome},
-                                 {"goals",
-                                  {{"achieved", counts.achieved},
-                                   {"dropped", counts.dropped},
-                                   {"failed", counts.failed},
-                                   {"open", counts.open}}},
-                                 {"planner",
-                                  {{"calls", counts.planner_calls},
-                                   {"max_s", slowest_call_s_},
-                                   {"max_rss_mb", planner_peak_kb_ / 1024.0}}},
-                                 {"replans", counts.replans},
-                                 {"sim_s", temporal::to_seconds(node_.now())},
-                                 {"trace_sha256", reactor_.trace_sha256()}};
-    std::ofstream(settings_.run_folder / "summary.json") << summary.dump(2) << "\n";
+    exec::write_summary(settings_, mission_, reactor_.reactor(),
+                        {slowest_call_s_, planner_peak_kb_ / 1024.0, temporal::to_seconds(node_.now()),
+                         reactor_.trace_sha256(), journal_.file(), epoch_});
   }
 
   Node& node_;
   services::RunSettings settings_;
   MissionModel mission_;
-  Journal journal_;
+  Journal& journal_;
   std::uint64_t epoch_;
+  LeadingService* leading_;  // none: no other executive follows
   JournaledReactor reactor_;
   CrashPoints crash_;
   ReactorInputs inputs_;
   std::vector<std::string> seen_;                // the inputs' lines of the trace
   std::map<std::string, std::uint32_t> missed_;  // services of before the restart, not heard of since
   bool step_due_ = false;
+  bool epoch_announced_ = false;
   std::optional<Node::TimerId> wake_timer_;
   v1::MissionStatus last_status_;
   double slowest_call_s_ = 0;
@@ -292,10 +291,28 @@ class ExecService final : public services::Service {
   services::Publisher<v1::Event> events_;
 };
 
+// With a journal of its own.
+class LoneExecutive final : public services::Service {
+ public:
+  LoneExecutive(Node& node, const services::RunSettings& settings)
+      : journal_(settings.run_folder / "journal.sqlite",
+                 node.options().clock == services::ClockMode::live ? Durability::power : Durability::process),
+        executive_(node, settings, journal_, journal_.next_epoch(), nullptr, false) {}
+
+ private:
+  Journal journal_;
+  ExecService executive_;
+};
+
 }  // namespace
 
 std::unique_ptr<services::Service> make_service(Node& node, const services::RunSettings& settings) {
-  return std::make_unique<ExecService>(node, settings);
+  return std::make_unique<LoneExecutive>(node, settings);
+}
+
+std::unique_ptr<services::Service> make_executive(Node& node, const services::RunSettings& settings,
+                                                  Journal& journal, LeadingService& leading, bool doubtful) {
+  return std::make_unique<ExecService>(node, settings, journal, leading.epoch(), &leading, doubtful);
 }
 
 }  // namespace roci::exec

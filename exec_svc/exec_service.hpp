@@ -8,6 +8,14 @@
 
 namespace roci::exec {
 
+class Journal;
+class LeadingService;
+
+// Alone, with the journal of the run folder.
 std::unique_ptr<services::Service> make_service(services::Node&, const services::RunSettings&);
+
+// The leader of a pair; `doubtful` as in JournaledReactor.
+std::unique_ptr<services::Service> make_executive(services::Node&, const services::RunSettings&, Journal&,
+                                                  LeadingService&, bool doubtful);
 
 }  // namespace roci::exec

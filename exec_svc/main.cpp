@@ -1,6 +1,17 @@
 #include "exec_svc/exec_service.hpp"
-#include "services/service.hpp"
+#include "exec_svc/standby/pair_service.hpp"
+#include "services/service_options.hpp"
 
-int main(int argc, char** argv) {
-  return roci::services::service_main(argc, argv, "exec_svc", roci::exec::make_service);
+namespace {
+
+void run(const roci::services::ServiceOptions& options, roci::services::StopSignals& signals) {
+  if (options.run.pair.empty()) {
+    roci::services::run_service(options, signals, roci::exec::make_service);
+  } else {
+    roci::exec::run_pair(options, signals);
+  }
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return roci::services::service_main(argc, argv, "exec_svc", run); }

@@ -37,6 +37,26 @@ PlanAnswer from_wire(std::uint64_t call, const v1::PlanReply& in) {
   return out;
 }
 
+v1::Goal to_wire(const GoalRequest& in) {
+  v1::Goal out;
+  out.issuer(in.key.issuer);
+  out.id(in.key.id);
+  out.goal_kind(in.kind);
+  for (const auto& [name, value] : in.arguments) {
+    v1::Property argument;
+    argument.name(name);
+    argument.value(value);
+    out.arguments().push_back(std::move(argument));
+  }
+  out.importance(static_cast<v1::GoalClass>(in.importance));
+  out.utility(in.utility);
+  out.priority(in.priority);
+  out.opens_us(in.opens.count());
+  out.closes_us(in.closes.count());
+  out.recalled(in.recalled);
+  return out;
+}
+
 v1::GoalStatus to_wire(const GoalRecord& in) {
   v1::GoalStatus out;
   out.issuer(in.request.key.issuer);

@@ -28,6 +28,8 @@ Node::TimerId Node::after(Duration wait, std::function<void()> fire) {
 
 void Node::cancel(TimerId timer) { impl_->timers.cancel(timer); }
 
+void Node::on_turn(std::function<void()> handler) { impl_->on_turn.push_back(std::move(handler)); }
+
 void Node::on_peer_change(std::function<void(const PeerChange&)> handler) {
   impl_->on_peer_change.push_back(std::move(handler));
 }

@@ -30,7 +30,7 @@ struct MasterOptions {
   std::vector<std::string> roster;  // services that must be ready before time 0, this one included
   double pace = 0;                  // simulated seconds per wall second; 0: as fast as possible
   double hang_limit_s = 60;         // wall time after which a participant without progress counts as dead
-  double restart_hold_s = 0;        // wall time for which mission time stands still so that a killed one may return
+  double restart_hold_s = 0;  // wall time for which mission time stands still so that a killed one may return
 };
 
 struct NodeOptions {
@@ -81,6 +81,10 @@ class Node {
   TimerId at(Time, std::function<void()>);  // at a past time: in the next turn of the loop
   TimerId after(Duration, std::function<void()>);
   void cancel(TimerId);
+
+  // Called in each turn of the loop, before timers fire: four times a second at least, in wall time, also
+  // while the simulated clock stands still.
+  void on_turn(std::function<void()>);
 
   void on_peer_change(std::function<void(const PeerChange&)>);
   bool peer_alive(std::string_view service) const;

@@ -35,6 +35,8 @@ template struct Wire<v1::ClockReady>;
 template struct Wire<v1::ClockStep>;
 template struct Wire<v1::ClockDone>;
 template struct Wire<v1::Heartbeat>;
+template struct Wire<v1::ExecMember>;
+template struct Wire<v1::JournalParcel>;
 template struct Wire<v1::Event>;
 template struct Wire<v1::Goal>;
 template struct Wire<v1::GoalStatus>;

@@ -23,6 +23,7 @@ struct RunSettings {
   std::string scenario = "nominal";  // scenarios/<name>.yaml in the mission folder
   std::uint64_t seed = 1;
   std::filesystem::path run_folder;  // journal, summary.json, logs of this run
+  std::string pair;  // "first", "second": of two processes that stand in for each other; empty: it is alone
 };
 
 using MakeService = std::unique_ptr<Service>(Node&, const RunSettings&);
@@ -34,5 +35,15 @@ inline constexpr char kExpectedFile[] = "expected.json";
 // and SIGINT stop it cleanly). Returns a process exit code (docs/exit-codes.md); errors go to standard error
 // with their remedy.
 int service_main(int argc, char** argv, const std::string& name, MakeService* make);
+
+struct ServiceOptions;
+class StopSignals;
+
+// The same for a process that opens its nodes itself, one after the other.
+using RunProcess = void(const ServiceOptions&, StopSignals&);
+int service_main(int argc, char** argv, const std::string& name, RunProcess* run);
+
+// One node, one service, until it is stopped.
+void run_service(const ServiceOptions&, StopSignals&, MakeService* make);
 
 }  // namespace roci::services

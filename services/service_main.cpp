@@ -1,5 +1,6 @@
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <iostream>
 
 #include "core/mission/entry.hpp"
@@ -15,36 +16,15 @@ namespace {
 // docs/exit-codes.md, "Services".
 enum ExitCode { kStopped = 0, kFailed = 1, kBadInput = 2, kNoTransport = 3, kClockGone = 4 };
 
-std::unique_ptr<Transport> connect(const Connection& connection) {
-  if (connection.dds == "inproc") {
-    throw TransportError(
-        "inproc joins services inside one process: run roci-rehearse, or choose a DDS vendor with --dds");
-  }
-  return open_transport(connection.dds, connection.transport);
-}
-
-int run_service(ServiceOptions options, MakeService* make) {
-  StopSignals signals;
-  if (options.count_incarnation) {
-    options.node.incarnation = next_incarnation(options.run.run_folder, options.node.name);
-  }
-  Node node(options.node, connect(options.connection));
-  const auto service = make(node, options.run);
-  signals.watch([&node] { node.stop(); });
-  node.run();
-  return kStopped;
-}
-
 int report(const std::string& name, const std::exception& error, int code) {
   std::cerr << name << ": " << error.what() << '\n';
   return code;
 }
 
-}  // namespace
-
-int service_main(int argc, char** argv, const std::string& name, MakeService* make) {
+int guarded(const std::string& name, const std::function<void()>& run) {
   try {
-    return run_service(parse_service_options(argc, argv, name, process_environment()), make);
+    run();
+    return kStopped;
   } catch (const CommandLineEnd& end) {
     (end.exit_code == 0 ? std::cout : std::cerr) << end.what();
     return end.exit_code;
@@ -59,6 +39,40 @@ int service_main(int argc, char** argv, const std::string& name, MakeService* ma
   } catch (const std::exception& error) {
     return report(name, error, kFailed);
   }
+}
+
+}  // namespace
+
+std::unique_ptr<Transport> connect(const Connection& connection) {
+  if (connection.dds == "inproc") {
+    throw TransportError(
+        "inproc joins services inside one process: run roci-rehearse, or choose a DDS vendor with --dds");
+  }
+  return open_transport(connection.dds, connection.transport);
+}
+
+void run_service(const ServiceOptions& options, StopSignals& signals, MakeService* make) {
+  NodeOptions node_options = options.node;
+  if (options.count_incarnation)
+    node_options.incarnation = next_incarnation(options.run.run_folder, node_options.name);
+  Node node(node_options, connect(options.connection));
+  const auto service = make(node, options.run);
+  signals.watch([&node] { node.stop(); });
+  node.run();
+}
+
+int service_main(int argc, char** argv, const std::string& name, RunProcess* run) {
+  return guarded(name, [&] {
+    StopSignals signals;
+    run(parse_service_options(argc, argv, name, process_environment()), signals);
+  });
+}
+
+int service_main(int argc, char** argv, const std::string& name, MakeService* make) {
+  return guarded(name, [&] {
+    StopSignals signals;
+    run_service(parse_service_options(argc, argv, name, process_environment()), signals, make);
+  });
 }
 
 }  // namespace roci::services

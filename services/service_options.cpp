@@ -17,6 +17,8 @@ void add_run(CLI::App& app, RunSettings& run) {
   app.add_option("--scenario", run.scenario, "scenarios/NAME.yaml of the mission")->capture_default_str();
   app.add_option("--seed", run.seed, "Seed of everything random")->capture_default_str();
   app.add_option("--run-folder", run.run_folder, "Folder for journal, logs and summary of this run");
+  app.add_option("--pair", run.pair, "exec_svc: which of two processes that stand in for each other this is")
+      ->check(CLI::IsMember({"first", "second"}));
 }
 
 void add_connection(CLI::App& app, ConnectionFlags& flags) {

@@ -1,6 +1,7 @@
 // The command line of every service process.
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -27,5 +28,8 @@ class CommandLineEnd : public std::runtime_error {
 // Throws CommandLineEnd, and what resolve_connection throws.
 ServiceOptions parse_service_options(int argc, const char* const* argv, const std::string& name,
                                      const Environment&);
+
+// Throws TransportError; inproc is none for a process.
+std::unique_ptr<Transport> connect(const Connection&);
 
 }  // namespace roci::services

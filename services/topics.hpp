@@ -10,6 +10,7 @@
 #include "roci_idl/motion.h"
 #include "roci_idl/plan.h"
 #include "roci_idl/planner.h"
+#include "roci_idl/standby.h"
 #include "services/transport.hpp"
 
 namespace roci::services {
@@ -32,6 +33,9 @@ inline constexpr Topic<v1::ClockReady> clock_ready{"roci/clock/ready", "roci::v1
 inline constexpr Topic<v1::ClockStep> clock_step{"roci/clock/step", "roci::v1::ClockStep", Qos::state, wall};
 inline constexpr Topic<v1::ClockDone> clock_done{"roci/clock/done", "roci::v1::ClockDone", Qos::state, wall};
 inline constexpr Topic<v1::Heartbeat> heartbeat{"roci/heartbeat", "roci::v1::Heartbeat", Qos::state, wall};
+
+inline constexpr Topic<v1::ExecMember> exec_member{"roci/exec/member", "roci::v1::ExecMember", Qos::state, wall};
+inline constexpr Topic<v1::JournalParcel> exec_journal{"roci/exec/journal", "roci::v1::JournalParcel", Qos::request, wall};
 
 inline constexpr Topic<v1::Event> event{"roci/event", "roci::v1::Event", Qos::event, clocked};
 inline constexpr Topic<v1::Goal> goal{"roci/goal", "roci::v1::Goal", Qos::state, clocked};

@@ -10,10 +10,13 @@ std::optional<Ack> CommandLedger::take(const ActivityKey& key, std::uint64_t epo
 
 std::optional<Ack> CommandLedger::refuse_old(const ActivityKey& key, std::uint64_t epoch, Time now) {
   if (epoch < epoch_) {
-    return Ack{key, Stage::rejected, "old-epoch",
+    return Ack{key,
+               Stage::rejected,
+               "old-epoch",
                "epoch " + std::to_string(epoch) + " is over; the executive in charge has epoch " +
                    std::to_string(epoch_),
-               now};
+               now,
+               epoch};
   }
   epoch_ = epoch;
   return std::nullopt;

@@ -56,6 +56,7 @@ struct Ack {
   std::string code;
   std::string reason;
   Time at{};
+  std::uint64_t refused_epoch = 0;  ///< of the request, if it was refused for it
   bool operator==(const Ack&) const = default;
 };
 

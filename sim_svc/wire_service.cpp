@@ -84,6 +84,7 @@ v1::CommandAck to_wire(const Ack& ack, const std::string& owner) {
   out.owner(owner);
   out.code(ack.code);
   out.reason(ack.reason);
+  out.refused_epoch(ack.refused_epoch);
   return out;
 }
 

@@ -13,8 +13,11 @@ from pathlib import Path
 VENDORS = ["fastdds", "cyclonedds", "mixed"]
 # sim_svc is the clock of the run and the world itself: with it the run ends, on purpose.
 KILLABLE = ["exec_svc", "planner_svc", "pathplan_svc", "arm_svc", "science_svc"]
-CRASH_POINTS = ["after-goal", "after-ack", "after-answer", "before-write-ahead", "after-write-ahead", "during-send",
-                "after-send"]
+# With a standby the victims are roles: who leads, who stands by, both; a stopped leader goes on after STOPPED_S.
+PAIR_VICTIMS = ["leader", "leader", "leader", "leader stopped", "standby", "both"]
+STOPPED_S = 4.0
+CRASH_POINTS = ["after-goal", "after-ack", "after-answer", "before-write-ahead", "after-write-ahead", "after-copy",
+                "during-send", "after-send"]
 LONGEST_S = 120
 
 
@@ -34,6 +37,7 @@ class Flight:
     result: str = ""
     sim_s: float = 0.0
     killed: int = 0
+    take_overs_s: list[float] = field(default_factory=list)  # from the leader's death to its successor's first step
     goals: dict[str, tuple[int, str]] = field(default_factory=dict)  # state, reason
     requested: set[str] = field(default_factory=set)
     begun: list[dict] = field(default_factory=list)
@@ -52,26 +56,90 @@ def children(parent: int) -> dict[str, int]:
     return found
 
 
-def mission_time(log: Path) -> float:
-    """Of the newest thing that the journal knows; it is written ahead of everything that happens."""
+def members(launcher: int) -> dict[str, int]:
+    """The processes of the pair: "first", "second"."""
+    found = {}
+    for task in Path(f"/proc/{launcher}/task").glob("*/children"):
+        for pid in task.read_text().split():
+            try:
+                words = Path(f"/proc/{pid}/cmdline").read_text().split("\0")
+                if "--pair" in words:
+                    found[words[words.index("--pair") + 1]] = int(pid)
+            except OSError:
+                pass
+    return found
+
+
+def newest_epoch(folder: Path) -> int:
+    newest = 0
+    for file in (folder / "standing", folder / "standby/standing"):
+        try:
+            newest = max(newest, int(file.read_text().split()[0]))
+        except (OSError, ValueError, IndexError):
+            pass
+    return newest
+
+
+def ask(journal: Path, question: str) -> float:
     try:
-        with sqlite3.connect(f"file:{log}?mode=ro", uri=True, timeout=1) as database:
-            return (database.execute("SELECT time_us FROM record ORDER BY seq DESC LIMIT 1").fetchone() or [0])[0] / 1e6
+        with sqlite3.connect(f"file:{journal}?mode=ro", uri=True, timeout=1) as database:
+            return (database.execute(question).fetchone() or [0])[0] or 0
     except sqlite3.Error:
-        return 0.0
+        return 0
+
+
+def journals(folder: Path) -> list[Path]:
+    return [file for file in (folder / "journal.sqlite", folder / "standby/journal.sqlite") if file.exists()]
+
+
+def mission_time(folder: Path) -> float:
+    """Of the newest thing that a journal knows; it is written ahead of everything that happens."""
+    newest = "SELECT time_us FROM record ORDER BY seq DESC LIMIT 1"
+    return max((ask(file, newest) / 1e6 for file in journals(folder)), default=0.0)
+
+
+def resumed(folder: Path) -> float:
+    count = "SELECT COUNT(*) FROM record WHERE kind='event' AND text LIKE 'executive.resumed%'"
+    return max((ask(file, count) for file in journals(folder)), default=0)
+
+
+def send(pid: int | None, number: int) -> bool:
+    try:
+        if pid:
+            os.kill(pid, number)
+        return bool(pid)
+    except ProcessLookupError:
+        return False
+
+
+def kill_member(launcher: subprocess.Popen, flight: Flight, victim: str) -> None:
+    leader = "first" if newest_epoch(flight.folder) % 2 == 1 else "second"
+    processes = members(launcher.pid)
+    names = {"standby": {"first", "second"} - {leader}, "both": {"first", "second"}}.get(victim, {leader})
+    before, start = resumed(flight.folder), time.monotonic()
+    number = signal.SIGSTOP if victim == "leader stopped" else signal.SIGKILL
+    flight.killed += sum(send(processes.get(name), number) for name in names)
+    if victim not in ("leader", "leader stopped"):
+        return
+    while launcher.poll() is None and resumed(flight.folder) == before and time.monotonic() < start + 30:
+        time.sleep(0.005)
+    if launcher.poll() is None and resumed(flight.folder) > before:
+        flight.take_overs_s.append(time.monotonic() - start)
+    if victim == "leader stopped":
+        time.sleep(max(0.0, start + STOPPED_S - time.monotonic()))
+        send(processes.get(leader), signal.SIGCONT)
 
 
 def kill_in_flight(launcher: subprocess.Popen, flight: Flight, kills: Kills, sim_s: float) -> None:
     for share, victim in kills.at:
-        while launcher.poll() is None and mission_time(flight.folder / "journal.sqlite") < share * sim_s:
+        while launcher.poll() is None and mission_time(flight.folder) < share * sim_s:
             time.sleep(0.002)
-        pid = children(launcher.pid).get(victim)
-        if launcher.poll() is None and pid:
-            try:
-                os.kill(pid, signal.SIGKILL)
-                flight.killed += 1
-            except ProcessLookupError:
-                pass
+        if launcher.poll() is not None:
+            return
+        if victim in PAIR_VICTIMS:
+            kill_member(launcher, flight, victim)
+        else:
+            flight.killed += send(children(launcher.pid).get(victim), signal.SIGKILL)
 
 
 def fly(options, folder: Path, dds: str, scenario: str, seed: int, kills: Kills, sim_s: float = 0.0) -> Flight:
@@ -79,26 +147,29 @@ def fly(options, folder: Path, dds: str, scenario: str, seed: int, kills: Kills,
     environment = dict(os.environ, ROCI_CRASH=kills.crash)
     command = [options.bin / "roci-launch", options.mission, "--dds", dds, "--scenario", scenario, "--seed", str(seed),
                "--clock", options.clock, "--speed", options.speed, "--headless", "--json", "--run-folder", folder]
+    command += ["--standby"] if options.standby else []
     launcher = subprocess.Popen([str(word) for word in command], env=environment, text=True, stdout=subprocess.PIPE,
                                 stderr=subprocess.PIPE)
     kill_in_flight(launcher, flight, kills, sim_s)
+    journal = "journal.sqlite"
     try:
         output, flight.error = launcher.communicate(timeout=LONGEST_S)
         flight.exit_code = launcher.returncode
         summary = json.loads(output.strip().splitlines()[-1])
         flight.result, flight.sim_s = summary["result"], summary.get("sim_s", 0.0)
+        journal = summary.get("journal", journal)
     except subprocess.TimeoutExpired:
         launcher.terminate()
         launcher.communicate()
     except (ValueError, IndexError):
         pass
-    read(flight, scenario, options.mission)
+    read(flight, flight.folder / journal, scenario, options.mission)
     return flight
 
 
-def read(flight: Flight, scenario: str, mission: Path) -> None:
+def read(flight: Flight, journal: Path, scenario: str, mission: Path) -> None:
     try:
-        with sqlite3.connect(f"file:{flight.folder / 'journal.sqlite'}?mode=ro", uri=True) as database:
+        with sqlite3.connect(f"file:{journal}?mode=ro", uri=True) as database:
             for issuer, name, state, reason in database.execute("SELECT issuer, id, state, reason FROM goal"):
                 flight.goals[f"{issuer}/{name}"] = (state, reason)
             flight.events = [row[0] for row in database.execute("SELECT text FROM record WHERE kind='event' ORDER BY seq")]

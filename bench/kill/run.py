@@ -5,23 +5,27 @@ import argparse
 import json
 import random
 import shutil
+import statistics
 import sys
 import tempfile
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from flight import CRASH_POINTS, KILLABLE, VENDORS, Kills, fly
+from flight import CRASH_POINTS, KILLABLE, PAIR_VICTIMS, VENDORS, Kills, fly
 from judge import Judgement, judge
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def draw(rng: random.Random, number: int) -> Kills:
-    """Half by crash points of exec_svc, half by kill -9 of any service at random moments."""
+def draw(rng: random.Random, number: int, standby: bool) -> Kills:
+    """Half by crash points of exec_svc, half by kill -9 of any service, or of a pair's members, at random moments."""
     if number % 2 == 0:
         points = [f"{rng.choice(CRASH_POINTS)}:{int(10 ** rng.uniform(0, 2.5))}" for _ in range(rng.randint(1, 3))]
         return Kills(crash=",".join(points))
+    if standby:
+        victims = [rng.choice(PAIR_VICTIMS) for _ in range(rng.randint(1, 3))]
+        return Kills(at=sorted((rng.uniform(0.01, 0.95), victim) for victim in victims))
     # exec_svc as often as all others; a moment is a share of the mission time of the undisturbed flight.
     victims = [rng.choice(KILLABLE + ["exec_svc"] * len(KILLABLE)) for _ in range(rng.randint(1, 3))]
     return Kills(at=sorted((rng.uniform(0.01, 0.95), victim) for victim in victims))
@@ -36,6 +40,7 @@ def parse() -> argparse.Namespace:
     parser.add_argument("--scenarios", default="nominal,opportunistic,blocked_window,comm_lost,battery_low,too_many,arm_fault")
     parser.add_argument("--clock", default="simulated", help="live: samples may leave by halves; flights take their time")
     parser.add_argument("--speed", default="max", help="with --clock live e.g. 300")
+    parser.add_argument("--standby", action="store_true", help="a pair of executives; the leader is what dies")
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin")
     parser.add_argument("--out", type=Path, help="keep the run folders of flights that were not as they should be here")
     parser.add_argument("--json", action="store_true", help="the last line of standard output is the result as JSON")
@@ -50,6 +55,14 @@ def table(rows: dict[str, Counter]) -> str:
     return "\n".join(lines)
 
 
+def take_over_table(take_overs: dict[str, list[float]]) -> str:
+    lines = ["| seconds from the leader's end to its successor's first step | take-overs | least | median | most |", "|---|---|---|---|---|"]
+    for name, times in sorted(take_overs.items()):
+        if times:
+            lines.append(f"| {name} | {len(times)} | {min(times):.2f} | {statistics.median(times):.2f} | {max(times):.2f} |")
+    return "\n".join(lines)
+
+
 def main() -> int:
     options = parse()
     rng = random.Random(options.seed)
@@ -57,7 +70,7 @@ def main() -> int:
     work = Path(tempfile.mkdtemp(prefix="roci_kill_"))
     plans = []
     for number in range(options.runs):
-        plans.append((number, rng.choice(VENDORS), rng.choice(scenarios), rng.randint(1, 3), draw(rng, number)))
+        plans.append((number, rng.choice(VENDORS), rng.choice(scenarios), rng.randint(1, 3), draw(rng, number, options.standby)))
     calm = {}
     for scenario, seed in sorted({(plan[2], plan[3]) for plan in plans}):
         calm[scenario, seed] = fly(options, work / f"calm-{scenario}-{seed}", "fastdds", scenario, seed, Kills())
@@ -70,10 +83,12 @@ def main() -> int:
 
     rows: dict[str, Counter] = {}
     faults = []
+    take_overs: dict[str, list[float]] = {}
     with ThreadPoolExecutor(options.jobs) as pool:
         for (number, dds, scenario, seed, kills), flight, judgement in pool.map(one, plans):
             for name in ("all", dds, "crash points" if kills.crash else "kill -9"):
                 rows.setdefault(name, Counter()).update(judgement.counts)
+            take_overs.setdefault(dds, []).extend(flight.take_overs_s)
             if judgement.faults:
                 faults.append({"run": number, "dds": dds, "scenario": scenario, "seed": seed, "kills": kills.text(),
                                "faults": judgement.faults})
@@ -84,8 +99,11 @@ def main() -> int:
             shutil.rmtree(flight.folder, ignore_errors=True)
     shutil.rmtree(work, ignore_errors=True)
     print(table(rows))
+    if options.standby:
+        print(take_over_table(take_overs))
     if options.json:
-        print(json.dumps({"runs": options.runs, "seed": options.seed, "counts": rows, "faults": faults}))
+        print(json.dumps({"runs": options.runs, "seed": options.seed, "counts": rows, "take_overs_s": take_overs,
+                          "faults": faults}))
     return 1 if faults else 0
 
 

@@ -12,12 +12,13 @@
 namespace roci::exec {
 
 // In the order of one turn.
-inline constexpr std::array<std::string_view, 7> kCrashPoints{
+inline constexpr std::array<std::string_view, 8> kCrashPoints{
     "after-goal",          // a goal came in
     "after-ack",           // the owner answered a command: it has been carried out, or is
     "after-answer",        // the planner answered
     "before-write-ahead",  // all inputs of a turn are there, nothing is journaled
     "after-write-ahead",   // inputs and decisions are durable, nothing was sent
+    "after-copy",          // the follower has them too (exec_svc/standby), nothing was sent
     "during-send",         // between two samples sent
     "after-send",          // everything was sent, no effect seen
 };

@@ -15,6 +15,7 @@
 
 #include "core/temporal/duration.hpp"
 #include "exec_svc/goals/goal_set.hpp"
+#include "exec_svc/journal/batch.hpp"
 
 namespace roci::exec {
 
@@ -30,16 +31,36 @@ enum class Durability {
 
 class Journal {
  public:
+  struct Database;  // database.hpp
+
   // Opens or creates the file. Throws JournalError naming the file when it is not a journal or cannot be
   // written.
   Journal(const std::filesystem::path& file, Durability durability);
   ~Journal();
+
+  const std::filesystem::path& file() const { return file_; }
 
   // Entries since the last commit become durable together.
   void commit();
 
   // Rises by one with each call: the epoch of this start of the executive.
   std::uint64_t next_epoch();
+
+  // For copies. From now on every commit that changes something is the next one of this epoch, and is kept
+  // for take_batches(): in order, those since the last call.
+  void begin_epoch(std::uint64_t epoch);
+  std::vector<Batch> take_batches();
+  bool empty() const;  // no goals, no records
+  // {0, 0} for a journal that no epoch of a pair has written to.
+  Position position() const;
+  // Makes the same change here, in one commit. Throws JournalError when the batch does not fit or cannot be
+  // read; nothing has changed then.
+  void apply(const Batch& batch);
+  // The whole journal up to the last commit, position included, as the bytes of its file; and this journal
+  // from such bytes, what was in it is gone. Throws JournalError when they are not a journal; nothing has
+  // changed then.
+  std::string whole() const;
+  void become(std::string_view whole);
 
   void put_goal(const GoalRecord& record);
   std::vector<GoalRecord> goals() const;
@@ -71,7 +92,8 @@ class Journal {
   std::int64_t number(std::string_view name, std::int64_t fallback) const;
 
  private:
-  struct Database;
+  std::filesystem::path file_;
+  Durability durability_;
   std::unique_ptr<Database> database_;
 };
 

@@ -13,6 +13,9 @@ constexpr std::int64_t kFormat = 2;
 // A replay of so many turns takes a moment, no more; an anchor is written then wherever the reactor rests.
 constexpr std::size_t kTurnsUntilAnchor = 500;
 
+// So many plans another executive has not made meanwhile.
+constexpr std::int64_t kPlansOfAnother = 1000;
+
 // Of requests the journal's table keeps what can be shown; the inputs have them exactly.
 bool same(const GoalRecord& a, const GoalRecord& b) {
   return a.request.key == b.request.key && a.state == b.state && a.reason == b.reason &&
@@ -21,12 +24,12 @@ bool same(const GoalRecord& a, const GoalRecord& b) {
 
 }  // namespace
 
-JournaledReactor::JournaledReactor(const MissionModel& mission, Journal& journal)
+JournaledReactor::JournaledReactor(const MissionModel& mission, Journal& journal, bool doubtful)
     : mission_(&mission), journal_(&journal), reactor_(std::make_unique<Reactor>(mission)) {
-  recover();
+  recover(doubtful);
 }
 
-void JournaledReactor::recover() {
+void JournaledReactor::recover(bool doubtful) {
   bool empty = true;
   journal_->for_each([&](temporal::Time, std::string_view kind, std::string_view text) {
     empty = false;
@@ -37,7 +40,12 @@ void JournaledReactor::recover() {
     return;
   }
   recovery_.restarted = true;
-  recovery_.resumed = replay();
+  if (doubtful) {
+    journal_->set_number("plan_version", journal_->number("plan_version", 0) + kPlansOfAnother);
+    recovery_.divergence = Divergence{temporal::Time{0}, "all that was done", "perhaps a part of it"};
+  } else {
+    recovery_.resumed = replay();
+  }
   if (recovery_.resumed) {
     resume_due_ = true;
   } else {

@@ -28,7 +28,9 @@ struct Recovery {
 class JournaledReactor {
  public:
   // Both outlive this. Throws JournalError.
-  JournaledReactor(const MissionModel& mission, Journal& journal);
+  // `doubtful`: another executive may have gone on from this journal; its goals count, all else is planned
+  // anew, under numbers of plans that nobody used.
+  JournaledReactor(const MissionModel& mission, Journal& journal, bool doubtful = false);
 
   // Steps the reactor; returns when inputs and decisions are durable. `seen`: lines of the trace for the
   // inputs.
@@ -39,7 +41,7 @@ class JournaledReactor {
   std::string trace_sha256() const { return trace_.sha256(); }
 
  private:
-  void recover();
+  void recover(bool doubtful);
   bool replay();
   void begin_anew();
   void write(temporal::Time now, const ReactorInputs& inputs, const std::vector<std::string>& seen,

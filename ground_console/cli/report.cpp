@@ -55,6 +55,16 @@ json status_json(const MissionView& view) {
     out["replans"] = mission->replans();
     out["outcome"] = mission->outcome();
   }
+  if (const v1::ExecMember* leader = view.leader()) {
+    const std::uint64_t behind =
+        leader->has().commits() - std::min(leader->has().commits(), leader->receipt().commits());
+    out["executive"] = {{"leader", leader->member()},
+                        {"epoch", leader->epoch()},
+                        {"host", leader->host()},
+                        {"process_id", leader->process_id()},
+                        {"standby_ready", leader->entitled()},
+                        {"standby_commits_behind", behind}};
+  }
   for (const auto& [key, status] : view.goals()) out["goals"].push_back(to_json(status));
   for (const auto& [name, heartbeat] : view.services()) {
     out["services"].push_back({{"name", name},
@@ -109,6 +119,7 @@ std::string status_text(const MissionView& view) {
   } else {
     out += "no status from exec_svc\n";
   }
+  if (const v1::ExecMember* leader = view.leader()) out += "executive: " + pair_text(*leader) + "\n";
   out += "\nGoals\n";
   for (const auto& [key, status] : view.goals()) out += "  " + goal_line(status) + "\n";
   out += "\nServices\n";

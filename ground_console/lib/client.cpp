@@ -96,6 +96,7 @@ Client::Client(const services::Connection& connection)
   follow(topics::hazard);
   follow(topics::event);
   follow(topics::heartbeat);
+  follow(topics::exec_member);
 }
 
 template <class T>

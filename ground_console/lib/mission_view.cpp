@@ -108,6 +108,20 @@ void MissionView::take(const v1::Heartbeat& heartbeat) {
   if (!added && age(heartbeat) >= age(entry->second)) entry->second = heartbeat;
 }
 
+void MissionView::take(const v1::ExecMember& member) {
+  v1::ExecMember& known = members_[member.member()];
+  if (member.epoch() >= known.epoch()) known = member;
+}
+
+const v1::ExecMember* MissionView::leader() const {
+  const v1::ExecMember* leader = nullptr;
+  for (const auto& [name, member] : members_) {
+    if (member.exec_role() == v1::EXEC_LEADING && (leader == nullptr || member.epoch() > leader->epoch()))
+      leader = &member;
+  }
+  return leader;
+}
+
 const v1::Goal* MissionView::goal(const GoalKey& key) const { return found_or_null(goals_, key); }
 
 const v1::StepStatus* MissionView::step(const std::string& activity) const {
@@ -165,6 +179,15 @@ std::string value_text(const v1::TimelineValue& value) {
   std::string out = value.state();
   for (const std::string& argument : value.arguments()) out += " " + argument;
   return out;
+}
+
+std::string pair_text(const v1::ExecMember& leader) {
+  const std::string other = leader.member() == "first" ? "second" : "first";
+  const std::uint64_t known = std::min(leader.has().commits(), leader.receipt().commits());
+  return leader.member() + " leads (epoch " + std::to_string(leader.epoch()) + "), " + other +
+         (leader.entitled()
+              ? " stands by, " + std::to_string(leader.has().commits() - known) + " commits behind"
+              : " does not stand by");
 }
 
 std::string clock_text(std::int64_t time_us) {

@@ -5,6 +5,7 @@
 #include "services/clock/barrier.hpp"
 #include "services/clock/clock_master.hpp"
 #include "services/clock/pace.hpp"
+#include "services/clock/restart_hold.hpp"
 #include "services/health/peer_table.hpp"
 #include "services/log.hpp"
 #include "services/node/impl.hpp"
@@ -38,7 +39,8 @@ class MasterBarrier : public Barrier {
         step_writer_(advertise(node, topics::clock_step)),
         master_(node.options().name, full_roster(node.options())),
         peers_(wall::seconds(node.options().master.hang_limit_s)),
-        pace_(node.options().master.pace, wall::now()) {
+        pace_(node.options().master.pace, wall::now()),
+        hold_(wall::seconds(node.options().master.restart_hold_s)) {
     subscribe(node, topics::clock_ready, [this](const v1::ClockReady& ready) { master_.ready(ready); });
     subscribe(node, topics::clock_done, [this](const v1::ClockDone& done) {
       peers_.seen(done.service(), done.incarnation(), wall::now());
@@ -83,23 +85,20 @@ class MasterBarrier : public Barrier {
 
   wall::Instant next_turn(wall::Instant now) const override {
     const auto window = master_.window();
-    if (!window || now < hold_until_) return now + wall::seconds(kIdleTurnS);
+    if (!window || hold_.holds(master_.missing().empty(), now)) return now + wall::seconds(kIdleTurnS);
     return std::min(pace_.earliest(window->earliest), now + wall::seconds(kIdleTurnS));
   }
 
  private:
   void lose(const PeerChange& change, wall::Instant now) {
     master_.lost(change.service, change.incarnation, change.cause);
-    // Somebody is about to start it again, or has, and it is about to say that it is ready; one that left or
-    // hangs will not be back soon.
-    if (change.cause == "killed" || change.cause == "restarted")
-      hold_until_ = now + wall::seconds(node_.options().master.restart_hold_s);
+    hold_.lost(change.cause, now);
   }
 
   void advance(wall::Instant now) {
     if (step_ && step_->last()) return;
     if (stopping_ && step_) return issue_last(now);
-    if (now < hold_until_ && !master_.missing().empty()) return;
+    if (hold_.holds(master_.missing().empty(), now)) return;
     const auto window = master_.window();
     if (!window || pace_.earliest(window->earliest) > now) return;
     const Time time = std::clamp(pace_.time_at(now), window->earliest, window->latest);
@@ -145,13 +144,13 @@ class MasterBarrier : public Barrier {
   ClockMaster master_;
   PeerTable peers_;
   Pace pace_;
+  RestartHold hold_;
   std::optional<v1::ClockStep> step_;
   bool stopping_ = false;
   bool noted_ = false;
   wall::Instant waiting_since_;
   wall::Instant show_time_;
   wall::Instant leave_by_;
-  wall::Instant hold_until_;
 };
 
 }  // namespace

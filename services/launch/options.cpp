@@ -27,9 +27,10 @@ std::optional<double> parse_speed(const std::string& text) {
   return speed;
 }
 
-std::vector<std::string> checked_services(const std::string& list) {
+std::vector<std::string> checked_services(const std::string& list, bool standby) {
   auto names = services::split_list(list);
   for (const std::string& name : names) {
+    if (standby && name == kStandby) continue;
     if (std::ranges::find(kAllServices, name) != kAllServices.end()) continue;
     std::string known;
     for (const std::string& service : kAllServices) known += " " + service;
@@ -59,6 +60,8 @@ Options parse_options(int argc, const char* const* argv, const services::Environ
       ->capture_default_str();
   app.add_flag("--headless", options.headless, "No progress display");
   app.add_flag("--json", options.json, "The last line of standard output is the summary as JSON");
+  app.add_flag("--standby", options.standby,
+               "A second exec_svc follows the first one and takes over from it");
   app.add_option("--services", service_list,
                  "Services to start on this host, separated by commas (default: all)");
   app.add_option("--roster", roster, "Services of the whole run, on all hosts (default: all)");
@@ -79,9 +82,12 @@ Options parse_options(int argc, const char* const* argv, const services::Environ
   options.speed = parse_speed(speed);
   if (options.live && options.speed == 0.0)
     throw std::invalid_argument("--speed max needs the simulated clock");
-  options.services = checked_services(service_list);
-  options.roster = checked_services(roster);
+  options.services = checked_services(service_list, options.standby);
+  if (options.standby && service_list.empty()) options.services.emplace_back(kStandby);
+  options.roster = checked_services(roster, false);
   options.connection = services::resolve_connection(flags, environment, options.mission);
+  if (options.standby && options.connection.dds == "inproc")
+    throw std::invalid_argument("--standby needs processes: choose another transport than inproc");
   options.domain_given = options.connection.transport.domain != 0;
   return options;
 }

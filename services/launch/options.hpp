@@ -19,6 +19,7 @@ struct Options {
   std::optional<double> speed;  // mission seconds per second; 0: as fast as possible; nothing: not given
   bool headless = false;
   bool json = false;
+  bool standby = false;               // exec_svc is one of a pair
   std::vector<std::string> services;  // started here
   std::vector<std::string> roster;    // of the whole run
   std::filesystem::path run_folder;   // empty: choose one
@@ -29,6 +30,9 @@ struct Options {
 inline const std::vector<std::string> kAllServices{"arm_svc",     "exec_svc",    "pathplan_svc",
                                                    "planner_svc", "science_svc", "sim_svc"};
 inline constexpr char kClockMaster[] = "sim_svc";
+// A second process of exec_svc, which stands by; it is no member of the roster of its own.
+inline constexpr char kExecutive[] = "exec_svc";
+inline constexpr char kStandby[] = "exec_svc.standby";
 
 // Throws services::CommandLineEnd, std::invalid_argument, mission::FileError.
 Options parse_options(int argc, const char* const* argv, const services::Environment&);

@@ -47,13 +47,16 @@ double pace_of(const Options& options) { return options.speed.value_or(kDefaultP
 
 std::string vendor_of(const std::string& program, const std::string& dds) {
   if (dds != "mixed") return dds;
-  return program == "planner_svc" || program == kConsole ? "cyclonedds" : "fastdds";
+  const bool other = program == "planner_svc" || program == kConsole || program == kStandby;
+  return other ? "cyclonedds" : "fastdds";
 }
+
+std::string program_of(const std::string& service) { return service == kStandby ? kExecutive : service; }
 
 std::vector<std::string> service_arguments(const Options& options, const std::string& service,
                                            std::uint32_t incarnation, std::int64_t epoch_unix_us) {
   const auto& transport = options.connection.transport;
-  std::vector<std::string> arguments{service,
+  std::vector<std::string> arguments{program_of(service),
                                      "--mission",
                                      options.mission.string(),
                                      "--scenario",
@@ -73,6 +76,10 @@ std::vector<std::string> service_arguments(const Options& options, const std::st
                                      "--incarnation",
                                      std::to_string(incarnation)};
   add_clock(options, service, epoch_unix_us, arguments);
+  if (options.standby && (service == kExecutive || service == kStandby)) {
+    arguments.emplace_back("--pair");
+    arguments.emplace_back(service == kExecutive ? "first" : "second");
+  }
   return arguments;
 }
 

@@ -9,9 +9,13 @@
 
 namespace roci::launch {
 
-// Of a whole run: "mixed" means the planner and the console on one vendor, the rest on the other.
+// Of a whole run: "mixed" means the planner, the standby and the console on one vendor, the rest on the
+// other.
 std::string vendor_of(const std::string& program, const std::string& dds);
 inline constexpr char kConsole[] = "console";
+
+// The program of a service, in the folder of this one.
+std::string program_of(const std::string& service);
 
 // Arguments of one service, its program first. `epoch_unix_us`: mission time 0 of a live run.
 std::vector<std::string> service_arguments(const Options&, const std::string& service,

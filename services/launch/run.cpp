@@ -27,8 +27,8 @@ namespace wall = services::wall;
 constexpr std::chrono::milliseconds kTurn{20};
 constexpr std::size_t kShownLogLines = 8;
 
-fs::path program_of(const std::string& service) {
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / service;
+fs::path path_of(const std::string& service) {
+  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / program_of(service);
   if (access(program.c_str(), X_OK) == 0) return program;
   throw std::system_error(errno, std::generic_category(), "cannot start " + program.string());
 }
@@ -111,7 +111,7 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
 
   Supervisor::Hooks hooks;
   hooks.start = [&](const std::string& service, std::uint32_t incarnation) {
-    return std::make_unique<Child>(program_of(service),
+    return std::make_unique<Child>(path_of(service),
                                    service_arguments(options, service, incarnation, started_unix_us),
                                    options.run_folder / (service + ".log"));
   };

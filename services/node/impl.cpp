@@ -60,6 +60,13 @@ void Node::Impl::announce(const PeerChange& change) {
   }
 }
 
+void Node::Impl::announce_turn() {
+  for (std::size_t i = 0; i < on_turn.size(); ++i) {
+    const auto handler = on_turn[i];
+    handler();
+  }
+}
+
 void Node::Impl::announce_match() {
   for (std::size_t i = 0; i < on_match.size(); ++i) {
     const auto handler = on_match[i];

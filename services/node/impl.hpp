@@ -30,6 +30,7 @@ class Node::Impl {
   static void handle(InTopic&, const void* value);
   void announce(const PeerChange&);
   void announce_match();
+  void announce_turn();
 
   const NodeOptions options;
   std::unique_ptr<Transport> transport;
@@ -38,6 +39,7 @@ class Node::Impl {
   WorkTable work;
   std::vector<std::function<void(const PeerChange&)>> on_peer_change;
   std::vector<std::function<void()>> on_match;
+  std::vector<std::function<void()>> on_turn;
   // One table and one server for each procedure, by the name of its request topic.
   std::map<std::string, std::shared_ptr<CallTable>> calls;
   std::map<std::string, std::shared_ptr<CallServer>> servers;

@@ -46,6 +46,7 @@ class LiveLoop : public Loop {
     for (auto& arrival : batch.arrivals) impl.take_in(std::move(arrival));
     const wall::Instant now = wall::now();
     if (heart_) heart_->beat(now);
+    impl.announce_turn();
     peers_.check(now);
     for (const PeerChange& change : peers_.take_changes()) {
       if (change.service != node_.options().name) impl.announce(change);

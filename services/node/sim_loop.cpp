@@ -69,6 +69,7 @@ class SimLoop : public Loop {
     for (auto& result : batch.results) impl.work.finish(result.work, std::move(result.run));
     const wall::Instant now = wall::now();
     heart_->beat(now);
+    impl.announce_turn();
     if (batch.stop && !barrier_->stop()) over_ = true;
     barrier_->turn(now);
     if (const auto& step = barrier_->step()) follow(*step);

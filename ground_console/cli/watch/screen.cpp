@@ -27,9 +27,12 @@ void draw_head(const MissionView& view, Canvas& canvas) {
                           std::to_string(mission.replans()) + " replans") +
            3;
   if (!mission.outcome().empty()) {
-    canvas.put(0, column, "result: " + mission.outcome(),
-               mission.outcome() == "achieved" ? Style::good : Style::bad);
+    column = canvas.put(0, column, "result: " + mission.outcome(),
+                        mission.outcome() == "achieved" ? Style::good : Style::bad) +
+             3;
   }
+  if (const v1::ExecMember* leader = view.leader())
+    canvas.put(0, column, pair_text(*leader), leader->entitled() ? Style::dim : Style::warning);
 }
 
 // States and levels as last observed, the subsystem's name without its owner's.

@@ -109,6 +109,20 @@ TEST_F(ClockMasterTest, TimeJumpsToTheEarliestWish) {
   EXPECT_EQ(master.window()->earliest, 9s);
 }
 
+// A death that nobody has noticed yet: what the dead one would have heard, or wished to do, stops the clock.
+TEST_F(ClockMasterTest, TimeDoesNotPassWhatAnUnnoticedDeadOneWouldHaveActedOn) {
+  const auto step = first_step();
+  master.done(done("a", step, 2'000'000, {count("t", "a", 1)}));
+  master.done(done("b", step, 1'000'000));
+  master.done(done("c", step, 9'000'000));
+  const auto input = master.issue(0s);  // c reads t, and died
+  EXPECT_THAT(input.participants(), ElementsAre("c"));
+  EXPECT_FALSE(master.window());
+  master.lost("c", 1, "killed");
+  ASSERT_TRUE(master.window());
+  EXPECT_EQ(master.window()->earliest, 0s);
+}
+
 TEST_F(ClockMasterTest, NobodyWantsToAct) {
   const auto step = first_step();
   for (const char* service : {"a", "b", "c"}) master.done(done(service, step));

@@ -1,0 +1,70 @@
+// The SQLite file behind a journal: its tables, one open transaction at most, prepared statements, and what a
+// commit changed. Seen by the journal's own sources alone.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "exec_svc/journal/journal.hpp"
+
+struct sqlite3;
+struct sqlite3_stmt;
+struct sqlite3_session;
+
+namespace roci::exec {
+
+// A prepared statement; bound values are copied.
+class Statement {
+ public:
+  Statement(const Journal::Database& database, const char* sql);
+  ~Statement();
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  Statement& bind(std::string_view text);
+  Statement& bind_bytes(std::string_view bytes);
+  Statement& bind(std::int64_t value);
+  bool row();  // false: there is none left; throws JournalError
+  void run();
+  std::string text(int column) const;
+  std::int64_t number(int column) const;
+
+ private:
+  sqlite3* database_;
+  sqlite3_stmt* statement_ = nullptr;
+  int bound_ = 0;
+};
+
+struct Journal::Database {
+  Database(const std::filesystem::path& file, Durability durability);
+  ~Database();
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+
+  void execute(const char* sql) const;
+  void begin();
+  void commit();
+  void roll_back();
+  std::int64_t last_row() const;
+  Position position() const;
+  void set_position(const Position& position);
+
+  sqlite3* handle = nullptr;
+  std::unique_ptr<Statement> append_record;
+  std::optional<std::uint64_t> epoch;  // commits are batches of it
+  std::vector<Batch> batches;          // not taken yet
+  bool open_transaction = false;
+
+ private:
+  void record_changes();
+  void close();
+
+  sqlite3_session* session_ = nullptr;  // of the open transaction, if it becomes a batch
+};
+
+}  // namespace roci::exec

@@ -1,0 +1,123 @@
+// The journal as a row of batches, and a journal from another one's.
+#define SQLITE_ENABLE_SESSION
+#define SQLITE_ENABLE_PREUPDATE_HOOK
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <limits>
+#include <utility>
+
+#include "exec_svc/journal/database.hpp"
+
+namespace roci::exec {
+namespace {
+
+namespace fs = std::filesystem;
+
+int refuse_conflict(void*, int, sqlite3_changeset_iter*) { return SQLITE_CHANGESET_ABORT; }
+
+std::string position_text(const Position& position) {
+  return std::to_string(position.epoch) + ":" + std::to_string(position.sequence);
+}
+
+// Throws JournalError if the file is not a whole journal.
+void check(const fs::path& file) {
+  std::string verdict;
+  try {
+    Journal::Database database(file, Durability::process);
+    Statement row(database, "PRAGMA quick_check");
+    verdict = row.row() ? row.text(0) : "empty";
+  } catch (const JournalError& error) {
+    verdict = error.what();
+  }
+  if (verdict != "ok") throw JournalError("what came is not a whole journal: " + verdict);
+}
+
+void write(const fs::path& file, std::string_view bytes) {
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!out.flush()) throw JournalError("cannot write " + file.string());
+}
+
+void wait_for_disk(const fs::path& file) {
+  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool safe = descriptor >= 0 && fsync(descriptor) == 0;
+  if (descriptor >= 0) close(descriptor);
+  if (!safe) throw JournalError("cannot write " + file.string() + " to the disk");
+}
+
+void remove_database(const fs::path& file) {
+  std::error_code ignored;
+  for (const char* suffix : {"", "-wal", "-shm"}) fs::remove(fs::path(file).concat(suffix), ignored);
+}
+
+}  // namespace
+
+void Journal::begin_epoch(std::uint64_t epoch) {
+  commit();
+  // What was written before there was a pair is in no batch: an empty copy must not take it for its own past.
+  if (position() == Position{} && !empty()) database_->set_position({epoch, 0});
+  database_->epoch = epoch;
+  set_number("epoch", static_cast<std::int64_t>(epoch));
+  commit();
+}
+
+bool Journal::empty() const {
+  Statement row(*database_, "SELECT EXISTS(SELECT 1 FROM record) OR EXISTS(SELECT 1 FROM goal)");
+  return !row.row() || row.number(0) == 0;
+}
+
+std::vector<Batch> Journal::take_batches() { return std::exchange(database_->batches, {}); }
+
+Position Journal::position() const { return database_->position(); }
+
+void Journal::apply(const Batch& batch) {
+  if (position() != batch.after)
+    throw JournalError("a batch after " + position_text(batch.after) + " for a journal at " +
+                       position_text(position()));
+  if (batch.changes.size() > std::numeric_limits<int>::max()) throw JournalError("a batch over 2 GB");
+  std::string changes = batch.changes;  // SQLite asks for memory that it may write to
+  database_->execute("BEGIN");
+  const int status = sqlite3changeset_apply(database_->handle, static_cast<int>(changes.size()),
+                                            changes.data(), nullptr, refuse_conflict, nullptr);
+  if (status != SQLITE_OK) {
+    database_->roll_back();
+    throw JournalError("batch " + position_text(batch.at) +
+                       " does not fit this journal: " + sqlite3_errstr(status));
+  }
+  database_->set_position(batch.at);
+  database_->execute("COMMIT");
+}
+
+std::string Journal::whole() const {
+  // Through a door of its own: what is not committed yet stays out.
+  sqlite3* opened = nullptr;
+  const int status = sqlite3_open_v2(file_.c_str(), &opened, SQLITE_OPEN_READONLY, nullptr);
+  const std::unique_ptr<sqlite3, decltype(&sqlite3_close)> reader(opened, sqlite3_close);
+  sqlite3_int64 size = 0;
+  const std::unique_ptr<unsigned char, decltype(&sqlite3_free)> bytes(
+      status == SQLITE_OK ? sqlite3_serialize(opened, "main", &size, 0) : nullptr, sqlite3_free);
+  if (!bytes) throw JournalError("the journal " + file_.string() + " cannot be read as a whole");
+  return {reinterpret_cast<const char*>(bytes.get()), static_cast<std::size_t>(size)};
+}
+
+void Journal::become(std::string_view whole) {
+  if (whole.empty()) throw JournalError("what came is not a whole journal: it is empty");
+  const fs::path arrived = fs::path(file_).concat(".arrived");
+  remove_database(arrived);
+  write(arrived, whole);
+  try {
+    check(arrived);
+  } catch (const JournalError&) {
+    remove_database(arrived);
+    throw;
+  }
+  if (durability_ == Durability::power) wait_for_disk(arrived);
+  database_.reset();
+  fs::rename(arrived, file_);
+  database_ = std::make_unique<Database>(file_, durability_);
+}
+
+}  // namespace roci::exec

@@ -1,0 +1,57 @@
+#include "exec_svc/mission_report_service.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace roci::exec {
+
+v1::MissionStatus mission_status(const Reactor& reactor, const MissionModel& mission) {
+  v1::MissionStatus status;
+  const ReactorCounts counts = reactor.counts();
+  status.mission(mission.name);
+  status.phase(static_cast<v1::MissionPhase>(reactor.phase()));
+  status.plan_version(reactor.plan_version());
+  status.replans(counts.replans);
+  status.goals_achieved(counts.achieved);
+  status.goals_dropped(counts.dropped);
+  status.goals_failed(counts.failed);
+  status.goals_open(counts.open);
+  status.outcome(reactor.outcome());
+  for (const WindowModel& window : mission.windows) {
+    for (const auto& [opens, closes] : window.open) {
+      v1::PredictedWindow predicted;
+      predicted.timeline(window.timeline);
+      predicted.opens_us(opens.count());
+      predicted.closes_us(closes.count());
+      status.windows().push_back(predicted);
+    }
+  }
+  return status;
+}
+
+void write_summary(const services::RunSettings& settings, const MissionModel& mission, const Reactor& reactor,
+                   const RunFigures& figures) {
+  const ReactorCounts counts = reactor.counts();
+  const std::string outcome = reactor.outcome();
+  const nlohmann::json summary{{"mission", mission.name},
+                               {"scenario", settings.scenario},
+                               {"seed", settings.seed},
+                               {"result", outcome.empty() ? "failed" : outcome},
+                               {"goals",
+                                {{"achieved", counts.achieved},
+                                 {"dropped", counts.dropped},
+                                 {"failed", counts.failed},
+                                 {"open", counts.open}}},
+                               {"planner",
+                                {{"calls", counts.planner_calls},
+                                 {"max_s", figures.slowest_call_s},
+                                 {"max_rss_mb", figures.planner_peak_mb}}},
+                               {"replans", counts.replans},
+                               {"sim_s", figures.sim_s},
+                               {"trace_sha256", figures.trace_sha256},
+                               {"journal", figures.journal.lexically_relative(settings.run_folder).string()},
+                               {"epoch", figures.epoch}};
+  std::ofstream(settings.run_folder / "summary.json") << summary.dump(2) << "\n";
+}
+
+}  // namespace roci::exec

@@ -1,0 +1,28 @@
+// What the ground hears of the mission as a whole, and the summary of a run.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "exec_svc/reactor/reactor.hpp"
+#include "roci_idl/plan.h"
+#include "services/service.hpp"
+
+namespace roci::exec {
+
+// Without the trace's hash.
+v1::MissionStatus mission_status(const Reactor& reactor, const MissionModel& mission);
+
+// Of the executive alone; the launcher adds the rest.
+struct RunFigures {
+  double slowest_call_s = 0;
+  double planner_peak_mb = 0;
+  double sim_s = 0;
+  std::string trace_sha256;
+  std::filesystem::path journal;
+  std::uint64_t epoch = 0;
+};
+void write_summary(const services::RunSettings& settings, const MissionModel& mission, const Reactor& reactor,
+                   const RunFigures& figures);
+
+}  // namespace roci::exec

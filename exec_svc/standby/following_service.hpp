@@ -1,0 +1,45 @@
+// The follower's side on the wire: takes the leader's journal, says what it has, and finds out when to lead.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exec_svc/standby/journal_copy.hpp"
+#include "exec_svc/standby/lease.hpp"
+#include "exec_svc/standby/standing_file.hpp"
+#include "services/node.hpp"
+#include "services/publisher.hpp"
+
+namespace roci::exec {
+
+class FollowingService {
+ public:
+  // On an observer's node, so that it stands outside the simulated clock. All outlive this.
+  FollowingService(services::Node& node, Lease& lease, Journal& journal, const StandingFile& standing);
+
+  // Why this member leads, once it does; the node has been stopped then.
+  const std::optional<Lease::Turn>& lead() const { return lead_; }
+  // The simulated clock has come to its end, and with it the run.
+  bool run_is_over() const { return over_; }
+
+ private:
+  void hear(const v1::ExecMember& member);
+  void take(const Parcel& parcel);
+  void ask_again(const std::vector<GoalRecord>& earlier);
+  void turn();
+  void say();
+
+  services::Node& node_;
+  Lease* lease_;
+  Journal* journal_;
+  const StandingFile* standing_;
+  Standing kept_;  // on the disk
+  JournalCopy copy_;
+  std::optional<Lease::Turn> lead_;
+  bool over_ = false;
+  services::Publisher<v1::ExecMember> words_;
+  services::Publisher<v1::Goal> goals_;
+};
+
+}  // namespace roci::exec

@@ -1,0 +1,67 @@
+// The leader's side on the wire: keeps the lease, feeds the follower, and lets out what was decided once the
+// follower has it.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "exec_svc/reactor/reactor.hpp"
+#include "exec_svc/standby/journal_feed.hpp"
+#include "exec_svc/standby/lease.hpp"
+#include "exec_svc/standby/standing_file.hpp"
+#include "services/node.hpp"
+#include "services/publisher.hpp"
+
+namespace roci::exec {
+
+// Leaves Node::run() of a leader that is none any more.
+class StandDown : public std::runtime_error {
+ public:
+  StandDown(const std::string& why, bool is_superseded)
+      : std::runtime_error(why), superseded(is_superseded) {}
+  const bool superseded;  // by another leader, for all it knows
+};
+
+class LeadingService {
+ public:
+  // `lease` leads already; its epoch begins in the journal. All outlive this.
+  LeadingService(services::Node& node, Lease& lease, Journal& journal, const StandingFile& standing);
+
+  // What was decided with the journal's newest commit: `send` runs now or later, in the order of these calls,
+  // unless this leader stands down before. Under the simulated clock the micro-step lasts until then.
+  void hold(std::function<void()> send);
+  // An owner refused a command of this epoch. Throws StandDown.
+  void refused();
+
+  std::uint64_t epoch() const { return lease_->epoch(); }
+  // For operators, since the last call.
+  std::vector<Note> take_notes() { return std::exchange(notes_, {}); }
+
+ private:
+  struct Held {
+    Position decided;
+    services::Node::WorkId work;
+    std::function<void()> send;
+  };
+  void hear(const v1::ExecMember& member);
+  void turn();
+  void feed();
+  void let_out();
+  void note(Lease::Change change, const std::string& why);
+
+  services::Node& node_;
+  Lease* lease_;
+  Journal* journal_;
+  const StandingFile* standing_;
+  Standing kept_;  // on the disk
+  JournalFeed feed_;
+  std::deque<Held> held_;
+  std::vector<Note> notes_;
+  services::Publisher<v1::ExecMember> words_;
+  services::Publisher<v1::JournalParcel> parcels_;
+};
+
+}  // namespace roci::exec

@@ -1,0 +1,139 @@
+// Who of a pair of executives leads: a state machine over what the members say of themselves. Pure. See the
+// README for the rules.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "exec_svc/journal/batch.hpp"
+
+namespace roci::exec {
+
+using Moment = std::chrono::microseconds;  // on a clock that never jumps, of this member alone
+
+enum class Member { first, second };
+enum class Role { following, leading };
+
+// What a member says of itself.
+struct Word {
+  Member member = Member::first;
+  Role role = Role::following;
+  std::uint64_t epoch = 0;  // the highest that it knows of; a leader's own
+  Position has;             // of its journal
+  // A leader: the other may take over once this word is a term old. A follower: it will.
+  bool entitled = false;
+  Position receipt;  // a leader: what it knows that the other has; with less on its disk it is not entitled
+  bool searching = false;  // a follower that has heard no leader for a term
+  Moment said{0};          // on the clock of who says it
+  Moment echo{0};          // the newest `said` heard from the other, on the other's clock
+  bool operator==(const Word&) const = default;
+};
+
+struct LeaseSettings {
+  Moment term = std::chrono::seconds(2);
+  Moment renewal = std::chrono::milliseconds(250);  // between two words
+  Moment patience = std::chrono::seconds(1);        // without progress of the other's journal
+  // A follower may take over from a term after it last heard the leader until a term and this after it said
+  // what that word echoes; later its right has lapsed, so that one that was stopped does not use it late, and
+  // a word that came late gives none.
+  Moment margin = std::chrono::seconds(1);
+  Moment lonely = std::chrono::seconds(20);  // until one leads in doubt that hears nobody
+};
+
+// What must be on the disk before anything that stands on it is said.
+struct Standing {
+  std::uint64_t epoch = 0;  // the highest heard of or used
+  bool alone = false;       // led in that epoch while the other was not entitled
+  bool operator==(const Standing&) const = default;
+};
+
+class Lease {
+ public:
+  // `superseded`: this member led until another one did.
+  Lease(Member self, const LeaseSettings& settings, const Standing& standing, bool superseded, Moment now);
+
+  void hear(const Word& word, Moment now);
+  // Something of the leader of this epoch's journal came.
+  void hear_leader(std::uint64_t epoch, Moment now);
+  // An owner refused this leader: somebody leads in a later epoch.
+  void refused() { refused_ = true; }
+
+  enum class Change {
+    none,
+    lead,        // from now on in epoch()
+    stand_down,  // this object has done its work: nothing may be sent, a follower begins anew
+    alone,       // the follower is gone and has no right any more
+    paired,
+  };
+  struct Turn {
+    Change change = Change::none;
+    std::string why;        // of a change, in plain words
+    bool doubtful = false;  // lead: the other may have gone on from this journal, unheard
+    bool speak = false;     // say word() now
+  };
+  // To be called often, and after everything heard. When standing() has changed, it goes to the disk before
+  // anything else is done.
+  Turn turn(const Position& newest, Moment now);
+
+  // Whether what was decided at this position of the journal may be sent. To be asked right before sending.
+  bool may_send(const Position& decided, Moment now) const;
+
+  Word word(const Position& newest) const;
+  const Standing& standing() const { return standing_; }
+  // Of a leader that stands down: another one leads.
+  bool superseded() const { return refused_ || standing_.epoch > own_epoch_; }
+  Role role() const { return role_; }
+  std::uint64_t epoch() const { return standing_.epoch; }
+
+ private:
+  // Of a leader. joining: the follower is nearly there, and receipts are waited for; parting: its right has
+  // been taken back, and it may not know.
+  enum class Bond { alone, joining, paired, parting };
+  struct Heard {
+    Word word;
+    Moment at{0};
+  };
+  void note_epoch(std::uint64_t epoch);
+  Turn follow(const Position& newest, Moment now);
+  Turn lead(std::string why, Moment now);
+  Turn keep_leading(const Position& newest, Moment now);
+  void note_progress(const Position& newest, Moment now);
+  Turn bind(const Position& newest, Moment now);
+  std::optional<std::string> reason_to_lead(const Position& newest, Moment now) const;
+  bool right_holds(const Position& newest, Moment now) const;
+  bool wins(const Word& other, const Position& newest) const;
+  bool expired(Moment now) const { return now - entitled_at_ >= settings_.term; }
+  bool heard_lately(Moment now) const { return other_ && now - other_->at <= settings_.term; }
+  // When the newest word of the other was said at the earliest, on this clock; nothing: long ago.
+  std::optional<Moment> said_since() const;
+  bool other_has(const Position& position) const;
+  bool other_is_near(const Position& newest) const;
+
+  Member self_;
+  LeaseSettings settings_;
+  Standing standing_;
+  Role role_ = Role::following;
+  std::optional<Heard> other_;
+  bool refused_ = false;
+  Moment spoke_at_{0};
+
+  bool barred_;               // following: the newest leader does not want it to take over
+  bool entitled_ = false;     // following: by its newest word, with a journal that has
+  Position receipt_;          // this at least,
+  Moment entitled_since_{0};  // when it was said at the earliest
+  Moment leaderless_since_;
+  Moment started_;
+
+  std::uint64_t own_epoch_ = 0;  // leading
+  Bond bond_ = Bond::alone;
+  Moment entitled_at_{0};  // when this leader last said that the other may take over
+  Moment bond_since_{0};
+  Moment behind_since_{0};  // the other's journal, without progress
+  bool behind_ = false;
+  Position progress_;
+  Position joined_at_;  // newest when the follower began to be waited for
+};
+
+}  // namespace roci::exec

@@ -1,0 +1,142 @@
+#include "exec_svc/standby/pair_service.hpp"
+
+#include <mutex>
+#include <utility>
+
+#include "exec_svc/exec_service.hpp"
+#include "exec_svc/standby/following_service.hpp"
+#include "exec_svc/standby/leading_service.hpp"
+#include "exec_svc/standby/standby_wire_service.hpp"
+#include "services/log.hpp"
+#include "services/node.hpp"
+#include "services/service_options.hpp"
+#include "services/stop_signals.hpp"
+#include "services/transport.hpp"
+
+namespace roci::exec {
+namespace {
+
+namespace fs = std::filesystem;
+
+Durability durability_for(const services::NodeOptions& node) {
+  return node.clock == services::ClockMode::live ? Durability::power : Durability::process;
+}
+
+fs::path folder_of(const services::RunSettings& run) {
+  const fs::path folder = run.pair == "second" ? run.run_folder / "standby" : run.run_folder;
+  fs::create_directories(folder);
+  return folder;
+}
+
+// The node that is open now, for the thread that hears of signals.
+class Stop {
+ public:
+  void ask() {
+    const std::scoped_lock lock(mutex_);
+    asked_ = true;
+    if (node_ != nullptr) node_->stop();
+  }
+  bool asked() const {
+    const std::scoped_lock lock(mutex_);
+    return asked_;
+  }
+  void reach(services::Node* node) {
+    const std::scoped_lock lock(mutex_);
+    node_ = node;
+    if (asked_ && node != nullptr) node->stop();
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  services::Node* node_ = nullptr;
+  bool asked_ = false;
+};
+
+// Within reach of signals for as long as it lives.
+class Reach {
+ public:
+  Reach(Stop& stop, services::Node& node) : stop_(stop) { stop_.reach(&node); }
+  ~Reach() { stop_.reach(nullptr); }
+  Reach(const Reach&) = delete;
+  Reach& operator=(const Reach&) = delete;
+
+ private:
+  Stop& stop_;
+};
+
+class PairProcess {
+ public:
+  PairProcess(const services::ServiceOptions& options, services::StopSignals& signals)
+      : options_(options),
+        self_(wire::member_of(options.run.pair)),
+        journal_(folder_of(options.run) / "journal.sqlite", durability_for(options.node)),
+        standing_(folder_of(options.run) / "standing", durability_for(options.node)) {
+    signals.watch([this] { stop_.ask(); });
+  }
+
+  void run() {
+    for (bool superseded = false; !stop_.asked();) {
+      Lease lease(self_, {}, standing_.read(), superseded, wire::moment());
+      const auto lead = follow(lease);
+      if (!lead) return;
+      log(*lead, lease);
+      const auto end = this->lead(lease, *lead);
+      if (!end) return;
+      superseded = end->superseded;
+      services::log_warning("exec_svc (" + options_.run.pair + ") stands down: " + end->what());
+    }
+  }
+
+ private:
+  void log(const Lease::Turn& turn, const Lease& lease) const {
+    services::log_info("exec_svc (" + options_.run.pair + ") leads in epoch " +
+                       std::to_string(lease.epoch()) + ": " + turn.why);
+  }
+
+  // Nothing: the run is over.
+  std::optional<Lease::Turn> follow(Lease& lease) {
+    services::NodeOptions options = options_.node;
+    options.name += "." + options_.run.pair;
+    options.clock = services::ClockMode::observer;
+    services::Node node(options, services::connect(options_.connection));
+    FollowingService following(node, lease, journal_, standing_);
+    const Reach reach(stop_, node);
+    node.run();
+    return following.run_is_over() || stop_.asked() ? std::nullopt : following.lead();
+  }
+
+  // Nothing: the run is over. Under the simulated clock the epoch is the incarnation, so the clock drops who
+  // led before.
+  std::optional<StandDown> lead(Lease& lease, const Lease::Turn& why) {
+    services::NodeOptions options = options_.node;
+    options.incarnation = static_cast<std::uint32_t>(lease.epoch());
+    services::Node node(options, services::connect(options_.connection));
+    try {
+      LeadingService leading(node, lease, journal_, standing_);
+      const auto executive = make_executive(node, options_.run, journal_, leading, why.doubtful);
+      const Reach reach(stop_, node);
+      node.run();
+      return std::nullopt;
+    } catch (const StandDown& end) {
+      return end;
+    } catch (const services::ClockGone&) {
+      throw;
+    } catch (const services::ClockError& error) {
+      return StandDown(error.what(), true);
+    }
+  }
+
+  const services::ServiceOptions& options_;
+  Member self_;
+  Journal journal_;
+  StandingFile standing_;
+  Stop stop_;
+};
+
+}  // namespace
+
+void run_pair(const services::ServiceOptions& options, services::StopSignals& signals) {
+  PairProcess(options, signals).run();
+}
+
+}  // namespace roci::exec

@@ -1,0 +1,11 @@
+// The process of one member of a pair: follows, leads, follows again, until the run is over.
+#pragma once
+
+#include "services/service.hpp"
+
+namespace roci::exec {
+
+// RunSettings::pair says which member this is; both may have the same run folder.
+void run_pair(const services::ServiceOptions& options, services::StopSignals& signals);
+
+}  // namespace roci::exec

@@ -1,0 +1,41 @@
+#include "exec_svc/standby/parcel.hpp"
+
+#include <algorithm>
+#include <boost/crc.hpp>
+
+namespace roci::exec {
+namespace {
+
+constexpr std::size_t kPartBytes = 128 * 1024;
+
+}  // namespace
+
+std::uint32_t checksum(const Parcel& parcel) {
+  boost::crc_32_type crc;
+  for (const std::uint64_t number :
+       {parcel.leader, parcel.after.epoch, parcel.after.sequence, parcel.at.epoch, parcel.at.sequence,
+        std::uint64_t{parcel.part}, std::uint64_t{parcel.parts}}) {
+    for (int shift = 0; shift < 64; shift += 8) crc.process_byte(static_cast<unsigned char>(number >> shift));
+  }
+  crc.process_bytes(parcel.bytes.data(), parcel.bytes.size());
+  return crc.checksum();
+}
+
+std::vector<Parcel> split(std::uint64_t leader, const Position& at, const std::string& whole) {
+  std::vector<Parcel> out;
+  for (std::size_t begin = 0; begin < whole.size(); begin += kPartBytes) {
+    Parcel part;
+    part.leader = leader;
+    part.at = at;
+    part.part = static_cast<std::uint32_t>(out.size());
+    part.bytes = whole.substr(begin, kPartBytes);
+    out.push_back(std::move(part));
+  }
+  for (Parcel& part : out) {
+    part.parts = static_cast<std::uint32_t>(out.size());
+    part.checksum = checksum(part);
+  }
+  return out;
+}
+
+}  // namespace roci::exec

@@ -1,0 +1,92 @@
+#include "exec_svc/standby/standby_wire_service.hpp"
+
+#include <unistd.h>
+
+#include <array>
+
+#include "services/clock/wall.hpp"
+
+namespace roci::exec::wire {
+namespace {
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+v1::JournalPosition to_wire(const Position& position) {
+  v1::JournalPosition out;
+  out.epoch(position.epoch);
+  out.commits(position.sequence);
+  return out;
+}
+
+Position from_wire(const v1::JournalPosition& position) { return {position.epoch(), position.commits()}; }
+
+}  // namespace
+
+Moment moment() { return std::chrono::duration_cast<Moment>(services::wall::now().time_since_epoch()); }
+
+std::string name_of(Member member) { return member == Member::first ? "first" : "second"; }
+
+Member member_of(const std::string& name) { return name == "second" ? Member::second : Member::first; }
+
+v1::ExecMember to_wire(const Word& word, const Arrival& arrival) {
+  v1::ExecMember out;
+  out.member(name_of(word.member));
+  out.exec_role(word.role == Role::leading ? v1::EXEC_LEADING : v1::EXEC_FOLLOWING);
+  out.epoch(word.epoch);
+  out.has(to_wire(word.has));
+  out.receipt(to_wire(word.receipt));
+  out.entitled(word.entitled);
+  out.searching(word.searching);
+  out.said_us(word.said.count());
+  out.echo_us(word.echo.count());
+  out.arriving(to_wire(arrival.at));
+  out.arrived_parts(arrival.parts);
+  out.host(host_name());
+  out.process_id(getpid());
+  return out;
+}
+
+Word from_wire(const v1::ExecMember& in) {
+  Word out;
+  out.member = member_of(in.member());
+  out.role = in.exec_role() == v1::EXEC_LEADING ? Role::leading : Role::following;
+  out.epoch = in.epoch();
+  out.has = from_wire(in.has());
+  out.receipt = from_wire(in.receipt());
+  out.entitled = in.entitled();
+  out.searching = in.searching();
+  out.said = Moment(in.said_us());
+  out.echo = Moment(in.echo_us());
+  return out;
+}
+
+Arrival arrival_of(const v1::ExecMember& in) { return {from_wire(in.arriving()), in.arrived_parts()}; }
+
+v1::JournalParcel to_wire(const Parcel& parcel) {
+  v1::JournalParcel out;
+  out.leader(parcel.leader);
+  out.after(to_wire(parcel.after));
+  out.reached(to_wire(parcel.at));
+  out.part(parcel.part);
+  out.parts(parcel.parts);
+  out.checksum(parcel.checksum);
+  out.changes().assign(parcel.bytes.begin(), parcel.bytes.end());
+  return out;
+}
+
+Parcel from_wire(const v1::JournalParcel& in) {
+  Parcel out;
+  out.leader = in.leader();
+  out.after = from_wire(in.after());
+  out.at = from_wire(in.reached());
+  out.part = in.part();
+  out.parts = in.parts();
+  out.checksum = in.checksum();
+  out.bytes.assign(in.changes().begin(), in.changes().end());
+  return out;
+}
+
+}  // namespace roci::exec::wire

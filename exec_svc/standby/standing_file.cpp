@@ -1,0 +1,33 @@
+#include "exec_svc/standby/standing_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <fstream>
+
+namespace roci::exec {
+
+namespace fs = std::filesystem;
+
+Standing StandingFile::read() const {
+  if (!fs::exists(file_)) return {};
+  Standing out;
+  std::ifstream in(file_);
+  if (!(in >> out.epoch >> out.alone))
+    throw JournalError(file_.string() + " is damaged; remove it if the other member's journal is whole");
+  return out;
+}
+
+void StandingFile::write(const Standing& standing) const {
+  const fs::path unfinished = fs::path(file_).concat(".new");
+  std::ofstream out(unfinished);
+  out << standing.epoch << ' ' << standing.alone << '\n' << std::flush;
+  out.close();
+  const int written = open(unfinished.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool good = out && written >= 0 && (durability_ == Durability::process || fsync(written) == 0);
+  if (written >= 0) close(written);
+  if (!good) throw JournalError("cannot write " + unfinished.string());
+  fs::rename(unfinished, file_);
+}
+
+}  // namespace roci::exec

@@ -1,0 +1,29 @@
+// How long the simulated clock stands still after a death, so that mission time does not run on without a
+// service that is about to return, or that another process is about to stand in for. Pure.
+#pragma once
+
+#include <string_view>
+
+#include "services/clock/wall.hpp"
+
+namespace roci::services {
+
+class RestartHold {
+ public:
+  explicit RestartHold(wall::Clock::duration length) : length_(length) {}
+
+  // `cause` as in PeerChange. Somebody is about to start a killed one again, or has and it is about to say
+  // that it is ready; one that left or hangs will not be back soon.
+  void lost(std::string_view cause, wall::Instant now) {
+    if (cause == "killed" || cause == "restarted") until_ = now + length_;
+  }
+
+  // `complete`: every service of the roster is there, so nobody is waited for.
+  bool holds(bool complete, wall::Instant now) const { return !complete && now < until_; }
+
+ private:
+  wall::Clock::duration length_;
+  wall::Instant until_;
+};
+
+}  // namespace roci::services

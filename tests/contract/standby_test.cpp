@@ -1,0 +1,239 @@
+// The journal's way from a leading executive to a following one, on every transport.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "exec_svc/standby/following_service.hpp"
+#include "exec_svc/standby/leading_service.hpp"
+#include "exec_svc/standby/standby_wire_service.hpp"
+#include "services/clock/wall.hpp"
+#include "services/domain_claim.hpp"
+#include "services/transport.hpp"
+
+namespace roci::exec {
+namespace {
+
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+namespace wall = services::wall;
+
+constexpr auto kLimit = 20s;
+
+struct Vendors {
+  const char* name;
+  const char* leader;
+  const char* follower;
+};
+
+services::NodeOptions options_of(const std::string& name, services::ClockMode clock) {
+  services::NodeOptions options;
+  options.name = name;
+  options.clock = clock;
+  return options;
+}
+
+std::string everything(const Journal& journal) {
+  std::string out;
+  journal.for_each([&](temporal::Time time, std::string_view kind, std::string_view text) {
+    out += std::to_string(time.count()) + " " + std::string(kind) + " " + std::string(text) + "\n";
+  });
+  return out;
+}
+
+class StandbyTest : public ::testing::TestWithParam<Vendors> {
+ protected:
+  StandbyTest() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    leader_journal_.emplace(folder_ / "leader.sqlite", Durability::process);
+    follower_journal_.emplace(folder_ / "follower.sqlite", Durability::process);
+  }
+  ~StandbyTest() override {
+    stop_leader();
+    stop_follower();
+    fs::remove_all(folder_);
+  }
+
+  std::unique_ptr<services::Transport> transport(const char* vendor) const {
+    services::TransportOptions options;
+    options.domain = domain_.id();
+    options.participant = "test";
+    return services::open_transport(vendor, options);
+  }
+
+  // Leads at once: it was alone before.
+  void start_leader() {
+    leader_lease_.emplace(Member::first, LeaseSettings{}, Standing{1, true}, false, -10s + wire::moment());
+    ASSERT_EQ(leader_lease_->turn(leader_journal_->position(), wire::moment()).change, Lease::Change::lead);
+    leader_node_.emplace(options_of("exec_svc", services::ClockMode::live), transport(GetParam().leader));
+    leading_.emplace(*leader_node_, *leader_lease_, *leader_journal_, leader_standing_);
+  }
+  void start_follower() {
+    follower_lease_.emplace(Member::second, LeaseSettings{}, Standing{}, false, wire::moment());
+    follower_node_.emplace(options_of("exec_svc.second", services::ClockMode::observer),
+                           transport(GetParam().follower));
+    following_.emplace(*follower_node_, *follower_lease_, *follower_journal_, follower_standing_);
+  }
+  void stop_leader() {
+    leading_.reset();
+    leader_node_.reset();
+  }
+  void stop_follower() {
+    following_.reset();
+    follower_node_.reset();
+  }
+
+  bool wait(const std::function<bool()>& done) {
+    for (const auto limit = wall::now() + kLimit; wall::now() < limit;) {
+      if (leader_node_) leader_node_->spin_once(2ms);
+      if (follower_node_) follower_node_->spin_once(2ms);
+      if (done()) return true;
+    }
+    return false;
+  }
+  bool wait_for_copy() {
+    return wait([&] { return follower_journal_->position() == leader_journal_->position(); });
+  }
+  bool wait_for_pair() {
+    return wait([&] { return leader_lease_->word({}).entitled && follower_lease_->word(newest()).entitled; });
+  }
+  Position newest() const { return follower_journal_->position(); }
+
+  void write(int from, int to) {
+    for (int i = from; i < to; ++i) {
+      leader_journal_->append(temporal::seconds(i), "event", std::string(100, 'x') + std::to_string(i));
+      leader_journal_->commit();
+      leading_->hold([this] { ++sent_; });
+    }
+  }
+  void expect_copy() const { EXPECT_TRUE(everything(*follower_journal_) == everything(*leader_journal_)); }
+
+  services::DomainClaim domain_;
+  fs::path folder_ = fs::temp_directory_path() / ("roci_standby_" + std::to_string(domain_.id()));
+  std::optional<Journal> leader_journal_, follower_journal_;
+  StandingFile leader_standing_{folder_ / "leader", Durability::process};
+  StandingFile follower_standing_{folder_ / "follower", Durability::process};
+  std::optional<Lease> leader_lease_, follower_lease_;
+  std::optional<services::Node> leader_node_, follower_node_;
+  std::optional<LeadingService> leading_;
+  std::optional<FollowingService> following_;
+  int sent_ = 0;
+};
+
+TEST_P(StandbyTest, NothingIsSentThatTheFollowerDoesNotHave) {
+  start_leader();
+  start_follower();
+  ASSERT_TRUE(wait_for_pair());
+  for (int i = 0; i < 200; ++i) {
+    sent_ = 0;
+    write(i, i + 1);
+    EXPECT_EQ(sent_, 0) << "before the follower could know";
+    ASSERT_TRUE(wait([&] { return sent_ == 1; }));
+    ASSERT_EQ(follower_journal_->position(), leader_journal_->position());
+  }
+  expect_copy();
+}
+
+TEST_P(StandbyTest, ALateJoinerGetsTheWholeJournal) {
+  for (int i = 0; i < 6000; ++i)
+    leader_journal_->append(temporal::seconds(i), "event", std::string(100, 'y'));
+  leader_journal_->commit();
+  start_leader();
+  write(0, 50);
+  EXPECT_EQ(sent_, 50) << "alone";
+  start_follower();
+  ASSERT_TRUE(wait_for_copy());
+  expect_copy();
+  write(50, 100);
+  ASSERT_TRUE(wait_for_copy());
+  expect_copy();
+}
+
+TEST_P(StandbyTest, AFollowerThatComesBackGetsWhatItMissed) {
+  start_leader();
+  start_follower();
+  ASSERT_TRUE(wait_for_pair());
+  write(0, 20);
+  ASSERT_TRUE(wait_for_copy());
+  stop_follower();
+  write(20, 40);
+  start_follower();
+  ASSERT_TRUE(wait_for_copy());
+  ASSERT_TRUE(wait([&] { return sent_ == 40; }));
+  expect_copy();
+}
+
+TEST_P(StandbyTest, AnUnknownPastIsReplaced) {
+  follower_journal_->begin_epoch(1);
+  for (int i = 0; i < 9; ++i) {
+    follower_journal_->append(temporal::seconds(i), "event", "another past");
+    follower_journal_->commit();
+  }
+  start_leader();
+  write(0, 3);
+  start_follower();
+  ASSERT_TRUE(wait_for_copy());
+  expect_copy();
+}
+
+// Garbled, repeated, out of order, of a leader that is none any more: the copy stays a copy.
+TEST_P(StandbyTest, StrayParcelsDoNoHarm) {
+  start_leader();
+  start_follower();
+  ASSERT_TRUE(wait_for_pair());
+  write(0, 5);
+  ASSERT_TRUE(wait_for_copy());
+  const Position has = newest();
+  services::Node stranger(options_of("stranger", services::ClockMode::observer),
+                          transport(GetParam().leader));
+  const auto parcels = services::advertise(stranger, services::topics::exec_journal);
+  ASSERT_TRUE(wait([&] {
+    stranger.spin_once(1ms);
+    return parcels.matched_readers() > 0;
+  }));
+  const auto stray = [&](std::uint64_t leader, Position after, Position at, bool sealed) {
+    Parcel parcel{leader, after, at, 0, 0, 0, "no changes"};
+    parcel.checksum = checksum(parcel) + (sealed ? 0 : 1);
+    parcels.write(wire::to_wire(parcel));
+  };
+  const Position next{has.epoch, has.sequence + 1};
+  stray(has.epoch, has, next, false);                                  // garbled
+  stray(has.epoch, {has.epoch, 2}, {has.epoch, 3}, true);              // known
+  stray(has.epoch, next, {has.epoch, next.sequence + 1}, true);        // a gap before it
+  stray(has.epoch - 1, has, {has.epoch - 1, has.sequence + 1}, true);  // an old leader's
+  write(5, 60);
+  ASSERT_TRUE(wait_for_copy());
+  ASSERT_TRUE(wait([&] { return sent_ == 60; }));
+  expect_copy();
+  stray(has.epoch, newest(), {has.epoch, newest().sequence + 1}, true);  // fits, and is no change
+  write(60, 70);
+  ASSERT_TRUE(wait_for_copy());
+  expect_copy();
+}
+
+TEST_P(StandbyTest, TheFollowerLeadsWhenTheLeaderIsGoneAndTheOldOneStandsDown) {
+  start_leader();
+  start_follower();
+  ASSERT_TRUE(wait_for_pair());
+  ASSERT_TRUE(wait([&] { return sent_ == 0; }));
+  const auto stopped_at = wall::now();
+  ASSERT_TRUE([&] {  // the leader's loop stands still
+    while (!following_->lead() && wall::now() < stopped_at + kLimit) follower_node_->spin_once(5ms);
+    return following_->lead().has_value();
+  }());
+  EXPECT_EQ(follower_lease_->epoch(), 4U);
+  EXPECT_EQ(follower_standing_.read(), (Standing{4, true}));
+  EXPECT_THROW(write(0, 1), StandDown);
+  EXPECT_EQ(sent_, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Transports, StandbyTest,
+                         ::testing::Values(Vendors{"inproc", "inproc", "inproc"},
+                                           Vendors{"fastdds", "fastdds", "fastdds"},
+                                           Vendors{"cyclonedds", "cyclonedds", "cyclonedds"},
+                                           Vendors{"fastdds_cyclonedds", "fastdds", "cyclonedds"},
+                                           Vendors{"cyclonedds_fastdds", "cyclonedds", "fastdds"}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace roci::exec
