@@ -4,7 +4,7 @@
   run.py --planner build/release/bin/roci-plan --validate build/release/bin/roci-validate
 
 The problems are made by rover.py and run by ../ipc/run.py, three of each size. The slope is that of a line through the
-logarithms of size and median, fitted to the larger half of the sizes; the memory counted is what exceeds the smallest run."""
+logarithms of size and median, fitted to the larger half of the sizes. Memory is the engine's own count, without the program."""
 
 import argparse
 import collections
@@ -66,8 +66,7 @@ def table(family, records):
     for record in records:
         if record["domain"] == f"growth/{family}":
             by_size[record["instance"] // 10].append(record)
-    base = min(record["peak_rss_kb"] for record in records)
-    print(f"\n| {what} | solved | ground actions | evaluated | CPU s | MB |\n| --- | --- | --- | --- | --- | --- |")
+    print(f"\n| {what} | solved | ground actions | evaluated | CPU s | engine kB |\n| --- | --- | --- | --- | --- | --- |")
     curves = collections.defaultdict(list)
     for size in sizes:
         solved = [record for record in by_size[size] if record["status"] == "ok"]
@@ -76,12 +75,11 @@ def table(family, records):
             continue
         median = {"evaluations": statistics.median(record["stats"]["evaluated"] for record in solved),
                   "time": statistics.median(record["cpu_s"] for record in solved),
-                  "memory": statistics.median(record["peak_rss_kb"] - base for record in solved)}
+                  "memory": statistics.median(record["stats"]["engine_peak_bytes"] for record in solved)}
         for name, value in median.items():
             curves[name].append((size, value))
         actions = statistics.median(record["stats"]["ground_actions"] for record in solved)
-        peak = statistics.median(record["peak_rss_kb"] for record in solved) / 1024
-        print(f"| {size} | {len(solved)} of {SEEDS} | {actions:.0f} | {median['evaluations']:.0f} | {median['time']:.3f} | {peak:.1f} |")
+        print(f"| {size} | {len(solved)} of {SEEDS} | {actions:.0f} | {median['evaluations']:.0f} | {median['time']:.3f} | {median['memory'] / 1000:.0f} |")
     slopes = {name: slope(points[len(points) // 2:]) for name, points in curves.items()}
     print("\nSlope: " + ", ".join(f"{name} {value:.1f}" if value is not None else f"{name} –" for name, value in slopes.items()) + ".")
 

@@ -1,6 +1,7 @@
 #include "planner_svc/temporal_pddl/improvement/weighted_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "planner_svc/temporal_pddl/search/dominance.hpp"
 #include "planner_svc/temporal_pddl/search/evaluation.hpp"
@@ -70,12 +71,14 @@ class WeightedSearch {
     return false;
   }
 
-  // What is done so far: the metric; if that is the time, all durations, those of running actions at least.
+  // What is done so far: all durations, those of running actions at least; for other metrics than the time
+  // those count in it in place of the makespan, as in the estimate.
   std::int64_t committed(const PlanPrefix& prefix, const Quality& quality) const {
-    if (!task_.metric.only_time()) return quality.metric;
     Ticks busy = quality.busy;
     for (const ActionId action : prefix.running_actions) busy += task_.actions[action].min_duration.count();
-    return busy;
+    if (task_.metric.only_time()) return busy;
+    const auto more = static_cast<double>(busy - quality.makespan);
+    return quality.metric + std::llround(task_.metric.expression.duration_weight * more);
   }
 
   const Task& task_;
