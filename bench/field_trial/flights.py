@@ -13,7 +13,7 @@ from pathlib import Path
 CLASSES = ["hard", "optional", "opportunistic"]  # exec_svc/goals/goal_set.hpp
 STATES = ["rejected", "pending", "planned", "achieved", "dropped", "failed", "recalled"]
 FINAL = {"rejected", "achieved", "dropped", "failed", "recalled"}
-MISSION_WORK = 40000  # evaluations of a planner call, as in mission.yaml
+MISSION_WORK = 4000  # evaluations of a planner call, as in mission.yaml
 FLIGHT_LIMIT_S = 3000  # of wall time; only for a flight that hangs
 
 

@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
              "stop}]}}\nexecutive:",
              "no component 'leg'"},
         Slip{"mission.yaml", "[[1500, 2700]", "[[2700, 1500]", "from < to"},
-        Slip{"mission.yaml", "work: 40000", "work: much", "number"}));
+        Slip{"mission.yaml", "work: 4000", "work: much", "number"}));
 
 }  // namespace
 }  // namespace roci::exec
