@@ -190,7 +190,7 @@ def goals_section(records: list[Record]) -> str:
     out += "\nStarts against the windows [lb, ub] of the plan as adopted (R49):\n\n"
     out += table(["at lb", "inside", "after ub: replanned"], [[branches[k] for k in ("at lb", "inside", "after ub")]])
     out += "\nInvariants (every goal ends in a final state with a reason, or the robot is safe and says why; no hard goal is "
-    out += "dropped; no command without a plan; a plan or a proof never contradicts the reference): "
+    out += "dropped; goals go in the order of R53; no command without a plan; a plan or a proof never contradicts the reference): "
     out += f"{'all hold' if not faults else str(len(faults)) + ' broken'}.\n"
     return out + "".join(f"- seed {seed}: {fault}\n" for seed, fault in faults)
 
