@@ -1,7 +1,9 @@
 #include "planner_svc/temporal_pddl/planner.hpp"
 
 #include <new>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/pddl/check.hpp"
 #include "core/pddl/forbidden.hpp"
@@ -34,9 +36,13 @@ void describe(const Task& task, Statistics& statistics) {
 
 PlanPrefix improved(const Task& task, PlanPrefix first, Heuristic& heuristic, const Options& options,
                     Watch& watch, Statistics& statistics) {
-  if (task.metric.only_time()) return improve(task, std::move(first), heuristic, options, watch, statistics);
-  FfHeuristic by_metric(task, CostMeasure::metric);
-  return improve(task, std::move(first), by_metric, options, watch, statistics);
+  std::vector<Guide> guides{{heuristic, CostMeasure::duration}};
+  std::optional<FfHeuristic> by_metric;
+  if (!task.metric.only_time()) {
+    by_metric.emplace(task, CostMeasure::metric);
+    guides.push_back({*by_metric, CostMeasure::metric});
+  }
+  return improve(task, std::move(first), guides, options, watch, statistics);
 }
 
 void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,

@@ -6,7 +6,6 @@
 
 #include "planner_svc/temporal_pddl/grounding/refusal.hpp"
 #include "planner_svc/temporal_pddl/improvement/elimination.hpp"
-#include "planner_svc/temporal_pddl/improvement/weighted_search.hpp"
 
 namespace roci::planner::temporal_pddl {
 
@@ -19,11 +18,11 @@ constexpr std::array<std::int64_t, 4> kWeights = {5, 3, 2, 1};
 
 class Improvement {
  public:
-  Improvement(const Task& task, PlanPrefix& plan, Heuristic& heuristic, const Options& options, Watch& watch,
-              Statistics& statistics)
+  Improvement(const Task& task, PlanPrefix& plan, std::span<const Guide> guides, const Options& options,
+              Watch& watch, Statistics& statistics)
       : task_(task),
         plan_(plan),
-        heuristic_(heuristic),
+        guides_(guides),
         options_(options),
         watch_(watch),
         statistics_(statistics),
@@ -34,7 +33,9 @@ class Improvement {
     std::size_t left = options_.improvement_evaluations;
     for (std::size_t limit = kFirstLimit; left > 0; limit *= 2) {
       bool exhausted = true;
-      for (const std::int64_t weight : kWeights) exhausted = search(weight, limit, left) && exhausted;
+      for (const std::int64_t weight : kWeights) {
+        for (const Guide& guide : guides_) exhausted = search(guide, weight, limit, left) && exhausted;
+      }
       if (exhausted) return;
     }
   }
@@ -43,11 +44,11 @@ class Improvement {
   void drop_useless() { drop_useless_actions(task_, plan_, replay_, kStepsTakenAgain, watch_); }
 
   // True: nothing better is left to be found.
-  bool search(std::int64_t weight, std::size_t limit, std::size_t& left) {
+  bool search(const Guide& guide, std::int64_t weight, std::size_t limit, std::size_t& left) {
     while (left > 0) {
       const Quality known = quality_of(task_, plan_, replay_.check());
       const WeightedSearchLimits limits{weight, std::min(limit, left)};
-      auto better = find_better(task_, known, heuristic_, options_, limits, watch_, statistics_);
+      auto better = find_better(task_, known, guide, options_, limits, watch_, statistics_);
       left -= better.evaluations;
       if (!better.plan) return better.exhausted;
       plan_ = std::move(*better.plan);
@@ -58,7 +59,7 @@ class Improvement {
 
   const Task& task_;
   PlanPrefix& plan_;
-  Heuristic& heuristic_;
+  std::span<const Guide> guides_;
   const Options& options_;
   Watch& watch_;
   Statistics& statistics_;
@@ -67,11 +68,11 @@ class Improvement {
 
 }  // namespace
 
-PlanPrefix improve(const Task& task, PlanPrefix first, Heuristic& heuristic, const Options& options,
+PlanPrefix improve(const Task& task, PlanPrefix first, std::span<const Guide> guides, const Options& options,
                    Watch& watch, Statistics& statistics) {
   PlanPrefix plan = std::move(first);
   try {
-    Improvement(task, plan, heuristic, options, watch, statistics).run();
+    Improvement(task, plan, guides, options, watch, statistics).run();
   } catch (const Refusal& refusal) {
     if (refusal.verdict() == Verdict::cancelled) throw;
   }

@@ -1,7 +1,9 @@
 // From a first plan to better ones, within a stated amount of work.
 #pragma once
 
-#include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
+#include <span>
+
+#include "planner_svc/temporal_pddl/improvement/weighted_search.hpp"
 #include "planner_svc/temporal_pddl/options.hpp"
 #include "planner_svc/temporal_pddl/plan/result.hpp"
 #include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
@@ -9,9 +11,10 @@
 
 namespace roci::planner::temporal_pddl {
 
-// The given plan without useless actions, or a better one. Options::improvement_evaluations bounds the work.
-// A spent budget ends it with the best plan so far; throws Refusal (cancelled) only.
-PlanPrefix improve(const Task& task, PlanPrefix first, Heuristic& heuristic, const Options& options,
+// The given plan without useless actions, or a better one. The guides take turns.
+// Options::improvement_evaluations bounds the work. A spent budget ends it with the best plan so far; throws
+// Refusal (cancelled) only.
+PlanPrefix improve(const Task& task, PlanPrefix first, std::span<const Guide> guides, const Options& options,
                    Watch& watch, Statistics& statistics);
 
 }  // namespace roci::planner::temporal_pddl

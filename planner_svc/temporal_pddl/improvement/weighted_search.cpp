@@ -15,11 +15,11 @@ namespace {
 
 class WeightedSearch {
  public:
-  WeightedSearch(const Task& task, const Quality& known, Heuristic& heuristic, const Options& options,
+  WeightedSearch(const Task& task, const Quality& known, const Guide& guide, const Options& options,
                  const WeightedSearchLimits& limits, Watch& watch, Statistics& statistics)
       : task_(task),
         known_(known),
-        heuristic_(heuristic),
+        guide_(guide),
         options_(options),
         limits_(limits),
         watch_(watch),
@@ -41,7 +41,7 @@ class WeightedSearch {
         if (evaluated_ == limits_.evaluations) return {std::nullopt, false, evaluated_};
         ++statistics_.generated;
         if (space_.build(prefix_, snap, successor_) != Rejection::none) continue;
-        if (heuristic_.hopeless(successor_.state, successor_.prefix.running_actions)) continue;
+        if (guide_.heuristic.hopeless(successor_.state, successor_.prefix.running_actions)) continue;
         if (take_up(prefix_.node)) return found();
       }
       watch_.memory(space_.store().bytes() + open_.bytes() + dominance_.bytes());
@@ -64,26 +64,26 @@ class WeightedSearch {
 
     ++evaluated_;
     ++statistics_.evaluated;
-    evaluation_.evaluate(successor_, heuristic_, estimate_);
+    evaluation_.evaluate(successor_, guide_.heuristic, estimate_);
     if (estimate_.dead_end) return false;
     const std::int64_t total = committed(prefix, quality) + limits_.weight * estimate_.cost;
     open_.push({total, estimate_.steps}, false, {prefix.node, SnapId()});
     return false;
   }
 
-  // What is done so far: all durations, those of running actions at least; for other metrics than the time
-  // those count in it in place of the makespan, as in the estimate.
+  // What is done so far, counted as the guide counts what is to come: all durations, those of running actions
+  // at least; or the metric with those in place of the makespan.
   std::int64_t committed(const PlanPrefix& prefix, const Quality& quality) const {
     Ticks busy = quality.busy;
     for (const ActionId action : prefix.running_actions) busy += task_.actions[action].min_duration.count();
-    if (task_.metric.only_time()) return busy;
+    if (guide_.measure == CostMeasure::duration) return busy;
     const auto more = static_cast<double>(busy - quality.makespan);
     return quality.metric + std::llround(task_.metric.expression.duration_weight * more);
   }
 
   const Task& task_;
   const Quality& known_;
-  Heuristic& heuristic_;
+  const Guide& guide_;
   const Options& options_;
   const WeightedSearchLimits& limits_;
   Watch& watch_;
@@ -103,9 +103,9 @@ class WeightedSearch {
 
 }  // namespace
 
-Better find_better(const Task& task, const Quality& known, Heuristic& heuristic, const Options& options,
+Better find_better(const Task& task, const Quality& known, const Guide& guide, const Options& options,
                    const WeightedSearchLimits& limits, Watch& watch, Statistics& statistics) {
-  return WeightedSearch(task, known, heuristic, options, limits, watch, statistics).run();
+  return WeightedSearch(task, known, guide, options, limits, watch, statistics).run();
 }
 
 }  // namespace roci::planner::temporal_pddl

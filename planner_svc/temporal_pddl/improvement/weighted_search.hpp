@@ -6,12 +6,19 @@
 #include <optional>
 
 #include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
+#include "planner_svc/temporal_pddl/heuristics/relaxed_task.hpp"
 #include "planner_svc/temporal_pddl/improvement/quality.hpp"
 #include "planner_svc/temporal_pddl/options.hpp"
 #include "planner_svc/temporal_pddl/plan/result.hpp"
 #include "planner_svc/temporal_pddl/watch.hpp"
 
 namespace roci::planner::temporal_pddl {
+
+// What leads a search: a heuristic and what its estimates count.
+struct Guide {
+  Heuristic& heuristic;
+  CostMeasure measure = CostMeasure::duration;
+};
 
 struct WeightedSearchLimits {
   std::int64_t weight = 1;      // of the estimate against what is done so far
@@ -25,7 +32,7 @@ struct Better {
 };
 
 // Throws what Watch throws.
-Better find_better(const Task& task, const Quality& known, Heuristic& heuristic, const Options& options,
+Better find_better(const Task& task, const Quality& known, const Guide& guide, const Options& options,
                    const WeightedSearchLimits& limits, Watch& watch, Statistics& statistics);
 
 }  // namespace roci::planner::temporal_pddl
