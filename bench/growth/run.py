@@ -79,9 +79,11 @@ def table(family, records):
         for name, value in median.items():
             curves[name].append((size, value))
         actions = statistics.median(record["stats"]["ground_actions"] for record in solved)
-        print(f"| {size} | {len(solved)} of {SEEDS} | {actions:.0f} | {median['evaluations']:.0f} | {median['time']:.3f} | {median['memory'] / 1000:.0f} |")
+        print(f"| {size} | {len(solved)} of {SEEDS} | {actions:.0f} | {median['evaluations']:.0f} | {median['time']:.3f} | "
+              f"{median['memory'] / 1000:.0f} |")
     slopes = {name: slope(points[len(points) // 2:]) for name, points in curves.items()}
-    print("\nSlope: " + ", ".join(f"{name} {value:.1f}" if value is not None else f"{name} –" for name, value in slopes.items()) + ".")
+    texts = [f"{name} {'–' if value is None else format(value, '.1f')}" for name, value in slopes.items()]
+    print("\nSlope: " + ", ".join(texts) + ".")
 
 
 def main():

@@ -54,14 +54,16 @@ const Row kRows[] = {
      "(:objects p q) (:init (raining) (covered p)) (:goal (and (wet p) (arrived p)))"},
 
     {"durations_of_the_state", R"((:requirements :durative-actions :duration-inequalities :numeric-fluents)
-      (:predicates (ready) (warm) (g)) (:functions (speed) (least))
+      (:predicates (spare) (ready) (g)) (:functions (speed) (time-left))
       (:durative-action tune :parameters () :duration (= ?duration 1)
-        :condition (at start (ready)) :effect (and (at start (not (ready))) (at end (increase (speed) 1)) (at end (ready))))
+        :condition (at start (spare))
+        :effect (and (at start (not (spare))) (at end (increase (speed) 1)) (at end (decrease (time-left) 1))
+                     (at end (ready))))
       (:durative-action run :parameters ()
-        :duration (and (>= ?duration (- 9 (* 2 (speed)))) (<= ?duration (least)))
+        :duration (and (>= ?duration (- 9 (* 2 (speed)))) (<= ?duration (time-left)))
         :condition (over all (ready)) :effect (at end (g))))",
-     "(:init (ready) (= (speed) 0) (= (least) 4)) (:goal (g))",
-     "(:init (ready) (= (speed) 0) (= (least) -1)) (:goal (and (g) (< (speed) 4)))"},
+     "(:init (spare) (= (speed) 0) (= (time-left) 8)) (:goal (g))",
+     "(:init (spare) (= (speed) 0) (= (time-left) 7)) (:goal (g))"},
 
     {"timed_values", R"((:requirements :durative-actions :timed-initial-literals :numeric-fluents)
       (:predicates (g)) (:functions (sun) (charge))
