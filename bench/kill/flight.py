@@ -112,21 +112,25 @@ def send(pid: int | None, number: int) -> bool:
         return False
 
 
+def leader_of(folder: Path) -> str:
+    return "first" if newest_epoch(folder) % 2 == 1 else "second"
+
+
 def kill_member(launcher: subprocess.Popen, flight: Flight, victim: str) -> None:
-    leader = "first" if newest_epoch(flight.folder) % 2 == 1 else "second"
-    processes = members(launcher.pid)
+    leader, processes = leader_of(flight.folder), members(launcher.pid)
     names = {"standby": {"first", "second"} - {leader}, "both": {"first", "second"}}.get(victim, {leader})
     before, start = resumed(flight.folder), time.monotonic()
-    number = signal.SIGSTOP if victim == "leader stopped" else signal.SIGKILL
-    flight.killed += sum(send(processes.get(name), number) for name in names)
+    stopped = victim == "leader stopped"
+    flight.killed += sum(send(processes.get(name), signal.SIGSTOP if stopped else signal.SIGKILL) for name in names)
     if victim not in ("leader", "leader stopped"):
         return
-    while launcher.poll() is None and resumed(flight.folder) == before and time.monotonic() < start + 30:
+    limit = start + (STOPPED_S if stopped else 30)
+    while launcher.poll() is None and resumed(flight.folder) == before and time.monotonic() < limit:
         time.sleep(0.005)
-    if launcher.poll() is None and resumed(flight.folder) > before:
+    if resumed(flight.folder) > before and leader_of(flight.folder) != leader:
         flight.take_overs_s.append(time.monotonic() - start)
-    if victim == "leader stopped":
-        time.sleep(max(0.0, start + STOPPED_S - time.monotonic()))
+    if stopped:
+        time.sleep(max(0.0, limit - time.monotonic()))
         send(processes.get(leader), signal.SIGCONT)
 
 

@@ -126,9 +126,10 @@ Lease::Turn Lease::keep_leading(const Position& newest, Moment now) {
     standing_.alone = false;
     return {Change::stand_down, "an owner obeys a later epoch"};
   }
-  if (bond_ == Bond::paired && expired(now)) {
+  // Alone too: to others it was dead meanwhile, so it joins them anew.
+  if (std::exchange(settled_, true) && now - spoke_at_ >= settings_.term) {
     return {Change::stand_down,
-            "it stood still for " + milliseconds_text(now - entitled_at_) + ", longer than its lease"};
+            "it stood still for " + milliseconds_text(now - spoke_at_) + ", longer than its lease"};
   }
   note_progress(newest, now);
   return bind(newest, now);

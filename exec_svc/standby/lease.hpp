@@ -127,6 +127,7 @@ class Lease {
   Moment started_;
 
   std::uint64_t own_epoch_ = 0;  // leading
+  bool settled_ = false;         // had a turn since it leads; opening its endpoints may take a while
   Bond bond_ = Bond::alone;
   Moment entitled_at_{0};  // when this leader last said that the other may take over
   Moment bond_since_{0};

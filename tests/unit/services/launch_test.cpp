@@ -64,6 +64,20 @@ TEST_F(LaunchTest, OnlyTheMasterKnowsRosterAndPace) {
   EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Not(Contains("--roster")));
 }
 
+TEST_F(LaunchTest, AStandbyIsASecondExecutiveAndNoMemberOfTheRoster) {
+  const Options options = parse({"--standby", "--dds", "mixed"});
+  EXPECT_THAT(options.services, Contains(kStandby));
+  EXPECT_THAT(options.roster, Not(Contains(kStandby)));
+  EXPECT_THAT(service_arguments(options, kExecutive, 1, 0), IsSupersetOf({"exec_svc", "--pair", "first"}));
+  EXPECT_THAT(service_arguments(options, kStandby, 1, 0),
+              IsSupersetOf({"exec_svc", "--pair", "second", "cyclonedds"}));
+  EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Not(Contains("--pair")));
+  EXPECT_THAT(service_arguments(parse({}), kExecutive, 1, 0), Not(Contains("--pair")));
+  EXPECT_THAT(parse({"--standby", "--services", "exec_svc.standby"}).services, ElementsAre(kStandby));
+  EXPECT_THROW(parse({"--services", "exec_svc.standby"}), std::invalid_argument);
+  EXPECT_THROW(parse({"--standby", "--dds", "inproc"}), std::invalid_argument);
+}
+
 TEST_F(LaunchTest, LiveServicesShareAnEpoch) {
   const Options options = parse({"--clock", "live", "--speed", "2"});
   EXPECT_THAT(service_arguments(options, "sim_svc", 1, 1'700'000'000'250'000),

@@ -83,6 +83,21 @@ TEST(Lease, ALeaderThatStoodStillSendsNothingMore) {
   EXPECT_THAT(world.faults, IsEmpty());
 }
 
+TEST(Lease, ALeaderThatStoodStillAloneBeginsAnew) {
+  PairWorld world = paired();
+  world.kill(kSecond);
+  world.run(5s);
+  ASSERT_EQ(world.last_change(kFirst), Lease::Change::alone);
+  world.pause(kFirst);
+  world.run(3s);
+  world.resume(kFirst);
+  world.run(10ms);
+  EXPECT_EQ(world.last_change(kFirst), Lease::Change::stand_down);
+  world.run(2500ms);
+  EXPECT_EQ(world.leader(), kFirst);
+  EXPECT_EQ(world.leads(), 2);
+}
+
 // Nobody heard that it stood still, and still it knows by itself.
 TEST(Lease, ALeaderWhoseOwnLeaseRanOutStandsDownUnheard) {
   PairWorld world = paired();

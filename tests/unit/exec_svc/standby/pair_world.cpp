@@ -71,6 +71,7 @@ void PairWorld::act(Member member) {
   if (turn.change != Lease::Change::none) process.last_change = turn.change;
   if (turn.change == Lease::Change::stand_down) return start(member, process.lease->superseded());
   if (turn.change == Lease::Change::lead && by_right) check_right(process);
+  if (turn.doubtful) ledger_.clear();  // it plans anew, and lacks what it lacks
   if (turn.change == Lease::Change::lead) lead(member);
   if (turn.speak) post({{}, other(member), process.lease->word(process.disk.newest()), 0, {}, {}, false});
   if (process.lease->role() != Role::leading) return;
@@ -183,7 +184,7 @@ void PairWorld::command(Member member, const Line& decision) {
   owner_epoch_ = epoch;
   const auto [commander, fresh] = commanders_.try_emplace(epoch, member);
   if (commander->second != member) faults.push_back("two leaders of epoch " + std::to_string(epoch));
-  if (decision.text == "command") ledger_.insert(decision.at);
+  if (decision.text == "command" && ledger_.insert(decision.at).second) ++carried_out_;
 }
 
 std::optional<Member> PairWorld::leader() const {

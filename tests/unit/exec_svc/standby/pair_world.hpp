@@ -61,7 +61,7 @@ class PairWorld {
   Moment now() const { return now_; }
   int leads() const { return leads_; }
   std::size_t acknowledged() const { return acknowledged_.size(); }
-  std::size_t carried_out() const { return ledger_.size(); }
+  std::size_t carried_out() const { return carried_out_; }
   std::size_t refused() const { return refused_; }
   Lease& lease(Member member) { return *at(member).lease; }
   // One journal is the other but for its newest lines, three at most.
@@ -120,6 +120,7 @@ class PairWorld {
   std::uint64_t owner_epoch_ = 0;
   std::map<std::uint64_t, Member> commanders_;  // by epoch
   std::set<Position> ledger_;                   // commands carried out, by their place in the journal
+  std::size_t carried_out_ = 0;
   std::size_t refused_ = 0;
   int leads_ = 0;
 };
