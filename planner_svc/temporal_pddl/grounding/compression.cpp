@@ -59,7 +59,7 @@ class Touch {
 
 class Analysis {
  public:
-  Analysis(const GroundModel& model, const std::vector<MutexGroup>& groups)
+  Analysis(const GroundModel& model, const std::vector<MutexGroup>& groups, Watch& watch)
       : model_(model),
         groups_of_(model.atoms.size()),
         running_(model.actions.size()),
@@ -72,7 +72,10 @@ class Analysis {
       for (const std::uint32_t atom : groups[group].atoms) groups_of_[atom].push_back(group);
       for (const std::uint32_t action : groups[group].running) running_[action].push_back(group);
     }
-    for (std::size_t i = 0; i < model.actions.size(); ++i) touch_by_action(i);
+    for (std::size_t i = 0; i < model.actions.size(); ++i) {
+      touch_by_action(i);
+      watch.step();
+    }
     for (const auto& timed : model.timed) touch_by_snap(Touch::nobody, timed.effects, {}, {});
     for (const auto& rule : model.rules) touch_by_rule(rule);
   }
@@ -223,10 +226,14 @@ class Analysis {
 
 }  // namespace
 
-std::vector<Compression> find_compression(const GroundModel& model, const std::vector<MutexGroup>& groups) {
-  const Analysis analysis(model, groups);
+std::vector<Compression> find_compression(const GroundModel& model, const std::vector<MutexGroup>& groups,
+                                          Watch& watch) {
+  const Analysis analysis(model, groups, watch);
   std::vector<Compression> result;
-  for (std::size_t i = 0; i < model.actions.size(); ++i) result.push_back(analysis.judge(i));
+  for (std::size_t i = 0; i < model.actions.size(); ++i) {
+    result.push_back(analysis.judge(i));
+    watch.step();
+  }
   return result;
 }
 

@@ -29,6 +29,7 @@
 
 #include "planner_svc/temporal_pddl/grounding/ground_actions.hpp"
 #include "planner_svc/temporal_pddl/grounding/mutex_groups.hpp"
+#include "planner_svc/temporal_pddl/watch.hpp"
 
 namespace roci::planner::temporal_pddl {
 
@@ -38,7 +39,8 @@ struct Compression {
 };
 
 // By action. After prune() and drop_irrelevant_effects().
-std::vector<Compression> find_compression(const GroundModel& model, const std::vector<MutexGroup>& groups);
+std::vector<Compression> find_compression(const GroundModel& model, const std::vector<MutexGroup>& groups,
+                                          Watch& watch);
 
 // By atom: only ever added, in no condition of an action. Orderings on them would say nothing.
 std::vector<bool> only_goals_ask(const GroundModel& model);

@@ -87,13 +87,13 @@ Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, Funct
   GroundModel model = instantiate(domain, problem, actions, world, explore(actions, world, watch), watch);
   extract_timed_windows(model, options.windows, options.epsilon);
   const Disjunction goal = model.goal;
-  const std::vector<bool> reached = prune(model);
+  const std::vector<bool> reached = prune(model, watch);
   require_reachable_goal(problem, goal, model, reached, symbols, actions);
   drop_irrelevant_effects(model);
   const auto groups = find_mutex_groups(model, reached, symbols.predicates(), actions.size(), watch);
   std::vector<Compression> compression(model.actions.size());
-  if (options.compression_safety) compression = find_compression(model, groups);
-  Task task = build_task(model, symbols, actions, groups, compression);
+  if (options.compression_safety) compression = find_compression(model, groups, watch);
+  Task task = build_task(model, symbols, actions, groups, compression, watch);
   return {std::move(symbols), std::move(constants), std::move(task)};
 }
 

@@ -148,6 +148,22 @@ void set_initial(const pddl::Problem& problem, const World& world, const Reachab
   }
 }
 
+std::size_t bytes_of(const Conjunction& conjunction) {
+  return conjunction.literals.capacity() * sizeof(GroundLiteral) +
+         conjunction.comparisons.capacity() * sizeof(NumericCondition);
+}
+
+std::size_t bytes_of(const GroundEffects& effects) {
+  return (effects.adds.capacity() + effects.deletes.capacity()) * sizeof(std::uint32_t) +
+         effects.numeric.capacity() * sizeof(NumericEffect);
+}
+
+std::size_t bytes_of(const GroundAction& action) {
+  return sizeof(GroundAction) + action.arguments.capacity() * sizeof(ObjectId) + bytes_of(action.at_start) +
+         bytes_of(action.over_all) + bytes_of(action.at_end) + bytes_of(action.start_effects) +
+         bytes_of(action.end_effects);
+}
+
 }  // namespace
 
 GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem,
@@ -157,6 +173,8 @@ GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem
   const TupleTable touched = touched_atoms(actions, world, reachability);
   FormulaGrounder formulas(world, reachability, touched, model.numbers, model.expressions, domain.file);
   ActionInstantiator instantiator(formulas);
+  std::size_t counted = 0;
+  std::size_t bytes = reachability.atoms.bytes();
   for (std::size_t schema = 0; schema < actions.size(); ++schema) {
     const auto& instances = reachability.instances[SchemaId(schema)];
     Binding binding(actions[schema].slots);
@@ -168,6 +186,8 @@ GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem
       } else {
         instantiator.instantiate(SchemaId(schema), actions[schema], binding, model.actions);
       }
+      for (; counted < model.actions.size(); ++counted) bytes += bytes_of(model.actions[counted]);
+      watch.memory(bytes + instances.bytes());
     }
   }
   FormulaGrounder goals(world, reachability, touched, model.numbers, model.expressions, problem.file);

@@ -13,8 +13,9 @@ bool achieves(const GroundEffects& effects, GroundLiteral literal) {
 
 class RelaxedReach {
  public:
-  explicit RelaxedReach(const GroundModel& model)
+  RelaxedReach(const GroundModel& model, Watch& watch)
       : model_(model),
+        watch_(watch),
         reached_(2 * model.atoms.size(), false),
         waiting_(2 * model.atoms.size()),
         missing_(2 * model.actions.size() + model.rules.size(), 0) {}
@@ -27,6 +28,7 @@ class RelaxedReach {
     for (std::size_t i = 0; i < model_.rules.size(); ++i)
       await(2 * model_.actions.size() + i, model_.rules[i].body.literals, 0);
     for (std::size_t i = 0; i < model_.actions.size(); ++i) {
+      watch_.step();
       const GroundAction& action = model_.actions[i];
       std::vector<GroundLiteral> end;
       std::ranges::set_union(action.over_all.literals, action.at_end.literals, std::back_inserter(end));
@@ -34,6 +36,7 @@ class RelaxedReach {
       await(2 * i, start_requirements(model_, action), 0);
     }
     while (!queue_.empty()) {
+      watch_.step();
       const std::size_t literal = queue_.back();
       queue_.pop_back();
       for (const std::size_t snap : waiting_[literal]) count_down(snap);
@@ -76,6 +79,7 @@ class RelaxedReach {
   }
 
   const GroundModel& model_;
+  Watch& watch_;
   std::vector<bool> reached_;
   std::vector<std::vector<std::size_t>> waiting_;
   std::vector<std::size_t> missing_;  // by start and end of each action, then by rule
@@ -109,9 +113,9 @@ std::vector<GroundLiteral> start_requirements(const GroundModel& model, const Gr
   return result;
 }
 
-std::vector<bool> prune(GroundModel& model) {
+std::vector<bool> prune(GroundModel& model, Watch& watch) {
   while (true) {
-    RelaxedReach reach(model);
+    RelaxedReach reach(model, watch);
     reach.run();
     const std::size_t before = model.actions.size();
     std::vector<GroundAction> kept;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner_svc/temporal_pddl/grounding/ground_actions.hpp"
+#include "planner_svc/temporal_pddl/watch.hpp"
 
 namespace roci::planner::temporal_pddl {
 
@@ -17,7 +18,7 @@ inline std::size_t literal_index(GroundLiteral literal) {
 // that always hold, and goal alternatives that are out of reach. A condition at a time point stays if some
 // effect brings about what holds anyway: the two must not coincide (R6). Returns by literal index what can
 // hold.
-std::vector<bool> prune(GroundModel& model);
+std::vector<bool> prune(GroundModel& model, Watch& watch);
 
 // The conditions of the start snap action: at_start, and what of over_all the start itself cannot bring
 // about.

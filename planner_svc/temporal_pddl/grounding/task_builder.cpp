@@ -21,12 +21,15 @@ class Builder {
         support_(model) {}
 
   Task run(const std::vector<LiftedAction>& schemas, const std::vector<MutexGroup>& groups,
-           const std::vector<Compression>& compression) {
+           const std::vector<Compression>& compression, Watch& watch) {
     name_symbols(schemas);
     number_facts();
     task_.expressions = model_.expressions;
     task_.metric = model_.metric;
-    for (std::size_t i = 0; i < model_.actions.size(); ++i) add_action(model_.actions[i], compression[i]);
+    for (std::size_t i = 0; i < model_.actions.size(); ++i) {
+      add_action(model_.actions[i], compression[i]);
+      watch.step();
+    }
     for (const auto& timed : model_.timed) {
       task_.timed_steps.push_back(
           {add_snap({SnapKind::timed_literal, ActionId()}, {}, timed.effects, {{timed.time, timed.time}}, {}),
@@ -294,8 +297,9 @@ class Builder {
 }  // namespace
 
 Task build_task(const GroundModel& model, const Symbols& symbols, const std::vector<LiftedAction>& schemas,
-                const std::vector<MutexGroup>& groups, const std::vector<Compression>& compression) {
-  return Builder(model, symbols).run(schemas, groups, compression);
+                const std::vector<MutexGroup>& groups, const std::vector<Compression>& compression,
+                Watch& watch) {
+  return Builder(model, symbols).run(schemas, groups, compression, watch);
 }
 
 }  // namespace roci::planner::temporal_pddl

@@ -14,6 +14,7 @@ namespace roci::planner::temporal_pddl {
 
 // `compression` by action. Facts that no group covers get a variable each.
 Task build_task(const GroundModel& model, const Symbols& symbols, const std::vector<LiftedAction>& schemas,
-                const std::vector<MutexGroup>& groups, const std::vector<Compression>& compression);
+                const std::vector<MutexGroup>& groups, const std::vector<Compression>& compression,
+                Watch& watch);
 
 }  // namespace roci::planner::temporal_pddl

@@ -54,6 +54,88 @@ TEST(Budget, Memory) {
   EXPECT_LT(result.statistics.peak_bytes, std::size_t{6} << 20);
 }
 
+// n³ instances, and a goal that holds: all the work is grounding.
+testing::Model wide(int n) {
+  std::string objects, init;
+  for (int i = 0; i < n; ++i) {
+    objects += " o" + std::to_string(i);
+    init += " (p o" + std::to_string(i) + ")";
+  }
+  return testing::model(R"((:requirements :typing :durative-actions) (:types t)
+    (:predicates (p ?a - t) (q ?a ?b ?c - t))
+    (:durative-action a :parameters (?a ?b ?c - t) :duration (= ?duration 1)
+      :condition (and (at start (p ?a)) (at start (p ?b)) (at start (p ?c)))
+      :effect (and (at start (not (p ?a))) (at end (p ?a)) (at end (q ?a ?b ?c)))))",
+                        "(:objects" + objects + " - t) (:init" + init + ") (:goal (not (q o0 o0 o0)))");
+}
+
+TEST(Budget, GroundingIsWithinTheMemoryToo) {
+  const auto model = wide(20);
+  Budget budget;
+  budget.memory_bytes = 1 << 20;
+  NoFunctions functions;
+  const Result result = plan(model.domain, model.problem, functions, budget, {});
+  EXPECT_EQ(result.verdict, Verdict::out_of_memory);
+  EXPECT_LT(result.statistics.peak_bytes, std::size_t{1200} << 10);
+  EXPECT_EQ(result.statistics.evaluated, 0u);
+}
+
+// The work between two polls is bounded: each phase of grounding polls at least once in 256 instances.
+TEST(Budget, GroundingPollsOftenEnough) {
+  const std::size_t phases = 5;  // joins, instances, pruning, invariants or compression, the task
+  const auto model = wide(16);
+  std::size_t polls = 0;
+  Monitor monitor;
+  monitor.cancelled = [&] {
+    ++polls;
+    return false;
+  };
+  NoFunctions functions;
+  EXPECT_EQ(plan(model.domain, model.problem, functions, {}, monitor).verdict, Verdict::solved);
+  const std::size_t all = polls;
+  EXPECT_GE(all, phases * 16 * 16 * 16 / 256);
+  for (std::size_t last = 1; last < all; last += all / 7) {  // wherever it is cancelled, it stops there
+    polls = 0;
+    monitor.cancelled = [&] { return ++polls >= last; };
+    EXPECT_EQ(plan(model.domain, model.problem, functions, {}, monitor).verdict, Verdict::cancelled);
+    EXPECT_EQ(polls, last);
+  }
+}
+
+TEST(Budget, ImprovementPollsAtEachEvaluation) {
+  const auto model = testing::model(R"((:requirements :typing :durative-actions)
+    (:types t) (:predicates (p ?x - t) (q ?x - t))
+    (:durative-action a :parameters (?x - t) :duration (= ?duration 2) :condition (at start (q ?x))
+      :effect (and (at start (not (q ?x))) (at end (p ?x)) (at end (q ?x))))
+    (:durative-action b :parameters (?x - t) :duration (= ?duration 3) :condition (at start (q ?x))
+      :effect (and (at start (not (q ?x))) (at end (p ?x)) (at end (q ?x)))))",
+                                    "(:objects a b c d e f - t) (:init (q a) (q b) (q c) (q d) (q e) (q f))"
+                                    "(:goal (and (p a) (p b) (p c) (p d) (p e) (p f)))");
+  std::size_t polls = 0;
+  Monitor monitor;
+  monitor.cancelled = [&] {
+    ++polls;
+    return false;
+  };
+  NoFunctions functions;
+  Options options;
+  const std::size_t first =
+      plan(model.domain, model.problem, functions, {}, monitor, options).statistics.evaluated;
+  const std::size_t to_first = polls;
+  options.improvement_evaluations = 2000;
+  polls = 0;
+  const std::size_t in_all =
+      plan(model.domain, model.problem, functions, {}, monitor, options).statistics.evaluated;
+  EXPECT_GT(in_all, first + 200);
+  EXPECT_GE((polls - to_first) * 16, in_all - first);
+  for (const std::size_t more : {1, 20, 60}) {
+    polls = 0;
+    monitor.cancelled = [&] { return ++polls >= to_first + more; };
+    EXPECT_EQ(plan(model.domain, model.problem, functions, {}, monitor, options).verdict, Verdict::cancelled);
+    EXPECT_EQ(polls, to_first + more);
+  }
+}
+
 TEST(Budget, CancellationAndProgress) {
   std::size_t reports = 0;
   Monitor monitor;

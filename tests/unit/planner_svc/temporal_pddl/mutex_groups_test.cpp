@@ -33,7 +33,7 @@ Ground groups_of(const testing::Model& made) {
   Ground result;
   result.model =
       instantiate(made.domain, made.problem, actions, world, explore(actions, world, watch), watch);
-  const auto reached = prune(result.model);
+  const auto reached = prune(result.model, watch);
   result.groups = find_mutex_groups(result.model, reached, symbols.predicates(), actions.size(), watch);
   return result;
 }
