@@ -79,7 +79,7 @@ class ExecService final : public services::Service {
     });
     node.on_peer_change([this](const services::PeerChange& change) { take(change); });
     if (leading_ != nullptr && node.options().clock == services::ClockMode::live)
-      node.on_turn([this] { announce_epoch(); });
+      node.on_turn([this] { tell_pair(); });
     step_soon();
   }
 
@@ -110,6 +110,11 @@ class ExecService final : public services::Service {
     report({NoteLevel::warning, "journal.diverged",
             "the journal does not lead to the state before the restart, all is planned anew: expected " +
                 divergence.expected + ", got " + divergence.got});
+  }
+
+  void tell_pair() {
+    announce_epoch();
+    for (const Note& note : leading_->take_notes()) report(note);
   }
 
   // Owners that know this epoch refuse what an earlier leader may still send. (The simulated clock drops it.)
