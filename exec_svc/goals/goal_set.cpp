@@ -110,6 +110,28 @@ std::string GoalSet::fault_of_reference(const GoalRequest& request, const std::s
   return "";
 }
 
+bool GoalSet::names(const GoalRequest& request, const GoalRequest& other) const {
+  const auto kind = mission_->goal_kinds.find(request.kind);
+  if (kind == mission_->goal_kinds.end()) return false;
+  return std::any_of(kind->second.arguments.begin(), kind->second.arguments.end(), [&](const auto& argument) {
+    const auto given = request.arguments.find(argument.first);
+    return argument.second == ArgumentKind::goal && given != request.arguments.end() &&
+           given->second == other.key.id;
+  });
+}
+
+std::vector<GoalRequest> GoalSet::in_order(std::vector<GoalRequest> requests) const {
+  for (auto at = requests.begin(); at != requests.end(); ++at) {
+    // The first from here on that names none of the others; in a circle of names the one that is there.
+    const auto free = std::find_if(at, requests.end(), [&](const GoalRequest& one) {
+      return std::none_of(at, requests.end(),
+                          [&](const GoalRequest& other) { return &other != &one && names(one, other); });
+    });
+    if (free != requests.end()) std::rotate(at, free, free + 1);
+  }
+  return requests;
+}
+
 const GoalRecord* GoalSet::submit(const GoalRequest& request, temporal::Time now) {
   const auto known = records_.find(request.key);
   if (known != records_.end()) {

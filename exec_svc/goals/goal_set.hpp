@@ -58,6 +58,10 @@ class GoalSet {
   // nullptr if nothing changed.
   const GoalRecord* submit(const GoalRequest& request, temporal::Time now);
 
+  // These, but each after those of them that its arguments name: who joins a writer late hears goals of
+  // different keys in any order.
+  std::vector<GoalRequest> in_order(std::vector<GoalRequest> requests) const;
+
   // Puts a goal back as the journal has it.
   void restore(const GoalRecord& record);
 
@@ -79,6 +83,7 @@ class GoalSet {
 
  private:
   std::string fault_of(const GoalRequest& request, temporal::Time now) const;
+  bool names(const GoalRequest& request, const GoalRequest& other) const;
   std::string fault_of_reference(const GoalRequest& request, const std::string& argument) const;
 
   const MissionModel* mission_;

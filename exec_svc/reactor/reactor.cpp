@@ -107,7 +107,7 @@ void Reactor::take_models(const std::vector<ModelVersion>& models) {
 }
 
 void Reactor::take_goals(Time now, const std::vector<GoalRequest>& requests) {
-  for (const GoalRequest& request : requests) {
+  for (const GoalRequest& request : goals_.in_order(requests)) {
     const GoalRecord* record = goals_.submit(request, now);
     if (record == nullptr) continue;
     out_.goal_changes.push_back(*record);

@@ -122,5 +122,20 @@ TEST_F(GoalSetTest, DropsNewestOpportunisticThenOptionalOfLowestUtilityNeverHard
   EXPECT_EQ(goals.open().front()->request.key.id, "hard");
 }
 
+TEST_F(GoalSetTest, AGoalComesAfterTheOnesThatItNames) {
+  GoalRequest depot = photo("depot");
+  depot.kind = "drop_sample";
+  depot.arguments["sample"] = "soil";
+  const auto order = [this](const std::vector<GoalRequest>& requests) {
+    std::string out;
+    for (const GoalRequest& one : goals.in_order(requests)) out += one.key.id + " ";
+    return out;
+  };
+  EXPECT_EQ(order({depot, photo("ridge"), photo("soil")}), "ridge soil depot ");
+  EXPECT_EQ(order({photo("soil"), depot, photo("ridge")}), "soil depot ridge ") << "as they came";
+  depot.arguments["sample"] = "depot";
+  EXPECT_EQ(order({depot, photo("ridge")}), "depot ridge ");
+}
+
 }  // namespace
 }  // namespace roci::exec
