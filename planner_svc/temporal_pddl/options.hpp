@@ -20,6 +20,8 @@ struct Options {
   bool compression_safety = true;   // R14, see task/compression.hpp
   bool dominance = true;            // see search/dominance.hpp; off: R26 to the letter
   bool preferred_operators = true;  // R21
+  bool landmarks = true;            // see heuristics/landmarks.hpp; takes no effect without dominance
+  bool whole_actions = true;        // see search/search.hpp
   WindowExtraction windows = WindowExtraction::recurring;
   std::size_t resource_patience = 100;  // states before it is measured what resources suffice for, see
                                         // heuristics/within_resources.hpp

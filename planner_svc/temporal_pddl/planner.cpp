@@ -10,10 +10,11 @@
 #include "planner_svc/temporal_pddl/grounding/grounder.hpp"
 #include "planner_svc/temporal_pddl/grounding/refusal.hpp"
 #include "planner_svc/temporal_pddl/heuristics/ff.hpp"
+#include "planner_svc/temporal_pddl/heuristics/landmark_count.hpp"
 #include "planner_svc/temporal_pddl/heuristics/within_resources.hpp"
 #include "planner_svc/temporal_pddl/improvement/improvement.hpp"
 #include "planner_svc/temporal_pddl/plan/plan_builder.hpp"
-#include "planner_svc/temporal_pddl/search/best_first_search.hpp"
+#include "planner_svc/temporal_pddl/search/search.hpp"
 #include "planner_svc/temporal_pddl/watch.hpp"
 
 namespace roci::planner::temporal_pddl {
@@ -51,7 +52,10 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   const Grounding grounding = ground(domain, problem, functions, options, watch, result.functions);
   describe(grounding.task, result.statistics);
   FfHeuristic ff(grounding.task);
-  WithinResources heuristic(grounding.task, ff, options.resource_patience, watch);
+  std::optional<LandmarkCount> landmarks;
+  if (options.landmarks) landmarks.emplace(grounding.task, ff, watch);
+  Heuristic& guidance = landmarks ? static_cast<Heuristic&>(*landmarks) : ff;
+  WithinResources heuristic(grounding.task, guidance, options.resource_patience, watch);
   SearchOutcome outcome = search(grounding.task, heuristic, options, watch, result.statistics);
   if (outcome.plan) {
     const PlanPrefix best =

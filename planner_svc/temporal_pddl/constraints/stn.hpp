@@ -22,6 +22,8 @@ class Stn {
     points_ = points;
     edges_.clear();
   }
+  // Adds points behind those that there are.
+  void extend(std::size_t points) { points_ += points; }
   // t(to) − t(from) ≥ least. A bound from above is one with the points exchanged and the sign turned.
   void require(std::size_t from, std::size_t to, Ticks least) {
     edges_.push_back({static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to), least});

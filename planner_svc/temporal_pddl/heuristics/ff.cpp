@@ -1,7 +1,6 @@
 #include "planner_svc/temporal_pddl/heuristics/ff.hpp"
 
 #include <algorithm>
-#include <functional>
 
 namespace roci::planner::temporal_pddl {
 
@@ -12,11 +11,12 @@ FfHeuristic::FfHeuristic(const Task& task, CostMeasure measure)
       reached_at_(relaxed_.propositions(), kUnreached),
       supporter_(relaxed_.propositions()),
       needed_(relaxed_.propositions(), false),
-      initially_open_(relaxed_.operators(), 0),
-      costs_(relaxed_.operators(), 0),
+      at_first_(relaxed_.operators()),
       in_plan_(relaxed_.operators(), false) {
   for (std::size_t i = 0; i < relaxed_.operators(); ++i) {
-    initially_open_[SnapId(i)] = static_cast<std::uint32_t>(relaxed_.needs(SnapId(i)).size());
+    const SnapKind kind = task.snaps[SnapId(i)].kind;
+    at_first_[SnapId(i)] = {kind == SnapKind::start || kind == SnapKind::instant ? 1 : 0,
+                            static_cast<std::uint32_t>(relaxed_.needs(SnapId(i)).size())};
   }
 }
 
@@ -41,7 +41,7 @@ void FfHeuristic::evaluate(const Situation& situation, Estimate& estimate) {
 
 std::string FfHeuristic::why_too_late() {
   if (!earliest_.matters()) return {};
-  earliest_.measure({task_.initial_state, {}, 0, nullptr, {}});
+  earliest_.measure({task_.initial_state, {}, 0, nullptr, {}, {}});
   std::string reason;
   for (const Goal& goal : task_.goals) {
     const auto never = std::ranges::find_if(
@@ -58,10 +58,9 @@ void FfHeuristic::reset() {
   std::ranges::fill(reached_at_, kUnreached);
   std::ranges::fill(supporter_, SnapId());
   needed_.assign(needed_.size(), false);
-  open_ = initially_open_;
-  for (std::size_t i = 0; i < costs_.size(); ++i) costs_[SnapId(i)] = relaxed_.cost(SnapId(i));
+  operators_ = at_first_;
   in_plan_.assign(in_plan_.size(), false);
-  queue_.clear();
+  queue_.restart();
   to_support_.clear();
   plan_.clear();
 }
@@ -71,8 +70,7 @@ void FfHeuristic::reach(PropositionId proposition, std::int64_t cost, SnapId sup
   if (known != kUnreached && known <= cost) return;
   known = cost;
   supporter_[proposition] = supporter;
-  queue_.emplace_back(cost, proposition);
-  std::ranges::push_heap(queue_, std::greater{});
+  queue_.push(cost, proposition);
 }
 
 void FfHeuristic::explore(const Situation& situation) {
@@ -83,24 +81,23 @@ void FfHeuristic::explore(const Situation& situation) {
     fire(task_.timed_steps[i].snap);
   for (const SnapId op : relaxed_.free()) fire(op);
   while (!queue_.empty()) {
-    std::ranges::pop_heap(queue_, std::greater{});
-    const auto [cost, proposition] = queue_.back();
-    queue_.pop_back();
+    const auto [cost, proposition] = queue_.pop();
     if (cost > reached_at_[proposition]) continue;
     for (const SnapId op : relaxed_.needed_by(proposition)) {
-      costs_[op] += cost;
-      if (--open_[op] == 0) fire(op);
+      Operator& state = operators_[op];
+      state.cost += cost;
+      if (--state.open == 0) fire(op);
     }
   }
 }
 
 void FfHeuristic::fire(SnapId op) {
   if (!possible(op)) return;
-  for (const PropositionId added : relaxed_.adds(op)) reach(added, costs_[op], op);
+  for (const PropositionId added : relaxed_.adds(op)) reach(added, operators_[op].cost, op);
 }
 
 bool FfHeuristic::possible(SnapId op) const {
-  return open_[op] == 0 && (!earliest_.matters() || earliest_.of(op) != kNever);
+  return operators_[op].open == 0 && (!earliest_.matters() || earliest_.of(op) != kNever);
 }
 
 const Goal* FfHeuristic::cheapest_goal() const {

@@ -1,11 +1,12 @@
-// The FF heuristic (Hoffmann and Nebel 2001) on the relaxed task: a relaxed plan made of the cheapest
-// supporters by h_add, after Stellar section 4.2.
+// The FF heuristic (Hoffmann and Nebel 2001) on the relaxed task: a relaxed plan made of the supporters that
+// take the fewest actions by h_add, after Stellar section 4.2; its cost are the durations (R16).
 #pragma once
 
 #include <cstdint>
-#include <utility>
+#include <span>
 #include <vector>
 
+#include "planner_svc/temporal_pddl/heuristics/bucket_queue.hpp"
 #include "planner_svc/temporal_pddl/heuristics/earliest_times.hpp"
 #include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
 #include "planner_svc/temporal_pddl/heuristics/relaxed_task.hpp"
@@ -21,6 +22,10 @@ class FfHeuristic final : public Heuristic {
   // plan starts belong to the relaxed plan (R20), with what they need. A dead end: a goal or the end of a
   // running action is out of reach, or what it takes can no longer happen in time (EarliestTimes).
   void evaluate(const Situation& situation, Estimate& estimate) override;
+
+  const RelaxedTask& relaxed() const { return relaxed_; }
+  // Of the state evaluated last, which is no dead end.
+  std::span<const SnapId> relaxed_plan() const { return plan_; }
 
   // Why time alone forbids every plan from the task's initial state on, or nothing.
   std::string why_too_late();
@@ -49,11 +54,14 @@ class FfHeuristic final : public Heuristic {
   IdVector<PropositionId, SnapId> supporter_;
   IdVector<PropositionId, bool> needed_;
   // By operator.
-  IdVector<SnapId, std::uint32_t> initially_open_, open_;  // needs that are not reached
-  IdVector<SnapId, std::int64_t> costs_;                   // own cost and that of the reached needs
+  struct Operator {
+    std::int64_t cost = 0;   // actions: its own, and those of the reached needs
+    std::uint32_t open = 0;  // needs that are not reached
+  };
+  IdVector<SnapId, Operator> at_first_, operators_;
   IdVector<SnapId, bool> in_plan_;
 
-  std::vector<std::pair<std::int64_t, PropositionId>> queue_;  // a heap, cheapest first
+  BucketQueue queue_;
   std::vector<PropositionId> to_support_;
   std::vector<SnapId> plan_;
 };

@@ -14,6 +14,7 @@ struct Estimate {
   bool dead_end = false;          // proved: no plan goes through this state
   std::int64_t cost = 0;          // microseconds of the actions still to come, one after the other
   std::int64_t steps = 0;         // snap actions still to come
+  std::int64_t landmarks = 0;     // still to come
   std::vector<SnapId> preferred;  // applicable in the state and useful, as far as the heuristic sees (R21)
 };
 
@@ -24,7 +25,8 @@ struct Situation {
   std::uint32_t timed_done = 0;       // how many timed literals have happened
   // The plan's schedule of earliest times; null and empty where nothing is known of it.
   const TimeFreedom* freedom = nullptr;
-  std::span<const Ticks> started;  // by position in `running`
+  std::span<const Ticks> started;      // by position in `running`
+  std::span<const SnapId> steps = {};  // the plan so far
 };
 
 class Heuristic {

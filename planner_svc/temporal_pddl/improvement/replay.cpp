@@ -7,7 +7,7 @@ namespace roci::planner::temporal_pddl {
 
 std::optional<PlanPrefix> Replay::run(std::span<const SnapId> steps, std::span<const std::uint32_t> dropped) {
   StateStore store(task_.layout.words());
-  SuccessorBuilder builder(task_, store, check_, epsilon_);
+  SuccessorBuilder builder(task_, store, check_, epsilon_, ActionSteps::as_needed);
   Successor at, next;
   at.state = task_.initial_state;
   at.prefix.node = store.add(at.state, NodeId(), {}, {});

@@ -24,7 +24,7 @@ class WeightedSearch {
         limits_(limits),
         watch_(watch),
         statistics_(statistics),
-        space_(task, options.epsilon),
+        space_(task, options.epsilon, ActionSteps::as_needed),
         goal_(task, space_.check(), options.epsilon),
         dominance_(task, space_.store(), space_.bounds(), space_.check(), options.epsilon, true, true),
         only_grows_(only_grows(task)),
@@ -33,10 +33,11 @@ class WeightedSearch {
   Better run() {
     successor_.state = task_.initial_state;
     if (take_up(NodeId())) return found();
-    while (const auto entry = open_.pop()) {
+    while (!open_.empty()) {
+      const OpenEntry entry = open_.pop();
       watch_.poll();
       ++statistics_.expanded;
-      space_.restore(entry->parent, prefix_);
+      space_.restore(entry.parent, prefix_);
       for (const SnapId snap : space_.applicable(prefix_)) {
         if (evaluated_ == limits_.evaluations) return {std::nullopt, false, evaluated_};
         ++statistics_.generated;
@@ -44,7 +45,7 @@ class WeightedSearch {
         if (guide_.heuristic.hopeless(successor_.state, successor_.prefix.running_actions)) continue;
         if (take_up(prefix_.node)) return found();
       }
-      watch_.memory(space_.store().bytes() + open_.bytes() + dominance_.bytes());
+      watch_.memory(space_.store().bytes() + open_.size() * sizeof(OpenEntry) + dominance_.bytes());
     }
     return {std::nullopt, true, evaluated_};
   }
@@ -57,7 +58,7 @@ class WeightedSearch {
     PlanPrefix& prefix = successor_.prefix;
     const Quality quality = quality_of(task_, prefix, space_.check());
     if ((only_grows_ && quality >= known_) || prefix.steps.size() + 2 > kMaxSteps) return false;
-    if (dominance_.dominated(successor_.state, prefix)) return false;
+    if (dominance_.dominated(successor_)) return false;
     dominance_.insert(space_.add(parent, successor_), successor_.state, prefix);
     if (goal_.complete(successor_.state, prefix) && quality_of(task_, prefix, space_.check()) < known_)
       return true;
@@ -67,7 +68,7 @@ class WeightedSearch {
     evaluation_.evaluate(successor_, guide_.heuristic, estimate_);
     if (estimate_.dead_end) return false;
     const std::int64_t total = committed(prefix, quality) + limits_.weight * estimate_.cost;
-    open_.push({total, estimate_.steps}, false, {prefix.node, SnapId()});
+    open_.push({total, estimate_.steps}, {prefix.node, SnapId()});
     return false;
   }
 
@@ -93,7 +94,7 @@ class WeightedSearch {
   Dominance dominance_;
   bool only_grows_;
   Evaluation evaluation_;
-  OpenList open_;
+  OpenQueue open_{OpenQueue::Order::oldest};
 
   PlanPrefix prefix_;  // of the node that is expanded
   Successor successor_;

@@ -2,15 +2,22 @@
 // wait with its estimate (Helmert 2006, section 6).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
 #include "planner_svc/temporal_pddl/options.hpp"
 #include "planner_svc/temporal_pddl/plan/result.hpp"
-#include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
-#include "planner_svc/temporal_pddl/task/task.hpp"
+#include "planner_svc/temporal_pddl/search/dominance.hpp"
+#include "planner_svc/temporal_pddl/search/evaluation.hpp"
+#include "planner_svc/temporal_pddl/search/goal_test.hpp"
+#include "planner_svc/temporal_pddl/search/open_list.hpp"
+#include "planner_svc/temporal_pddl/search/state_space.hpp"
 #include "planner_svc/temporal_pddl/watch.hpp"
 
 namespace roci::planner::temporal_pddl {
@@ -21,9 +28,47 @@ struct SearchOutcome {
   std::string reason;              // without: what stood in the way
 };
 
-// Keeps `statistics` up to date all the time. Throws what Watch throws, and Refusal (out_of_memory) if plans
-// of more than kMaxSteps steps would have to be tried.
-SearchOutcome search(const Task& task, Heuristic& heuristic, const Options& options, Watch& watch,
-                     Statistics& statistics);
+class BestFirstSearch {
+ public:
+  // Keeps `statistics` up to date all the time.
+  BestFirstSearch(const Task& task, Heuristic& heuristic, const Options& options, ActionSteps steps,
+                  Watch& watch, Statistics& statistics);
+
+  // Goes on for so many more evaluations; none: not at its end yet. Throws what Watch throws, and Refusal
+  // (out_of_memory) if plans of more than kMaxSteps steps would have to be tried.
+  std::optional<SearchOutcome> run(std::size_t evaluations);
+  std::size_t bytes() const {
+    return space_.store().bytes() + open_.bytes() + dominance_.bytes() + heuristic_.bytes();
+  }
+
+ private:
+  SearchOutcome found();
+  SearchOutcome failed() const;
+  bool take_up(NodeId parent);
+  void expand(const PlanPrefix& prefix);
+  void account();
+
+  const Task& task_;
+  Heuristic& heuristic_;
+  const Options& options_;
+  Watch& watch_;
+  Statistics& statistics_;
+  StateSpace space_;
+  GoalTest goal_;
+  Dominance dominance_;
+  bool dominate_;
+  Evaluation evaluation_;
+  OpenList open_;
+  std::mt19937_64 random_;
+
+  PlanPrefix prefix_;  // of the entry's parent
+  Successor successor_;
+  Estimate estimate_;
+  Priority best_plan_{std::numeric_limits<std::int64_t>::max(), 0};
+  std::int64_t best_landmarks_ = std::numeric_limits<std::int64_t>::max();
+  std::vector<SnapId> candidates_;
+  std::size_t evaluated_ = 0;
+  bool too_long_ = false;
+};
 
 }  // namespace roci::planner::temporal_pddl

@@ -72,7 +72,9 @@ bool Dominance::as_good(StateView stored, StateView fresh) const {
   return true;
 }
 
-bool Dominance::dominated(StateView state, const PlanPrefix& prefix) {
+bool Dominance::dominated(const Successor& successor) {
+  const StateView state = successor.state;
+  const PlanPrefix& prefix = successor.prefix;
   const std::uint32_t h = hash(state, prefix);
   const std::size_t mask = slots_.size() - 1;
   Profile fresh;
@@ -81,6 +83,8 @@ bool Dominance::dominated(StateView state, const PlanPrefix& prefix) {
     const NodeId node = slots_[slot].node;
     if (slots_[slot].hash != h || !as_good(store_.state(node), state)) continue;
     if (!absolute_ && prefix.running.empty()) return true;
+    if (store_.parent(node) == prefix.node && store_.transition(node).snap == successor.transition.snap)
+      return true;
     rebuild(task_, store_, bounds_, epsilon_, node, other_);
     if (other_.timed_done != prefix.timed_done || !same_running(other_, prefix)) continue;
     if (compared == 0) fresh = profile(prefix, false);

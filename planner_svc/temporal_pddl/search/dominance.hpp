@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
+#include "planner_svc/temporal_pddl/search/successor_builder.hpp"
 #include "planner_svc/temporal_pddl/search/temporal_check.hpp"
 #include "planner_svc/temporal_pddl/task/number_preferences.hpp"
 
@@ -29,8 +30,8 @@ class Dominance {
   Dominance(const Task& task, const StateStore& store, const BoundTable& bounds, TemporalCheck& check,
             Duration epsilon, bool end_counts, bool metric_counts = false);
 
-  // state, prefix: of a state that is not stored yet.
-  bool dominated(StateView state, const PlanPrefix& prefix);
+  // A state that is not stored yet; its prefix names its parent. The same plan as a stored one is dominated.
+  bool dominated(const Successor& successor);
   void insert(NodeId node, StateView state, const PlanPrefix& prefix);
 
   std::size_t bytes() const { return slots_.capacity() * sizeof(Slot); }

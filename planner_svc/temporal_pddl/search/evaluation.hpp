@@ -15,7 +15,8 @@ class Evaluation {
 
   void evaluate(const Successor& successor, Heuristic& heuristic, Estimate& estimate) {
     const PlanPrefix& prefix = successor.prefix;
-    Situation situation{successor.state, prefix.running_actions, prefix.timed_done, nullptr, {}};
+    Situation situation{successor.state, prefix.running_actions, prefix.timed_done, nullptr, {},
+                        prefix.steps};
     if (absolute_) {
       freedom_.measure(prefix.steps, successor.times);
       started_.clear();

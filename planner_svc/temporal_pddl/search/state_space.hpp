@@ -16,12 +16,12 @@ namespace roci::planner::temporal_pddl {
 
 class StateSpace {
  public:
-  StateSpace(const Task& task, Duration epsilon)
+  StateSpace(const Task& task, Duration epsilon, ActionSteps steps)
       : task_(task),
         epsilon_(epsilon),
         store_(task.layout.words()),
         check_(task, epsilon),
-        builder_(task, store_, check_, epsilon),
+        builder_(task, store_, check_, epsilon, steps),
         tree_(task) {}
   StateSpace(const StateSpace&) = delete;
   StateSpace& operator=(const StateSpace&) = delete;

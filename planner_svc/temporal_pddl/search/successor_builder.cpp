@@ -94,12 +94,16 @@ bool SuccessorBuilder::take(SnapId snap, double seconds, Successor& successor) {
   return running_invariants_hold(successor);
 }
 
+bool SuccessorBuilder::ends_at_once(ActionId id, StateView before) const {
+  return task_.actions[id].compression_safe &&
+         std::ranges::none_of(task_.absent_for_compression[id],
+                              [&](FactId fact) { return task_.layout.holds(before, fact); });
+}
+
 bool SuccessorBuilder::start(ActionId id, NodeId before, Successor& successor) {
   const Action& action = task_.actions[id];
   const StateView state = store_.state(before);
-  const bool compressed = action.compression_safe &&
-                          std::ranges::none_of(task_.absent_for_compression[id],
-                                               [&](FactId fact) { return task_.layout.holds(state, fact); });
+  const bool compressed = steps_ == ActionSteps::whole || ends_at_once(id, state);
   const auto bounds = semantics_.duration(id, state, std::nullopt);
   if (!bounds || !take(action.start, bounds->seconds, successor)) return false;
   if (!compressed) return true;

@@ -14,6 +14,11 @@ namespace roci::planner::temporal_pddl {
 
 enum class Rejection { none, logical, temporal };
 
+enum class ActionSteps {
+  as_needed,  // an action that is not compression safe starts and ends in steps of its own
+  whole,      // every action ends at once: no plan has actions that run at the same time because they must
+};
+
 struct Successor {
   Transition transition;
   std::vector<Word> state;
@@ -24,10 +29,12 @@ struct Successor {
 
 class SuccessorBuilder {
  public:
-  SuccessorBuilder(const Task& task, const StateStore& store, TemporalCheck& check, Duration epsilon)
+  SuccessorBuilder(const Task& task, const StateStore& store, TemporalCheck& check, Duration epsilon,
+                   ActionSteps steps)
       : task_(task),
         store_(store),
         check_(check),
+        steps_(steps),
         absolute_(task.has_absolute_times()),
         semantics_(task),
         orderings_(task, epsilon) {}
@@ -45,6 +52,7 @@ class SuccessorBuilder {
 
  private:
   bool take(SnapId snap, double seconds, Successor& successor);
+  bool ends_at_once(ActionId action, StateView before) const;
   bool start(ActionId action, NodeId before, Successor& successor);
   bool end(ActionId action, StateView before_start, Successor& successor);
   static bool long_enough(const Successor& successor);
@@ -54,6 +62,7 @@ class SuccessorBuilder {
   const Task& task_;
   const StateStore& store_;
   TemporalCheck& check_;
+  ActionSteps steps_;
   bool absolute_;
   Semantics semantics_;
   Orderings orderings_;

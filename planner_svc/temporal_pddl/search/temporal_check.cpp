@@ -19,6 +19,19 @@ bool fit(std::span<const TimeWindow> windows, Ticks& time, bool& changed) {
 
 }  // namespace
 
+TemporalCheck::TemporalCheck(const Task& task, Duration epsilon)
+    : task_(task), bounds_(task, epsilon), orderings_(task, epsilon), absolute_(task.has_absolute_times()) {
+  IdVector<FactId, bool> invariant(task.fact_names.size(), false);
+  for (std::size_t i = 0; i < task.actions.size(); ++i) {
+    for (const FactId fact : task.invariants[ActionId(i)]) invariant[fact] = true;
+  }
+  for (const Action& action : task.actions) {
+    takes_away_.push_back(
+        !action.instantaneous() &&
+        std::ranges::any_of(task.deletes[action.end], [&](FactId fact) { return invariant[fact]; }));
+  }
+}
+
 void TemporalCheck::fill(const PlanPrefix& prefix, Stn& network) {
   network.reset(prefix.steps.size());
   for (const StepConstraint& constraint : prefix.constraints) {
@@ -43,7 +56,7 @@ Ticks TemporalCheck::upper_bound(const PlanPrefix& prefix, std::size_t step) con
 }
 
 bool TemporalCheck::fit_windows(const PlanPrefix& prefix, bool& changed) {
-  for (std::size_t i = 0; i < times_.size(); ++i) {
+  for (std::size_t i = 0; i < prefix.steps.size(); ++i) {
     const auto windows = task_.windows[prefix.steps[i]];
     if (!windows.empty() && !fit(windows, times_[i], changed)) return false;
     const Snap& snap = task_.snaps[prefix.steps[i]];
@@ -59,21 +72,55 @@ bool TemporalCheck::fit_windows(const PlanPrefix& prefix, bool& changed) {
   return true;
 }
 
+bool TemporalCheck::ends_after(ActionId action, ActionId other) const {
+  const SnapId end = task_.actions[action].end;
+  return std::ranges::any_of(task_.invariants[other], [&](FactId fact) {
+    return std::ranges::count(task_.deletes[end], fact) > 0 && std::ranges::count(task_.adds[end], fact) == 0;
+  });
+}
+
+void TemporalCheck::look_ahead(const PlanPrefix& prefix) {
+  const std::size_t steps = prefix.steps.size();
+  network_.extend(prefix.running.size());
+  times_.resize(network_.points(), 0);
+  for (std::size_t i = 0; i < prefix.running.size(); ++i) {
+    const ActionId id = prefix.running[i].action;
+    const Action& action = task_.actions[id];
+    network_.require(prefix.running[i].step, steps + i, action.min_duration.count());
+    if (action.max_duration != kUnbounded)
+      network_.require(steps + i, prefix.running[i].step, -action.max_duration.count());
+    for (std::size_t j = 0; j < prefix.running.size(); ++j) {
+      if (i != j && ends_after(id, prefix.running[j].action)) network_.require(steps + j, steps + i, 0);
+    }
+    pending_.clear();
+    if (takes_away_[id]) orderings_.add(prefix.steps, action.end, {}, pending_);
+    for (const StepConstraint& constraint : pending_)
+      network_.require(constraint.from, steps + i, constraint.lower.count());
+  }
+}
+
 const std::vector<Ticks>* TemporalCheck::earliest(const PlanPrefix& prefix) {
   fill(prefix, network_);
   times_.assign(prefix.steps.size(), 0);
   if (!times_.empty()) times_[prefix.closing_step] = prefix.closing_time;
-  if (!absolute_) return network_.raise(times_) ? &times_ : nullptr;
+  if (!prefix.running.empty()) look_ahead(prefix);
+  if (!schedule(prefix)) return nullptr;
+  times_.resize(prefix.steps.size());
+  return &times_;
+}
+
+bool TemporalCheck::schedule(const PlanPrefix& prefix) {
+  if (!absolute_) return network_.raise(times_);
   for (bool changed = true; changed;) {
     changed = false;
-    if (!fit_windows(prefix, changed)) return nullptr;
-    if (!network_.raise(times_)) return nullptr;
-    if (!fit_windows(prefix, changed)) return nullptr;
+    if (!fit_windows(prefix, changed)) return false;
+    if (!network_.raise(times_)) return false;
+    if (!fit_windows(prefix, changed)) return false;
   }
-  for (std::size_t i = 0; i < times_.size(); ++i) {
-    if (times_[i] > upper_bound(prefix, i)) return nullptr;
+  for (std::size_t i = 0; i < prefix.steps.size(); ++i) {
+    if (times_[i] > upper_bound(prefix, i)) return false;
   }
-  return &times_;
+  return true;
 }
 
 std::vector<TimeWindow> TemporalCheck::chosen_windows(const PlanPrefix& prefix,

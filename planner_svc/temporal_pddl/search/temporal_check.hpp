@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "planner_svc/temporal_pddl/constraints/orderings.hpp"
 #include "planner_svc/temporal_pddl/constraints/stn.hpp"
 #include "planner_svc/temporal_pddl/constraints/time_bounds.hpp"
 #include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
@@ -16,8 +17,7 @@ namespace roci::planner::temporal_pddl {
 
 class TemporalCheck {
  public:
-  TemporalCheck(const Task& task, Duration epsilon)
-      : task_(task), bounds_(task, epsilon), absolute_(task.has_absolute_times()) {}
+  TemporalCheck(const Task& task, Duration epsilon);
 
   // The least time of each step; null if the plan is temporally inconsistent. Valid until the next call.
   const std::vector<Ticks>* earliest(const PlanPrefix& prefix);
@@ -33,15 +33,24 @@ class TemporalCheck {
   static Stn network(const PlanPrefix& prefix);
 
  private:
+  // The ends of the running actions as further points. One that deletes an invariant of another running
+  // action comes no sooner than that one's, and after what has needed the fact: so what cannot end in time
+  // for that is found out at once.
+  void look_ahead(const PlanPrefix& prefix);
+  bool ends_after(ActionId action, ActionId other) const;
+  bool schedule(const PlanPrefix& prefix);
   static void fill(const PlanPrefix& prefix, Stn& network);
   Ticks upper_bound(const PlanPrefix& prefix, std::size_t step) const;
   bool fit_windows(const PlanPrefix& prefix, bool& changed);
 
   const Task& task_;
   TimeBounds bounds_;
+  Orderings orderings_;
+  IdVector<ActionId, bool> takes_away_;  // its end deletes what is an invariant of some action
   bool absolute_;
   Stn network_;
-  std::vector<Ticks> times_;
+  std::vector<StepConstraint> pending_;
+  std::vector<Ticks> times_;  // of the steps, and of the ends to come
 };
 
 }  // namespace roci::planner::temporal_pddl

@@ -41,7 +41,7 @@ class Ff : public ::testing::Test {
   void evaluate(const std::vector<std::string>& running) {
     std::vector<ActionId> actions;
     for (const auto& name : running) actions.push_back(action(task_, name));
-    heuristic_.evaluate({state_, actions, 0, nullptr, {}}, estimate_);
+    heuristic_.evaluate({state_, actions, 0, nullptr, {}, {}}, estimate_);
   }
   SnapId start(const char* name) { return task_.actions[action(task_, name)].start; }
   SnapId end(const char* name) { return task_.actions[action(task_, name)].end; }

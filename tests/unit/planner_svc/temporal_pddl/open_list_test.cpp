@@ -7,27 +7,29 @@ namespace {
 
 OpenEntry entry(std::size_t n) { return {NodeId(n), SnapId(n)}; }
 
-TEST(OpenList, BestFirstThenOldest) {
-  OpenList open;
-  open.push({2, 0}, false, entry(1));
-  open.push({1, 5}, false, entry(2));
-  open.push({1, 4}, false, entry(3));
-  open.push({1, 4}, false, entry(4));
-  EXPECT_EQ(open.size(), 4u);
-  for (const std::size_t expected : {3u, 4u, 2u, 1u}) EXPECT_EQ(open.pop()->parent, NodeId(expected));
-  EXPECT_FALSE(open.pop());
+constexpr Priority kAny{0, 0};
+
+TEST(OpenQueue, BestFirstThenOldest) {
+  OpenQueue queue(OpenQueue::Order::oldest);
+  queue.push({2, 0}, entry(1));
+  queue.push({1, 5}, entry(2));
+  queue.push({1, 4}, entry(3));
+  queue.push({1, 4}, entry(4));
+  EXPECT_EQ(queue.size(), 4u);
+  for (const std::size_t expected : {3u, 4u, 2u, 1u}) EXPECT_EQ(queue.pop().parent, NodeId(expected));
+  EXPECT_TRUE(queue.empty());
 }
 
-TEST(OpenList, PreferredComeInStreaksOfYoungestAndOldest) {
-  OpenList open;
-  for (std::size_t i = 0; i < 1000; ++i) open.push({1, 4}, true, entry(i));
-  open.push({1, 3}, true, entry(5000));
-  EXPECT_EQ(open.pop()->parent, NodeId(std::size_t{5000}));
+TEST(OpenQueue, StreaksOfYoungestAndOldest) {
+  OpenQueue queue(OpenQueue::Order::streaks);
+  for (std::size_t i = 0; i < 1000; ++i) queue.push({1, 4}, entry(i));
+  queue.push({1, 3}, entry(5000));
+  EXPECT_EQ(queue.pop().parent, NodeId(std::size_t{5000}));
   std::size_t youngest = 0;
   std::size_t low = 0;
   std::size_t high = 999;
   for (int i = 0; i < 640; ++i) {
-    const NodeId next = open.pop()->parent;
+    const NodeId next = queue.pop().parent;
     ASSERT_TRUE(next == NodeId(low) || next == NodeId(high));
     youngest += next == NodeId(high);
     next == NodeId(high) ? --high : ++low;
@@ -35,11 +37,19 @@ TEST(OpenList, PreferredComeInStreaksOfYoungestAndOldest) {
   EXPECT_NEAR(static_cast<double>(youngest), 320, 2);
 }
 
+TEST(OpenList, InOneQueueEachComesOnce) {
+  OpenList open(OpenList::Sharing::one_queue);
+  for (std::size_t i = 0; i < 10; ++i) open.push({1, 0}, kAny, i % 3 == 0, entry(i));
+  std::size_t count = 0;
+  while (open.pop()) ++count;
+  EXPECT_EQ(count, 10u);
+}
+
 TEST(OpenList, PreferredTakeTurnsAndGoFirstAfterProgress) {
-  OpenList open;
+  OpenList open(OpenList::Sharing::one_queue);
   for (std::size_t i = 0; i < 10; ++i) {
-    open.push({1, 0}, true, entry(100 + i));
-    open.push({1, 0}, false, entry(i));
+    open.push({1, 0}, kAny, true, entry(100 + i));
+    open.push({1, 0}, kAny, false, entry(i));
   }
   std::size_t preferred = 0;
   for (int i = 0; i < 10; ++i) preferred += open.pop()->parent.value >= 100;
@@ -47,6 +57,18 @@ TEST(OpenList, PreferredTakeTurnsAndGoFirstAfterProgress) {
   open.boost();
   for (int i = 0; i < 5; ++i) EXPECT_GE(open.pop()->parent.value, 100u);
   for (int i = 0; i < 5; ++i) EXPECT_LT(open.pop()->parent.value, 100u);
+}
+
+TEST(OpenList, TheBestByPlanAndTheBestByLandmarksTakeTurns) {
+  OpenList open(OpenList::Sharing::all_queues);
+  for (std::size_t i = 0; i < 10; ++i) {
+    const auto rank = static_cast<std::int64_t>(i);
+    open.push({rank, 0}, {10 - rank, 0}, false, entry(i));
+  }
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(open.pop()->parent, NodeId(i));
+    EXPECT_EQ(open.pop()->parent, NodeId(9 - i));
+  }
 }
 
 }  // namespace

@@ -242,7 +242,7 @@ TEST(Planner, AnActionWithoutDurationCannotUndoWhatItsStartDoes) {
                           "(:init (at-a)) (:goal (g))");
   const Result result = solved(made);
   EXPECT_EQ(result.verdict, Verdict::unsolvable);
-  EXPECT_EQ(result.statistics.temporally_inconsistent, 1u);
+  EXPECT_GT(result.statistics.temporally_inconsistent, 0u);
 }
 
 TEST(Planner, AMissedWindowIsToldWithHowMuchIsMissing) {

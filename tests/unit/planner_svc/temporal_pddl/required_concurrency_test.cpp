@@ -1,0 +1,66 @@
+// What the search makes of actions that must run at the same time, and of those that need not.
+#include <gtest/gtest.h>
+
+#include "tests/unit/planner_svc/temporal_pddl/validated.hpp"
+
+namespace roci::planner::temporal_pddl {
+namespace {
+
+// Each match burns for 5 s, long enough to mend two fuses, one after the other; there are just enough.
+testing::Model cellar(int fuses) {
+  std::string objects, init = "(:init (handfree)", goal;
+  for (int i = 0; i < fuses; ++i) {
+    const std::string fuse = "f" + std::to_string(i);
+    objects += " " + fuse + " - fuse";
+    goal += " (mended " + fuse + ")";
+    if (i % 2 == 0) {
+      objects += " m" + std::to_string(i) + " - match";
+      init += " (unused m" + std::to_string(i) + ")";
+    }
+  }
+  return testing::model(R"((:requirements :typing :durative-actions) (:types match fuse)
+    (:predicates (handfree) (unused ?m - match) (light ?m - match) (mended ?f - fuse))
+    (:durative-action light-match :parameters (?m - match) :duration (= ?duration 5)
+      :condition (at start (unused ?m))
+      :effect (and (at start (not (unused ?m))) (at start (light ?m)) (at end (not (light ?m)))))
+    (:durative-action mend :parameters (?f - fuse ?m - match) :duration (= ?duration 2)
+      :condition (and (at start (handfree)) (over all (light ?m)))
+      :effect (and (at start (not (handfree))) (at end (handfree)) (at end (mended ?f)))))",
+                        "(:objects" + objects + ")" + init + ") (:goal (and" + goal + "))");
+}
+
+TEST(RequiredConcurrency, NoMatchIsTakenForLongerThanItBurns) {
+  const testing::Model made = cellar(24);
+  const Result result = testing::solved(made);
+  testing::expect_valid(made, result);
+  ASSERT_TRUE(result.plan);
+  EXPECT_LT(result.statistics.evaluated, 2000u);
+}
+
+TEST(WholeActions, HalveTheWorkWhereNothingMustRunAtTheSameTime) {
+  std::string objects, goal;
+  for (int i = 0; i < 20; ++i) {
+    objects += " r" + std::to_string(i);
+    goal += " (clean r" + std::to_string(i) + ")";
+  }
+  // The end asks for what another action may undo: it is not compression safe.
+  const testing::Model made =
+      testing::model(R"((:requirements :durative-actions)
+    (:predicates (lit) (clean ?r))
+    (:durative-action sweep :parameters (?r) :duration (= ?duration 3)
+      :condition (at end (lit)) :effect (at end (clean ?r)))
+    (:durative-action darken :parameters () :duration (= ?duration 1)
+      :condition () :effect (at end (not (lit)))))",
+                     "(:objects" + objects + ") (:init (lit)) (:goal (and" + goal + "))");
+  Options split;
+  split.whole_actions = false;
+  const Result whole = testing::solved(made);
+  const Result parts = testing::solved(made, split);
+  testing::expect_valid(made, whole);
+  ASSERT_TRUE(whole.plan && parts.plan);
+  EXPECT_EQ(whole.statistics.evaluated, 20u);
+  EXPECT_EQ(parts.statistics.evaluated, 40u);
+}
+
+}  // namespace
+}  // namespace roci::planner::temporal_pddl
