@@ -23,7 +23,8 @@ BestFirstSearch::BestFirstSearch(const Task& task, Heuristic& heuristic, const O
       open_(dominate_ && options.landmarks ? OpenList::Sharing::all_queues : OpenList::Sharing::one_queue),
       random_(options.seed) {}
 
-std::optional<SearchOutcome> BestFirstSearch::run(std::size_t evaluations) {
+std::optional<SearchOutcome> BestFirstSearch::run(std::size_t evaluations, std::size_t bytes_elsewhere) {
+  bytes_elsewhere_ = bytes_elsewhere;
   const std::size_t until = evaluations > SIZE_MAX - evaluated_ ? SIZE_MAX : evaluated_ + evaluations;
   if (space_.store().size() == 0) {
     successor_.state = task_.initial_state;
@@ -109,7 +110,7 @@ void BestFirstSearch::expand(const PlanPrefix& prefix) {
 
 void BestFirstSearch::account() {
   statistics_.bytes_per_state = space_.store().mean_bytes_per_state();
-  watch_.memory(bytes());
+  watch_.memory(bytes() + bytes_elsewhere_);
   if (statistics_.expanded % 1024 == 0) watch_.progress(statistics_);
 }
 

@@ -34,9 +34,10 @@ class BestFirstSearch {
   BestFirstSearch(const Task& task, Heuristic& heuristic, const Options& options, ActionSteps steps,
                   Watch& watch, Statistics& statistics);
 
-  // Goes on for so many more evaluations; none: not at its end yet. Throws what Watch throws, and Refusal
-  // (out_of_memory) if plans of more than kMaxSteps steps would have to be tried.
-  std::optional<SearchOutcome> run(std::size_t evaluations);
+  // Goes on for so many more evaluations; none: not at its end yet. bytes_elsewhere count as used too. Throws
+  // what Watch throws, and Refusal (out_of_memory) if plans of more than kMaxSteps steps would have to be
+  // tried.
+  std::optional<SearchOutcome> run(std::size_t evaluations, std::size_t bytes_elsewhere = 0);
   std::size_t bytes() const {
     return space_.store().bytes() + open_.bytes() + dominance_.bytes() + heuristic_.bytes();
   }
@@ -68,6 +69,7 @@ class BestFirstSearch {
   std::int64_t best_landmarks_ = std::numeric_limits<std::int64_t>::max();
   std::vector<SnapId> candidates_;
   std::size_t evaluated_ = 0;
+  std::size_t bytes_elsewhere_ = 0;
   bool too_long_ = false;
 };
 

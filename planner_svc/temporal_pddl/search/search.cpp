@@ -26,11 +26,11 @@ SearchOutcome search(const Task& task, Heuristic& heuristic, const Options& opti
   whole.emplace(task, heuristic, options, ActionSteps::whole, watch, statistics);
   for (std::size_t turn = kFirstTurn;; turn *= 2) {
     if (whole) {
-      auto outcome = whole->run(turn);
+      auto outcome = whole->run(turn, complete.bytes());
       if (outcome && outcome->plan) return std::move(*outcome);
       if (outcome) whole.reset();
     }
-    if (auto outcome = complete.run(turn)) return std::move(*outcome);
+    if (auto outcome = complete.run(turn, whole ? whole->bytes() : 0)) return std::move(*outcome);
   }
 }
 
