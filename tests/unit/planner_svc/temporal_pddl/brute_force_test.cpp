@@ -104,7 +104,7 @@ TEST(AgainstBruteForce, ResourcesCutOffNoPlan) {
     EXPECT_NE(testing::solved(model, without, budget).verdict, Verdict::solved) << text(model);
     EXPECT_FALSE(testing::has_plan(model, kActions)) << result.reason << text(model);
   }
-  EXPECT_GT(cut, 100u);
+  EXPECT_GT(cut, 60u);
   EXPECT_GT(told, 20u);
 }
 
