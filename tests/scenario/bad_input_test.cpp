@@ -175,7 +175,7 @@ TEST_P(NeverTaken, FailsItsGoalAloneAndIsTold) {
   EXPECT_EQ(summary["goals"].value("achieved", 0), 2) << summary.dump();
   EXPECT_EQ(summary["goals"].value("failed", 0), 1) << summary.dump();
   EXPECT_THAT(ended.output, AllOf(HasSubstr("goal.failed: hard goal ground/ridge failed: "),
-                                  HasSubstr("failed 5 times in a row"), HasSubstr(surprise.told)));
+                                  HasSubstr("failed 8 times in a row"), HasSubstr(surprise.told)));
 }
 
 INSTANTIATE_TEST_SUITE_P(
