@@ -126,9 +126,11 @@ std::optional<v1::GoalStatus> Client::send_goal(const v1::Goal& goal, millisecon
       return status.goal_state() != v1::GOAL_PENDING && status.goal_state() != v1::GOAL_PLANNED;
     return !before || is_newer(status.header(), before->header());
   };
-  const v1::Goal* asked = view_.goal(key);
+  const auto sent = sent_.find(key);  // of ourselves: what others wrote may still come in
+  const v1::Goal* asked = sent == sent_.end() ? view_.goal(key) : &sent->second;
   if (before && asked != nullptr && same_wish(*asked, goal)) return before;
   goals_.write(goal);
+  sent_[key] = goal;
   if (!wait(answered, limit) && !before) return std::nullopt;
   return view_.goals().at(key);
 }

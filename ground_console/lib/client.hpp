@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <map>
 #include <optional>
 #include <stdexcept>
 
@@ -51,6 +52,7 @@ class Client {
   MissionView view_;
   services::Node node_;
   services::Publisher<v1::Goal> goals_;
+  std::map<MissionView::GoalKey, v1::Goal> sent_;
 };
 
 }  // namespace roci::console

@@ -104,6 +104,12 @@ TEST_P(ConsoleTest, AChangedGoalIsAnsweredForTheChange) {
         [&] { return first.view().mission() && first.view().mission()->outcome() == "achieved"; }, kLimit));
   }
   Client late(connection());
+  ASSERT_TRUE(late.wait(
+      [&] {
+        const auto ridge = late.view().goals().find({"ground", "ridge"});
+        return ridge != late.view().goals().end() && ridge->second.goal_state() == v1::GOAL_ACHIEVED;
+      },
+      kLimit));
   v1::Goal changed = photo_goal("ridge");
   changed.arguments()[0].value("far");
   const auto refused = late.send_goal(changed, kLimit);
