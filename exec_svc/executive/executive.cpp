@@ -85,6 +85,10 @@ const temporal::FlexiblePlan& Executive::plan() const {
   return impl_->run ? impl_->run->plan() : impl_->no_plan;
 }
 
+const temporal::PlanActivity* Executive::activity(const std::string& id) const {
+  return impl_->run ? impl_->run->find(id) : nullptr;
+}
+
 std::vector<StepStatus> Executive::steps() const {
   return impl_->run ? impl_->run->statuses() : std::vector<StepStatus>{};
 }

@@ -67,6 +67,8 @@ class Executive {
 
   Outcome outcome() const;
   const temporal::FlexiblePlan& plan() const;
+  /// The plan's activity of this id; null if it has none.
+  const temporal::PlanActivity* activity(const std::string& id) const;
 
   /// All activities in plan order, with the windows of the plan's network as of the last event: work in the
   /// size of the plan.

@@ -117,6 +117,11 @@ Outputs PlanRun::take_outputs(Time now) {
   return std::exchange(outputs_, {});
 }
 
+const PlanActivity* PlanRun::find(const std::string& activity) const {
+  const auto found = index_of_.find(activity);
+  return found == index_of_.end() ? nullptr : &plan_.activities[found->second];
+}
+
 StepStatus PlanRun::status(Index activity) const {
   const PlanActivity& planned = plan_.activities[activity];
   const ActivityRun& run = runs_[activity];

@@ -41,6 +41,7 @@ class PlanRun {
   Outputs take_outputs(temporal::Time now);
   const Outcome& outcome() const { return outcome_; }
   const temporal::FlexiblePlan& plan() const { return plan_; }
+  const temporal::PlanActivity* find(const std::string& activity) const;
   StepStatus status(std::size_t activity) const;
   /// Of all activities, in plan order.
   std::vector<StepStatus> statuses() const;

@@ -36,17 +36,6 @@ std::vector<ConditionNode> demands(const Condition& condition) {
   return out;
 }
 
-std::optional<double> change_of(const PlanActivity& activity, const std::string& timeline) {
-  std::optional<double> sum;
-  for (const temporal::Impact& impact : activity.impacts) {
-    const double* amount = std::get_if<double>(&impact.amount);
-    if (impact.kind != temporal::ImpactKind::delta || impact.timeline != timeline || amount == nullptr)
-      continue;
-    sum = sum.value_or(0.0) + *amount;
-  }
-  return sum;
-}
-
 }  // namespace
 
 Margins::Stretch::Stretch() : least(-kInfinity), most(kInfinity) {}
@@ -102,8 +91,11 @@ Margins::Margins(const temporal::FlexiblePlan& plan) {
   for (std::size_t i = 0; i < plan.activities.size(); ++i) {
     const PlanActivity& activity = plan.activities[i];
     std::map<std::string, Stretch> touched;
-    for (const temporal::Impact& impact : activity.impacts)
-      if (const auto change = change_of(activity, impact.timeline)) touched[impact.timeline].change = *change;
+    for (const temporal::Impact& impact : activity.impacts) {
+      const double* amount = std::get_if<double>(&impact.amount);
+      if (impact.kind == temporal::ImpactKind::delta && amount != nullptr)
+        touched[impact.timeline].change += *amount;
+    }
     for (const ConditionNode& node : demands(activity.pre)) {
       const double* limit = std::get_if<double>(&node.operand);
       if (limit == nullptr || !timelines_.contains(node.timeline)) continue;

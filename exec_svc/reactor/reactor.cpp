@@ -42,13 +42,6 @@ std::vector<GoalKey> goals_behind(const temporal::FlexiblePlan& plan, const std:
   return {};
 }
 
-const temporal::PlanActivity* find_activity(const temporal::FlexiblePlan& plan, const std::string& id) {
-  for (const temporal::PlanActivity& activity : plan.activities) {
-    if (activity.id == id) return &activity;
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 Reactor::Reactor(const MissionModel& mission)
@@ -157,8 +150,7 @@ void Reactor::run_executive(Time now, const ReactorInputs& inputs) {
   for (const StepStatus& step : done.changes) {
     if (step.state != temporal::ActivityState::waiting) margins_.leave(step.activity);
     if (step.state != temporal::ActivityState::succeeded) continue;
-    if (const auto* activity = find_activity(executive_.plan(), step.activity))
-      failures_.succeeded(activity->subsystem);
+    if (const auto* activity = executive_.activity(step.activity)) failures_.succeeded(activity->subsystem);
   }
   for (const RecoveryStep& recovery : done.recoveries)
     note(NoteLevel::info, code_of(recovery.rung), recovery.activity + ": " + recovery.cause);
@@ -252,7 +244,7 @@ void Reactor::break_plan(Time now, const std::string& why) {
 
 // A component that keeps failing gets ever more time to recover; in the end its goals are given up.
 void Reactor::count_failure(Time now, const Outcome& outcome) {
-  const temporal::PlanActivity* activity = find_activity(executive_.plan(), outcome.activity);
+  const temporal::PlanActivity* activity = executive_.activity(outcome.activity);
   if (activity == nullptr || activity->subsystem.empty()) return;
   const FailureTally::Count count = failures_.failed(activity->subsystem);
   if (count.used_up) {

@@ -54,12 +54,8 @@ void Reactor::begin_meanwhile(Time now) {
 
 void Reactor::ask_meanwhile(Time now) {
   std::vector<Remainder> running;
-  for (const StepStatus& step : executive_.running()) {
-    const auto& all = executive_.plan().activities;
-    const auto activity = std::find_if(all.begin(), all.end(),
-                                       [&](const PlanActivity& one) { return one.id == step.activity; });
-    running.push_back(remainder_of(*activity, step.started.value_or(now), now));
-  }
+  for (const StepStatus& step : executive_.running())
+    running.push_back(remainder_of(*executive_.activity(step.activity), step.started.value_or(now), now));
   std::stable_sort(running.begin(), running.end(),
                    [](const Remainder& a, const Remainder& b) { return a.ends < b.ends; });
   meanwhile_ = Meanwhile{};

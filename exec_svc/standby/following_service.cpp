@@ -10,12 +10,11 @@ namespace roci::exec {
 namespace topics = services::topics;
 
 FollowingService::FollowingService(services::Node& node, Lease& lease, Journal& journal,
-                                   const StandingFile& standing)
+                                   StandingFile& standing)
     : node_(node),
       lease_(&lease),
       journal_(&journal),
       standing_(&standing),
-      kept_(standing.read()),
       copy_(journal),
       words_(services::advertise(node, topics::exec_member)),
       goals_(services::advertise(node, topics::goal)) {
@@ -59,8 +58,7 @@ void FollowingService::ask_again(const std::vector<GoalRecord>& earlier) {
 void FollowingService::turn() {
   if (lead_) return;
   const Lease::Turn turn = lease_->turn(copy_.has(), wire::moment());
-  if (lease_->standing() != kept_) standing_->write(lease_->standing());
-  kept_ = lease_->standing();
+  standing_->keep(lease_->standing());
   if (turn.speak) say();
   if (turn.change != Lease::Change::lead) return;
   lead_ = turn;

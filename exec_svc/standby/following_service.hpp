@@ -16,7 +16,7 @@ namespace roci::exec {
 class FollowingService {
  public:
   // On an observer's node, so that it stands outside the simulated clock. All outlive this.
-  FollowingService(services::Node& node, Lease& lease, Journal& journal, const StandingFile& standing);
+  FollowingService(services::Node& node, Lease& lease, Journal& journal, StandingFile& standing);
 
   // Why this member leads, once it does; the node has been stopped then.
   const std::optional<Lease::Turn>& lead() const { return lead_; }
@@ -33,8 +33,7 @@ class FollowingService {
   services::Node& node_;
   Lease* lease_;
   Journal* journal_;
-  const StandingFile* standing_;
-  Standing kept_;  // on the disk
+  StandingFile* standing_;
   JournalCopy copy_;
   std::optional<Lease::Turn> lead_;
   bool over_ = false;

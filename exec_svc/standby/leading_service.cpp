@@ -20,13 +20,11 @@ JournalFeed begin_feed(std::uint64_t epoch, Journal& journal) {
 
 }  // namespace
 
-LeadingService::LeadingService(services::Node& node, Lease& lease, Journal& journal,
-                               const StandingFile& standing)
+LeadingService::LeadingService(services::Node& node, Lease& lease, Journal& journal, StandingFile& standing)
     : node_(node),
       lease_(&lease),
       journal_(&journal),
       standing_(&standing),
-      kept_(standing.read()),
       feed_(begin_feed(lease.epoch(), journal)),
       words_(services::advertise(node, topics::exec_member)),
       parcels_(services::advertise(node, topics::exec_journal)) {
@@ -45,8 +43,7 @@ void LeadingService::hear(const v1::ExecMember& member) {
 
 void LeadingService::turn() {
   const Lease::Turn turn = lease_->turn(feed_.newest(), wire::moment());
-  if (lease_->standing() != kept_) standing_->write(lease_->standing());
-  kept_ = lease_->standing();
+  standing_->keep(lease_->standing());
   if (turn.change == Lease::Change::stand_down) throw StandDown(turn.why, lease_->superseded());
   note(turn.change, turn.why);
   if (turn.speak) words_.write(wire::to_wire(lease_->word(feed_.newest()), {}));

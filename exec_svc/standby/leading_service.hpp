@@ -28,7 +28,7 @@ class StandDown : public std::runtime_error {
 class LeadingService {
  public:
   // `lease` leads already; its epoch begins in the journal. All outlive this.
-  LeadingService(services::Node& node, Lease& lease, Journal& journal, const StandingFile& standing);
+  LeadingService(services::Node& node, Lease& lease, Journal& journal, StandingFile& standing);
 
   // What was decided with the journal's newest commit: `send` runs now or later, in the order of these calls,
   // unless this leader stands down before. Under the simulated clock the micro-step lasts until then.
@@ -55,8 +55,7 @@ class LeadingService {
   services::Node& node_;
   Lease* lease_;
   Journal* journal_;
-  const StandingFile* standing_;
-  Standing kept_;  // on the disk
+  StandingFile* standing_;
   JournalFeed feed_;
   std::deque<Held> held_;
   std::vector<Note> notes_;

@@ -18,6 +18,13 @@ Standing StandingFile::read() const {
   return out;
 }
 
+void StandingFile::keep(const Standing& standing) {
+  if (!kept_) kept_ = read();
+  if (*kept_ == standing) return;
+  write(standing);
+  kept_ = standing;
+}
+
 void StandingFile::write(const Standing& standing) const {
   const fs::path unfinished = fs::path(file_).concat(".new");
   std::ofstream out(unfinished);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/standby/lease.hpp"
@@ -15,12 +16,15 @@ class StandingFile {
 
   // As new if there is no file. Throws JournalError for one that cannot be read.
   Standing read() const;
-  // Either all of it stands in the file or nothing. Throws JournalError.
-  void write(const Standing& standing) const;
+  // Writes what is new: either all of it stands in the file or nothing. Throws JournalError.
+  void keep(const Standing& standing);
 
  private:
+  void write(const Standing& standing) const;
+
   std::filesystem::path file_;
   Durability durability_;
+  std::optional<Standing> kept_;  // as read or written by keep()
 };
 
 }  // namespace roci::exec

@@ -10,13 +10,8 @@
 namespace roci::exec::testing {
 namespace {
 
-using temporal::compare;
-using temporal::ConditionOp;
 using temporal::ImpactKind;
 using temporal::ImpactWhen;
-using temporal::PlanActivity;
-using temporal::seconds;
-using temporal::state;
 using ::testing::ElementsAre;
 
 PlanActivity& task(PlanBuilder& b, const std::string& id, const std::string& owner, double lasts) {

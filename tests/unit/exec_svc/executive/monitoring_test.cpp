@@ -8,11 +8,6 @@
 namespace roci::exec::testing {
 namespace {
 
-using temporal::compare;
-using temporal::ConditionOp;
-using temporal::PlanActivity;
-using temporal::seconds;
-using temporal::state;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 

@@ -8,13 +8,8 @@
 namespace roci::exec::testing {
 namespace {
 
-using temporal::compare;
-using temporal::ConditionOp;
 using temporal::ImpactKind;
 using temporal::ImpactWhen;
-using temporal::PlanActivity;
-using temporal::seconds;
-using temporal::state;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;

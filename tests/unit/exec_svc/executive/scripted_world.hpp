@@ -10,6 +10,13 @@
 
 namespace roci::exec::testing {
 
+// Words that scripts are written in.
+using temporal::compare;
+using temporal::ConditionOp;
+using temporal::PlanActivity;
+using temporal::seconds;
+using temporal::state;
+
 /// How an owner answers one attempt of a command. Times in seconds.
 struct Answer {
   bool accepts = true;

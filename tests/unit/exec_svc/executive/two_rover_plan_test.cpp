@@ -11,11 +11,6 @@
 namespace roci::exec::testing {
 namespace {
 
-using temporal::compare;
-using temporal::ConditionOp;
-using temporal::PlanActivity;
-using temporal::seconds;
-using temporal::state;
 using temporal::TimePoint;
 using ::testing::Contains;
 using ::testing::ElementsAre;
