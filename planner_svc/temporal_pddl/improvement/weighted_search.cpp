@@ -6,7 +6,7 @@
 #include "planner_svc/temporal_pddl/search/dominance.hpp"
 #include "planner_svc/temporal_pddl/search/evaluation.hpp"
 #include "planner_svc/temporal_pddl/search/goal_test.hpp"
-#include "planner_svc/temporal_pddl/search/open_list.hpp"
+#include "planner_svc/temporal_pddl/search/ranked_queue.hpp"
 #include "planner_svc/temporal_pddl/search/state_space.hpp"
 
 namespace roci::planner::temporal_pddl {
@@ -34,10 +34,11 @@ class WeightedSearch {
     successor_.state = task_.initial_state;
     if (take_up(NodeId())) return found();
     while (!open_.empty()) {
-      const OpenEntry entry = open_.pop();
+      const NodeId node = open_.oldest();
+      open_.drop_oldest();
       watch_.poll();
       ++statistics_.expanded;
-      space_.restore(entry.parent, prefix_);
+      space_.restore(node, prefix_);
       for (const SnapId snap : space_.applicable(prefix_)) {
         if (evaluated_ == limits_.evaluations) return {std::nullopt, false, evaluated_};
         ++statistics_.generated;
@@ -45,7 +46,7 @@ class WeightedSearch {
         if (guide_.heuristic.hopeless(successor_.state, successor_.prefix.running_actions)) continue;
         if (take_up(prefix_.node)) return found();
       }
-      watch_.memory(space_.store().bytes() + open_.size() * sizeof(OpenEntry) + dominance_.bytes());
+      watch_.memory(space_.store().bytes() + open_.bytes() + dominance_.bytes());
     }
     return {std::nullopt, true, evaluated_};
   }
@@ -68,7 +69,7 @@ class WeightedSearch {
     evaluation_.evaluate(successor_, guide_.heuristic, estimate_);
     if (estimate_.dead_end) return false;
     const std::int64_t total = committed(prefix, quality) + limits_.weight * estimate_.cost;
-    open_.push({total, estimate_.steps}, {prefix.node, SnapId()});
+    open_.push({total, estimate_.steps}, prefix.node);
     return false;
   }
 
@@ -94,7 +95,7 @@ class WeightedSearch {
   Dominance dominance_;
   bool only_grows_;
   Evaluation evaluation_;
-  OpenQueue open_{OpenQueue::Order::oldest};
+  RankedQueue<NodeId> open_;
 
   PlanPrefix prefix_;  // of the node that is expanded
   Successor successor_;

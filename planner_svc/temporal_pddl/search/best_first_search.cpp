@@ -99,13 +99,10 @@ void BestFirstSearch::expand(const PlanPrefix& prefix) {
   const auto applicable = space_.applicable(prefix);
   candidates_.assign(applicable.begin(), applicable.end());
   if (options_.seed != 0) std::ranges::shuffle(candidates_, random_);
+  if (!options_.preferred_operators) estimate_.preferred.clear();
   std::ranges::sort(estimate_.preferred);
-  for (const SnapId snap : candidates_) {
-    const bool preferred =
-        options_.preferred_operators && std::ranges::binary_search(estimate_.preferred, snap);
-    open_.push(by_plan, by_landmarks, preferred, {prefix.node, snap});
-    ++statistics_.generated;
-  }
+  open_.push(by_plan, by_landmarks, prefix.node, candidates_, estimate_.preferred);
+  statistics_.generated += candidates_.size();
 }
 
 void BestFirstSearch::account() {

@@ -1,52 +1,98 @@
 #include "planner_svc/temporal_pddl/search/open_list.hpp"
 
+#include <algorithm>
+
 namespace roci::planner::temporal_pddl {
 
-OpenEntry OpenQueue::pop() {
-  ++served_;
-  --size_;
-  const auto best = buckets_.begin();
-  std::deque<OpenEntry>& bucket = best->second;
-  const bool oldest = order_ == Order::oldest || (served_ / kStreak) % 2 == 0;
-  const OpenEntry entry = oldest ? bucket.front() : bucket.back();
-  oldest ? bucket.pop_front() : bucket.pop_back();
-  if (bucket.empty()) buckets_.erase(best);
-  return entry;
-}
+namespace {
 
-OpenList::OpenList(Sharing sharing) : kinds_{{true, false}, {false, false}} {
-  if (sharing == Sharing::all_queues) kinds_.insert(kinds_.end(), {{true, true}, {false, true}});
-  for (const Kind& kind : kinds_) {
-    queues_.emplace_back(kind.preferred ? OpenQueue::Order::streaks : OpenQueue::Order::oldest);
+constexpr std::int64_t kStreak = 64;
+
+}  // namespace
+
+OpenList::OpenList(Sharing sharing) {
+  for (const bool by_landmarks : {false, true}) {
+    if (by_landmarks && sharing == Sharing::one_queue) continue;
+    queues_.push_back({true, by_landmarks, Order::streaks});
+    queues_.push_back({false, by_landmarks, Order::oldest});
   }
 }
 
-void OpenList::push(Priority by_plan, Priority by_landmarks, bool preferred, OpenEntry entry) {
-  for (std::size_t i = 0; i < queues_.size(); ++i) {
-    const Kind& kind = kinds_[i];
-    const bool waits = kind.preferred ? preferred : shared() || !preferred;
-    if (waits) queues_[i].push(kind.by_landmarks ? by_landmarks : by_plan, entry);
+void OpenList::push(Priority by_plan, Priority by_landmarks, NodeId parent,
+                    std::span<const SnapId> successors, std::span<const SnapId> preferred) {
+  if (successors_.size() <= parent.index()) successors_.resize(parent.index() + 1);
+  Successors& own = successors_[parent.index()];
+  own.size = static_cast<std::uint32_t>(successors.size());
+  own.list = std::make_unique_for_overwrite<Successor[]>(own.size);
+  for (std::uint32_t i = 0; i < own.size; ++i)
+    own.list[i] = {successors[i].value, std::ranges::binary_search(preferred, successors[i]), false};
+  listed_ += own.size;
+  for (Queue& queue : queues_) {
+    Run run{parent, 0, own.size};
+    trim(queue, run);
+    if (run.begin == run.end) continue;
+    queue.runs.push(queue.by_landmarks ? by_landmarks : by_plan, run);
+    ++own.runs;
   }
+}
+
+bool OpenList::waits(const Queue& queue, Successor successor) const {
+  const bool alone = queues_.size() == 2;
+  return queue.preferred ? successor.preferred : !alone || !successor.preferred;
+}
+
+void OpenList::trim(const Queue& queue, Run& run) const {
+  const Successor* list = successors_[run.parent.index()].list.get();
+  while (run.begin < run.end && !waits(queue, list[run.begin])) ++run.begin;
+  while (run.begin < run.end && !waits(queue, list[run.end - 1])) --run.end;
 }
 
 std::optional<OpenEntry> OpenList::pop() {
-  OpenQueue* next = nullptr;
-  for (OpenQueue& queue : queues_) {
-    if (!queue.empty() && (!next || queue.served() < next->served())) next = &queue;
+  while (true) {
+    Queue* next = nullptr;
+    for (Queue& queue : queues_) {
+      if (!queue.runs.empty() && (!next || queue.served < next->served)) next = &queue;
+    }
+    if (!next) return std::nullopt;
+    if (const auto entry = serve(*next)) return entry;
   }
-  if (!next) return std::nullopt;
-  return next->pop();
+}
+
+// None: it has been tried from another queue.
+std::optional<OpenEntry> OpenList::serve(Queue& queue) {
+  ++queue.served;
+  const bool oldest = queue.order == Order::oldest || (queue.served / kStreak) % 2 == 0;
+  Run& run = oldest ? queue.runs.oldest() : queue.runs.youngest();
+  const NodeId parent = run.parent;
+  Successor& served = successors_[parent.index()].list[oldest ? run.begin++ : --run.end];
+  const bool tried = served.tried;
+  served.tried = true;
+  const OpenEntry entry{parent, SnapId(std::size_t{served.snap})};
+  trim(queue, run);
+  if (run.begin == run.end) {
+    oldest ? queue.runs.drop_oldest() : queue.runs.drop_youngest();
+    release(parent);
+  }
+  if (tried) return std::nullopt;
+  return entry;
+}
+
+void OpenList::release(NodeId parent) {
+  Successors& own = successors_[parent.index()];
+  if (--own.runs > 0) return;
+  listed_ -= own.size;
+  own = {};
 }
 
 void OpenList::boost() {
-  for (std::size_t i = 0; i < queues_.size(); ++i) {
-    if (kinds_[i].preferred) queues_[i].favour(kBoost);
+  for (Queue& queue : queues_) {
+    if (queue.preferred) queue.served -= kBoost;
   }
 }
 
 std::size_t OpenList::bytes() const {
-  std::size_t result = 0;
-  for (const OpenQueue& queue : queues_) result += queue.bytes();
+  std::size_t result = successors_.capacity() * sizeof(Successors) + listed_ * sizeof(Successor);
+  for (const Queue& queue : queues_) result += queue.runs.bytes();
   return result;
 }
 

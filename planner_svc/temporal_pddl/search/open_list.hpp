@@ -1,13 +1,17 @@
 // Successors that wait to be tried, in several queues that take turns; the preferred ones are served first as
 // long as that leads on (Helmert 2006, section 6; Richter and Helmert 2009; Röger and Helmert 2010).
+//
+// The successors of a state wait together: each queue holds one run of them, and all share one list, in which
+// is noted what has been tried. The list goes when no queue needs it any more.
 #pragma once
 
 #include <cstdint>
-#include <deque>
-#include <map>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "planner_svc/temporal_pddl/search/ranked_queue.hpp"
 #include "planner_svc/temporal_pddl/search/state_store.hpp"
 
 namespace roci::planner::temporal_pddl {
@@ -17,53 +21,19 @@ struct OpenEntry {
   SnapId snap;
 };
 
-// Lower is better.
-struct Priority {
-  std::int64_t first = 0;
-  std::int64_t second = 0;
-  auto operator<=>(const Priority&) const = default;
-};
-
-class OpenQueue {
- public:
-  // Among equally good entries. streaks: for a while the youngest, which goes on with the plan at hand, then
-  // for as long the oldest, which goes back to where there was a choice.
-  enum class Order { oldest, streaks };
-
-  explicit OpenQueue(Order order) : order_(order) {}
-
-  void push(Priority priority, OpenEntry entry) {
-    buckets_[priority].push_back(entry);
-    ++size_;
-  }
-  // One of the best. The queue must not be empty.
-  OpenEntry pop();
-  // Takes its turn as if it had been served so many times less.
-  void favour(std::int64_t times) { served_ -= times; }
-  std::int64_t served() const { return served_; }
-  std::size_t size() const { return size_; }
-  bool empty() const { return size_ == 0; }
-  std::size_t bytes() const { return size_ * sizeof(OpenEntry); }
-
- private:
-  static constexpr std::int64_t kStreak = 64;
-
-  Order order_;
-  std::map<Priority, std::deque<OpenEntry>> buckets_;
-  std::int64_t served_ = 0;
-  std::size_t size_ = 0;
-};
-
 class OpenList {
  public:
-  // one_queue: each entry waits in one queue, by its plan's estimate: among the preferred or the others. Else
-  // each also waits in a queue by landmarks, and the preferred among all; so it may come several times.
+  // one_queue: each successor waits in one queue, by its plan's estimate: among the preferred or the others.
+  // Else each also waits in a queue by landmarks, and the preferred among all.
   enum class Sharing { one_queue, all_queues };
 
   explicit OpenList(Sharing sharing);
 
-  void push(Priority by_plan, Priority by_landmarks, bool preferred, OpenEntry entry);
-  // From the queue that was served least.
+  // successors: of `parent`, of which none waits yet. preferred: sorted.
+  void push(Priority by_plan, Priority by_landmarks, NodeId parent, std::span<const SnapId> successors,
+            std::span<const SnapId> preferred);
+  // From the queue that was served least. Each entry comes once; where it waits in several queues, its turn
+  // in the others passes.
   std::optional<OpenEntry> pop();
   // The search has made progress: what is preferred is served first for a while.
   void boost();
@@ -73,14 +43,41 @@ class OpenList {
  private:
   static constexpr std::int64_t kBoost = 1000;
 
-  struct Kind {
+  // Among equally good ones. streaks: for a while the youngest, which goes on with the plan at hand, then for
+  // as long the oldest, which goes back to where there was a choice.
+  enum class Order { oldest, streaks };
+  struct Successor {
+    std::uint32_t snap : 30;
+    std::uint32_t preferred : 1;
+    std::uint32_t tried : 1;
+  };
+  // Of one state.
+  struct Successors {
+    std::unique_ptr<Successor[]> list;
+    std::uint32_t size = 0;
+    std::uint32_t runs = 0;  // in how many queues some of them wait
+  };
+  // Positions in the list of a parent's successors. The first and the last one wait in the run's queue.
+  struct Run {
+    NodeId parent;
+    std::uint32_t begin = 0, end = 0;
+  };
+  struct Queue {
     bool preferred;
     bool by_landmarks;
+    Order order;
+    std::int64_t served = 0;
+    RankedQueue<Run> runs = {};
   };
-  bool shared() const { return queues_.size() > 2; }
 
-  std::vector<Kind> kinds_;
-  std::vector<OpenQueue> queues_;  // by kind
+  bool waits(const Queue& queue, Successor successor) const;
+  void trim(const Queue& queue, Run& run) const;
+  std::optional<OpenEntry> serve(Queue& queue);
+  void release(NodeId parent);
+
+  std::vector<Queue> queues_;
+  std::vector<Successors> successors_;  // by parent
+  std::size_t listed_ = 0;              // in all lists
 };
 
 }  // namespace roci::planner::temporal_pddl
