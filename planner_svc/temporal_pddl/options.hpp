@@ -22,9 +22,10 @@ struct Options {
   bool preferred_operators = true;  // R21
   bool landmarks = true;            // see heuristics/landmarks.hpp; takes no effect without dominance
   bool whole_actions = true;        // see search/search.hpp
+  bool lookahead = true;            // see search/lookahead.hpp
   WindowExtraction windows = WindowExtraction::recurring;
-  std::size_t resource_patience = 100;  // states before it is measured what resources suffice for, see
-                                        // heuristics/within_resources.hpp
+  std::size_t resource_patience = 100;      // states before it is measured what resources suffice for, see
+                                            // heuristics/within_resources.hpp
   std::size_t improvement_evaluations = 0;  // after the first plan, in search of better ones; 0: only useless
                                             // actions go
   std::uint64_t seed = 0;  // breaks ties among equally good successors; 0: in order of generation

@@ -185,6 +185,14 @@ bool FfHeuristic::holds_now(SnapId op) const {
                              [&](ComparisonId need) { return supporter_[proposition(need)].is_none(); });
 }
 
+void FfHeuristic::order_plan(std::vector<SnapId>& ordered) const {
+  for (const SnapId op : plan_) {
+    if (task_.snaps[op].kind != SnapKind::derivation)
+      ordered.insert(ordered.end(), static_cast<std::size_t>(times_[op]), op);
+  }
+  std::ranges::stable_sort(ordered, {}, [&](SnapId op) { return operators_[op].cost; });
+}
+
 void FfHeuristic::collect(std::uint32_t timed_done, Estimate& estimate) const {
   bool waits_for_timed = false;
   for (const SnapId op : plan_) {
@@ -201,6 +209,7 @@ void FfHeuristic::collect(std::uint32_t timed_done, Estimate& estimate) const {
     }
     if (holds_now(op)) estimate.preferred.push_back(op);
   }
+  order_plan(estimate.relaxed_plan);
   if (waits_for_timed) estimate.preferred.push_back(task_.timed_steps[timed_done].snap);
 }
 

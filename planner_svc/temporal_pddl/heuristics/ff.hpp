@@ -52,6 +52,7 @@ class FfHeuristic final : public Heuristic {
   std::span<const SnapId> needed_by(PropositionId proposition) const;
   bool holds_now(SnapId op) const;
   void extract();
+  void order_plan(std::vector<SnapId>& ordered) const;
   void collect(std::uint32_t timed_done, Estimate& estimate) const;
 
   const Task& task_;

@@ -11,11 +11,13 @@
 namespace roci::planner::temporal_pddl {
 
 struct Estimate {
-  bool dead_end = false;          // proved: no plan goes through this state
-  std::int64_t cost = 0;          // microseconds of the actions still to come, one after the other
-  std::int64_t steps = 0;         // snap actions still to come
-  std::int64_t landmarks = 0;     // still to come
-  std::vector<SnapId> preferred;  // applicable in the state and useful, as far as the heuristic sees (R21)
+  bool dead_end = false;             // proved: no plan goes through this state
+  std::int64_t cost = 0;             // microseconds of the actions still to come, one after the other
+  std::int64_t steps = 0;            // snap actions still to come
+  std::int64_t landmarks = 0;        // still to come
+  std::vector<SnapId> preferred;     // applicable in the state and useful, as far as the heuristic sees (R21)
+  std::vector<SnapId> relaxed_plan;  // steps that would reach the goals if nothing stood in the way, by when
+                                     // they can be taken; each as often as it takes
 };
 
 // What a heuristic may look at.

@@ -21,6 +21,7 @@ BestFirstSearch::BestFirstSearch(const Task& task, Heuristic& heuristic, const O
       dominate_(options.dominance && !goal_.has_openings()),
       evaluation_(task),
       open_(dominate_ && options.landmarks ? OpenList::Sharing::all_queues : OpenList::Sharing::one_queue),
+      lookahead_(task, space_),
       random_(options.seed) {}
 
 std::optional<SearchOutcome> BestFirstSearch::run(std::size_t evaluations, std::size_t bytes_elsewhere) {
@@ -28,7 +29,7 @@ std::optional<SearchOutcome> BestFirstSearch::run(std::size_t evaluations, std::
   const std::size_t until = evaluations > SIZE_MAX - evaluated_ ? SIZE_MAX : evaluated_ + evaluations;
   if (space_.store().size() == 0) {
     successor_.state = task_.initial_state;
-    if (take_up(NodeId())) return found();
+    if (reach(NodeId())) return found();
   }
   while (evaluated_ < until) {
     const auto entry = open_.pop();
@@ -51,7 +52,7 @@ std::optional<SearchOutcome> BestFirstSearch::run(std::size_t evaluations, std::
       ++statistics_.dominated;
       continue;
     }
-    if (take_up(entry->parent)) return found();
+    if (reach(entry->parent)) return found();
   }
   return std::nullopt;
 }
@@ -67,15 +68,36 @@ SearchOutcome BestFirstSearch::failed() const {
   return {std::nullopt, {}, std::move(reason)};
 }
 
-// Stores the state in successor_, evaluates it and queues what can follow. True: it is a goal state.
-bool BestFirstSearch::take_up(NodeId parent) {
+// Stores the state in successor_ and takes it up, and then what its relaxed plan leads to as long as that is
+// nearer to the goals. True: successor_ is a goal state.
+bool BestFirstSearch::reach(NodeId parent) {
+  space_.add(parent, successor_);
+  if (take_up()) return true;
+  while (!estimate_.dead_end && options_.lookahead) {
+    const Priority before{estimate_.steps, estimate_.cost};
+    if (!look_ahead()) return false;
+    if (take_up()) return true;
+    if (!(Priority{estimate_.steps, estimate_.cost} < before)) return false;
+  }
+  return false;
+}
+
+// To a stored state that is new, in successor_.
+bool BestFirstSearch::look_ahead() {
+  if (!lookahead_.follow(successor_.prefix, estimate_.relaxed_plan, ahead_)) return false;
+  std::swap(successor_, ahead_);
+  return !heuristic_.hopeless(successor_.state, successor_.prefix.running_actions) &&
+         !(dominate_ && dominance_.dominated(successor_));
+}
+
+// Evaluates the stored state in successor_ and queues what can follow. True: it is a goal state.
+bool BestFirstSearch::take_up() {
   PlanPrefix& prefix = successor_.prefix;
   if (prefix.steps.size() + 2 > kMaxSteps) {
     too_long_ = true;
     return false;
   }
-  const NodeId node = space_.add(parent, successor_);
-  if (dominate_) dominance_.insert(node, successor_.state, prefix);
+  if (dominate_) dominance_.insert(prefix.node, successor_.state, prefix);
   if (goal_.complete(successor_.state, prefix)) return true;
 
   watch_.poll();

@@ -16,6 +16,7 @@
 #include "planner_svc/temporal_pddl/search/dominance.hpp"
 #include "planner_svc/temporal_pddl/search/evaluation.hpp"
 #include "planner_svc/temporal_pddl/search/goal_test.hpp"
+#include "planner_svc/temporal_pddl/search/lookahead.hpp"
 #include "planner_svc/temporal_pddl/search/open_list.hpp"
 #include "planner_svc/temporal_pddl/search/state_space.hpp"
 #include "planner_svc/temporal_pddl/watch.hpp"
@@ -45,7 +46,9 @@ class BestFirstSearch {
  private:
   SearchOutcome found();
   SearchOutcome failed() const;
-  bool take_up(NodeId parent);
+  bool reach(NodeId parent);
+  bool take_up();
+  bool look_ahead();
   void expand(const PlanPrefix& prefix);
   void account();
 
@@ -60,10 +63,12 @@ class BestFirstSearch {
   bool dominate_;
   Evaluation evaluation_;
   OpenList open_;
+  Lookahead lookahead_;
   std::mt19937_64 random_;
 
   PlanPrefix prefix_;  // of the entry's parent
   Successor successor_;
+  Successor ahead_;
   Estimate estimate_;
   Priority best_plan_{std::numeric_limits<std::int64_t>::max(), 0};
   std::int64_t best_landmarks_ = std::numeric_limits<std::int64_t>::max();

@@ -33,6 +33,8 @@ class StateSpace {
   // The snap actions that are applicable after the plan to a stored state: first the ends of what runs, then
   // starts and plain actions, then the next timed literal. Valid until the next call.
   std::span<const SnapId> applicable(const PlanPrefix& prefix);
+  // Is it worth a try after the plan to a stored state?
+  bool possible(const PlanPrefix& prefix, SnapId snap) const { return builder_.applicable(prefix, snap); }
   Rejection build(const PlanPrefix& prefix, SnapId snap, Successor& successor) {
     return builder_.build(prefix, snap, successor);
   }

@@ -35,6 +35,8 @@ std::vector<Named> configurations() {
   result.back().options.landmarks = false;
   result.push_back({"no whole actions", {}});
   result.back().options.whole_actions = false;
+  result.push_back({"no lookahead", {}});
+  result.back().options.lookahead = false;
   result.push_back({"timed literals as steps", {}});
   result.back().options.windows = WindowExtraction::none;
   result.push_back({"one-off windows", {}});
@@ -42,7 +44,7 @@ std::vector<Named> configurations() {
   result.push_back({"improved", {}});
   result.back().options.improvement_evaluations = 200;
   result.push_back({"bare, shuffled", {}});
-  result.back().options = {Duration{1000},         false,          false, false, false, false,
+  result.back().options = {Duration{1000},         false,          false, false, false, false, false,
                            WindowExtraction::none, kNeverMeasured, 0,     17};
   return result;
 }

@@ -52,9 +52,11 @@ TEST(WholeActions, HalveTheWorkWhereNothingMustRunAtTheSameTime) {
     (:durative-action darken :parameters () :duration (= ?duration 1)
       :condition () :effect (at end (not (lit)))))",
                      "(:objects" + objects + ") (:init (lit)) (:goal (and" + goal + "))");
-  Options split;
+  Options step_by_step;
+  step_by_step.lookahead = false;
+  Options split = step_by_step;
   split.whole_actions = false;
-  const Result whole = testing::solved(made);
+  const Result whole = testing::solved(made, step_by_step);
   const Result parts = testing::solved(made, split);
   testing::expect_valid(made, whole);
   ASSERT_TRUE(whole.plan && parts.plan);

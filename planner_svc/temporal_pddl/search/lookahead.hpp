@@ -1,0 +1,34 @@
+// Follows a state's relaxed plan as far as it goes (Vidal 2004): many steps for the price of one evaluation.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/search/state_space.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+class Lookahead {
+ public:
+  Lookahead(const Task& task, StateSpace& space) : task_(task), space_(space) {}
+
+  // Takes from the plan `from`, whose node is stored, what of the relaxed plan can be taken, in its order and
+  // again as long as anything can; ends and timed literals only where no start can. Every state on the way is
+  // stored, and the last one in `last`. False: nothing can be taken.
+  bool follow(const PlanPrefix& from, std::span<const SnapId> relaxed_plan, Successor& last);
+
+ private:
+  bool waits(SnapId snap) const;
+  bool take_starts(Successor& last);
+  bool take_one_that_waits(Successor& last);
+  bool take(SnapId snap, Successor& last);
+
+  const Task& task_;
+  StateSpace& space_;
+  PlanPrefix prefix_;  // so far
+  Successor next_;
+  std::vector<SnapId> starts_, waiting_;  // still to be taken
+};
+
+}  // namespace roci::planner::temporal_pddl
