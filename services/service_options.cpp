@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 
 namespace roci::services {
 namespace {
@@ -17,7 +18,8 @@ void add_run(CLI::App& app, RunSettings& run) {
   app.add_option("--scenario", run.scenario, "scenarios/NAME.yaml of the mission")->capture_default_str();
   app.add_option("--seed", run.seed, "Seed of everything random")->capture_default_str();
   app.add_option("--run-folder", run.run_folder, "Folder for journal, logs and summary of this run");
-  app.add_option("--pair", run.pair, "exec_svc: which of two processes that stand in for each other this is")
+  app.add_option("--pair", run.pair,
+                 "exec_svc: which of two processes that stand in for each other this is (or ROCI_PAIR)")
       ->check(CLI::IsMember({"first", "second"}));
 }
 
@@ -57,6 +59,12 @@ void add_clock(CLI::App& app, NodeOptions& node, std::string& roster, double& ep
       ->check(CLI::PositiveNumber);
 }
 
+std::string pair_of(const Environment& environment) {
+  const std::string pair = environment("ROCI_PAIR").value_or("");
+  if (pair.empty() || pair == "first" || pair == "second") return pair;
+  throw std::invalid_argument("ROCI_PAIR is \"" + pair + "\": set it to first or second, or unset it");
+}
+
 }  // namespace
 
 ServiceOptions parse_service_options(int argc, const char* const* argv, const std::string& name,
@@ -83,6 +91,7 @@ ServiceOptions parse_service_options(int argc, const char* const* argv, const st
   options.connection = resolve_connection(flags, environment, options.run.mission);
   options.connection.transport.participant = name;
   options.node.vendor = options.connection.dds;
+  if (options.run.pair.empty()) options.run.pair = pair_of(environment);
   return options;
 }
 

@@ -134,6 +134,7 @@ struct ReactorSettings {
   RecoveryStrategy recovery = RecoveryStrategy::cascade;
   StartPolicy start = StartPolicy::earliest;
   Replanning replanning = Replanning::paused;
+  temporal::Duration standby_term = temporal::seconds(2);  // wall time; see standby/lease.hpp
 };
 
 struct MissionModel {

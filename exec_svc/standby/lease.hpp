@@ -31,15 +31,16 @@ struct Word {
   bool operator==(const Word&) const = default;
 };
 
+// All times follow from the term, for how long a leader's word holds. Both members must have the same one.
 struct LeaseSettings {
   Moment term = std::chrono::seconds(2);
-  Moment renewal = std::chrono::milliseconds(250);  // between two words
-  Moment patience = std::chrono::seconds(1);        // without progress of the other's journal
+  Moment renewal = term / 8;   // between two words
+  Moment patience = term / 2;  // without progress of the other's journal
   // A follower may take over from a term after it last heard the leader until a term and this after it said
   // what that word echoes; later its right has lapsed, so that one that was stopped does not use it late, and
   // a word that came late gives none.
-  Moment margin = std::chrono::seconds(1);
-  Moment lonely = std::chrono::seconds(20);  // until one leads in doubt that hears nobody
+  Moment margin = term / 2;
+  Moment lonely = 10 * term;  // until one leads in doubt that hears nobody
 };
 
 // What must be on the disk before anything that stands on it is said.

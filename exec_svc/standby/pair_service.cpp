@@ -1,9 +1,12 @@
 #include "exec_svc/standby/pair_service.hpp"
 
+#include <chrono>
+#include <condition_variable>
 #include <mutex>
 #include <utility>
 
 #include "exec_svc/exec_service.hpp"
+#include "exec_svc/mission/mission_model.hpp"
 #include "exec_svc/standby/following_service.hpp"
 #include "exec_svc/standby/leading_service.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
@@ -17,6 +20,8 @@ namespace roci::exec {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kReconnectPause{500};
 
 Durability durability_for(const services::NodeOptions& node) {
   return node.clock == services::ClockMode::live ? Durability::power : Durability::process;
@@ -34,11 +39,17 @@ class Stop {
   void ask() {
     const std::scoped_lock lock(mutex_);
     asked_ = true;
+    changed_.notify_all();
     if (node_ != nullptr) node_->stop();
   }
   bool asked() const {
     const std::scoped_lock lock(mutex_);
     return asked_;
+  }
+  // At most for this time.
+  void wait(std::chrono::milliseconds longest) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, longest, [this] { return asked_; });
   }
   void reach(services::Node* node) {
     const std::scoped_lock lock(mutex_);
@@ -48,6 +59,7 @@ class Stop {
 
  private:
   mutable std::mutex mutex_;
+  std::condition_variable changed_;
   services::Node* node_ = nullptr;
   bool asked_ = false;
 };
@@ -69,6 +81,7 @@ class PairProcess {
   PairProcess(const services::ServiceOptions& options, services::StopSignals& signals)
       : options_(options),
         self_(wire::member_of(options.run.pair)),
+        lease_{read_mission(options.run.mission).executive.standby_term},
         journal_(folder_of(options.run) / "journal.sqlite", durability_for(options.node)),
         standing_(folder_of(options.run) / "standing", durability_for(options.node)) {
     signals.watch([this] { stop_.ask(); });
@@ -76,7 +89,7 @@ class PairProcess {
 
   void run() {
     for (bool superseded = false; !stop_.asked();) {
-      Lease lease(self_, {}, standing_.read(), superseded, wire::moment());
+      Lease lease(self_, lease_, standing_.read(), superseded, wire::moment());
       const auto lead = follow(lease);
       if (!lead) return;
       log(*lead, lease);
@@ -93,12 +106,29 @@ class PairProcess {
                        std::to_string(lease.epoch()) + ": " + turn.why);
   }
 
+  // A member that was connected before waits for its network to come back; none: it was asked to stop.
+  std::unique_ptr<services::Transport> connect() {
+    for (bool told = false; !stop_.asked(); stop_.wait(kReconnectPause)) {
+      try {
+        auto transport = services::connect(options_.connection);
+        connected_before_ = true;
+        return transport;
+      } catch (const services::TransportError& error) {
+        if (!connected_before_) throw;
+        if (!std::exchange(told, true)) services::log_warning(std::string("exec_svc waits: ") + error.what());
+      }
+    }
+    return nullptr;
+  }
+
   // Nothing: the run is over.
   std::optional<Lease::Turn> follow(Lease& lease) {
+    auto transport = connect();
+    if (!transport) return std::nullopt;
     services::NodeOptions options = options_.node;
     options.name += "." + options_.run.pair;
     options.clock = services::ClockMode::observer;
-    services::Node node(options, services::connect(options_.connection));
+    services::Node node(options, std::move(transport));
     FollowingService following(node, lease, journal_, standing_);
     const Reach reach(stop_, node);
     node.run();
@@ -108,9 +138,11 @@ class PairProcess {
   // Nothing: the run is over. Under the simulated clock the epoch is the incarnation, so the clock drops who
   // led before.
   std::optional<StandDown> lead(Lease& lease, const Lease::Turn& why) {
+    auto transport = connect();
+    if (!transport) return std::nullopt;
     services::NodeOptions options = options_.node;
     options.incarnation = static_cast<std::uint32_t>(lease.epoch());
-    services::Node node(options, services::connect(options_.connection));
+    services::Node node(options, std::move(transport));
     try {
       LeadingService leading(node, lease, journal_, standing_);
       const auto executive = make_executive(node, options_.run, journal_, leading, why.doubtful);
@@ -128,9 +160,11 @@ class PairProcess {
 
   const services::ServiceOptions& options_;
   Member self_;
+  LeaseSettings lease_;
   Journal journal_;
   StandingFile standing_;
   Stop stop_;
+  bool connected_before_ = false;
 };
 
 }  // namespace

@@ -15,14 +15,24 @@ using nlohmann::json;
 
 constexpr char kServed[] = "served";
 
-bool flies_here(const Options& options) {
-  return std::ranges::find(options.services, "exec_svc") != options.services.end();
+bool starts(const Options& options, const char* service) {
+  return std::ranges::find(options.services, service) != options.services.end();
 }
 
-json read_or_default(const Options& options, const char* result) {
+// No: they may well be counted on another host.
+bool must_count_goals(const Options& options) {
+  if (!starts(options, kExecutive)) return false;
+  return !options.standby || starts(options, kStandby);
+}
+
+// What exec_svc wrote here, if it did.
+json read(const Options& options) {
   std::ifstream in(options.run_folder / "summary.json");
   json summary = json::parse(in, nullptr, false);
-  if (!summary.is_object()) summary = json::object();
+  return summary.is_object() ? summary : json::object();
+}
+
+void complete(json& summary, const Options& options, const char* result) {
   const json fallback{{"mission", options.mission.filename().string()},
                       {"scenario", options.scenario},
                       {"seed", options.seed},
@@ -37,7 +47,6 @@ json read_or_default(const Options& options, const char* result) {
   }
   std::ifstream expected(options.run_folder / services::kExpectedFile);
   if (expected) summary["expected"] = json::parse(expected, nullptr, false);
-  return summary;
 }
 
 // A line of its own, if the scenario says what is to happen.
@@ -48,13 +57,14 @@ std::string expected_text(const json& summary) {
   return "  events    " + (fault.empty() ? "as the scenario expects" : fault) + "\n";
 }
 
-std::string to_text(const json& summary, const Options& options) {
-  if (!flies_here(options)) {
-    return fmt::format(
-        "{} {}: {} here for {:.1f} s; the goals are counted where exec_svc runs\n  run       {}\n",
-        summary.value("mission", ""), summary.value("scenario", ""), summary.value("result", ""),
-        summary.value("wall_s", 0.0), options.run_folder.string());
-  }
+std::string text_without_goals(const json& summary, const Options& options) {
+  return fmt::format(
+      "{} {}: {} here for {:.1f} s; the goals are counted where exec_svc leads\n  run       {}\n",
+      summary.value("mission", ""), summary.value("scenario", ""), summary.value("result", ""),
+      summary.value("wall_s", 0.0), options.run_folder.string());
+}
+
+std::string text_with_goals(const json& summary, const Options& options) {
   const json& goals = summary["goals"];
   const json& planner = summary["planner"];
   return fmt::format(
@@ -75,12 +85,15 @@ std::string to_text(const json& summary, const Options& options) {
 }  // namespace
 
 Summary complete_summary(const Options& options, double wall_s, bool ended_well) {
-  json summary = read_or_default(options, ended_well && !flies_here(options) ? kServed : "failed");
+  json summary = read(options);
+  const bool counts_goals = !summary.empty() || must_count_goals(options);
+  complete(summary, options, ended_well && !counts_goals ? kServed : "failed");
   summary["dds"] = options.connection.dds;
   summary["wall_s"] = wall_s;
   std::ofstream(options.run_folder / "summary.json") << summary.dump(2) << '\n';
   const std::string result = summary.value("result", "");
-  return {result == "achieved" || result == kServed, summary.dump(), to_text(summary, options)};
+  return {result == "achieved" || result == kServed, summary.dump(),
+          counts_goals ? text_with_goals(summary, options) : text_without_goals(summary, options)};
 }
 
 }  // namespace roci::launch

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <sstream>
 
 namespace roci::scenario {
 
@@ -34,6 +35,19 @@ nlohmann::json last_line_as_json(const std::string& output) {
   const std::string last = output.substr(begin == std::string::npos ? 0 : begin + 1, end - begin);
   auto parsed = nlohmann::json::parse(last, nullptr, false);
   return parsed.is_object() ? parsed : nlohmann::json::object();
+}
+
+std::map<std::string, Step> steps_of(const std::string& output) {
+  std::map<std::string, Step> out;
+  std::istringstream lines(output);
+  for (std::string line; std::getline(lines, line);) {
+    const auto first = line.find('\t');
+    const auto second = line.find('\t', first + 1);
+    if (second == std::string::npos) continue;
+    out[line.substr(0, first)] = {std::stoi(line.substr(first + 1)),
+                                  nlohmann::json::parse(line.substr(second + 1), nullptr, false)};
+  }
+  return out;
 }
 
 }  // namespace roci::scenario

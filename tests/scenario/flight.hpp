@@ -1,6 +1,7 @@
 // Whole missions flown by the programs that users start.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -17,6 +18,13 @@ Ended run(const std::string& command);
 
 // An empty object if the last line is none.
 nlohmann::json last_line_as_json(const std::string& output);
+
+// Of a script that prints "name<TAB>exit code<TAB>output" for each step.
+struct Step {
+  int exit_code = -1;
+  nlohmann::json printed;  // discarded if it was no JSON
+};
+std::map<std::string, Step> steps_of(const std::string& output);
 
 // Flies the mission to its end with `roci-launch … --speed max --headless --json`; the summary is the last
 // line. A flight that prints none gives an empty object.

@@ -3,32 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
-#include <sstream>
 
 #include "services/domain_claim.hpp"
 #include "tests/scenario/flight.hpp"
 
 namespace roci::scenario {
 namespace {
-
-struct Step {
-  int exit_code = -1;
-  nlohmann::json printed;  // discarded if it was no JSON
-};
-
-std::map<std::string, Step> steps_of(const std::string& output) {
-  std::map<std::string, Step> out;
-  std::istringstream lines(output);
-  for (std::string line; std::getline(lines, line);) {
-    const auto first = line.find('\t');
-    const auto second = line.find('\t', first + 1);
-    if (second == std::string::npos) continue;
-    out[line.substr(0, first)] = {std::stoi(line.substr(first + 1)),
-                                  nlohmann::json::parse(line.substr(second + 1), nullptr, false)};
-  }
-  return out;
-}
 
 class GroundAndKills : public ::testing::TestWithParam<const char*> {};
 
@@ -95,13 +75,14 @@ INSTANTIATE_TEST_SUITE_P(Transports, GroundAndKills, ::testing::Values("fastdds"
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(Watch, WaitsForARunAndSaysSo) {
-  const Ended ended = run(
-      "export XDG_RUNTIME_DIR=$(mktemp -d); cd $XDG_RUNTIME_DIR; "
-      "timeout 60 roci watch --json >out 2>err & watcher=$!; "
-      "timeout 20 sh -c 'until grep -q waiting err; do :; done'; "
-      "timeout 60 roci-launch " ROCI_SOURCE_DIR
-      "/missions/planetary --dds cyclonedds --speed 500 --headless >/dev/null; "
-      "timeout 20 sh -c 'until grep -q planetary out; do :; done'; kill $watcher 2>/dev/null; cat err; tail -n 1 out");
+  const Ended ended =
+      run("export XDG_RUNTIME_DIR=$(mktemp -d); cd $XDG_RUNTIME_DIR; "
+          "timeout 60 roci watch --json >out 2>err & watcher=$!; "
+          "timeout 20 sh -c 'until grep -q waiting err; do :; done'; "
+          "timeout 60 roci-launch " ROCI_SOURCE_DIR
+          "/missions/planetary --dds cyclonedds --speed 500 --headless >/dev/null; "
+          "timeout 20 sh -c 'until grep -q planetary out; do :; done'; kill $watcher 2>/dev/null; cat err; "
+          "tail -n 1 out");
   EXPECT_NE(ended.output.find("no mission runs on this machine yet; waiting for one"), std::string::npos)
       << ended.output;
   EXPECT_EQ(last_line_as_json(ended.output).value("mission", ""), "planetary") << ended.output;

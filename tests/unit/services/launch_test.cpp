@@ -141,9 +141,23 @@ TEST_F(LaunchTest, AHostWithoutTheExecutiveServes) {
   const Summary well = complete_summary(options, 1, true);
   EXPECT_TRUE(well.good);
   EXPECT_THAT(well.json, HasSubstr(R"("result":"served")"));
-  EXPECT_THAT(well.text, HasSubstr("where exec_svc runs"));
+  EXPECT_THAT(well.text, HasSubstr("where exec_svc leads"));
   fs::remove(folder / "summary.json");
   EXPECT_FALSE(complete_summary(options, 1, false).good);
+}
+
+TEST_F(LaunchTest, AHostWithOneOfAPairServesIfTheOtherLedAtTheEnd) {
+  Options options = parse({"--services", "exec_svc", "--standby", "--dds", "fastdds"});
+  options.run_folder = folder;
+  EXPECT_THAT(complete_summary(options, 1, true).json, HasSubstr(R"("result":"served")"));
+  fs::remove(folder / "summary.json");
+  EXPECT_FALSE(complete_summary(options, 1, false).good);
+  fs::remove(folder / "summary.json");
+  options.services.emplace_back(kStandby);
+  EXPECT_FALSE(complete_summary(options, 1, true).good) << "one of the two leads";
+  std::ofstream(folder / "summary.json") << R"({"result": "achieved", "goals": {"achieved": 3}, "sim_s": 7})";
+  options.services.pop_back();
+  EXPECT_THAT(complete_summary(options, 1, true).text, HasSubstr("3 achieved"));
 }
 
 TEST_F(LaunchTest, RunningMissionsAreFound) {

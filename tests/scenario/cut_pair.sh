@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# Flies a mission on three hosts, the pair of executives on one each, and cuts them off in flight.
+#   cut_pair.sh BIN_FOLDER MISSION DDS DOMAIN CUT CLOCK SPEED
+# CUT: between (the two do not hear each other), first (its cable is out), second (its switch is silent).
+# The hosts are network namespaces of its own, on a bridge in a fourth; no packet leaves them. Needs root.
+# Prints steps as ground_and_kills.sh does: flying, cut (the pair as its follower's host sees it, or the robot's), add (a
+# goal sent meanwhile), healed, achieved, and, when all is ended, robot, first, second (exit code and summary of each
+# launcher) and begun (what the robot did).
+set -uo pipefail
+bin=$1 mission=$2 dds=$3 domain=$4 cut=$5 clock=$6 speed=$7
+net=roci-net-$$
+folder=$(mktemp -d)
+declare -A address=([robot]=10.79.0.1 [first]=10.79.0.2 [second]=10.79.0.3)
+trap 'kill $(jobs -p) 2>/dev/null; wait; for host in net robot first second; do ip netns del roci-$host-$$; done; rm -rf "$folder"' EXIT
+
+set -e
+ip netns add $net
+ip -n $net link add name switch type bridge
+ip -n $net link set switch up
+for host in robot first second; do
+  ip netns add roci-$host-$$
+  ip link add name eth netns roci-$host-$$ type veth peer name $host netns $net
+  ip -n roci-$host-$$ addr add ${address[$host]}/24 dev eth
+  ip -n roci-$host-$$ link set lo up
+  ip -n roci-$host-$$ link set eth up
+  ip -n $net link set $host master switch up
+done
+set +e
+
+network=(--domain "$domain" --peers "${address[robot]},${address[first]},${address[second]}")
+on() {  # host command…
+  ip netns exec roci-$1-$$ timeout 100 "${@:2}"
+}
+launch() {  # host services options…; in a subshell, whose place it takes
+  exec ip netns exec roci-$1-$$ timeout 100 "$bin/roci-launch" "$mission" --dds "$(vendor $1)" "${network[@]}" --address ${address[$1]} --services $2 --headless --json \
+    --clock $clock --speed $speed --run-folder "$folder/$1" "${@:3}" >"$folder/$1.summary" 2>"$folder/$1.log"
+}
+vendor() {  # host
+  [[ $dds == mixed && $1 == second ]] && echo cyclonedds || echo "${dds/mixed/fastdds}"
+}
+step() {  # name exit_code output
+  printf '%s\t%s\t%s\n' "$1" "$2" "$3"
+}
+roci() {  # host arguments…
+  on $1 "$bin/roci" --dds "$(vendor $1)" "${network[@]}" --address ${address[$1]} "${@:2}" --json
+}
+until_status() {  # name host pattern: asks there until the status shows it, or the run is over
+  local status=""
+  while kill -0 $robot 2>/dev/null; do
+    status=$(roci $2 status)
+    [[ $status =~ $3 ]] && break
+  done
+  step "$1" 0 "$status"
+}
+part() {  # CUT on|off
+  case $1 in
+    between) for port in first second; do bridge -n $net link set dev $port isolated $2; done ;;
+    first) ip -n $net link set first "$([[ $2 == on ]] && echo down || echo up)" ;;
+    second) bridge -n $net link set dev second state "$([[ $2 == on ]] && echo 0 || echo 3)" ;;
+  esac
+}
+
+launch robot arm_svc,pathplan_svc,planner_svc,science_svc,sim_svc &
+robot=$!
+launch first exec_svc --standby &
+first=$!
+launch second exec_svc.standby --standby &
+second=$!
+until_status flying robot '"leader":"first".*"standby_ready":true.*"phase":"executing"'
+part $cut on
+until_status cut $([[ $cut == second ]] && echo second || echo robot) '"leader":"second"'
+step add $? "$(roci robot goal add more photo x=60 y=45)"
+part $cut off
+until_status healed robot '"standby_ready":true'
+until_status achieved robot '("state":"achieved".*){4}'
+kill -TERM $robot $first $second 2>/dev/null
+for host in robot first second; do
+  wait ${!host}
+  step $host $? "$(tail -n 1 "$folder/$host.summary")"
+done
+step begun 0 "$(tr -d '\n' <"$folder/robot/begun.json")"
