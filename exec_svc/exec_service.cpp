@@ -219,6 +219,7 @@ class ExecService final : public services::Service {
     for (const Note& note : out.notes) report(note);
     if (leading_ != nullptr)
       for (const Note& note : leading_->take_notes()) report(note);
+    if (out.cancelled_call && call_.id == *out.cancelled_call) planner_.cancel(call_.sent);
     if (out.call) call_planner(*out.call);
   }
 
@@ -227,7 +228,8 @@ class ExecService final : public services::Service {
   void report(const Note& note) { events_.write(wire::to_wire(note)); }
 
   void call_planner(const PlanCall& call) {
-    planner_.call(
+    call_.id = call.id;
+    call_.sent = planner_.call(
         wire::to_wire(call, mission_), "planner_svc", mission_.planner.reply_timeout,
         [this, id = call.id](const services::CallResult<v1::PlanReply>& result) { take(id, result); });
   }
@@ -235,7 +237,8 @@ class ExecService final : public services::Service {
   void take(std::uint64_t call, const services::CallResult<v1::PlanReply>& result) {
     PlanAnswer answer;
     answer.call = call;
-    answer.verdict = PlanVerdict::no_reply;
+    answer.verdict =
+        result.status == services::CallStatus::cancelled ? PlanVerdict::cancelled : PlanVerdict::no_reply;
     answer.reason = result.message;
     if (result.status == services::CallStatus::ok) {
       slowest_call_s_ = std::max(slowest_call_s_, result.reply.statistics().wall_s());
@@ -288,6 +291,10 @@ class ExecService final : public services::Service {
   std::uint32_t planner_peak_kb_ = 0;
 
   services::Client<v1::PlanRequest, v1::PlanReply> planner_;
+  struct {
+    std::uint64_t id = 0;       // the reactor's
+    services::CallId sent = 0;  // the wire's
+  } call_;                      // the last one
   services::Publisher<v1::Command> commands_;
   services::Publisher<v1::GoalStatus> goal_statuses_;
   services::Publisher<v1::Plan> plans_;

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <condition_variable>
@@ -94,7 +95,9 @@ class PlannerService final : public services::Service, private FunctionSource {
                         [this](const v1::FunctionOffer& offer) { offers_[offer.module_name()] = offer; });
     services::serve(node, services::topics::plan_request,
                     [this](const v1::PlanRequest& request, services::Responder<v1::PlanReply> responder) {
-                      queue_.push_back({request, std::move(responder)});
+                      const std::uint64_t number = ++taken_;
+                      queue_.push_back({number, request, responder});
+                      responder.on_cancel([this, number] { cancel(number); });
                       start_next();
                     });
     node.on_peer_change([this](const services::PeerChange& change) {
@@ -114,6 +117,7 @@ class PlannerService final : public services::Service, private FunctionSource {
 
  private:
   struct Job {
+    std::uint64_t number = 0;
     v1::PlanRequest request;
     services::Responder<v1::PlanReply> responder;
   };
@@ -168,9 +172,33 @@ class PlannerService final : public services::Service, private FunctionSource {
   // Nobody waits for these answers any more.
   void abandon_calls_of(const std::string& client) {
     std::erase_if(queue_, [&client](const Job& job) { return job.request.header().sender() == client; });
-    if (!job_ || job_->request.header().sender() != client) return;
+    if (job_ && job_->request.header().sender() == client) cancel_job();
+  }
+
+  // Its caller gets an answer all the same.
+  void cancel(std::uint64_t number) {
+    const auto queued = std::ranges::find(queue_, number, &Job::number);
+    if (queued != queue_.end()) {
+      queued->responder.reply(cancelled_reply());
+      queue_.erase(queued);
+    } else if (job_ && job_->number == number) {
+      cancel_job();
+    }
+  }
+
+  void cancel_job() {
     cancelled_ = true;
     if (asking_) resume({});
+    if (!answering_) return;
+    node_.cancel(*answering_);
+    answer_job(cancelled_reply());
+  }
+
+  static v1::PlanReply cancelled_reply() {
+    v1::PlanReply reply;
+    reply.verdict_code(v1::VERDICT_CANCELLED);
+    reply.reason("cancelled by the caller");
+    return reply;
   }
 
   void ask(const std::vector<FunctionCall>& calls) {
@@ -273,21 +301,28 @@ class PlannerService final : public services::Service, private FunctionSource {
     reply.statistics().peak_rss_kb(peak_resident_kb());
     tuples_ = 0;
     records_.keep(job_->request.problem_text(), answer, wall_s);
-    if (answer.verdict != PlanningVerdict::solved) {
+    if (answer.verdict != PlanningVerdict::solved && answer.verdict != PlanningVerdict::cancelled) {
       report(std::string("planning ended as ") + to_string(answer.verdict) + ": " + answer.reason);
     }
-    // In simulation a call takes time by the stated model, so that nothing depends on the speed of this
-    // machine.
-    const Duration busy = node_.options().clock == services::ClockMode::live
-                              ? Duration{0}
-                              : temporal::seconds(settings_.simulated_base_s +
-                                                  settings_.simulated_per_evaluation_s *
-                                                      static_cast<double>(answer.statistics.evaluated));
-    node_.after(busy, [this, reply = std::move(reply)] {
-      job_->responder.reply(reply);
-      job_.reset();
-      start_next();
-    });
+    answering_ =
+        node_.after(simulated_time_of(answer), [this, reply = std::move(reply)] { answer_job(reply); });
+  }
+
+  // In simulation a call takes time by the stated model, so that nothing depends on the speed of this
+  // machine.
+  Duration simulated_time_of(const PlanningAnswer& answer) const {
+    if (node_.options().clock == services::ClockMode::live || answer.verdict == PlanningVerdict::cancelled)
+      return Duration{0};
+    return temporal::seconds(settings_.simulated_base_s +
+                             settings_.simulated_per_evaluation_s *
+                                 static_cast<double>(answer.statistics.evaluated));
+  }
+
+  void answer_job(const v1::PlanReply& reply) {
+    answering_.reset();
+    job_->responder.reply(reply);
+    job_.reset();
+    start_next();
   }
 
   void report(const std::string& text) {
@@ -305,7 +340,9 @@ class PlannerService final : public services::Service, private FunctionSource {
   services::Client<v1::FunctionRequest, v1::FunctionReply> functions_;
   std::map<std::string, v1::FunctionOffer> offers_;
   std::deque<Job> queue_;
+  std::uint64_t taken_ = 0;  // requests so far
   std::optional<Job> job_;
+  std::optional<Node::TimerId> answering_;  // set once the job's answer is known
   std::uint64_t tuples_ = 0;
   std::uint64_t asked_ = 0;              // requests for values so far
   std::optional<std::uint64_t> asking_;  // the one under way

@@ -10,6 +10,35 @@ namespace roci::services::detail {
 
 CallStatistics statistics(const CallTable& table) { return table.statistics(); }
 
+void cancel(CallTable& table, CallId call) { table.cancel(call); }
+
+void on_cancel(PendingReply& pending, std::function<void()> handler) {
+  pending.on_cancel(std::move(handler));
+}
+
+namespace {
+
+CallTable::SendCancel cancels_of(Node& node, const char* procedure) {
+  return [publisher = advertise(node, topics::call_cancel), procedure](const v1::SampleIdentity& call,
+                                                                       const std::string& owner) {
+    v1::CallCancel cancel;
+    cancel.request().request_id(call);
+    cancel.request().instance_name(owner);
+    cancel.procedure(procedure);
+    publisher.write(std::move(cancel));
+  };
+}
+
+bool is_for(const Node& node, const v1::RequestHeader& header) {
+  return header.instance_name().empty() || header.instance_name() == node.options().name;
+}
+
+CallServer::Id id_of(const v1::RequestHeader& header) {
+  return {header.request_id().writer_guid(), header.request_id().sequence_number()};
+}
+
+}  // namespace
+
 template <class Request, class Reply>
 std::shared_ptr<CallTable> Calls<Request, Reply>::client(Node& node,
                                                          const topics::Procedure<Request, Reply>& procedure) {
@@ -17,9 +46,12 @@ std::shared_ptr<CallTable> Calls<Request, Reply>::client(Node& node,
   if (table) return table;
   const OutStream& requests = node.impl().endpoints.out(spec_of(procedure.request));
   InTopic& replies = node.impl().subscribe(spec_of(procedure.reply));
-  table = std::make_shared<CallTable>(node, requests.guid(), procedure.request.name, [&requests, &replies] {
-    return requests.matched_readers() > 0 && replies.reader->matched_writers() > 0;
-  });
+  table = std::make_shared<CallTable>(
+      node, requests.guid(), procedure.request.name,
+      [&requests, &replies] {
+        return requests.matched_readers() > 0 && replies.reader->matched_writers() > 0;
+      },
+      cancels_of(node, procedure.request.name));
   subscribe(node, procedure.reply,
             [&calls = *table](const Reply& reply) { calls.on_reply(reply.reply(), &reply); });
   node.on_peer_change([&calls = *table](const PeerChange& change) { calls.on_peer_change(change); });
@@ -28,9 +60,9 @@ std::shared_ptr<CallTable> Calls<Request, Reply>::client(Node& node,
 }
 
 template <class Request, class Reply>
-void Calls<Request, Reply>::call(Node& node, const topics::Procedure<Request, Reply>& procedure,
-                                 CallTable& table, Request&& request, std::string&& owner, Duration deadline,
-                                 OnResult&& on_result) {
+CallId Calls<Request, Reply>::call(Node& node, const topics::Procedure<Request, Reply>& procedure,
+                                   CallTable& table, Request&& request, std::string&& owner,
+                                   Duration deadline, OnResult&& on_result) {
   request.request().instance_name(owner);
   CallTable::Call call;
   call.owner = std::move(owner);
@@ -45,7 +77,7 @@ void Calls<Request, Reply>::call(Node& node, const topics::Procedure<Request, Re
     if (reply != nullptr) result.reply = *static_cast<const Reply*>(reply);
     on_result(result);
   };
-  table.start(std::move(call), deadline);
+  return table.start(std::move(call), deadline);
 }
 
 template <class Request, class Reply>
@@ -57,15 +89,17 @@ void Calls<Request, Reply>::serve(Node& node, const topics::Procedure<Request, R
   const PendingReply::Write write = [publisher = advertise(node, procedure.reply)](const void* reply) {
     publisher.write(*static_cast<const Reply*>(reply));
   };
-  subscribe(
-      node, procedure.request,
-      [&name = node.options().name, server, write, handler = std::move(handler)](const Request& request) {
-        const v1::RequestHeader& header = request.request();
-        if (!header.instance_name().empty() && header.instance_name() != name) return;
-        const v1::SampleIdentity& id = header.request_id();
-        if (!server->accept({id.writer_guid(), id.sequence_number()})) return;
-        handler(request, std::make_shared<PendingReply>(server, id, write));
-      });
+  subscribe(node, procedure.request,
+            [&node, server, write, handler = std::move(handler)](const Request& request) {
+              const v1::RequestHeader& header = request.request();
+              if (!is_for(node, header) || !server->accept(id_of(header))) return;
+              handler(request, std::make_shared<PendingReply>(server, header.request_id(), write));
+            });
+  subscribe(node, topics::call_cancel,
+            [&node, server, name = std::string(procedure.request.name)](const v1::CallCancel& cancel) {
+              if (cancel.procedure() == name && is_for(node, cancel.request()))
+                server->cancel(id_of(cancel.request()));
+            });
 }
 
 template <class Reply>

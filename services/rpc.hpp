@@ -5,6 +5,9 @@
 // Live, a request is sent once both of its topics have matched and sent again, with the same id, until it is
 // answered; servers handle an id once. Under the simulated clock the barrier delivers, so it is sent at once,
 // once.
+//
+// A caller that no longer needs an answer may cancel its call: the server is told, and answers what it has.
+// The call still ends with that answer, or as it would have.
 #pragma once
 
 #include <cstdint>
@@ -26,11 +29,14 @@ enum class CallStatus {
   owner_lost,    // it died while the call was under way
   remote_error,  // it answered with an exception
   overloaded,    // kMaxPendingCalls of this procedure are under way already
+  cancelled,     // before it was sent to anybody
 };
 
 const char* to_string(CallStatus);
 
 inline constexpr std::size_t kMaxPendingCalls = 256;
+
+using CallId = std::int64_t;  // of one client's calls
 
 template <class Reply>
 struct CallResult {
@@ -56,8 +62,8 @@ struct Calls {
   using OnResult = std::function<void(const CallResult<Reply>&)>;
   using Handler = std::function<void(const Request&, std::shared_ptr<PendingReply>)>;
   static std::shared_ptr<CallTable> client(Node&, const topics::Procedure<Request, Reply>&);
-  static void call(Node&, const topics::Procedure<Request, Reply>&, CallTable&, Request&&,
-                   std::string&& owner, Duration deadline, OnResult&&);
+  static CallId call(Node&, const topics::Procedure<Request, Reply>&, CallTable&, Request&&,
+                     std::string&& owner, Duration deadline, OnResult&&);
   static void serve(Node&, const topics::Procedure<Request, Reply>&, Handler&&);
 };
 
@@ -68,6 +74,8 @@ struct Answer {
 };
 
 CallStatistics statistics(const CallTable&);
+void cancel(CallTable&, CallId);
+void on_cancel(PendingReply&, std::function<void()> handler);
 
 }  // namespace detail
 
@@ -81,11 +89,13 @@ class Client {
 
   // `on_result` runs on the node's loop, never inside call(). `owner`: the service that should answer; empty:
   // anybody. The request's header members are filled in here.
-  void call(Request request, std::string owner, Duration deadline,
-            std::function<void(const CallResult<Reply>&)> on_result) const {
-    detail::Calls<Request, Reply>::call(*node_, procedure_, *table_, std::move(request), std::move(owner),
-                                        deadline, std::move(on_result));
+  CallId call(Request request, std::string owner, Duration deadline,
+              std::function<void(const CallResult<Reply>&)> on_result) const {
+    return detail::Calls<Request, Reply>::call(*node_, procedure_, *table_, std::move(request),
+                                               std::move(owner), deadline, std::move(on_result));
   }
+  // Nothing for a call that has ended.
+  void cancel(CallId call) const { detail::cancel(*table_, call); }
   CallStatistics statistics() const { return detail::statistics(*table_); }
 
  private:
@@ -109,6 +119,9 @@ class Responder {
   void fail(v1::RemoteException exception, std::string message) const {
     detail::Answer<Reply>::fail(*pending_, exception, std::move(message));
   }
+  // `handler` runs once, when the caller cancels before there is an answer; within this call if it already
+  // has. Who sets none answers in its own time.
+  void on_cancel(std::function<void()> handler) const { detail::on_cancel(*pending_, std::move(handler)); }
 
  private:
   std::shared_ptr<PendingReply> pending_;

@@ -1,5 +1,5 @@
-// The one table of topics: type, name, QoS, and whether the topic takes part in the simulated clock's barrier.
-// Clocked types carry a SampleHeader named `header`, which the node fills in.
+// The one table of topics: type, name, QoS, and whether the topic takes part in the simulated clock's
+// barrier. Clocked types carry a SampleHeader named `header`, which the node fills in.
 #pragma once
 
 #include "roci_idl/clock.h"
@@ -10,6 +10,7 @@
 #include "roci_idl/motion.h"
 #include "roci_idl/plan.h"
 #include "roci_idl/planner.h"
+#include "roci_idl/rpc.h"
 #include "roci_idl/standby.h"
 #include "services/transport.hpp"
 
@@ -29,27 +30,40 @@ namespace topics {
 
 using enum Clocking;
 
-inline constexpr Topic<v1::ClockReady> clock_ready{"roci/clock/ready", "roci::v1::ClockReady", Qos::state, wall};
+inline constexpr Topic<v1::ClockReady> clock_ready{"roci/clock/ready", "roci::v1::ClockReady", Qos::state,
+                                                   wall};
 inline constexpr Topic<v1::ClockStep> clock_step{"roci/clock/step", "roci::v1::ClockStep", Qos::state, wall};
 inline constexpr Topic<v1::ClockDone> clock_done{"roci/clock/done", "roci::v1::ClockDone", Qos::state, wall};
 inline constexpr Topic<v1::Heartbeat> heartbeat{"roci/heartbeat", "roci::v1::Heartbeat", Qos::state, wall};
 
-inline constexpr Topic<v1::ExecMember> exec_member{"roci/exec/member", "roci::v1::ExecMember", Qos::state, wall};
-inline constexpr Topic<v1::JournalParcel> exec_journal{"roci/exec/journal", "roci::v1::JournalParcel", Qos::request, wall};
+inline constexpr Topic<v1::ExecMember> exec_member{"roci/exec/member", "roci::v1::ExecMember", Qos::state,
+                                                   wall};
+inline constexpr Topic<v1::JournalParcel> exec_journal{"roci/exec/journal", "roci::v1::JournalParcel",
+                                                       Qos::request, wall};
 
 inline constexpr Topic<v1::Event> event{"roci/event", "roci::v1::Event", Qos::event, clocked};
 inline constexpr Topic<v1::Goal> goal{"roci/goal", "roci::v1::Goal", Qos::state, clocked};
-inline constexpr Topic<v1::GoalStatus> goal_status{"roci/goal/status", "roci::v1::GoalStatus", Qos::state, clocked};
+inline constexpr Topic<v1::GoalStatus> goal_status{"roci/goal/status", "roci::v1::GoalStatus", Qos::state,
+                                                   clocked};
 inline constexpr Topic<v1::Command> command{"roci/command", "roci::v1::Command", Qos::request, clocked};
-inline constexpr Topic<v1::CommandAck> command_ack{"roci/command/ack", "roci::v1::CommandAck", Qos::state, clocked};
-inline constexpr Topic<v1::Observation> observation{"roci/observation", "roci::v1::Observation", Qos::state, clocked};
-inline constexpr Topic<v1::DataProduct> data_product{"roci/product", "roci::v1::DataProduct", Qos::state, clocked};
+inline constexpr Topic<v1::CommandAck> command_ack{"roci/command/ack", "roci::v1::CommandAck", Qos::state,
+                                                   clocked};
+inline constexpr Topic<v1::Observation> observation{"roci/observation", "roci::v1::Observation", Qos::state,
+                                                    clocked};
+inline constexpr Topic<v1::DataProduct> data_product{"roci/product", "roci::v1::DataProduct", Qos::state,
+                                                     clocked};
 inline constexpr Topic<v1::Hazard> hazard{"roci/hazard", "roci::v1::Hazard", Qos::state, clocked};
 inline constexpr Topic<v1::Plan> plan{"roci/plan", "roci::v1::Plan", Qos::state, clocked};
-inline constexpr Topic<v1::StepStatus> step_status{"roci/plan/step", "roci::v1::StepStatus", Qos::state, clocked};
-inline constexpr Topic<v1::MissionStatus> mission_status{"roci/mission", "roci::v1::MissionStatus", Qos::state, clocked};
-inline constexpr Topic<v1::FunctionOffer> function_offer{"roci/function/offer", "roci::v1::FunctionOffer", Qos::state,
-                                                         clocked};
+inline constexpr Topic<v1::StepStatus> step_status{"roci/plan/step", "roci::v1::StepStatus", Qos::state,
+                                                   clocked};
+inline constexpr Topic<v1::MissionStatus> mission_status{"roci/mission", "roci::v1::MissionStatus",
+                                                         Qos::state, clocked};
+inline constexpr Topic<v1::FunctionOffer> function_offer{"roci/function/offer", "roci::v1::FunctionOffer",
+                                                         Qos::state, clocked};
+
+// Of every procedure below.
+inline constexpr Topic<v1::CallCancel> call_cancel{"roci/call/cancel", "roci::v1::CallCancel", Qos::request,
+                                                   clocked};
 
 // A remote procedure: a pair of topics with the DDS-RPC headers.
 template <class Request, class Reply>

@@ -54,6 +54,7 @@ std::vector<Line> decisions(temporal::Time now, const ReactorOutputs& out) {
   for (const StepStatus& step : out.steps) lines.push_back({"step", line_of(step)});
   if (out.adopted) lines.push_back({"trace", stamp + line_of(*out.adopted)});
   for (const Command& command : out.commands) lines.push_back({"trace", stamp + line_of(command)});
+  if (out.cancelled_call) lines.push_back({"call", "cancel " + std::to_string(*out.cancelled_call)});
   if (out.call) lines.push_back({"call", out.call->problem.text});
   return lines;
 }

@@ -6,37 +6,16 @@
 #include "exec_svc/reactor/reactor.hpp"
 
 namespace roci::exec {
-namespace {
 
 using temporal::Time;
-
-// Calls whose answers stand on a changed model, in a row; after that many the answer is taken: what has
-// changed since shows in the execution.
-constexpr std::uint32_t kOutdatedLimit = 5;
-
-}  // namespace
 
 bool speaks_of_goals(PlanVerdict verdict) {
   return verdict == PlanVerdict::unsolvable || verdict == PlanVerdict::timeout ||
          verdict == PlanVerdict::out_of_memory;
 }
 
-// A plan is out of date if a value in it stands on an older model; a verdict on the goals, if any model has
-// changed.
-bool Reactor::outdated(const PlanAnswer& answer) const {
-  if (speaks_of_goals(answer.verdict)) return models_changed_;
-  const auto& uses = answer.plan.function_values;
-  return answer.verdict == PlanVerdict::solved &&
-         std::any_of(uses.begin(), uses.end(), [this](const temporal::FunctionValueUse& use) {
-           const auto model = models_.find(use.owner);
-           return model != models_.end() && use.model_version < model->second;
-         });
-}
-
 void Reactor::take_answer(Time now, const PlanAnswer& answer) {
-  if (outdated(answer) && ++outdated_calls_ <= kOutdatedLimit) {
-    note(NoteLevel::info, "plan.outdated",
-         "a map or arm model changed during the planner call; it is made again");
+  if (is_end_of_cancelled_call(answer) || count_as_outdated(answer)) {
     begin_planning(now);
     return;
   }
@@ -60,6 +39,7 @@ void Reactor::take_answer(Time now, const PlanAnswer& answer) {
 
 void Reactor::adopt(Time now, const PlanAnswer& answer) {
   failed_calls_ = 0;
+  outdated_calls_ = 0;
   temporal::FlexiblePlan plan = answer.plan;
   plan.origin = call_.origin;
   std::string fault = bind_plan(plan, plan_version_ + 1, *mission_, call_.problem, beliefs_, goals_);

@@ -86,6 +86,7 @@ void Reactor::call_planner(Time now, Time origin, const Forecast& forecast) {
   ++counts_.planner_calls;
   models_changed_ = false;
   call_open_ = true;
+  call_cancelled_ = false;
   call_.id = ++call_id_;
   call_.problem_name = mission_->name + "-" + std::to_string(call_id_);
   call_.origin = origin;

@@ -187,8 +187,8 @@ std::vector<Observation> Reactor::changed_conditions() {
   return out;
 }
 
-// A wish for a plan that comes up during a planner call waits for the answer, which is then out of date:
-// there is never more than one call.
+// A wish for a plan that comes up during a planner call cancels it and waits for its end: there is never more
+// than one call.
 void Reactor::advance(Time now, const ReactorInputs& inputs) {
   const bool answered = call_open_ && inputs.answer && inputs.answer->call == call_id_;
   if (answered) {
@@ -206,6 +206,7 @@ void Reactor::advance(Time now, const ReactorInputs& inputs) {
     }
   }
   if (phase_ == Phase::pausing) continue_pause(now);
+  cancel_stale_call();
   finish_if_done();
 }
 

@@ -93,6 +93,7 @@ struct ReactorOutputs {
   std::vector<GoalRecord> goal_changes;
   std::vector<StepStatus> steps;
   std::vector<Note> notes;
+  std::optional<std::uint64_t> cancelled_call;  // its answer is wanted no more; it is still awaited
   std::optional<PlanCall> call;
   std::optional<temporal::FlexiblePlan> adopted;  // a plan that now runs
   std::optional<temporal::Time> wake;             // call step() again then, if nothing comes before
@@ -150,6 +151,9 @@ class Reactor {
   void send_fallbacks();
   void begin_planning(temporal::Time now);
   void call_planner(temporal::Time now, temporal::Time origin, const Forecast& forecast);
+  void cancel_stale_call();
+  bool is_end_of_cancelled_call(const PlanAnswer& answer) const;
+  bool count_as_outdated(const PlanAnswer& answer);
   bool may_go_on() const;
   void begin_meanwhile(temporal::Time now);
   void ask_meanwhile(temporal::Time now);
@@ -203,7 +207,8 @@ class Reactor {
   std::uint32_t plan_version_ = 0;
   std::uint64_t call_id_ = 0;
   PlanCall call_;
-  bool call_open_ = false;  // made, not answered: there is never more than one
+  bool call_open_ = false;       // made, not answered: there is never more than one
+  bool call_cancelled_ = false;  // the one made last
   std::optional<Meanwhile> meanwhile_;
   bool unfit_ = false;  // the running plan must not go on
   ReactorCounts counts_;

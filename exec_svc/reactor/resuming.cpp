@@ -16,6 +16,7 @@ void Reactor::resume(temporal::Time now) {
   if (meanwhile_ && !meanwhile_->answer) {
     call_.id = ++call_id_;
     call_open_ = true;
+    call_cancelled_ = false;
     out_.call = call_;
   }
   fallbacks_sent_ = false;
@@ -31,7 +32,7 @@ bool Reactor::at_rest() const {
 template <class Archive, class Self>
 void Reactor::fields(Archive& a, Self& self) {
   a(self.phase_, self.wanted_, self.wanted_why_, self.first_plan_, self.plan_version_, self.call_id_,
-    self.call_, self.call_open_, self.unfit_);
+    self.call_, self.call_open_, self.call_cancelled_, self.unfit_);
   a(self.counts_, self.models_, self.models_changed_, self.outdated_calls_, self.pause_deadline_);
   a(self.fallback_round_, self.fallbacks_sent_, self.failed_calls_, self.not_before_, self.told_starts_);
   a(self.condition_values_, self.reserves_, self.suspicion_);

@@ -73,9 +73,11 @@ void Reactor::continue_meanwhile(Time now) {
     const PlanVerdict verdict = meanwhile_->answer->verdict;
     if (verdict == PlanVerdict::solved) return change_plans(now);
     const PlanAnswer answer = *std::exchange(meanwhile_, std::nullopt)->answer;
+    if (goals_.open().empty()) return keep_plan(now);  // what ran has achieved them
+    if (is_end_of_cancelled_call(answer))
+      return want_plan("a map or arm model changed during the planner call");
     if (!speaks_of_goals(verdict))
       return break_plan(now, std::string("planner call ended as ") + to_string(verdict));
-    if (goals_.open().empty()) return keep_plan(now);  // what ran has achieved them
     if (soft_goal_to_leave(answer)) {
       give_way(answer);
       keep_plan(now);

@@ -1,4 +1,5 @@
-// One server of a procedure, without its types: knows which requests it has seen, and their answers.
+// One server of a procedure, without its types: knows which requests it has seen, their answers, and which of
+// them were cancelled, before they came or after.
 #pragma once
 
 #include <array>
@@ -24,9 +25,21 @@ class CallServer {
   bool accept(const Id&);
   void answered(const Id&, SendAgain);
 
+  void cancel(const Id&);
+  // Runs once, when this request is cancelled before its answer; at once if it already is.
+  void on_cancel(const Id&, std::function<void()> handler);
+
  private:
-  std::map<Id, SendAgain> known_;  // empty: not answered yet
-  std::deque<Id> order_;           // oldest first; bounds known_
+  struct Request {
+    bool seen = false;
+    bool cancelled = false;
+    SendAgain send_again;  // empty: not answered yet
+    std::function<void()> on_cancel;
+  };
+  Request& entry(const Id&);
+
+  std::map<Id, Request> known_;
+  std::deque<Id> order_;  // oldest first; bounds known_
 };
 
 // The duty to answer one request, and the writer that does it.
@@ -40,8 +53,11 @@ class PendingReply {
   const v1::SampleIdentity& request() const { return request_; }
   // The first answer is sent and remembered; others are ignored.
   void answer(std::shared_ptr<const void> reply);
+  void on_cancel(std::function<void()> handler);
 
  private:
+  CallServer::Id id() const { return {request_.writer_guid(), request_.sequence_number()}; }
+
   std::shared_ptr<CallServer> server_;
   v1::SampleIdentity request_;
   Write write_;

@@ -27,34 +27,41 @@ const char* to_string(CallStatus status) {
       return "remote_error";
     case CallStatus::overloaded:
       return "overloaded";
+    case CallStatus::cancelled:
+      return "cancelled";
   }
   return "unknown";
 }
 
-CallTable::CallTable(Node& node, Guid client, std::string procedure, std::function<bool()> reachable)
-    : node_(node), client_(client), procedure_(std::move(procedure)), reachable_(std::move(reachable)) {}
+CallTable::CallTable(Node& node, Guid client, std::string procedure, std::function<bool()> reachable,
+                     SendCancel send_cancel)
+    : node_(node),
+      client_(client),
+      procedure_(std::move(procedure)),
+      reachable_(std::move(reachable)),
+      send_cancel_(std::move(send_cancel)) {}
 
 bool CallTable::simulated() const {
   const ClockMode mode = node_.options().clock;
   return mode == ClockMode::simulated || mode == ClockMode::master;
 }
 
-v1::SampleIdentity CallTable::identity(std::int64_t number) const {
+v1::SampleIdentity CallTable::identity(CallId number) const {
   v1::SampleIdentity id;
   id.writer_guid(client_);
   id.sequence_number(number);
   return id;
 }
 
-void CallTable::start(Call call, Duration deadline) {
+CallId CallTable::start(Call call, Duration deadline) {
   if (pending_.size() >= kMaxPendingCalls) {
     node_.after(Duration(0), [finish = std::move(call.finish), name = procedure_] {
       finish(CallStatus::overloaded,
              std::to_string(kMaxPendingCalls) + " calls of " + name + " are under way", nullptr);
     });
-    return;
+    return ++last_number_;
   }
-  const std::int64_t number = ++last_number_;
+  const CallId number = ++last_number_;
   Pending& pending = pending_[number];
   pending.call = std::move(call);
   pending.next_wait = kFirstRepetition;
@@ -63,18 +70,40 @@ void CallTable::start(Call call, Duration deadline) {
   }
   pending.deadline = node_.after(deadline, [this, number] { expire(number); });
   if (simulated() || reachable_()) send(number, pending);
+  return number;
 }
 
-void CallTable::send(std::int64_t number, Pending& pending) {
+// A live request may be lost on its way, and so may this: both are repeated until there is an answer.
+void CallTable::cancel(CallId number) {
+  const auto found = pending_.find(number);
+  if (found == pending_.end() || std::exchange(found->second.cancelled, true)) return;
+  Pending& pending = found->second;
+  if (pending.sent) {
+    send_cancel_(identity(number), pending.call.owner);
+    if (simulated()) return;
+    node_.cancel(pending.repetition);
+    pending.next_wait = kFirstRepetition;
+    await_repetition(number, pending);
+  } else {
+    node_.cancel(pending.deadline);
+    pending.deadline = node_.after(Duration(0), [this, number] { expire(number); });
+  }
+}
+
+void CallTable::send(CallId number, Pending& pending) {
   pending.sent = true;
   ++statistics_.sent;
   pending.call.send(identity(number));
-  if (simulated()) return;
+  if (pending.cancelled) send_cancel_(identity(number), pending.call.owner);
+  if (!simulated()) await_repetition(number, pending);
+}
+
+void CallTable::await_repetition(CallId number, Pending& pending) {
   pending.repetition = node_.after(pending.next_wait, [this, number] { repeat(number); });
   pending.next_wait = std::min(2 * pending.next_wait, kLongestRepetition);
 }
 
-void CallTable::repeat(std::int64_t number) {
+void CallTable::repeat(CallId number) {
   const auto found = pending_.find(number);
   if (found != pending_.end()) send(number, found->second);
 }
@@ -82,11 +111,11 @@ void CallTable::repeat(std::int64_t number) {
 void CallTable::on_match() {
   if (simulated() || !reachable_()) return;
   for (auto& [number, pending] : pending_) {
-    if (!pending.sent) send(number, pending);
+    if (!pending.sent && !pending.cancelled) send(number, pending);
   }
 }
 
-void CallTable::check_owner(std::int64_t number) {
+void CallTable::check_owner(CallId number) {
   const auto found = pending_.find(number);
   if (found == pending_.end()) return;
   const std::string& owner = found->second.call.owner;
@@ -120,7 +149,7 @@ void CallTable::on_peer_change(const PeerChange& change) {
   for (const auto& [number, pending] : pending_) {
     if (pending.call.owner == change.service) lost.push_back(number);
   }
-  for (const std::int64_t number : lost) {
+  for (const CallId number : lost) {
     const auto found = pending_.find(number);
     if (found == pending_.end()) continue;
     finish(found, CallStatus::owner_lost,
@@ -128,11 +157,13 @@ void CallTable::on_peer_change(const PeerChange& change) {
   }
 }
 
-void CallTable::expire(std::int64_t number) {
+void CallTable::expire(CallId number) {
   const auto found = pending_.find(number);
   if (found == pending_.end()) return;
   const std::string& owner = found->second.call.owner;
-  if (!found->second.sent) {
+  if (!found->second.sent && found->second.cancelled) {
+    finish(found, CallStatus::cancelled, procedure_ + " was cancelled before it was sent");
+  } else if (!found->second.sent) {
     finish(found, CallStatus::no_owner, "nobody serves " + procedure_);
   } else if (!owner.empty() && !node_.peer_alive(owner)) {
     finish(found, CallStatus::no_owner, owner + " never appeared to answer " + procedure_);

@@ -20,10 +20,13 @@ class CallTable {
     std::function<void(CallStatus, std::string message, const void* reply)> finish;
   };
 
-  // `reachable`: request and reply topic have both matched.
-  CallTable(Node&, Guid client, std::string procedure, std::function<bool()> reachable);
+  using SendCancel = std::function<void(const v1::SampleIdentity&, const std::string& owner)>;
 
-  void start(Call, Duration deadline);
+  // `reachable`: request and reply topic have both matched.
+  CallTable(Node&, Guid client, std::string procedure, std::function<bool()> reachable, SendCancel);
+
+  CallId start(Call, Duration deadline);
+  void cancel(CallId);
   void on_reply(const v1::ReplyHeader&, const void* reply);
   void on_peer_change(const PeerChange&);
   void on_match();
@@ -34,26 +37,29 @@ class CallTable {
   struct Pending {
     Call call;
     bool sent = false;
+    bool cancelled = false;
     Duration next_wait{0};
     Node::TimerId deadline = 0;
     Node::TimerId owner_check = 0;
     Node::TimerId repetition = 0;
   };
-  using Pendings = std::map<std::int64_t, Pending>;
+  using Pendings = std::map<CallId, Pending>;
 
   bool simulated() const;
-  void send(std::int64_t number, Pending&);
-  void repeat(std::int64_t number);
-  void check_owner(std::int64_t number);
-  void expire(std::int64_t number);
+  void send(CallId number, Pending&);
+  void await_repetition(CallId number, Pending&);
+  void repeat(CallId number);
+  void check_owner(CallId number);
+  void expire(CallId number);
   void finish(Pendings::iterator, CallStatus, std::string message, const void* reply = nullptr);
-  v1::SampleIdentity identity(std::int64_t number) const;
+  v1::SampleIdentity identity(CallId number) const;
 
   Node& node_;
   Guid client_;
   std::string procedure_;
   std::function<bool()> reachable_;
-  std::int64_t last_number_ = 0;
+  SendCancel send_cancel_;
+  CallId last_number_ = 0;
   Pendings pending_;
   CallStatistics statistics_;
 };

@@ -40,6 +40,20 @@ TEST(Goals, AGoodOneIsAddedToTheRunningMission) {
   EXPECT_EQ(mission.mission().outcome(), "achieved");
 }
 
+// The first call is made at 10 s and would take more than half a second.
+TEST(Goals, AGoodOneThatComesDuringAPlannerCallEndsTheCallAndOneMoreFollows) {
+  MissionInProcess mission;
+  mission.send(10200ms, goal("more", "photo", kFreeGround));
+  mission.run();
+  ASSERT_EQ(mission.calls().size(), 2U);
+  EXPECT_EQ(mission.calls()[0].header().stamp_us(), 10'000'000);
+  EXPECT_EQ(mission.calls()[1].header().stamp_us(), 10'200'000);
+  EXPECT_THAT(mission.events(), Contains(HasSubstr("planner call 1 is cancelled: goal ground/more arrived")));
+  EXPECT_EQ(mission.plans().size(), 1U);
+  EXPECT_EQ(mission.goal("more").states.back(), v1::GOAL_ACHIEVED);
+  expect_uploaded_goals_achieved(mission);
+}
+
 TEST(Goals, AHardOneThatCannotBeReachedFailsAlone) {
   for (const auto& place : {kInARock, kOutside, kCrater}) {
     MissionInProcess mission;

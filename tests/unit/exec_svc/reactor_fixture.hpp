@@ -78,10 +78,19 @@ class ReactorTest : public ::testing::Test {
   void take(const ReactorOutputs& out) {
     for (const Note& note : out.notes) trace.push_back(note.code);
     for (const GoalRecord& goal : out.goal_changes) reasons[goal.request.key.id] = goal.reason;
+    if (out.cancelled_call) {
+      trace.push_back("cancel call");
+      if (planner_hears_cancels) {
+        EXPECT_TRUE(std::exchange(planner_is_busy, false)) << "nothing to cancel";
+        other_events.erase(planned);
+        pending.answer = answer(PlanVerdict::cancelled);
+        pending.answer->call = *out.cancelled_call;
+      }
+    }
     if (out.call) {
       trace.push_back("call");
       EXPECT_FALSE(std::exchange(planner_is_busy, true)) << "two planner calls at a time";
-      other_events.emplace(now + planning_time, [this, call = *out.call] {
+      planned = other_events.emplace(now + planning_time, [this, call = *out.call] {
         planner_is_busy = false;
         pending.answer = planner(call);
         pending.answer->call = call.id;
@@ -148,6 +157,8 @@ class ReactorTest : public ::testing::Test {
   Events robot_events;  // a cancel clears them
   Events other_events;
   bool planner_is_busy = false;
+  bool planner_hears_cancels = true;
+  Events::iterator planned;    // of the call under way
   bool robot_is_dead = false;  // hears no command
   std::vector<Command> commands;
   std::vector<std::string> trace;

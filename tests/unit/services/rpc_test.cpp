@@ -32,7 +32,7 @@ v1::ArmMotionReply because(const std::string& reason) {
 class SimCall : public testing::Test {
  protected:
   void call(const std::string& target, Duration deadline, const std::string& pose = "stow") {
-    client.call(to_pose(pose), target, deadline, [this](const Result& result) {
+    newest = client.call(to_pose(pose), target, deadline, [this](const Result& result) {
       const auto ms = std::to_string(caller.now() / 1ms);
       results.push_back(ms + " " + to_string(result.status) + " " + result.reply.reason());
       message = result.message;
@@ -47,6 +47,7 @@ class SimCall : public testing::Test {
   Node& caller = run.add("caller");
   Node& owner = run.add("owner");
   Client<v1::ArmMotionRequest, v1::ArmMotionReply> client = make_client(caller, topics::arm_motion);
+  CallId newest = 0;
   std::vector<std::string> results;
   std::string message;
 };
@@ -123,6 +124,44 @@ TEST_F(SimCall, RefusesMoreThanTheTableHolds) {
   EXPECT_EQ(results.back(), "25 timeout ");
 }
 
+TEST_F(SimCall, ThatIsCancelledEndsWithWhatItsServerAnswersThen) {
+  serve(owner, topics::arm_motion, [this](const v1::ArmMotionRequest&, auto responder) {
+    const auto work = owner.after(1s, [responder] { responder.reply(because("done")); });
+    responder.on_cancel([this, work, responder] {
+      owner.cancel(work);
+      responder.reply(because("given up"));
+    });
+  });
+  caller.at(5ms, [this] { call("owner", 10s); });
+  caller.at(30ms, [this] { client.cancel(newest); });
+  caller.at(40ms, [this] { client.cancel(newest); });
+  caller.at(50ms, [this] { call("owner", 10s); });
+  run_until(2s);
+  EXPECT_THAT(results, ElementsAre("30 ok given up", "1050 ok done"));
+}
+
+TEST_F(SimCall, ThatIsCancelledInTheTurnInWhichItIsMadeEndsEarly) {
+  serve(owner, topics::arm_motion, [](const v1::ArmMotionRequest&, auto responder) {
+    responder.on_cancel([responder] { responder.reply(because("given up")); });
+  });
+  caller.at(5ms, [this] {
+    call("owner", 10s);
+    client.cancel(newest);
+  });
+  run_until(20ms);
+  EXPECT_THAT(results, ElementsAre("5 ok given up"));
+}
+
+TEST_F(SimCall, ThatIsCancelledIsAnsweredByAServerThatKnowsNoCancel) {
+  serve(owner, topics::arm_motion, [this](const v1::ArmMotionRequest&, auto responder) {
+    owner.after(30ms, [responder] { responder.reply(because("done")); });
+  });
+  caller.at(5ms, [this] { call("owner", 10s); });
+  caller.at(10ms, [this] { client.cancel(newest); });
+  run_until(50ms);
+  EXPECT_THAT(results, ElementsAre("35 ok done"));
+}
+
 TEST_F(SimCall, DropsRepliesToOthers) {
   const auto other = make_client(owner, topics::arm_motion);
   serve(caller, topics::arm_motion,
@@ -161,6 +200,28 @@ TEST(CallServer, RemembersABoundedNumber) {
     EXPECT_TRUE(server.accept({{1}, i}));
   EXPECT_FALSE(server.accept({{1}, 1}));
   EXPECT_TRUE(server.accept({{1}, 0})) << "the oldest is forgotten";
+}
+
+TEST(CallServer, TellsOfACancelOnceWhetherItCameBeforeTheRequestOrAfter) {
+  CallServer server;
+  int told = 0;
+  const auto count = [&told] { ++told; };
+  const CallServer::Id late{{1}, 1}, early{{1}, 2}, answered{{1}, 3};
+  server.accept(late);
+  server.on_cancel(late, count);
+  EXPECT_EQ(told, 0);
+  server.cancel(late);
+  server.cancel(late);
+  EXPECT_EQ(told, 1);
+  server.cancel(early);
+  EXPECT_TRUE(server.accept(early)) << "it is to be answered all the same";
+  server.on_cancel(early, count);
+  EXPECT_EQ(told, 2);
+  server.accept(answered);
+  server.on_cancel(answered, count);
+  server.answered(answered, [] {});
+  server.cancel(answered);
+  EXPECT_EQ(told, 2);
 }
 
 // Live nodes turned by the test itself; mission time runs 100 times as fast as the wall.
@@ -204,6 +265,17 @@ TEST_F(LiveCall, WaitsForAServerThatStartsLater) {
         [](const v1::ArmMotionRequest&, auto responder) { responder.reply(because("here")); });
   turn_until([this] { return !results.empty(); });
   EXPECT_THAT(results, ElementsAre("ok"));
+}
+
+TEST_F(LiveCall, ThatNobodyHasHeardOfEndsAtItsCancel) {
+  const auto client = make_client(*caller, topics::arm_motion);
+  client.cancel(client.call(to_pose("stow"), "owner", 100'000s, [this](const Result& result) {
+    results.emplace_back(to_string(result.status));
+  }));
+  EXPECT_TRUE(results.empty()) << "never inside cancel()";
+  turn_until([this] { return !results.empty(); });
+  EXPECT_THAT(results, ElementsAre("cancelled"));
+  EXPECT_EQ(client.statistics().sent, 0U);
 }
 
 TEST_F(LiveCall, HandlesARepeatedRequestOnce) {

@@ -111,10 +111,15 @@ RoadPlanning::~RoadPlanning() {
 
 void RoadPlanning::ask(services::Time when, const v1::PlanRequest& request) {
   client_.at(when, [this, request] {
-    planner_.call(request, "planner_svc", 1000s, [this](const services::CallResult<v1::PlanReply>& result) {
-      replies_.push_back({client_.now(), result});
-    });
+    newest_ = planner_.call(request, "planner_svc", 1000s,
+                            [this](const services::CallResult<v1::PlanReply>& result) {
+                              replies_.push_back({client_.now(), result});
+                            });
   });
+}
+
+void RoadPlanning::cancel(services::Time when) {
+  client_.at(when, [this] { planner_.cancel(newest_); });
 }
 
 void RoadPlanning::run_until(services::Time end) {

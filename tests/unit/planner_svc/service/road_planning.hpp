@@ -49,6 +49,8 @@ class RoadPlanning {
   // From now on the owner answers so.
   void owner_answers(Answer answer) { answer_ = std::move(answer); }
   void ask(services::Time when, const v1::PlanRequest& request);
+  // The newest call of then.
+  void cancel(services::Time when);
   // Until `end`; mission time only.
   void run_until(services::Time end);
 
@@ -69,6 +71,7 @@ class RoadPlanning {
   std::unique_ptr<services::Service> service_;
   Answer answer_;
   int requests_for_values_ = 0;
+  services::CallId newest_ = 0;
   std::vector<TimedReply> replies_;
   std::vector<v1::Event> events_;
 };
