@@ -11,8 +11,8 @@
 namespace roci::planner {
 namespace {
 
-// Evaluations spent on better plans once there is one: some 30 ms in the missions at hand.
-constexpr std::size_t kImprovementEvaluations = 400;
+// Evaluations spent on better plans once there is one: some 60 ms in the missions at hand.
+constexpr std::size_t kImprovementEvaluations = 1000;
 
 PlanningVerdict verdict_of(temporal_pddl::Verdict verdict) {
   switch (verdict) {

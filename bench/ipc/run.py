@@ -90,7 +90,7 @@ def judge(arguments, instance, plan, code):
         return {"status": "unreadable plan", "valid": False}
     report = json.loads(verdict.stdout)
     return {"status": "ok" if report["valid"] else "invalid plan", "valid": report["valid"],
-            "makespan": report["makespan"], "actions": actions}
+            "makespan": report["makespan"], "metric": report.get("metric"), "actions": actions}
 
 
 def chosen(arguments):

@@ -1,4 +1,5 @@
-// roci-plan DOMAIN PROBLEM [--time S] [--evaluations N] [--memory MB] [--functions FILE] [--stats FILE]
+// roci-plan DOMAIN PROBLEM [--time S | --cpu-time S] [--evaluations N] [--memory MB] [--functions FILE]
+// [--stats FILE]
 // [--json]
 //           [--seed N]
 //
@@ -9,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <csignal>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -31,7 +33,8 @@ constexpr int kUsageError = 64;
 
 struct Arguments {
   std::string domain, problem, functions, stats;
-  double seconds = 0;  // 0: no limit
+  double seconds = 0;            // 0: no limit
+  double processor_seconds = 0;  // 0: no limit
   std::size_t megabytes = 0;
   std::size_t evaluations = 0;  // 0: no limit
   std::uint64_t seed = 0;
@@ -137,7 +140,7 @@ engine::Result plan(const Arguments& arguments, const std::function<bool()>& out
     options.windows = engine::WindowExtraction::none;
   }
   options.improvement_evaluations = arguments.improve;
-  if (arguments.seconds > 0 && arguments.improve == 0)
+  if (arguments.seconds + arguments.processor_seconds > 0 && arguments.improve == 0)
     options.improvement_evaluations = std::numeric_limits<std::size_t>::max();
   return engine::plan(domain, problem, *functions, budget, monitor, options);
 }
@@ -148,6 +151,10 @@ int run(const Arguments& arguments) {
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   std::function<bool()> out_of_time;
   if (arguments.seconds > 0) out_of_time = [&] { return elapsed() > arguments.seconds; };
+  if (arguments.processor_seconds > 0)
+    out_of_time = [&] {
+      return static_cast<double>(std::clock()) / CLOCKS_PER_SEC > arguments.processor_seconds;
+    };
 
   engine::Result result;
   try {
@@ -181,6 +188,8 @@ int main(int argc, char** argv) {
   app.add_option("PROBLEM", arguments.problem)->required();
   app.add_option("--time", arguments.seconds,
                  "limit in seconds of wall time; spent on better plans to its end");
+  app.add_option("--cpu-time", arguments.processor_seconds, "as --time, in seconds of processor time")
+      ->excludes("--time");
   app.add_option("--improve", arguments.improve, "look for better plans with so many evaluations");
   app.add_option("--evaluations", arguments.evaluations,
                  "limit in heuristic evaluations until the first plan; 1: what grounding costs");

@@ -6,6 +6,7 @@
 
 #include "planner_svc/temporal_pddl/grounding/refusal.hpp"
 #include "planner_svc/temporal_pddl/improvement/elimination.hpp"
+#include "planner_svc/temporal_pddl/improvement/neighbourhood.hpp"
 
 namespace roci::planner::temporal_pddl {
 
@@ -13,7 +14,8 @@ namespace {
 
 // Taken again in one elimination: keeps it to about a tenth of a second.
 constexpr std::size_t kStepsTakenAgain = 20'000;
-constexpr std::size_t kFirstLimit = 500;  // evaluations of one search; twice as many in each round
+constexpr std::size_t kFirstLimit = 25;  // evaluations of one search; twice as many in each round
+constexpr std::size_t kVariations = 4;   // times as many for variations of the plan before
 constexpr std::array<std::int64_t, 4> kWeights = {5, 3, 2, 1};
 
 class Improvement {
@@ -26,13 +28,15 @@ class Improvement {
         options_(options),
         watch_(watch),
         statistics_(statistics),
-        replay_(task, options.epsilon) {}
+        replay_(task, options.epsilon),
+        neighbourhood_(task, guides, options, watch, statistics) {}
 
   void run() {
     drop_useless();
     std::size_t left = options_.improvement_evaluations;
     for (std::size_t limit = kFirstLimit; left > 0; limit *= 2) {
-      bool exhausted = true;
+      vary(kVariations * limit, left);
+      bool exhausted = left > 0;
       for (const std::int64_t weight : kWeights) {
         for (const Guide& guide : guides_) exhausted = search(guide, weight, limit, left) && exhausted;
       }
@@ -43,7 +47,28 @@ class Improvement {
  private:
   void drop_useless() { drop_useless_actions(task_, plan_, replay_, kStepsTakenAgain, watch_); }
 
-  // True: nothing better is left to be found.
+  // Walks through plans that are no worse from one to the next, and keeps the best.
+  void vary(std::size_t evaluations, std::size_t& left) {
+    PlanPrefix current = plan_;
+    Quality best = quality_of(task_, plan_, replay_.check());
+    for (std::size_t spent = 0; spent < evaluations && left > 0;) {
+      watch_.poll();
+      const auto outcome = neighbourhood_.vary(current, replay_);
+      spent += outcome.evaluations;
+      left -= std::min(left, outcome.evaluations);
+      if (!outcome.changed) continue;
+      const Quality quality = quality_of(task_, current, replay_.check());
+      if (quality.metric == best.metric && quality.makespan == best.makespan && quality.busy > best.busy)
+        continue;
+      drop_useless_actions(task_, current, replay_, kStepsTakenAgain, watch_);
+      const Quality tidy = quality_of(task_, current, replay_.check());
+      if (tidy >= best) continue;
+      best = tidy;
+      plan_ = current;
+    }
+  }
+
+  // True: nothing better is left to be found. No work is left: that is not known.
   bool search(const Guide& guide, std::int64_t weight, std::size_t limit, std::size_t& left) {
     while (left > 0) {
       const Quality known = quality_of(task_, plan_, replay_.check());
@@ -64,6 +89,7 @@ class Improvement {
   Watch& watch_;
   Statistics& statistics_;
   Replay replay_;
+  Neighbourhood neighbourhood_;
 };
 
 }  // namespace

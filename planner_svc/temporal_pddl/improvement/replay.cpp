@@ -5,12 +5,18 @@
 
 namespace roci::planner::temporal_pddl {
 
-std::optional<PlanPrefix> Replay::run(std::span<const SnapId> steps, std::span<const std::uint32_t> dropped) {
-  StateStore store(task_.layout.words());
-  SuccessorBuilder builder(task_, store, check_, epsilon_, ActionSteps::as_needed);
-  Successor at, next;
+Replay::Replay(const Task& task, Duration epsilon)
+    : task_(task),
+      check_(task, epsilon),
+      store_(task.layout.words()),
+      builder_(task, store_, check_, epsilon, ActionSteps::as_needed),
+      goal_(task, check_, epsilon) {}
+
+bool Replay::take(std::span<const SnapId> steps, std::span<const std::uint32_t> dropped, Successor& at) {
+  store_.clear();
+  Successor next;
   at.state = task_.initial_state;
-  at.prefix.node = store.add(at.state, NodeId(), {}, {});
+  at.prefix.node = store_.add(at.state, NodeId(), {}, {});
   for (std::uint32_t i = 0; i < steps.size(); ++i) {
     const SnapId step = steps[i];
     const SnapKind kind = task_.snaps[step].kind;
@@ -19,15 +25,27 @@ std::optional<PlanPrefix> Replay::run(std::span<const SnapId> steps, std::span<c
       continue;
     const bool starts = kind == SnapKind::start || kind == SnapKind::instant;
     if (starts && std::ranges::count(dropped, i) > 0) continue;
-    if (!builder.applicable(at.prefix, step) || !builder.extend(at.prefix, step, next)) {
+    if (!builder_.applicable(at.prefix, step) || !builder_.extend(at.prefix, step, next)) {
       if (starts) continue;
-      return std::nullopt;
+      return false;
     }
-    next.prefix.node = store.add(next.state, at.prefix.node, next.transition, {});
+    next.prefix.node = store_.add(next.state, at.prefix.node, next.transition, {});
     std::swap(at, next);
   }
-  GoalTest goal(task_, check_, epsilon_);
-  if (!goal.complete(at.state, at.prefix)) return std::nullopt;
+  return true;
+}
+
+std::optional<PlanPrefix> Replay::rest(std::span<const SnapId> steps,
+                                       std::span<const std::uint32_t> dropped) {
+  Successor at;
+  if (!take(steps, dropped, at) || !check_.earliest(at.prefix)) return std::nullopt;
+  return std::move(at.prefix);
+}
+
+std::optional<PlanPrefix> Replay::run(std::span<const SnapId> steps, std::span<const std::uint32_t> dropped) {
+  Successor at;
+  if (!take(steps, dropped, at)) return std::nullopt;
+  if (!goal_.complete(at.state, at.prefix)) return std::nullopt;
   return std::move(at.prefix);
 }
 

@@ -14,18 +14,28 @@ namespace roci::planner::temporal_pddl {
 
 class Replay {
  public:
-  Replay(const Task& task, Duration epsilon) : task_(task), epsilon_(epsilon), check_(task, epsilon) {}
+  Replay(const Task& task, Duration epsilon);
+  Replay(const Replay&) = delete;
+  Replay& operator=(const Replay&) = delete;
 
   // A complete plan that can be scheduled, made of the given steps in their order but for the actions that
   // start at the steps in `dropped` and those that cannot start without them. None: that is no plan.
   std::optional<PlanPrefix> run(std::span<const SnapId> steps, std::span<const std::uint32_t> dropped);
 
+  // Likewise, but what is left need reach no goal; actions may still run at its end.
+  std::optional<PlanPrefix> rest(std::span<const SnapId> steps, std::span<const std::uint32_t> dropped);
+
   TemporalCheck& check() { return check_; }
 
  private:
+  // False: the end of an action that was not left out cannot be taken.
+  bool take(std::span<const SnapId> steps, std::span<const std::uint32_t> dropped, Successor& at);
+
   const Task& task_;
-  Duration epsilon_;
   TemporalCheck check_;
+  StateStore store_;
+  SuccessorBuilder builder_;
+  GoalTest goal_;
 };
 
 }  // namespace roci::planner::temporal_pddl

@@ -13,6 +13,7 @@
 // either, no time matters and equal states are enough.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -33,6 +34,12 @@ class Dominance {
   // A state that is not stored yet; its prefix names its parent. The same plan as a stored one is dominated.
   bool dominated(const Successor& successor);
   void insert(NodeId node, StateView state, const PlanPrefix& prefix);
+
+  // Forgets all plans.
+  void clear() {
+    std::ranges::fill(slots_, Slot{});
+    size_ = 0;
+  }
 
   std::size_t bytes() const { return slots_.capacity() * sizeof(Slot); }
 

@@ -41,6 +41,9 @@ class StateSpace {
   // Stores the successor of `parent` (none: the initial state) and names its node in its prefix.
   NodeId add(NodeId parent, Successor& successor);
 
+  // Forgets all states.
+  void clear() { store_.clear(); }
+
   const StateStore& store() const { return store_; }
   const BoundTable& bounds() const { return bounds_; }
   TemporalCheck& check() { return check_; }

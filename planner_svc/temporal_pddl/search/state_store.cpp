@@ -9,7 +9,7 @@ NodeId StateStore::add(StateView state, NodeId parent, Transition transition,
                        std::span<const std::uint8_t> code) {
   if (code.size() > kCodeBlockBytes - 1) throw std::length_error("too many constraints on one step");
   const std::size_t place = size_ % kNodesPerBlock;
-  if (place == 0) {
+  if (size_ / kNodesPerBlock == heads_.size()) {
     heads_.push_back(std::make_unique<Head[]>(kNodesPerBlock));
     states_.push_back(std::make_unique<Word[]>(kNodesPerBlock * words_));
   }
@@ -28,6 +28,13 @@ NodeId StateStore::add(StateView state, NodeId parent, Transition transition,
   code_bytes_ += code.size();
   std::ranges::copy(state, states_.back().get() + place * words_);
   return NodeId(size_++);
+}
+
+void StateStore::clear() {
+  size_ = code_bytes_ = open_code_ = 0;
+  heads_.resize(std::min<std::size_t>(heads_.size(), 1));
+  states_.resize(heads_.size());
+  codes_.resize(std::min<std::size_t>(codes_.size(), 1));
 }
 
 StateView StateStore::state(NodeId node) const {

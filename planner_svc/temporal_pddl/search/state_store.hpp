@@ -30,6 +30,9 @@ class StateStore {
   // none.
   NodeId add(StateView state, NodeId parent, Transition transition, std::span<const std::uint8_t> code);
 
+  // Forgets all nodes; keeps memory of one block.
+  void clear();
+
   StateView state(NodeId node) const;
   NodeId parent(NodeId node) const { return head(node).parent; }
   Transition transition(NodeId node) const;

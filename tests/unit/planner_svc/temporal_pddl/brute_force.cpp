@@ -145,6 +145,12 @@ class Search {
   }
 
   bool run() { return extend(first_); }
+  // In units of ε, of all plans; none: there are none.
+  std::optional<long> best() {
+    all_ = true;
+    extend(first_);
+    return best_;
+  }
 
  private:
   static constexpr std::size_t kIdle = std::numeric_limits<std::size_t>::max();
@@ -208,9 +214,18 @@ class Search {
     return std::ranges::any_of(timed_, [&](const auto& timed) { return &timed.second == happening; });
   }
 
+  long makespan() const {
+    std::size_t last = happenings_.size();
+    while (last > 0 && is_timed(happenings_[last - 1])) --last;
+    return bounds_[0][last];
+  }
+
   bool extend(const State& state) {
     const auto bounds = bounds_;
-    if (is_goal(state)) return true;
+    if (is_goal(state)) {
+      if (!all_) return true;
+      best_ = std::min(best_.value_or(std::numeric_limits<long>::max()), makespan());
+    }
     bounds_ = bounds;
     return extend_by_timed(state) || extend_by_starts(state) || extend_by_ends(state);
   }
@@ -264,6 +279,8 @@ class Search {
     return found;
   }
 
+  bool all_ = false;
+  std::optional<long> best_;
   Rules rules_;
   pddl::Condition goal_;
   std::size_t left_;
@@ -280,5 +297,11 @@ class Search {
 }  // namespace
 
 bool has_plan(const Model& model, std::size_t max_actions) { return Search(model, max_actions).run(); }
+
+std::optional<Duration> best_makespan(const Model& model, std::size_t max_actions) {
+  const std::optional<long> best = Search(model, max_actions).best();
+  if (!best) return std::nullopt;
+  return Duration{*best * 1'000'000 / kSecond};
+}
 
 }  // namespace roci::planner::temporal_pddl::testing

@@ -5,10 +5,14 @@
 // all-pairs bounds. Only for tasks as random_task() makes them.
 #pragma once
 
+#include <optional>
+
 #include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
 
 namespace roci::planner::temporal_pddl::testing {
 
 bool has_plan(const Model& model, std::size_t max_actions);
+// The shortest makespan of such plans; none: there are none.
+std::optional<Duration> best_makespan(const Model& model, std::size_t max_actions);
 
 }  // namespace roci::planner::temporal_pddl::testing

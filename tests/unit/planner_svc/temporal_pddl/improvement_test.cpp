@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "core/pddl/printer.hpp"
+#include "planner_svc/temporal_pddl/heuristics/ff.hpp"
+#include "planner_svc/temporal_pddl/improvement/earliest_finish.hpp"
 #include "planner_svc/temporal_pddl/improvement/elimination.hpp"
+#include "planner_svc/temporal_pddl/improvement/neighbourhood.hpp"
+#include "tests/unit/planner_svc/temporal_pddl/brute_force.hpp"
+#include "tests/unit/planner_svc/temporal_pddl/random_task.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/validated.hpp"
 
 namespace roci::planner::temporal_pddl {
@@ -71,6 +77,95 @@ TEST(Replay, NoPlanWithoutWhatIsNeeded) {
   const auto steps = both_steps(task, {"(polish)", "(drive a c)", "(see c)"});
   EXPECT_TRUE(replay.run(steps, {}));
   for (const std::uint32_t dropped : {0u, 2u, 4u}) EXPECT_FALSE(replay.run(steps, std::vector{dropped}));
+}
+
+// Two robots at the depot, four sites that each takes to visit ten seconds there and ten back.
+const testing::Model& visits() {
+  static const testing::Model made = testing::model(R"(
+    (:requirements :typing :durative-actions) (:types robot site)
+    (:predicates (home ?r - robot) (done ?s - site))
+    (:durative-action visit :parameters (?r - robot ?s - site) :duration (= ?duration 20)
+      :condition (at start (home ?r))
+      :effect (and (at start (not (home ?r))) (at end (home ?r)) (at end (done ?s)))))",
+                                                    R"((:objects r1 r2 - robot s1 s2 s3 s4 - site)
+    (:init (home r1) (home r2)) (:goal (and (done s1) (done s2) (done s3) (done s4))))");
+  return made;
+}
+
+TEST(EarliestFinish, SendsWhoIsFree) {
+  const Task task = testing::grounded(visits()).task;
+  Replay replay(task, Duration{1000});
+  const auto busy = replay.rest(both_steps(task, {"(visit r1 s1)", "(visit r1 s2)"}), {});
+  ASSERT_TRUE(busy);
+  TimeFreedom freedom(task);
+  freedom.measure(busy->steps, *replay.check().earliest(*busy));
+  std::vector<Word> state = task.initial_state;
+  for (const char* done : {"(done s1)", "(done s2)"}) task.layout.add(state, testing::fact(task, done));
+  EarliestFinish finish(task);
+  // r1 is back at 40.001 s only; r2 has been free all the time, for one after the other.
+  EXPECT_EQ(finish.measure({state, {}, 0, &freedom, {}, busy->steps}), 40'000'000);
+  const auto start = [&](const char* name) { return task.actions[testing::action(task, name)].start; };
+  EXPECT_EQ(std::vector(finish.preferred().begin(), finish.preferred().end()),
+            (std::vector{start("(visit r2 s4)"), start("(visit r2 s3)")}));
+  finish.limit(15'000'000);
+  EXPECT_EQ(finish.measure({state, {}, 0, &freedom, {}, busy->steps}), kNever);
+}
+
+TEST(Neighbourhood, SharesOutWhatOneDoes) {
+  const Task task = testing::grounded(visits()).task;
+  Replay replay(task, Duration{1000});
+  auto plan =
+      replay.run(both_steps(task, {"(visit r1 s1)", "(visit r1 s2)", "(visit r1 s3)", "(visit r1 s4)"}), {});
+  ASSERT_TRUE(plan);
+  Budget budget;
+  Monitor monitor;
+  Watch watch(budget, monitor);
+  Statistics statistics;
+  FfHeuristic ff(task);
+  const std::vector<Guide> guides{{ff, CostMeasure::duration}};
+  Neighbourhood neighbourhood(task, guides, {}, watch, statistics);
+  Ticks makespan = quality_of(task, *plan, replay.check()).makespan;
+  EXPECT_EQ(makespan, 80'003'000);
+  for (int tries = 0; tries < 60; ++tries) {
+    neighbourhood.vary(*plan, replay);
+    const Ticks now = quality_of(task, *plan, replay.check()).makespan;
+    EXPECT_LE(now, makespan);
+    makespan = now;
+  }
+  EXPECT_EQ(makespan, 40'001'000);
+}
+
+// Brute force keeps apart what only adds the same fact.
+constexpr Duration kTouching{10'000};
+
+// What is found with three actions or fewer is never shorter than the best of these, and mostly as short.
+TEST(Improvement, AgainstTheShortestPlansOfBruteForce) {
+  std::mt19937_64 random(4);
+  Options improved;
+  improved.improvement_evaluations = 300;
+  Budget budget;
+  budget.evaluations = 1000;
+  int solved = 0, best = 0, first_best = 0;
+  for (int round = 0; round < 300; ++round) {
+    const testing::Model model = testing::random_task(random);
+    const Result first = testing::solved(model, {}, budget);
+    if (first.verdict != Verdict::solved) continue;
+    const Result result = testing::solved(model, improved, budget);
+    testing::expect_valid(model, result, improved);
+    EXPECT_LE(result.plan->makespan, first.plan->makespan);
+    const auto shortest = testing::best_makespan(model, 3);
+    if (!shortest) continue;
+    if (result.plan->activities.size() <= 3) {
+      EXPECT_GE(result.plan->makespan + kTouching, *shortest)
+          << pddl::print(model.domain) + pddl::print(model.problem);
+    }
+    ++solved;
+    best += result.plan->makespan <= *shortest;
+    first_best += first.plan->makespan <= *shortest;
+  }
+  EXPECT_GT(solved, 50);
+  EXPECT_GE(best, solved * 95 / 100) << solved << ", and of the first plans " << first_best;
+  EXPECT_LT(first_best, best);
 }
 
 TEST(Improvement, FindsTheShortestWay) {
