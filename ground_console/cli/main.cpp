@@ -17,6 +17,7 @@ struct Line {
   bool waits = false;  // for a mission to run
   GoalArguments goal;
   std::size_t count = 0;
+  std::vector<std::string> timelines;
   int (*verb)(Client&, const Line&) = nullptr;
 };
 
@@ -86,6 +87,10 @@ int main(int argc, char** argv) {
            [](Client& client, const Line& l) { return show_status(client, l.json); });
   add_verb(app, line, "plan", "The running plan and the state of each activity",
            [](Client& client, const Line& l) { return show_plan(client, l.json); });
+  CLI::App* timelines =
+      add_verb(app, line, "timelines", "Planned, executed and projected values of every timeline",
+               [](Client& client, const Line& l) { return show_timelines(client, l.timelines, l.json); });
+  timelines->add_option("names", line.timelines, "These alone, e.g. rover.nav \"(battery)\"");
   CLI::App* events =
       add_verb(app, line, "events", "What happens, as it happens",
                [](Client& client, const Line& l) { return follow_events(client, l.count, l.json); });

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 namespace roci::console {
-namespace {
 
 using nlohmann::json;
 
@@ -18,8 +17,6 @@ std::string printable(std::string text) {
       text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
   return text;
 }
-
-}  // namespace
 
 std::string json_text(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);

@@ -16,7 +16,10 @@ nlohmann::json plan_json(const MissionView& view);
 // One line of JSON, whatever bytes its texts hold.
 std::string json_text(const nlohmann::json& json);
 
+std::string padded(std::string text, std::size_t width);
 // Control characters of others never reach the terminal: "?" stands for each.
+std::string printable(std::string text);
+
 std::string goal_line(const v1::GoalStatus& status);
 std::string event_line(const v1::Event& event);
 std::string status_text(const MissionView& view);

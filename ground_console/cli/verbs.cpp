@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "ground_console/cli/report.hpp"
+#include "ground_console/cli/timelines.hpp"
 
 namespace roci::console {
 namespace {
@@ -114,6 +115,21 @@ int show_plan(Client& client, bool as_json) {
     const v1::StepStatus* step = client.view().step(activity.id());
     std::cout << activity.id() << "  " << (step == nullptr ? "waiting" : name_of(step->state())) << "\n";
   }
+  return kDone;
+}
+
+int show_timelines(Client& client, const std::vector<std::string>& names, bool as_json) {
+  if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
+  client.wait([&] { return client.view().plan().has_value(); }, std::chrono::milliseconds(1000));
+  client.wait([] { return false; }, std::chrono::milliseconds(300));
+  const Timelines timelines = timelines_of(client.view(), names);
+  for (const std::string& name : names) {
+    if (timelines.contains(name)) continue;
+    std::cerr << "roci: nothing is known of timeline '" << name << "'; see roci timelines\n";
+    return kRefused;
+  }
+  std::cout << (as_json ? json_text(timelines_json(client.view(), timelines)) + "\n"
+                        : timelines_text(timelines));
   return kDone;
 }
 

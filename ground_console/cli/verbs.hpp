@@ -33,6 +33,8 @@ int cancel_goal(Client& client, const std::string& issuer, const std::string& id
 int list_goals(Client& client, bool json);
 int show_status(Client& client, bool json);
 int show_plan(Client& client, bool json);
+// Planned, executed and projected values; `names`: of these timelines alone.
+int show_timelines(Client& client, const std::vector<std::string>& names, bool json);
 // Prints events as they come; `count`: ends after so many, 0: never, unless the mission ends.
 int follow_events(Client& client, std::size_t count, bool json);
 // The live view on a terminal, until the mission ends or Ctrl-C. With json: a line of status each second.

@@ -1,0 +1,45 @@
+// A plan's timelines over time: what it foresaw, what has come about of it, and what is still to come
+// (R71, R72, R76).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/temporal/flexible_plan.hpp"
+
+namespace roci::temporal {
+
+/// How far an activity has come; times are mission times.
+struct ActivityProgress {
+  ActivityState state = ActivityState::waiting;
+  std::optional<Time> started;
+  std::optional<Time> ended;
+};
+using Progress = std::map<std::string, ActivityProgress>;  ///< by activity id; who is not in it waits
+
+enum class ProjectionKind {
+  planned,    ///< by the plan alone, everything at its earliest
+  executed,   ///< by what has started and ended, at the times when it did
+  projected,  ///< by what runs and waits: not before now, at the earliest that the network then allows
+};
+const char* to_string(ProjectionKind kind);
+
+/// The timeline has `value` from `time` on; between two changes a number that is under a rate runs straight.
+struct ProjectedChange {
+  Time time{0};
+  Value value;
+  ProjectionKind kind = ProjectionKind::planned;
+  std::string activity;
+};
+
+/// By timeline: the planned changes, then the executed ones, then the projected ones, each in the order of
+/// time. A number starts with its value in `initial`, else with 0: it is then the change since the plan
+/// began. What failed, was skipped or cancelled has no effect at its end. Of activities that exclude each
+/// other (decision points) all that are not skipped count. The plan must have passed check().
+std::map<std::string, std::vector<ProjectedChange>> project(const FlexiblePlan& plan,
+                                                            const Progress& progress, Time now,
+                                                            const std::map<std::string, Value>& initial);
+
+}  // namespace roci::temporal

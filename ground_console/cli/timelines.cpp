@@ -1,0 +1,78 @@
+#include "ground_console/cli/timelines.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "ground_console/cli/report.hpp"
+#include "services/wire/plan_wire.hpp"
+
+namespace roci::console {
+namespace {
+
+temporal::Progress progress_of(const MissionView& view) {
+  temporal::Progress out;
+  for (const v1::PlanActivity& activity : view.plan()->activities()) {
+    const v1::StepStatus* step = view.step(activity.id());
+    if (step == nullptr) continue;
+    temporal::ActivityProgress& at = out[activity.id()];
+    at.state =
+        static_cast<temporal::ActivityState>(std::min<std::uint32_t>(step->state(), v1::ACTIVITY_CANCELLED));
+    if (step->started_us() >= 0) at.started = temporal::Time(step->started_us());
+    if (step->ended_us() >= 0) at.ended = temporal::Time(step->ended_us());
+  }
+  return out;
+}
+
+double seconds_of(temporal::Time time) { return temporal::to_seconds(time); }
+
+}  // namespace
+
+Timelines timelines_of(const MissionView& view, const std::vector<std::string>& names) {
+  Timelines out;
+  if (view.plan()) {
+    const temporal::FlexiblePlan plan = services::wire::from_wire(*view.plan());
+    if (temporal::check(plan).empty())
+      out = temporal::project(plan, progress_of(view), temporal::Time(view.now_us()), {});
+  }
+  for (const auto& [name, observation] : view.timelines()) {
+    out[name].push_back({temporal::Time(observation.sampled_us()),
+                         services::wire::from_wire(observation.observed()),
+                         temporal::ProjectionKind::executed, ""});
+  }
+  if (!names.empty()) {
+    std::erase_if(out, [&](const auto& timeline) {
+      return std::find(names.begin(), names.end(), timeline.first) == names.end();
+    });
+  }
+  return out;
+}
+
+nlohmann::json timelines_json(const MissionView& view, const Timelines& timelines) {
+  nlohmann::json out{{"time_s", static_cast<double>(view.now_us()) / 1e6},
+                     {"plan_version", view.plan() ? view.plan()->version() : 0},
+                     {"timelines", nlohmann::json::object()}};
+  for (const auto& [name, changes] : timelines) {
+    nlohmann::json& list = out["timelines"][name] = nlohmann::json::array();
+    for (const temporal::ProjectedChange& change : changes) {
+      list.push_back({{"time_s", seconds_of(change.time)},
+                      {"value", temporal::to_text(change.value)},
+                      {"kind", temporal::to_string(change.kind)},
+                      {"activity", change.activity}});
+    }
+  }
+  return out;
+}
+
+std::string timelines_text(const Timelines& timelines) {
+  std::string out;
+  for (const auto& [name, changes] : timelines) {
+    out += printable(name) + "\n";
+    for (const temporal::ProjectedChange& change : changes) {
+      out += "  " + clock_text(change.time.count()) + "  " + padded(temporal::to_string(change.kind), 10) +
+             printable(padded(temporal::to_text(change.value), 16) + " " + change.activity) + "\n";
+    }
+  }
+  return out;
+}
+
+}  // namespace roci::console

@@ -1,0 +1,24 @@
+// The timelines of a mission over time: what the plan foresaw, what has come about, what is still to come.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "core/temporal/projection.hpp"
+#include "ground_console/lib/mission_view.hpp"
+
+namespace roci::console {
+
+using Timelines = std::map<std::string, std::vector<temporal::ProjectedChange>>;
+
+// Of the running plan and of what is observed (the newest value of each, as executed by nobody); with names:
+// of these alone. A number of the plan is its change since the plan began. Throws WireError for a plan that
+// no executive sends.
+Timelines timelines_of(const MissionView& view, const std::vector<std::string>& names);
+
+nlohmann::json timelines_json(const MissionView& view, const Timelines& timelines);
+// A block of lines for each timeline: time, value, kind, activity.
+std::string timelines_text(const Timelines& timelines);
+
+}  // namespace roci::console

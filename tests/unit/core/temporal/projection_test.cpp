@@ -1,0 +1,204 @@
+// Planned, executed and projected values against hand-made cases, and against sums over all impacts on random
+// plans.
+#include "core/temporal/projection.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace roci::temporal {
+namespace {
+
+using ::testing::ElementsAre;
+
+PlanActivity& add(FlexiblePlan& plan, const std::string& id, double duration_s, std::vector<Impact> impacts) {
+  PlanActivity& out = plan.activities.emplace_back();
+  out.id = id;
+  out.start_point = plan.point_count++;
+  out.end_point = plan.point_count++;
+  out.duration_lower = seconds(duration_s);
+  out.impacts = std::move(impacts);
+  return out;
+}
+
+// Drive for 100 s from a to b, at 2 J/s, then an image of 40 s that takes 50 J.
+FlexiblePlan drive_and_image() {
+  FlexiblePlan plan;
+  plan.origin = seconds(10);
+  add(plan, "drive", 100,
+      {{"at a", ImpactKind::assign, ImpactWhen::at_start, false},
+       {"at b", ImpactKind::assign, ImpactWhen::at_end, true},
+       {"energy", ImpactKind::rate, ImpactWhen::during, -2.0}});
+  add(plan, "image", 40,
+      {{"energy", ImpactKind::delta, ImpactWhen::at_start, -50.0},
+       {"taken", ImpactKind::assign, ImpactWhen::at_end, true}});
+  plan.constraints.push_back({2, 3, ConstraintKind::ordering, seconds(1), no_bound});
+  return plan;
+}
+
+std::vector<std::string> words(const std::vector<ProjectedChange>& changes) {
+  std::vector<std::string> out;
+  for (const ProjectedChange& change : changes)
+    out.push_back(std::string(to_string(change.kind)) + " " + std::to_string(change.time / seconds(1)) + " " +
+                  to_text(change.value));
+  return out;
+}
+
+TEST(Projection, OfAPlanThatHasNotBegun) {
+  const auto out = project(drive_and_image(), {}, seconds(0), {{"energy", 1000.0}});
+  EXPECT_THAT(words(out.at("energy")),
+              ElementsAre("planned 10 1000", "planned 110 800", "planned 111 750", "projected 10 1000",
+                          "projected 110 800", "projected 111 750"));
+  EXPECT_THAT(words(out.at("at b")), ElementsAre("planned 110 true", "projected 110 true"));
+}
+
+// R76: the drive began late and lasts; at 150 s it is 20 s longer under way than planned.
+TEST(Projection, ALateStartAndAnOverrunMoveWhatFollows) {
+  Progress progress;
+  progress["drive"] = {ActivityState::running, seconds(30), {}};
+  const auto out = project(drive_and_image(), progress, seconds(150), {{"energy", 1000.0}});
+  EXPECT_THAT(words(out.at("at a")), ElementsAre("planned 10 false", "executed 30 false"));
+  EXPECT_THAT(words(out.at("at b")), ElementsAre("planned 110 true", "projected 150 true"));
+  EXPECT_THAT(words(out.at("taken")), ElementsAre("planned 151 true", "projected 191 true"));
+  EXPECT_EQ(words(out.at("energy")).back(), "projected 151 710");
+}
+
+TEST(Projection, WhatFailedHasNoEffectAtItsEndAndItsRateStops) {
+  Progress progress;
+  progress["drive"] = {ActivityState::failed, seconds(10), seconds(60)};
+  progress["image"] = {ActivityState::cancelled, {}, {}};
+  const auto out = project(drive_and_image(), progress, seconds(70), {});
+  EXPECT_THAT(words(out.at("at b")), ElementsAre("planned 110 true"));
+  EXPECT_THAT(words(out.at("taken")), ElementsAre("planned 151 true"));
+  EXPECT_THAT(words(out.at("energy")), ElementsAre("planned 10 0", "planned 110 -200", "planned 111 -250",
+                                                   "executed 10 0", "executed 60 -100"));
+}
+
+// One impact as it really comes about.
+struct Effect {
+  const Impact* impact;
+  Time start, end;
+  std::size_t activity;
+  bool ends;
+  int turn(bool at_end) const { return at_end ? (start == end ? 2 : 0) : 1; }
+};
+
+using Moment = std::tuple<Time, int, std::size_t>;
+
+// The value right after `moment`: the last assignment until then, and all that was added since.
+double value_at(const std::vector<Effect>& effects, const Moment& moment) {
+  Moment since{Time::min(), 0, 0};
+  double value = 0;
+  for (const Effect& effect : effects) {
+    const bool at_end = effect.impact->moment == ImpactWhen::at_end;
+    const Moment own{at_end ? effect.end : effect.start, effect.turn(at_end), effect.activity};
+    if (effect.impact->kind != ImpactKind::assign || own > moment || own < since || (at_end && !effect.ends))
+      continue;
+    since = own;
+    value = std::get<double>(effect.impact->amount);
+  }
+  for (const Effect& effect : effects) {
+    const double amount = std::get<double>(effect.impact->amount);
+    const bool at_end = effect.impact->moment == ImpactWhen::at_end;
+    const Moment own{at_end ? effect.end : effect.start, effect.turn(at_end), effect.activity};
+    if (effect.impact->kind == ImpactKind::delta && own <= moment && own > since && (!at_end || effect.ends))
+      value += amount;
+    if (effect.impact->kind == ImpactKind::rate) {
+      const Time from = std::max(effect.start, std::get<0>(since));
+      const Time to = std::min(effect.end, std::get<0>(moment));
+      if (to > from) value += amount * to_seconds(to - from);
+    }
+  }
+  return value;
+}
+
+TEST(Projection, AgreesWithSumsOverAllImpactsOnRandomPlansHalfWayThrough) {
+  std::mt19937_64 random(7);
+  const auto below = [&](std::uint64_t n) { return static_cast<std::int64_t>(random() % n); };
+  std::size_t compared = 0;
+  for (int round = 0; round < 500; ++round) {
+    FlexiblePlan plan;
+    plan.origin = seconds(static_cast<double>(below(50)));
+    const auto count = 1 + random() % 8;
+    for (std::size_t i = 0; i < count; ++i) {
+      std::vector<Impact> impacts;
+      for (std::size_t n = random() % 3; n > 0; --n) {
+        const auto kind = static_cast<ImpactKind>(random() % 3);
+        const auto moment =
+            kind == ImpactKind::rate ? ImpactWhen::during : static_cast<ImpactWhen>(random() % 2);
+        impacts.push_back({"level", kind, moment, static_cast<double>(below(21) - 10)});
+      }
+      if (impacts.size() == 2 && impacts[0].kind != impacts[1].kind) impacts.pop_back();
+      if (impacts.size() == 2 && impacts[0].kind == ImpactKind::assign) impacts.pop_back();
+      add(plan, "a" + std::to_string(i), static_cast<double>(below(20)), std::move(impacts));
+      if (i > 0 && below(2) == 0) {
+        const auto before = static_cast<TimePoint>(2 + 2 * below(i));
+        plan.constraints.push_back({before, plan.activities[i].start_point, ConstraintKind::ordering,
+                                    seconds(static_cast<double>(below(3))), no_bound});
+      }
+    }
+    // The first activities in plan order have run, each late by a little; one may have failed.
+    const Time now = plan.origin + seconds(static_cast<double>(below(60)));
+    std::vector<Time> earliest(plan.point_count, plan.origin);
+    Progress progress;
+    std::vector<Effect> effects;
+    for (std::size_t i = 0; i < count; ++i) {
+      const PlanActivity& activity = plan.activities[i];
+      Time start = plan.origin;
+      for (const TemporalConstraint& c : plan.constraints)
+        if (c.to_point == activity.start_point) start = std::max(start, earliest[c.from_point] + c.lower);
+      const Time late = start + seconds(static_cast<double>(below(5)));
+      const Time ended = late + activity.duration_lower + seconds(static_cast<double>(below(5)));
+      ActivityProgress& at = progress[activity.id];
+      bool ends = true;
+      Time end{0};
+      if (late > now) {
+        start = std::max(start, now);
+        end = start + activity.duration_lower;
+      } else {
+        start = late;
+        at = {ActivityState::running, start, {}};
+        end = std::max(now, start + activity.duration_lower);
+        if (ended <= now) {
+          end = ended;
+          ends = below(5) != 0;
+          at = {ends ? ActivityState::succeeded : ActivityState::failed, start, end};
+        }
+      }
+      earliest[activity.start_point] = start;
+      earliest[activity.end_point] = end;
+      for (const Impact& impact : activity.impacts) effects.push_back({&impact, start, end, i, ends});
+    }
+    const auto out = project(plan, progress, now, {});
+    std::size_t seen = 0;
+    const auto level = out.find("level");
+    for (const Effect& effect : effects) {
+      for (const bool at_end : {false, true}) {
+        const bool rate = effect.impact->kind == ImpactKind::rate;
+        const bool here = rate || (effect.impact->moment == ImpactWhen::at_end) == at_end;
+        if (!here || (at_end && !rate && !effect.ends)) continue;
+        ++seen;
+        const Moment moment{at_end ? effect.end : effect.start, effect.turn(at_end), effect.activity};
+        const double expected = value_at(effects, moment);
+        ASSERT_NE(level, out.end());
+        const bool found = std::ranges::any_of(level->second, [&](const ProjectedChange& change) {
+          return change.kind != ProjectionKind::planned && change.time == std::get<0>(moment) &&
+                 change.activity == plan.activities[effect.activity].id &&
+                 std::abs(std::get<double>(change.value) - expected) < 1e-9;
+        });
+        EXPECT_TRUE(found) << "round " << round << " at " << to_text(std::get<0>(moment)) << ": " << expected;
+      }
+    }
+    const auto real =
+        level == out.end() ? 0 : std::ranges::count_if(level->second, [](const ProjectedChange& change) {
+          return change.kind != ProjectionKind::planned;
+        });
+    EXPECT_EQ(static_cast<std::size_t>(real), seen);
+    compared += seen;
+  }
+  EXPECT_GT(compared, 1000U);
+}
+
+}  // namespace
+}  // namespace roci::temporal

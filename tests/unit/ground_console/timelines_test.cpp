@@ -1,0 +1,75 @@
+// What roci timelines prints of a plan half way through and of what is observed.
+#include "ground_console/cli/timelines.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/unit/ground_console/messages.hpp"
+
+namespace roci::console {
+namespace {
+
+using namespace testing;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// The image of flying_mission() as a plan that can be executed: it takes 40 s, runs since 295 s, and now is
+// 300 s.
+MissionView with_an_image_under_way() {
+  MissionView view = flying_mission();
+  v1::Plan plan;
+  plan.version(3);
+  plan.id("planetary");
+  plan.point_count(3);
+  v1::PlanActivity image;
+  image.id("2.a2");
+  image.name("take-image");
+  image.start_point(1);
+  image.end_point(2);
+  image.duration_lower_us(40'000'000);
+  image.duration_upper_us(40'000'000);
+  image.impacts().resize(1);
+  image.impacts()[0].timeline("(have-image a)");
+  image.impacts()[0].moment(v1::IMPACT_AT_END);
+  image.impacts()[0].amount().kind(v1::VALUE_BOOLEAN);
+  image.impacts()[0].amount().truth(true);
+  plan.activities({image});
+  plan.origin_us(250'000'000);
+  view.take(plan);
+  return view;
+}
+
+TEST(Timelines, TellWhatWasPlannedAndWhatIsStillToCome) {
+  EXPECT_EQ(timelines_text(timelines_of(with_an_image_under_way(), {"(have-image a)"})),
+            "(have-image a)\n"
+            "  00:04:50  planned   true             2.a2\n"
+            "  00:05:35  projected true             2.a2\n");
+}
+
+TEST(Timelines, OfObservationsHaveTheNewestValueAsExecuted) {
+  const auto timelines = timelines_of(with_an_image_under_way(), {});
+  ASSERT_TRUE(timelines.contains("rover.nav"));
+  ASSERT_EQ(timelines.at("rover.nav").size(), 1U);
+  EXPECT_EQ(timelines.at("rover.nav")[0].kind, temporal::ProjectionKind::executed);
+  EXPECT_THAT(timelines_text(timelines), HasSubstr("rover.camera\n"));
+}
+
+TEST(Timelines, AreAListOfChangesInJson) {
+  const MissionView view = with_an_image_under_way();
+  const auto json = timelines_json(view, timelines_of(view, {"(have-image a)"}));
+  EXPECT_EQ(json["plan_version"], 3);
+  EXPECT_EQ(json["timelines"]["(have-image a)"][1]["kind"], "projected");
+  EXPECT_EQ(json["timelines"]["(have-image a)"][1]["time_s"], 335);
+  EXPECT_EQ(json["timelines"]["(have-image a)"][1]["value"], "true");
+}
+
+TEST(Timelines, ThatNobodyKnowsAreNone) {
+  EXPECT_THAT(timelines_of(with_an_image_under_way(), {"nothing"}), IsEmpty());
+  EXPECT_THAT(timelines_of(MissionView(), {}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace roci::console
