@@ -82,8 +82,9 @@ PlanningAnswer search(const PlanningCall& call, FunctionSource& functions) {
   monitor.cancelled = call.cancelled;
   temporal_pddl::Options options;
   options.improvement_evaluations = kImprovementEvaluations;
+  const auto remaining = pddl::parse_plan(call.remaining_plan, "remaining plan");
   const temporal_pddl::Result result =
-      temporal_pddl::plan(domain, problem, functions, budget, monitor, options);
+      temporal_pddl::plan(domain, problem, functions, budget, monitor, options, remaining);
   PlanningAnswer out;
   out.verdict = verdict_of(result.verdict);
   out.reason = result.where ? to_string(*result.where) : result.reason;

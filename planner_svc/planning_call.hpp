@@ -32,6 +32,7 @@ struct PlanningCall {
   std::string engine;
   std::string domain_text;
   std::string problem_text;
+  std::string remaining_plan;         // in IPC form, what is left of an earlier plan; empty: nothing
   std::uint64_t evaluations = 0;      // 0: no bound
   std::size_t memory_bytes = 0;       // 0: no bound
   std::function<bool()> out_of_time;  // empty: never

@@ -32,7 +32,7 @@ namespace engine = planner::temporal_pddl;
 constexpr int kUsageError = 64;
 
 struct Arguments {
-  std::string domain, problem, functions, stats;
+  std::string domain, problem, functions, stats, remaining;
   double seconds = 0;            // 0: no limit
   double processor_seconds = 0;  // 0: no limit
   std::size_t megabytes = 0;
@@ -142,7 +142,10 @@ engine::Result plan(const Arguments& arguments, const std::function<bool()>& out
   options.improvement_evaluations = arguments.improve;
   if (arguments.seconds + arguments.processor_seconds > 0 && arguments.improve == 0)
     options.improvement_evaluations = std::numeric_limits<std::size_t>::max();
-  return engine::plan(domain, problem, *functions, budget, monitor, options);
+  std::vector<pddl::PlanStep> remaining;
+  if (!arguments.remaining.empty())
+    remaining = pddl::parse_plan(read_file(arguments.remaining), arguments.remaining);
+  return engine::plan(domain, problem, *functions, budget, monitor, options, remaining);
 }
 
 int run(const Arguments& arguments) {
@@ -196,6 +199,7 @@ int main(int argc, char** argv) {
   app.add_option("--memory", arguments.megabytes, "limit in MiB");
   app.add_option("--functions", arguments.functions,
                  "values of external functions: (traverse_time a b) 12.5");
+  app.add_option("--remaining", arguments.remaining, "what is left of an earlier plan, to begin with");
   app.add_option("--stats", arguments.stats, "write statistics as JSON to this file");
   app.add_flag("--json", arguments.json, "plan and statistics as one JSON object");
   app.add_flag(

@@ -13,6 +13,7 @@
 #include "planner_svc/temporal_pddl/heuristics/landmark_count.hpp"
 #include "planner_svc/temporal_pddl/heuristics/within_resources.hpp"
 #include "planner_svc/temporal_pddl/improvement/improvement.hpp"
+#include "planner_svc/temporal_pddl/improvement/warm_start.hpp"
 #include "planner_svc/temporal_pddl/plan/plan_builder.hpp"
 #include "planner_svc/temporal_pddl/search/search.hpp"
 #include "planner_svc/temporal_pddl/watch.hpp"
@@ -47,7 +48,7 @@ PlanPrefix improved(const Task& task, PlanPrefix first, Heuristic& heuristic, co
 }
 
 void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
-           const Options& options, Watch& watch, Result& result) {
+           const Options& options, std::span<const pddl::PlanStep> remaining, Watch& watch, Result& result) {
   require_model(domain, problem);
   const Grounding grounding = ground(domain, problem, functions, options, watch, result.functions);
   describe(grounding.task, result.statistics);
@@ -56,7 +57,10 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   if (options.landmarks) landmarks.emplace(grounding.task, ff, watch);
   Heuristic& guidance = landmarks ? static_cast<Heuristic&>(*landmarks) : ff;
   WithinResources heuristic(grounding.task, guidance, options.resource_patience, watch);
-  SearchOutcome outcome = search(grounding.task, heuristic, options, watch, result.statistics);
+  SearchOutcome outcome;
+  outcome.plan = warm_start(grounding.task, remaining, {heuristic, CostMeasure::duration}, options, watch,
+                            result.statistics);
+  if (!outcome.plan) outcome = search(grounding.task, heuristic, options, watch, result.statistics);
   if (outcome.plan) {
     const PlanPrefix best =
         improved(grounding.task, std::move(*outcome.plan), heuristic, options, watch, result.statistics);
@@ -73,11 +77,12 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
 }  // namespace
 
 Result plan(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
-            const Budget& budget, const Monitor& monitor, const Options& options) {
+            const Budget& budget, const Monitor& monitor, const Options& options,
+            std::span<const pddl::PlanStep> remaining) {
   Result result;
   Watch watch(budget, monitor);
   try {
-    solve(domain, problem, functions, options, watch, result);
+    solve(domain, problem, functions, options, remaining, watch, result);
   } catch (const Refusal& refusal) {
     result.verdict = refusal.verdict();
     result.reason = refusal.reason();

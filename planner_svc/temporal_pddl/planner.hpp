@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 
 #include "core/pddl/ast.hpp"
+#include "core/pddl/plan_text.hpp"
 #include "planner_svc/function_source.hpp"
 #include "planner_svc/temporal_pddl/options.hpp"
 #include "planner_svc/temporal_pddl/plan/result.hpp"
@@ -30,9 +32,11 @@ struct Monitor {
   std::function<bool()> cancelled;
 };
 
+// remaining: what is left of an earlier plan; if it can be completed at little cost, that is the first plan.
 // Deterministic: equal arguments (and answers of `functions`) give equal results, unless time or cancellation
 // ended the call. Never throws for what stands in the model: that is a verdict with a reason.
 Result plan(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
-            const Budget& budget, const Monitor& monitor, const Options& options = {});
+            const Budget& budget, const Monitor& monitor, const Options& options = {},
+            std::span<const pddl::PlanStep> remaining = {});
 
 }  // namespace roci::planner::temporal_pddl

@@ -177,6 +177,53 @@ TEST(Improvement, FindsTheShortestWay) {
   EXPECT_EQ(result.plan->activities.size(), 3u);
 }
 
+Result solved_from(const testing::Model& model, const std::string& remaining) {
+  NoFunctions functions;
+  return plan(model.domain, model.problem, functions, {}, {}, {}, pddl::parse_plan(remaining, "remaining"));
+}
+
+TEST(WarmStart, WhatStillFitsTakesNoSearch) {
+  const Result result =
+      solved_from(roads(), "10: (drive a b) [5]\n10: (polish) [1]\n16: (drive b c) [5]\n22: (see c) [2]");
+  testing::expect_valid(roads(), result);
+  EXPECT_EQ(result.statistics.evaluated, 0u);
+  EXPECT_EQ(result.plan->activities.size(), 4u);
+}
+
+TEST(WarmStart, WhatIsMissingIsFilledIn) {
+  const Result result =
+      solved_from(roads(), "0: (fly a c) [1]\n1: (drive b c) [5]\n2: (drive a b) [5]\n7: (see b) [2]");
+  testing::expect_valid(roads(), result);
+  EXPECT_GT(result.statistics.evaluated, 0u);
+  // a b, then on: the steps that fit come first, though the way over b is the longer one
+  EXPECT_EQ(result.plan->activities.front().arguments, (std::vector<std::string>{"a", "b"}));
+}
+
+// Whatever is said to remain, the verdict is that of a search, and plans are valid.
+TEST(WarmStart, OnRandomTasksWithThePlansOfOthers) {
+  std::mt19937_64 random(5);
+  Budget budget;
+  budget.evaluations = 1000;
+  std::string remaining;
+  int began_with_it = 0, compared = 0;
+  for (int round = 0; round < 400; ++round) {
+    const testing::Model model = testing::random_task(random);
+    NoFunctions functions;
+    const Result result = plan(model.domain, model.problem, functions, budget, {}, {},
+                               pddl::parse_plan(remaining, "remaining"));
+    const Result searched = testing::solved(model, {}, budget);
+    if (result.plan) testing::expect_valid(model, result);
+    if (searched.verdict != Verdict::timeout && result.verdict != Verdict::timeout) {
+      ++compared;
+      EXPECT_EQ(result.verdict, searched.verdict) << remaining << pddl::print(model.problem);
+    }
+    began_with_it += result.plan && result.statistics.evaluated < searched.statistics.evaluated;
+    if (result.plan) remaining = to_ipc(*result.plan);
+  }
+  EXPECT_GT(compared, 300);
+  EXPECT_GT(began_with_it, 10);
+}
+
 TEST(Improvement, ASpentBudgetKeepsThePlan) {
   bool solved = false;
   for (int limit = 1; limit < 60; ++limit) {
