@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,14 +16,17 @@ namespace roci::planner::temporal_pddl {
 
 class BucketQueue {
  public:
-  using Entry = std::pair<std::int64_t, PropositionId>;
+  using Cost = std::uint32_t;
+  using Entry = std::pair<Cost, PropositionId>;
+  static constexpr Cost kMostCost = std::numeric_limits<Cost>::max() - 1;
 
   BucketQueue() : buckets_(kBuckets) {}
   // cost: no less than that of the entry taken last.
-  void push(std::int64_t cost, PropositionId proposition) {
+  void push(Cost cost, PropositionId proposition) {
     ++size_;
-    if (cost < static_cast<std::int64_t>(kBuckets)) {
-      buckets_[static_cast<std::size_t>(cost)].push_back(proposition);
+    if (cost < kBuckets) {
+      buckets_[cost].push_back(proposition);
+      highest_ = std::max(highest_, cost);
       return;
     }
     beyond_.emplace_back(cost, proposition);
@@ -36,25 +40,28 @@ class BucketQueue {
       buckets_[at_++].clear();
       taken_ = 0;
     }
-    if (at_ < kBuckets) return {static_cast<std::int64_t>(at_), buckets_[at_][taken_++]};
+    if (at_ < kBuckets) return {at_, buckets_[at_][taken_++]};
     std::ranges::pop_heap(beyond_, std::greater{});
     const Entry entry = beyond_.back();
     beyond_.pop_back();
     return entry;
   }
-  // Once it is empty.
+  // Empties it; costs may begin with 0 again.
   void restart() {
-    if (at_ < kBuckets) buckets_[at_].clear();
-    at_ = taken_ = 0;
+    for (; at_ < kBuckets && at_ <= highest_; ++at_) buckets_[at_].clear();
+    beyond_.clear();
+    at_ = highest_ = 0;
+    taken_ = size_ = 0;
   }
 
  private:
-  static constexpr std::size_t kBuckets = 1024;
+  static constexpr Cost kBuckets = 1024;
 
   std::vector<std::vector<PropositionId>> buckets_;
   std::vector<Entry> beyond_;
-  std::size_t at_ = 0;     // the bucket at hand
-  std::size_t taken_ = 0;  // of it
+  Cost at_ = 0;            // the bucket at hand
+  Cost highest_ = 0;       // the last one that is not empty
+  std::size_t taken_ = 0;  // of the bucket at hand
   std::size_t size_ = 0;
 };
 

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "planner_svc/temporal_pddl/heuristics/bucket_queue.hpp"
 #include "planner_svc/temporal_pddl/heuristics/earliest_times.hpp"
 #include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
 #include "planner_svc/temporal_pddl/heuristics/relaxed_numbers.hpp"
 #include "planner_svc/temporal_pddl/heuristics/relaxed_task.hpp"
+#include "planner_svc/temporal_pddl/heuristics/supporters.hpp"
 
 namespace roci::planner::temporal_pddl {
 
@@ -33,24 +33,11 @@ class FfHeuristic final : public Heuristic {
   std::string why_too_late();
 
  private:
-  static constexpr std::int64_t kUnreached = -1;
-
-  void reset();
-  // True: so it is cheaper.
-  bool reach(PropositionId proposition, std::int64_t cost, SnapId supporter);
-  void explore(const Situation& situation);
-  void fire(SnapId op, StateView state);
-  // All it needs is reached, and it can still happen in time.
-  bool possible(SnapId op) const;
-  const Goal* cheapest_goal() const;
+  const Goal* cheapest_goal();
   void need(PropositionId proposition);
   void include(SnapId op);
-  // Comparisons follow the propositions of the relaxed task.
-  PropositionId proposition(ComparisonId comparison) const {
-    return PropositionId(relaxed_.propositions() + comparison.index());
-  }
-  std::span<const SnapId> needed_by(PropositionId proposition) const;
   bool holds_now(SnapId op) const;
+  void forget_last();
   void extract();
   void order_plan(std::vector<SnapId>& ordered) const;
   void collect(std::uint32_t timed_done, Estimate& estimate) const;
@@ -59,23 +46,13 @@ class FfHeuristic final : public Heuristic {
   RelaxedTask relaxed_;
   RelaxedNumbers numbers_;
   EarliestTimes earliest_;
+  Supporters supporters_;
 
-  // By proposition, for the state at hand. A proposition of the state has no supporter.
-  IdVector<PropositionId, std::int64_t> reached_at_;
-  IdVector<PropositionId, SnapId> supporter_;
-  IdVector<PropositionId, bool> needed_;
-  IdVector<ComparisonId, std::int64_t> repeats_;  // of its supporter
-  // By operator.
-  struct Operator {
-    std::int64_t cost = 0;   // actions: its own, and those of the reached needs
-    std::uint32_t open = 0;  // needs that are not reached
-  };
-  IdVector<SnapId, Operator> at_first_, operators_;
+  // Of the relaxed plan at hand.
+  IdVector<PropositionId, bool> is_needed_;
   IdVector<SnapId, bool> in_plan_;
-  IdVector<SnapId, std::int64_t> times_;  // how often, if it is in the plan
-
-  BucketQueue queue_;
-  std::vector<PropositionId> to_support_;
+  IdVector<SnapId, std::int64_t> times_;  // how often; 1 if it is not in the plan
+  std::vector<PropositionId> needed_, to_support_;
   std::vector<SnapId> plan_;
 };
 

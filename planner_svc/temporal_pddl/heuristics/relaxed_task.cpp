@@ -66,8 +66,9 @@ RelaxedTask::RelaxedTask(const Task& task, CostMeasure measure)
     const std::int64_t duration =
         snap.kind == SnapKind::start ? least_duration(task, semantics, snap.action) : 0;
     costs_.push_back(measure == CostMeasure::metric ? metric_cost(task, semantics, op, duration) : duration);
-    needs_.push_back(needs);
-    adds_.push_back(adds);
+    is_choice_.push_back(snap.kind == SnapKind::start || snap.kind == SnapKind::instant);
+    lists_.push_back(needs);
+    lists_.push_back(adds);
   }
   for (const auto& list : needed_by) needed_by_.push_back(list);
 }

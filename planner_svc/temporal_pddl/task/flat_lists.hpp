@@ -15,12 +15,11 @@ class FlatLists {
   // Appends one list; its index is the number of lists before.
   void push_back(std::span<const T> list) {
     items_.insert(items_.end(), list.begin(), list.end());
-    ends_.push_back(static_cast<std::uint32_t>(items_.size()));
+    begins_.push_back(static_cast<std::uint32_t>(items_.size()));
   }
 
   std::span<const T> operator[](std::size_t list) const {
-    const std::size_t begin = list == 0 ? 0 : ends_[list - 1];
-    return std::span<const T>(items_).subspan(begin, ends_[list] - begin);
+    return {items_.data() + begins_[list], items_.data() + begins_[list + 1]};
   }
   template <typename IdType>
   std::span<const T> operator[](IdType list) const requires requires {
@@ -28,14 +27,14 @@ class FlatLists {
   }
   { return (*this)[list.index()]; }
 
-  std::size_t size() const { return ends_.size(); }
+  std::size_t size() const { return begins_.size() - 1; }
   std::size_t bytes() const {
-    return items_.capacity() * sizeof(T) + ends_.capacity() * sizeof(std::uint32_t);
+    return items_.capacity() * sizeof(T) + begins_.capacity() * sizeof(std::uint32_t);
   }
 
  private:
   std::vector<T> items_;
-  std::vector<std::uint32_t> ends_;
+  std::vector<std::uint32_t> begins_{0};  // and the end of the last
 };
 
 }  // namespace roci::planner::temporal_pddl
