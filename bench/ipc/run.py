@@ -13,7 +13,6 @@ import json
 import os
 import pathlib
 import platform
-import resource
 import shlex
 import shutil
 import signal
@@ -25,27 +24,18 @@ import time
 import instances
 
 
-def limited(arguments):
-    def apply():
-        os.setsid()
-        resource.setrlimit(resource.RLIMIT_CPU, (arguments.seconds, arguments.seconds + 1))
-        resource.setrlimit(resource.RLIMIT_AS, (arguments.megabytes << 20, arguments.megabytes << 20))
-        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-
-    return apply
-
-
-def wait(process, deadline):
-    """The exit status and resources of a process that is killed at the deadline."""
-    while True:
-        pid, status, usage = os.wait4(process.pid, os.WNOHANG)
-        if pid:
-            return os.waitstatus_to_exitcode(status), usage
-        if time.monotonic() > deadline:
-            os.killpg(process.pid, signal.SIGKILL)
-            _, status, usage = os.wait4(process.pid, 0)
-            return os.waitstatus_to_exitcode(status), usage
-        time.sleep(0.005)
+def measured(arguments, command, folder, out, err):
+    """Exit status, CPU seconds and peak memory in KiB of a command; killed after twice its CPU limit and 5 s."""
+    report = pathlib.Path(folder) / "report"
+    limits = [arguments.limited, report, str(arguments.seconds), str(arguments.megabytes)]
+    process = subprocess.Popen([*limits, *command], stdout=out, stderr=err, cwd=folder, start_new_session=True)
+    try:
+        process.wait(2 * arguments.seconds + 5)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGXCPU)
+        process.wait()
+    code, cpu, peak = report.read_text().split()
+    return int(code), float(cpu), int(peak)
 
 
 def run(arguments, instance):
@@ -57,19 +47,17 @@ def run(arguments, instance):
         command[0] = str(pathlib.Path(shutil.which(command[0]) or command[0]).resolve())
         with open(pathlib.Path(folder) / "stdout", "w+b") as out, open(pathlib.Path(folder) / "stderr", "w+b") as err:
             begin = time.monotonic()
-            process = subprocess.Popen(command, stdout=out, stderr=err, cwd=folder, preexec_fn=limited(arguments))
-            code, usage = wait(process, begin + 2 * arguments.seconds + 5)
+            code, cpu, peak = measured(arguments, command, folder, out, err)
             wall = time.monotonic() - begin
             out.seek(0)
             err.seek(0)
             text = plan.read_bytes() if plan.exists() else out.read()
             plan.write_bytes(text)
-            cpu = usage.ru_utime + usage.ru_stime
             record = {
                 "planner": arguments.planner, "domain": instance.domain, "instance": instance.number,
                 "seconds": arguments.seconds, "megabytes": arguments.megabytes, "host": platform.node(),
-                "revision": arguments.revision, "exit": code, "cpu_s": round(cpu, 3), "wall_s": round(wall, 3),
-                "peak_rss_kb": usage.ru_maxrss, "message": err.read(2000).decode(errors="replace").strip(),
+                "revision": arguments.revision, "exit": code, "cpu_s": round(cpu, 6), "wall_s": round(wall, 3),
+                "peak_rss_kb": peak, "message": err.read(2000).decode(errors="replace").strip(),
             }
             if stats.exists():
                 record["stats"] = json.loads(stats.read_text())
@@ -118,6 +106,8 @@ def main():
     parser.add_argument("--command", required=True, help="with {domain} {problem}, and {plan} {stats} if it writes files")
     parser.add_argument("--out", required=True, type=pathlib.Path, help="JSON lines; appended to")
     parser.add_argument("--validate", default="roci-validate")
+    parser.add_argument("--limited", default="build/release/bin/roci-bench-limited", type=lambda p: str(pathlib.Path(p).resolve()),
+                        help="the program that limits and measures a run")
     parser.add_argument("--seconds", type=int, default=30, help="of CPU time")
     parser.add_argument("--megabytes", type=int, default=4096, help="of address space")
     parser.add_argument("--only", help="a CSV with columns domain and instance: those alone")
