@@ -56,6 +56,9 @@ void Reactor::adopt(Time now, const PlanAnswer& answer) {
   first_plan_ = false;
   phase_ = Phase::executing;
   margins_ = Margins(plan);
+  std::set<std::string> foreseen;
+  for (const WindowModel& window : mission_->windows) foreseen.insert(window.fact);
+  foresight_ = Foresight(plan, foreseen, mission_->executive.ack_timeout);
   condition_values_.clear();
   for (const temporal::PlanActivity& activity : plan.activities) {
     for (const temporal::Condition* condition : {&activity.pre, &activity.maintenance}) {

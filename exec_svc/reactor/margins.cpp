@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "exec_svc/reactor/demands.hpp"
+
 namespace roci::exec {
 namespace {
 
@@ -18,23 +20,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Sums of amounts round; a lack as small as that is none.
 double slack(double value) { return 1e-9 * std::max(1.0, std::abs(value)); }
-
-// The comparisons that must all hold: the condition itself, or the parts of its conjunction.
-std::vector<ConditionNode> demands(const Condition& condition) {
-  std::vector<ConditionNode> out;
-  std::size_t expected = 1;
-  for (std::size_t i = 0; i < condition.nodes.size() && expected > 0; ++i, --expected) {
-    const ConditionNode& node = condition.nodes[i];
-    if (node.op == ConditionOp::all_of) {
-      expected += node.child_count;
-    } else if (node.op == ConditionOp::any_of || node.op == ConditionOp::negation) {
-      return out;  // what lies below is no demand by itself
-    } else {
-      out.push_back(node);
-    }
-  }
-  return out;
-}
 
 }  // namespace
 

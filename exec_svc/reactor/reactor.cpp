@@ -143,11 +143,15 @@ void Reactor::note_achieved() {
 void Reactor::run_executive(Time now, const ReactorInputs& inputs) {
   Inputs told;
   told.observations = inputs.observations;
-  for (Observation& change : changed_conditions()) told.observations.push_back(std::move(change));
+  for (Observation& change : changed_conditions()) {
+    foresight_.observe(change.timeline, change.value);
+    told.observations.push_back(std::move(change));
+  }
   told.acks = inputs.acks;
   for (const PeerLoss& loss : inputs.losses) told.lost_owners.push_back(loss.service);
   Outputs done = executive_.step(now, told);
   for (const StepStatus& step : done.changes) {
+    foresight_.change(step.activity, step.state);
     if (step.state != temporal::ActivityState::waiting) margins_.leave(step.activity);
     if (step.state != temporal::ActivityState::succeeded) continue;
     if (const auto* activity = executive_.activity(step.activity)) failures_.succeeded(activity->subsystem);
@@ -220,9 +224,22 @@ void Reactor::follow_plan(Time now) {
     phase_ = Phase::idle;
     if (!goals_.open().empty()) want_plan("the plan ended with goals open");
   } else if (outcome.kind == OutcomeKind::running && !wanted_) {
-    const std::string lacking =
-        margins_.lacking([this](const std::string& timeline) { return beliefs_.lookup(timeline); });
-    if (!lacking.empty()) break_plan(now, lacking);
+    look_ahead(now);
+  }
+}
+
+// Conflicts of activities that are not due yet.
+void Reactor::look_ahead(Time now) {
+  const std::string lacking =
+      margins_.lacking([this](const std::string& timeline) { return beliefs_.lookup(timeline); });
+  if (!lacking.empty()) return break_plan(now, lacking);
+  if (const auto conflict = foresight_.conflict(now)) {
+    const auto steps = executive_.steps();
+    const auto due = std::ranges::find(steps, conflict->activity, &StepStatus::activity);
+    break_plan(now, conflict->activity + ", due at " + temporal::to_text(due->earliest_start) +
+                        ", will lack " + conflict->words + ", and nothing in the plan brings it about");
+  } else if (const auto next = foresight_.next_look()) {
+    wake_at(*next);
   }
 }
 

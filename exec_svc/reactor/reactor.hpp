@@ -16,6 +16,7 @@
 #include "exec_svc/goals/goal_set.hpp"
 #include "exec_svc/problem/problem_writer.hpp"
 #include "exec_svc/reactor/failure_tally.hpp"
+#include "exec_svc/reactor/foresight.hpp"
 #include "exec_svc/reactor/ladder.hpp"
 #include "exec_svc/reactor/margins.hpp"
 
@@ -142,6 +143,7 @@ class Reactor {
   static void fields(Archive& archive, Self& self);
   void take_models(const std::vector<ModelVersion>& models);
   void follow_plan(temporal::Time now);
+  void look_ahead(temporal::Time now);
   void break_plan(temporal::Time now, const std::string& why);
   void count_failure(temporal::Time now, const Outcome& outcome);
   void give_up(const std::vector<GoalKey>& goals, const std::string& why);
@@ -197,7 +199,8 @@ class Reactor {
   Executive executive_;
   Ladder ladder_;
   FailureTally failures_;
-  Margins margins_;  // of the running plan
+  Margins margins_;      // of the running plan
+  Foresight foresight_;  // of the running plan
   ReactorOutputs out_;
 
   Phase phase_ = Phase::idle;

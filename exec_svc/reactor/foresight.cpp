@@ -1,0 +1,129 @@
+#include "exec_svc/reactor/foresight.hpp"
+
+#include <algorithm>
+
+#include "exec_svc/reactor/demands.hpp"
+
+namespace roci::exec {
+namespace {
+
+using temporal::ActivityState;
+using temporal::Condition;
+using temporal::ConditionNode;
+using temporal::Time;
+using temporal::Truth;
+using temporal::Value;
+
+bool is_over(ActivityState state) {
+  return state != ActivityState::waiting && state != ActivityState::dispatched &&
+         state != ActivityState::running;
+}
+
+bool asks_for_a_state(const ConditionNode& node) {
+  return std::holds_alternative<bool>(node.operand) || std::holds_alternative<temporal::State>(node.operand);
+}
+
+temporal::Lookup only(const Value& value) {
+  return [&value](const std::string&) { return std::optional(value); };
+}
+
+std::set<std::string> activities_of_choices(const temporal::FlexiblePlan& plan) {
+  std::set<std::string> out;
+  for (const temporal::DecisionPoint& decision : plan.decisions)
+    for (const temporal::DecisionChoice& choice : decision.choices)
+      out.insert(choice.activities.begin(), choice.activities.end());
+  return out;
+}
+
+}  // namespace
+
+Foresight::Foresight(const temporal::FlexiblePlan& plan, const std::set<std::string>& foreseen,
+                     temporal::Duration lasting)
+    : lasting_(lasting),
+      states_(plan.activities.size(), ActivityState::waiting),
+      touched_by_(plan.activities.size()) {
+  const std::set<std::string> open_choices = activities_of_choices(plan);
+  for (std::size_t i = 0; i < plan.activities.size(); ++i) {
+    const temporal::PlanActivity& activity = plan.activities[i];
+    index_of_[activity.id] = i;
+    ids_.push_back(activity.id);
+    const bool waits_for_others = activity.lateness == temporal::LatenessPolicy::push;
+    const bool may_go = activity.may_skip || !activity.skip_if.empty() || open_choices.contains(activity.id);
+    if (waits_for_others || may_go) continue;
+    for (ConditionNode& node : demands(activity.pre)) {
+      if (!asks_for_a_state(node) || foreseen.contains(node.timeline)) continue;
+      touched_by_[i].push_back(node.timeline);
+      timelines_[node.timeline].demands.push_back({i, std::move(node)});
+    }
+  }
+  for (std::size_t i = 0; i < plan.activities.size(); ++i) {
+    for (const temporal::Impact& impact : plan.activities[i].impacts) {
+      const auto timeline = timelines_.find(impact.timeline);
+      if (timeline == timelines_.end() || impact.kind != temporal::ImpactKind::assign) continue;
+      timeline->second.provisions.push_back({i, impact.amount});
+      touched_by_[i].push_back(impact.timeline);
+    }
+  }
+}
+
+void Foresight::observe(const std::string& timeline, const Value& value) {
+  const auto known = timelines_.find(timeline);
+  if (known == timelines_.end()) return;
+  known->second.value = value;
+  touched_.insert(timeline);
+}
+
+void Foresight::change(const std::string& activity, ActivityState state) {
+  const auto index = index_of_.find(activity);
+  if (index == index_of_.end() || states_[index->second] == state) return;
+  states_[index->second] = state;
+  touched_.insert(touched_by_[index->second].begin(), touched_by_[index->second].end());
+}
+
+const Foresight::Demand* Foresight::first_unmet(const Timeline& timeline) const {
+  if (!timeline.value) return nullptr;
+  for (const Demand& demand : timeline.demands) {
+    if (states_[demand.activity] != ActivityState::waiting) continue;
+    const Condition asked{{demand.node}};
+    if (temporal::evaluate(asked, only(*timeline.value)) != Truth::no) continue;
+    const bool may_come =
+        std::any_of(timeline.provisions.begin(), timeline.provisions.end(), [&](const Provision& provision) {
+          return provision.activity != demand.activity && !is_over(states_[provision.activity]) &&
+                 temporal::evaluate(asked, only(provision.value)) == Truth::yes;
+        });
+    if (!may_come) return &demand;
+  }
+  return nullptr;
+}
+
+void Foresight::look(Time now) {
+  for (const std::string& name : touched_) {
+    Timeline& timeline = timelines_.at(name);
+    const Demand* unmet = first_unmet(timeline);
+    if (unmet != nullptr && timeline.conflict == nullptr) timeline.since = now;
+    timeline.conflict = unmet;
+  }
+  touched_.clear();
+}
+
+std::optional<StateConflict> Foresight::conflict(Time now) {
+  look(now);
+  const Timeline* first = nullptr;
+  for (const auto& [name, timeline] : timelines_) {
+    if (timeline.conflict == nullptr || now < timeline.since + lasting_) continue;
+    if (first == nullptr || timeline.conflict->activity < first->conflict->activity) first = &timeline;
+  }
+  if (first == nullptr) return std::nullopt;
+  return StateConflict{ids_[first->conflict->activity],
+                       temporal::explain(Condition{{first->conflict->node}}, only(*first->value))};
+}
+
+std::optional<Time> Foresight::next_look() const {
+  std::optional<Time> out;
+  for (const auto& [name, timeline] : timelines_)
+    if (timeline.conflict != nullptr && (!out || timeline.since + lasting_ < *out))
+      out = timeline.since + lasting_;
+  return out;
+}
+
+}  // namespace roci::exec
