@@ -134,11 +134,12 @@ TEST(PlannerService, AnUnknownEngineIsToldWithThoseItHas) {
 }
 
 TEST(PlannerService, ASpentBudgetOfWorkIsATimeout) {
+  // Each of the goals alone is within reach, so that it takes more than one look to see that both are not.
   RoadPlanning planning;
   planning.owner_answers([&](const v1::FunctionRequest& request, auto responder) {
     responder.reply(without_the_direct_road(request, planning.owner().now()));
   });
-  v1::PlanRequest request = plan_request(kRoadDomain, road_problem());
+  v1::PlanRequest request = plan_request(kRoadDomain, road_problem("(and (at b) (at c))"));
   request.budget().work(1);
   EXPECT_EQ(reply_to(planning, request).verdict_code(), v1::VERDICT_TIMEOUT);
 }
