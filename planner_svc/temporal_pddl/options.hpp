@@ -22,6 +22,7 @@ struct Options {
   bool preferred_operators = true;  // R21
   bool landmarks = true;            // see heuristics/landmarks.hpp; takes no effect without dominance
   bool whole_actions = true;        // see search/search.hpp
+  bool novelty = true;              // see search/novelty.hpp; takes no effect without dominance
   bool lookahead = true;            // see search/lookahead.hpp
   WindowExtraction windows = WindowExtraction::recurring;
   std::size_t resource_patience = 100;      // states before it is measured what resources suffice for, see

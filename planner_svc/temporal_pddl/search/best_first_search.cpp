@@ -7,20 +7,29 @@
 
 namespace roci::planner::temporal_pddl {
 
+namespace {
+
+constexpr int kPatience = 8;  // relaxed plans that are followed although the estimate does not fall
+
+}  // namespace
+
 BestFirstSearch::BestFirstSearch(const Task& task, Heuristic& heuristic, const Options& options,
-                                 ActionSteps steps, Watch& watch, Statistics& statistics)
+                                 SearchStyle style, Watch& watch, Statistics& statistics)
     : task_(task),
       heuristic_(heuristic),
       options_(options),
+      follows_plans_(style.lookahead),
+      complete_(style.steps == ActionSteps::as_needed),
       watch_(watch),
       statistics_(statistics),
-      space_(task, options.epsilon, steps),
+      space_(task, options.epsilon, style.steps),
       goal_(task, space_.check(), options.epsilon),
       dominance_(task, space_.store(), space_.bounds(), space_.check(), options.epsilon,
                  goal_.has_deadlines()),
       dominate_(options.dominance && !goal_.has_openings()),
       evaluation_(task),
-      open_(dominate_ && options.landmarks ? OpenList::Sharing::all_queues : OpenList::Sharing::one_queue),
+      open_({options.landmarks && dominate_, options.novelty && dominate_}),
+      novelty_(task),
       lookahead_(task, space_),
       random_(options.seed) {}
 
@@ -73,11 +82,14 @@ SearchOutcome BestFirstSearch::failed() const {
 bool BestFirstSearch::reach(NodeId parent) {
   space_.add(parent, successor_);
   if (take_up()) return true;
-  while (!estimate_.dead_end && options_.lookahead) {
-    const Priority before{estimate_.steps, estimate_.cost};
+  Priority best = by_plan();
+  int in_vain = 0;
+  while (follows_plans_ && in_vain < kPatience && !estimate_.dead_end) {
     if (!look_ahead()) return false;
     if (take_up()) return true;
-    if (!(Priority{estimate_.steps, estimate_.cost} < before)) return false;
+    const bool nearer = by_plan() < best;
+    in_vain = nearer ? 0 : in_vain + 1;
+    if (nearer) best = by_plan();
   }
   return false;
 }
@@ -111,7 +123,7 @@ bool BestFirstSearch::take_up() {
 
 void BestFirstSearch::expand(const PlanPrefix& prefix) {
   ++statistics_.expanded;
-  const Priority by_plan{estimate_.steps, estimate_.cost};
+  const Priority by_plan = this->by_plan();
   const Priority by_landmarks{estimate_.landmarks, estimate_.steps};
   const bool shorter = by_plan < best_plan_;
   const bool fewer_landmarks = estimate_.landmarks < best_landmarks_;
@@ -123,13 +135,16 @@ void BestFirstSearch::expand(const PlanPrefix& prefix) {
   if (options_.seed != 0) std::ranges::shuffle(candidates_, random_);
   if (!options_.preferred_operators) estimate_.preferred.clear();
   std::ranges::sort(estimate_.preferred);
-  open_.push(by_plan, by_landmarks, prefix.node, candidates_, estimate_.preferred);
+  const std::int64_t news =
+      options_.novelty ? novelty_.see(successor_.state, prefix.running_actions, estimate_.steps) : 0;
+  open_.push({by_plan, by_landmarks, {-news, estimate_.steps}}, prefix.node, candidates_,
+             estimate_.preferred);
   statistics_.generated += candidates_.size();
 }
 
 void BestFirstSearch::account() {
   statistics_.bytes_per_state = space_.store().mean_bytes_per_state();
-  watch_.memory(bytes() + bytes_elsewhere_);
+  watch_.memory(bytes() + bytes_elsewhere_ + heuristic_.bytes());
   if (statistics_.expanded % 1024 == 0) watch_.progress(statistics_);
 }
 

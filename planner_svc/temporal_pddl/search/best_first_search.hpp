@@ -17,6 +17,7 @@
 #include "planner_svc/temporal_pddl/search/evaluation.hpp"
 #include "planner_svc/temporal_pddl/search/goal_test.hpp"
 #include "planner_svc/temporal_pddl/search/lookahead.hpp"
+#include "planner_svc/temporal_pddl/search/novelty.hpp"
 #include "planner_svc/temporal_pddl/search/open_list.hpp"
 #include "planner_svc/temporal_pddl/search/state_space.hpp"
 #include "planner_svc/temporal_pddl/watch.hpp"
@@ -29,18 +30,26 @@ struct SearchOutcome {
   std::string reason;              // without: what stood in the way
 };
 
+struct SearchStyle {
+  ActionSteps steps = ActionSteps::as_needed;
+  bool lookahead = false;  // relaxed plans are followed
+};
+
 class BestFirstSearch {
  public:
   // Keeps `statistics` up to date all the time.
-  BestFirstSearch(const Task& task, Heuristic& heuristic, const Options& options, ActionSteps steps,
+  BestFirstSearch(const Task& task, Heuristic& heuristic, const Options& options, SearchStyle style,
                   Watch& watch, Statistics& statistics);
 
   // Goes on for so many more evaluations; none: not at its end yet. bytes_elsewhere count as used too. Throws
   // what Watch throws, and Refusal (out_of_memory) if plans of more than kMaxSteps steps would have to be
   // tried.
   std::optional<SearchOutcome> run(std::size_t evaluations, std::size_t bytes_elsewhere = 0);
+  // Whether there is no plan if it finds none.
+  bool complete() const { return complete_; }
+  // Without the heuristic's, which all searches share.
   std::size_t bytes() const {
-    return space_.store().bytes() + open_.bytes() + dominance_.bytes() + heuristic_.bytes();
+    return space_.store().bytes() + open_.bytes() + dominance_.bytes() + novelty_.bytes();
   }
 
  private:
@@ -49,12 +58,15 @@ class BestFirstSearch {
   bool reach(NodeId parent);
   bool take_up();
   bool look_ahead();
+  Priority by_plan() const { return {estimate_.steps, estimate_.cost}; }
   void expand(const PlanPrefix& prefix);
   void account();
 
   const Task& task_;
   Heuristic& heuristic_;
   const Options& options_;
+  bool follows_plans_;
+  bool complete_;
   Watch& watch_;
   Statistics& statistics_;
   StateSpace space_;
@@ -63,6 +75,7 @@ class BestFirstSearch {
   bool dominate_;
   Evaluation evaluation_;
   OpenList open_;
+  Novelty novelty_;
   Lookahead lookahead_;
   std::mt19937_64 random_;
 

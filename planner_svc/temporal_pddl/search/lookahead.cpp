@@ -6,6 +6,7 @@ namespace roci::planner::temporal_pddl {
 
 bool Lookahead::follow(const PlanPrefix& from, std::span<const SnapId> relaxed_plan, Successor& last) {
   prefix_ = from;
+  failures_left_ = relaxed_plan.size();
   starts_.clear();
   waiting_.clear();
   for (const SnapId snap : relaxed_plan) (waits(snap) ? waiting_ : starts_).push_back(snap);
@@ -32,7 +33,11 @@ bool Lookahead::take_one_that_waits(Successor& last) {
 
 bool Lookahead::take(SnapId snap, Successor& last) {
   if (prefix_.steps.size() + 2 > kMaxSteps) return false;
-  if (!space_.possible(prefix_, snap) || space_.build(prefix_, snap, next_) != Rejection::none) return false;
+  if (failures_left_ == 0 || !space_.possible(prefix_, snap)) return false;
+  if (space_.build(prefix_, snap, next_) != Rejection::none) {
+    --failures_left_;
+    return false;
+  }
   space_.add(prefix_.node, next_);
   prefix_ = next_.prefix;
   std::swap(last, next_);

@@ -28,6 +28,7 @@ class Lookahead {
   StateSpace& space_;
   PlanPrefix prefix_;  // so far
   Successor next_;
+  std::size_t failures_left_ = 0;         // steps tried in vain, each as costly as one taken
   std::vector<SnapId> starts_, waiting_;  // still to be taken
 };
 

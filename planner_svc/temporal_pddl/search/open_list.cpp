@@ -10,16 +10,18 @@ constexpr std::int64_t kStreak = 64;
 
 }  // namespace
 
-OpenList::OpenList(Sharing sharing) {
-  for (const bool by_landmarks : {false, true}) {
-    if (by_landmarks && sharing == Sharing::one_queue) continue;
-    queues_.push_back({true, by_landmarks, Order::streaks});
-    queues_.push_back({false, by_landmarks, Order::oldest});
-  }
+OpenList::OpenList(Kinds kinds) {
+  const auto add = [&](Priority Ranks::*rank) {
+    queues_.push_back({true, rank, Order::streaks});
+    queues_.push_back({false, rank, Order::oldest});
+  };
+  add(&Ranks::by_plan);
+  if (kinds.by_landmarks) add(&Ranks::by_landmarks);
+  if (kinds.by_novelty) add(&Ranks::by_novelty);
 }
 
-void OpenList::push(Priority by_plan, Priority by_landmarks, NodeId parent,
-                    std::span<const SnapId> successors, std::span<const SnapId> preferred) {
+void OpenList::push(const Ranks& ranks, NodeId parent, std::span<const SnapId> successors,
+                    std::span<const SnapId> preferred) {
   if (successors_.size() <= parent.index()) successors_.resize(parent.index() + 1);
   Successors& own = successors_[parent.index()];
   own.size = static_cast<std::uint32_t>(successors.size());
@@ -31,7 +33,7 @@ void OpenList::push(Priority by_plan, Priority by_landmarks, NodeId parent,
     Run run{parent, 0, own.size};
     trim(queue, run);
     if (run.begin == run.end) continue;
-    queue.runs.push(queue.by_landmarks ? by_landmarks : by_plan, run);
+    queue.runs.push(ranks.*queue.rank, run);
     ++own.runs;
   }
 }

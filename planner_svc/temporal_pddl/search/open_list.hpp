@@ -21,16 +21,24 @@ struct OpenEntry {
   SnapId snap;
 };
 
+// What a state's successors wait by, one rank each.
+struct Ranks {
+  Priority by_plan, by_landmarks, by_novelty;
+};
+
 class OpenList {
  public:
-  // one_queue: each successor waits in one queue, by its plan's estimate: among the preferred or the others.
-  // Else each also waits in a queue by landmarks, and the preferred among all.
-  enum class Sharing { one_queue, all_queues };
+  // Beside those by the plan's estimate. Without any, each successor waits in one queue: among the preferred
+  // or the others. Else it waits in a queue of each kind, and the preferred among all.
+  struct Kinds {
+    bool by_landmarks = false;
+    bool by_novelty = false;
+  };
 
-  explicit OpenList(Sharing sharing);
+  explicit OpenList(Kinds kinds);
 
   // successors: of `parent`, of which none waits yet. preferred: sorted.
-  void push(Priority by_plan, Priority by_landmarks, NodeId parent, std::span<const SnapId> successors,
+  void push(const Ranks& ranks, NodeId parent, std::span<const SnapId> successors,
             std::span<const SnapId> preferred);
   // From the queue that was served least. Each entry comes once; where it waits in several queues, its turn
   // in the others passes.
@@ -64,7 +72,7 @@ class OpenList {
   };
   struct Queue {
     bool preferred;
-    bool by_landmarks;
+    Priority Ranks::*rank;
     Order order;
     std::int64_t served = 0;
     RankedQueue<Run> runs = {};

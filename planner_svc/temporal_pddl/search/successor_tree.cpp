@@ -18,10 +18,15 @@ SuccessorTree::SuccessorTree(const Task& task) : task_(task), nodes_(1) {
     const SnapKind kind = task.snaps[snap].kind;
     if (kind != SnapKind::start && kind != SnapKind::instant) continue;
     Candidate candidate{snap, {}};
-    for (const FactId fact : task.conditions[snap]) {
+    const auto test = [&](FactId fact) {
       if (!task.layout.is_negation(fact)) candidate.tests.push_back(tests[fact]);
+    };
+    std::ranges::for_each(task.conditions[snap], test);
+    for (const FactId fact : task.invariants[task.snaps[snap].action]) {
+      if (!task.is_derived[fact] && std::ranges::count(task.adds[snap], fact) == 0) test(fact);
     }
-    std::ranges::sort(candidate.tests, {}, &Test::variable);
+    std::ranges::sort(candidate.tests);
+    candidate.tests.erase(std::unique(candidate.tests.begin(), candidate.tests.end()), candidate.tests.end());
     candidates.push_back(std::move(candidate));
   }
   // Two different values of one variable never hold together; such an action has no place in the tree.
@@ -29,9 +34,7 @@ SuccessorTree::SuccessorTree(const Task& task) : task_(task), nodes_(1) {
     return std::ranges::adjacent_find(candidate.tests, {}, &Test::variable) != candidate.tests.end();
   });
   std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
-    return std::ranges::lexicographical_compare(a.tests, b.tests, [](const Test& x, const Test& y) {
-      return x.variable != y.variable ? x.variable < y.variable : x.value < y.value;
-    });
+    return std::ranges::lexicographical_compare(a.tests, b.tests);
   });
   root_ = build(candidates, 0);
 }

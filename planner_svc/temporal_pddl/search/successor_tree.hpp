@@ -14,13 +14,15 @@ class SuccessorTree {
   // Starts and plain actions; ends and timed literals are found from the plan.
   explicit SuccessorTree(const Task& task);
 
-  // Appends the snap actions of which pre⊢ holds, negated facts and numbers left out, in a fixed order.
+  // Appends the snap actions of which pre⊢ holds, and of pre↔ what the start does not add, negated facts and
+  // numbers left out, in a fixed order.
   void collect(StateView state, std::vector<SnapId>& result) const;
 
  private:
   struct Test {
     std::uint32_t variable = 0;
     std::uint32_t value = 0;
+    auto operator<=>(const Test&) const = default;
   };
   struct Candidate {
     SnapId snap;

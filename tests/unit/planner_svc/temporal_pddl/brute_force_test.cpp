@@ -35,6 +35,8 @@ std::vector<Named> configurations() {
   result.back().options.landmarks = false;
   result.push_back({"no whole actions", {}});
   result.back().options.whole_actions = false;
+  result.push_back({"no novelty", {}});
+  result.back().options.novelty = false;
   result.push_back({"no lookahead", {}});
   result.back().options.lookahead = false;
   result.push_back({"timed literals as steps", {}});
@@ -43,9 +45,9 @@ std::vector<Named> configurations() {
   result.back().options.windows = WindowExtraction::one_off;
   result.push_back({"improved", {}});
   result.back().options.improvement_evaluations = 200;
-  result.push_back({"bare, shuffled", {}});
-  result.back().options = {Duration{1000},         false,          false, false, false, false, false,
-                           WindowExtraction::none, kNeverMeasured, 0,     17};
+  Options bare{Duration{1000},         false,          false, false, false, false, false, false,
+               WindowExtraction::none, kNeverMeasured, 0,     17};
+  result.push_back({"bare, shuffled", bare});
   return result;
 }
 

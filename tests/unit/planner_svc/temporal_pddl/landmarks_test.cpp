@@ -114,7 +114,7 @@ TEST(LandmarksOfRandomTasks, EveryPlanMakesEachTrue) {
     const LandmarkCount count(task, ff, watch);
     Statistics statistics;
     Options options;
-    BestFirstSearch search(task, ff, options, ActionSteps::as_needed, watch, statistics);
+    BestFirstSearch search(task, ff, options, SearchStyle{}, watch, statistics);
     const auto outcome = search.run(500);
     if (!outcome || !outcome->plan) continue;
     std::vector<bool> held(ff.relaxed().propositions(), false);

@@ -24,14 +24,14 @@ Snaps snaps(std::initializer_list<std::size_t> numbers) {
 
 void push_one(OpenList& open, Priority by_plan, Priority by_landmarks, bool preferred, std::size_t parent) {
   const Snaps only = snaps({7});
-  open.push(by_plan, by_landmarks, NodeId(parent), only, preferred ? only : Snaps{});
+  open.push({by_plan, by_landmarks, kAny}, NodeId(parent), only, preferred ? only : Snaps{});
 }
 
 TEST(OpenList, EachSuccessorComesOnce) {
-  for (const auto sharing : {OpenList::Sharing::one_queue, OpenList::Sharing::all_queues}) {
-    OpenList open(sharing);
+  for (const auto kinds : {OpenList::Kinds{}, OpenList::Kinds{true, false}, OpenList::Kinds{true, true}}) {
+    OpenList open(kinds);
     for (std::size_t i = 0; i < 10; ++i)
-      open.push({1, 0}, kAny, NodeId(i), snaps({1, 2, 3, 4, 5}), snaps({2, 5}));
+      open.push({{1, 0}, kAny, kAny}, NodeId(i), snaps({1, 2, 3, 4, 5}), snaps({2, 5}));
     std::set<std::pair<NodeId, SnapId>> seen;
     while (const auto entry = open.pop()) EXPECT_TRUE(seen.emplace(entry->parent, entry->snap).second);
     EXPECT_EQ(seen.size(), 50u);
@@ -39,7 +39,7 @@ TEST(OpenList, EachSuccessorComesOnce) {
 }
 
 TEST(OpenList, PreferredTakeTurnsAndGoFirstAfterProgress) {
-  OpenList open(OpenList::Sharing::one_queue);
+  OpenList open({});
   for (std::size_t i = 0; i < 10; ++i) {
     push_one(open, {1, 0}, kAny, true, 100 + i);
     push_one(open, {1, 0}, kAny, false, i);
@@ -53,7 +53,7 @@ TEST(OpenList, PreferredTakeTurnsAndGoFirstAfterProgress) {
 }
 
 TEST(OpenList, TheBestByPlanAndTheBestByLandmarksTakeTurns) {
-  OpenList open(OpenList::Sharing::all_queues);
+  OpenList open({.by_landmarks = true});
   for (std::size_t i = 0; i < 10; ++i) {
     const auto rank = static_cast<std::int64_t>(i);
     push_one(open, {rank, 0}, {10 - rank, 0}, false, i);
@@ -65,7 +65,7 @@ TEST(OpenList, TheBestByPlanAndTheBestByLandmarksTakeTurns) {
 }
 
 TEST(OpenList, StreaksOfYoungestAndOldestAmongThePreferred) {
-  OpenList open(OpenList::Sharing::one_queue);
+  OpenList open({});
   for (std::size_t i = 0; i < 1000; ++i) push_one(open, {1, 4}, kAny, true, i);
   push_one(open, {1, 3}, kAny, true, 5000);
   EXPECT_EQ(open.pop()->parent, NodeId(std::size_t{5000}));
@@ -82,11 +82,11 @@ TEST(OpenList, StreaksOfYoungestAndOldestAmongThePreferred) {
 }
 
 TEST(OpenList, HoldsNothingOfWhatHasBeenTried) {
-  OpenList open(OpenList::Sharing::all_queues);
+  OpenList open({.by_landmarks = true});
   const auto fill_and_empty = [&] {
     for (std::size_t parent = 0; parent < 100; ++parent) {
       const auto rank = static_cast<std::int64_t>(parent);
-      open.push({rank, 0}, {-rank, 0}, NodeId(parent), snaps({1, 2, 3}), snaps({1}));
+      open.push({{rank, 0}, {-rank, 0}, kAny}, NodeId(parent), snaps({1, 2, 3}), snaps({1}));
     }
     const std::size_t full = open.bytes();
     while (open.pop()) {
@@ -101,13 +101,18 @@ TEST(OpenList, HoldsNothingOfWhatHasBeenTried) {
 // The same turns as with a queue of single entries for each kind, entries tried before left out.
 TEST(OpenList, AgreesWithQueuesOfSingleEntries) {
   struct Queue {
-    bool preferred, by_landmarks;
+    bool preferred;
+    Priority Ranks::*rank;
     std::int64_t served = 0;
     std::map<Priority, std::deque<std::pair<NodeId, SnapId>>> ranks = {};
   };
   std::mt19937_64 random(1);
-  OpenList open(OpenList::Sharing::all_queues);
-  std::vector<Queue> queues{{true, false}, {false, false}, {true, true}, {false, true}};
+  OpenList open({true, true});
+  std::vector<Queue> queues;
+  for (const auto rank : {&Ranks::by_plan, &Ranks::by_landmarks, &Ranks::by_novelty}) {
+    queues.push_back({true, rank});
+    queues.push_back({false, rank});
+  }
   std::set<std::pair<NodeId, SnapId>> tried;
   const auto expected = [&]() -> std::optional<std::pair<NodeId, SnapId>> {
     while (true) {
@@ -133,12 +138,12 @@ TEST(OpenList, AgreesWithQueuesOfSingleEntries) {
     }
     std::ranges::shuffle(successors, random);
     const auto rank = [&] { return static_cast<std::int64_t>(random() % 4); };
-    const Priority by_plan{rank(), rank()}, by_landmarks{rank(), 0};
-    open.push(by_plan, by_landmarks, NodeId(parent), successors, preferred);
+    const Ranks ranks{{rank(), rank()}, {rank(), 0}, {-rank(), rank()}};
+    open.push(ranks, NodeId(parent), successors, preferred);
     for (Queue& queue : queues) {
       for (const SnapId snap : successors) {
         if (queue.preferred && !std::ranges::binary_search(preferred, snap)) continue;
-        queue.ranks[queue.by_landmarks ? by_landmarks : by_plan].emplace_back(NodeId(parent), snap);
+        queue.ranks[ranks.*queue.rank].emplace_back(NodeId(parent), snap);
       }
     }
     if (parent % 50 == 0) {
