@@ -29,7 +29,7 @@ std::uint64_t hash(std::span<const Word> key) {
 
 std::optional<ResourceNeed> ResourceNeed::measure(const Task& task, TimelessSpace space,
                                                   const Resource& resource, std::size_t max_states,
-                                                  const std::function<void()>& step) {
+                                                  const std::function<void(std::size_t)>& step) {
   ResourceNeed result(std::move(space));
   if (!result.explore(task, resource, max_states, step)) return std::nullopt;
   result.measure_back(step);
@@ -38,7 +38,7 @@ std::optional<ResourceNeed> ResourceNeed::measure(const Task& task, TimelessSpac
 
 // In order of what is taken: when the states get too many, all within some amount are known.
 bool ResourceNeed::explore(const Task& task, const Resource& resource, std::size_t max_states,
-                           const std::function<void()>& step) {
+                           const std::function<void(std::size_t)>& step) {
   const double left = resource.left(task, task.initial_state);
   Queue queue;
   const auto reach = [&](std::span<const Word> key, double taken) {
@@ -61,7 +61,7 @@ bool ResourceNeed::explore(const Task& task, const Resource& resource, std::size
       beyond_ = taken;
       return taken > left + 1e-6 * (1 + std::abs(left));
     }
-    step();
+    step(bytes_while_measured(queue.size()));
     settled_[node] = true;
     ++settled;
     const auto here = key(node);
@@ -77,7 +77,7 @@ bool ResourceNeed::explore(const Task& task, const Resource& resource, std::size
   return true;
 }
 
-void ResourceNeed::measure_back(const std::function<void()>& step) {
+void ResourceNeed::measure_back(const std::function<void(std::size_t)>& step) {
   // The edges into each node, next to each other.
   std::vector<std::uint32_t> first(taken_.size() + 1, 0);
   for (const Edge& edge : edges_) ++first[edge.to + 1];
@@ -87,6 +87,9 @@ void ResourceNeed::measure_back(const std::function<void()>& step) {
   for (const Edge& edge : edges_) incoming[place[edge.to]++] = {edge.from, edge.taken};
   edges_ = {};
   needs_.assign(taken_.size(), kInfinite);
+  const std::size_t while_measured = bytes_while_measured(0) + first.capacity() * sizeof(first.front()) +
+                                     place.capacity() * sizeof(place.front()) +
+                                     incoming.capacity() * sizeof(incoming.front());
   Queue queue;
   for (std::uint32_t node = 0; node < needs_.size(); ++node) {
     if (!space_.is_goal(key(node))) continue;
@@ -97,7 +100,7 @@ void ResourceNeed::measure_back(const std::function<void()>& step) {
     const auto [need, node] = queue.top();
     queue.pop();
     if (need > needs_[node]) continue;
-    step();
+    step(while_measured + queue.size() * sizeof(Queue::value_type));
     for (std::size_t i = first[node]; i < first[node + 1]; ++i) {
       const auto [from, taken] = incoming[i];
       if (need + taken >= needs_[from]) continue;
@@ -118,6 +121,12 @@ double ResourceNeed::of(StateView state, std::span<const ActionId> running) {
 std::size_t ResourceNeed::bytes() const {
   return keys_.capacity() * sizeof(Word) + slots_.capacity() * sizeof(std::uint32_t) +
          needs_.capacity() * sizeof(double);
+}
+
+std::size_t ResourceNeed::bytes_while_measured(std::size_t queued) const {
+  return bytes() + taken_.capacity() * sizeof(double) + settled_.capacity() / 8 +
+         2 * edges_.capacity() * sizeof(Edge) +  // when they grow, and when they are sorted
+         queued * sizeof(Queue::value_type);
 }
 
 std::size_t ResourceNeed::slot_of(std::span<const Word> wanted) const {

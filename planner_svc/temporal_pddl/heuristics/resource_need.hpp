@@ -18,9 +18,10 @@ namespace roci::planner::temporal_pddl {
 class ResourceNeed {
  public:
   // `left`: how much may be taken from the initial state on. None: more than max_states states lie within it.
-  // `step` is called for each state and may throw.
+  // `step` is called for each state with the bytes in use, and may throw.
   static std::optional<ResourceNeed> measure(const Task& task, TimelessSpace space, const Resource& resource,
-                                             std::size_t max_states, const std::function<void()>& step);
+                                             std::size_t max_states,
+                                             const std::function<void(std::size_t)>& step);
 
   // What a plan through this state takes from here on, at least. Infinite: more than there ever was. 0 where
   // nothing is known.
@@ -40,11 +41,12 @@ class ResourceNeed {
   };
 
   bool explore(const Task& task, const Resource& resource, std::size_t max_states,
-               const std::function<void()>& step);
-  void measure_back(const std::function<void()>& step);
+               const std::function<void(std::size_t)>& step);
+  void measure_back(const std::function<void(std::size_t)>& step);
   std::span<const Word> key(std::uint32_t node) const {
     return std::span(keys_).subspan(node * space_.key_words(), space_.key_words());
   }
+  std::size_t bytes_while_measured(std::size_t queued) const;
   std::size_t slot_of(std::span<const Word> key) const;
   std::uint32_t intern(std::span<const Word> key);
 

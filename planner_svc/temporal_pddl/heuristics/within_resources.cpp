@@ -54,8 +54,13 @@ void WithinResources::measure() {
 
 // All goals at once; or half of them and the other half, if that is too much.
 void WithinResources::measure(const Resource& resource, std::span<const FactId> goals) {
-  auto need =
-      ResourceNeed::measure(task_, TimelessSpace(task_, goals), resource, kMaxStates, [&] { watch_.step(); });
+  std::size_t known = 0;
+  for (const Measured& measured : needs_) known += measured.need.bytes();
+  const auto step = [&](std::size_t bytes) {
+    watch_.step();
+    watch_.memory_on_top(known + bytes);
+  };
+  auto need = ResourceNeed::measure(task_, TimelessSpace(task_, goals), resource, kMaxStates, step);
   if (need) {
     needs_.push_back({&resource, std::move(*need)});
     return;

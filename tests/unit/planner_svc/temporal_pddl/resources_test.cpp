@@ -124,6 +124,19 @@ struct Tour {
   }
 };
 
+TEST(Resources, WhileItIsMeasuredTheBytesInUseAreTold) {
+  std::mt19937_64 random(5);
+  const Tour tour(random, 6);
+  const auto grounding = grounded(tour.with_fuel(1000));
+  const auto resources = find_resources(grounding.task);
+  std::size_t most = 0;
+  const auto need =
+      ResourceNeed::measure(grounding.task, TimelessSpace(grounding.task, {}), resources.front(), 10000,
+                            [&](std::size_t bytes) { most = std::max(most, bytes); });
+  ASSERT_TRUE(need);
+  EXPECT_GT(most, need->bytes());
+}
+
 TEST(Resources, TheNeedIsThatOfTheBestOrder) {
   std::mt19937_64 random(5);
   for (int round = 0; round < 20; ++round) {
@@ -132,7 +145,7 @@ TEST(Resources, TheNeedIsThatOfTheBestOrder) {
     const auto resources = find_resources(grounding.task);
     ASSERT_EQ(resources.size(), 1u);
     auto need = ResourceNeed::measure(grounding.task, TimelessSpace(grounding.task, {}), resources.front(),
-                                      10000, [] {});
+                                      10000, [](std::size_t) {});
     ASSERT_TRUE(need);
     EXPECT_EQ(need->at_first(), tour.shortest());
     EXPECT_EQ(need->of(grounding.task.initial_state, {}), tour.shortest());
@@ -182,10 +195,12 @@ TEST(Resources, HalfOfTheGoalsWhereAllAreTooMany) {
   const Resource resource = find_resources(grounding.task).front();
   const auto& goals = grounding.task.goals.front().facts;
   const auto all = [&](std::size_t states) {
-    return ResourceNeed::measure(grounding.task, TimelessSpace(grounding.task, {}), resource, states, [] {});
+    return ResourceNeed::measure(grounding.task, TimelessSpace(grounding.task, {}), resource, states,
+                                 [](std::size_t) {});
   };
   const auto some = [&](std::span<const FactId> of) {
-    return ResourceNeed::measure(grounding.task, TimelessSpace(grounding.task, of), resource, 1000, [] {});
+    return ResourceNeed::measure(grounding.task, TimelessSpace(grounding.task, of), resource, 1000,
+                                 [](std::size_t) {});
   };
   EXPECT_FALSE(all(50));
   const auto whole = all(1000);
