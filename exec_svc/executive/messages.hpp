@@ -102,6 +102,7 @@ enum class BreakReason {
   none,
   late_start,         ///< an activity's latest start has passed (R49)
   activity_failed,    ///< its command, a condition, a wait or its owner failed; the retries are used up
+  refused_for_good,   ///< its owner has no such command or component: no other try will be taken either
   deadline_passed,    ///< LatenessPolicy::deadline: still running at the latest next change of its timeline
   ordering_violated,  ///< an end was observed before an event that the plan orders before it
   decision_missing,   ///< no answer in time

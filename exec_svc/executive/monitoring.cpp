@@ -56,7 +56,11 @@ bool PlanRun::take_ack(const CommandAck& ack, Time now) {
       enter(activity, Phase::settling, now);
       return true;
     case CommandStage::rejected:
-      fail_or_retry(activity, now, with_reason("rejected", ack));
+      if (ack.code == "unknown-command" || ack.code == "unknown-component") {
+        fail(activity, now, BreakReason::refused_for_good, with_reason("rejected", ack), false);
+      } else {
+        fail_or_retry(activity, now, with_reason("rejected", ack));
+      }
       return true;
     case CommandStage::failed:
       fail_or_retry(activity, now, with_reason("failed", ack));

@@ -219,6 +219,10 @@ void Reactor::follow_plan(Time now) {
   if (outcome.kind == OutcomeKind::broken) {
     break_plan(now, (outcome.activity.empty() ? "" : outcome.activity + ": ") + outcome.cause);
     if (wanted_ && outcome.reason == BreakReason::activity_failed) count_failure(now, outcome);
+    if (wanted_ && outcome.reason == BreakReason::refused_for_good) {
+      give_up(goals_behind(executive_.plan(), outcome.activity, goals_),
+              outcome.activity + " will never be taken: " + outcome.cause);
+    }
   } else if (outcome.kind == OutcomeKind::finished && !meanwhile_) {
     note(NoteLevel::info, "plan.finished", "plan " + std::to_string(plan_version_) + " finished");
     phase_ = Phase::idle;

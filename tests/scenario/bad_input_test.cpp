@@ -134,6 +134,7 @@ struct Surprise {
   const char* right;
   const char* wrong;
   const char* told;
+  const char* tries = "";
 };
 
 void PrintTo(const Surprise& surprise, std::ostream* out) { *out << surprise.name; }
@@ -175,18 +176,21 @@ TEST_P(NeverTaken, FailsItsGoalAloneAndIsTold) {
   EXPECT_EQ(summary["goals"].value("achieved", 0), 2) << summary.dump();
   EXPECT_EQ(summary["goals"].value("failed", 0), 1) << summary.dump();
   EXPECT_THAT(ended.output, AllOf(HasSubstr("goal.failed: hard goal ground/ridge failed: "),
-                                  HasSubstr("failed 8 times in a row"), HasSubstr(surprise.told)));
+                                  HasSubstr(surprise.tries), HasSubstr(surprise.told)));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Surprises, NeverTaken,
     ::testing::Values(
         Surprise{"unknown_component", "mission.yaml", ": camera", ": eye",
-                 "[unknown-component]: no component 'eye'; known: nav, arm, camera, gripper, radio"},
+                 "[unknown-component]: no component 'eye'; known: nav, arm, camera, gripper, radio",
+                 "will never be taken"},
         Surprise{"unknown_command", "mission.yaml", "command: image", "command: photograph",
-                 "[unknown-command]: camera has no command 'photograph'; known: image, stop"},
+                 "[unknown-command]: camera has no command 'photograph'; known: image, stop",
+                 "will never be taken"},
         Surprise{"unknown_owner", "mission.yaml", "take-image: {owner: sim_svc",
-                 "take-image: {owner: eye_svc", "command not answered by eye_svc within 5 s"}),
+                 "take-image: {owner: eye_svc", "command not answered by eye_svc within 5 s",
+                 "failed 8 times in a row"}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -32,7 +32,7 @@ on() {  # host command…
   ip netns exec roci-$1-$$ timeout 100 "${@:2}"
 }
 launch() {  # host services options…; in a subshell, whose place it takes
-  exec ip netns exec roci-$1-$$ timeout 100 "$bin/roci-launch" "$mission" --dds "$(vendor $1)" "${network[@]}" --address ${address[$1]} --services $2 --headless --json \
+  exec ip netns exec roci-$1-$$ timeout 250 "$bin/roci-launch" "$mission" --dds "$(vendor $1)" "${network[@]}" --address ${address[$1]} --services $2 --headless --json \
     --clock $clock --speed $speed --run-folder "$folder/$1" "${@:3}" >"$folder/$1.summary" 2>"$folder/$1.log"
 }
 vendor() {  # host

@@ -133,6 +133,24 @@ TEST_F(ReactorTest, AComponentThatKeepsFailingGetsTimeThenItsGoalsGoAlone) {
   EXPECT_EQ(calls[8] - calls[7], origin_and_image);
 }
 
+TEST_F(ReactorTest, ACommandThatItsOwnerDoesNotKnowCostsItsGoalAtOnceAndNoOther) {
+  const Planner all = planner;
+  planner = [&, all](const PlanCall& call) {
+    PlanAnswer out = all(call);
+    if (out.plan.activities.front().arguments.front().value == "image-a") {
+      other_events.emplace(now + seconds(6), [this] {
+        pending.acks.push_back({"p1.1-take-image", 1, CommandStage::rejected, "unknown-command", "no such"});
+      });
+    }
+    return out;
+  };
+  run(30, robot_and({photo("a"), photo("b")}));
+  EXPECT_EQ(reactor.goals().find({"ground", "a"})->state, GoalState::failed);
+  EXPECT_THAT(reasons["a"], HasSubstr("p1.1-take-image will never be taken: rejected"));
+  run(1000, {});
+  EXPECT_EQ(reactor.goals().find({"ground", "b"})->state, GoalState::achieved);
+}
+
 TEST_F(ReactorTest, AComponentThatRecoversInTimeLosesNoGoal) {
   camera_works = false;
   run(150, robot_and({photo("a")}));

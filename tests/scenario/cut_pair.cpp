@@ -1,0 +1,52 @@
+#include "tests/scenario/cut_pair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "services/domain_claim.hpp"
+#include "tests/scenario/flight.hpp"
+
+namespace roci::scenario {
+namespace {
+
+// Goals, by the status of a flight that goes on, or by the summary of the host that led at the end.
+int achieved(std::map<std::string, Step>& steps) {
+  if (const nlohmann::json& status = steps["achieved"].printed; status.is_object())
+    return static_cast<int>(std::ranges::count_if(
+        status["goals"], [](const auto& goal) { return goal.value("state", "") == "achieved"; }));
+  int most = 0;
+  for (const char* host : {"first", "second"}) {
+    const nlohmann::json& summary = steps[host].printed;
+    if (summary.is_object()) most = std::max(most, summary["goals"].value("achieved", 0));
+  }
+  return most;
+}
+
+}  // namespace
+
+void PrintTo(const Cut& cut, std::ostream* out) { *out << cut.where << " over " << cut.dds; }
+
+void expect_nothing_lost(const Cut& cut) {
+  const services::DomainClaim domain;
+  const Ended ended =
+      run("timeout 280 " ROCI_SOURCE_DIR "/tests/scenario/cut_pair.sh " ROCI_BINARY_DIR
+          "/bin " ROCI_SOURCE_DIR "/missions/planetary " +
+          std::string(cut.dds) + " " + std::to_string(domain.id()) + " " + cut.where + " " + cut.clock);
+  auto steps = steps_of(ended.output);
+  for (const char* name : {"flying", "cut", "healed"})
+    ASSERT_TRUE(steps[name].printed.is_object()) << name << "\n" << ended.output;
+  EXPECT_EQ(steps["cut"].printed["executive"].value("leader", ""), "second") << ended.output;
+  EXPECT_EQ(steps["add"].exit_code, 0);
+  EXPECT_NE(steps["add"].printed.value("state", ""), "rejected");
+  EXPECT_TRUE(steps["healed"].printed["executive"].value("standby_ready", false)) << ended.output;
+  EXPECT_EQ(achieved(steps), 4) << "the three of the mission and the one of meanwhile\n" << ended.output;
+  ASSERT_TRUE(steps["begun"].printed.is_array());
+  std::set<std::pair<std::string, int>> begun;
+  for (const nlohmann::json& command : steps["begun"].printed)
+    EXPECT_TRUE(begun.emplace(command.value("activity", ""), command.value("attempt", 0)).second) << command;
+}
+
+}  // namespace roci::scenario

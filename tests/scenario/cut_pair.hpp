@@ -1,0 +1,20 @@
+// A pair of executives on two hosts that is cut apart in flight, over real (virtual) cables.
+#pragma once
+
+#include <ostream>
+
+namespace roci::scenario {
+
+struct Cut {
+  const char* where;  // see cut_pair.sh
+  const char* dds;
+  const char* clock;  // and speed
+};
+
+void PrintTo(const Cut& cut, std::ostream* out);
+
+// Whoever leads meanwhile takes a goal in, nothing is lost when they are joined again, and nothing is done
+// twice.
+void expect_nothing_lost(const Cut& cut);
+
+}  // namespace roci::scenario
