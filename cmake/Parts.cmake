@@ -3,7 +3,7 @@
 #   roci_library(NAME core_pddl HELP "..." SOURCES a.cpp b.cpp DEPENDS core_x PRIVATE_DEPENDS yaml-cpp)
 #   roci_program(NAME roci-plan HELP "..." SOURCES main.cpp DEPENDS planner_core)      installed to bin/
 #   roci_plugin (NAME roci_transport_inproc HELP "..." SOURCES ... DEPENDS ...)        installed to lib/rocinante/
-#   roci_test   (NAME unit_pddl SOURCES parser_test.cpp DEPENDS core_pddl [LABELS contract] [SERIAL])
+#   roci_test   (NAME unit_pddl SOURCES parser_test.cpp DEPENDS core_pddl [LABEL contract] [SERIAL])
 #
 # Headers are included from the top of the tree: #include "core/pddl/parser.hpp".
 
@@ -13,7 +13,7 @@ set_property(GLOBAL PROPERTY ROCI_PARTS "")
 add_custom_target(programs)
 
 function(_roci_part target)
-  cmake_parse_arguments(PART "" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(PART "" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   if(NOT PART_HELP)
     message(FATAL_ERROR "${target}: every part says in HELP what it is for")
   endif()
@@ -50,17 +50,17 @@ find_package(GTest REQUIRED)
 include(GoogleTest)
 
 function(roci_test)
-  cmake_parse_arguments(PART "SERIAL" "NAME;HELP" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(PART "SERIAL" "NAME;HELP;LABEL" "SOURCES;DEPENDS" ${ARGN})
   add_executable(${PART_NAME} ${PART_SOURCES})
   set_target_properties(${PART_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
   target_include_directories(${PART_NAME} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_compile_definitions(${PART_NAME} PRIVATE ROCI_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                   ROCI_BINARY_DIR="${PROJECT_BINARY_DIR}")
   target_link_libraries(${PART_NAME} PRIVATE ${PART_DEPENDS} GTest::gtest_main GTest::gmock roci_warnings)
-  if(NOT PART_LABELS)
-    set(PART_LABELS unit)
+  if(NOT PART_LABEL)
+    set(PART_LABEL unit)
   endif()
-  set(properties LABELS "${PART_LABELS}" TIMEOUT 300)
+  set(properties LABELS ${PART_LABEL} TIMEOUT 300)  # one: gtest_discover_tests keeps no lists
   if(PART_SERIAL)
     list(APPEND properties RUN_SERIAL TRUE)
   endif()

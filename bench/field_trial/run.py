@@ -54,7 +54,8 @@ def first_plan(programs: Programs, record: Record) -> None:
 
 def examine(programs: Programs, record: Record, folder: Path, longer_s: float) -> None:
     seed = record.scenario.seed
-    failed = [call for call in record.flight.calls if call.verdict != "solved"]
+    # Who cancels a call wants no plan of it.
+    failed = [call for call in record.flight.calls if call.verdict not in ("solved", "cancelled")]
     record.looks = [look_again(programs, seed, call, longer_s) for call in failed]
     for look in record.looks:
         if look.contradiction:
