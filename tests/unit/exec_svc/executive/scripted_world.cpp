@@ -29,8 +29,13 @@ std::string name_of(OutcomeKind kind) {
 }
 
 std::string name_of(BreakReason reason) {
-  static constexpr std::array names{
-      "none", "late_start", "activity_failed", "deadline_passed", "ordering_violated", "decision_missing"};
+  static constexpr std::array names{"none",
+                                    "late_start",
+                                    "activity_failed",
+                                    "refused_for_good",
+                                    "deadline_passed",
+                                    "ordering_violated",
+                                    "decision_missing"};
   return names.at(static_cast<std::size_t>(reason));
 }
 
