@@ -150,7 +150,8 @@ def read_journal(flight: Flight) -> None:
             GoalEnd(f"{issuer}/{name}", name, CLASSES[wish["class"]], wish["utility"], STATES[state], reason, place)
         )
     trace_ends(flight)
-    read_calls(flight, [(time_s, text) for time_s, kind, text in records if kind == "call"])
+    # Of kind call are also the cancels, without a problem.
+    read_calls(flight, [(time_s, text) for time_s, kind, text in records if kind == "call" and text.startswith("(")])
     flight.branches = branches(records, flight.events)
     flight.first_plan_s = first_makespan(records)
     flight.faults += broken_invariants(flight, records)
