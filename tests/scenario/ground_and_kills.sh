@@ -15,7 +15,7 @@ step() {  # name arguments…: one call of roci
   printf '%s\t%s\t%s\n' "$name" $? "$output"
 }
 
-"$bin/roci-launch" "$mission" --dds "$dds" --domain "$domain" --speed 400 --headless --json \
+"$bin/roci-launch" "$mission" --dds "$dds" --domain "$domain" --speed 200 --headless --json \
   --run-folder "$folder/run" >"$folder/summary" &
 launcher=$!
 step add goal add more photo x=110 y=100
