@@ -1,7 +1,5 @@
 // roci-plan DOMAIN PROBLEM [--time S | --cpu-time S] [--evaluations N] [--memory MB] [--functions FILE]
-// [--stats FILE]
-// [--json]
-//           [--seed N]
+//           [--remaining PLAN] [--stats FILE] [--json] [--seed N]
 //
 // The plan goes to standard output, what is wrong to standard error, the verdict into the exit code
 // (docs/exit-codes.md).

@@ -104,13 +104,8 @@ TEST_P(CallCancel, WhileItSearchesLive) {
   EXPECT_THAT(verdicts, ElementsAre(v1::VERDICT_CANCELLED, v1::VERDICT_SOLVED));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Transports, CallCancel,
-    ::testing::Values(std::pair{"inproc", RoadVendors{}},
-                      std::pair{"fastdds", RoadVendors{"fastdds", "fastdds", "fastdds"}},
-                      std::pair{"cyclonedds", RoadVendors{"cyclonedds", "cyclonedds", "cyclonedds"}},
-                      std::pair{"mixed", RoadVendors{"fastdds", "cyclonedds", "fastdds"}}),
-    [](const auto& test) { return std::string(test.param.first); });
+INSTANTIATE_TEST_SUITE_P(Transports, CallCancel, ::testing::ValuesIn(kRoadTransports),
+                         [](const auto& test) { return std::string(test.param.first); });
 
 }  // namespace
 }  // namespace roci::planner

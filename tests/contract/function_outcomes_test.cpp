@@ -171,13 +171,8 @@ TEST_P(FunctionOutcomes, TheOwnerDiesDuringTheCall) {
       "a a");
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Transports, FunctionOutcomes,
-    ::testing::Values(std::pair{"inproc", RoadVendors{}},
-                      std::pair{"fastdds", RoadVendors{"fastdds", "fastdds", "fastdds"}},
-                      std::pair{"cyclonedds", RoadVendors{"cyclonedds", "cyclonedds", "cyclonedds"}},
-                      std::pair{"mixed", RoadVendors{"fastdds", "cyclonedds", "fastdds"}}),
-    [](const auto& test) { return std::string(test.param.first); });
+INSTANTIATE_TEST_SUITE_P(Transports, FunctionOutcomes, ::testing::ValuesIn(kRoadTransports),
+                         [](const auto& test) { return std::string(test.param.first); });
 
 }  // namespace
 }  // namespace roci::planner

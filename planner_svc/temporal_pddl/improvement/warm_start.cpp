@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/pddl/printer.hpp"
 #include "planner_svc/temporal_pddl/improvement/completion.hpp"
 #include "planner_svc/temporal_pddl/improvement/replay.hpp"
 
@@ -15,12 +16,6 @@ namespace {
 
 constexpr CompletionRule kRule{true, false, true, 5, 100};
 constexpr Quality kAnyQuality{std::numeric_limits<std::int64_t>::max(), kNever, 0, 0};
-
-std::string application(const pddl::Atom& action) {
-  std::string text = "(" + action.symbol;
-  for (const pddl::Term& argument : action.arguments) text += " " + argument.name;
-  return text + ")";
-}
 
 // The snap actions of the steps that the task knows, by time, ends before starts.
 std::vector<SnapId> snaps_of(const Task& task, std::span<const pddl::PlanStep> remaining) {
@@ -33,7 +28,7 @@ std::vector<SnapId> snaps_of(const Task& task, std::span<const pddl::PlanStep> r
   };
   std::vector<Event> events;
   for (const pddl::PlanStep& step : remaining) {
-    const auto found = known.find(application(step.action));
+    const auto found = known.find(pddl::print(step.action));
     if (found == known.end()) continue;
     const Action& action = task.actions[found->second];
     events.push_back({step.start, true, action.start});

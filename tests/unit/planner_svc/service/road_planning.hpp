@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "planner_svc/planner_service.hpp"
@@ -20,6 +21,13 @@ struct RoadVendors {
   std::string planner = "inproc";
   std::string owner = "inproc";
 };
+
+// By name: one transport for all, and two vendors at once.
+inline const std::vector<std::pair<const char*, RoadVendors>> kRoadTransports = {
+    {"inproc", {}},
+    {"fastdds", {"fastdds", "fastdds", "fastdds"}},
+    {"cyclonedds", {"cyclonedds", "cyclonedds", "cyclonedds"}},
+    {"mixed", {"fastdds", "cyclonedds", "fastdds"}}};
 
 // (:modules (:module roads …)) stands in line 5.
 extern const std::string kRoadDomain;
