@@ -49,6 +49,11 @@ enum class LatenessPolicy {
 enum class CommitState { planned, committed };
 
 enum class ActivityState { waiting, dispatched, running, succeeded, failed, skipped, cancelled };
+/// It has ended, or never will start.
+constexpr bool is_over(ActivityState state) {
+  return state != ActivityState::waiting && state != ActivityState::dispatched &&
+         state != ActivityState::running;
+}
 
 struct Property {
   std::string name;

@@ -27,11 +27,6 @@ std::vector<Span> planned_spans(const FlexiblePlan& plan) {
   return out;
 }
 
-bool is_over(ActivityState state) {
-  return state != ActivityState::waiting && state != ActivityState::dispatched &&
-         state != ActivityState::running;
-}
-
 ActivityProgress progress_of(const PlanActivity& activity, const Progress& progress) {
   const auto found = progress.find(activity.id);
   return found == progress.end() ? ActivityProgress{} : found->second;

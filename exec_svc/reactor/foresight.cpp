@@ -14,11 +14,6 @@ using temporal::Time;
 using temporal::Truth;
 using temporal::Value;
 
-bool is_over(ActivityState state) {
-  return state != ActivityState::waiting && state != ActivityState::dispatched &&
-         state != ActivityState::running;
-}
-
 bool asks_for_a_state(const ConditionNode& node) {
   return std::holds_alternative<bool>(node.operand) || std::holds_alternative<temporal::State>(node.operand);
 }
