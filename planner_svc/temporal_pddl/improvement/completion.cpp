@@ -107,9 +107,8 @@ bool Completion::pursue() {
       moved = false;
       for (SnapId& step : way_) {
         if (step.is_none()) continue;
-        at_ = successor_.prefix;
         kept_ = successor_;
-        if (!advance(at_, step)) {
+        if (!advance(kept_.prefix, step)) {
           std::swap(successor_, kept_);
           continue;
         }

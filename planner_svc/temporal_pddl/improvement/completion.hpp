@@ -77,7 +77,7 @@ class Completion {
   const Guide* guide_ = nullptr;
   CompletionRule rule_;
   std::vector<Entry> open_;  // a heap
-  PlanPrefix prefix_, at_;
+  PlanPrefix prefix_;
   Successor successor_, kept_;
   std::vector<SnapId> way_;
   Estimate estimate_;
