@@ -3,6 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "ground_console/cli/watch/canvas.hpp"
 #include "ground_console/lib/mission_view.hpp"
@@ -24,6 +27,17 @@ void draw_map(const MissionView& view, const Rectangle& area, Canvas& canvas);
 
 // Windows and activities over time: done, running, planned, and a line for now.
 void draw_plan(const MissionView& view, const Rectangle& area, Canvas& canvas);
+
+// A number that the plan changes: what has come about, then what is still to come; 0 where the plan began.
+struct Level {
+  std::string name;
+  std::vector<std::pair<std::int64_t, double>> changes;  // (mission time in us, value from then on), by time
+};
+std::vector<Level> levels_of(const MissionView& view);
+
+// A curve for each, over the axis of the plan: bright until now, dim beyond. Draws all of them or nothing.
+void draw_levels(const MissionView& view, const std::vector<Level>& levels, const Rectangle& area,
+                 Canvas& canvas);
 
 void draw_events(const MissionView& view, const Rectangle& area, Canvas& canvas);
 

@@ -10,6 +10,7 @@ namespace {
 constexpr std::size_t kGoals = 96;  // columns; the map takes what is left beside them
 constexpr std::size_t kMapRows = 12;
 constexpr std::size_t kEventRows = 9;
+constexpr std::size_t kLeastPlan = 8;  // rows; below that the plan takes those of the levels
 
 void draw_head(const MissionView& view, Canvas& canvas) {
   if (!view.mission()) {
@@ -62,10 +63,19 @@ Canvas watch_screen(const MissionView& view, std::size_t width, std::size_t heig
   draw_robot(view, top + 3, canvas);
   const std::size_t plan_row = top + 5;
   const std::size_t events_row = height > plan_row + kEventRows ? height - kEventRows : plan_row;
+  const std::vector<Level> levels = levels_of(view);
+  const std::size_t levels_height = levels.empty() ? 0 : levels.size() + 2;
   const std::size_t steps = view.plan() ? view.plan()->activities().size() + 2 : 0;
-  const std::size_t plan_height = std::min(steps, events_row > plan_row ? events_row - plan_row - 1 : 0);
+  const std::size_t room = events_row > plan_row ? events_row - plan_row : 0;
+  const std::size_t plan_height =
+      std::min(steps, room > levels_height + kLeastPlan ? room - levels_height - 1
+                                                        : std::max<std::size_t>(room, 1) - 1);
   draw_plan(view, {plan_row, 0, width, plan_height}, canvas);
-  const std::size_t after = plan_row + plan_height + (plan_height > 0 ? 1 : 0);
+  std::size_t after = plan_row + plan_height + (plan_height > 0 ? 1 : 0);
+  if (!levels.empty() && after + levels_height <= events_row) {
+    draw_levels(view, levels, {after, 0, width, levels_height}, canvas);
+    after += levels_height;
+  }
   draw_events(view, {after, 0, width, height > after ? height - after : 0}, canvas);
   return canvas;
 }

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ground_console/cli/watch/panels.hpp"
 #include "tests/unit/ground_console/messages.hpp"
 
 namespace roci::console {
@@ -15,6 +16,7 @@ using namespace testing;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Pair;
 
 // The image of flying_mission() as a plan that can be executed: it takes 40 s, runs since 295 s, and now is
 // 300 s.
@@ -31,7 +33,12 @@ MissionView with_an_image_under_way() {
   image.end_point(2);
   image.duration_lower_us(40'000'000);
   image.duration_upper_us(40'000'000);
-  image.impacts().resize(1);
+  image.impacts().resize(2);
+  image.impacts()[1].timeline("(battery)");
+  image.impacts()[1].kind(v1::IMPACT_DELTA);
+  image.impacts()[1].moment(v1::IMPACT_AT_START);
+  image.impacts()[1].amount().kind(v1::VALUE_NUMBER);
+  image.impacts()[1].amount().number(-40);
   image.impacts()[0].timeline("(have-image a)");
   image.impacts()[0].moment(v1::IMPACT_AT_END);
   image.impacts()[0].amount().kind(v1::VALUE_BOOLEAN);
@@ -47,6 +54,14 @@ TEST(Timelines, TellWhatWasPlannedAndWhatIsStillToCome) {
             "(have-image a)\n"
             "  00:04:50  planned   true             2.a2\n"
             "  00:05:35  projected true             2.a2\n");
+}
+
+TEST(Timelines, ThatAreNumbersOfThePlanAreItsLevels) {
+  const std::vector<Level> levels = levels_of(with_an_image_under_way());
+  ASSERT_EQ(levels.size(), 1U);
+  EXPECT_EQ(levels[0].name, "(battery)");
+  EXPECT_THAT(levels[0].changes, ElementsAre(Pair(295'000'000, -40.0)));
+  EXPECT_THAT(levels_of(MissionView()), IsEmpty());
 }
 
 TEST(Timelines, OfObservationsHaveTheNewestValueAsExecuted) {

@@ -6,6 +6,7 @@
 #include <random>
 #include <sstream>
 
+#include "ground_console/cli/watch/panels.hpp"
 #include "ground_console/cli/watch/screen.hpp"
 #include "tests/unit/ground_console/messages.hpp"
 
@@ -64,6 +65,23 @@ Events
 
 TEST(WatchScreen, ShowsAMissionInFlight) {
   EXPECT_EQ(watch_screen(flying_mission(), 130, 32).plain(), kFrame);
+}
+
+TEST(WatchScreen, DrawsTheNumbersOfThePlanAsCurves) {
+  const std::vector<Level> levels{{"(battery)", {{200'000'000, -500}, {335'000'000, -2000}}},
+                                  {"(memory)", {{335'000'000, 4}}}};
+  Canvas canvas(36 + 24, 3);
+  draw_levels(flying_mission(), levels, {0, 0, 60, 3}, canvas);
+  EXPECT_THAT(lines_of(canvas.plain()),
+              ::testing::ElementsAre("Levels, as changes since the plan began",
+                                     "    (battery) -500 → -2000          █████████▆▆▆▆▆▆▆▆▆▆▆▆▆▆▁",
+                                     "    (memory) 0 → 4                  ▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁█"));
+}
+
+TEST(WatchScreen, LeavesCurvesOutThatDoNotFit) {
+  Canvas canvas(60, 3);
+  draw_levels(flying_mission(), {{"(battery)", {{0, 1}}}}, {0, 0, 60, 1}, canvas);
+  EXPECT_THAT(canvas.plain(), Not(HasSubstr("battery")));
 }
 
 TEST(WatchScreen, LeavesTheMapOutWhereItDoesNotFit) {
