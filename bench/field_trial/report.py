@@ -5,15 +5,12 @@ from __future__ import annotations
 import statistics
 from collections import Counter
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import problem
 from flights import MISSION_WORK, Call
 from long_calls import LONG_S, LongCall
 from losses import EXPLANATIONS, Loss
-
-if TYPE_CHECKING:
-    from run import Record
+from record import Record
 
 CLASSES = ["hard", "optional", "opportunistic"]
 EXAMPLES = 6

@@ -12,32 +12,19 @@ from __future__ import annotations
 import argparse
 import sys
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import report
 from drop_order import broken_drop_order
 from flights import MISSION_WORK, Flight, Programs, fly, lay_out_mission
-from hindsight import Hindsight, look_back
+from hindsight import look_back
 from long_calls import repeat_longest
-from losses import Loss, losses_of
-from scenarios import Scenario, Site, draw
-from second_look import SecondLook, decide, look_again
+from losses import losses_of
+from record import Record
+from scenarios import Site, draw
+from second_look import decide, look_again
 
 ROOT = Path(__file__).resolve().parents[2]
-
-
-@dataclass
-class Record:
-    """All that is known of one seed."""
-
-    scenario: Scenario
-    flight: Flight
-    looks: list[SecondLook] = field(default_factory=list)
-    back: Hindsight | None = None
-    losses: list[Loss] = field(default_factory=list)
-    first_plan_s: float | None = None  # makespan of the first plan (R62)
-    reference_s: float | None = None  # the shortest that there is
 
 
 def first_plan(programs: Programs, record: Record) -> None:

@@ -1,0 +1,22 @@
+"""All that is known of one seed of a field trial."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from flights import Flight
+from hindsight import Hindsight
+from losses import Loss
+from scenarios import Scenario
+from second_look import SecondLook
+
+
+@dataclass
+class Record:
+    scenario: Scenario
+    flight: Flight
+    looks: list[SecondLook] = field(default_factory=list)
+    back: Hindsight | None = None
+    losses: list[Loss] = field(default_factory=list)
+    first_plan_s: float | None = None  # makespan of the first plan (R62)
+    reference_s: float | None = None  # the shortest that there is
