@@ -16,6 +16,8 @@ import sys
 
 import scatter
 
+FLOOR_S = 0.001  # shorter times count as this: what a record resolves
+
 
 def read(path):
     if path.suffix == ".csv":
@@ -73,7 +75,7 @@ def pairs(runs, planners, ours):
             continue
         both = [(r[ours], r[peer]) for r in runs.values() if solved(r, ours) and solved(r, peer)]
         faster = sum(a["cpu_s"] <= b["cpu_s"] for a, b in both)
-        ratio = math.exp(statistics.fmean(math.log(max(b["cpu_s"], 0.01) / max(a["cpu_s"], 0.01)) for a, b in both))
+        ratio = math.exp(statistics.fmean(math.log(max(b["cpu_s"], FLOOR_S) / max(a["cpu_s"], FLOOR_S)) for a, b in both))
         big = [b["peak_rss_kb"] / a["peak_rss_kb"] for a, b in both if b["peak_rss_kb"] > 50 * 1024]
         rows.append([peer, len(both), f"{100 * faster / len(both):.0f} %", f"{ratio:.1f}",
                      f"{statistics.median(big):.1f} ({len(big)})" if big else "-",
