@@ -17,6 +17,8 @@ import sys
 import scatter
 
 FLOOR_S = 0.001  # shorter times count as this: what a record resolves
+PLOTS = [("time", lambda record: max(record["cpu_s"], FLOOR_S), scatter.seconds, "CPU time to the first plan"),
+         ("memory", lambda record: record["peak_rss_kb"] / 1024, scatter.megabytes, "Peak memory")]
 
 
 def read(path):
@@ -125,11 +127,10 @@ def main():
     print("## Solved by domain\n\n" + domains(runs, planners))
     if arguments.plots:
         arguments.plots.mkdir(parents=True, exist_ok=True)
-        for peer in planners:
-            if peer != arguments.ours:
-                for field, unit in (("cpu_s", "CPU s"), ("peak_rss_kb", "peak KiB")):
-                    name = arguments.plots / f"{arguments.ours}-{peer}-{field}.svg"
-                    name.write_text(scatter.plot(runs, arguments.ours, peer, field, unit))
+        peers = [planner for planner in planners if planner != arguments.ours]
+        for name, value, tick, title in PLOTS:
+            picture = scatter.plot(runs, arguments.ours, peers, value, tick, title)
+            (arguments.plots / f"{arguments.ours}-{name}.svg").write_text(picture)
     return 0
 
 
