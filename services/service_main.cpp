@@ -4,6 +4,8 @@
 #include <iostream>
 
 #include "core/mission/entry.hpp"
+#include "services/end_within.hpp"
+#include "services/health/sign_of_life.hpp"
 #include "services/incarnation.hpp"
 #include "services/service.hpp"
 #include "services/service_options.hpp"
@@ -16,9 +18,12 @@ namespace {
 // docs/exit-codes.md, "Services".
 enum ExitCode { kStopped = 0, kFailed = 1, kBadInput = 2, kNoTransport = 3, kClockGone = 4 };
 
-int report(const std::string& name, const std::exception& error, int code) {
-  std::cerr << name << ": " << error.what() << '\n';
-  return code;
+ExitCode code_for(const std::exception& error) {
+  const auto is = [&]<class Error>() { return dynamic_cast<const Error*>(&error) != nullptr; };
+  if (is.operator()<TransportError>()) return kNoTransport;
+  if (is.operator()<mission::FileError>() || is.operator()<std::invalid_argument>()) return kBadInput;
+  if (is.operator()<ClockGone>()) return kClockGone;
+  return kFailed;
 }
 
 int guarded(const std::string& name, const std::function<void()>& run) {
@@ -28,16 +33,20 @@ int guarded(const std::string& name, const std::function<void()>& run) {
   } catch (const CommandLineEnd& end) {
     (end.exit_code == 0 ? std::cout : std::cerr) << end.what();
     return end.exit_code;
-  } catch (const TransportError& error) {
-    return report(name, error, kNoTransport);
-  } catch (const mission::FileError& error) {
-    return report(name, error, kBadInput);
-  } catch (const std::invalid_argument& error) {
-    return report(name, error, kBadInput);
-  } catch (const ClockGone& error) {
-    return report(name, error, kClockGone);
   } catch (const std::exception& error) {
-    return report(name, error, kFailed);
+    std::cerr << name << ": " << error.what() << '\n';
+    return code_for(error);
+  }
+}
+
+// Whatever `run` leaves behind, the end of this process included, takes a bounded time from here.
+void run_and_end(const std::string& name, const std::function<void()>& run) {
+  try {
+    run();
+    end_within(kEndLimit, kStopped, name + ": its work is done");
+  } catch (const std::exception& error) {
+    end_within(kEndLimit, code_for(error), name + ": " + error.what());
+    throw;
   }
 }
 
@@ -55,10 +64,12 @@ void run_service(const ServiceOptions& options, StopSignals& signals, MakeServic
   NodeOptions node_options = options.node;
   if (options.count_incarnation)
     node_options.incarnation = next_incarnation(options.run.run_folder, node_options.name);
+  SignOfLife sign(options.notify_socket);
   Node node(node_options, connect(options.connection));
+  node.on_turn([&sign] { sign.give(); });
   const auto service = make(node, options.run);
   signals.watch([&node] { node.stop(); });
-  node.run();
+  run_and_end(node_options.name, [&node] { node.run(); });
 }
 
 int service_main(int argc, char** argv, const std::string& name, RunProcess* run) {

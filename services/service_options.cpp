@@ -54,8 +54,9 @@ void add_clock(CLI::App& app, NodeOptions& node, std::string& roster, double& ep
                  "Master: seconds that mission time stands still for a killed service to return")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_option("--incarnation", node.incarnation,
-                 "How often this service was started in this run (default: counted in the run folder, else 1)")
+  app.add_option(
+         "--incarnation", node.incarnation,
+         "How often this service was started in this run (default: counted in the run folder, else 1)")
       ->check(CLI::PositiveNumber);
 }
 
@@ -91,6 +92,7 @@ ServiceOptions parse_service_options(int argc, const char* const* argv, const st
   options.connection = resolve_connection(flags, environment, options.run.mission);
   options.connection.transport.participant = name;
   options.node.vendor = options.connection.dds;
+  options.notify_socket = environment("NOTIFY_SOCKET").value_or("");
   if (options.run.pair.empty()) options.run.pair = pair_of(environment);
   return options;
 }

@@ -15,6 +15,7 @@ struct ServiceOptions {
   RunSettings run;
   NodeOptions node;
   Connection connection;
+  std::string notify_socket;       // of its supervisor, for SignOfLife; empty: none
   bool count_incarnation = false;  // nobody gave one: it is counted in the run folder
 };
 

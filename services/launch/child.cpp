@@ -5,9 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <string_view>
 #include <system_error>
 
 namespace roci::launch {
@@ -17,7 +19,8 @@ constexpr int kCannotRun = 127;
 
 // Between fork and exec: async-signal-safe calls only. A process group of its own keeps the terminal's Ctrl-C
 // away; the launcher passes it on in the right order.
-[[noreturn]] void become(const char* program, char* const* arguments, int log, pid_t parent) {
+[[noreturn]] void become(const char* program, char* const* arguments, char* const* environment, int log,
+                         pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(kCannotRun);
   setpgid(0, 0);
@@ -26,8 +29,28 @@ constexpr int kCannotRun = 127;
   sigprocmask(SIG_SETMASK, &none, nullptr);
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
-  execv(program, arguments);
+  execve(program, arguments, environment);
   _exit(kCannotRun);
+}
+
+std::string_view name_of(std::string_view variable) { return variable.substr(0, variable.find('=')); }
+
+// This process's own, but for the variables that `more` sets.
+std::vector<std::string> environment_with(const std::vector<std::string>& more) {
+  std::vector<std::string> out = more;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const bool replaced = std::ranges::any_of(
+        more, [&](const std::string& other) { return name_of(other) == name_of(*variable); });
+    if (!replaced) out.emplace_back(*variable);
+  }
+  return out;
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
 }
 
 }  // namespace
@@ -38,16 +61,16 @@ std::string to_string(const Ending& ending) {
 }
 
 Child::Child(const std::filesystem::path& program, std::vector<std::string> arguments,
-             const std::filesystem::path& log) {
+             const std::filesystem::path& log, const std::vector<std::string>& more) {
   const int log_file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (log_file < 0) throw std::system_error(errno, std::generic_category(), "cannot write " + log.string());
-  std::vector<char*> pointers;
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
+  const auto argument_list = pointers_to(arguments);
+  auto environment = environment_with(more);
+  const auto environment_list = pointers_to(environment);
   const std::string path = program.string();
   const pid_t parent = getpid();
   pid_ = fork();
-  if (pid_ == 0) become(path.c_str(), pointers.data(), log_file, parent);
+  if (pid_ == 0) become(path.c_str(), argument_list.data(), environment_list.data(), log_file, parent);
   const int error = errno;
   close(log_file);
   if (pid_ < 0) throw std::system_error(error, std::generic_category(), "cannot start " + path);

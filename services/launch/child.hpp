@@ -19,10 +19,11 @@ std::string to_string(const Ending&);
 
 class Child {
  public:
-  // Runs `program` with `arguments` (the name first); appends its output to `log`. Throws std::system_error.
-  // To be called on the main thread, with whose end the child dies.
+  // Runs `program` with `arguments` (the name first) in this process's environment and `more` of it
+  // ("NAME=value"); appends its output to `log`. Throws std::system_error. To be called on the main thread,
+  // with whose end the child dies.
   Child(const std::filesystem::path& program, std::vector<std::string> arguments,
-        const std::filesystem::path& log);
+        const std::filesystem::path& log, const std::vector<std::string>& more = {});
   ~Child();  // kills it if it still runs
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;

@@ -62,6 +62,10 @@ Options parse_options(int argc, const char* const* argv, const services::Environ
   app.add_flag("--json", options.json, "The last line of standard output is the summary as JSON");
   app.add_flag("--standby", options.standby,
                "A second exec_svc follows the first one and takes over from it");
+  app.add_option("--watchdog", options.watchdog_s,
+                 "Seconds of silence until a service counts as hung and is replaced; 0: never")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_option("--services", service_list,
                  "Services to start on this host, separated by commas (default: all)");
   app.add_option("--roster", roster, "Services of the whole run, on all hosts (default: all)");

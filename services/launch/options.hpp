@@ -20,6 +20,7 @@ struct Options {
   bool headless = false;
   bool json = false;
   bool standby = false;               // exec_svc is one of a pair
+  double watchdog_s = 10;             // of silence until a service counts as hung; 0: never
   std::vector<std::string> services;  // started here
   std::vector<std::string> roster;    // of the whole run
   std::filesystem::path run_folder;   // empty: choose one

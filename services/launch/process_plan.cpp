@@ -6,7 +6,7 @@ namespace roci::launch {
 namespace {
 
 constexpr double kDefaultPace = 60;
-constexpr double kRestartHoldS = 10;  // more than the first pauses of RestartPolicy and a start take together
+constexpr double kRestartS = 10;  // more than the first pauses of RestartPolicy and a start take together
 
 std::string joined(const std::vector<std::string>& parts) {
   std::string text;
@@ -35,7 +35,7 @@ void add_clock(const Options& options, const std::string& service, std::int64_t 
     add("--clock", "master");
     add("--roster", joined(options.roster));
     add("--pace", to_text(pace_of(options)));
-    add("--restart-hold", to_text(kRestartHoldS));
+    add("--restart-hold", to_text(options.watchdog_s + kRestartS));
   } else {
     add("--clock", "simulated");
   }

@@ -15,6 +15,8 @@ class RestartPolicy {
   static constexpr Duration kFirstPause{0.2};
   static constexpr Duration kLongestPause{10};
   static constexpr Duration kHealthyAfter{30};
+  // Between the starts of a service whose network went out after it had run: for as long as it takes.
+  static constexpr Duration kNetworkPause{2};
 
   // The pause until the next start; nothing: give up.
   std::optional<Duration> died(Duration ran_for);

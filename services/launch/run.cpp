@@ -11,9 +11,11 @@
 
 #include "services/clock/wall.hpp"
 #include "services/domain_claim.hpp"
+#include "services/end_within.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/progress.hpp"
 #include "services/launch/run_record.hpp"
+#include "services/launch/signs_of_life.hpp"
 #include "services/launch/summary.hpp"
 #include "services/launch/supervisor.hpp"
 #include "services/transport.hpp"
@@ -109,16 +111,25 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   Progress progress(node, !options.headless);
   const services::PublishedRun published(services::runtime_folder(), record_of(options, started_unix_us));
 
+  SignsOfLife signs;
   Supervisor::Hooks hooks;
   hooks.start = [&](const std::string& service, std::uint32_t incarnation) {
     return std::make_unique<Child>(path_of(service),
                                    service_arguments(options, service, incarnation, started_unix_us),
-                                   options.run_folder / (service + ".log"));
+                                   options.run_folder / (service + ".log"),
+                                   std::vector<std::string>{"NOTIFY_SOCKET=" + signs.address()});
   };
   hooks.on_death = [&](const std::string& service, const std::string& what) {
     progress.report(v1::SEVERITY_WARNING, "service.died", service + " " + what);
   };
-  Supervisor supervisor(options.services, kClockMaster, !options.live, std::move(hooks));
+  Supervisor supervisor(options.services, kClockMaster, !options.live, Watchdog(options.watchdog_s),
+                        std::move(hooks));
+  node.on_peer_change([&](const services::PeerChange& change) {
+    // The executive that leads a pair counts its epochs as incarnations, so it cannot be told which one this
+    // is.
+    if (options.standby && change.service == kExecutive) return;
+    supervisor.watchdog().heard(change, wall::now());
+  });
   supervisor.start(wall::now());
   for (int stops = 0; !supervisor.finished();) {
     node.spin_once(kTurn);
@@ -126,6 +137,7 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
       ++stops;
       supervisor.stop(wall::now());
     }
+    for (const pid_t sender : signs.take()) supervisor.watchdog().sign(sender, wall::now());
     supervisor.turn(wall::now());
     progress.show();
   }
@@ -134,7 +146,9 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   const Summary summary = complete_summary(
       options, std::chrono::duration<double>(wall::now() - begun).count(), !supervisor.failure().has_value());
   std::cout << (options.json ? summary.json + "\n" : summary.text) << std::flush;
-  return exit_code(supervisor.failure(), summary.good);
+  const ExitCode code = exit_code(supervisor.failure(), summary.good);
+  services::end_within(services::kEndLimit, code, "roci-launch: the run is over");
+  return code;
 }
 
 }  // namespace roci::launch

@@ -16,8 +16,11 @@ constexpr double kTerminateS = 5;  // from SIGTERM to SIGKILL
 }  // namespace
 
 Supervisor::Supervisor(const std::vector<std::string>& services, std::string master, bool master_is_clock,
-                       Hooks hooks)
-    : master_(std::move(master)), master_is_clock_(master_is_clock), hooks_(std::move(hooks)) {
+                       Watchdog watchdog, Hooks hooks)
+    : master_(std::move(master)),
+      master_is_clock_(master_is_clock),
+      watchdog_(std::move(watchdog)),
+      hooks_(std::move(hooks)) {
   for (const std::string& name : services) services_[name];
 }
 
@@ -28,14 +31,27 @@ void Supervisor::start(wall::Instant now) {
 void Supervisor::launch(const std::string& name, Service& service, wall::Instant now) {
   service.restart.reset();
   service.started = now;
+  service.hung_why.clear();
   service.child = hooks_.start(name, ++service.incarnation);
+  watchdog_.started(name, service.incarnation, service.child->pid(), now);
 }
 
 void Supervisor::turn(wall::Instant now) {
   // The master first: its end explains those of the others.
   if (const auto master = services_.find(master_); master != services_.end()) look_after(*master, now);
   for (auto& entry : services_) look_after(entry, now);
+  kill_hung(now);
   wind_up(now);
+}
+
+// Its end is noticed and mended like any other. While the run ends, wind_up() has the last word.
+void Supervisor::kill_hung(wall::Instant now) {
+  for (Watchdog::Hung& hung : watchdog_.check(now)) {
+    Service& service = services_.at(hung.service);
+    if (terminate_at_ || !service.child) continue;
+    service.hung_why = std::move(hung.why);
+    service.child->signal(SIGKILL);
+  }
 }
 
 void Supervisor::look_after(std::pair<const std::string, Service>& entry, wall::Instant now) {
@@ -43,6 +59,8 @@ void Supervisor::look_after(std::pair<const std::string, Service>& entry, wall::
   if (service.child) {
     if (const auto ending = service.child->ending()) {
       service.child.reset();
+      service.ran = service.ran || watchdog_.ran(name);
+      watchdog_.ended(name);
       after_end(name, service, *ending, now);
     }
   } else if (service.restart && *service.restart <= now) {
@@ -58,11 +76,16 @@ void Supervisor::after_end(const std::string& name, Service& service, const Endi
     terminate_at_ = master_is_clock_ ? now + wall::seconds(kLeaveS) : now;
   }
   if (clean || terminate_at_) return;
-  const std::string what = to_string(ending);
+  const std::string what =
+      to_string(ending) + (service.hung_why.empty() ? "" : " (" + service.hung_why + ")");
   if (ending.exited && ending.code == kServiceClockGone)
     return fail(name, "lost the clock of the run", false, now);
   if (ending.exited && ending.code == kServiceBadInput) return fail(name, what, true, now);
-  if (ending.exited && ending.code == kServiceNoTransport) return fail(name, what, false, now);
+  if (ending.exited && ending.code == kServiceNoTransport) {
+    if (!service.ran) return fail(name, what, false, now);
+    return start_again(name, service, what + ", as long as its network is out", RestartPolicy::kNetworkPause,
+                       now);
+  }
   if (name == master_ && master_is_clock_)
     return fail(name, what + "; it is the clock of the run", false, now);
   const auto pause = service.policy.died(RestartPolicy::Duration(now - service.started));
@@ -70,7 +93,12 @@ void Supervisor::after_end(const std::string& name, Service& service, const Endi
     return fail(name, what + ", the " + std::to_string(RestartPolicy::kDeathsInARow) + "th time in a row",
                 false, now);
   }
-  service.restart = now + wall::seconds(pause->count());
+  start_again(name, service, what, *pause, now);
+}
+
+void Supervisor::start_again(const std::string& name, Service& service, const std::string& what,
+                             RestartPolicy::Duration pause, wall::Instant now) {
+  service.restart = now + wall::seconds(pause.count());
   hooks_.on_death(name, what + "; starting it again");
 }
 

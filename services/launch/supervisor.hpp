@@ -13,6 +13,7 @@
 #include "services/clock/wall.hpp"
 #include "services/launch/child.hpp"
 #include "services/launch/restart_policy.hpp"
+#include "services/launch/watchdog.hpp"
 
 namespace roci::launch {
 
@@ -38,11 +39,16 @@ class Supervisor {
     std::function<void(const std::string& service, const std::string& what)> on_death;
   };
   // `master`: with its clean end the run is over; if `master_is_clock`, with any end.
-  Supervisor(const std::vector<std::string>& services, std::string master, bool master_is_clock, Hooks);
+  Supervisor(const std::vector<std::string>& services, std::string master, bool master_is_clock, Watchdog,
+             Hooks);
 
   void start(services::wall::Instant now);  // throws what Hooks::start throws
-  void turn(services::wall::Instant now);  // looks after ended children, due restarts, and the end of the run
+  // Looks after ended and hung children, due restarts, and the end of the run.
+  void turn(services::wall::Instant now);
   void stop(services::wall::Instant now);  // asks the run to end; a second time: less politely
+
+  // Is told of every sign of life, and of whom the launcher hears.
+  Watchdog& watchdog() { return watchdog_; }
 
   bool finished() const;
   const std::optional<RunFailure>& failure() const { return failure_; }
@@ -54,10 +60,15 @@ class Supervisor {
     services::wall::Instant started;
     std::optional<services::wall::Instant> restart;
     RestartPolicy policy;
+    bool ran = false;      // any incarnation of it got as far as its loop
+    std::string hung_why;  // empty: it was not killed as hung
   };
   void launch(const std::string& name, Service&, services::wall::Instant now);
   void look_after(std::pair<const std::string, Service>&, services::wall::Instant now);
   void after_end(const std::string& name, Service&, const Ending&, services::wall::Instant now);
+  void start_again(const std::string& name, Service&, const std::string& what, RestartPolicy::Duration pause,
+                   services::wall::Instant now);
+  void kill_hung(services::wall::Instant now);
   void fail(const std::string& name, std::string what, bool bad_input, services::wall::Instant now);
   void wind_up(services::wall::Instant now);
   void signal_all(int number);
@@ -65,6 +76,7 @@ class Supervisor {
   std::map<std::string, Service> services_;
   std::string master_;
   bool master_is_clock_;
+  Watchdog watchdog_;
   Hooks hooks_;
   std::optional<RunFailure> failure_;
   // The end of the run in three stages: services leave by themselves, then SIGTERM, then SIGKILL.

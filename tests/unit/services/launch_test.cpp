@@ -199,13 +199,15 @@ class SupervisorTest : public LaunchTest {
     Supervisor::Hooks hooks;
     hooks.start = [this](const std::string& service, std::uint32_t incarnation) {
       starts.push_back(service + "#" + std::to_string(incarnation));
-      return std::make_unique<Child>("/bin/sh", std::vector<std::string>{"sh", "-c", script[service]},
-                                     folder / "log");
+      auto child = std::make_unique<Child>("/bin/sh", std::vector<std::string>{"sh", "-c", script[service]},
+                                           folder / "log");
+      pids[service] = child->pid();
+      return child;
     };
     hooks.on_death = [this](const std::string& service, const std::string& what) {
       deaths.push_back(service + " " + what);
     };
-    return {names, "sim_svc", master_is_clock, std::move(hooks)};
+    return {names, "sim_svc", master_is_clock, Watchdog(10), std::move(hooks)};
   }
   static void turn_until(Supervisor& supervisor, services::wall::Instant now,
                          const std::function<bool()>& done) {
@@ -216,6 +218,7 @@ class SupervisorTest : public LaunchTest {
   std::map<std::string, std::string> script;
   std::vector<std::string> starts;
   std::vector<std::string> deaths;
+  std::map<std::string, pid_t> pids;
 };
 
 TEST_F(SupervisorTest, ACleanEndOfAllIsTheEnd) {
@@ -263,6 +266,57 @@ TEST_F(SupervisorTest, BadInputIsNotTriedAgain) {
   ASSERT_TRUE(supervisor.failure());
   EXPECT_TRUE(supervisor.failure()->bad_input);
   EXPECT_EQ(starts.size(), 2U);
+}
+
+TEST_F(SupervisorTest, AHungServiceIsKilledAndStartedAgain) {
+  script = {{"arm_svc", "exec tail -f /dev/null"}, {"sim_svc", "exec tail -f /dev/null"}};
+  auto supervisor = make({"arm_svc", "sim_svc"}, false);
+  supervisor.start(start);
+  auto now = start;
+  for (; now < start + 59s; now += 1s) supervisor.turn(now);
+  EXPECT_THAT(deaths, ElementsAre());
+  turn_until(supervisor, start + 61s, [&] { return deaths.size() == 2; });
+  EXPECT_THAT(deaths, Contains("arm_svc was ended by Killed (hung: its loop has not turned for 60 s); "
+                               "starting it again"));
+  supervisor.turn(start + 62s);
+  EXPECT_THAT(starts, testing::UnorderedElementsAre("arm_svc#1", "sim_svc#1", "arm_svc#2", "sim_svc#2"));
+  EXPECT_FALSE(supervisor.failure());
+}
+
+TEST_F(SupervisorTest, AHungClockEndsTheRun) {
+  script = {{"sim_svc", "exec tail -f /dev/null"}};
+  auto supervisor = make({"sim_svc"});
+  supervisor.start(start);
+  auto now = start;
+  for (; now < start + 59s; now += 1s) supervisor.turn(now);
+  turn_until(supervisor, start + 61s, [&] { return supervisor.finished(); });
+  ASSERT_TRUE(supervisor.failure());
+  EXPECT_THAT(supervisor.failure()->what, HasSubstr("hung: its loop has not turned"));
+}
+
+TEST_F(SupervisorTest, ATransportThatIsMissingFromTheStartEndsTheRun) {
+  script = {{"arm_svc", "exit 3"}, {"sim_svc", "exec tail -f /dev/null"}};
+  auto supervisor = make({"arm_svc", "sim_svc"});
+  supervisor.start(start);
+  turn_until(supervisor, start, [&] { return supervisor.finished(); });
+  ASSERT_TRUE(supervisor.failure());
+  EXPECT_EQ(starts.size(), 2U);
+}
+
+// Its loop has turned once; after that there is no network for it, for longer than five deaths in a row.
+TEST_F(SupervisorTest, AServiceWaitsAsLongAsItsNetworkIsOut) {
+  script = {{"arm_svc", "exit 3"}, {"sim_svc", "exec tail -f /dev/null"}};
+  auto supervisor = make({"arm_svc", "sim_svc"});
+  supervisor.start(start);
+  supervisor.watchdog().sign(pids["arm_svc"], start);
+  auto now = start;
+  for (std::size_t death = 1; death <= 40; ++death, now += 2s) {
+    supervisor.watchdog().sign(pids["sim_svc"], now);
+    turn_until(supervisor, now, [&] { return deaths.size() == death; });
+  }
+  EXPECT_THAT(deaths.back(), HasSubstr("as long as its network is out; starting it again"));
+  EXPECT_FALSE(supervisor.failure());
+  EXPECT_EQ(starts.size(), 41U);
 }
 
 TEST_F(SupervisorTest, TheRunEndsWithItsClock) {

@@ -1,0 +1,154 @@
+// Who counts as hung, and how a process says that it is not.
+#include "services/launch/watchdog.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "services/end_within.hpp"
+#include "services/health/sign_of_life.hpp"
+#include "services/launch/signs_of_life.hpp"
+
+namespace roci::launch {
+namespace {
+
+using namespace std::chrono_literals;
+using services::PeerChange;
+using testing::Each;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class WatchdogTest : public testing::Test {
+ protected:
+  WatchdogTest() {
+    watchdog.started("arm_svc", 1, 11, start);
+    watchdog.started("sim_svc", 1, 12, start);
+    watchdog.heard({"arm_svc", 1, true, ""}, start);
+    watchdog.heard({"sim_svc", 1, true, ""}, start);
+  }
+  // Turns of the launcher until `end`, with a sign of life of `who` in each.
+  std::vector<std::string> hung_until(services::wall::Instant end, std::vector<pid_t> who) {
+    std::vector<std::string> hung;
+    for (; now <= end; now += 100ms) {
+      for (const pid_t pid : who) watchdog.sign(pid, now);
+      for (const auto& one : watchdog.check(now)) hung.push_back(one.service + " " + one.why);
+    }
+    return hung;
+  }
+
+  const services::wall::Instant start{1000s};
+  services::wall::Instant now = start;
+  Watchdog watchdog{10};
+};
+
+TEST_F(WatchdogTest, WhoseLoopTurnsIsNotHung) { EXPECT_THAT(hung_until(start + 1h, {11, 12}), IsEmpty()); }
+
+TEST_F(WatchdogTest, WhoseLoopStandsStillIsNamedOnce) {
+  EXPECT_THAT(hung_until(start + 5s, {11, 12}), IsEmpty());
+  EXPECT_THAT(hung_until(start + 15s, {12}), IsEmpty());
+  const auto hung = hung_until(start + 60s, {12});
+  ASSERT_EQ(hung.size(), 1U);
+  EXPECT_EQ(hung[0], "arm_svc hung: its loop has not turned for 10 s");
+}
+
+TEST_F(WatchdogTest, ReadingFilesBeforeTheFirstTurnMayTakeLonger) {
+  EXPECT_THAT(hung_until(start + 60s, {12}), IsEmpty());
+  EXPECT_EQ(hung_until(start + 61s, {12}).size(), 1U);
+}
+
+TEST_F(WatchdogTest, WhoIsHeardByNobodyIsHungThoughItsLoopTurns) {
+  hung_until(start + 5s, {11, 12});
+  watchdog.heard({"arm_svc", 1, false, "killed"}, now);
+  EXPECT_THAT(hung_until(start + 15s, {11, 12}), IsEmpty());
+  const auto hung = hung_until(start + 60s, {11, 12});
+  ASSERT_EQ(hung.size(), 1U);
+  EXPECT_THAT(hung[0], HasSubstr("arm_svc hung: its loop turns, but nobody has heard it for 10 s"));
+}
+
+TEST_F(WatchdogTest, WhoIsHeardAgainInTimeIsNotHung) {
+  watchdog.heard({"arm_svc", 1, false, "hung"}, now);
+  hung_until(start + 9s, {11, 12});
+  watchdog.heard({"arm_svc", 1, true, ""}, now);
+  EXPECT_THAT(hung_until(start + 60s, {11, 12}), IsEmpty());
+}
+
+TEST_F(WatchdogTest, WhoLeftOrWasReplacedIsNotHung) {
+  watchdog.heard({"arm_svc", 1, false, "left"}, now);
+  watchdog.started("sim_svc", 2, 13, now);
+  watchdog.heard({"sim_svc", 1, false, "killed"}, now);
+  watchdog.heard({"exec_svc", 1, true, ""}, now);
+  EXPECT_THAT(hung_until(start + 60s, {11, 13}), IsEmpty());
+}
+
+TEST_F(WatchdogTest, ALauncherThatHearsNobodyBlamesNobody) {
+  watchdog.heard({"arm_svc", 1, false, "killed"}, now);
+  watchdog.heard({"sim_svc", 1, false, "killed"}, now);
+  EXPECT_THAT(hung_until(start + 60s, {11, 12}), IsEmpty());
+}
+
+TEST_F(WatchdogTest, ALauncherThatStoodStillBeginsToCountAnew) {
+  hung_until(start + 5s, {11, 12});
+  now += 1h;  // stopped with Ctrl-Z; the signs of the meantime did not fit into the socket
+  EXPECT_THAT(watchdog.check(now), IsEmpty());
+  EXPECT_THAT(hung_until(now + 9s, {}), IsEmpty());
+  EXPECT_EQ(hung_until(now + 2s, {}).size(), 2U);
+}
+
+TEST_F(WatchdogTest, NoLimitNoHang) {
+  watchdog = Watchdog(0);
+  watchdog.started("arm_svc", 1, 11, start);
+  EXPECT_THAT(hung_until(start + 1h, {}), IsEmpty());
+}
+
+TEST(SignOfLife, ReachesTheSupervisorWithItsSender) {
+  SignsOfLife signs;
+  services::SignOfLife sign(signs.address());
+  EXPECT_THAT(signs.take(), IsEmpty());
+  sign.give();
+  sign.give();  // too soon
+  EXPECT_THAT(signs.take(), testing::ElementsAre(getpid()));
+}
+
+TEST(SignOfLife, NobodyNeedsToListen) {
+  services::SignOfLife("").give();
+  std::string address;
+  {
+    const SignsOfLife gone;
+    address = gone.address();
+  }
+  EXPECT_THROW(services::SignOfLife{address}, std::system_error);
+  EXPECT_THROW(services::SignOfLife{"nonsense"}, std::invalid_argument);
+  EXPECT_THROW(services::SignOfLife{"/" + std::string(200, 'x')}, std::invalid_argument);
+}
+
+TEST(SignOfLife, ASupervisorThatDoesNotReadNeverBlocksAService) {
+  const SignsOfLife signs;
+  std::vector<std::unique_ptr<services::SignOfLife>> senders;
+  for (int i = 0; i < 1000; ++i) {
+    senders.push_back(std::make_unique<services::SignOfLife>(signs.address()));
+    senders.back()->give();
+  }
+}
+
+TEST(EndWithin, EndsAProcessThatHangs) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto hang = [] {
+    services::end_within(50ms, 7, "arm_svc: its work is done");
+    for (;;) pause();
+  };
+  EXPECT_EXIT(hang(), testing::ExitedWithCode(7),
+              "arm_svc: its work is done; it did not end by itself, so it was ended");
+}
+
+TEST(EndWithin, LeavesOthersAlone) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto leave = [] {
+    services::end_within(1h, 7, "never said");
+    std::exit(3);
+  };
+  EXPECT_EXIT(leave(), testing::ExitedWithCode(3), Not(HasSubstr("never said")));
+}
+
+}  // namespace
+}  // namespace roci::launch
