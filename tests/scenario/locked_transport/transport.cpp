@@ -1,0 +1,65 @@
+// A transport that hears nobody and locks up as ROCI_LOCKED says: "write" (a write of the second second never
+// returns) or "end" (its destructor never does).
+#include "services/transport.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace roci::scenario {
+namespace {
+
+constexpr int kGoodWrites = 8;  // heartbeats come four times a second
+
+bool locks_in(const char* what) {
+  const char* where = std::getenv("ROCI_LOCKED");
+  return where != nullptr && std::string(where) == what;
+}
+
+[[noreturn]] void lock_up() {
+  for (;;) pause();
+}
+
+class LockedWriter : public services::Writer {
+ public:
+  bool write(std::span<const std::uint8_t>) override {
+    if (locks_in("write") && ++writes_ > kGoodWrites) lock_up();
+    return true;
+  }
+  bool dispose(std::span<const std::uint8_t>) override { return true; }
+  services::Guid guid() const override { return {}; }
+  int matched_readers() const override { return 0; }
+
+ private:
+  int writes_ = 0;
+};
+
+class LockedReader : public services::Reader {
+ public:
+  int matched_writers() const override { return 0; }
+};
+
+class LockedTransport : public services::Transport {
+ public:
+  ~LockedTransport() override {
+    if (locks_in("end")) lock_up();
+  }
+  std::string_view vendor() const override { return "locked"; }
+  std::unique_ptr<services::Writer> create_writer(const services::EndpointDescription&,
+                                                  services::WriterEvents) override {
+    return std::make_unique<LockedWriter>();
+  }
+  std::unique_ptr<services::Reader> create_reader(const services::EndpointDescription&,
+                                                  services::ReaderEvents) override {
+    return std::make_unique<LockedReader>();
+  }
+};
+
+}  // namespace
+}  // namespace roci::scenario
+
+extern "C" std::unique_ptr<roci::services::Transport> roci_create_transport(
+    const roci::services::TransportOptions&) {
+  return std::make_unique<roci::scenario::LockedTransport>();
+}
