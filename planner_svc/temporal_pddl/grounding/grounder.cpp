@@ -7,6 +7,7 @@
 #include "core/pddl/printer.hpp"
 #include "planner_svc/temporal_pddl/grounding/compression.hpp"
 #include "planner_svc/temporal_pddl/grounding/constant_functions.hpp"
+#include "planner_svc/temporal_pddl/grounding/envelopes.hpp"
 #include "planner_svc/temporal_pddl/grounding/instantiate.hpp"
 #include "planner_svc/temporal_pddl/grounding/lowering.hpp"
 #include "planner_svc/temporal_pddl/grounding/mutex_groups.hpp"
@@ -86,6 +87,7 @@ Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, Funct
 
   GroundModel model = instantiate(domain, problem, actions, world, explore(actions, world, watch), watch);
   extract_timed_windows(model, options.windows, options.epsilon);
+  tell_apart_envelopes(model, symbols);
   const Disjunction goal = model.goal;
   const std::vector<bool> reached = prune(model, watch);
   require_reachable_goal(problem, goal, model, reached, symbols, actions);

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/pddl/ast.hpp"
@@ -22,6 +23,9 @@ struct FunctionSymbol {
 class Symbols {
  public:
   Symbols(const pddl::Domain& domain, const pddl::Problem& problem);
+
+  // One that the model does not know, under a name for reports.
+  PredicateId add_predicate(std::string name) { return predicate_names_.push_back(std::move(name)); }
 
   ObjectId object(const std::string& name) const {
     return ObjectId(static_cast<std::size_t>(objects_.find(name)));

@@ -10,14 +10,11 @@ FfHeuristic::FfHeuristic(const Task& task, CostMeasure measure)
       numbers_(task),
       earliest_(task, relaxed_),
       supporters_(task, relaxed_, numbers_),
-      is_needed_(supporters_.propositions(), false),
-      in_plan_(relaxed_.operators(), false),
-      times_(relaxed_.operators(), 1) {}
+      plan_(task, relaxed_, numbers_, supporters_) {}
 
 void FfHeuristic::evaluate(const Situation& situation, Estimate& estimate) {
   const auto& running = situation.running;
   estimate = {};
-  forget_last();
   if (earliest_.matters()) earliest_.measure(situation);
   supporters_.begin(situation, earliest_.matters() ? &earliest_ : nullptr);
   const Goal* goal = cheapest_goal();
@@ -27,10 +24,10 @@ void FfHeuristic::evaluate(const Situation& situation, Estimate& estimate) {
     estimate.dead_end = true;
     return;
   }
-  for (const FactId fact : goal->facts) need(relaxed_.proposition(fact));
-  for (const ComparisonId comparison : numbers_.needs(*goal)) need(supporters_.proposition(comparison));
-  for (const ActionId action : running) include(task_.actions[action].end);
-  extract();
+  plan_.begin(situation.state);
+  plan_.need(*goal);
+  for (const ActionId action : running) plan_.include(task_.actions[action].end);
+  plan_.complete();
   collect(situation.timed_done, estimate);
 }
 
@@ -47,17 +44,6 @@ std::string FfHeuristic::why_too_late() {
     reason = name(task_, *never) + " cannot be reached in time: " + why;
   }
   return reason;
-}
-
-void FfHeuristic::forget_last() {
-  for (const PropositionId proposition : needed_) is_needed_[proposition] = false;
-  for (const SnapId op : plan_) {
-    in_plan_[op] = false;
-    times_[op] = 1;
-  }
-  needed_.clear();
-  to_support_.clear();
-  plan_.clear();
 }
 
 const Goal* FfHeuristic::cheapest_goal() {
@@ -82,39 +68,6 @@ const Goal* FfHeuristic::cheapest_goal() {
   return best;
 }
 
-void FfHeuristic::need(PropositionId proposition) {
-  if (is_needed_[proposition]) return;
-  is_needed_[proposition] = true;
-  needed_.push_back(proposition);
-  to_support_.push_back(proposition);
-}
-
-void FfHeuristic::include(SnapId op) {
-  if (in_plan_[op]) return;
-  in_plan_[op] = true;
-  plan_.push_back(op);
-  for (const PropositionId needed : relaxed_.needs(op)) need(needed);
-  for (const ComparisonId comparison : numbers_.needs(op)) need(supporters_.proposition(comparison));
-  const Snap& snap = task_.snaps[op];
-  if (snap.kind != SnapKind::start) return;
-  const SnapId end = task_.actions[snap.action].end;
-  if (supporters_.reaches(end)) include(end);
-}
-
-void FfHeuristic::extract() {
-  while (!to_support_.empty()) {
-    const PropositionId supported = to_support_.back();
-    const SnapId supporter = supporters_.supporter(supported);
-    to_support_.pop_back();
-    if (supporter.is_none()) continue;
-    include(supporter);
-    if (supported.index() >= relaxed_.propositions()) {
-      const ComparisonId comparison(supported.index() - relaxed_.propositions());
-      times_[supporter] = std::max(times_[supporter], supporters_.repeats(comparison));
-    }
-  }
-}
-
 bool FfHeuristic::holds_now(SnapId op) const {
   return std::ranges::all_of(relaxed_.needs(op),
                              [&](PropositionId need) { return supporters_.supporter(need).is_none(); }) &&
@@ -124,23 +77,20 @@ bool FfHeuristic::holds_now(SnapId op) const {
 }
 
 void FfHeuristic::order_plan(std::vector<SnapId>& ordered) const {
-  for (const SnapId op : plan_) {
+  for (const SnapId op : plan_.operators()) {
     if (task_.snaps[op].kind != SnapKind::derivation)
-      ordered.insert(ordered.end(), static_cast<std::size_t>(times_[op]), op);
+      ordered.insert(ordered.end(), static_cast<std::size_t>(plan_.times(op)), op);
   }
   std::ranges::stable_sort(ordered, {}, [&](SnapId op) { return supporters_.cost(op); });
 }
 
 void FfHeuristic::collect(std::uint32_t timed_done, Estimate& estimate) const {
   bool waits_for_timed = false;
-  for (const SnapId op : plan_) {
+  for (const SnapId op : plan_.operators()) {
     const Snap& snap = task_.snaps[op];
     if (snap.kind == SnapKind::derivation) continue;
-    estimate.cost += times_[op] * relaxed_.cost(op);
-    // An end that has to come several times takes as many starts.
-    estimate.steps += snap.kind == SnapKind::end ? 2 * times_[op] - 1 : times_[op];
-    if (snap.kind == SnapKind::end)
-      estimate.cost += (times_[op] - 1) * relaxed_.cost(task_.actions[snap.action].start);
+    estimate.cost += plan_.times(op) * relaxed_.cost(op);
+    estimate.steps += plan_.times(op);
     if (snap.kind == SnapKind::timed_literal) {
       waits_for_timed = true;
       continue;

@@ -10,6 +10,7 @@
 #include "planner_svc/temporal_pddl/heuristics/earliest_times.hpp"
 #include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
 #include "planner_svc/temporal_pddl/heuristics/relaxed_numbers.hpp"
+#include "planner_svc/temporal_pddl/heuristics/relaxed_plan.hpp"
 #include "planner_svc/temporal_pddl/heuristics/relaxed_task.hpp"
 #include "planner_svc/temporal_pddl/heuristics/supporters.hpp"
 
@@ -27,18 +28,14 @@ class FfHeuristic final : public Heuristic {
 
   const RelaxedTask& relaxed() const { return relaxed_; }
   // Of the state evaluated last, which is no dead end.
-  std::span<const SnapId> relaxed_plan() const { return plan_; }
+  std::span<const SnapId> relaxed_plan() const { return plan_.operators(); }
 
   // Why time alone forbids every plan from the task's initial state on, or nothing.
   std::string why_too_late();
 
  private:
   const Goal* cheapest_goal();
-  void need(PropositionId proposition);
-  void include(SnapId op);
   bool holds_now(SnapId op) const;
-  void forget_last();
-  void extract();
   void order_plan(std::vector<SnapId>& ordered) const;
   void collect(std::uint32_t timed_done, Estimate& estimate) const;
 
@@ -47,13 +44,7 @@ class FfHeuristic final : public Heuristic {
   RelaxedNumbers numbers_;
   EarliestTimes earliest_;
   Supporters supporters_;
-
-  // Of the relaxed plan at hand.
-  IdVector<PropositionId, bool> is_needed_;
-  IdVector<SnapId, bool> in_plan_;
-  IdVector<SnapId, std::int64_t> times_;  // how often; 1 if it is not in the plan
-  std::vector<PropositionId> needed_, to_support_;
-  std::vector<SnapId> plan_;
+  RelaxedPlan plan_;  // at hand
 };
 
 }  // namespace roci::planner::temporal_pddl

@@ -29,7 +29,7 @@ RelaxedNumbers::RelaxedNumbers(const Task& task) : task_(task) {
   std::vector<std::vector<SnapId>> needed_by(comparisons());
   for (std::size_t i = 0; i < task.snaps.size(); ++i) {
     for (const ComparisonId need : needs_[SnapId(i)]) needed_by[need.index()].push_back(SnapId(i));
-    find_raises(SnapId(i));
+    find_changes(SnapId(i));
   }
   for (const auto& list : needed_by) needed_by_.push_back(list);
 }
@@ -62,11 +62,13 @@ bool RelaxedNumbers::changed_by(SnapId op, const NumericCondition& condition) co
   });
 }
 
-void RelaxedNumbers::find_raises(SnapId op) {
+void RelaxedNumbers::find_changes(SnapId op) {
   std::vector<Raise> raises;
+  std::vector<ComparisonId> touches;
   for (std::size_t i = 0; i < comparisons() && !task_.numeric_effects[op].empty(); ++i) {
     const ComparisonId id(i);
     if (!changed_by(op, conditions_[id])) continue;
+    touches.push_back(id);
     bool known = true;
     double change = 0;
     for (const NumericEffect& effect : task_.numeric_effects[op]) {
@@ -78,28 +80,42 @@ void RelaxedNumbers::find_raises(SnapId op) {
     if (!known || change > 0 || conditions_[id].comparator == Comparator::equal) raises.push_back({id, op});
   }
   raises_.push_back(raises);
+  touches_.push_back(touches);
 }
 
-bool RelaxedNumbers::holds(ComparisonId comparison, StateView state) const {
-  return temporal_pddl::holds(conditions_[comparison].comparator,
-                              evaluate(expression(comparison), task_.layout.numbers(state), 0));
+double RelaxedNumbers::value(ComparisonId comparison, StateView state) const {
+  return evaluate(expression(comparison), task_.layout.numbers(state), 0);
 }
 
-std::int64_t RelaxedNumbers::repeats(const Raise& raise, StateView state) const {
+bool RelaxedNumbers::satisfies(ComparisonId comparison, double value) const {
+  return temporal_pddl::holds(conditions_[comparison].comparator, value);
+}
+
+double RelaxedNumbers::change(SnapId op, ComparisonId comparison, StateView state) const {
   const NumbersView numbers = task_.layout.numbers(state);
-  const ActionId action = task_.snaps[raise.op].action;
+  const ActionId action = task_.snaps[op].action;
   const double seconds =
       action.is_none() ? 0 : std::chrono::duration<double>(task_.actions[action].min_duration).count();
   double change = 0;
-  for (const NumericEffect& effect : task_.numeric_effects[raise.op]) {
-    const double weight = weight_of(expression(raise.comparison), effect.variable);
+  for (const NumericEffect& effect : task_.numeric_effects[op]) {
+    const double weight = weight_of(expression(comparison), effect.variable);
     if (weight == 0) continue;
-    if (effect.assigns) return 1;
+    if (effect.assigns) return 0;
     change += weight * evaluate(task_.expressions[effect.expression], numbers, seconds);
   }
-  const double missing = -evaluate(expression(raise.comparison), numbers, 0);
-  if (!(change > 0) || !(missing > change)) return 1;
-  return static_cast<std::int64_t>(std::min(kMostRepeats, std::ceil(missing / change - 1e-9)));
+  return std::isfinite(change) ? change : 0;
+}
+
+double RelaxedNumbers::whole_change(SnapId op, ComparisonId comparison, StateView state) const {
+  const SnapId other = task_.other_end(op);
+  return change(op, comparison, state) + (other.is_none() ? 0 : change(other, comparison, state));
+}
+
+std::int64_t RelaxedNumbers::repeats(const Raise& raise, StateView state) const {
+  const double gain = change(raise.op, raise.comparison, state);
+  const double missing = -value(raise.comparison, state);
+  if (!(gain > 0) || !(missing > gain)) return 1;
+  return static_cast<std::int64_t>(std::min(kMostRepeats, std::ceil(missing / gain - 1e-9)));
 }
 
 }  // namespace roci::planner::temporal_pddl

@@ -34,7 +34,19 @@ class RelaxedNumbers {
   // Every comparison that an application of `op` may make true in some state is among them.
   std::span<const Raise> raises(SnapId op) const { return raises_[op]; }
 
-  bool holds(ComparisonId comparison, StateView state) const;
+  // The comparisons that an application may change, for better or worse.
+  std::span<const ComparisonId> touches(SnapId op) const { return touches_[op]; }
+
+  bool holds(ComparisonId comparison, StateView state) const {
+    return satisfies(comparison, value(comparison, state));
+  }
+  // The difference that is compared with 0.
+  double value(ComparisonId comparison, StateView state) const;
+  bool satisfies(ComparisonId comparison, double value) const;
+  // By how much an application in this state raises the value; 0 where that cannot be told.
+  double change(SnapId op, ComparisonId comparison, StateView state) const;
+  // The same of a durative action with both its ends.
+  double whole_change(SnapId op, ComparisonId comparison, StateView state) const;
   // How many applications make the comparison true, which does not hold in the state; 1 if that cannot be
   // told.
   std::int64_t repeats(const Raise& raise, StateView state) const;
@@ -43,7 +55,7 @@ class RelaxedNumbers {
   // None: left out.
   ComparisonId intern(const NumericCondition& condition);
   void find_needs(SnapId op);
-  void find_raises(SnapId op);
+  void find_changes(SnapId op);
   bool changed_by(SnapId op, const NumericCondition& condition) const;
   const LinearExpression& expression(ComparisonId comparison) const {
     return task_.expressions[conditions_[comparison].expression];
@@ -52,7 +64,7 @@ class RelaxedNumbers {
   const Task& task_;
   IdVector<ComparisonId, NumericCondition> conditions_;
   std::map<NumericCondition, ComparisonId> ids_;
-  FlatLists<ComparisonId> needs_, goal_needs_;
+  FlatLists<ComparisonId> needs_, goal_needs_, touches_;
   FlatLists<SnapId> needed_by_;
   FlatLists<Raise> raises_;
 };

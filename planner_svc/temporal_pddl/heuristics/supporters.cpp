@@ -14,7 +14,8 @@ Supporters::Supporters(const Task& task, const RelaxedTask& relaxed, const Relax
       has_numbers_(numbers.comparisons() > 0),
       reached_(relaxed.propositions() + numbers.comparisons()),
       at_first_(relaxed.operators()),
-      repeats_(numbers.comparisons(), 1) {
+      repeats_(numbers.comparisons(), 1),
+      producers_(numbers.comparisons()) {
   for (std::size_t i = 0; i < relaxed.operators(); ++i) {
     const SnapId op(i);
     const std::size_t needs = relaxed.needs(op).size() + numbers.needs(op).size();
@@ -29,6 +30,7 @@ void Supporters::begin(const Situation& situation, const EarliestTimes* times) {
   times_ = times;
   std::ranges::fill(reached_, Reached());
   open_ = at_first_;
+  std::ranges::fill(producers_, SnapId());
   queue_.restart();
   frontier_ = 0;
   const auto holds = [&](PropositionId proposition) { reach(proposition, 0, SnapId()); };
@@ -57,6 +59,12 @@ bool Supporters::reaches(SnapId op) {
   return open_[op] == 0;
 }
 
+SnapId Supporters::producer(ComparisonId comparison) {
+  while (producers_[comparison].is_none() && advance()) {
+  }
+  return producers_[comparison];
+}
+
 bool Supporters::advance() {
   if (queue_.empty()) return false;
   const auto [cost, proposition] = queue_.pop();
@@ -70,8 +78,11 @@ bool Supporters::advance() {
 
 bool Supporters::reach(PropositionId proposition, Cost cost, SnapId supporter) {
   Reached& reached = reached_[proposition];
-  if (reached.cost <= cost) return false;
-  reached = {cost, supporter};
+  if (reached.cost <= cost) {
+    reached.tied = reached.tied || reached.cost == cost;
+    return false;
+  }
+  reached = {cost, supporter, false};
   queue_.push(cost, proposition);
   return true;
 }
@@ -86,6 +97,8 @@ void Supporters::fire(SnapId op) {
 void Supporters::raise_numbers(SnapId op, Cost own) {
   for (const Raise& raise : numbers_.raises(op)) {
     const PropositionId raised = proposition(raise.comparison);
+    SnapId& producer = producers_[raise.comparison];
+    if (producer.is_none() && numbers_.whole_change(op, raise.comparison, state_) > 0) producer = op;
     if (reached_[raised].cost <= own) continue;
     const std::int64_t repeats = numbers_.repeats(raise, state_);
     const auto repeated = std::min<std::int64_t>(own + repeats - 1, BucketQueue::kMostCost);

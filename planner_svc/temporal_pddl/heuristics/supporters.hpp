@@ -32,8 +32,12 @@ class Supporters {
   BucketQueue::Cost cost(SnapId op) const;
   // None: holds from the beginning.
   SnapId supporter(PropositionId proposition) const { return reached_[proposition].supporter; }
+  // Is there another supporter that is as cheap?
+  bool tied(PropositionId proposition) const { return reached_[proposition].tied; }
   // How often the supporter has to be applied.
   std::int64_t repeats(ComparisonId comparison) const { return repeats_[comparison]; }
+  // What raises a comparison even if it holds already, one of the cheapest. None: nothing within reach does.
+  SnapId producer(ComparisonId comparison);
 
   std::size_t propositions() const { return reached_.size(); }
   PropositionId proposition(ComparisonId comparison) const {
@@ -48,6 +52,7 @@ class Supporters {
   struct Reached {
     Cost cost = kUnreached;
     SnapId supporter;
+    bool tied = false;
   };
 
   // Goes on with the cheapest proposition. False: there is none left.
@@ -69,6 +74,7 @@ class Supporters {
   IdVector<PropositionId, Reached> reached_;
   IdVector<SnapId, Count> at_first_, open_;  // needs that are not reached
   IdVector<ComparisonId, std::int64_t> repeats_;
+  IdVector<ComparisonId, SnapId> producers_;
   BucketQueue queue_;
   Cost frontier_ = 0;  // what costs no more is known
 };

@@ -12,6 +12,13 @@ std::string application(const Task& task, const std::string& symbol, std::span<c
 
 }  // namespace
 
+SnapId Task::other_end(SnapId snap) const {
+  if (snaps[snap].action.is_none()) return {};
+  const Action& action = actions[snaps[snap].action];
+  if (action.instantaneous()) return {};
+  return snap == action.start ? action.end : action.start;
+}
+
 std::string name(const Task& task, FactId fact) {
   const FactName& fact_name = task.fact_names[fact];
   const std::string text = application(task, task.predicates[fact_name.predicate.index()],

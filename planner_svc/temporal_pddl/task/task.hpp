@@ -121,6 +121,9 @@ struct Task {
   // Does it matter when a plan happens, not only in which order? Else every plan may begin later as a whole.
   bool has_absolute_times() const;
 
+  // Of the same durative action; none: there is none.
+  SnapId other_end(SnapId snap) const;
+
   std::size_t variables() const { return fact_names.size() + number_names.size(); }
   VariableId variable(FactId fact) const { return VariableId(fact.index()); }
   VariableId variable(NumberId number) const { return VariableId(fact_names.size() + number.index()); }

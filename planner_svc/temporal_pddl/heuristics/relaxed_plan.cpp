@@ -1,0 +1,186 @@
+#include "planner_svc/temporal_pddl/heuristics/relaxed_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+constexpr std::int64_t kMostRepeats = 4000;  // in all
+constexpr int kMostTurns = 4;                // of a comparison, where numbers hang on each other in circles
+
+}  // namespace
+
+RelaxedPlan::RelaxedPlan(const Task& task, const RelaxedTask& relaxed, const RelaxedNumbers& numbers,
+                         Supporters& supporters)
+    : task_(task),
+      relaxed_(relaxed),
+      numbers_(numbers),
+      supporters_(supporters),
+      times_(relaxed.operators(), 0),
+      passes_(relaxed.propositions(), false),
+      is_needed_(relaxed.propositions(), false),
+      given_(relaxed.propositions(), false),
+      balances_(numbers.comparisons()) {
+  for (const Action& action : task.actions) {
+    if (action.instantaneous()) continue;
+    for (const FactId fact : task.adds[action.start]) {
+      if (std::ranges::count(task.deletes[action.end], fact) > 0) passes_[relaxed.proposition(fact)] = true;
+    }
+  }
+}
+
+void RelaxedPlan::begin(StateView state) {
+  state_ = state;
+  for (const SnapId op : plan_) times_[op] = 0;
+  for (const PropositionId proposition : needed_) is_needed_[proposition] = false;
+  for (const PropositionId proposition : given_now_) given_[proposition] = false;
+  for (const ComparisonId comparison : touched_) balances_[comparison] = {};
+  plan_.clear();
+  needed_.clear();
+  to_support_.clear();
+  to_share_.clear();
+  given_now_.clear();
+  touched_.clear();
+  to_settle_.clear();
+  repeats_left_ = kMostRepeats;
+}
+
+void RelaxedPlan::need(const Goal& goal) {
+  for (const FactId fact : goal.facts) need(relaxed_.proposition(fact));
+  for (const ComparisonId comparison : numbers_.needs(goal)) need_at_end(comparison);
+}
+
+void RelaxedPlan::need(PropositionId proposition) {
+  if (is_needed_[proposition]) return;
+  is_needed_[proposition] = true;
+  needed_.push_back(proposition);
+  to_support_.push_back(proposition);
+}
+
+void RelaxedPlan::need_before(SnapId op, ComparisonId comparison) {
+  Balance& balance = touch(comparison);
+  // Of all that need it and take of it, one comes last, and what that takes need not be left.
+  const double own = numbers_.whole_change(op, comparison, state_);
+  if (!balance.needed_at_end) balance.least = balance.needed ? std::min(balance.least, own) : own;
+  balance.needed = true;
+  queue(comparison);
+}
+
+void RelaxedPlan::need_at_end(ComparisonId comparison) {
+  Balance& balance = touch(comparison);
+  balance.least = 0;
+  balance.needed = balance.needed_at_end = true;
+  queue(comparison);
+}
+
+void RelaxedPlan::include(SnapId op) {
+  if (times_[op] > 0) return;
+  plan_.push_back(op);
+  apply(op, 1);
+  give(op);
+  for (const PropositionId needed : relaxed_.needs(op)) need(needed);
+  for (const ComparisonId comparison : numbers_.needs(op)) need_before(op, comparison);
+  const Snap& snap = task_.snaps[op];
+  if (snap.kind != SnapKind::start) return;
+  const SnapId end = task_.actions[snap.action].end;
+  if (supporters_.reaches(end)) include(end);
+}
+
+void RelaxedPlan::complete() {
+  for (;;) {
+    support_facts();
+    if (to_settle_.empty()) return;
+    std::ranges::pop_heap(to_settle_);
+    const ComparisonId comparison = to_settle_.back().second;
+    to_settle_.pop_back();
+    balances_[comparison].queued = false;
+    settle(comparison);
+  }
+}
+
+// What several envelopes would hold as cheaply waits until it is known which of them are needed anyway.
+void RelaxedPlan::support_facts() {
+  while (!to_support_.empty() || !to_share_.empty()) {
+    const bool shared = to_support_.empty();
+    std::vector<PropositionId>& list = shared ? to_share_ : to_support_;
+    const PropositionId supported = list.back();
+    list.pop_back();
+    const SnapId supporter = supporters_.supporter(supported);
+    if (supporter.is_none() || (shared && given_[supported])) continue;
+    if (!shared && passes_[supported] && supporters_.tied(supported)) {
+      to_share_.push_back(supported);
+    } else {
+      include(supporter);
+    }
+  }
+}
+
+// Notes what passes and is added at no more cost than others would.
+void RelaxedPlan::give(SnapId op) {
+  for (const PropositionId added : relaxed_.adds(op)) {
+    if (!passes_[added] || given_[added] || supporters_.cost(added) < supporters_.cost(op)) continue;
+    given_[added] = true;
+    given_now_.push_back(added);
+  }
+}
+
+void RelaxedPlan::queue(ComparisonId comparison) {
+  Balance& balance = balances_[comparison];
+  if (!balance.needed || balance.queued || balance.turns == kMostTurns) return;
+  ++balance.turns;
+  balance.queued = true;
+  to_settle_.emplace_back(supporters_.cost(supporters_.proposition(comparison)), comparison);
+  std::ranges::push_heap(to_settle_);
+}
+
+void RelaxedPlan::settle(ComparisonId comparison) {
+  const SnapId supporter = supporters_.supporter(supporters_.proposition(comparison));
+  if (!supporter.is_none()) bring_in(supporter);
+  const Balance& balance = balances_[comparison];
+  const auto surplus = [&] { return numbers_.value(comparison, state_) + balance.change - balance.least; };
+  const auto gain = [&](SnapId op) { return numbers_.whole_change(op, comparison, state_); };
+  if (numbers_.satisfies(comparison, surplus())) return;
+  const bool repeatable = !supporter.is_none() && gain(supporter) > 0;
+  const SnapId producer = repeatable ? supporter : supporters_.producer(comparison);
+  if (producer.is_none()) return;
+  bring_in(producer);
+  const double times = std::ceil(-surplus() / gain(producer) - 1e-9);
+  if (times >= 1) repeat(producer, static_cast<std::int64_t>(std::min(times, 1e6)));
+}
+
+// With what belongs to it.
+void RelaxedPlan::bring_in(SnapId op) {
+  include(op);
+  support_facts();
+}
+
+void RelaxedPlan::repeat(SnapId op, std::int64_t times) {
+  times = std::min(times, repeats_left_);
+  repeats_left_ -= times;
+  const SnapId other = task_.other_end(op);
+  apply(op, times);
+  if (other.is_none() || !supporters_.reaches(other)) return;
+  include(other);  // as that of what runs at first is not in the plan yet
+  apply(other, times_[op] - times_[other]);
+}
+
+void RelaxedPlan::apply(SnapId op, std::int64_t times) {
+  times_[op] += times;
+  for (const ComparisonId comparison : numbers_.touches(op)) {
+    Balance& balance = touch(comparison);
+    const double change = numbers_.change(op, comparison, state_);
+    balance.change += static_cast<double>(times) * change;
+    if (change < 0) queue(comparison);
+  }
+}
+
+RelaxedPlan::Balance& RelaxedPlan::touch(ComparisonId comparison) {
+  Balance& balance = balances_[comparison];
+  if (!balance.touched) touched_.push_back(comparison);
+  balance.touched = true;
+  return balance;
+}
+
+}  // namespace roci::planner::temporal_pddl

@@ -1,0 +1,79 @@
+// A relaxed plan: the operators that bring about what is needed, by their supporters, and how often each.
+//
+// Deletes do not count for facts. For numbers they do, as a sum over the whole plan (in the manner of the
+// resource estimates of LPRPG, Coles et al. 2008): what the operators take of a number, beyond what there is
+// and what others give, a producer has to be repeated for. So comparisons are settled from those that take
+// the most actions down to those that hold already: when one's turn comes, all that takes of it is known.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/heuristics/relaxed_numbers.hpp"
+#include "planner_svc/temporal_pddl/heuristics/relaxed_task.hpp"
+#include "planner_svc/temporal_pddl/heuristics/supporters.hpp"
+
+namespace roci::planner::temporal_pddl {
+
+class RelaxedPlan {
+ public:
+  RelaxedPlan(const Task& task, const RelaxedTask& relaxed, const RelaxedNumbers& numbers,
+              Supporters& supporters);
+
+  // Empties it. The state is that in which the supporters begin, and must last as long.
+  void begin(StateView state);
+  // All of it must be within reach of the supporters.
+  void need(const Goal& goal);
+  void include(SnapId op);
+  // Adds what is missing.
+  void complete();
+
+  // In no order.
+  std::span<const SnapId> operators() const { return plan_; }
+  // How often it is applied. 0: it is not in the plan.
+  std::int64_t times(SnapId op) const { return times_[op]; }
+
+ private:
+  struct Balance {
+    bool touched = false;
+    bool needed = false, needed_at_end = false;
+    bool queued = false;
+    std::uint8_t turns = 0;
+    double least = 0;   // that the plan has to leave
+    double change = 0;  // by all of the plan
+  };
+
+  void need(PropositionId proposition);
+  void need_before(SnapId op, ComparisonId comparison);
+  void need_at_end(ComparisonId comparison);
+  void support_facts();
+  void give(SnapId op);
+  // Queues the comparison if it is needed.
+  void queue(ComparisonId comparison);
+  void settle(ComparisonId comparison);
+  void bring_in(SnapId op);
+  void repeat(SnapId op, std::int64_t times);
+  // Notes more applications of an operator.
+  void apply(SnapId op, std::int64_t times);
+  Balance& touch(ComparisonId comparison);
+
+  const Task& task_;
+  const RelaxedTask& relaxed_;
+  const RelaxedNumbers& numbers_;
+  Supporters& supporters_;
+  StateView state_;
+
+  IdVector<SnapId, std::int64_t> times_;
+  std::vector<SnapId> plan_;
+  IdVector<PropositionId, bool> passes_;  // is deleted by the end of an action whose start adds it
+  IdVector<PropositionId, bool> is_needed_, given_;
+  std::vector<PropositionId> needed_, to_support_, to_share_, given_now_;
+  IdVector<ComparisonId, Balance> balances_;
+  std::vector<ComparisonId> touched_;                                  // balances in use
+  std::vector<std::pair<BucketQueue::Cost, ComparisonId>> to_settle_;  // a heap, the dearest first
+  std::int64_t repeats_left_ = 0;
+};
+
+}  // namespace roci::planner::temporal_pddl
