@@ -113,6 +113,14 @@ v1::PlanRequest to_wire(const PlanCall& in, const MissionModel& mission) {
       wire.properties().push_back(services::wire::to_wire(property));
     out.objects().push_back(std::move(wire));
   }
+  for (const PlannedAction& action : in.remaining) {
+    v1::RemainingAction wire;
+    wire.name(action.name);
+    wire.arguments(action.arguments);
+    wire.start_us(action.start.count());
+    wire.duration_us(action.duration.count());
+    out.remaining().push_back(std::move(wire));
+  }
   out.budget().work(mission.planner.work);
   out.budget().memory_mb(mission.planner.memory_mb);
   out.budget().wall_us(mission.planner.wall.count());

@@ -6,7 +6,7 @@
 
 namespace roci::planner {
 
-void CallRecords::keep(const std::string& problem, const PlanningAnswer& answer, double wall_s) {
+void CallRecords::keep(const PlanningCall& call, const PlanningAnswer& answer, double wall_s) {
   if (folder_.empty()) return;
   std::error_code ignored;
   std::filesystem::create_directories(folder_, ignored);
@@ -19,9 +19,11 @@ void CallRecords::keep(const std::string& problem, const PlanningAnswer& answer,
                                {"wall_s", wall_s},
                                {"evaluated", answer.statistics.evaluated},
                                {"expanded", answer.statistics.expanded},
+                               {"from_remaining", answer.statistics.from_remaining},
                                {"actions", answer.plan ? answer.plan->activities.size() : 0}};
-  std::ofstream(file(".pddl")) << problem;
+  std::ofstream(file(".pddl")) << call.problem_text;
   std::ofstream(file(".values")) << pddl::print(answer.function_values);
+  if (!call.remaining.empty()) std::ofstream(file(".remaining")) << pddl::print_plan(call.remaining);
   std::ofstream(file(".json")) << outcome.dump(2) << "\n";
 }
 

@@ -1,5 +1,6 @@
 // Keeps every planning call of a run as files, so that the planner alone can make it again (R41):
-//   roci-plan DOMAIN planner_calls/3.pddl --functions planner_calls/3.values
+//   roci-plan DOMAIN planner_calls/3.pddl --functions planner_calls/3.values --remaining
+//   planner_calls/3.remaining
 #pragma once
 
 #include <filesystem>
@@ -15,9 +16,10 @@ class CallRecords {
   // are there already.
   explicit CallRecords(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // N.pddl: the problem; N.values: the function values that it was given; N.json: verdict, reason, wall_s,
-  // evaluated, expanded, actions. What cannot be written is left out: a record is no reason to end a mission.
-  void keep(const std::string& problem, const PlanningAnswer& answer, double wall_s);
+  // N.pddl: the problem; N.values: the function values that it was given; N.remaining: what remained of an
+  // earlier plan, if anything; N.json: verdict, reason, wall_s, evaluated, expanded, actions. What cannot be
+  // written is left out: a record is no reason to end a mission.
+  void keep(const PlanningCall& call, const PlanningAnswer& answer, double wall_s);
 
  private:
   std::filesystem::path folder_;

@@ -82,14 +82,13 @@ PlanningAnswer search(const PlanningCall& call, FunctionSource& functions) {
   monitor.cancelled = call.cancelled;
   temporal_pddl::Options options;
   options.improvement_evaluations = kImprovementEvaluations;
-  const auto remaining = pddl::parse_plan(call.remaining_plan, "remaining plan");
   const temporal_pddl::Result result =
-      temporal_pddl::plan(domain, problem, functions, budget, monitor, options, remaining);
+      temporal_pddl::plan(domain, problem, functions, budget, monitor, options, call.remaining);
   PlanningAnswer out;
   out.verdict = verdict_of(result.verdict);
   out.reason = result.where ? to_string(*result.where) : result.reason;
   out.statistics = {result.statistics.expanded, result.statistics.evaluated,
-                    result.statistics.bytes_per_state};
+                    result.statistics.bytes_per_state, result.statistics.from_remaining};
   out.function_values = table_of(result.functions);
   if (result.plan) {
     const std::string fault = fault_of(domain, problem, result, out.function_values);

@@ -7,8 +7,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/pddl/function_table.hpp"
+#include "core/pddl/plan_text.hpp"
 #include "core/temporal/flexible_plan.hpp"
 #include "planner_svc/function_source.hpp"
 
@@ -32,17 +34,18 @@ struct PlanningCall {
   std::string engine;
   std::string domain_text;
   std::string problem_text;
-  std::string remaining_plan;         // in IPC form, what is left of an earlier plan; empty: nothing
-  std::uint64_t evaluations = 0;      // 0: no bound
-  std::size_t memory_bytes = 0;       // 0: no bound
-  std::function<bool()> out_of_time;  // empty: never
-  std::function<bool()> cancelled;    // empty: never
+  std::vector<pddl::PlanStep> remaining;  // what is left of an earlier plan
+  std::uint64_t evaluations = 0;          // 0: no bound
+  std::size_t memory_bytes = 0;           // 0: no bound
+  std::function<bool()> out_of_time;      // empty: never
+  std::function<bool()> cancelled;        // empty: never
 };
 
 struct PlanningStatistics {
   std::uint64_t expanded = 0;
   std::uint64_t evaluated = 0;
   double bytes_per_state = 0;
+  bool from_remaining = false;  // the first plan was made of what remained
 };
 
 struct PlanningAnswer {

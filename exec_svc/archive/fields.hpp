@@ -111,8 +111,12 @@ void fields(A& a, Of<Problem, A>& v) {
   a(v.text, v.objects);
 }
 template <class A>
+void fields(A& a, Of<PlannedAction, A>& v) {
+  a(v.activity, v.name, v.arguments, v.start, v.duration);
+}
+template <class A>
 void fields(A& a, Of<PlanCall, A>& v) {
-  a(v.id, v.problem_name, v.problem, v.origin);
+  a(v.id, v.problem_name, v.problem, v.origin, v.remaining);
 }
 template <class A>
 void fields(A& a, Of<ReactorCounts, A>& v) {

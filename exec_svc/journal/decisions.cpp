@@ -44,6 +44,16 @@ std::string line_of(const Command& command) {
          command.subsystem + " " + command.command_name + properties_text(command.arguments);
 }
 
+std::string line_of(const std::vector<PlannedAction>& remaining) {
+  std::string out = "remaining";
+  for (const PlannedAction& action : remaining) {
+    out += " (" + action.name;
+    for (const std::string& argument : action.arguments) out += " " + argument;
+    out += ")";
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<Line> decisions(temporal::Time now, const ReactorOutputs& out) {
@@ -55,7 +65,10 @@ std::vector<Line> decisions(temporal::Time now, const ReactorOutputs& out) {
   if (out.adopted) lines.push_back({"trace", stamp + line_of(*out.adopted)});
   for (const Command& command : out.commands) lines.push_back({"trace", stamp + line_of(command)});
   if (out.cancelled_call) lines.push_back({"call", "cancel " + std::to_string(*out.cancelled_call)});
-  if (out.call) lines.push_back({"call", out.call->problem.text});
+  if (out.call) {
+    lines.push_back({"call", out.call->problem.text});
+    if (!out.call->remaining.empty()) lines.push_back({"call", line_of(out.call->remaining)});
+  }
   return lines;
 }
 

@@ -42,6 +42,7 @@ void Reactor::adopt(Time now, const PlanAnswer& answer) {
   outdated_calls_ = 0;
   temporal::FlexiblePlan plan = answer.plan;
   plan.origin = call_.origin;
+  std::vector<PlannedAction> planned = planned_actions(plan);
   std::string fault = bind_plan(plan, plan_version_ + 1, *mission_, call_.problem, beliefs_, goals_);
   if (!ladder_.flexible) make_inflexible(plan);
   if (fault.empty()) {
@@ -52,6 +53,8 @@ void Reactor::adopt(Time now, const PlanAnswer& answer) {
     make_safe(now, "the planner's plan cannot be executed: " + fault);
     return;
   }
+  for (std::size_t i = 0; i < planned.size(); ++i) planned[i].activity = plan.activities[i].id;
+  planned_ = std::move(planned);
   ++plan_version_;
   first_plan_ = false;
   phase_ = Phase::executing;

@@ -92,8 +92,11 @@ void Reactor::call_planner(Time now, Time origin, const Forecast& forecast) {
   call_.origin = origin;
   call_.problem = write_problem(*mission_, beliefs_, suspicion_.empty() ? goals_ : hard_goals(),
                                 call_.problem_name, now, origin, reserves_, forecast);
+  call_.remaining = remaining();
   out_.call = call_;
 }
+
+std::vector<PlannedAction> Reactor::remaining() const { return without_begun(planned_, executive_.steps()); }
 
 void Reactor::make_safe(Time now, const std::string& why) {
   phase_ = Phase::safe;

@@ -19,6 +19,7 @@
 #include "exec_svc/reactor/foresight.hpp"
 #include "exec_svc/reactor/ladder.hpp"
 #include "exec_svc/reactor/margins.hpp"
+#include "exec_svc/reactor/remaining_plan.hpp"
 
 namespace roci::exec {
 
@@ -32,7 +33,8 @@ struct PlanCall {
   std::uint64_t id = 0;
   std::string problem_name;
   Problem problem;
-  temporal::Time origin{0};  // mission time of the problem's 0
+  temporal::Time origin{0};              // mission time of the problem's 0
+  std::vector<PlannedAction> remaining;  // of the plan before
 };
 
 // How a planner call ended. `no_reply` and `crashed` say nothing about the problem; they and
@@ -162,6 +164,7 @@ class Reactor {
   void continue_meanwhile(temporal::Time now);
   void keep_plan(temporal::Time now);
   void change_plans(temporal::Time now);
+  std::vector<PlannedAction> remaining() const;
   std::string surprise_of(const Forecast& forecast) const;
   bool outdated(const PlanAnswer& answer) const;
   void take_answer(temporal::Time now, const PlanAnswer& answer);
@@ -213,7 +216,8 @@ class Reactor {
   bool call_open_ = false;       // made, not answered: there is never more than one
   bool call_cancelled_ = false;  // the one made last
   std::optional<Meanwhile> meanwhile_;
-  bool unfit_ = false;  // the running plan must not go on
+  bool unfit_ = false;                  // the running plan must not go on
+  std::vector<PlannedAction> planned_;  // of the last plan; after a restart what remained of it
   ReactorCounts counts_;
   std::map<std::string, std::uint64_t> models_;  // newest version by owner
   bool models_changed_ = false;                  // since the call

@@ -43,7 +43,7 @@ std::string Reactor::snapshot() const {
   fields(writer, *this);
   std::vector<GoalRecord> goals;
   for (const GoalRecord* record : goals_.all()) goals.push_back(*record);
-  writer(goals, beliefs_.values(), beliefs_.assumed(), failures_.in_a_row());
+  writer(goals, beliefs_.values(), beliefs_.assumed(), failures_.in_a_row(), remaining());
   return writer.take();
 }
 
@@ -54,7 +54,7 @@ void Reactor::restore(std::string_view snapshot) {
   std::map<std::string, temporal::Value> values;
   std::map<std::string, std::vector<std::string>> assumed;
   std::map<std::string, std::uint32_t> in_a_row;
-  reader(goals, values, assumed, in_a_row);
+  reader(goals, values, assumed, in_a_row, planned_);
   reader.finish();
   for (const GoalRecord& record : goals) goals_.restore(record);
   Inputs observed;

@@ -94,6 +94,7 @@ nlohmann::json statistics_json(const engine::Result& result, double wall_s) {
           {"dominated", statistics.dominated},
           {"hopeless", statistics.hopeless},
           {"bytes_per_state", statistics.bytes_per_state},
+          {"from_remaining", statistics.from_remaining},
           {"engine_peak_bytes", statistics.peak_bytes},
           {"facts", statistics.facts},
           {"variables", statistics.variables},

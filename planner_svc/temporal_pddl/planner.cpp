@@ -60,6 +60,7 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   SearchOutcome outcome;
   outcome.plan = warm_start(grounding.task, remaining, {heuristic, CostMeasure::duration}, options, watch,
                             result.statistics);
+  result.statistics.from_remaining = outcome.plan.has_value();
   if (!outcome.plan) outcome = search(grounding.task, heuristic, options, watch, result.statistics);
   if (outcome.plan) {
     const PlanPrefix best =

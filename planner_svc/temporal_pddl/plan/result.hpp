@@ -113,7 +113,8 @@ struct Statistics {
   std::size_t hopeless = 0;                 // successors that resources do not suffice for
   double bytes_per_state =
       0;  // mean over stored states: packed state, numbers, parent, operator, constraints
-  std::size_t peak_bytes = 0;  // as the engine counts its own memory
+  bool from_remaining = false;  // the first plan was made of what remained of an earlier one
+  std::size_t peak_bytes = 0;   // as the engine counts its own memory
 };
 
 struct FunctionUse {

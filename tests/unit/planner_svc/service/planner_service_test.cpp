@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
+#include <sstream>
 
 #include "tests/unit/planner_svc/service/road_planning.hpp"
 
@@ -131,6 +133,68 @@ TEST(PlannerService, AnUnknownEngineIsToldWithThoseItHas) {
   const v1::PlanReply reply = reply_to(planning, request);
   EXPECT_EQ(reply.verdict_code(), v1::VERDICT_UNSUPPORTED);
   EXPECT_THAT(reply.reason(), AllOf(HasSubstr("crystal_ball"), HasSubstr("temporal_pddl")));
+}
+
+// "go a b" for each.
+v1::PlanRequest request_with_remaining(const std::vector<std::string>& actions) {
+  v1::PlanRequest request = plan_request(kRoadDomain, road_problem());
+  for (const std::string& action : actions) {
+    std::istringstream words(action);
+    v1::RemainingAction remaining;
+    words >> remaining.name();
+    for (std::string object; words >> object;) remaining.arguments().push_back(object);
+    remaining.start_us(10'000'000 * static_cast<std::int64_t>(request.remaining().size()));
+    remaining.duration_us(9'000'000);
+    request.remaining().push_back(std::move(remaining));
+  }
+  return request;
+}
+
+TEST(PlannerService, BeginsWithWhatRemainsOfAnEarlierPlan) {
+  RoadPlanning planning;
+  planning.owner_answers([&](const v1::FunctionRequest& request, auto responder) {
+    responder.reply(without_the_direct_road(request, planning.owner().now()));
+  });
+  const v1::PlanReply reply = reply_to(planning, request_with_remaining({"go a b", "go b c"}));
+  EXPECT_EQ(steps_of(reply.solution()), "go a b, go b c");
+  EXPECT_TRUE(reply.statistics().from_remaining());
+  const std::filesystem::path folder = planning.run_folder() / "planner_calls";
+  EXPECT_EQ(content_of(folder / "1.remaining"), "0.000: (go a b) [9.000]\n10.000: (go b c) [9.000]\n");
+  EXPECT_THAT(content_of(folder / "1.json"), HasSubstr("\"from_remaining\": true"));
+}
+
+TEST(PlannerService, WhatRemainsIsNoReasonForAWorsePlan) {
+  RoadPlanning planning;  // where all roads take 10 s
+  const v1::PlanReply reply = reply_to(planning, request_with_remaining({"go a b", "go b a", "go a c"}));
+  EXPECT_EQ(steps_of(reply.solution()), "go a c");
+}
+
+TEST(PlannerService, ARemainingPlanThatFitsNothingDoesNoHarm) {
+  v1::PlanRequest out_of_time = request_with_remaining({"go a c", "go a c", "go a c"});
+  out_of_time.remaining()[0].start_us(std::numeric_limits<std::int64_t>::max());
+  out_of_time.remaining()[1].duration_us(std::numeric_limits<std::int64_t>::max());
+  out_of_time.remaining()[2].start_us(-1);
+  const std::vector<v1::PlanRequest> stale = {
+      request_with_remaining({}),
+      request_with_remaining({"fly a c"}),
+      request_with_remaining({"go a nowhere", "go d c"}),
+      request_with_remaining({"go", "go a b c", " ", "(go a c) [1]\n;", "GO A C"}),
+      out_of_time,
+  };
+  for (const v1::PlanRequest& request : stale) {
+    RoadPlanning planning;
+    const v1::PlanReply reply = reply_to(planning, request);
+    EXPECT_EQ(steps_of(reply.solution()), "go a c");
+    EXPECT_FALSE(reply.statistics().from_remaining());
+  }
+}
+
+TEST(PlannerService, OfAnEndlessRemainingPlanTheBeginningIsTaken) {
+  std::vector<std::string> to_and_fro;
+  for (int i = 0; i < 20'000; ++i) to_and_fro.push_back(i % 2 == 0 ? "go a b" : "go b a");
+  RoadPlanning planning;
+  const v1::PlanReply reply = reply_to(planning, request_with_remaining(to_and_fro));
+  EXPECT_EQ(steps_of(reply.solution()), "go a c");
 }
 
 TEST(PlannerService, ASpentBudgetOfWorkIsATimeout) {
