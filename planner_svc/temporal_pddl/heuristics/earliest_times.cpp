@@ -10,6 +10,7 @@ EarliestTimes::EarliestTimes(const Task& task, const RelaxedTask& relaxed)
       relaxed_(relaxed),
       matters_(task.has_absolute_times()),
       times_(relaxed.propositions(), kNever),
+      supporters_(relaxed.propositions()),
       initially_open_(relaxed.operators(), 0),
       ready_(relaxed.operators(), 0),
       op_times_(relaxed.operators(), kNever) {
@@ -25,17 +26,17 @@ void EarliestTimes::measure(const Situation& situation) {
   queue_.clear();
   const auto add_fact = [&](FactId fact) {
     const auto* freedom = situation.freedom;
-    reach(relaxed_.proposition(fact), freedom ? freedom->to_read(task_.variable(fact)) : 0);
+    reach(relaxed_.proposition(fact), freedom ? freedom->to_read(task_.variable(fact)) : 0, SnapId());
   };
   relaxed_.each_fact(task_, situation.state, add_fact);
   for (std::size_t i = 0; i < situation.running.size(); ++i) {
     const bool known = i < situation.started.size();
-    reach(relaxed_.running(situation.running[i]), known ? situation.started[i] : 0);
+    reach(relaxed_.running(situation.running[i]), known ? situation.started[i] : 0, SnapId());
   }
   for (std::size_t i = situation.timed_done; i < task_.timed_steps.size(); ++i) {
     const TimedStep& timed = task_.timed_steps[i];
     op_times_[timed.snap] = timed.time.count();
-    for (const PropositionId added : relaxed_.adds(timed.snap)) reach(added, timed.time.count());
+    for (const PropositionId added : relaxed_.adds(timed.snap)) reach(added, timed.time.count(), timed.snap);
   }
   for (const SnapId op : relaxed_.free()) fire(op, situation);
   while (!queue_.empty()) {
@@ -53,9 +54,10 @@ void EarliestTimes::measure(const Situation& situation) {
   }
 }
 
-void EarliestTimes::reach(PropositionId proposition, Ticks time) {
+void EarliestTimes::reach(PropositionId proposition, Ticks time, SnapId by) {
   if (times_[proposition] <= time) return;
   times_[proposition] = time;
+  supporters_[proposition] = by;
   queue_.emplace_back(time, proposition);
   std::ranges::push_heap(queue_, std::greater{});
 }
@@ -65,7 +67,7 @@ void EarliestTimes::fire(SnapId op, const Situation& situation) {
   const Ticks time = fit(op, std::max(ready_[op], free));
   if (time == kNever) return;
   op_times_[op] = time;
-  for (const PropositionId added : relaxed_.adds(op)) reach(added, time);
+  for (const PropositionId added : relaxed_.adds(op)) reach(added, time, op);
 }
 
 Ticks EarliestTimes::fit(SnapId op, Ticks ready) const {

@@ -26,12 +26,14 @@ class EarliestTimes {
   // After measure(). kNever: not at all.
   Ticks of(SnapId op) const { return op_times_[op]; }
   Ticks of(PropositionId proposition) const { return times_[proposition]; }
+  // The operator that brings a proposition about at that time. None: it holds from the beginning.
+  SnapId supporter(PropositionId proposition) const { return supporters_[proposition]; }
   // Of a proposition without a time: which action comes too late for its windows, and by how much. Empty:
   // time is not what blocks it.
   std::string why_never(PropositionId proposition) const;
 
  private:
-  void reach(PropositionId proposition, Ticks time);
+  void reach(PropositionId proposition, Ticks time, SnapId by);
   void fire(SnapId op, const Situation& situation);
   // The first time from `ready` on at which windows allow the step.
   Ticks fit(SnapId op, Ticks ready) const;
@@ -41,6 +43,7 @@ class EarliestTimes {
   const RelaxedTask& relaxed_;
   bool matters_;
   IdVector<PropositionId, Ticks> times_;
+  IdVector<PropositionId, SnapId> supporters_;
   IdVector<SnapId, std::uint32_t> initially_open_, open_;
   IdVector<SnapId, Ticks> ready_, op_times_;
   std::vector<std::pair<Ticks, PropositionId>> queue_;  // a heap, earliest first

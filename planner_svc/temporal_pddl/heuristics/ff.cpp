@@ -15,8 +15,9 @@ FfHeuristic::FfHeuristic(const Task& task, CostMeasure measure)
 void FfHeuristic::evaluate(const Situation& situation, Estimate& estimate) {
   const auto& running = situation.running;
   estimate = {};
-  if (earliest_.matters()) earliest_.measure(situation);
-  supporters_.begin(situation, earliest_.matters() ? &earliest_ : nullptr);
+  const EarliestTimes* times = earliest_.matters() ? &earliest_ : nullptr;
+  if (times) earliest_.measure(situation);
+  supporters_.begin(situation, times);
   const Goal* goal = cheapest_goal();
   const bool ends_reached = std::ranges::all_of(
       running, [&](ActionId action) { return supporters_.reaches(task_.actions[action].end); });
@@ -24,7 +25,7 @@ void FfHeuristic::evaluate(const Situation& situation, Estimate& estimate) {
     estimate.dead_end = true;
     return;
   }
-  plan_.begin(situation.state);
+  plan_.begin(situation.state, times);
   plan_.need(*goal);
   for (const ActionId action : running) plan_.include(task_.actions[action].end);
   plan_.complete();
@@ -82,6 +83,7 @@ void FfHeuristic::order_plan(std::vector<SnapId>& ordered) const {
       ordered.insert(ordered.end(), static_cast<std::size_t>(plan_.times(op)), op);
   }
   std::ranges::stable_sort(ordered, {}, [&](SnapId op) { return supporters_.cost(op); });
+  if (earliest_.matters()) std::ranges::stable_sort(ordered, {}, [&](SnapId op) { return earliest_.of(op); });
 }
 
 void FfHeuristic::collect(std::uint32_t timed_done, Estimate& estimate) const {

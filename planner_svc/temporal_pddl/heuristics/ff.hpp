@@ -1,6 +1,7 @@
 // The FF heuristic (Hoffmann and Nebel 2001) on the relaxed task: a relaxed plan made of the supporters that
-// take the fewest actions by h_add, after Stellar section 4.2; its cost are the durations (R16).
-// Numbers count by how often an operator has to be applied (beyond R15).
+// take the fewest actions by h_add, after Stellar section 4.2; where it matters when a plan happens, of those
+// that can come first. Its cost are the durations (R16). Numbers count by how often an operator has to be
+// applied (beyond R15).
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ RelaxedPlan::RelaxedPlan(const Task& task, const RelaxedTask& relaxed, const Rel
       relaxed_(relaxed),
       numbers_(numbers),
       supporters_(supporters),
-      times_(relaxed.operators(), 0),
+      repeats_(relaxed.operators(), 0),
       passes_(relaxed.propositions(), false),
       is_needed_(relaxed.propositions(), false),
       given_(relaxed.propositions(), false),
@@ -31,9 +31,10 @@ RelaxedPlan::RelaxedPlan(const Task& task, const RelaxedTask& relaxed, const Rel
   }
 }
 
-void RelaxedPlan::begin(StateView state) {
+void RelaxedPlan::begin(StateView state, const EarliestTimes* times) {
   state_ = state;
-  for (const SnapId op : plan_) times_[op] = 0;
+  times_ = times;
+  for (const SnapId op : plan_) repeats_[op] = 0;
   for (const PropositionId proposition : needed_) is_needed_[proposition] = false;
   for (const PropositionId proposition : given_now_) given_[proposition] = false;
   for (const ComparisonId comparison : touched_) balances_[comparison] = {};
@@ -76,7 +77,7 @@ void RelaxedPlan::need_at_end(ComparisonId comparison) {
 }
 
 void RelaxedPlan::include(SnapId op) {
-  if (times_[op] > 0) return;
+  if (repeats_[op] > 0) return;
   plan_.push_back(op);
   apply(op, 1);
   give(op);
@@ -100,6 +101,13 @@ void RelaxedPlan::complete() {
   }
 }
 
+SnapId RelaxedPlan::supporter(PropositionId proposition) {
+  const SnapId fewest = supporters_.supporter(proposition);
+  if (!times_ || fewest.is_none()) return fewest;
+  const SnapId soonest = times_->supporter(proposition);
+  return !soonest.is_none() && supporters_.reaches(soonest) ? soonest : fewest;  // numbers know no times
+}
+
 // What several envelopes would hold as cheaply waits until it is known which of them are needed anyway.
 void RelaxedPlan::support_facts() {
   while (!to_support_.empty() || !to_share_.empty()) {
@@ -107,7 +115,7 @@ void RelaxedPlan::support_facts() {
     std::vector<PropositionId>& list = shared ? to_share_ : to_support_;
     const PropositionId supported = list.back();
     list.pop_back();
-    const SnapId supporter = supporters_.supporter(supported);
+    const SnapId supporter = this->supporter(supported);
     if (supporter.is_none() || (shared && given_[supported])) continue;
     if (!shared && passes_[supported] && supporters_.tied(supported)) {
       to_share_.push_back(supported);
@@ -163,11 +171,11 @@ void RelaxedPlan::repeat(SnapId op, std::int64_t times) {
   apply(op, times);
   if (other.is_none() || !supporters_.reaches(other)) return;
   include(other);  // as that of what runs at first is not in the plan yet
-  apply(other, times_[op] - times_[other]);
+  apply(other, repeats_[op] - repeats_[other]);
 }
 
 void RelaxedPlan::apply(SnapId op, std::int64_t times) {
-  times_[op] += times;
+  repeats_[op] += times;
   for (const ComparisonId comparison : numbers_.touches(op)) {
     Balance& balance = touch(comparison);
     const double change = numbers_.change(op, comparison, state_);

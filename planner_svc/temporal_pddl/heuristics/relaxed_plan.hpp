@@ -1,5 +1,9 @@
 // A relaxed plan: the operators that bring about what is needed, by their supporters, and how often each.
 //
+// Where windows and deadlines count, a fact's supporter is the operator that can come first, by the times of
+// the plan so far, and not that which takes the fewest actions: so work goes to whoever is free soonest,
+// before it is too late.
+//
 // Deletes do not count for facts. For numbers they do, as a sum over the whole plan (in the manner of the
 // resource estimates of LPRPG, Coles et al. 2008): what the operators take of a number, beyond what there is
 // and what others give, a producer has to be repeated for. So comparisons are settled from those that take
@@ -11,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner_svc/temporal_pddl/heuristics/earliest_times.hpp"
 #include "planner_svc/temporal_pddl/heuristics/relaxed_numbers.hpp"
 #include "planner_svc/temporal_pddl/heuristics/relaxed_task.hpp"
 #include "planner_svc/temporal_pddl/heuristics/supporters.hpp"
@@ -22,8 +27,9 @@ class RelaxedPlan {
   RelaxedPlan(const Task& task, const RelaxedTask& relaxed, const RelaxedNumbers& numbers,
               Supporters& supporters);
 
-  // Empties it. The state is that in which the supporters begin, and must last as long.
-  void begin(StateView state);
+  // Empties it. The state is that in which the supporters begin, and must last as long. times: measured in
+  // it; facts are supported by what comes soonest then. Null: by what takes the fewest actions.
+  void begin(StateView state, const EarliestTimes* times);
   // All of it must be within reach of the supporters.
   void need(const Goal& goal);
   void include(SnapId op);
@@ -33,7 +39,7 @@ class RelaxedPlan {
   // In no order.
   std::span<const SnapId> operators() const { return plan_; }
   // How often it is applied. 0: it is not in the plan.
-  std::int64_t times(SnapId op) const { return times_[op]; }
+  std::int64_t times(SnapId op) const { return repeats_[op]; }
 
  private:
   struct Balance {
@@ -48,6 +54,7 @@ class RelaxedPlan {
   void need(PropositionId proposition);
   void need_before(SnapId op, ComparisonId comparison);
   void need_at_end(ComparisonId comparison);
+  SnapId supporter(PropositionId proposition);
   void support_facts();
   void give(SnapId op);
   // Queues the comparison if it is needed.
@@ -64,8 +71,9 @@ class RelaxedPlan {
   const RelaxedNumbers& numbers_;
   Supporters& supporters_;
   StateView state_;
+  const EarliestTimes* times_ = nullptr;
 
-  IdVector<SnapId, std::int64_t> times_;
+  IdVector<SnapId, std::int64_t> repeats_;
   std::vector<SnapId> plan_;
   IdVector<PropositionId, bool> passes_;  // is deleted by the end of an action whose start adds it
   IdVector<PropositionId, bool> is_needed_, given_;

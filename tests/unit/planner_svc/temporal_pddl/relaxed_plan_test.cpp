@@ -111,5 +111,48 @@ TEST(RelaxedPlan, OneEnvelopeIsTakenForAllThatItCanHold) {
               UnorderedElementsAre(std::pair{"(high)", 1}, std::pair{"(dry)", 1}, std::pair{"(bake)", 1}));
 }
 
+// One long action makes it ready, or two short ones; (close) may come too late.
+TEST(RelaxedPlan, WhereTimeCountsWhatComesSoonestIsTaken) {
+  const char* domain = R"((:requirements :durative-actions :timed-initial-literals)
+    (:predicates (open) (half) (ready) (closed))
+    (:durative-action slow :parameters () :duration (= ?duration 50) :condition () :effect (at end (ready)))
+    (:durative-action first :parameters () :duration (= ?duration 5) :condition () :effect (at end (half)))
+    (:durative-action second :parameters () :duration (= ?duration 5) :condition (at start (half))
+      :effect (at end (ready)))
+    (:durative-action close :parameters () :duration (= ?duration 1)
+      :condition (and (at start (ready)) (over all (open))) :effect (at end (closed))))";
+  EXPECT_THAT(relaxed_plan(testing::model(domain, "(:init (open)) (:goal (closed))")),
+              UnorderedElementsAre(std::pair{"(slow)", 1}, std::pair{"(close)", 1}));
+  EXPECT_THAT(
+      relaxed_plan(testing::model(domain, "(:init (open) (at 60 (not (open)))) (:goal (closed))")),
+      UnorderedElementsAre(std::pair{"(first)", 1}, std::pair{"(second)", 1}, std::pair{"(close)", 1}));
+}
+
+// Ten pictures and three cameras, one of which is warm already, and no time for one to take more than four.
+TEST(RelaxedPlan, WorkIsSharedOutInTimeForADeadline) {
+  std::string objects = "(:objects c0 c1 c2 - camera", init = "(:init (open) (at 60 (not (open))) (warm c0)",
+              goal;
+  for (int i = 0; i < 10; ++i) {
+    objects += " p" + std::to_string(i) + " - picture";
+    goal += " (sent p" + std::to_string(i) + ")";
+  }
+  for (int i = 0; i < 3; ++i) init += " (free c" + std::to_string(i) + ")";
+  const auto made = testing::model(R"((:requirements :typing :durative-actions :timed-initial-literals)
+    (:types camera picture)
+    (:predicates (open) (free ?c - camera) (warm ?c - camera) (taken ?p - picture) (sent ?p - picture))
+    (:durative-action heat :parameters (?c - camera) :duration (= ?duration 9)
+      :condition (at start (free ?c))
+      :effect (and (at start (not (free ?c))) (at end (free ?c)) (at end (warm ?c))))
+    (:durative-action take :parameters (?c - camera ?p - picture) :duration (= ?duration 12)
+      :condition (and (at start (free ?c)) (over all (warm ?c)))
+      :effect (and (at start (not (free ?c))) (at end (free ?c)) (at end (taken ?p))))
+    (:durative-action send :parameters (?p - picture) :duration (= ?duration 1)
+      :condition (and (at start (taken ?p)) (over all (open))) :effect (at end (sent ?p))))",
+                                   objects + ")" + init + ") (:goal (and" + goal + "))");
+  const Result result = testing::solved(made);
+  testing::expect_valid(made, result);
+  EXPECT_LE(result.statistics.evaluated, 200u);
+}
+
 }  // namespace
 }  // namespace roci::planner::temporal_pddl
