@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""How time and memory of the planner grow with goals, sites and windows; a Markdown section on standard output:
+"""How time and memory of the planner grow with goals, sites, windows, envelopes and modules, as Markdown tables:
 
   run.py --planner build/release/bin/roci-plan --validate build/release/bin/roci-validate
 
-The problems are made by rover.py and run by ../ipc/run.py, three of each size. The slope is that of a line through the
-logarithms of size and median, fitted to the larger half of the sizes. Memory is the engine's own count, without the program."""
+The problems are made by rover.py, envelopes.py and orbital.py and run by ../ipc/run.py, three of each size. The slope is
+that of a line through the logarithms of size and median, fitted to the larger half of the sizes. Memory is the engine's own count, without the program."""
 
 import argparse
 import collections
@@ -17,34 +17,49 @@ import subprocess
 import sys
 import tempfile
 
+import envelopes
+import orbital
 import rover
 
 HERE = pathlib.Path(__file__).resolve().parent
 SEEDS = 3
-# name: what grows, its sizes, the problem of a size
+DOUBLING = (2, 4, 8, 16, 32)
+# name: domain, what grows, its sizes, the problem of a size and perhaps the values of its external functions
 FAMILIES = {
-    "goals": ("goals among 64 sites", (2, 4, 8, 16, 32), lambda n, seed: rover.problem(64, n, 0, seed)),
-    "sites": ("sites, 4 goals", (8, 16, 32, 64, 128, 256, 512), lambda n, seed: rover.problem(n, 4, 0, seed)),
-    "windows": ("windows of each of 4 goals, 16 sites", (1, 2, 4, 8, 16, 32, 64),
+    "goals": ("rover", "goals among 64 sites", DOUBLING, lambda n, seed: rover.problem(64, n, 0, seed)),
+    "sites": ("rover", "sites, 4 goals", (8, 16, 32, 64, 128, 256, 512), lambda n, seed: rover.problem(n, 4, 0, seed)),
+    "windows": ("rover", "windows of each of 4 goals, 16 sites", (1, 2, 4, 8, 16, 32, 64),
                 lambda n, seed: rover.problem(16, 4, n, seed)),
+    "envelopes": ("envelopes", "furnaces of 4 jobs", DOUBLING + (64, 128), lambda n, seed: envelopes.problem(n, 4, seed)),
+    "contents": ("envelopes", "jobs of each of 4 furnaces", DOUBLING + (64, 128),
+                 lambda n, seed: envelopes.problem(4, n, seed)),
+    "modules": ("orbital", "modules of a satellite, 4 of them to be elsewhere", (4, 6, 10, 20, 30, 40),
+                lambda n, seed: orbital.reconfiguration(n, 4, seed)),
+    "moved": ("orbital", "modules of a satellite, all to be elsewhere", (4, 6, 10, 20, 30, 40),
+              lambda n, seed: orbital.reconfiguration(n, n, seed)),
 }
 
 
-def write_tree(root):
-    for family, (_, sizes, problem) in FAMILIES.items():
-        folder = root / "growth" / family
+def write_tree(root, names):
+    for name in names:
+        domain, _, sizes, made = FAMILIES[name]
+        folder = root / "growth" / name
         (folder / "instances").mkdir(parents=True)
-        shutil.copy(HERE / "rover.pddl", folder / "domain.pddl")
+        shutil.copy(HERE / f"{domain}.pddl", folder / "domain.pddl")
         for size in sizes:
             for seed in range(SEEDS):
-                (folder / "instances" / f"instance-{10 * size + seed}.pddl").write_text(problem(size, seed))
+                file = folder / "instances" / f"instance-{10 * size + seed}.pddl"
+                problem = made(size, seed)
+                text, values = problem if isinstance(problem, tuple) else (problem, "")
+                file.write_text(text)
+                file.with_suffix(".values").write_text(values)
 
 
 def measure(arguments, root):
     records = root / "records.jsonl"
     planner = pathlib.Path(arguments.planner).resolve()
     subprocess.run([sys.executable, HERE.parent / "ipc" / "run.py", "--root", root, "--planner", "growth", "--out", records,
-                    "--command", f"{planner} {{domain}} {{problem}} --stats {{stats}}", "--validate",
+                    "--command", f"{planner} {{domain}} {{problem}} --functions {{values}} --stats {{stats}}", "--validate",
                     pathlib.Path(arguments.validate).resolve(), "--seconds", str(arguments.seconds)],
                    check=True, stdout=sys.stderr)
     return [json.loads(line) for line in records.read_text().splitlines()]
@@ -61,26 +76,28 @@ def slope(points):
 
 
 def table(family, records):
-    what, sizes, _ = FAMILIES[family]
+    _, what, sizes, _ = FAMILIES[family]
     by_size = collections.defaultdict(list)
     for record in records:
         if record["domain"] == f"growth/{family}":
             by_size[record["instance"] // 10].append(record)
-    print(f"\n| {what} | solved | ground actions | evaluated | CPU s | engine kB |\n| --- | --- | --- | --- | --- | --- |")
+    print(f"\n| {what} | solved | ground actions | evaluated | CPU s | engine kB | peak MB | actions | makespan s |\n"
+          "| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     curves = collections.defaultdict(list)
     for size in sizes:
         solved = [record for record in by_size[size] if record["status"] == "ok"]
         if not solved:
-            print(f"| {size} | 0 of {SEEDS} | | | | |")
+            print(f"| {size} | 0 of {SEEDS} | | | | | | | |")
             continue
-        median = {"evaluations": statistics.median(record["stats"]["evaluated"] for record in solved),
-                  "time": statistics.median(record["cpu_s"] for record in solved),
-                  "memory": statistics.median(record["stats"]["engine_peak_bytes"] for record in solved)}
-        for name, value in median.items():
-            curves[name].append((size, value))
-        actions = statistics.median(record["stats"]["ground_actions"] for record in solved)
-        print(f"| {size} | {len(solved)} of {SEEDS} | {actions:.0f} | {median['evaluations']:.0f} | {median['time']:.3f} | "
-              f"{median['memory'] / 1000:.0f} |")
+        for record in solved:
+            record.update(record["stats"], actions=record["actions"], makespan=record["makespan"])
+        median = {key: statistics.median(record[key] for record in solved)
+                  for key in ("ground_actions", "evaluated", "cpu_s", "engine_peak_bytes", "peak_rss_kb", "actions", "makespan")}
+        for name, key in (("evaluations", "evaluated"), ("time", "cpu_s"), ("memory", "engine_peak_bytes")):
+            curves[name].append((size, median[key]))
+        print(f"| {size} | {len(solved)} of {SEEDS} | {median['ground_actions']:.0f} | {median['evaluated']:.0f} | "
+              f"{median['cpu_s']:.3f} | {median['engine_peak_bytes'] / 1000:.0f} | {median['peak_rss_kb'] / 1000:.1f} | "
+              f"{median['actions']:.0f} | {median['makespan']:.0f} |")
     slopes = {name: slope(points[len(points) // 2:]) for name, points in curves.items()}
     texts = [f"{name} {'–' if value is None else format(value, '.1f')}" for name, value in slopes.items()]
     print("\nSlope: " + ", ".join(texts) + ".")
@@ -90,13 +107,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--planner", required=True)
     parser.add_argument("--validate", default="roci-validate")
+    parser.add_argument("--families", nargs="+", choices=FAMILIES, default=list(FAMILIES), help="these alone")
     parser.add_argument("--seconds", type=int, default=30, help="of CPU time for each run")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
-        write_tree(root)
+        write_tree(root, arguments.families)
         records = measure(arguments, root)
-    for family in FAMILIES:
+    for family in arguments.families:
         table(family, records)
     return 0
 

@@ -42,7 +42,8 @@ def run(arguments, instance):
     with tempfile.TemporaryDirectory() as folder:
         plan = pathlib.Path(folder) / "plan"
         stats = pathlib.Path(folder) / "stats"
-        names = {"domain": instance.domain_file, "problem": instance.problem_file, "plan": plan, "stats": stats}
+        names = {"domain": instance.domain_file, "problem": instance.problem_file, "values": values_of(instance),
+                 "plan": plan, "stats": stats}
         command = [part.format(**names) for part in shlex.split(arguments.command)]
         command[0] = str(pathlib.Path(shutil.which(command[0]) or command[0]).resolve())
         with open(pathlib.Path(folder) / "stdout", "w+b") as out, open(pathlib.Path(folder) / "stderr", "w+b") as err:
@@ -65,6 +66,11 @@ def run(arguments, instance):
         return record
 
 
+def values_of(instance):
+    """The file beside the problem with the values of its external functions, if it has any."""
+    return pathlib.Path(instance.problem_file).with_suffix(".values")
+
+
 def judge(arguments, instance, plan, code):
     """What the validator says of the plan, if there is one."""
     if code in (-signal.SIGXCPU, -signal.SIGKILL):
@@ -72,7 +78,9 @@ def judge(arguments, instance, plan, code):
     actions = sum(line.lstrip()[:1].isdigit() for line in plan.read_text(errors="replace").splitlines())
     if code != 0 and actions == 0:
         return {"status": f"exit {code}", "valid": False}
-    verdict = subprocess.run([arguments.validate, instance.domain_file, instance.problem_file, plan, "--json"],
+    values = values_of(instance)
+    functions = ["--functions", values] if values.exists() else []
+    verdict = subprocess.run([arguments.validate, instance.domain_file, instance.problem_file, plan, "--json", *functions],
                              capture_output=True, text=True, timeout=600)
     if verdict.returncode == 2:
         return {"status": "unreadable plan", "valid": False}
@@ -103,7 +111,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", required=True, help="the benchmark tree")
     parser.add_argument("--planner", required=True, help="name in the records")
-    parser.add_argument("--command", required=True, help="with {domain} {problem}, and {plan} {stats} if it writes files")
+    parser.add_argument("--command", required=True, help="with {domain} {problem}, {values} of external functions, and {plan} {stats} if it writes files")
     parser.add_argument("--out", required=True, type=pathlib.Path, help="JSON lines; appended to")
     parser.add_argument("--validate", default="roci-validate")
     parser.add_argument("--limited", default="build/release/bin/roci-bench-limited", type=lambda p: str(pathlib.Path(p).resolve()),

@@ -10,7 +10,8 @@ namespace roci::planner::temporal_pddl {
 
 namespace {
 
-constexpr std::size_t kMaxStates = 100'000;  // of one measuring: up to 0.2 s, 6 MB
+constexpr std::size_t kMaxStates = 100'000;   // of one measuring: 6 MB
+constexpr std::size_t kMaxWork = 20'000'000;  // actions tried in states, of all measuring: about 0.5 s
 constexpr std::size_t kMaxResources = 3;
 
 // Sums of amounts round differently in a different order.
@@ -28,6 +29,7 @@ WithinResources::WithinResources(const Task& task, Heuristic& heuristic, std::si
     : task_(task),
       heuristic_(heuristic),
       patience_(patience),
+      short_(patience == 0),
       watch_(watch),
       resources_(find_resources(task)) {
   if (resources_.size() > kMaxResources) resources_.resize(kMaxResources);
@@ -35,14 +37,22 @@ WithinResources::WithinResources(const Task& task, Heuristic& heuristic, std::si
 
 bool WithinResources::hopeless(StateView state, std::span<const ActionId> running) {
   if (resources_.empty()) return false;
+  short_ = short_ || runs_short(state);
   if (patience_ > 0) {
     --patience_;
     return false;
   }
+  if (!short_) return false;
   measure();
   return std::ranges::any_of(needs_, [&](Measured& measured) {
     const double need = measured.need.of(state, running);
     return need > 0 && !suffices(measured.resource->left(task_, state), need);
+  });
+}
+
+bool WithinResources::runs_short(StateView state) const {
+  return std::ranges::any_of(resources_, [&](const Resource& resource) {
+    return resource.left(task_, state) < resource.left(task_, task_.initial_state) / 2;
   });
 }
 
@@ -56,11 +66,15 @@ void WithinResources::measure() {
 void WithinResources::measure(const Resource& resource, std::span<const FactId> goals) {
   std::size_t known = 0;
   for (const Measured& measured : needs_) known += measured.need.bytes();
+  const std::size_t states = std::min(
+      kMaxStates, (kMaxWork - std::min(work_, kMaxWork)) / std::max<std::size_t>(task_.actions.size(), 1));
+  if (states == 0) return;
   const auto step = [&](std::size_t bytes) {
+    work_ += task_.actions.size();
     watch_.step();
     watch_.memory_on_top(known + bytes);
   };
-  auto need = ResourceNeed::measure(task_, TimelessSpace(task_, goals), resource, kMaxStates, step);
+  auto need = ResourceNeed::measure(task_, TimelessSpace(task_, goals), resource, states, step);
   if (need) {
     needs_.push_back({&resource, std::move(*need)});
     return;

@@ -57,6 +57,7 @@ Quality quality_of(const Task& task, const PlanPrefix& plan, TemporalCheck& chec
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
     if (task.snaps[plan.steps[i]].kind == SnapKind::timed_literal) continue;
     ++result.steps;
+    if (task.snaps[plan.steps[i]].kind != SnapKind::end) result.starts += times[i];
     result.makespan = std::max(result.makespan, times[i]);
     result.busy += times[i] - times[plan.start_of[i]];
   }

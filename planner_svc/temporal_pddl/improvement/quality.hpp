@@ -15,6 +15,7 @@ struct Quality {
   Ticks makespan = 0;       // the last start or end of an action
   Ticks busy = 0;           // all durations together: among equally short plans the one that does less
   std::size_t steps = 0;    // snap actions
+  Ticks starts = 0;         // all starts together: what need not wait does not
   auto operator<=>(const Quality&) const = default;
 };
 

@@ -224,6 +224,30 @@ TEST(WarmStart, OnRandomTasksWithThePlansOfOthers) {
   EXPECT_GT(began_with_it, 5);
 }
 
+// As long a plan, whichever comes first; but the one need not wait for the other's window.
+TEST(Improvement, WhatNeedNotWaitDoesNot) {
+  const auto made = testing::model(R"(
+    (:requirements :durative-actions :numeric-fluents :timed-initial-literals)
+    (:predicates (open) (dug) (sent)) (:functions (battery))
+    (:durative-action dig :parameters () :duration (= ?duration 5) :condition (at start (>= (battery) 1))
+      :effect (and (at start (decrease (battery) 1)) (at end (dug))))
+    (:durative-action send :parameters () :duration (= ?duration 20)
+      :condition (and (over all (open)) (at start (>= (battery) 1)))
+      :effect (and (at start (decrease (battery) 1)) (at end (sent)))))",
+                                   "(:init (= (battery) 9) (at 100 (open))) (:goal (and (dug) (sent)))");
+  NoFunctions functions;
+  Options options;
+  const auto remaining = pddl::parse_plan("100: (send) [20]\n101: (dig) [5]", "remaining");
+  const auto digs_at = [&] {
+    const Result result = plan(made.domain, made.problem, functions, {}, {}, options, remaining);
+    testing::expect_valid(made, result);
+    return std::ranges::find(result.plan->activities, "dig", &Activity::name)->start;
+  };
+  EXPECT_GE(digs_at(), std::chrono::seconds(100));
+  options.improvement_evaluations = 100;
+  EXPECT_EQ(digs_at(), std::chrono::seconds(0));
+}
+
 TEST(Improvement, ASpentBudgetKeepsThePlan) {
   bool solved = false;
   for (int limit = 1; limit < 60; ++limit) {

@@ -9,7 +9,10 @@
 #include <numeric>
 #include <random>
 
+#include "planner_svc/temporal_pddl/heuristics/ff.hpp"
 #include "planner_svc/temporal_pddl/heuristics/resource_need.hpp"
+#include "planner_svc/temporal_pddl/heuristics/within_resources.hpp"
+#include "planner_svc/temporal_pddl/task/semantics.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/validated.hpp"
 
 namespace roci::planner::temporal_pddl {
@@ -123,6 +126,26 @@ struct Tour {
                      ")" + init + ") (:goal (and" + goal + "))");
   }
 };
+
+// Where plenty is left, the walk over all states would be for nothing.
+TEST(Resources, NothingIsMeasuredBeforeOneIsHalfUsedUp) {
+  std::mt19937_64 random(8);
+  const Tour tour(random, 4);
+  const auto grounding = grounded(tour.with_fuel(tour.fuel[0][1] * 3 / 2));
+  const Task& task = grounding.task;
+  FfHeuristic ff(task);
+  const Budget budget;
+  const Monitor monitor;
+  Watch watch(budget, monitor);
+  WithinResources within(task, ff, 1, watch);
+  const std::size_t before = within.bytes();
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(within.hopeless(task.initial_state, {}));
+  EXPECT_EQ(within.bytes(), before);
+  auto state = task.initial_state;
+  Semantics(task).apply(task.actions[testing::action(task, "(go p0 p1)")].start, 1, state);
+  within.hopeless(state, {});
+  EXPECT_GT(within.bytes(), before);
+}
 
 TEST(Resources, WhileItIsMeasuredTheBytesInUseAreTold) {
   std::mt19937_64 random(5);
