@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "exec_svc/engine_link_service.hpp"
 #include "exec_svc/journal/crash_points.hpp"
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/journaled_reactor.hpp"
@@ -64,6 +65,11 @@ class ExecService final : public services::Service {
         missions_(services::advertise(node, topics::mission_status)),
         events_(services::advertise(node, topics::event)) {
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
+    if (reactor_.reactor().follows_engine()) {
+      engine_.emplace(
+          node, mission_, [this](temporal::PlanDelta delta) { take(std::move(delta)); },
+          [this](const Note& note) { report(note); });
+    }
     recover();
     services::subscribe(node, topics::goal, [this](const v1::Goal& goal) {
       inputs_.goals.push_back(wire::from_wire(goal));
@@ -101,6 +107,7 @@ class ExecService final : public services::Service {
     if (!recovery.resumed) return report_divergence(*recovery.divergence);
     if (reactor.plan().version != 0) plans_.write(services::wire::to_wire(reactor.plan()));
     for (const StepStatus& step : reactor.steps()) steps_.write(wire::to_wire(step, reactor.plan_version()));
+    if (engine_) engine_->tell(reactor.receipt());
     for (const Note& note : recovery.last_notes) report(note);
     missed_ = journal_.peers();
     node_.after(reunion(node_), [this] { give_up_missed(); });
@@ -165,6 +172,11 @@ class ExecService final : public services::Service {
     step_soon();
   }
 
+  void take(temporal::PlanDelta delta) {
+    inputs_.deltas.push_back(std::move(delta));
+    step_soon();
+  }
+
   void take(const v1::CommandAck& ack) {
     if (ack.activity() == kEpochKey) return;
     if (ack.refused_epoch() != 0 && leading_ != nullptr) {
@@ -221,6 +233,7 @@ class ExecService final : public services::Service {
       for (const Note& note : leading_->take_notes()) report(note);
     if (out.cancelled_call && call_.id == *out.cancelled_call) planner_.cancel(call_.sent);
     if (out.call) call_planner(*out.call);
+    if (out.receipt) engine_->tell(*out.receipt);
   }
 
   void sent(bool) { crash_.pass("during-send"); }
@@ -290,6 +303,7 @@ class ExecService final : public services::Service {
   double slowest_call_s_ = 0;
   std::uint32_t planner_peak_kb_ = 0;
 
+  std::optional<EngineLink> engine_;  // one that plans all the time
   services::Client<v1::PlanRequest, v1::PlanReply> planner_;
   struct {
     std::uint64_t id = 0;       // the reactor's

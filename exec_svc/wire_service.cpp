@@ -127,6 +127,16 @@ v1::PlanRequest to_wire(const PlanCall& in, const MissionModel& mission) {
   return out;
 }
 
+v1::PlanReceipt to_wire(const PlanReceipt& in, const std::string& mission) {
+  v1::PlanReceipt out;
+  out.mission(mission);
+  out.version(in.version);
+  out.refused(in.refused);
+  out.reason(in.reason);
+  out.open(in.open);
+  return out;
+}
+
 v1::Event to_wire(const Note& in) {
   v1::Event out;
   out.severity_level(in.level == NoteLevel::info      ? v1::SEVERITY_INFO

@@ -20,6 +20,7 @@ v1::GoalStatus to_wire(const GoalRecord&);
 v1::Command to_wire(const Command&, std::uint32_t plan_version, std::uint64_t epoch);
 v1::StepStatus to_wire(const StepStatus&, std::uint32_t plan_version);
 v1::PlanRequest to_wire(const PlanCall&, const MissionModel&);
+v1::PlanReceipt to_wire(const PlanReceipt&, const std::string& mission);
 v1::Event to_wire(const Note&);
 
 // One line of the trace each, for what was seen; journal/decisions.hpp has those for what was decided.

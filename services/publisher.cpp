@@ -49,6 +49,8 @@ template struct Wire<v1::Plan>;
 template struct Wire<v1::StepStatus>;
 template struct Wire<v1::MissionStatus>;
 template struct Wire<v1::FunctionOffer>;
+template struct Wire<v1::PlanDelta>;
+template struct Wire<v1::PlanReceipt>;
 template struct Wire<v1::CallCancel>;
 template struct Wire<v1::PlanRequest>;
 template struct Wire<v1::PlanReply>;

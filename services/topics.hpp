@@ -61,6 +61,12 @@ inline constexpr Topic<v1::MissionStatus> mission_status{"roci/mission", "roci::
 inline constexpr Topic<v1::FunctionOffer> function_offer{"roci/function/offer", "roci::v1::FunctionOffer",
                                                          Qos::state, clocked};
 
+// With an engine that plans all the time.
+inline constexpr Topic<v1::PlanDelta> plan_delta{"roci/planner/delta", "roci::v1::PlanDelta", Qos::request,
+                                                 clocked};
+inline constexpr Topic<v1::PlanReceipt> plan_receipt{"roci/planner/receipt", "roci::v1::PlanReceipt",
+                                                     Qos::state, clocked};
+
 // Of every procedure below.
 inline constexpr Topic<v1::CallCancel> call_cancel{"roci/call/cancel", "roci::v1::CallCancel", Qos::request,
                                                    clocked};

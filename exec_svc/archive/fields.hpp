@@ -62,6 +62,12 @@ void fields(A& a, Of<FlexiblePlan, A>& v) {
   a(v.activities, v.tokens, v.decisions, v.constraints, v.function_values);
 }
 
+template <class A>
+void fields(A& a, Of<PlanDelta, A>& v) {
+  a(v.from_version, v.added, v.removed_activities, v.removed_decisions, v.removed_tokens,
+    v.removed_constraints);
+}
+
 }  // namespace roci::temporal
 
 namespace roci::exec {
@@ -100,7 +106,7 @@ void fields(A& a, Of<PlanAnswer, A>& v) {
 }
 template <class A>
 void fields(A& a, Of<ReactorInputs, A>& v) {
-  a(v.restarted, v.goals, v.observations, v.acks, v.losses, v.arrivals, v.models, v.answer);
+  a(v.restarted, v.goals, v.observations, v.acks, v.losses, v.arrivals, v.models, v.answer, v.deltas);
 }
 template <class A>
 void fields(A& a, Of<ProblemObject, A>& v) {
@@ -117,6 +123,10 @@ void fields(A& a, Of<PlannedAction, A>& v) {
 template <class A>
 void fields(A& a, Of<PlanCall, A>& v) {
   a(v.id, v.problem_name, v.problem, v.origin, v.remaining);
+}
+template <class A>
+void fields(A& a, Of<PlanReceipt, A>& v) {
+  a(v.version, v.refused, v.reason, v.open);
 }
 template <class A>
 void fields(A& a, Of<ReactorCounts, A>& v) {

@@ -28,6 +28,8 @@ struct ExecutiveSettings {
   double overrun_factor = 3.0;  ///< a command fails as hung after this many times its longest duration ...
   temporal::Duration overrun_grace = temporal::seconds(600);  ///< ... plus this
   StartPolicy start = StartPolicy::earliest;
+  bool only_committed =
+      false;  ///< what is not committed waits for a version of the plan that commits it (R78)
   std::map<std::string, Contingency> contingencies{};  ///< by name, as PlanActivity::contingency names them
   std::map<std::string, temporal::Duration>
       retry_within{};  ///< after its start, by PlanActivity::name; else no bound

@@ -10,7 +10,7 @@ using temporal::Duration;
 using temporal::Time;
 using temporal::TimePoint;
 
-PointDispatcher::PointDispatcher(const temporal::FlexiblePlan& plan, bool latest_starts)
+PointDispatcher::PointDispatcher(const temporal::FlexiblePlan& plan, bool latest_starts, bool only_committed)
     : latest_starts_(latest_starts),
       owners_(point_owners(plan)),
       constraints_(all_constraints(plan)),
@@ -21,12 +21,15 @@ PointDispatcher::PointDispatcher(const temporal::FlexiblePlan& plan, bool latest
   points_[temporal::origin_point].happened = plan.origin;
   for (std::size_t i = 0; i < plan.activities.size(); ++i) {
     const temporal::PlanActivity& activity = plan.activities[i];
-    points_[activity.start_point].may_be_late = activity.lateness == temporal::LatenessPolicy::push;
+    const bool waits = only_committed && activity.commit != temporal::CommitState::committed;
+    points_[activity.start_point].may_be_late = waits || activity.lateness == temporal::LatenessPolicy::push;
+    points_[activity.start_point].holds = waits ? 1 : 0;
     ends_[i] = activity.end_point;
   }
   for (TimePoint p = 1; p < points_.size(); ++p) {
-    points_[p].pending = points_[p].unbegun = points_[p].unreached =
+    points_[p].unbegun = points_[p].unreached =
         static_cast<std::uint32_t>(precedence_.predecessors[p].size());
+    points_[p].pending = points_[p].unbegun + points_[p].holds;
   }
   for (TimePoint p = 1; p < points_.size(); ++p) {
     if (precedence_.predecessors[p].empty()) reach(p);

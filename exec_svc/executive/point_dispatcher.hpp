@@ -15,8 +15,9 @@ namespace roci::exec {
 class PointDispatcher {
  public:
   /// The plan has passed check(). latest_starts: starts are due at the end of their windows, where these have
-  /// one (R144).
-  explicit PointDispatcher(const temporal::FlexiblePlan& plan, bool latest_starts = false);
+  /// one (R144). only_committed: what is not committed never starts, and is never late (R78).
+  explicit PointDispatcher(const temporal::FlexiblePlan& plan, bool latest_starts = false,
+                           bool only_committed = false);
 
   temporal::Window window(temporal::TimePoint point) const { return windows_.window(point); }
   /// Makes window() cheap for every point.

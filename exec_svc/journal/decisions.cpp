@@ -38,6 +38,11 @@ std::string line_of(const temporal::FlexiblePlan& plan) {
   return out.str();
 }
 
+std::string line_of(const PlanReceipt& receipt) {
+  return "receipt " + std::to_string(receipt.version) + " refused " + std::to_string(receipt.refused) + " " +
+         receipt.reason + (receipt.open ? "" : " (no plan would be taken)");
+}
+
 std::string line_of(const Command& command) {
   return "command " + command.activity + " " + std::to_string(command.attempt) +
          " action=" + std::to_string(static_cast<int>(command.action)) + " " + command.owner + " " +
@@ -69,6 +74,7 @@ std::vector<Line> decisions(temporal::Time now, const ReactorOutputs& out) {
     lines.push_back({"call", out.call->problem.text});
     if (!out.call->remaining.empty()) lines.push_back({"call", line_of(out.call->remaining)});
   }
+  if (out.receipt) lines.push_back({"call", line_of(*out.receipt)});
   return lines;
 }
 

@@ -109,6 +109,7 @@ enum class RecoveryStrategy {
 enum class Replanning {
   paused,    // nothing: what runs is cancelled, all components fall back first (R43, R44)
   situated,  // what runs: it is planned from the state that it will leave, and the plans change there
+  continuous,  // everything: the engine plans all the time and sends versions of its plan (R66)
 };
 
 struct PlannerSettings {

@@ -57,17 +57,10 @@ void Reactor::adopt(Time now, const PlanAnswer& answer) {
   planned_ = std::move(planned);
   ++plan_version_;
   first_plan_ = false;
-  phase_ = Phase::executing;
   margins_ = Margins(plan);
   std::set<std::string> foreseen;
   for (const WindowModel& window : mission_->windows) foreseen.insert(window.fact);
   foresight_ = Foresight(plan, foreseen, mission_->executive.ack_timeout);
-  condition_values_.clear();
-  for (const temporal::PlanActivity& activity : plan.activities) {
-    for (const temporal::Condition* condition : {&activity.pre, &activity.maintenance}) {
-      for (const std::string& name : temporal::timelines_of(*condition)) condition_values_[name] = {};
-    }
-  }
   std::string served;
   for (const GoalRecord* record : goals_.open()) {
     const GoalKey key = record->request.key;
@@ -78,6 +71,17 @@ void Reactor::adopt(Time now, const PlanAnswer& answer) {
   note(NoteLevel::info, "plan.adopted",
        "plan " + std::to_string(plan_version_) + " with " + std::to_string(plan.activities.size()) +
            " activities for " + served);
+  begin_plan(now, std::move(plan));
+}
+
+void Reactor::begin_plan(Time now, temporal::FlexiblePlan plan) {
+  phase_ = Phase::executing;
+  condition_values_.clear();
+  for (const temporal::PlanActivity& activity : plan.activities) {
+    for (const temporal::Condition* condition : {&activity.pre, &activity.maintenance}) {
+      for (const std::string& name : temporal::timelines_of(*condition)) condition_values_[name] = {};
+    }
+  }
   out_.adopted = std::move(plan);
   told_starts_.clear();
   tell_windows();

@@ -32,6 +32,7 @@ ExecutiveSettings executive_settings(const MissionModel& mission) {
   settings.ack_timeout = mission.executive.ack_timeout;
   settings.cancel_timeout = mission.executive.ack_timeout;
   settings.start = mission.executive.start;
+  settings.only_committed = mission.executive.replanning == Replanning::continuous;
   settings.contingencies = mission.contingencies;
   for (const auto& [name, binding] : mission.actions)
     if (temporal::bounded(binding.retry_within)) settings.retry_within[name] = binding.retry_within;

@@ -194,6 +194,7 @@ std::vector<Observation> Reactor::changed_conditions() {
 // A wish for a plan that comes up during a planner call cancels it and waits for its end: there is never more
 // than one call.
 void Reactor::advance(Time now, const ReactorInputs& inputs) {
+  if (follows_engine()) return follow_engine(now, inputs);
   const bool answered = call_open_ && inputs.answer && inputs.answer->call == call_id_;
   if (answered) {
     call_open_ = false;

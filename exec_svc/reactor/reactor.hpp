@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/temporal/flexible_plan.hpp"
+#include "core/temporal/plan_delta.hpp"
 #include "exec_svc/beliefs/beliefs.hpp"
 #include "exec_svc/executive/executive.hpp"
 #include "exec_svc/goals/goal_set.hpp"
@@ -68,6 +69,15 @@ struct ModelVersion {
   std::uint64_t version = 0;
 };
 
+// What the engine that plans all the time is told of its versions.
+struct PlanReceipt {
+  std::uint32_t version = 0;  // that is executed; 0: none, the next one is to come whole
+  std::uint32_t refused = 0;  // the last one, if it was not taken, for this reason
+  std::string reason;
+  bool open = false;  // a plan would be taken now
+  bool operator==(const PlanReceipt&) const = default;
+};
+
 struct ReactorInputs {
   bool restarted = false;  // the executive was started anew and stands as before; its owners may not
   std::vector<GoalRequest> goals;
@@ -77,6 +87,7 @@ struct ReactorInputs {
   std::vector<std::string> arrivals;  // services that came (back)
   std::vector<ModelVersion> models;
   std::optional<PlanAnswer> answer;
+  std::vector<temporal::PlanDelta> deltas;  // of an engine that plans all the time
 };
 
 enum class Phase { idle, pausing, planning, executing, safe, finished };
@@ -99,7 +110,8 @@ struct ReactorOutputs {
   std::optional<std::uint64_t> cancelled_call;  // its answer is wanted no more; it is still awaited
   std::optional<PlanCall> call;
   std::optional<temporal::FlexiblePlan> adopted;  // a plan that now runs
-  std::optional<temporal::Time> wake;             // call step() again then, if nothing comes before
+  std::optional<PlanReceipt> receipt;
+  std::optional<temporal::Time> wake;  // call step() again then, if nothing comes before
 };
 
 struct ReactorCounts {
@@ -130,6 +142,8 @@ class Reactor {
   std::uint32_t plan_version() const { return plan_version_; }
   ReactorCounts counts() const;
   const GoalSet& goals() const { return goals_; }
+  bool follows_engine() const;  // that plans all the time
+  const PlanReceipt& receipt() const { return receipt_; }
   // "achieved": every hard goal that was not rejected, and there was a goal; "partial": some hard goal
   // failed, robot safe; "failed": robot not safe; empty while open.
   std::string outcome() const;
@@ -167,6 +181,17 @@ class Reactor {
   std::vector<PlannedAction> remaining() const;
   std::string surprise_of(const Forecast& forecast) const;
   bool outdated(const PlanAnswer& answer) const;
+  void follow_engine(temporal::Time now, const ReactorInputs& inputs);
+  void take_delta(temporal::Time now, const temporal::PlanDelta& delta);
+  std::string fault_of(temporal::Time now, const temporal::PlanDelta& delta,
+                       temporal::FlexiblePlan& next) const;
+  void adopt_version(temporal::Time now, temporal::FlexiblePlan plan);
+  void note_planned(const temporal::FlexiblePlan& plan);
+  void follow_version(temporal::Time now);
+  void forget_ended_plan(temporal::Time now);
+  bool takes_plans() const;
+  void tell_receipt();
+  void begin_plan(temporal::Time now, temporal::FlexiblePlan plan);
   void take_answer(temporal::Time now, const PlanAnswer& answer);
   void adopt(temporal::Time now, const PlanAnswer& answer);
   // False: no goal has gone, the next call is to leave out the soft ones.
@@ -222,6 +247,11 @@ class Reactor {
   std::map<std::string, std::uint64_t> models_;  // newest version by owner
   bool models_changed_ = false;                  // since the call
   std::uint32_t outdated_calls_ = 0;             // in a row
+
+  PlanReceipt receipt_;
+  std::optional<PlanReceipt> told_receipt_;
+  temporal::Time mend_before_{0};  // a plan that broke, by another version
+  std::vector<std::string> ended_;  // activities of the engine's plan that ended last, sorted
 
   temporal::Time pause_deadline_{0};
   std::uint32_t fallback_round_ = 0;

@@ -36,6 +36,7 @@ void Reactor::fields(Archive& a, Self& self) {
   a(self.counts_, self.models_, self.models_changed_, self.outdated_calls_, self.pause_deadline_);
   a(self.fallback_round_, self.fallbacks_sent_, self.failed_calls_, self.not_before_, self.told_starts_);
   a(self.condition_values_, self.reserves_, self.suspicion_);
+  a(self.receipt_, self.told_receipt_, self.mend_before_, self.ended_);
 }
 
 std::string Reactor::snapshot() const {

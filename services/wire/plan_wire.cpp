@@ -145,6 +145,35 @@ temporal::DecisionPoint decision_from_wire(const v1::DecisionPoint& in) {
   return out;
 }
 
+v1::Token token_to_wire(const temporal::Token& in) {
+  v1::Token out;
+  out.timeline(in.timeline);
+  out.held(to_wire(in.held));
+  out.start_point(in.start_point);
+  out.end_point(in.end_point);
+  return out;
+}
+
+temporal::Token token_from_wire(const v1::Token& in) {
+  return {in.timeline(), from_wire(in.held()), in.start_point(), in.end_point()};
+}
+
+v1::TemporalConstraint constraint_to_wire(const temporal::TemporalConstraint& in) {
+  v1::TemporalConstraint out;
+  out.from_point(in.from_point);
+  out.to_point(in.to_point);
+  out.kind(enum_to_wire<v1::ConstraintKind>(in.kind));
+  out.lower_us(in.lower.count());
+  out.upper_us(bound_to_wire(in.upper));
+  return out;
+}
+
+temporal::TemporalConstraint constraint_from_wire(const v1::TemporalConstraint& in) {
+  return {in.from_point(), in.to_point(),
+          enum_from_wire(in.kind(), temporal::ConstraintKind::window, "constraint kind"),
+          Duration(in.lower_us()), bound_from_wire(in.upper_us())};
+}
+
 v1::FunctionValueUse use_to_wire(const temporal::FunctionValueUse& in) {
   v1::FunctionValueUse out;
   out.function(in.function);
@@ -219,25 +248,9 @@ v1::Plan to_wire(const temporal::FlexiblePlan& in) {
   out.origin_us(in.origin.count());
   out.point_count(in.point_count);
   out.activities(each<v1::PlanActivity>(in.activities, activity_to_wire));
-  out.tokens(each<v1::Token>(in.tokens, [](const temporal::Token& token) {
-    v1::Token wire;
-    wire.timeline(token.timeline);
-    wire.held(to_wire(token.held));
-    wire.start_point(token.start_point);
-    wire.end_point(token.end_point);
-    return wire;
-  }));
+  out.tokens(each<v1::Token>(in.tokens, token_to_wire));
   out.decisions(each<v1::DecisionPoint>(in.decisions, decision_to_wire));
-  out.constraints(
-      each<v1::TemporalConstraint>(in.constraints, [](const temporal::TemporalConstraint& constraint) {
-        v1::TemporalConstraint wire;
-        wire.from_point(constraint.from_point);
-        wire.to_point(constraint.to_point);
-        wire.kind(enum_to_wire<v1::ConstraintKind>(constraint.kind));
-        wire.lower_us(constraint.lower.count());
-        wire.upper_us(bound_to_wire(constraint.upper));
-        return wire;
-      }));
+  out.constraints(each<v1::TemporalConstraint>(in.constraints, constraint_to_wire));
   out.function_values(each<v1::FunctionValueUse>(in.function_values, use_to_wire));
   return out;
 }
@@ -250,17 +263,9 @@ temporal::FlexiblePlan from_wire(const v1::Plan& in) {
   out.origin = Duration(in.origin_us());
   out.point_count = in.point_count();
   out.activities = each<temporal::PlanActivity>(in.activities(), activity_from_wire);
-  out.tokens = each<temporal::Token>(in.tokens(), [](const v1::Token& token) {
-    return temporal::Token{token.timeline(), from_wire(token.held()), token.start_point(), token.end_point()};
-  });
+  out.tokens = each<temporal::Token>(in.tokens(), token_from_wire);
   out.decisions = each<temporal::DecisionPoint>(in.decisions(), decision_from_wire);
-  out.constraints =
-      each<temporal::TemporalConstraint>(in.constraints(), [](const v1::TemporalConstraint& constraint) {
-        return temporal::TemporalConstraint{
-            constraint.from_point(), constraint.to_point(),
-            enum_from_wire(constraint.kind(), temporal::ConstraintKind::window, "constraint kind"),
-            Duration(constraint.lower_us()), bound_from_wire(constraint.upper_us())};
-      });
+  out.constraints = each<temporal::TemporalConstraint>(in.constraints(), constraint_from_wire);
   out.function_values =
       each<temporal::FunctionValueUse>(in.function_values(), [](const v1::FunctionValueUse& use) {
         return temporal::FunctionValueUse{use.function(),      use.arguments(),
@@ -268,6 +273,26 @@ temporal::FlexiblePlan from_wire(const v1::Plan& in) {
                                           use.model_version(), temporal::Time(use.computed_us())};
       });
   return out;
+}
+
+v1::PlanDelta to_wire(const temporal::PlanDelta& in) {
+  v1::PlanDelta out;
+  out.from_version(in.from_version);
+  out.added(to_wire(in.added));
+  out.removed_activities(in.removed_activities);
+  out.removed_decisions(in.removed_decisions);
+  out.removed_tokens(each<v1::Token>(in.removed_tokens, token_to_wire));
+  out.removed_constraints(each<v1::TemporalConstraint>(in.removed_constraints, constraint_to_wire));
+  return out;
+}
+
+temporal::PlanDelta from_wire(const v1::PlanDelta& in) {
+  return {in.from_version(),
+          from_wire(in.added()),
+          in.removed_activities(),
+          in.removed_decisions(),
+          each<temporal::Token>(in.removed_tokens(), token_from_wire),
+          each<temporal::TemporalConstraint>(in.removed_constraints(), constraint_from_wire)};
 }
 
 }  // namespace roci::services::wire

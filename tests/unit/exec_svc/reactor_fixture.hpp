@@ -41,7 +41,8 @@ inline temporal::FlexiblePlan images(const std::vector<std::string>& ids) {
 
 inline bool is_empty(const ReactorInputs& inputs) {
   return inputs.goals.empty() && inputs.observations.empty() && inputs.acks.empty() &&
-         inputs.losses.empty() && inputs.arrivals.empty() && inputs.models.empty() && !inputs.answer;
+         inputs.losses.empty() && inputs.arrivals.empty() && inputs.models.empty() && !inputs.answer &&
+         inputs.deltas.empty();
 }
 
 class ReactorTest : public ::testing::Test {

@@ -75,8 +75,9 @@ v1::Goal photo_goal(const std::string& id) {
 }
 
 ExecSeat::ExecSeat(const std::string& vendor, const std::string& vendor_of_others, int domain,
-                   const std::vector<GoalRecord>& journalled)
+                   const std::vector<GoalRecord>& journalled, fs::path mission)
     : folder_(made_folder(domain)),
+      mission_(std::move(mission)),
       vendor_(vendor),
       run_({"sim_svc", "planner_svc", "exec_svc"}, domain),
       robot_(waiting_master(run_, vendor_of_others)),
@@ -93,7 +94,7 @@ ExecSeat::ExecSeat(const std::string& vendor, const std::string& vendor_of_other
                       [this](const v1::Event& event) { events.push_back(event.code()); });
   services::subscribe(robot_, topics::plan, [this](const v1::Plan& plan) { plans.push_back(plan); });
   services::subscribe(robot_, topics::mission_status,
-                      [this](const v1::MissionStatus& status) { mission = status; });
+                      [this](const v1::MissionStatus& status) { this->mission = status; });
   robot_.at(0s, [this] {
     for (const auto& [timeline, value] : standing_robot()) observe(timeline, value);
   });
@@ -114,7 +115,7 @@ ExecSeat::~ExecSeat() {
 void ExecSeat::start_executive(std::uint32_t incarnation) {
   services::Node& node = run_.add("exec_svc", incarnation, vendor_);
   services::RunSettings settings;
-  settings.mission = ROCI_SOURCE_DIR "/missions/planetary";
+  settings.mission = mission_;
   settings.run_folder = folder_;
   executive_ = make_service(node, settings);
 }

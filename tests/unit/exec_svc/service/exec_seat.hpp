@@ -24,9 +24,10 @@ v1::Goal photo_goal(const std::string& id);
 class ExecSeat {
  public:
   // `vendor` of the executive's transport; the others use `vendor_of_others`. `journalled`: what an earlier
-  // start left in the journal.
+  // start left in the journal. `mission`: its folder.
   explicit ExecSeat(const std::string& vendor = "inproc", const std::string& vendor_of_others = "inproc",
-                    int domain = services::next_domain(), const std::vector<GoalRecord>& journalled = {});
+                    int domain = services::next_domain(), const std::vector<GoalRecord>& journalled = {},
+                    std::filesystem::path mission = ROCI_SOURCE_DIR "/missions/planetary");
   ~ExecSeat();
 
   void send(services::Time when, const v1::Goal& goal);
@@ -58,6 +59,7 @@ class ExecSeat {
   void observe(const std::string& timeline, const temporal::Value& value);
 
   std::filesystem::path folder_;
+  std::filesystem::path mission_;
   std::string vendor_;
   services::SimRun run_;
   services::Node& robot_;

@@ -1,0 +1,35 @@
+// What changes from one version of a plan to the next: how an engine that plans all the time sends its plan
+// (R66, R81).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/temporal/flexible_plan.hpp"
+
+namespace roci::temporal {
+
+/// Time points keep their numbers from version to version; those of removed activities stay unused until the
+/// plan comes as a whole again.
+struct PlanDelta {
+  std::uint32_t from_version = 0;  ///< of the plan that changes; 0: none, `added` is the whole plan
+  /// Id, version, engine, origin, number of points and function values as they become; activities, tokens,
+  /// decisions and constraints that are new. An activity or decision stands in place of that with its id.
+  FlexiblePlan added;
+  std::vector<std::string> removed_activities;
+  std::vector<std::string> removed_decisions;
+  std::vector<Token> removed_tokens;                    ///< one of each that is equal
+  std::vector<TemporalConstraint> removed_constraints;  ///< likewise
+  friend bool operator==(const PlanDelta&, const PlanDelta&) = default;
+};
+
+/// Turns `from` into `to`, but for the order of their items.
+PlanDelta difference(const FlexiblePlan& from, const FlexiblePlan& to);
+
+/// Changes the plan; items that stay keep their order, new ones follow. Returns what is wrong, empty if
+/// nothing: another version than the delta is of, an item to be removed that is not there. The plan has then
+/// not changed.
+std::string apply(const PlanDelta& delta, FlexiblePlan& plan);
+
+}  // namespace roci::temporal

@@ -1,0 +1,27 @@
+#include "exec_svc/engine_link_service.hpp"
+
+#include <utility>
+
+#include "exec_svc/wire_service.hpp"
+#include "services/wire/plan_wire.hpp"
+
+namespace roci::exec {
+
+EngineLink::EngineLink(services::Node& node, const MissionModel& mission,
+                       std::function<void(temporal::PlanDelta)> take, std::function<void(const Note&)> report)
+    : mission_(mission.name), receipts_(services::advertise(node, services::topics::plan_receipt)) {
+  services::subscribe(
+      node, services::topics::plan_delta,
+      [take = std::move(take), report = std::move(report)](const v1::PlanDelta& delta) {
+        try {
+          take(services::wire::from_wire(delta));
+        } catch (const services::wire::WireError& error) {
+          report({NoteLevel::warning, "plan.malformed",
+                  "version " + std::to_string(delta.added().version()) + ": " + error.what()});
+        }
+      });
+}
+
+void EngineLink::tell(const PlanReceipt& receipt) { receipts_.write(wire::to_wire(receipt, mission_)); }
+
+}  // namespace roci::exec
