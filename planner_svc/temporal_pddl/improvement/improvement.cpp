@@ -51,6 +51,7 @@ class Improvement {
   void vary(std::size_t evaluations, std::size_t& left) {
     PlanPrefix current = plan_;
     Quality best = quality_of(task_, plan_, replay_.check());
+    Ticks starts = starts_of(task_, plan_, replay_.check());
     for (std::size_t spent = 0; spent < evaluations && left > 0;) {
       watch_.poll();
       const auto outcome = neighbourhood_.vary(current, replay_);
@@ -62,8 +63,10 @@ class Improvement {
         continue;
       drop_useless_actions(task_, current, replay_, kStepsTakenAgain, watch_);
       const Quality tidy = quality_of(task_, current, replay_.check());
-      if (tidy >= best) continue;
+      const Ticks tidy_starts = starts_of(task_, current, replay_.check());
+      if (tidy > best || (tidy == best && tidy_starts >= starts)) continue;
       best = tidy;
+      starts = tidy_starts;
       plan_ = current;
     }
   }

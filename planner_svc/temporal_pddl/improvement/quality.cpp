@@ -57,7 +57,6 @@ Quality quality_of(const Task& task, const PlanPrefix& plan, TemporalCheck& chec
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
     if (task.snaps[plan.steps[i]].kind == SnapKind::timed_literal) continue;
     ++result.steps;
-    if (task.snaps[plan.steps[i]].kind != SnapKind::end) result.starts += times[i];
     result.makespan = std::max(result.makespan, times[i]);
     result.busy += times[i] - times[plan.start_of[i]];
   }
@@ -65,6 +64,16 @@ Quality quality_of(const Task& task, const PlanPrefix& plan, TemporalCheck& chec
   const double millionths = task.metric.only_time() ? 0 : 1e6 * cost_of(task, plan, result.makespan);
   result.metric = std::isnan(millionths) ? std::numeric_limits<std::int64_t>::max()
                                          : std::llround(std::clamp(millionths, -kWorst, kWorst));
+  return result;
+}
+
+Ticks starts_of(const Task& task, const PlanPrefix& plan, TemporalCheck& check) {
+  const std::vector<Ticks>& times = *check.earliest(plan);
+  Ticks result = 0;
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    const SnapKind kind = task.snaps[plan.steps[i]].kind;
+    if (kind == SnapKind::start || kind == SnapKind::instant) result += times[i];
+  }
   return result;
 }
 

@@ -15,13 +15,16 @@ struct Quality {
   Ticks makespan = 0;       // the last start or end of an action
   Ticks busy = 0;           // all durations together: among equally short plans the one that does less
   std::size_t steps = 0;    // snap actions
-  Ticks starts = 0;         // all starts together: what need not wait does not
   auto operator<=>(const Quality&) const = default;
 };
 
 // In the schedule of earliest times. The plan must be temporally consistent; actions that still run count
 // with their starts only.
 Quality quality_of(const Task& task, const PlanPrefix& plan, TemporalCheck& check);
+
+// The times of all starts together: of two plans alike in quality, the one with less lets nothing wait in
+// vain.
+Ticks starts_of(const Task& task, const PlanPrefix& plan, TemporalCheck& check);
 
 // Is the quality of a plan at least that of its beginning, whatever comes in between?
 bool only_grows(const Task& task);

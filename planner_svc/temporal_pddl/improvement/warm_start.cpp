@@ -15,7 +15,7 @@ namespace roci::planner::temporal_pddl {
 namespace {
 
 constexpr CompletionRule kRule{true, false, true, 5, 100};
-constexpr Quality kAnyQuality{std::numeric_limits<std::int64_t>::max(), kNever, 0, 0, 0};
+constexpr Quality kAnyQuality{std::numeric_limits<std::int64_t>::max(), kNever, 0, 0};
 
 // The snap actions of the steps that the task knows, by time, ends before starts.
 std::vector<SnapId> snaps_of(const Task& task, std::span<const pddl::PlanStep> remaining) {
