@@ -24,6 +24,7 @@ struct Options {
   bool whole_actions = true;        // see search/search.hpp
   bool novelty = true;              // see search/novelty.hpp; takes no effect without dominance
   bool lookahead = true;            // see search/lookahead.hpp
+  bool width = true;                // see search/width_search.hpp; takes no effect without dominance
   WindowExtraction windows = WindowExtraction::recurring;
   std::size_t resource_patience = 100;      // states before it is measured what resources suffice for, see
                                             // heuristics/within_resources.hpp

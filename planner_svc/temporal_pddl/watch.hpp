@@ -28,6 +28,7 @@ class Watch {
     if (monitor_.progress) monitor_.progress(statistics);
   }
   bool cancelled() const { return monitor_.cancelled && monitor_.cancelled(); }
+  std::size_t memory_limit() const { return budget_.memory_bytes; }
   std::size_t peak_bytes() const { return peak_bytes_; }
 
  private:

@@ -19,36 +19,26 @@
 #include "planner_svc/temporal_pddl/search/lookahead.hpp"
 #include "planner_svc/temporal_pddl/search/novelty.hpp"
 #include "planner_svc/temporal_pddl/search/open_list.hpp"
+#include "planner_svc/temporal_pddl/search/searcher.hpp"
 #include "planner_svc/temporal_pddl/search/state_space.hpp"
 #include "planner_svc/temporal_pddl/watch.hpp"
 
 namespace roci::planner::temporal_pddl {
-
-struct SearchOutcome {
-  std::optional<PlanPrefix> plan;  // none: there is no plan
-  std::vector<Word> final_state;   // with a plan
-  std::string reason;              // without: what stood in the way
-};
 
 struct SearchStyle {
   ActionSteps steps = ActionSteps::as_needed;
   bool lookahead = false;  // relaxed plans are followed
 };
 
-class BestFirstSearch {
+class BestFirstSearch final : public Searcher {
  public:
   // Keeps `statistics` up to date all the time.
   BestFirstSearch(const Task& task, Heuristic& heuristic, const Options& options, SearchStyle style,
                   Watch& watch, Statistics& statistics);
 
-  // Goes on for so many more evaluations; none: not at its end yet. bytes_elsewhere count as used too. Throws
-  // what Watch throws, and Refusal (out_of_memory) if plans of more than kMaxSteps steps would have to be
-  // tried.
-  std::optional<SearchOutcome> run(std::size_t evaluations, std::size_t bytes_elsewhere = 0);
-  // Whether there is no plan if it finds none.
-  bool complete() const { return complete_; }
-  // Without the heuristic's, which all searches share.
-  std::size_t bytes() const {
+  std::optional<SearchOutcome> run(std::size_t evaluations, std::size_t bytes_elsewhere) override;
+  bool complete() const override { return complete_; }
+  std::size_t bytes() const override {
     return space_.store().bytes() + open_.bytes() + dominance_.bytes() + novelty_.bytes();
   }
 

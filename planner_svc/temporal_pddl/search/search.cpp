@@ -1,14 +1,25 @@
 #include "planner_svc/temporal_pddl/search/search.hpp"
 
 #include <algorithm>
-#include <list>
+#include <functional>
+#include <memory>
 #include <vector>
+
+#include "planner_svc/temporal_pddl/search/best_first_search.hpp"
+#include "planner_svc/temporal_pddl/search/width_search.hpp"
 
 namespace roci::planner::temporal_pddl {
 
 namespace {
 
-constexpr std::size_t kFirstTurn = 250;  // evaluations
+constexpr std::size_t kTurn = 100;  // evaluations
+
+// How often turns come. What follows relaxed plans solves most tasks, and of these most with whole actions;
+// by novelty is solved what it does not solve.
+constexpr std::size_t kFirstShare = 4;
+constexpr std::size_t kLookaheadShare = 2;
+constexpr std::size_t kWidthShare = 2;
+constexpr std::size_t kPlainShare = 1;
 
 // Does it make a difference whether actions are taken whole?
 bool splits_actions(const Task& task) {
@@ -16,19 +27,49 @@ bool splits_actions(const Task& task) {
       task.actions, [](const Action& action) { return !action.instantaneous() && !action.compression_safe; });
 }
 
-std::vector<SearchStyle> styles(const Task& task, const Options& options) {
-  std::vector<SearchStyle> result;
-  for (const bool lookahead : {true, false}) {
-    if (lookahead && !options.lookahead) continue;
-    if (options.whole_actions && splits_actions(task)) result.push_back({ActionSteps::whole, lookahead});
-    result.push_back({ActionSteps::as_needed, lookahead});
+// One that takes turns; it is set up when its first turn comes.
+struct Participant {
+  std::size_t share;
+  std::function<std::unique_ptr<Searcher>()> make;
+  std::unique_ptr<Searcher> searcher = nullptr;
+  std::size_t turns = 0;
+
+  double served() const { return static_cast<double>(turns) / static_cast<double>(share); }
+};
+
+std::vector<Participant> participants(const Task& task, Heuristic& heuristic, const Options& options,
+                                      Watch& watch, Statistics& statistics) {
+  std::vector<Participant> result;
+  const bool whole = options.whole_actions && splits_actions(task);
+  const auto best_first = [&](ActionSteps steps, bool lookahead) {
+    const std::size_t share = result.empty() ? kFirstShare : lookahead ? kLookaheadShare : kPlainShare;
+    const SearchStyle style{steps, lookahead};
+    result.push_back({share, [&, style] {
+                        return std::make_unique<BestFirstSearch>(task, heuristic, options, style, watch,
+                                                                 statistics);
+                      }});
+  };
+  const auto both = [&](bool lookahead) {
+    if (whole) best_first(ActionSteps::whole, lookahead);
+    best_first(ActionSteps::as_needed, lookahead);
+  };
+  if (options.lookahead) both(true);
+  if (options.width && options.dominance) {
+    const ActionSteps steps = whole ? ActionSteps::whole : ActionSteps::as_needed;
+    result.push_back({kWidthShare, [&, steps] {
+                        return std::make_unique<WidthSearch>(task, heuristic, options, steps, watch,
+                                                             statistics);
+                      }});
   }
+  both(false);
   return result;
 }
 
-std::size_t bytes(const std::list<BestFirstSearch>& searches) {
+std::size_t bytes(const std::vector<Participant>& participants) {
   std::size_t sum = 0;
-  for (const BestFirstSearch& search : searches) sum += search.bytes();
+  for (const Participant& participant : participants) {
+    if (participant.searcher) sum += participant.searcher->bytes();
+  }
   return sum;
 }
 
@@ -36,15 +77,14 @@ std::size_t bytes(const std::list<BestFirstSearch>& searches) {
 
 SearchOutcome search(const Task& task, Heuristic& heuristic, const Options& options, Watch& watch,
                      Statistics& statistics) {
-  std::list<BestFirstSearch> searches;
-  for (const SearchStyle style : styles(task, options))
-    searches.emplace_back(task, heuristic, options, style, watch, statistics);
-  for (std::size_t turn = kFirstTurn;; turn *= 2) {
-    for (auto search = searches.begin(); search != searches.end();) {
-      auto outcome = search->run(turn, bytes(searches) - search->bytes());
-      if (outcome && (outcome->plan || search->complete())) return std::move(*outcome);
-      search = outcome ? searches.erase(search) : std::next(search);
-    }
+  auto all = participants(task, heuristic, options, watch, statistics);
+  while (true) {
+    const auto next = std::ranges::min_element(all, {}, &Participant::served);
+    if (!next->searcher) next->searcher = next->make();
+    ++next->turns;
+    auto outcome = next->searcher->run(kTurn, bytes(all) - next->searcher->bytes());
+    if (outcome && (outcome->plan || next->searcher->complete())) return std::move(*outcome);
+    if (outcome) all.erase(next);
   }
 }
 

@@ -66,6 +66,10 @@ std::optional<DurationBounds> Semantics::duration(ActionId id, StateView before_
   return result.min <= result.max ? std::optional(result) : std::nullopt;
 }
 
+bool Semantics::satisfied(const NumericCondition& condition, StateView state) const {
+  return holds_all(std::span(&condition, 1), state, 0);
+}
+
 bool Semantics::satisfied(const Goal& goal, StateView state) const {
   return holds_all(goal.facts, state) && holds_all(goal.comparisons, state, 0);
 }

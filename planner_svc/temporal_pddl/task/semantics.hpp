@@ -27,6 +27,7 @@ class Semantics {
   // without one it is left out.
   std::optional<DurationBounds> duration(ActionId action, StateView before_start,
                                          std::optional<StateView> before_end) const;
+  bool satisfied(const NumericCondition& condition, StateView state) const;
   bool satisfied(const Goal& goal, StateView state) const;
   bool goal_satisfied(StateView state) const;
 

@@ -8,7 +8,8 @@
 
 #include "planner_svc/temporal_pddl/grounding/refusal.hpp"
 #include "planner_svc/temporal_pddl/heuristics/landmark_count.hpp"
-#include "planner_svc/temporal_pddl/search/search.hpp"
+#include "planner_svc/temporal_pddl/search/best_first_search.hpp"
+#include "planner_svc/temporal_pddl/task/semantics.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/random_task.hpp"
 
@@ -115,7 +116,7 @@ TEST(LandmarksOfRandomTasks, EveryPlanMakesEachTrue) {
     Statistics statistics;
     Options options;
     BestFirstSearch search(task, ff, options, SearchStyle{}, watch, statistics);
-    const auto outcome = search.run(500);
+    const auto outcome = search.run(500, 0);
     if (!outcome || !outcome->plan) continue;
     std::vector<bool> held(ff.relaxed().propositions(), false);
     RelaxedTask::each_fact(task, task.initial_state,

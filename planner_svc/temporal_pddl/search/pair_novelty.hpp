@@ -1,0 +1,34 @@
+// How new a state is among those of its kind: has one of its facts, or a pair of them, not been seen before?
+// (Lipovetzky and Geffner 2012.)
+//
+// Pairs are remembered in a bounded number of bits, by hash, so that some count as seen that have not been
+// (Singh, Lipovetzky, Ramirez and Segovia-Aguas 2021).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace roci::planner::temporal_pddl {
+
+class PairNovelty {
+ public:
+  static constexpr int kNothingNew = 3;
+
+  // facts: how many there are. From 8 KiB for a few up to 8 MiB.
+  explicit PairNovelty(std::size_t facts);
+
+  // facts: of the state, in any numbering. fresh: those of them that a seen state of the same kind, from
+  // which it differs in nothing else, had not; or all, in the same order. 1: a fact is new; 2: only a pair;
+  // or kNothingNew. From now on it has been seen.
+  int see(std::span<const std::uint32_t> facts, std::span<const std::uint32_t> fresh, std::uint64_t kind);
+  std::size_t bytes() const { return bits_.capacity() * sizeof(std::uint64_t); }
+
+ private:
+  bool note(std::uint64_t place);
+
+  std::vector<std::uint64_t> bits_;  // a power of two
+};
+
+}  // namespace roci::planner::temporal_pddl
