@@ -18,7 +18,7 @@ constexpr std::size_t kTurn = 100;  // evaluations
 // by novelty is solved what it does not solve.
 constexpr std::size_t kFirstShare = 4;
 constexpr std::size_t kLookaheadShare = 2;
-constexpr std::size_t kWidthShare = 2;
+constexpr std::size_t kWidthShare = 3;
 constexpr std::size_t kPlainShare = 1;
 
 // Does it make a difference whether actions are taken whole?

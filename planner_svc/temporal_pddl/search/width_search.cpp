@@ -9,7 +9,7 @@ namespace {
 // As states cost less than evaluations, by a factor of four to twenty, this search gets the largest share of
 // the time where evaluations are cheap, and about half of it where they are dear.
 constexpr std::size_t kStatesPerEvaluation = 32;
-constexpr std::size_t kPairsPerState = 128;  // of facts, likewise
+constexpr std::size_t kPairsPerState = 512;  // of facts, likewise
 constexpr std::size_t kMemoryShare = 4;
 
 }  // namespace
@@ -82,19 +82,22 @@ bool WidthSearch::expand(NodeId node) {
   return found;
 }
 
-// Stores the state in successor_ and queues it. True: it is a goal state.
+// Queues the state in successor_ if it is new. True: it is a goal state.
 bool WidthSearch::reach(NodeId parent) {
   PlanPrefix& prefix = successor_.prefix;
   if (prefix.steps.size() + 2 > kMaxSteps) return false;
   account(1);
-  space_.add(parent, successor_);
-  dominance_.insert(prefix.node, successor_.state, prefix);
-  progress_.push_back({});
-  if (goal_.complete(successor_.state, prefix)) return true;
+  if (goal_.complete(successor_.state, prefix)) {
+    space_.add(parent, successor_);
+    return true;
+  }
   const auto own = progress(parent);
-  if (!own) return false;
-  progress_.back() = *own;
-  open_.push({novelty(*own, parent), own->open_goals}, prefix.node);
+  const int news = own ? novelty(*own, parent) : PairNovelty::kNothingNew;
+  if (own && news == PairNovelty::kNothingNew) return false;
+  space_.add(parent, successor_);  // dead ends too, so as not to evaluate them again
+  dominance_.insert(prefix.node, successor_.state, prefix);
+  progress_.push_back(own.value_or(Progress()));
+  if (own) open_.push({news, own->open_goals}, prefix.node);
   return false;
 }
 

@@ -1,6 +1,6 @@
 // Best-first width search (Lipovetzky and Geffner 2017, BFWS(f5)): first the states that are newest among
 // those with as many goals open and as much reached of a relaxed plan; among equally new ones those with the
-// fewest goals open.
+// fewest goals open. Where no fact and no pair of facts is new, a state is left out; so the search ends.
 //
 // A relaxed plan is asked for only where more goals hold than before; every other state costs some ten
 // microseconds. So it gets over plateaus, and out of corners, where estimates lead nowhere.
@@ -34,8 +34,8 @@ class WidthSearch final : public Searcher {
   WidthSearch(const Task& task, Heuristic& heuristic, const Options& options, ActionSteps steps, Watch& watch,
               Statistics& statistics);
 
-  // A number of states counts as one evaluation. Ends without a plan also where it has used a quarter of the
-  // memory that there is.
+  // A number of states counts as one evaluation. Ends without a plan where nothing is new any more, or a
+  // quarter of the memory that there is has been used.
   std::optional<SearchOutcome> run(std::size_t evaluations, std::size_t bytes_elsewhere) override;
   bool complete() const override { return false; }
   std::size_t bytes() const override;

@@ -18,9 +18,7 @@ namespace {
 
 using testing::fact;
 
-// A crate has to get from a to c by one of two carts; cart2 is at b.
-const testing::Model& carts() {
-  static const testing::Model made = testing::model(R"(
+constexpr const char* kCarts = R"(
     (:requirements :typing :durative-actions) (:types place cart)
     (:predicates (at ?c - cart ?p - place) (crate ?p - place) (on ?c - cart))
     (:durative-action drive :parameters (?c - cart ?a ?b - place) :duration (= ?duration 5)
@@ -30,8 +28,11 @@ const testing::Model& carts() {
       :effect (and (at start (not (crate ?p))) (at end (on ?c))))
     (:durative-action unload :parameters (?c - cart ?p - place) :duration (= ?duration 2)
       :condition (and (at start (on ?c)) (over all (at ?c ?p)))
-      :effect (and (at start (not (on ?c))) (at end (crate ?p)))))",
-                                                    R"((:objects cart1 cart2 - cart a b c - place)
+      :effect (and (at start (not (on ?c))) (at end (crate ?p)))))";
+
+// A crate has to get from a to c by one of two carts; cart2 is at b.
+const testing::Model& carts() {
+  static const testing::Model made = testing::model(kCarts, R"((:objects cart1 cart2 - cart a b c - place)
     (:init (at cart1 b) (at cart2 b) (crate a)) (:goal (crate c)))");
   return made;
 }
@@ -96,6 +97,57 @@ TEST_F(Landmarks, TheCountFallsAlongAPlanAndPrefersWhatComesNext) {
     }
   }
   EXPECT_EQ(before, 0);
+}
+
+// How many landmarks are to come when this has been done.
+std::int64_t open_after(const testing::Model& model, const std::vector<std::string>& actions) {
+  const Task task = testing::grounded(model).task;
+  FfHeuristic ff(task);
+  Budget budget;
+  Monitor monitor;
+  const Watch watch(budget, monitor);
+  LandmarkCount count(task, ff, watch);
+  const Semantics semantics(task);
+  std::vector<SnapId> steps;
+  auto state = task.initial_state;
+  for (const std::string& name : actions) {
+    const Action& action = task.actions[testing::action(task, name)];
+    for (const SnapId step : {action.start, action.end}) {
+      steps.push_back(step);
+      semantics.apply(step, 0, state);
+    }
+  }
+  Estimate estimate;
+  count.evaluate({state, {}, 0, nullptr, {}, steps}, estimate);
+  return estimate.landmarks;
+}
+
+// Who paints gets dirty; so to be clean is still to come although it holds at first.
+TEST(LandmarkOrder, AGoalThatMustBeUndoneComesLast) {
+  const auto painter = [](const std::string& goal) {
+    return testing::model(R"((:requirements :durative-actions) (:predicates (clean) (dirty) (painted))
+    (:durative-action paint :parameters () :duration (= ?duration 5)
+      :effect (and (at start (not (clean))) (at start (dirty)) (at end (painted))))
+    (:durative-action wash :parameters () :duration (= ?duration 2)
+      :condition (at start (dirty)) :effect (and (at start (not (dirty))) (at end (clean)))))",
+                          "(:init (clean)) (:goal " + goal + ")");
+  };
+  EXPECT_EQ(open_after(painter("(and (painted) (clean))"), {}), open_after(painter("(painted)"), {}) + 1);
+  EXPECT_EQ(open_after(painter("(and (painted) (clean))"), {"(paint)"}), 1);
+  EXPECT_EQ(open_after(painter("(and (painted) (clean))"), {"(paint)", "(wash)"}), 0);
+}
+
+TEST(LandmarkCountAlongAPlan, GoalsThatAreLostAreToComeAgain) {
+  const testing::Model one_cart = testing::model(kCarts, R"((:objects cart1 - cart a b c - place)
+    (:init (at cart1 b) (crate a)) (:goal (and (crate c) (at cart1 b))))");
+  const std::vector<std::string> brought{"(drive cart1 b a)", "(load cart1 a)", "(drive cart1 a c)",
+                                         "(unload cart1 c)"};
+  EXPECT_EQ(open_after(one_cart, brought), 1);
+  auto home = brought;
+  home.push_back("(drive cart1 c b)");
+  EXPECT_EQ(open_after(one_cart, home), 0);
+  home.push_back("(drive cart1 b a)");
+  EXPECT_EQ(open_after(one_cart, home), 1);
 }
 
 TEST(LandmarksOfRandomTasks, EveryPlanMakesEachTrue) {

@@ -54,6 +54,7 @@ TEST(WholeActions, HalveTheWorkWhereNothingMustRunAtTheSameTime) {
                      "(:objects" + objects + ") (:init (lit)) (:goal (and" + goal + "))");
   Options step_by_step;
   step_by_step.lookahead = false;
+  step_by_step.width = false;
   Options split = step_by_step;
   split.whole_actions = false;
   const Result whole = testing::solved(made, step_by_step);
