@@ -12,7 +12,7 @@ namespace roci::planner::temporal_pddl {
 
 namespace {
 
-constexpr std::size_t kTurn = 100;  // evaluations
+constexpr std::size_t kTurn = 250;  // evaluations
 
 // How often turns come. What follows relaxed plans solves most tasks, and of these most with whole actions;
 // by novelty is solved what it does not solve.
