@@ -6,7 +6,6 @@
 #include <exception>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,9 +15,9 @@
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/journaled_reactor.hpp"
 #include "exec_svc/mission_report_service.hpp"
+#include "exec_svc/outbox_service.hpp"
 #include "exec_svc/standby/leading_service.hpp"
 #include "exec_svc/wire_service.hpp"
-#include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "services/wire/plan_wire.hpp"
 
@@ -27,9 +26,6 @@ namespace {
 
 namespace topics = services::topics;
 using services::Node;
-
-// The key of the query that tells owners a leader's epoch; no activity has it.
-constexpr char kEpochKey[] = "epoch";
 
 // For known services to be heard of after a restart; of wall time, live.
 temporal::Duration reunion(const Node& node) {
@@ -58,17 +54,12 @@ class ExecService final : public services::Service {
         reactor_(mission_, journal_, doubtful),
         crash_(crash_points(node)),
         planner_(node, topics::plan_request),
-        commands_(services::advertise(node, topics::command)),
-        goal_statuses_(services::advertise(node, topics::goal_status)),
-        plans_(services::advertise(node, topics::plan)),
-        steps_(services::advertise(node, topics::step_status)),
-        missions_(services::advertise(node, topics::mission_status)),
-        events_(services::advertise(node, topics::event)) {
+        outbox_(node, mission_, epoch, crash_) {
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
     if (reactor_.reactor().follows_engine()) {
       engine_.emplace(
           node, mission_, [this](temporal::PlanDelta delta) { take(std::move(delta)); },
-          [this](const Note& note) { report(note); });
+          [this](const Note& note) { outbox_.report(note); });
     }
     recover();
     services::subscribe(node, topics::goal, [this](const v1::Goal& goal) {
@@ -103,40 +94,25 @@ class ExecService final : public services::Service {
     slowest_call_s_ = temporal::to_seconds(temporal::Duration(journal_.number("slowest_call_us", 0)));
     planner_peak_kb_ = static_cast<std::uint32_t>(journal_.number("planner_peak_kb", 0));
     const Reactor& reactor = reactor_.reactor();
-    for (const GoalRecord* goal : reactor.goals().all()) goal_statuses_.write(wire::to_wire(*goal));
+    outbox_.send_goals(reactor);
     if (!recovery.resumed) return report_divergence(*recovery.divergence);
-    if (reactor.plan().version != 0) plans_.write(services::wire::to_wire(reactor.plan()));
-    for (const StepStatus& step : reactor.steps()) steps_.write(wire::to_wire(step, reactor.plan_version()));
+    outbox_.send_plan(reactor);
     if (engine_) engine_->tell(reactor.receipt());
-    for (const Note& note : recovery.last_notes) report(note);
+    for (const Note& note : recovery.last_notes) outbox_.report(note);
     missed_ = journal_.peers();
     node_.after(reunion(node_), [this] { give_up_missed(); });
   }
 
   void report_divergence(const Divergence& divergence) {
-    report({NoteLevel::warning, "journal.diverged",
-            "the journal does not lead to the state before the restart, all is planned anew: expected " +
-                divergence.expected + ", got " + divergence.got});
+    outbox_.report(
+        {NoteLevel::warning, "journal.diverged",
+         "the journal does not lead to the state before the restart, all is planned anew: expected " +
+             divergence.expected + ", got " + divergence.got});
   }
 
   void tell_pair() {
-    announce_epoch();
-    for (const Note& note : leading_->take_notes()) report(note);
-  }
-
-  // Owners that know this epoch refuse what an earlier leader may still send. (The simulated clock drops it.)
-  void announce_epoch() {
-    if (epoch_announced_ || commands_.matched_readers() == 0) return;
-    epoch_announced_ = true;
-    std::set<std::string> owners;
-    for (const Component& component : mission_.components) owners.insert(component.owner);
-    for (const std::string& owner : owners) {
-      Command query;
-      query.action = CommandAction::query;
-      query.activity = kEpochKey;
-      query.owner = owner;
-      commands_.write(wire::to_wire(query, 0, epoch_));
-    }
+    outbox_.announce_epoch();
+    for (const Note& note : leading_->take_notes()) outbox_.report(note);
   }
 
   void take(const services::PeerChange& change) {
@@ -165,7 +141,8 @@ class ExecService final : public services::Service {
     try {
       inputs_.observations.push_back(wire::from_wire(observation));
     } catch (const services::wire::WireError& error) {
-      report({NoteLevel::warning, "observation.malformed", observation.timeline() + ": " + error.what()});
+      outbox_.report(
+          {NoteLevel::warning, "observation.malformed", observation.timeline() + ": " + error.what()});
       return;
     }
     seen_.push_back(wire::trace_line(observation));
@@ -178,7 +155,7 @@ class ExecService final : public services::Service {
   }
 
   void take(const v1::CommandAck& ack) {
-    if (ack.activity() == kEpochKey) return;
+    if (Outbox::answers_epoch(ack)) return;
     if (ack.refused_epoch() != 0 && leading_ != nullptr) {
       if (ack.refused_epoch() == epoch_) leading_->refused();
       return;  // of an earlier leader
@@ -208,7 +185,7 @@ class ExecService final : public services::Service {
       if (leading_ != nullptr) crash_.pass("after-copy");
       send(out, version);
       crash_.pass("after-send");
-      publish(status, hash);
+      if (outbox_.publish(status, hash) && !status.outcome().empty()) write_summary();
     };
     if (leading_ == nullptr) return send_all();
     leading_->hold(std::move(send_all));
@@ -223,22 +200,13 @@ class ExecService final : public services::Service {
   }
 
   void send(const ReactorOutputs& out, std::uint32_t version) {
-    for (const GoalRecord& goal : out.goal_changes) sent(goal_statuses_.write(wire::to_wire(goal)));
-    if (out.adopted) sent(plans_.write(services::wire::to_wire(*out.adopted)));
-    for (const Command& command : out.commands)
-      sent(commands_.write(wire::to_wire(command, version, epoch_)));
-    for (const StepStatus& step : out.steps) sent(steps_.write(wire::to_wire(step, version)));
-    for (const Note& note : out.notes) report(note);
+    outbox_.send(out, version);
     if (leading_ != nullptr)
-      for (const Note& note : leading_->take_notes()) report(note);
+      for (const Note& note : leading_->take_notes()) outbox_.report(note);
     if (out.cancelled_call && call_.id == *out.cancelled_call) planner_.cancel(call_.sent);
     if (out.call) call_planner(*out.call);
     if (out.receipt) engine_->tell(*out.receipt);
   }
-
-  void sent(bool) { crash_.pass("during-send"); }
-
-  void report(const Note& note) { events_.write(wire::to_wire(note)); }
 
   void call_planner(const PlanCall& call) {
     call_.id = call.id;
@@ -270,15 +238,6 @@ class ExecService final : public services::Service {
     step_soon();
   }
 
-  void publish(v1::MissionStatus status, const std::string& trace_sha256) {
-    if (status == last_status_) return;
-    last_status_ = status;
-    status.trace_sha256(trace_sha256);
-    const bool ended = !status.outcome().empty();
-    missions_.write(std::move(status));
-    if (ended) write_summary();
-  }
-
   void write_summary() const {
     exec::write_summary(settings_, mission_, reactor_.reactor(),
                         {slowest_call_s_, planner_peak_kb_ / 1024.0, temporal::to_seconds(node_.now()),
@@ -297,9 +256,7 @@ class ExecService final : public services::Service {
   std::vector<std::string> seen_;                // the inputs' lines of the trace
   std::map<std::string, std::uint32_t> missed_;  // services of before the restart, not heard of since
   bool step_due_ = false;
-  bool epoch_announced_ = false;
   std::optional<Node::TimerId> wake_timer_;
-  v1::MissionStatus last_status_;
   double slowest_call_s_ = 0;
   std::uint32_t planner_peak_kb_ = 0;
 
@@ -309,12 +266,7 @@ class ExecService final : public services::Service {
     std::uint64_t id = 0;       // the reactor's
     services::CallId sent = 0;  // the wire's
   } call_;                      // the last one
-  services::Publisher<v1::Command> commands_;
-  services::Publisher<v1::GoalStatus> goal_statuses_;
-  services::Publisher<v1::Plan> plans_;
-  services::Publisher<v1::StepStatus> steps_;
-  services::Publisher<v1::MissionStatus> missions_;
-  services::Publisher<v1::Event> events_;
+  Outbox outbox_;
 };
 
 // With a journal of its own.

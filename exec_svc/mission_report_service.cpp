@@ -41,6 +41,7 @@ void write_summary(const services::RunSettings& settings, const MissionModel& mi
                                 {{"achieved", counts.achieved},
                                  {"dropped", counts.dropped},
                                  {"failed", counts.failed},
+                                 {"rejected", counts.rejected},
                                  {"open", counts.open}}},
                                {"planner",
                                 {{"calls", counts.planner_calls},

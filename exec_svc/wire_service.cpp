@@ -16,6 +16,7 @@ GoalRequest from_wire(const v1::Goal& in) {
   out.opens = temporal::Time(in.opens_us());
   out.closes = temporal::Time(in.closes_us());
   out.recalled = in.recalled();
+  out.said_in = {in.header().sender(), in.header().incarnation(), in.header().seq()};
   return out;
 }
 
@@ -61,6 +62,9 @@ v1::GoalStatus to_wire(const GoalRecord& in) {
   v1::GoalStatus out;
   out.issuer(in.request.key.issuer);
   out.id(in.request.key.id);
+  out.answers().sender(in.answers.sender);
+  out.answers().incarnation(in.answers.incarnation);
+  out.answers().seq(in.answers.number);
   out.goal_state(static_cast<v1::GoalState>(in.state));
   out.importance(static_cast<v1::GoalClass>(in.request.importance));
   out.goal_kind(in.request.kind);

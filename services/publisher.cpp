@@ -6,6 +6,7 @@
 namespace roci::services::detail {
 
 int matched_readers(const OutStream& stream) { return stream.matched_readers(); }
+std::uint64_t written(const OutStream& stream) { return stream.total(); }
 
 template <class T>
 OutStream& Wire<T>::advertise(Node& node, const Topic<T>& topic) {

@@ -1,6 +1,7 @@
 // Typed publishing and subscribing on a Node. T is a generated struct of idl/; publisher.cpp lists the types.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <type_traits>
 #include <utility>
@@ -24,6 +25,7 @@ struct Wire {
 };
 
 int matched_readers(const OutStream&);
+std::uint64_t written(const OutStream&);
 
 }  // namespace detail
 
@@ -39,6 +41,8 @@ class Publisher {
   bool write(T value) const { return detail::Wire<T>::write(*stream_, std::move(value)); }
   // Late joiners no longer see the instance; nobody is told.
   bool dispose(const T& value) const { return detail::Wire<T>::dispose(*stream_, value); }
+  // How many were written so far: for clocked types the `seq` of the newest one.
+  std::uint64_t written() const { return detail::written(*stream_); }
   int matched_readers() const { return detail::matched_readers(*stream_); }
 
  private:

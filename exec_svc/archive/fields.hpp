@@ -77,12 +77,17 @@ void fields(A& a, Of<GoalKey, A>& v) {
   a(v.issuer, v.id);
 }
 template <class A>
+void fields(A& a, Of<SampleName, A>& v) {
+  a(v.sender, v.incarnation, v.number);
+}
+template <class A>
 void fields(A& a, Of<GoalRequest, A>& v) {
-  a(v.key, v.kind, v.arguments, v.importance, v.utility, v.priority, v.opens, v.closes, v.recalled);
+  a(v.key, v.kind, v.arguments, v.importance, v.utility, v.priority, v.opens, v.closes, v.recalled,
+    v.said_in);
 }
 template <class A>
 void fields(A& a, Of<GoalRecord, A>& v) {
-  a(v.request, v.state, v.reason, v.arrival, v.plan_version);
+  a(v.request, v.state, v.reason, v.arrival, v.plan_version, v.answers);
 }
 template <class A>
 void fields(A& a, Of<Observation, A>& v) {

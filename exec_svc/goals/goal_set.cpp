@@ -38,6 +38,14 @@ std::map<std::string, std::string> template_values(const GoalRequest& goal) {
   return values;
 }
 
+bool same_wish(const GoalRequest& one, const GoalRequest& other) {
+  GoalRequest said_likewise = one;
+  said_likewise.said_in = other.said_in;
+  return said_likewise == other;
+}
+
+bool said_by_console(const GoalRequest& goal) { return goal.said_in.incarnation == 0; }
+
 bool is_final(GoalState state) { return state != GoalState::pending && state != GoalState::planned; }
 
 std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) const {
@@ -132,39 +140,43 @@ std::vector<GoalRequest> GoalSet::in_order(std::vector<GoalRequest> requests) co
   return requests;
 }
 
-const GoalRecord* GoalSet::submit(const GoalRequest& request, temporal::Time now) {
-  const auto known = records_.find(request.key);
-  if (known != records_.end()) {
-    GoalRecord& record = known->second;
-    if (record.request == request) return nullptr;
-    if (request.recalled) {
-      record.request.recalled = true;
-      if (is_final(record.state)) return nullptr;
-      record.state = GoalState::recalled;
-      record.reason = "recalled by " + request.key.issuer;
-      return &record;
-    }
-    std::string fault = fault_of(request, now);
-    if (record.state != GoalState::rejected && request.kind != record.request.kind)
-      fault = "it is a " + record.request.kind + " and stays one; choose another id";
-    if (!fault.empty()) {
-      record.reason = "change refused: " + fault;
-      return &record;
-    }
-    record.request = request;
-    record.state = GoalState::pending;
-    record.reason = "changed by " + request.key.issuer;
-    return &record;
+GoalSet::Submission GoalSet::submit(const GoalRequest& request, temporal::Time now) {
+  if (const auto found = records_.find(request.key); found != records_.end()) {
+    GoalRecord& record = found->second;
+    if (request.said_in == record.answers && same_wish(record.request, request))
+      return {Taken::known, &record};
+    record.answers = request.said_in;
+    return {change(record, request, now), &record};
   }
-  GoalRecord record;
-  record.request = request;
-  record.arrival = next_arrival_++;
-  const std::string fault = request.recalled ? "there is no such goal to recall" : fault_of(request, now);
+  std::string fault = request.recalled ? "there is no such goal to recall" : fault_of(request, now);
+  const bool good = fault.empty();
+  GoalRecord& record = records_[request.key];
+  record = {
+      request,        good ? GoalState::pending : GoalState::rejected, std::move(fault), next_arrival_++, 0,
+      request.said_in};
+  return {good ? Taken::accepted : Taken::rejected, &record};
+}
+
+GoalSet::Taken GoalSet::change(GoalRecord& record, const GoalRequest& request, temporal::Time now) {
+  if (same_wish(record.request, request)) return Taken::repeated;
+  if (request.recalled) {
+    record.request.recalled = true;
+    if (is_final(record.state)) return Taken::repeated;
+    record.state = GoalState::recalled;
+    record.reason = "recalled by " + request.key.issuer;
+    return Taken::recalled;
+  }
+  std::string fault = fault_of(request, now);
+  if (record.state != GoalState::rejected && request.kind != record.request.kind)
+    fault = "it is a " + record.request.kind + " and stays one; choose another id";
   if (!fault.empty()) {
-    record.state = GoalState::rejected;
-    record.reason = fault;
+    record.reason = "change refused: " + fault;
+    return record.state == GoalState::rejected ? Taken::rejected : Taken::refused;
   }
-  return &records_.insert_or_assign(request.key, std::move(record)).first->second;
+  record.request = request;
+  record.state = GoalState::pending;
+  record.reason = "changed by " + request.key.issuer;
+  return Taken::accepted;
 }
 
 void GoalSet::restore(const GoalRecord& record) {

@@ -23,6 +23,14 @@ struct GoalKey {
   std::string text() const { return issuer + "/" + id; }
 };
 
+// Which of its sender's samples brought a request; numbered per sender and start of it.
+struct SampleName {
+  std::string sender;
+  std::uint32_t incarnation = 0;  // 0: a console
+  std::uint64_t number = 0;
+  bool operator==(const SampleName&) const = default;
+};
+
 struct GoalRequest {
   GoalKey key;
   std::string kind;
@@ -33,8 +41,15 @@ struct GoalRequest {
   temporal::Time opens{0};   // 0: any time
   temporal::Time closes{0};  // 0: never
   bool recalled = false;
+  SampleName said_in;
   bool operator==(const GoalRequest&) const = default;
 };
+
+// Whoever says it, and however often.
+bool same_wish(const GoalRequest&, const GoalRequest&);
+
+// By somebody who reads the answer; the services of a run, which pass on what its scenario says, do not.
+bool said_by_console(const GoalRequest&);
 
 // What the templates of the goal's kind are filled with: its arguments and its id.
 std::map<std::string, std::string> template_values(const GoalRequest& goal);
@@ -45,6 +60,7 @@ struct GoalRecord {
   std::string reason;
   std::uint64_t arrival = 0;  // rises with each goal
   std::uint32_t plan_version = 0;
+  SampleName answers;  // the newest request of this key, also one that was refused or changed nothing
 };
 
 bool is_final(GoalState state);
@@ -53,10 +69,22 @@ class GoalSet {
  public:
   explicit GoalSet(const MissionModel& mission) : mission_(&mission) {}
 
-  // Takes a request in: a new goal, a change, or a recall. A request that equals the stored one changes
-  // nothing. A bad request is stored as rejected, with a reason that names the remedy. Returns the record, or
-  // nullptr if nothing changed.
-  const GoalRecord* submit(const GoalRequest& request, temporal::Time now);
+  // What became of a request.
+  enum class Taken {
+    known,     // this very sample: nothing is to be told
+    repeated,  // the same wish in a new sample, or a recall that is too late: it is answered, nothing else
+    refused,   // the goal stays as it was
+    rejected,
+    recalled,
+    accepted,
+  };
+  struct Submission {
+    Taken taken;
+    const GoalRecord* record;
+  };
+  // Takes a request in: a new goal, a change, or a recall. A bad new one is stored as rejected, with a reason
+  // that names the remedy; a bad change leaves the goal as it was, with the reason.
+  Submission submit(const GoalRequest& request, temporal::Time now);
 
   // These, but each after those of them that its arguments name: who joins a writer late hears goals of
   // different keys in any order.
@@ -82,6 +110,7 @@ class GoalSet {
   std::optional<GoalKey> drop_candidate(const std::vector<GoalKey>& among) const;
 
  private:
+  Taken change(GoalRecord&, const GoalRequest&, temporal::Time now);
   std::string fault_of(const GoalRequest& request, temporal::Time now) const;
   bool names(const GoalRequest& request, const GoalRequest& other) const;
   std::string fault_of_reference(const GoalRequest& request, const std::string& argument) const;

@@ -8,7 +8,19 @@
 namespace roci::exec {
 namespace {
 
-std::string encode(const GoalRequest& goal) {
+nlohmann::json to_json(const SampleName& sample) {
+  return {{"sender", sample.sender}, {"incarnation", sample.incarnation}, {"number", sample.number}};
+}
+
+SampleName sample_in(const nlohmann::json& json, const char* key) {
+  const auto found = json.find(key);
+  if (found == json.end()) return {};  // of an earlier version
+  return {found->at("sender").get<std::string>(), found->at("incarnation").get<std::uint32_t>(),
+          found->at("number").get<std::uint64_t>()};
+}
+
+std::string encode(const GoalRecord& record) {
+  const GoalRequest& goal = record.request;
   return nlohmann::json{{"kind", goal.kind},
                         {"arguments", goal.arguments},
                         {"class", static_cast<int>(goal.importance)},
@@ -16,7 +28,9 @@ std::string encode(const GoalRequest& goal) {
                         {"priority", goal.priority},
                         {"opens", goal.opens.count()},
                         {"closes", goal.closes.count()},
-                        {"recalled", goal.recalled}}
+                        {"recalled", goal.recalled},
+                        {"said_in", to_json(goal.said_in)},
+                        {"answers", to_json(record.answers)}}
       .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // rejected goals may hold anything
 }
 
@@ -25,9 +39,9 @@ double number_of(const nlohmann::json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
-GoalRequest decode(GoalKey key, const std::string& text) {
+void decode(GoalKey key, const std::string& text, GoalRecord& record) {
   const auto json = nlohmann::json::parse(text);
-  GoalRequest goal;
+  GoalRequest& goal = record.request;
   goal.key = std::move(key);
   goal.kind = json.at("kind").get<std::string>();
   goal.arguments = json.at("arguments").get<std::map<std::string, std::string>>();
@@ -37,7 +51,8 @@ GoalRequest decode(GoalKey key, const std::string& text) {
   goal.opens = temporal::Time(json.at("opens").get<std::int64_t>());
   goal.closes = temporal::Time(json.at("closes").get<std::int64_t>());
   goal.recalled = json.at("recalled").get<bool>();
-  return goal;
+  goal.said_in = sample_in(json, "said_in");
+  record.answers = sample_in(json, "answers");
 }
 
 }  // namespace
@@ -61,7 +76,7 @@ void Journal::put_goal(const GoalRecord& record) {
   Statement(*database_, "INSERT OR REPLACE INTO goal VALUES(?,?,?,?,?,?,?)")
       .bind(record.request.key.issuer)
       .bind(record.request.key.id)
-      .bind(encode(record.request))
+      .bind(encode(record))
       .bind(static_cast<std::int64_t>(record.state))
       .bind(record.reason)
       .bind(static_cast<std::int64_t>(record.arrival))
@@ -76,7 +91,7 @@ std::vector<GoalRecord> Journal::goals() const {
   std::vector<GoalRecord> out;
   while (rows.row()) {
     GoalRecord record;
-    record.request = decode({rows.text(0), rows.text(1)}, rows.text(2));
+    decode({rows.text(0), rows.text(1)}, rows.text(2), record);
     record.state = static_cast<GoalState>(rows.number(3));
     record.reason = rows.text(4);
     record.arrival = static_cast<std::uint64_t>(rows.number(5));

@@ -8,7 +8,7 @@ namespace roci::exec {
 namespace {
 
 // Of inputs and snapshots. Rises when fields.hpp or the reactor's snapshot change.
-constexpr std::int64_t kFormat = 4;
+constexpr std::int64_t kFormat = 5;
 
 // A replay of so many turns takes a moment, no more; an anchor is written then wherever the reactor rests.
 constexpr std::size_t kTurnsUntilAnchor = 500;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "exec_svc/mission/template_text.hpp"
-
 namespace roci::exec {
 namespace {
 
@@ -23,23 +21,6 @@ const char* code_of(Rung rung) {
       return "recovery.contingency";
   }
   return "recovery";
-}
-
-// The goals that an activity works for: those it serves, else those of the next one that serves any.
-std::vector<GoalKey> goals_behind(const temporal::FlexiblePlan& plan, const std::string& activity,
-                                  const GoalSet& goals) {
-  const auto failed = std::find_if(plan.activities.begin(), plan.activities.end(),
-                                   [&](const temporal::PlanActivity& one) { return one.id == activity; });
-  for (auto one = failed; one != plan.activities.end(); ++one) {
-    std::vector<GoalKey> out;
-    for (const GoalRecord* record : goals.open()) {
-      const auto& served = one->goals_served;
-      if (std::find(served.begin(), served.end(), record->request.key.text()) != served.end())
-        out.push_back(record->request.key);
-    }
-    if (!out.empty()) return out;
-  }
-  return {};
 }
 
 }  // namespace
@@ -75,59 +56,6 @@ ReactorOutputs Reactor::step(Time now, const ReactorInputs& inputs) {
   if (inputs.restarted) resume(now);
   advance(now, inputs);
   return std::move(out_);
-}
-
-void Reactor::take_peers(const ReactorInputs& inputs) {
-  for (const PeerLoss& loss : inputs.losses) {
-    note(NoteLevel::warning, "service.lost", loss.service + " was lost: " + loss.cause);
-  }
-  for (const std::string& service : inputs.arrivals) {
-    note(NoteLevel::info, "service.found", service + " is there");
-    if (phase_ == Phase::safe && !goals_.open().empty()) want_plan(service + " came back");
-    failed_calls_ = 0;
-    not_before_ = Time{0};
-    fallbacks_sent_ = false;  // one that came back has not heard them
-  }
-}
-
-void Reactor::take_models(const std::vector<ModelVersion>& models) {
-  for (const ModelVersion& model : models) {
-    const auto [known, is_new] = models_.try_emplace(model.owner, model.version);
-    if (is_new || known->second == model.version) continue;
-    known->second = model.version;
-    models_changed_ = true;
-  }
-}
-
-void Reactor::take_goals(Time now, const std::vector<GoalRequest>& requests) {
-  for (const GoalRequest& request : goals_.in_order(requests)) {
-    const GoalRecord* record = goals_.submit(request, now);
-    if (record == nullptr) continue;
-    out_.goal_changes.push_back(*record);
-    const std::string name = "goal " + record->request.key.text();
-    if (record->state == GoalState::rejected) {
-      note(NoteLevel::warning, "goal.rejected", name + " rejected: " + record->reason);
-    } else if (record->request != request && !request.recalled) {
-      note(NoteLevel::warning, "goal.refused", name + ": " + record->reason);
-    } else if (record->state == GoalState::recalled) {
-      note(NoteLevel::info, "goal.recalled", name + " recalled");
-      if (phase_ == Phase::executing || phase_ == Phase::planning) want_plan(name + " was recalled");
-    } else if (record->state == GoalState::pending) {
-      note(NoteLevel::info, "goal.accepted", name + " accepted");
-      assume_unobserved(record->request);
-      reserves_ = Reserves::kept;
-      want_plan(name + " arrived");
-    }
-  }
-}
-
-void Reactor::assume_unobserved(const GoalRequest& goal) {
-  const auto values = template_values(goal);
-  for (const auto& [timeline, templates] : mission_->goal_kinds.at(goal.kind).unobserved) {
-    std::vector<std::string> facts;
-    for (const std::string& fact : templates) facts.push_back(fill_names(fact, values));
-    beliefs_.assume(fill_names(timeline, values), std::move(facts));
-  }
 }
 
 void Reactor::note_achieved() {
@@ -215,84 +143,6 @@ void Reactor::advance(Time now, const ReactorInputs& inputs) {
   finish_if_done();
 }
 
-void Reactor::follow_plan(Time now) {
-  const Outcome outcome = executive_.outcome();
-  if (outcome.kind == OutcomeKind::broken) {
-    break_plan(now, (outcome.activity.empty() ? "" : outcome.activity + ": ") + outcome.cause);
-    if (wanted_ && outcome.reason == BreakReason::activity_failed) count_failure(now, outcome);
-    if (wanted_ && outcome.reason == BreakReason::refused_for_good) {
-      give_up(goals_behind(executive_.plan(), outcome.activity, goals_),
-              outcome.activity + " will never be taken: " + outcome.cause);
-    }
-  } else if (outcome.kind == OutcomeKind::finished && !meanwhile_) {
-    note(NoteLevel::info, "plan.finished", "plan " + std::to_string(plan_version_) + " finished");
-    phase_ = Phase::idle;
-    if (!goals_.open().empty()) want_plan("the plan ended with goals open");
-  } else if (outcome.kind == OutcomeKind::running && !wanted_) {
-    look_ahead(now);
-  }
-}
-
-// Conflicts of activities that are not due yet.
-void Reactor::look_ahead(Time now) {
-  const std::string lacking =
-      margins_.lacking([this](const std::string& timeline) { return beliefs_.lookup(timeline); });
-  if (!lacking.empty()) return break_plan(now, lacking);
-  if (const auto conflict = foresight_.conflict(now)) {
-    const auto steps = executive_.steps();
-    const auto due = std::ranges::find(steps, conflict->activity, &StepStatus::activity);
-    break_plan(now, conflict->activity + ", due at " + temporal::to_text(due->earliest_start) +
-                        ", will lack " + conflict->words + ", and nothing in the plan brings it about");
-  } else if (const auto next = foresight_.next_look()) {
-    wake_at(*next);
-  }
-}
-
-// The way on is what the ladder still has: a new plan, else the ground, else nothing (R102).
-void Reactor::break_plan(Time now, const std::string& why) {
-  const std::string plan = "plan " + std::to_string(plan_version_);
-  unfit_ = true;
-  note(NoteLevel::warning, "plan.broken", plan + " is broken: " + why);
-  if (ladder_.replans) {
-    want_plan(plan + " is broken");
-    return;
-  }
-  if (!ladder_.asks_ground) {
-    std::vector<GoalKey> open;
-    for (const GoalRecord* record : goals_.open()) open.push_back(record->request.key);
-    give_up(open, plan + " broke, and nothing is mended in this run: " + why);
-  }
-  make_safe(now, plan + " broke: " + why);
-}
-
-// A component that keeps failing gets ever more time to recover; in the end its goals are given up.
-void Reactor::count_failure(Time now, const Outcome& outcome) {
-  const temporal::PlanActivity* activity = executive_.activity(outcome.activity);
-  if (activity == nullptr || activity->subsystem.empty()) return;
-  const FailureTally::Count count = failures_.failed(activity->subsystem);
-  if (count.used_up) {
-    give_up(goals_behind(executive_.plan(), outcome.activity, goals_),
-            activity->subsystem + " failed " + std::to_string(count.in_a_row) + " times in a row, last as " +
-                outcome.activity + " " + outcome.cause);
-  } else if (count.pause > temporal::Duration{0}) {
-    not_before_ = now + count.pause;
-  }
-}
-
-// Hard goals are never dropped: they fail, and the ground is asked.
-void Reactor::give_up(const std::vector<GoalKey>& goals, const std::string& why) {
-  for (const GoalKey& key : goals) {
-    const bool hard = goals_.find(key)->request.importance == GoalClass::hard;
-    change_goal(key, hard ? GoalState::failed : GoalState::dropped, why);
-    if (hard) {
-      note(NoteLevel::error, "goal.failed",
-           "hard goal " + key.text() + " failed: " + why + "; the ground is asked");
-    } else {
-      note(NoteLevel::warning, "goal.dropped", "goal " + key.text() + " dropped: " + why);
-    }
-  }
-}
-
 void Reactor::finish_if_done() {
   const bool resting = phase_ == Phase::idle || phase_ == Phase::finished;
   if (resting && !wanted_ && goals_.open().empty() && !goals_.all().empty()) phase_ = Phase::finished;
@@ -322,6 +172,7 @@ ReactorCounts Reactor::counts() const {
     if (record->state == GoalState::achieved) ++counts.achieved;
     if (record->state == GoalState::dropped) ++counts.dropped;
     if (record->state == GoalState::failed) ++counts.failed;
+    if (record->state == GoalState::rejected) ++counts.rejected;
     if (!is_final(record->state)) ++counts.open;
   }
   return counts;
@@ -330,13 +181,15 @@ ReactorCounts Reactor::counts() const {
 std::string Reactor::outcome() const {
   if (phase_ == Phase::safe) return beliefs_.active().empty() ? "partial" : "failed";
   if (phase_ != Phase::finished) return "";
-  auto taken = goals_.all();
-  std::erase_if(taken, [](const GoalRecord* record) { return record->state == GoalState::rejected; });
-  const bool every_hard_goal = std::all_of(taken.begin(), taken.end(), [](const GoalRecord* record) {
+  auto asked = goals_.all();
+  std::erase_if(asked, [](const GoalRecord* record) {
+    return record->state == GoalState::rejected && said_by_console(record->request);
+  });
+  const bool every_hard_goal = std::all_of(asked.begin(), asked.end(), [](const GoalRecord* record) {
     return record->request.importance != GoalClass::hard || record->state == GoalState::achieved ||
            record->state == GoalState::recalled;
   });
-  return every_hard_goal && !taken.empty() ? "achieved" : "partial";
+  return every_hard_goal && !asked.empty() ? "achieved" : "partial";
 }
 
 }  // namespace roci::exec

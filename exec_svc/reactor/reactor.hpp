@@ -117,7 +117,7 @@ struct ReactorOutputs {
 struct ReactorCounts {
   std::uint32_t planner_calls = 0;
   std::uint32_t replans = 0;  // times it went back to planning after a first plan was adopted
-  std::uint32_t achieved = 0, dropped = 0, failed = 0, open = 0;
+  std::uint32_t achieved = 0, dropped = 0, failed = 0, rejected = 0, open = 0;
 };
 
 class Reactor {
@@ -144,8 +144,9 @@ class Reactor {
   const GoalSet& goals() const { return goals_; }
   bool follows_engine() const;  // that plans all the time
   const PlanReceipt& receipt() const { return receipt_; }
-  // "achieved": every hard goal that was not rejected, and there was a goal; "partial": some hard goal
-  // failed, robot safe; "failed": robot not safe; empty while open.
+  // "achieved": every hard goal, and there was one (a console's goals that were rejected do not count:
+  // whoever sent them was told); "partial": some hard goal was not, robot safe; "failed": robot not safe;
+  // empty while open.
   std::string outcome() const;
 
  private:
@@ -250,7 +251,7 @@ class Reactor {
 
   PlanReceipt receipt_;
   std::optional<PlanReceipt> told_receipt_;
-  temporal::Time mend_before_{0};  // a plan that broke, by another version
+  temporal::Time mend_before_{0};   // a plan that broke, by another version
   std::vector<std::string> ended_;  // activities of the engine's plan that ended last, sorted
 
   temporal::Time pause_deadline_{0};

@@ -17,25 +17,14 @@ namespace {
 namespace topics = services::topics;
 using std::chrono::milliseconds;
 
+// No other console ever has the same name, so that an answer is that of nobody else's goal.
 services::NodeOptions observer(const services::Connection& connection) {
   services::NodeOptions options;
-  options.name = "roci-" + std::to_string(::getpid());
+  options.name = "roci-" + std::to_string(::getpid()) + "-" + std::to_string(services::wall::unix_us());
   options.incarnation = 0;
   options.clock = services::ClockMode::observer;
   options.vendor = connection.dds;
   return options;
-}
-
-// For what a run keeps of a goal that it already knows.
-constexpr milliseconds kHistoryLimit{500};
-
-bool is_newer(const v1::SampleHeader& a, const v1::SampleHeader& b) {
-  return std::pair{a.incarnation(), a.seq()} > std::pair{b.incarnation(), b.seq()};
-}
-
-bool same_wish(v1::Goal a, const v1::Goal& b) {
-  a.header(b.header());
-  return a == b;
 }
 
 std::string described(const services::RunRecord& run) {
@@ -114,25 +103,17 @@ bool Client::wait(const std::function<bool()>& done, milliseconds limit) {
 }
 
 std::optional<v1::GoalStatus> Client::send_goal(const v1::Goal& goal, milliseconds limit) {
-  const MissionView::GoalKey key{goal.issuer(), goal.id()};
-  const auto known = [&] { return view_.goals().contains(key); };
-  if (wait_for_mission(limit)) wait(known, std::min(limit, kHistoryLimit));
-  std::optional<v1::GoalStatus> before;
-  if (known()) before = view_.goals().at(key);
-  const auto answered = [&] {
-    if (!known()) return false;
-    const v1::GoalStatus& status = view_.goals().at(key);
-    if (goal.recalled())
-      return status.goal_state() != v1::GOAL_PENDING && status.goal_state() != v1::GOAL_PLANNED;
-    return !before || is_newer(status.header(), before->header());
-  };
-  const auto sent = sent_.find(key);  // of ourselves: what others wrote may still come in
-  const v1::Goal* asked = sent == sent_.end() ? view_.goal(key) : &sent->second;
-  if (before && asked != nullptr && same_wish(*asked, goal)) return before;
+  wait_for_mission(limit);
   goals_.write(goal);
-  sent_[key] = goal;
-  if (!wait(answered, limit) && !before) return std::nullopt;
-  return view_.goals().at(key);
+  const auto& statuses = view_.goals();
+  const MissionView::GoalKey key{goal.issuer(), goal.id()};
+  const auto answered = [&, number = goals_.written()] {
+    const auto status = statuses.find(key);
+    return status != statuses.end() && status->second.answers().sender() == node_.options().name &&
+           status->second.answers().seq() == number;
+  };
+  if (!wait(answered, limit)) return std::nullopt;
+  return statuses.at(key);
 }
 
 bool Client::wait_for_mission(milliseconds limit) {

@@ -3,8 +3,8 @@
 
 #include <chrono>
 #include <functional>
-#include <memory>
 #include <map>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 
@@ -37,9 +37,8 @@ class Client {
   // Handles what comes until `done` or for at most `limit` of wall time; returns whether `done`.
   bool wait(const std::function<bool()>& done, std::chrono::milliseconds limit);
 
-  // Sends a goal and waits for exec_svc's answer to it, which stands in its journal then; nothing if none
-  // came in time. A goal that already stands there in these very words is not sent again: its state is the
-  // answer.
+  // Sends a goal and waits for exec_svc's answer to this very sample, which stands in its journal then;
+  // nothing if none came in time.
   std::optional<v1::GoalStatus> send_goal(const v1::Goal& goal, std::chrono::milliseconds limit);
 
   // Waits until the mission's state has come down (late joiners get the newest of everything).
@@ -52,7 +51,6 @@ class Client {
   MissionView view_;
   services::Node node_;
   services::Publisher<v1::Goal> goals_;
-  std::map<MissionView::GoalKey, v1::Goal> sent_;
 };
 
 }  // namespace roci::console

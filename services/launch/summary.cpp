@@ -57,6 +57,11 @@ std::string expected_text(const json& summary) {
   return "  events    " + (fault.empty() ? "as the scenario expects" : fault) + "\n";
 }
 
+std::string rejected_text(const json& goals) {
+  const int rejected = goals.value("rejected", 0);
+  return rejected == 0 ? "" : fmt::format(", {} rejected", rejected);
+}
+
 std::string text_without_goals(const json& summary, const Options& options) {
   return fmt::format(
       "{} {}: {} here for {:.1f} s; the goals are counted where exec_svc leads\n  run       {}\n",
@@ -69,14 +74,14 @@ std::string text_with_goals(const json& summary, const Options& options) {
   const json& planner = summary["planner"];
   return fmt::format(
       "{} {} (seed {}, {}): {}\n"
-      "  goals     {} achieved, {} dropped, {} failed\n"
+      "  goals     {} achieved, {} dropped, {} failed{}\n"
       "  planner   {} calls, slowest {:.2f} s, {:.0f} MB; {} replans\n"
       "  time      {:.0f} s of mission in {:.1f} s\n"
       "{}"
       "  run       {}\n",
       summary.value("mission", ""), summary.value("scenario", ""), summary.value("seed", std::uint64_t{0}),
       summary.value("dds", ""), summary.value("result", ""), goals.value("achieved", 0),
-      goals.value("dropped", 0), goals.value("failed", 0), planner.value("calls", 0),
+      goals.value("dropped", 0), goals.value("failed", 0), rejected_text(goals), planner.value("calls", 0),
       planner.value("max_s", 0.0), planner.value("max_rss_mb", 0.0), summary.value("replans", 0),
       summary.value("sim_s", 0.0), summary.value("wall_s", 0.0), expected_text(summary),
       options.run_folder.string());

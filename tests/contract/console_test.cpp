@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "ground_console/lib/client.hpp"
 #include "services/domain_claim.hpp"
 #include "tests/unit/exec_svc/service/exec_seat.hpp"
@@ -117,7 +119,25 @@ TEST_P(ConsoleTest, AChangedGoalIsAnsweredForTheChange) {
   EXPECT_THAT(refused->reason(), HasSubstr("change refused"));
   const auto again = late.send_goal(changed, kLimit);  // in the same words
   ASSERT_TRUE(again);
-  EXPECT_EQ(again->header().seq(), refused->header().seq());
+  EXPECT_EQ(again->answers().seq(), refused->answers().seq() + 1);
+  EXPECT_EQ(again->reason(), refused->reason());
+  seat_.robot().stop();
+}
+
+// Also when it has not heard yet what the goal's state was before the change.
+TEST_P(ConsoleTest, AnAnswerNamesTheSampleThatItAnswers) {
+  seat_.run().start();
+  std::set<std::string> senders;
+  for (const char* x : {"50", "far", "60", "near", "70"}) {
+    Client client(connection());
+    v1::Goal goal = photo_goal("more");
+    goal.arguments()[0].value(x);
+    const auto status = client.send_goal(goal, kLimit);
+    ASSERT_TRUE(status);
+    EXPECT_TRUE(senders.insert(status->answers().sender()).second) << x;
+    EXPECT_EQ(status->answers().seq(), 1U);
+    EXPECT_EQ(status->reason().find("change refused") == 0, *x > '9') << x << ": " << status->reason();
+  }
   seat_.robot().stop();
 }
 

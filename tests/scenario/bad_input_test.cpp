@@ -64,6 +64,7 @@ struct Slip {
   const char* right;  // empty: half of the file is cut off
   const char* wrong;
   const char* told;
+  const char* tries = "";  // told, too
 };
 
 void PrintTo(const Slip& slip, std::ostream* out) { *out << slip.name; }
@@ -128,47 +129,50 @@ TEST(BadCommandLine, IsToldWithTheRemedy) {
 }
 
 // What no file shows: the robot is made safe, its goals wait for the ground, standard error says why.
-struct Surprise {
-  const char* name;
-  const char* file;
-  const char* right;
-  const char* wrong;
-  const char* told;
-  const char* tries = "";
-};
-
-void PrintTo(const Surprise& surprise, std::ostream* out) { *out << surprise.name; }
-
-class InFlight : public ::testing::TestWithParam<Surprise> {};
+class InFlight : public ::testing::TestWithParam<Slip> {};
 
 TEST_P(InFlight, MakesTheRobotSafeLosesNoGoalAndIsTold) {
-  const Surprise& surprise = GetParam();
+  const Slip& slip = GetParam();
   const SpoiltMission mission;
-  mission.replace(surprise.file, surprise.right, surprise.wrong);
+  mission.replace(slip.file, slip.right, slip.wrong);
   const Ended ended = mission.fly("cyclonedds");
   EXPECT_EQ(ended.exit_code, 1) << ended.output;
   const nlohmann::json summary = last_line_as_json(ended.output);
   EXPECT_EQ(summary.value("result", ""), "partial");
   EXPECT_EQ(summary["goals"].value("achieved", 0) + summary["goals"].value("open", 0), 3) << summary.dump();
   EXPECT_THAT(ended.output,
-              AllOf(HasSubstr("robot.safe: made safe, waiting for the ground"), HasSubstr(surprise.told)));
+              AllOf(HasSubstr("robot.safe: made safe, waiting for the ground"), HasSubstr(slip.told)));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Surprises, InFlight,
-    ::testing::Values(Surprise{"unknown_module", "domain.pddl", ":module arm", ":module arms",
-                               "no service offers module 'arms'; offered are: arm, pathplan"},
-                      Surprise{"unknown_engine", "mission.yaml", "engine: temporal_pddl", "engine: crystal",
-                               "unknown engine 'crystal'; this planner has: temporal_pddl"}),
+    ::testing::Values(Slip{"unknown_module", "domain.pddl", ":module arm", ":module arms",
+                           "no service offers module 'arms'; offered are: arm, pathplan"},
+                      Slip{"unknown_engine", "mission.yaml", "engine: temporal_pddl", "engine: crystal",
+                           "unknown engine 'crystal'; this planner has: temporal_pddl"}),
     [](const auto& test) { return std::string(test.param.name); });
 
+// The scenario asks for what the mission cannot take: nobody else reads the rejection.
+TEST(ScenariosGoal, ThatIsRejectedIsAHardGoalNotAchieved) {
+  const SpoiltMission mission;
+  mission.replace("scenarios/nominal.yaml", "id: ridge, kind: photo", "id: ridge, kind: photograph");
+  for (const char* dds : {"cyclonedds", "inproc"}) {
+    const Ended ended = mission.fly(dds);
+    EXPECT_EQ(ended.exit_code, 1) << ended.output;
+    const nlohmann::json summary = last_line_as_json(ended.output);
+    EXPECT_EQ(summary.value("result", ""), "partial");
+    EXPECT_EQ(summary["goals"].value("achieved", 0), 2) << summary.dump();
+    EXPECT_EQ(summary["goals"].value("rejected", 0), 1) << summary.dump();
+  }
+}
+
 // A command that its owner never takes costs the goal that needs it, and no other.
-class NeverTaken : public ::testing::TestWithParam<Surprise> {};
+class NeverTaken : public ::testing::TestWithParam<Slip> {};
 
 TEST_P(NeverTaken, FailsItsGoalAloneAndIsTold) {
-  const Surprise& surprise = GetParam();
+  const Slip& slip = GetParam();
   const SpoiltMission mission;
-  mission.replace(surprise.file, surprise.right, surprise.wrong);
+  mission.replace(slip.file, slip.right, slip.wrong);
   const Ended ended = mission.fly("cyclonedds");
   EXPECT_EQ(ended.exit_code, 1) << ended.output;
   const nlohmann::json summary = last_line_as_json(ended.output);
@@ -176,21 +180,20 @@ TEST_P(NeverTaken, FailsItsGoalAloneAndIsTold) {
   EXPECT_EQ(summary["goals"].value("achieved", 0), 2) << summary.dump();
   EXPECT_EQ(summary["goals"].value("failed", 0), 1) << summary.dump();
   EXPECT_THAT(ended.output, AllOf(HasSubstr("goal.failed: hard goal ground/ridge failed: "),
-                                  HasSubstr(surprise.tries), HasSubstr(surprise.told)));
+                                  HasSubstr(slip.tries), HasSubstr(slip.told)));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Surprises, NeverTaken,
-    ::testing::Values(
-        Surprise{"unknown_component", "mission.yaml", ": camera", ": eye",
-                 "[unknown-component]: no component 'eye'; known: nav, arm, camera, gripper, radio",
-                 "will never be taken"},
-        Surprise{"unknown_command", "mission.yaml", "command: image", "command: photograph",
-                 "[unknown-command]: camera has no command 'photograph'; known: image, stop",
-                 "will never be taken"},
-        Surprise{"unknown_owner", "mission.yaml", "take-image: {owner: sim_svc",
-                 "take-image: {owner: eye_svc", "command not answered by eye_svc within 5 s",
-                 "failed 8 times in a row"}),
+    ::testing::Values(Slip{"unknown_component", "mission.yaml", ": camera", ": eye",
+                           "[unknown-component]: no component 'eye'; known: nav, arm, camera, gripper, radio",
+                           "will never be taken"},
+                      Slip{"unknown_command", "mission.yaml", "command: image", "command: photograph",
+                           "[unknown-command]: camera has no command 'photograph'; known: image, stop",
+                           "will never be taken"},
+                      Slip{"unknown_owner", "mission.yaml", "take-image: {owner: sim_svc",
+                           "take-image: {owner: eye_svc", "command not answered by eye_svc within 5 s",
+                           "failed 8 times in a row"}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

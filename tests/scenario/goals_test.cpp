@@ -109,7 +109,7 @@ TEST(Goals, MalformedOnesAreRejectedWithTheRemedyAndChangeNothing) {
   expect_rejected("bytes", "unknown goal kind");
   EXPECT_THAT(mission.events(), Not(Contains(HasSubstr("robot.safe"))));
   expect_uploaded_goals_achieved(mission);
-  EXPECT_EQ(mission.mission().outcome(), "achieved");
+  EXPECT_EQ(mission.mission().outcome(), "partial") << "some were hard, and a service of the run sent them";
   EXPECT_EQ(mission.mission().replans(), 0U);
 }
 

@@ -63,5 +63,6 @@ step add $? "$(cat "$folder/add" 2>/dev/null)"
 wait $launcher
 step launch $? "$(tail -n 1 "$folder/summary")"
 step begun 0 "$(cat "$folder/run/begun.json" 2>/dev/null | tr -d '\n')"
-step replay 0 "$("$bin/roci" replay --json "$folder/run")"
+journal=$(sed -n 's/.*"journal":"\([^"]*\)".*/\1/p' "$folder/summary")
+step replay 0 "$("$bin/roci" replay --json "$folder/run/$journal")"
 cat "$folder/errors" >&2

@@ -10,8 +10,8 @@ namespace roci::scenario {
 namespace {
 
 std::vector<Hang> hangs() {
-  constexpr char kPair[] = "--speed 500 --watchdog 4 --standby";
-  constexpr char kLive[] = "--clock live --speed 100 --watchdog 8";
+  static constexpr char kPair[] = "--speed 500 --watchdog 4 --standby";
+  static constexpr char kLive[] = "--clock live --speed 100 --watchdog 8";
   std::vector<Hang> out;
   for (const char* dds : {"fastdds", "cyclonedds", "mixed"}) {
     for (const char* service : {"planner_svc", "pathplan_svc", "arm_svc", "science_svc"})

@@ -17,10 +17,10 @@ using testing::photo;
 class GoalSetTest : public ::testing::Test {
  protected:
   std::string fault(const GoalRequest& goal) {
-    const GoalRecord* record = goals.submit(goal, seconds(100));
-    return record == nullptr                      ? "nothing changed"
-           : record->state == GoalState::rejected ? record->reason
-                                                  : "accepted";
+    const auto [taken, record] = goals.submit(goal, seconds(100));
+    return taken == GoalSet::Taken::known      ? "nothing changed"
+           : taken == GoalSet::Taken::rejected ? record->reason
+                                               : "accepted";
   }
   MissionModel mission = testing::planetary();
   GoalSet goals{mission};
@@ -30,6 +30,36 @@ TEST_F(GoalSetTest, AcceptsAndRepeatsNothing) {
   EXPECT_EQ(fault(photo("a")), "accepted");
   EXPECT_EQ(fault(photo("a")), "nothing changed");
   ASSERT_EQ(goals.open().size(), 1U);
+}
+
+TEST_F(GoalSetTest, EachSampleIsAnsweredOnce) {
+  GoalRequest goal = photo("a");
+  const auto say = [&](std::uint64_t number) {
+    goal.said_in = {"roci-7", 0, number};
+    const auto [taken, record] = goals.submit(goal, seconds(100));
+    EXPECT_EQ(record->answers, goal.said_in);
+    return taken;
+  };
+  using Taken = GoalSet::Taken;
+  EXPECT_EQ(say(1), Taken::accepted);
+  EXPECT_EQ(say(1), Taken::known);
+  EXPECT_EQ(say(2), Taken::repeated);
+  goal.arguments["x"] = "far";
+  EXPECT_EQ(say(3), Taken::refused);
+  goal.arguments["x"] = "50";
+  EXPECT_EQ(say(4), Taken::accepted);
+  goals.set_state(goal.key, GoalState::achieved, "observed");
+  EXPECT_EQ(goals.find(goal.key)->answers.number, 4U);
+  goal.recalled = true;
+  EXPECT_EQ(say(5), Taken::repeated) << "too late";
+  EXPECT_EQ(goals.find(goal.key)->state, GoalState::achieved);
+}
+
+TEST_F(GoalSetTest, AGoalDoesNotNameItself) {
+  GoalRequest drop = photo("depot");
+  drop.kind = "drop_sample";
+  drop.arguments["sample"] = "depot";
+  EXPECT_THAT(fault(drop), HasSubstr("names goal 'depot', which is not known"));
 }
 
 TEST_F(GoalSetTest, RejectsWithAReasonThatNamesTheRemedy) {
@@ -78,7 +108,7 @@ TEST_F(GoalSetTest, AGoalKeepsItsKind) {
   fault(photo("a"));
   GoalRequest changed = photo("a");
   changed.kind = "pick_sample";
-  const GoalRecord* record = goals.submit(changed, seconds(100));
+  const GoalRecord* record = goals.submit(changed, seconds(100)).record;
   EXPECT_EQ(record->state, GoalState::pending);
   EXPECT_EQ(record->request, photo("a"));
   EXPECT_THAT(record->reason, HasSubstr("it is a photo and stays one; choose another id"));
@@ -99,11 +129,11 @@ TEST_F(GoalSetTest, RecallEndsAGoalAndChangeReopensIt) {
   fault(photo("a"));
   GoalRequest recall = photo("a");
   recall.recalled = true;
-  EXPECT_EQ(goals.submit(recall, seconds(200))->state, GoalState::recalled);
+  EXPECT_EQ(goals.submit(recall, seconds(200)).record->state, GoalState::recalled);
   EXPECT_TRUE(goals.open().empty());
   GoalRequest changed = photo("a");
   changed.arguments["x"] = "50";
-  EXPECT_EQ(goals.submit(changed, seconds(300))->state, GoalState::pending);
+  EXPECT_EQ(goals.submit(changed, seconds(300)).record->state, GoalState::pending);
 }
 
 TEST_F(GoalSetTest, DropsNewestOpportunisticThenOptionalOfLowestUtilityNeverHard) {

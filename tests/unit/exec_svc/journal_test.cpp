@@ -40,6 +40,8 @@ TEST_F(JournalTest, GoalsComeBackAsTheyWere) {
   record.reason = "it's 100 % \"full\"";
   record.arrival = 7;
   record.plan_version = 3;
+  record.request.said_in = {"roci-7", 0, 1};
+  record.answers = {"roci-8", 2, 1ULL << 40};
   {
     Journal journal(file, Durability::power);
     journal.put_goal(record);
@@ -52,6 +54,7 @@ TEST_F(JournalTest, GoalsComeBackAsTheyWere) {
   EXPECT_EQ(goals[0].reason, record.reason);
   EXPECT_EQ(goals[0].arrival, record.arrival);
   EXPECT_EQ(goals[0].plan_version, record.plan_version);
+  EXPECT_EQ(goals[0].answers, record.answers);
 }
 
 // Rejected goals may hold anything, and their record must not keep the executive from starting again.

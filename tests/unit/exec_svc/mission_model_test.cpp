@@ -98,6 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"mission.yaml", "executive:", "executive:\n  recovery: hope",
              "cascade, static, ground, fe, replan"},
         Slip{"mission.yaml", "executive:", "executive:\n  start: soon", "one of: earliest, latest"},
+        Slip{"mission.yaml", "executive:", "executive:\n  replanning: never", "one of: paused, situated"},
         Slip{"mission.yaml", "executive:",
              "contingencies: {stop-arm: {commands: [{owner: sim_svc, component: leg, command: "
              "stop}]}}\nexecutive:",

@@ -22,7 +22,7 @@ class ProblemWriterTest : public ::testing::Test {
     return write_problem(mission, beliefs, goals, "p-1", seconds(now_s), seconds(now_s + 5));
   }
   void submit(const GoalRequest& goal) {
-    ASSERT_EQ(goals.submit(goal, seconds(0))->state, GoalState::pending);
+    ASSERT_EQ(goals.submit(goal, seconds(0)).record->state, GoalState::pending);
   }
 
   MissionModel mission = testing::planetary();

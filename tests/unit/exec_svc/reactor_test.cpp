@@ -16,6 +16,19 @@ TEST_F(ReactorTest, GoalsAreAcceptedPlannedExecutedAchieved) {
   EXPECT_EQ(reactor.counts().replans, 0U);
 }
 
+// A console's sender reads the answer; nobody reads that of a goal which a service of the run passes on.
+TEST_F(ReactorTest, ARejectedHardGoalIsNotAchievedUnlessAConsoleSentIt) {
+  GoalRequest bad = photo("bad");
+  bad.kind = "photograph";
+  run(1000, robot_and({photo("a"), bad}));
+  EXPECT_EQ(reactor.outcome(), "achieved");
+  EXPECT_EQ(reactor.counts().rejected, 1U);
+  bad.key.id = "worse";
+  bad.said_in = {"sim_svc", 1, 7};
+  run(2000, robot_and({bad}));
+  EXPECT_EQ(reactor.outcome(), "partial");
+}
+
 TEST_F(ReactorTest, WaitsForTheFirstObservationOfEveryComponent) {
   ReactorInputs inputs = robot_and({photo("a")});
   inputs.observations.erase(inputs.observations.begin());  // rover.nav

@@ -1,0 +1,88 @@
+// How an attempt at an activity ends: success, failure, another attempt, cancel.
+#include "exec_svc/executive/plan_run.hpp"
+
+namespace roci::exec {
+
+using temporal::ActivityState;
+using temporal::Duration;
+using temporal::PlanActivity;
+using temporal::plus;
+using temporal::Time;
+using temporal::Truth;
+
+void PlanRun::succeed(Index activity, Time now) {
+  const PlanActivity& planned = plan_.activities[activity];
+  if (!planned.owner.empty()) {
+    points_.happen(planned.end_point, now);
+    ended_now_.push_back(activity);
+  }
+  close(activity, now, ActivityState::succeeded, "");
+}
+
+void PlanRun::fail(Index activity, Time now, BreakReason reason, const std::string& cause,
+                   bool still_commanded) {
+  const bool may_recover = reason == BreakReason::activity_failed && contingency_of(activity) != nullptr;
+  if (may_recover && !still_commanded && begin_contingency(activity, now, cause)) return;
+  if (may_recover && still_commanded) {
+    cancel(activity, now, AfterCancel::fail, cause);
+    return;
+  }
+  break_plan(reason, plan_.activities[activity].id, cause, plan_.activities[activity].contingency);
+  if (still_commanded) {
+    cancel(activity, now, AfterCancel::fail, cause);
+  } else {
+    close(activity, now, ActivityState::failed, cause);
+  }
+}
+
+void PlanRun::fail_or_retry(Index activity, Time now, const std::string& cause) {
+  if (!retry(activity, now, cause)) fail(activity, now, BreakReason::activity_failed, cause, false);
+}
+
+/// R99: the same activity again at once, if its preconditions still hold; its duration counts from now.
+bool PlanRun::retry(Index activity, Time now, const std::string& cause) {
+  const PlanActivity& planned = plan_.activities[activity];
+  ActivityRun& run = runs_[activity];
+  if (!starting() || run.retries_used >= planned.retries || now > deadline(activity)) return false;
+  const auto within = settings_.retry_within.find(planned.name);
+  if (within != settings_.retry_within.end() && now > plus(*run.started, within->second)) return false;
+  if (evaluate(planned.pre, lookup()) != Truth::yes) return false;
+  ++run.retries_used;
+  recover(Rung::retry, activity,
+          "retry " + std::to_string(run.retries_used) + " of " + std::to_string(planned.retries) +
+              " after: " + cause);
+  try_again(activity, now, "retry after: " + cause);
+  return true;
+}
+
+void PlanRun::try_again(Index activity, Time now, const std::string& cause) {
+  ActivityRun& run = runs_[activity];
+  ++run.attempt;
+  run.attempt_started = now;
+  run.overrun_noted = false;
+  const Duration spent = now - *run.started;
+  const temporal::Window duration = points_.duration(activity);
+  points_.set_duration(activity, plus(spent, duration.lower), plus(spent, duration.upper));
+  enter(activity, Phase::sent, now);
+  send(activity, CommandAction::execute);
+  change(activity, ActivityState::dispatched, cause);
+}
+
+void PlanRun::close(Index activity, Time now, ActivityState state, const std::string& cause) {
+  ActivityRun& run = runs_[activity];
+  if (run.started) run.ended = now;
+  if (plan_.activities[activity].owner.empty() && run.started)
+    store_.end(plan_.activities[activity], state == ActivityState::succeeded);
+  enter(activity, Phase::done, now);
+  change(activity, state, cause);
+}
+
+void PlanRun::cancel(Index activity, Time now, AfterCancel after, const std::string& cause) {
+  ActivityRun& run = runs_[activity];
+  enter(activity, Phase::cancelling, now);
+  run.after_cancel = after;
+  send(activity, CommandAction::cancel);
+  change(activity, run.state, cause);
+}
+
+}  // namespace roci::exec

@@ -1,0 +1,129 @@
+// What owners say of their commands, and that they are gone.
+#include <limits>
+#include <set>
+
+#include "exec_svc/executive/plan_run.hpp"
+
+namespace roci::exec {
+
+using temporal::ActivityState;
+using temporal::Time;
+
+namespace {
+
+std::string with_reason(const std::string& what, const CommandAck& ack) {
+  std::string text = what;
+  if (!ack.code.empty()) text += " [" + ack.code + "]";
+  return ack.reason.empty() ? text : text + ": " + ack.reason;
+}
+
+}  // namespace
+
+bool PlanRun::take_ack(const CommandAck& ack, Time now) {
+  const auto found = index_of_.find(ack.activity);
+  if (found == index_of_.end()) return take_contingency_ack(ack, now);
+  const Index activity = found->second;
+  ActivityRun& run = runs_[activity];
+  if (!run.active() || run.attempt != ack.attempt || plan_.activities[activity].owner.empty()) return false;
+  if (run.phase == Phase::recovering) return false;
+  if (take_query_answer(activity, ack, now)) return true;
+  if (run.phase == Phase::cancelling) {
+    take_cancel_answer(activity, ack, now);
+    return true;
+  }
+  if (run.phase == Phase::settling) return ack.stage == CommandStage::completed;
+  switch (ack.stage) {
+    case CommandStage::accepted:
+      if (run.phase == Phase::sent) {
+        enter(activity, Phase::running, now);
+        change(activity, ActivityState::running, run.cause);
+      } else if (!ack.code.empty() || !ack.reason.empty()) {
+        change(activity, ActivityState::running, with_reason("its owner repairs", ack));  // R146
+      }
+      return true;
+    case CommandStage::completed:
+      if (now > deadline(activity)) {
+        fail(activity, now, BreakReason::deadline_passed, "it ended after its deadline", false);
+        return true;
+      }
+      enter(activity, Phase::settling, now);
+      return true;
+    case CommandStage::rejected:
+      if (ack.code == "unknown-command" || ack.code == "unknown-component") {
+        fail(activity, now, BreakReason::refused_for_good, with_reason("rejected", ack), false);
+      } else {
+        fail_or_retry(activity, now, with_reason("rejected", ack));
+      }
+      return true;
+    case CommandStage::failed:
+      fail_or_retry(activity, now, with_reason("failed", ack));
+      return true;
+    case CommandStage::unknown:
+      fail_or_retry(activity, now, with_reason("its owner does not know the command", ack));
+      return true;
+    case CommandStage::cancelled:
+      fail(activity, now, BreakReason::activity_failed, with_reason("cancelled by its owner", ack), false);
+      return true;
+    case CommandStage::cancel_failed:
+      return false;
+  }
+  return false;
+}
+
+void PlanRun::lose_owner(const std::string& owner, Time now) {
+  const std::set<Index> active = active_;
+  const std::string lost = "owner " + owner + " is lost";
+  for (const Index activity : active) {
+    if (runs_[activity].phase == Phase::recovering) {
+      if (contingency_owner(activity) == owner) end_contingency(activity, now, lost);
+      continue;
+    }
+    if (plan_.activities[activity].owner != owner || runs_[activity].phase == Phase::settling) continue;
+    const bool given_up =
+        runs_[activity].phase == Phase::cancelling && runs_[activity].after_cancel != AfterCancel::retry;
+    if (given_up && !starting()) {
+      close(activity, now, ActivityState::failed, runs_[activity].cause + "; " + lost);
+    } else {
+      fail(activity, now, BreakReason::activity_failed, lost, false);
+    }
+  }
+}
+
+void PlanRun::take_cancel_answer(Index activity, const CommandAck& ack, Time now) {
+  ActivityRun& run = runs_[activity];
+  if (ack.stage == CommandStage::accepted) return;  // crossed the cancel
+  if (ack.stage == CommandStage::completed && run.after_cancel != AfterCancel::fail) {
+    enter(activity, Phase::settling, now);
+    if (run.after_cancel == AfterCancel::withdraw)
+      close(activity, now, ActivityState::succeeded, "completed before the cancel");
+    return;
+  }
+  if (ack.stage == CommandStage::cancel_failed) {
+    cancel_is_over(activity, now, with_reason("cancel failed", ack));
+    return;
+  }
+  const std::string cause = run.cause;
+  if (run.after_cancel == AfterCancel::retry) {
+    fail_or_retry(activity, now, cause);
+  } else {
+    const bool failed = run.after_cancel == AfterCancel::fail;
+    if (failed && starting()) {
+      fail(activity, now, BreakReason::activity_failed, cause, false);
+      return;
+    }
+    close(activity, now, failed ? ActivityState::failed : ActivityState::cancelled, cause);
+  }
+}
+
+/// The cancel did not take: the command may still be running, and no contingency is begun on top of it.
+void PlanRun::cancel_is_over(Index activity, Time now, const std::string& answer) {
+  const std::string cause = runs_[activity].cause + "; " + answer;
+  runs_[activity].contingencies_used = std::numeric_limits<std::uint32_t>::max();
+  if (runs_[activity].after_cancel == AfterCancel::retry || starting()) {
+    fail(activity, now, BreakReason::activity_failed, cause, false);
+  } else {
+    close(activity, now, ActivityState::failed, cause);
+  }
+}
+
+}  // namespace roci::exec

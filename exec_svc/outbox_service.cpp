@@ -1,0 +1,72 @@
+#include "exec_svc/outbox_service.hpp"
+
+#include <set>
+
+#include "exec_svc/wire_service.hpp"
+#include "services/wire/plan_wire.hpp"
+
+namespace roci::exec {
+namespace {
+
+namespace topics = services::topics;
+
+// The key of the query that tells owners a leader's epoch; no activity has it.
+constexpr char kEpochKey[] = "epoch";
+
+}  // namespace
+
+Outbox::Outbox(services::Node& node, const MissionModel& mission, std::uint64_t epoch, CrashPoints& crash)
+    : mission_(&mission),
+      epoch_(epoch),
+      crash_(&crash),
+      commands_(services::advertise(node, topics::command)),
+      goal_statuses_(services::advertise(node, topics::goal_status)),
+      plans_(services::advertise(node, topics::plan)),
+      steps_(services::advertise(node, topics::step_status)),
+      missions_(services::advertise(node, topics::mission_status)),
+      events_(services::advertise(node, topics::event)) {}
+
+void Outbox::send_goals(const Reactor& reactor) const {
+  for (const GoalRecord* goal : reactor.goals().all()) goal_statuses_.write(wire::to_wire(*goal));
+}
+
+void Outbox::send_plan(const Reactor& reactor) const {
+  if (reactor.plan().version != 0) plans_.write(services::wire::to_wire(reactor.plan()));
+  for (const StepStatus& step : reactor.steps()) steps_.write(wire::to_wire(step, reactor.plan_version()));
+}
+
+void Outbox::send(const ReactorOutputs& out, std::uint32_t version) const {
+  for (const GoalRecord& goal : out.goal_changes) sent(goal_statuses_.write(wire::to_wire(goal)));
+  if (out.adopted) sent(plans_.write(services::wire::to_wire(*out.adopted)));
+  for (const Command& command : out.commands) sent(commands_.write(wire::to_wire(command, version, epoch_)));
+  for (const StepStatus& step : out.steps) sent(steps_.write(wire::to_wire(step, version)));
+  for (const Note& note : out.notes) report(note);
+}
+
+void Outbox::report(const Note& note) const { events_.write(wire::to_wire(note)); }
+
+bool Outbox::publish(v1::MissionStatus status, const std::string& trace_sha256) {
+  if (status == last_status_) return false;
+  last_status_ = status;
+  status.trace_sha256(trace_sha256);
+  missions_.write(std::move(status));
+  return true;
+}
+
+void Outbox::announce_epoch() {
+  if (epoch_announced_ || commands_.matched_readers() == 0) return;
+  epoch_announced_ = true;
+  std::set<std::string> owners;
+  for (const Component& component : mission_->components) owners.insert(component.owner);
+  for (const std::string& owner : owners) {
+    Command query;
+    query.action = CommandAction::query;
+    query.activity = kEpochKey;
+    query.owner = owner;
+    commands_.write(wire::to_wire(query, 0, epoch_));
+  }
+}
+
+bool Outbox::answers_epoch(const v1::CommandAck& ack) { return ack.activity() == kEpochKey; }
+
+}  // namespace roci::exec

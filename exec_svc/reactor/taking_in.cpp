@@ -1,0 +1,62 @@
+// What comes in from outside the running plan: services, models, goals.
+#include "exec_svc/mission/template_text.hpp"
+#include "exec_svc/reactor/reactor.hpp"
+
+namespace roci::exec {
+
+using temporal::Time;
+
+void Reactor::take_peers(const ReactorInputs& inputs) {
+  for (const PeerLoss& loss : inputs.losses) {
+    note(NoteLevel::warning, "service.lost", loss.service + " was lost: " + loss.cause);
+  }
+  for (const std::string& service : inputs.arrivals) {
+    note(NoteLevel::info, "service.found", service + " is there");
+    if (phase_ == Phase::safe && !goals_.open().empty()) want_plan(service + " came back");
+    failed_calls_ = 0;
+    not_before_ = Time{0};
+    fallbacks_sent_ = false;  // one that came back has not heard them
+  }
+}
+
+void Reactor::take_models(const std::vector<ModelVersion>& models) {
+  for (const ModelVersion& model : models) {
+    const auto [known, is_new] = models_.try_emplace(model.owner, model.version);
+    if (is_new || known->second == model.version) continue;
+    known->second = model.version;
+    models_changed_ = true;
+  }
+}
+
+void Reactor::take_goals(Time now, const std::vector<GoalRequest>& requests) {
+  for (const GoalRequest& request : goals_.in_order(requests)) {
+    const auto [taken, record] = goals_.submit(request, now);
+    if (taken == GoalSet::Taken::known) continue;
+    out_.goal_changes.push_back(*record);
+    const std::string name = "goal " + record->request.key.text();
+    if (taken == GoalSet::Taken::rejected) {
+      note(NoteLevel::warning, "goal.rejected", name + " rejected: " + record->reason);
+    } else if (taken == GoalSet::Taken::refused) {
+      note(NoteLevel::warning, "goal.refused", name + ": " + record->reason);
+    } else if (taken == GoalSet::Taken::recalled) {
+      note(NoteLevel::info, "goal.recalled", name + " recalled");
+      if (phase_ == Phase::executing || phase_ == Phase::planning) want_plan(name + " was recalled");
+    } else if (taken == GoalSet::Taken::accepted) {
+      note(NoteLevel::info, "goal.accepted", name + " accepted");
+      assume_unobserved(record->request);
+      reserves_ = Reserves::kept;
+      want_plan(name + " arrived");
+    }
+  }
+}
+
+void Reactor::assume_unobserved(const GoalRequest& goal) {
+  const auto values = template_values(goal);
+  for (const auto& [timeline, templates] : mission_->goal_kinds.at(goal.kind).unobserved) {
+    std::vector<std::string> facts;
+    for (const std::string& fact : templates) facts.push_back(fill_names(fact, values));
+    beliefs_.assume(fill_names(timeline, values), std::move(facts));
+  }
+}
+
+}  // namespace roci::exec
