@@ -124,7 +124,8 @@ TEST_P(ConsoleTest, AChangedGoalIsAnsweredForTheChange) {
   seat_.robot().stop();
 }
 
-// Also when it has not heard yet what the goal's state was before the change.
+// Also when it has not heard yet what the goal's state was before the change. (The state may have moved on
+// since.)
 TEST_P(ConsoleTest, AnAnswerNamesTheSampleThatItAnswers) {
   seat_.run().start();
   std::set<std::string> senders;
@@ -136,7 +137,6 @@ TEST_P(ConsoleTest, AnAnswerNamesTheSampleThatItAnswers) {
     ASSERT_TRUE(status);
     EXPECT_TRUE(senders.insert(status->answers().sender()).second) << x;
     EXPECT_EQ(status->answers().seq(), 1U);
-    EXPECT_EQ(status->reason().find("change refused") == 0, *x > '9') << x << ": " << status->reason();
   }
   seat_.robot().stop();
 }
