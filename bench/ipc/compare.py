@@ -52,7 +52,7 @@ def totals(runs, planners, ours):
     rows = []
     for planner in planners:
         own = [records[planner] for records in runs.values() if solved(records, planner)]
-        rows.append([planner, len(own), f"{statistics.median(r['cpu_s'] for r in own):.2f}",
+        rows.append([planner, len(own), f"{statistics.median(r['cpu_s'] for r in own):.3f}",
                      f"{statistics.median(r['peak_rss_kb'] for r in own) / 1024:.0f}",
                      f"{ipc_score(runs, planners, planner):.1f}"])
     union = sum(any(solved(records, peer) for peer in peers) for records in runs.values())
