@@ -150,17 +150,38 @@ TEST_F(Following, ADeltaOfAnotherVersionIsRefusedAndTheWholePlanTaken) {
   EXPECT_EQ(reactor.outcome(), "achieved");
 }
 
+TEST_F(Following, AVersionThatCommitsWhatIsTooLateIsRefused) {
+  engine.image("1", CommitState::planned, 0, 50);
+  engine.image("2", CommitState::committed, 300);
+  send_at(100, [this] { engine.find("1").commit = CommitState::committed; });
+  run(200, with_plan(robot_and({photo("1"), photo("2")})));
+  EXPECT_THAT(reactor.receipt().reason, HasSubstr("1 would have to start before"));
+  EXPECT_THAT(trace, Not(Contains("plan.broken")));
+  run(1000, {});
+  EXPECT_THAT(begun(), ElementsAre("2"));
+}
+
 TEST_F(Following, ABrokenPlanIsMendedByTheNextVersion) {
   camera_works = false;
   engine.image("1", CommitState::committed);
+  std::string refused;
+  at(50, [this] {  // the engine has not heard yet
+    const temporal::FlexiblePlan before = engine.told();
+    engine.image("2", CommitState::planned);
+    pending.deltas.push_back(engine.delta());
+    engine.take_back(before);
+  });
+  at(55, [&] { refused = reactor.receipt().reason; });
   send_at(60, [this] {
     camera_works = true;
+    engine.remove("2");
     engine.remove("1");
-    engine.image("1b", CommitState::committed);
+    engine.image("1b", CommitState::committed, 400);  // later than it would have waited for a mend
     engine.find("1b").arguments = {{"image", "image-1"}};
     engine.find("1b").goals_served = {"ground/1"};
   });
   run(1000, with_plan(robot_and({photo("1")})));
+  EXPECT_THAT(refused, HasSubstr("1 has ended without success"));
   EXPECT_THAT(begun(), ElementsAre("1", "1b"));
   EXPECT_THAT(trace, IsSupersetOf({"plan.broken", "plan.adopted", "goal.achieved"}));
   EXPECT_EQ(reactor.outcome(), "achieved");
