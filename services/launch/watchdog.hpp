@@ -1,6 +1,6 @@
 // Which services of a launcher are hung. Pure.
 //
-// Two signs are watched for each process: that its loop turns (signs_of_life.hpp), and that it is heard over
+// Two signs are watched for each process: that its loop turns (health/sign_of_life.hpp), and that it is heard over
 // DDS. A service whose loop turns but whose DDS has locked up is dead to all others, and only a new process
 // mends it.
 #pragma once
