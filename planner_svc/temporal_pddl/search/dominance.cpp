@@ -4,17 +4,11 @@
 #include <numeric>
 #include <utility>
 
+#include "planner_svc/temporal_pddl/search/hash_mix.hpp"
+
 namespace roci::planner::temporal_pddl {
 
 namespace {
-
-std::uint64_t mix(std::uint64_t h) {
-  h ^= h >> 33;
-  h *= 0xff51afd7ed558ccdull;
-  h ^= h >> 33;
-  h *= 0xc4ceb9fe1a85ec53ull;
-  return h ^ h >> 33;
-}
 
 Ticks plus(Ticks time, Ticks more) { return time == kNoPath ? kNoPath : time + more; }
 

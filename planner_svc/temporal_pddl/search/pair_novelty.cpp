@@ -3,20 +3,14 @@
 #include <algorithm>
 #include <bit>
 
+#include "planner_svc/temporal_pddl/search/hash_mix.hpp"
+
 namespace roci::planner::temporal_pddl {
 
 namespace {
 
 constexpr std::size_t kFewestWords = std::size_t{1} << 10;
 constexpr std::size_t kMostWords = std::size_t{1} << 20;
-
-std::uint64_t mix(std::uint64_t h) {
-  h ^= h >> 33;
-  h *= 0xff51afd7ed558ccdull;
-  h ^= h >> 33;
-  h *= 0xc4ceb9fe1a85ec53ull;
-  return h ^ h >> 33;
-}
 
 }  // namespace
 
