@@ -40,7 +40,7 @@ Duration microseconds(double seconds, double (*round)(double)) {
 }  // namespace
 
 void ActionInstantiator::instantiate(SchemaId schema, const LiftedAction& action, Binding& binding,
-                                     std::vector<GroundAction>& result) {
+                                     GroundModel& model) {
   GroundAction ground;
   ground.schema = schema;
   ground.arguments.assign(binding.begin(),
@@ -52,6 +52,7 @@ void ActionInstantiator::instantiate(SchemaId schema, const LiftedAction& action
   const Disjunction at_end = formulas_.ground(action.at_end, binding);
   if (at_start.empty() || over_all.empty() || at_end.empty()) return;
   if (!collect_effects(action, binding)) return;
+  mention_choices(action, binding);
   const std::vector<Draft> drafts = choose_conditionals();
   const std::size_t variants = at_start.size() * over_all.size() * at_end.size() * drafts.size();
   if (variants > kMaxAlternatives) {
@@ -71,11 +72,12 @@ void ActionInstantiator::instantiate(SchemaId schema, const LiftedAction& action
           ground.at_start = *start_condition;
           ground.over_all = invariant;
           ground.at_end = *end_condition;
+          ground.mentions = mentioned_beside(*start_condition, *end_condition, model.mentions);
           ground.start_effects = draft.start_effects;
           ground.end_effects = draft.end_effects;
           normalise(ground.start_effects);
           normalise(ground.end_effects);
-          result.push_back(ground);
+          model.actions.push_back(ground);
         }
       }
     }
@@ -106,9 +108,31 @@ bool ActionInstantiator::set_duration(const LiftedAction& action, const Binding&
   return ground.min_duration <= ground.max_duration;
 }
 
+void ActionInstantiator::mention_choices(const LiftedAction& action, Binding& binding) {
+  if (has_choice(action.at_start)) formulas_.mention(action.at_start, binding, false, mentions_);
+  if (has_choice(action.at_end)) formulas_.mention(action.at_end, binding, true, mentions_);
+  std::ranges::sort(mentions_);
+  mentions_.erase(std::unique(mentions_.begin(), mentions_.end()), mentions_.end());
+}
+
+// What the conditions themselves ask for needs no mention. An index of `lists`.
+std::uint32_t ActionInstantiator::mentioned_beside(const Conjunction& at_start, const Conjunction& at_end,
+                                                   std::vector<std::vector<Mention>>& lists) const {
+  std::vector<Mention> result;
+  std::ranges::copy_if(mentions_, std::back_inserter(result), [&](const Mention& mention) {
+    const auto& literals = (mention.at_end ? at_end : at_start).literals;
+    return mention.is_number ||
+           std::ranges::find(literals, mention.index, &GroundLiteral::atom) == literals.end();
+  });
+  if (result.empty()) return 0;
+  if (result != lists.back()) lists.push_back(std::move(result));
+  return static_cast<std::uint32_t>(lists.size() - 1);
+}
+
 bool ActionInstantiator::collect_effects(const LiftedAction& action, Binding& binding) {
   unconditional_ = {};
   conditionals_.clear();
+  mentions_.clear();
   bool defined = true;
   for (const bool at_end : {false, true}) {
     for (const auto& effect : at_end ? action.end_effects : action.start_effects) {
@@ -124,6 +148,8 @@ bool ActionInstantiator::collect_effect(const LiftedEffect& effect, bool at_end,
     return at_end ? draft.end_effects : draft.start_effects;
   };
   if (!effect.conditional()) return add_effect(effect, binding, effects_of(unconditional_));
+  formulas_.mention(effect.start_condition, binding, false, mentions_);
+  formulas_.mention(effect.end_condition, binding, true, mentions_);
   const World& world = formulas_.world();
   if (!world.possible(effect.start_condition, binding) || !world.possible(effect.end_condition, binding))
     return true;
@@ -174,8 +200,10 @@ bool ActionInstantiator::changes_its_condition(
 bool ActionInstantiator::add_effect(const LiftedEffect& effect, const Binding& binding,
                                     GroundEffects& effects) {
   if (effect.kind != LiftedEffect::Kind::numeric) {
-    const auto atom = formulas_.reached_atom(effect.atom, binding);
-    if (atom) (effect.kind == LiftedEffect::Kind::add ? effects.adds : effects.deletes).push_back(*atom);
+    const bool adds = effect.kind == LiftedEffect::Kind::add;
+    const auto atom =
+        adds ? formulas_.reached_atom(effect.atom, binding) : formulas_.known_atom(effect.atom, binding);
+    if (atom) (adds ? effects.adds : effects.deletes).push_back(*atom);
     return true;
   }
   auto value = formulas_.linear(effect.value, binding);

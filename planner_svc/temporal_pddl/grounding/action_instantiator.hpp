@@ -14,10 +14,9 @@ class ActionInstantiator {
  public:
   explicit ActionInstantiator(FormulaGrounder& formulas) : formulas_(formulas) {}
 
-  // Appends the ground actions of the instance: none if its conditions contradict each other, a constant that
-  // it needs is undefined or unreachable, or no duration is possible.
-  void instantiate(SchemaId schema, const LiftedAction& action, Binding& binding,
-                   std::vector<GroundAction>& result);
+  // Appends the ground actions of the instance, with what they mention: none if its conditions contradict
+  // each other, a constant that it needs is undefined or unreachable, or no duration is possible.
+  void instantiate(SchemaId schema, const LiftedAction& action, Binding& binding, GroundModel& model);
 
  private:
   // An action under construction: what is common to all variants, then one variant.
@@ -32,6 +31,9 @@ class ActionInstantiator {
   };
 
   bool set_duration(const LiftedAction& action, const Binding& binding, GroundAction& ground);
+  void mention_choices(const LiftedAction& action, Binding& binding);
+  std::uint32_t mentioned_beside(const Conjunction& at_start, const Conjunction& at_end,
+                                 std::vector<std::vector<Mention>>& lists) const;
   bool collect_effects(const LiftedAction& action, Binding& binding);
   bool collect_effect(const LiftedEffect& effect, bool at_end, Binding& binding);
   bool changes_its_condition(const LiftedEffect& effect, bool at_end, const Binding& binding,
@@ -42,6 +44,7 @@ class ActionInstantiator {
   FormulaGrounder& formulas_;
   Draft unconditional_;
   std::vector<Conditional> conditionals_;
+  std::vector<Mention> mentions_;  // of the instance at hand
 };
 
 }  // namespace roci::planner::temporal_pddl

@@ -123,11 +123,13 @@ class Analysis {
                            std::back_inserter(end_literals));
     const Groups start_needs = needs(start_literals);
     touch_by_conditions(index, action.at_start, start_needs);
+    touch_by_mentions(index, false, start_needs);
     touch_by_snap(index, action.start_effects, start_needs, start_literals);
     for (const auto& rule : action.duration_rules) touch_by_expression(index, rule.bound, start_needs);
     if (!action.durative) return;
     const Groups end_needs = united(running_[index], needs(end_literals));
     touch_by_conditions(index, action.at_end, end_needs);
+    touch_by_mentions(index, true, end_needs);
     touch_by_snap(index, action.end_effects, end_needs, end_literals);
     for (const auto& rule : action.duration_rules) touch_by_expression(index, rule.bound, end_needs);
     touch_by_conditions(index, action.over_all, united(running_[index], needs(action.over_all.literals)));
@@ -141,6 +143,14 @@ class Analysis {
     atoms_[rule.head.atom].by(Touch::nobody, {});
     facts_[rule.head.atom] = {true, true, true, true};
     for (const auto literal : rule.body.literals) facts_[literal.atom].negated = true;
+  }
+
+  void touch_by_mentions(std::size_t index, bool at_end, const Groups& needed) {
+    for (const Mention& mention : model_.mentions_of(model_.actions[index])) {
+      if (mention.at_end != at_end) continue;
+      (mention.is_number ? numbers_ : atoms_)[mention.index].by(index, needed);
+      if (!mention.is_number) facts_[mention.index].negated = true;  // true or false, it is looked at
+    }
   }
 
   void touch_by_expression(std::size_t index, ExpressionId expression, const Groups& needed) {
@@ -204,10 +214,14 @@ class Analysis {
       return std::ranges::binary_search(action.over_all.literals, literal) &&
              !(literal.negated ? use.redundantly_deleted : use.redundantly_added);
     });
+    const bool mentions_free = std::ranges::all_of(model_.mentions_of(action), [&](const Mention& mention) {
+      const Touch& touch = (mention.is_number ? numbers_ : atoms_)[mention.index];
+      return !mention.at_end || touch.isolated(index, running);
+    });
     // A derived one may hold for one reason, then for another.
     const bool simple = std::ranges::none_of(
         action.over_all.literals, [&](GroundLiteral literal) { return model_.derived[literal.atom]; });
-    return literals_free && simple && isolated(index, action.over_all, running) &&
+    return literals_free && mentions_free && simple && isolated(index, action.over_all, running) &&
            isolated(index, action.at_end, running) &&
            std::ranges::none_of(action.duration_rules,
                                 [](const DurationRule& rule) { return rule.at == pddl::TimePoint::end; }) &&
@@ -242,6 +256,9 @@ std::vector<bool> only_goals_ask(const GroundModel& model) {
   for (const auto& action : model.actions) {
     for (const auto* conditions : {&action.at_start, &action.over_all, &action.at_end}) {
       for (const auto literal : conditions->literals) result[literal.atom] = false;
+    }
+    for (const Mention& mention : model.mentions_of(action)) {
+      if (!mention.is_number) result[mention.index] = false;
     }
     for (const auto* effects : {&action.start_effects, &action.end_effects}) {
       for (const std::uint32_t atom : effects->deletes) result[atom] = false;

@@ -12,7 +12,8 @@
 //
 // a is compression safe if
 //  1. each fact at its end is an invariant of a that is never added while it is true (deleted while it is
-//     false, if negated), or is isolated;
+//     false, if negated), or is isolated; what
+//     its end only mentions is isolated;
 //  2. each number in its invariants and end conditions is isolated, and no duration is measured at the end;
 //  3. each fact that its end changes
 //     - is isolated, or

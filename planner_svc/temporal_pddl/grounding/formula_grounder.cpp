@@ -33,6 +33,11 @@ Disjunction simplified(Disjunction alternatives) {
 
 }  // namespace
 
+bool has_choice(const LiftedFormula& formula) {
+  return formula.kind == Kind::disjunction || formula.kind == Kind::exists ||
+         std::ranges::any_of(formula.parts, has_choice);
+}
+
 Disjunction always() { return {Conjunction{}}; }
 
 bool is_certain(const Disjunction& alternatives) {
@@ -115,6 +120,42 @@ Disjunction FormulaGrounder::ground_atom(const LiftedFormula& formula, const Bin
     return positive ? always() : Disjunction{};
   }
   return {Conjunction{{{*atom, !positive}}, {}}};
+}
+
+void FormulaGrounder::mention(const LiftedFormula& formula, Binding& binding, bool at_end,
+                              std::vector<Mention>& result) {
+  switch (formula.kind) {
+    case Kind::conjunction:
+    case Kind::disjunction:
+      for (const auto& part : formula.parts) mention(part, binding, at_end, result);
+      return;
+    case Kind::forall:
+    case Kind::exists:
+      for_each_value(formula.quantified, binding,
+                     [&] { mention(formula.parts.front(), binding, at_end, result); });
+      return;
+    case Kind::atom:
+    case Kind::not_atom:
+      if (world_.is_static(formula.atom.predicate)) return;
+      if (const auto atom = known_atom(formula.atom, binding)) result.push_back({*atom, false, at_end});
+      return;
+    case Kind::comparison:
+      for (const auto& side : formula.sides) mention(side, binding, at_end, result);
+      return;
+    case Kind::equal:
+    case Kind::not_equal:
+      return;
+  }
+}
+
+void FormulaGrounder::mention(const LiftedExpression& expression, const Binding& binding, bool at_end,
+                              std::vector<Mention>& result) {
+  if (expression.kind == LiftedExpression::Kind::function &&
+      !world_.constants().is_constant(expression.function)) {
+    const NumberId mentioned = number(expression.function, objects_of(expression.arguments, binding));
+    result.push_back({mentioned.value, true, at_end});
+  }
+  for (const auto& operand : expression.operands) mention(operand, binding, at_end, result);
 }
 
 Disjunction FormulaGrounder::ground_comparison(const LiftedFormula& formula, const Binding& binding) {
@@ -214,6 +255,11 @@ std::optional<std::uint32_t> FormulaGrounder::reached_atom(const LiftedAtom& ato
                                                            const Binding& binding) const {
   const auto found = reachability_.atoms.find(atom.predicate.value, objects_of(atom.arguments, binding));
   return found && reachability_.reached[*found] ? found : std::nullopt;
+}
+
+std::optional<std::uint32_t> FormulaGrounder::known_atom(const LiftedAtom& atom,
+                                                         const Binding& binding) const {
+  return reachability_.atoms.find(atom.predicate.value, objects_of(atom.arguments, binding));
 }
 
 NumberId FormulaGrounder::number(FunctionId function, const std::vector<ObjectId>& objects) {

@@ -30,10 +30,16 @@ class FormulaGrounder {
   // Throws Refusal (unsupported) for more than kMaxAlternatives, and for products of numbers that change.
   Disjunction ground(const LiftedFormula& formula, Binding& binding);
 
+  // Appends the atoms and numbers in the formula that may change. Atoms that are false for ever count if some
+  // effect deletes them.
+  void mention(const LiftedFormula& formula, Binding& binding, bool at_end, std::vector<Mention>& result);
+
   // None: a constant in it is undefined, or a division by 0.
   std::optional<LinearExpression> linear(const LiftedExpression& expression, const Binding& binding);
 
   std::optional<std::uint32_t> reached_atom(const LiftedAtom& atom, const Binding& binding) const;
+  // Also one that is false for ever, if some effect deletes it and some condition mentions it.
+  std::optional<std::uint32_t> known_atom(const LiftedAtom& atom, const Binding& binding) const;
   NumberId number(FunctionId function, const std::vector<ObjectId>& objects);
   ExpressionId intern(const LinearExpression& expression) { return expressions_.intern(expression); }
 
@@ -44,6 +50,8 @@ class FormulaGrounder {
 
  private:
   Disjunction ground_atom(const LiftedFormula& formula, const Binding& binding) const;
+  void mention(const LiftedExpression& expression, const Binding& binding, bool at_end,
+               std::vector<Mention>& result);
   Disjunction ground_comparison(const LiftedFormula& formula, const Binding& binding);
 
   const World& world_;
@@ -53,6 +61,9 @@ class FormulaGrounder {
   ExpressionPool& expressions_;
   const std::string& file_;
 };
+
+// May it be that not all parts of it that can change are in all alternatives?
+bool has_choice(const LiftedFormula& formula);
 
 Disjunction always();
 bool is_certain(const Disjunction& alternatives);

@@ -32,6 +32,16 @@ struct Conjunction {
 // Alternatives; none: false; an empty one: true.
 using Disjunction = std::vector<Conjunction>;
 
+// What a condition at the start or at the end of an action mentions without asking for it: parts that what
+// never changes decides, alternatives that were not chosen, conditions of effects that do not happen. Nobody
+// may change it within ε of that moment either (R6; Fox and Long 2003, definition 12).
+struct Mention {
+  std::uint32_t index = 0;  // of an atom or a number
+  bool is_number = false;
+  bool at_end = false;
+  auto operator<=>(const Mention&) const = default;
+};
+
 struct GroundEffects {
   std::vector<std::uint32_t> adds, deletes;  // atoms, sorted; no atom is in both
   std::vector<NumericEffect> numeric;
@@ -43,6 +53,7 @@ struct GroundAction {
   SchemaId schema;
   std::vector<ObjectId> arguments;
   bool durative = true;
+  std::uint32_t mentions = 0;  // a list of GroundModel::mentions
   Duration min_duration{0};
   Duration max_duration = kUnbounded;
   std::vector<DurationRule> duration_rules;
@@ -82,6 +93,8 @@ struct GroundModel {
   std::vector<std::uint32_t> initial_atoms;
   std::vector<double> initial_numbers;  // NaN: undefined
   std::vector<GroundAction> actions;
+  // Sorted lists, the first is empty. Neighbours of equal mentions share one.
+  std::vector<std::vector<Mention>> mentions = std::vector<std::vector<Mention>>(1);
   std::vector<TooLong> too_long;   // taken out of `actions`
   std::vector<GroundRule> rules;   // by layer
   std::vector<TimedChange> timed;  // by time, one per instant
@@ -89,6 +102,10 @@ struct GroundModel {
   Metric metric;
   std::vector<bool> only_metric_asks;          // by number: nothing else does, and it is never assigned
   std::vector<std::string> unreachable_goals;  // as text, if `goal` has no alternative from the beginning
+
+  const std::vector<Mention>& mentions_of(const GroundAction& action) const {
+    return mentions[action.mentions];
+  }
 };
 
 }  // namespace roci::planner::temporal_pddl

@@ -10,6 +10,7 @@
 #include "planner_svc/temporal_pddl/grounding/envelopes.hpp"
 #include "planner_svc/temporal_pddl/grounding/instantiate.hpp"
 #include "planner_svc/temporal_pddl/grounding/lowering.hpp"
+#include "planner_svc/temporal_pddl/grounding/mentions.hpp"
 #include "planner_svc/temporal_pddl/grounding/mutex_groups.hpp"
 #include "planner_svc/temporal_pddl/grounding/prune.hpp"
 #include "planner_svc/temporal_pddl/grounding/reachability.hpp"
@@ -91,6 +92,7 @@ Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, Funct
   const Disjunction goal = model.goal;
   const std::vector<bool> reached = prune(model, watch);
   require_reachable_goal(problem, goal, model, reached, symbols, actions);
+  settle_mentions(model);
   drop_irrelevant_effects(model);
   const auto groups = find_mutex_groups(model, reached, symbols.predicates(), actions.size(), watch);
   std::vector<Compression> compression(model.actions.size());

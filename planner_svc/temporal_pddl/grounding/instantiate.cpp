@@ -18,18 +18,31 @@ void note_negated(const LiftedFormula& formula, IdVector<PredicateId, bool>& neg
   for (const LiftedFormula& part : formula.parts) note_negated(part, negated);
 }
 
-// The predicates that a condition at a time point may want to be false.
-IdVector<PredicateId, bool> negated_predicates(const std::vector<LiftedAction>& actions,
-                                               std::size_t predicates) {
-  IdVector<PredicateId, bool> result(predicates, false);
+void note_mentioned(const LiftedFormula& formula, IdVector<PredicateId, bool>& mentioned) {
+  if (formula.kind == LiftedFormula::Kind::atom) mentioned[formula.atom.predicate] = true;
+  for (const LiftedFormula& part : formula.parts) note_mentioned(part, mentioned);
+}
+
+// The predicates in conditions at a time point: those that one may want to be false, and the others that
+// stand in one beside which there are alternatives.
+struct UsesOfPredicates {
+  IdVector<PredicateId, bool> negated, mentioned;
+};
+
+UsesOfPredicates uses_of_predicates(const std::vector<LiftedAction>& actions, std::size_t predicates) {
+  UsesOfPredicates result{IdVector<PredicateId, bool>(predicates, false),
+                          IdVector<PredicateId, bool>(predicates, false)};
   for (const LiftedAction& action : actions) {
-    note_negated(action.at_start, result);
-    note_negated(action.at_end, result);
+    for (const auto* condition : {&action.at_start, &action.at_end}) {
+      note_negated(*condition, result.negated);
+      if (has_choice(*condition)) note_mentioned(*condition, result.mentioned);
+    }
     for (const auto* effects : {&action.start_effects, &action.end_effects}) {
       for (const LiftedEffect& effect : *effects) {
         for (const auto* condition : {&effect.start_condition, &effect.start_otherwise, &effect.end_condition,
                                       &effect.end_otherwise}) {
-          note_negated(*condition, result);
+          note_negated(*condition, result.negated);
+          note_mentioned(*condition, result.mentioned);
         }
       }
     }
@@ -38,20 +51,21 @@ IdVector<PredicateId, bool> negated_predicates(const std::vector<LiftedAction>& 
 }
 
 // What effects of instances and timed literals are about, of the atoms that hold at first or are never
-// reached. Of the latter those that a condition may want to be false count as reached from now on.
+// reached. Of the latter those that a condition may want to be false count as reached from now on; those that
+// one only mentions are known.
 TupleTable touched_atoms(const std::vector<LiftedAction>& actions, const World& world,
                          Reachability& reachability) {
   TupleTable result;
-  const auto negated = negated_predicates(actions, world.symbols().predicates());
+  const UsesOfPredicates uses = uses_of_predicates(actions, world.symbols().predicates());
   const auto touch = [&](PredicateId predicate, std::span<const ObjectId> objects, bool removes) {
     if (world.holds_initially(predicate, objects)) {
       result.intern(predicate.value, objects);
       return;
     }
-    if (!removes || !negated[predicate]) return;
+    if (!removes || (!uses.negated[predicate] && !uses.mentioned[predicate])) return;
     const std::uint32_t atom = reachability.atoms.intern(predicate.value, objects);
     if (atom >= reachability.reached.size()) reachability.reached.resize(reachability.atoms.size(), false);
-    reachability.reached[atom] = true;
+    if (uses.negated[predicate]) reachability.reached[atom] = true;
   };
   for (const auto& timed : world.timed_atoms()) touch(timed.predicate, timed.objects, timed.negated);
   for (std::size_t schema = 0; schema < actions.size(); ++schema) {
@@ -173,7 +187,7 @@ GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem
   const TupleTable touched = touched_atoms(actions, world, reachability);
   FormulaGrounder formulas(world, reachability, touched, model.numbers, model.expressions, domain.file);
   ActionInstantiator instantiator(formulas);
-  std::size_t counted = 0;
+  std::size_t counted = 0, lists = 0;
   std::size_t bytes = reachability.atoms.bytes();
   for (std::size_t schema = 0; schema < actions.size(); ++schema) {
     const auto& instances = reachability.instances[SchemaId(schema)];
@@ -184,8 +198,10 @@ GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem
       if (actions[schema].layer) {
         add_rules(actions[schema], binding, formulas, model);
       } else {
-        instantiator.instantiate(SchemaId(schema), actions[schema], binding, model.actions);
+        instantiator.instantiate(SchemaId(schema), actions[schema], binding, model);
       }
+      for (; lists < model.mentions.size(); ++lists)
+        bytes += model.mentions[lists].capacity() * sizeof(Mention);
       for (; counted < model.actions.size(); ++counted) bytes += bytes_of(model.actions[counted]);
       watch.memory(bytes + instances.bytes());
     }

@@ -64,6 +64,9 @@ std::vector<bool> relevant_numbers(GroundModel& model) {
   });
   for (const auto& action : model.actions) {
     for (const auto& rule : action.duration_rules) mark(rule.bound);
+    for (const Mention& mention : model.mentions_of(action)) {
+      if (mention.is_number) relevant[mention.index] = true;
+    }
   }
   const auto close = [&] {
     for (bool changed = true; changed;) {
@@ -101,6 +104,11 @@ void drop_irrelevant_effects(GroundModel& model) {
   for_each_condition(model, [&](const Conjunction& conjunction) {
     for (const auto literal : conjunction.literals) read[literal.atom] = true;
   });
+  for (const auto& action : model.actions) {
+    for (const Mention& mention : model.mentions_of(action)) {
+      if (!mention.is_number) read[mention.index] = true;
+    }
+  }
   for_each_effects(model, [&](GroundEffects& effects) {
     for (const std::uint32_t atom : effects.adds) added[atom] = true;
     for (const auto* list : {&effects.deletes, &effects.resets}) {

@@ -124,9 +124,9 @@ class Builder {
     action.compression_safe = compression.safe;
     const SnapKind kind = source.durative ? SnapKind::start : SnapKind::instant;
     action.start = add_snap({kind, id}, source.at_start, source.start_effects, source.start_windows,
-                            measured(source, pddl::TimePoint::start));
+                            asked_besides(source, pddl::TimePoint::start));
     action.end = source.durative ? add_snap({SnapKind::end, id}, source.at_end, source.end_effects,
-                                            source.end_windows, measured(source, pddl::TimePoint::end))
+                                            source.end_windows, asked_besides(source, pddl::TimePoint::end))
                                  : action.start;
     task_.actions.push_back(action);
     task_.action_arguments.push_back(source.arguments);
@@ -146,16 +146,22 @@ class Builder {
     return is_any_time(windows) ? std::span<const TimeWindow>() : std::span<const TimeWindow>(windows);
   }
 
-  static std::vector<ExpressionId> measured(const GroundAction& action, pddl::TimePoint at) {
-    std::vector<ExpressionId> result;
+  // What the action reads at that point besides what it needs and what its effects are computed from.
+  std::vector<VariableId> asked_besides(const GroundAction& action, pddl::TimePoint at) const {
+    std::vector<VariableId> result;
     for (const auto& rule : action.duration_rules) {
-      if (rule.at == at) result.push_back(rule.bound);
+      if (rule.at == at) add_terms(rule.bound, result);
+    }
+    for (const Mention& mention : model_.mentions_of(action)) {
+      if (mention.at_end != (at == pddl::TimePoint::end)) continue;
+      result.push_back(mention.is_number ? task_.variable(NumberId(std::size_t{mention.index}))
+                                         : task_.variable(fact({mention.index, false})));
     }
     return result;
   }
 
   SnapId add_snap(Snap snap, const Conjunction& conditions, const GroundEffects& effects,
-                  const TimeWindows& windows, const std::vector<ExpressionId>& measured_here) {
+                  const TimeWindows& windows, std::vector<VariableId> asked_besides) {
     std::vector<FactId> adds, deletes;
     for (const bool added : {true, false}) {
       for (const std::uint32_t atom : added ? effects.adds : effects.deletes) {
@@ -169,24 +175,23 @@ class Builder {
     task_.adds.push_back(adds);
     task_.deletes.push_back(deletes);
     task_.numeric_effects.push_back(effects.numeric);
-    task_.reads.push_back(reads(conditions, effects.numeric, measured_here));
+    task_.reads.push_back(reads(conditions, effects.numeric, std::move(asked_besides)));
     task_.writes.push_back(writes(effects, adds, deletes));
     task_.windows.push_back(restricting(windows));
     return task_.snaps.push_back(snap);
   }
 
   std::vector<VariableId> reads(const Conjunction& conditions, const std::vector<NumericEffect>& effects,
-                                const std::vector<ExpressionId>& measured_here) const {
-    std::vector<VariableId> result;
+                                std::vector<VariableId> result) const {
     for (const auto literal : conditions.literals) add_reads(literal, result);
-    const auto add = [&](ExpressionId expression) {
-      for (const auto& term : model_.expressions[expression].terms)
-        result.push_back(task_.variable(term.variable));
-    };
-    for (const auto& comparison : conditions.comparisons) add(comparison.expression);
-    for (const auto& effect : effects) add(effect.expression);
-    for (const ExpressionId expression : measured_here) add(expression);
+    for (const auto& comparison : conditions.comparisons) add_terms(comparison.expression, result);
+    for (const auto& effect : effects) add_terms(effect.expression, result);
     return unique(std::move(result));
+  }
+
+  void add_terms(ExpressionId expression, std::vector<VariableId>& result) const {
+    for (const auto& term : model_.expressions[expression].terms)
+      result.push_back(task_.variable(term.variable));
   }
 
   // What a literal hangs on: itself, or what it is derived from.

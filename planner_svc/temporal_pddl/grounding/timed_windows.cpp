@@ -88,6 +88,9 @@ class Extraction {
       }
       for (const auto* conjunction : {&action.at_start, &action.over_all, &action.at_end})
         exclude_negated(*conjunction);
+      for (const Mention& mention : model_.mentions_of(action)) {
+        if (!mention.is_number) histories_.erase(mention.index);
+      }
     }
     for (const auto& rule : model_.rules) {
       for (const auto literal : rule.body.literals) histories_.erase(literal.atom);

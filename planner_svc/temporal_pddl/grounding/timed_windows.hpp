@@ -13,8 +13,8 @@ namespace roci::planner::temporal_pddl {
 
 // Replaces conditions on such facts by bounds on the times of the snap actions, and the timed literals by
 // nothing: a condition at a point must hold ε after the fact appears and until ε before it goes, one over all
-// may touch both. Facts that are negated somewhere or asked for by the goal stay as they are. Actions that
-// fit into no window are removed.
+// may touch both. Facts that are negated or only mentioned somewhere or asked for by the goal stay as they
+// are. Actions that fit into no window are removed.
 void extract_timed_windows(GroundModel& model, WindowExtraction mode, Duration epsilon);
 
 }  // namespace roci::planner::temporal_pddl
