@@ -33,35 +33,18 @@ bool compare_numbers(pddl::ComparisonOperator op, double left, double right) {
   return left > right + slack;
 }
 
-struct Extent {
-  std::size_t facts = 0;
-  std::size_t values = 0;
-
-  bool operator==(const Extent&) const = default;
-};
-
-Extent extent(const Reads* reads) {
-  return reads ? Extent{reads->facts.size(), reads->values.size()} : Extent{};
-}
-
 }  // namespace
 
 Truth Evaluator::combine(Truth decisive, Bindings& bindings,
                          const std::function<void(const Part&)>& visit_parts) {
-  const Extent begin = extent(reads_);
   Truth result = negation(decisive);
   visit_parts([&](const pddl::Condition& part, bool negated) {
-    const Extent before = extent(reads_);
     const Truth plain = evaluate(part, bindings);
     const Truth truth = negated ? negation(plain) : plain;
     if (truth == Truth::unknown && result != decisive) result = truth;
     if (truth != decisive) return true;
     result = decisive;
-    if (!reads_) return false;
-    if (strict_ || extent(reads_) != before) return true;
-    reads_->facts.resize(begin.facts);  // decided by what never changes: the other parts do not count
-    reads_->values.resize(begin.values);
-    return false;
+    return reads_ != nullptr;  // the other parts are mentioned too
   });
   return result;
 }

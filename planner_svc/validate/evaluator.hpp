@@ -23,12 +23,11 @@ struct Specials {
 
 // For one state; make a new one after each change. With `reads`, collects what the results depend on: every
 // changing fact and fluent that a condition mentions once it is instantiated (Fox and Long 2003, definition
-// 12), and what derived predicates rest on. Unless `strict`, after simplification by what never changes
-// (Options::strict).
+// 12), and what derived predicates rest on.
 class Evaluator {
  public:
-  Evaluator(const Model& model, const State& state, Reads* reads = nullptr, bool strict = false)
-      : model_(model), state_(state), reads_(reads), strict_(strict) {}
+  Evaluator(const Model& model, const State& state, Reads* reads = nullptr)
+      : model_(model), state_(state), reads_(reads) {}
 
   Truth evaluate(const pddl::Condition& condition, Bindings& bindings);
   bool holds(const pddl::Condition& condition, Bindings& bindings) {
@@ -74,7 +73,6 @@ class Evaluator {
   const Model& model_;
   const State& state_;
   Reads* reads_;
-  bool strict_;
   Layer* open_ = nullptr;
   std::map<std::string, bool> settled_;
   std::string reason_;

@@ -50,7 +50,7 @@ void Execution::happen(std::span<const Event> events, bool crowded) {
 Execution::Occurrence Execution::execute(const Event& event, bool crowded) {
   Occurrence occurrence{event, {}};
   Changes& changes = occurrence.footprint.changes;
-  Evaluator evaluator(model_, state_, crowded ? &occurrence.footprint.reads : nullptr, options_.strict);
+  Evaluator evaluator(model_, state_, crowded ? &occurrence.footprint.reads : nullptr);
   switch (event.kind) {
     case EventKind::timed_literal: {
       const pddl::Literal& literal = model_.problem().timed_literals[event.index].literal;

@@ -1,4 +1,4 @@
-// roci-validate DOMAIN PROBLEM PLAN [--functions FILE] [--strict] [--json]
+// roci-validate DOMAIN PROBLEM PLAN [--functions FILE] [--json]
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
@@ -92,7 +92,6 @@ int main(int argc, char** argv) {
   app.add_option("PLAN", arguments.plan, "steps as 0.001: (drive a b) [12.5]")->required();
   app.add_option("--functions", arguments.functions,
                  "values of external functions: (traverse_time a b) 12.5");
-  app.add_flag("--strict", arguments.options.strict, "conditions need all that they mention, as in VAL");
   app.add_flag("--json", arguments.json, "the report as one JSON object");
   try {
     app.parse(argc, argv);

@@ -18,10 +18,6 @@ struct Options {
   // Durations in plans are rounded; an `=` within the tolerance counts as met, and ?duration then has its
   // exact value.
   pddl::Microseconds duration_tolerance{500};
-  // A condition needs all that it mentions, to the letter, as VAL has it. Otherwise facts that never change
-  // may decide a part of it, and the rest of that part is not needed: `(imply (includes o1 p1) (started o1))`
-  // does not need (started o1) if o1 never includes p1.
-  bool strict = false;
 };
 
 // - Happenings of one moment see the state before it; they may not interfere with one another, nor with
