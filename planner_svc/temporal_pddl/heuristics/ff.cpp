@@ -4,6 +4,12 @@
 
 namespace roci::planner::temporal_pddl {
 
+namespace {
+
+constexpr std::int64_t kStepsOfAction = 2;  // its start and its end
+
+}  // namespace
+
 FfHeuristic::FfHeuristic(const Task& task, CostMeasure measure)
     : task_(task),
       relaxed_(task, measure),
@@ -92,7 +98,7 @@ void FfHeuristic::collect(std::uint32_t timed_done, Estimate& estimate) const {
     const Snap& snap = task_.snaps[op];
     if (snap.kind == SnapKind::derivation) continue;
     estimate.cost += plan_.times(op) * relaxed_.cost(op);
-    estimate.steps += plan_.times(op);
+    estimate.steps += plan_.times(op) + kStepsOfAction * supporters_.prices().of_undoing(op);
     if (snap.kind == SnapKind::timed_literal) {
       waits_for_timed = true;
       continue;

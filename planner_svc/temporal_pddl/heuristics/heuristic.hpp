@@ -13,7 +13,7 @@ namespace roci::planner::temporal_pddl {
 struct Estimate {
   bool dead_end = false;             // proved: no plan goes through this state
   std::int64_t cost = 0;             // microseconds of the actions still to come, one after the other
-  std::int64_t steps = 0;            // snap actions still to come
+  std::int64_t steps = 0;            // snap actions still to come, and a price on goals that they undo
   std::int64_t landmarks = 0;        // still to come
   std::vector<SnapId> preferred;     // applicable in the state and useful, as far as the heuristic sees (R21)
   std::vector<SnapId> relaxed_plan;  // steps that would reach the goals if nothing stood in the way, by when

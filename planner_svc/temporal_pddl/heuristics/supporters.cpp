@@ -11,6 +11,7 @@ Supporters::Supporters(const Task& task, const RelaxedTask& relaxed, const Relax
     : task_(task),
       relaxed_(relaxed),
       numbers_(numbers),
+      prices_(task, relaxed),
       has_numbers_(numbers.comparisons() > 0),
       reached_(relaxed.propositions() + numbers.comparisons()),
       at_first_(relaxed.operators()),
@@ -28,6 +29,7 @@ Supporters::Supporters(const Task& task, const RelaxedTask& relaxed, const Relax
 void Supporters::begin(const Situation& situation, const EarliestTimes* times) {
   state_ = situation.state;
   times_ = times;
+  prices_.set(state_);
   std::ranges::fill(reached_, Reached());
   open_ = at_first_;
   std::ranges::fill(producers_, SnapId());
@@ -106,9 +108,9 @@ void Supporters::raise_numbers(SnapId op, Cost own) {
   }
 }
 
-// Its own action, and the costs of its needs, which are all reached.
+// Its own price, and the costs of its needs, which are all reached.
 Supporters::Cost Supporters::cost(SnapId op) const {
-  std::uint64_t sum = relaxed_.is_choice(op) ? 1 : 0;
+  std::uint64_t sum = prices_.of(op);
   for (const PropositionId need : relaxed_.needs(op)) sum += reached_[need].cost;
   if (has_numbers_) {
     for (const ComparisonId need : numbers_.needs(op)) sum += reached_[proposition(need)].cost;

@@ -1,5 +1,6 @@
 // How propositions of the relaxed task come to hold: by h_add, which operator makes each true with the fewest
-// actions before it (Bonet and Geffner 2001). Explored in order of cost, and only as far as is asked.
+// actions before it (Bonet and Geffner 2001), by their prices. Explored in order of cost, and only as far as
+// is asked.
 //
 // Comparisons count as propositions; they follow those of the relaxed task.
 #pragma once
@@ -10,6 +11,7 @@
 #include "planner_svc/temporal_pddl/heuristics/bucket_queue.hpp"
 #include "planner_svc/temporal_pddl/heuristics/earliest_times.hpp"
 #include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
+#include "planner_svc/temporal_pddl/heuristics/prices.hpp"
 #include "planner_svc/temporal_pddl/heuristics/relaxed_numbers.hpp"
 #include "planner_svc/temporal_pddl/heuristics/relaxed_task.hpp"
 
@@ -27,9 +29,10 @@ class Supporters {
   bool reaches(PropositionId proposition);
   bool reaches(SnapId op);
 
-  // Of what is reached. Actions, those counted several times that are needed several times.
+  // Of what is reached. Prices of actions, those counted several times that are needed several times.
   BucketQueue::Cost cost(PropositionId proposition) const { return reached_[proposition].cost; }
   BucketQueue::Cost cost(SnapId op) const;
+  const Prices& prices() const { return prices_; }
   // None: holds from the beginning.
   SnapId supporter(PropositionId proposition) const { return reached_[proposition].supporter; }
   // Is there another supporter that is as cheap?
@@ -67,6 +70,7 @@ class Supporters {
   const Task& task_;
   const RelaxedTask& relaxed_;
   const RelaxedNumbers& numbers_;
+  Prices prices_;
   bool has_numbers_;
   StateView state_;
   const EarliestTimes* times_ = nullptr;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "planner_svc/temporal_pddl/grounding/refusal.hpp"
@@ -12,6 +13,17 @@ namespace roci::planner::temporal_pddl {
 namespace {
 
 constexpr std::int64_t kFar = 1'000'000;
+
+// Of a plain action of a task with one alternative of goals.
+std::int64_t price(const Task& task, SnapId op, StateView state) {
+  std::int64_t result = 1;
+  for (const FactId fact : task.goals.front().facts) {
+    const bool undone =
+        std::ranges::count(task.deletes[op], fact) > 0 && std::ranges::count(task.adds[op], fact) == 0;
+    if (undone && task.layout.holds(state, fact)) result += Prices::kUndone;
+  }
+  return result;
+}
 
 // Of a task without comparisons.
 struct Expected {
@@ -25,7 +37,7 @@ Expected relax(const Task& task, const RelaxedTask& relaxed, StateView state) {
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t i = 0; i < relaxed.operators(); ++i) {
-      std::int64_t cost = relaxed.is_choice(SnapId(i)) ? 1 : 0;
+      std::int64_t cost = price(task, SnapId(i), state);
       for (const PropositionId need : relaxed.needs(SnapId(i))) cost += result.propositions[need.index()];
       if (cost >= kFar) continue;
       result.operators[i] = cost;

@@ -1,0 +1,60 @@
+#include "planner_svc/temporal_pddl/heuristics/prices.hpp"
+
+#include <algorithm>
+
+namespace roci::planner::temporal_pddl {
+
+namespace {
+
+bool contains(std::span<const FactId> facts, FactId fact) { return std::ranges::count(facts, fact) > 0; }
+
+std::vector<FactId> goals_of_all_alternatives(const Task& task) {
+  std::vector<FactId> result;
+  if (task.goals.empty()) return result;
+  std::ranges::copy_if(task.goals.front().facts, std::back_inserter(result), [&](FactId fact) {
+    return std::ranges::all_of(task.goals, [&](const Goal& goal) { return contains(goal.facts, fact); });
+  });
+  return result;
+}
+
+// Is the fact false after the action, whatever it was before?
+bool undoes(const Task& task, const Action& action, FactId fact) {
+  if (contains(task.adds[action.end], fact)) return false;
+  return contains(task.deletes[action.end], fact) ||
+         (contains(task.deletes[action.start], fact) && !contains(task.adds[action.start], fact));
+}
+
+}  // namespace
+
+Prices::Prices(const Task& task, const RelaxedTask& relaxed)
+    : task_(task), relaxed_(relaxed), goals_(goals_of_all_alternatives(task)), prices_(relaxed.operators()) {
+  for (std::size_t i = 0; i < relaxed.operators(); ++i)
+    prices_[SnapId(i)] = relaxed.is_choice(SnapId(i)) ? 1 : 0;
+  IdVector<FactId, bool> is_goal(task.fact_names.size(), false);
+  for (const FactId fact : goals_) is_goal[fact] = true;
+  std::vector<std::vector<SnapId>> undone_by(goals_.size());
+  for (const Action& action : task.actions) {
+    const auto note = [&](FactId fact) {
+      if (!is_goal[fact] || !undoes(task, action, fact)) return;
+      auto& list = undone_by[static_cast<std::size_t>(std::ranges::find(goals_, fact) - goals_.begin())];
+      if (list.empty() || list.back() != action.start) list.push_back(action.start);
+    };
+    std::ranges::for_each(task.deletes[action.start], note);
+    std::ranges::for_each(task.deletes[action.end], note);
+  }
+  for (const auto& list : undone_by) undone_by_.push_back(list);
+}
+
+void Prices::set(StateView state) {
+  for (const SnapId op : raised_) prices_[op] = 1;
+  raised_.clear();
+  for (std::size_t i = 0; i < goals_.size(); ++i) {
+    if (!task_.layout.holds(state, goals_[i])) continue;
+    for (const SnapId op : undone_by_[i]) {
+      prices_[op] += kUndone;
+      raised_.push_back(op);
+    }
+  }
+}
+
+}  // namespace roci::planner::temporal_pddl
