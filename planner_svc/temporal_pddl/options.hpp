@@ -25,6 +25,7 @@ struct Options {
   bool novelty = true;              // see search/novelty.hpp; takes no effect without dominance
   bool lookahead = true;            // see search/lookahead.hpp
   bool width = true;                // see search/width_search.hpp; takes no effect without dominance
+  bool serial = true;               // see search/serial_search.hpp
   WindowExtraction windows = WindowExtraction::recurring;
   std::size_t resource_patience = 100;      // states before it is measured what resources suffice for, see
                                             // heuristics/within_resources.hpp

@@ -61,7 +61,7 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   outcome.plan = warm_start(grounding.task, remaining, {heuristic, CostMeasure::duration}, options, watch,
                             result.statistics);
   result.statistics.from_remaining = outcome.plan.has_value();
-  if (!outcome.plan) outcome = search(grounding.task, heuristic, options, watch, result.statistics);
+  if (!outcome.plan) outcome = search(grounding.task, heuristic, ff, options, watch, result.statistics);
   if (outcome.plan) {
     const PlanPrefix best =
         improved(grounding.task, std::move(*outcome.plan), heuristic, options, watch, result.statistics);

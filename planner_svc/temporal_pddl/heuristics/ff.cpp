@@ -1,6 +1,7 @@
 #include "planner_svc/temporal_pddl/heuristics/ff.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace roci::planner::temporal_pddl {
 
@@ -19,23 +20,63 @@ FfHeuristic::FfHeuristic(const Task& task, CostMeasure measure)
       plan_(task, relaxed_, numbers_, supporters_) {}
 
 void FfHeuristic::evaluate(const Situation& situation, Estimate& estimate) {
-  const auto& running = situation.running;
   estimate = {};
-  const EarliestTimes* times = earliest_.matters() ? &earliest_ : nullptr;
-  if (times) earliest_.measure(situation);
-  supporters_.begin(situation, times);
+  const bool ends_reached = look_at(situation);
   const Goal* goal = cheapest_goal();
-  const bool ends_reached = std::ranges::all_of(
-      running, [&](ActionId action) { return supporters_.reaches(task_.actions[action].end); });
   if (!goal || !ends_reached) {
     estimate.dead_end = true;
     return;
   }
-  plan_.begin(situation.state, times);
+  plan_.begin(state_, times());
   plan_.need(*goal);
-  for (const ActionId action : running) plan_.include(task_.actions[action].end);
+  for (const ActionId action : running_) plan_.include(task_.actions[action].end);
   plan_.complete();
   collect(situation.timed_done, estimate);
+}
+
+bool FfHeuristic::look_at(const Situation& situation) {
+  state_ = situation.state;
+  running_ = situation.running;
+  if (times()) earliest_.measure(situation);
+  supporters_.begin(situation, times());
+  return std::ranges::all_of(running_,
+                             [&](ActionId action) { return supporters_.reaches(task_.actions[action].end); });
+}
+
+std::optional<std::int64_t> FfHeuristic::distance(FactId fact) {
+  const PropositionId proposition = relaxed_.proposition(fact);
+  if (!supporters_.reaches(proposition)) return std::nullopt;
+  return supporters_.cost(proposition);
+}
+
+void FfHeuristic::plan_for(FactId fact, std::vector<SnapId>& plan) {
+  plan.clear();
+  listed_.clear();
+  plan_.begin(state_, times());
+  plan_.need_fact(fact);
+  for (const ActionId action : running_) plan_.include(task_.actions[action].end);
+  plan_.complete_with_care();
+  if (const SnapId last = plan_.support(relaxed_.proposition(fact)); !last.is_none())
+    list_deepest_first(last, plan);
+  for (const SnapId op : plan_.operators()) list_deepest_first(op, plan);
+  if (times()) std::ranges::stable_sort(plan, {}, [&](SnapId op) { return earliest_.of(op); });
+}
+
+void FfHeuristic::list_deepest_first(SnapId op, std::vector<SnapId>& ordered) {
+  const auto place = std::ranges::lower_bound(listed_, op);
+  if (plan_.times(op) == 0 || (place != listed_.end() && *place == op)) return;
+  listed_.insert(place, op);
+  std::vector<PropositionId> needs(relaxed_.needs(op).begin(), relaxed_.needs(op).end());
+  for (const ComparisonId comparison : numbers_.needs(op))
+    needs.push_back(supporters_.proposition(comparison));
+  std::ranges::stable_sort(needs, std::greater{}, [&](PropositionId need) { return supporters_.cost(need); });
+  for (const PropositionId need : needs) {
+    const bool fact = need.index() < relaxed_.propositions();
+    const SnapId before = fact ? plan_.support(need) : supporters_.supporter(need);
+    if (!before.is_none()) list_deepest_first(before, ordered);
+  }
+  if (task_.snaps[op].kind != SnapKind::derivation)
+    ordered.insert(ordered.end(), static_cast<std::size_t>(plan_.times(op)), op);
 }
 
 std::string FfHeuristic::why_too_late() {
@@ -89,7 +130,7 @@ void FfHeuristic::order_plan(std::vector<SnapId>& ordered) const {
       ordered.insert(ordered.end(), static_cast<std::size_t>(plan_.times(op)), op);
   }
   std::ranges::stable_sort(ordered, {}, [&](SnapId op) { return supporters_.cost(op); });
-  if (earliest_.matters()) std::ranges::stable_sort(ordered, {}, [&](SnapId op) { return earliest_.of(op); });
+  if (times()) std::ranges::stable_sort(ordered, {}, [&](SnapId op) { return earliest_.of(op); });
 }
 
 void FfHeuristic::collect(std::uint32_t timed_done, Estimate& estimate) const {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,15 @@ class FfHeuristic final : public Heuristic {
   // running action is out of reach, or what it takes can no longer happen in time (EarliestTimes).
   void evaluate(const Situation& situation, Estimate& estimate) override;
 
+  // Looks at a situation without asking for its goals: what follows is said of it, until the next call of
+  // this or of evaluate(). False: a dead end, as an action that runs can never end.
+  bool look_at(const Situation& situation);
+  // How many actions it takes to reach the fact; none: it is out of reach.
+  std::optional<std::int64_t> distance(FactId fact);
+  // A relaxed plan that reaches this alone, and ends what runs; made with care (RelaxedPlan), each step after
+  // those that it hangs on, those first that take the most actions. The fact must be within reach.
+  void plan_for(FactId fact, std::vector<SnapId>& plan);
+
   const RelaxedTask& relaxed() const { return relaxed_; }
   // Of the state evaluated last, which is no dead end.
   std::span<const SnapId> relaxed_plan() const { return plan_.operators(); }
@@ -35,9 +45,12 @@ class FfHeuristic final : public Heuristic {
   std::string why_too_late();
 
  private:
+  // Null: any time will do.
+  const EarliestTimes* times() const { return earliest_.matters() ? &earliest_ : nullptr; }
   const Goal* cheapest_goal();
   bool holds_now(SnapId op) const;
   void order_plan(std::vector<SnapId>& ordered) const;
+  void list_deepest_first(SnapId op, std::vector<SnapId>& ordered);
   void collect(std::uint32_t timed_done, Estimate& estimate) const;
 
   const Task& task_;
@@ -46,6 +59,9 @@ class FfHeuristic final : public Heuristic {
   EarliestTimes earliest_;
   Supporters supporters_;
   RelaxedPlan plan_;  // at hand
+  StateView state_;
+  std::span<const ActionId> running_;
+  std::vector<SnapId> listed_;  // sorted
 };
 
 }  // namespace roci::planner::temporal_pddl

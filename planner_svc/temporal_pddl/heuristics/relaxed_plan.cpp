@@ -22,6 +22,7 @@ RelaxedPlan::RelaxedPlan(const Task& task, const RelaxedTask& relaxed, const Rel
       passes_(relaxed.propositions(), false),
       is_needed_(relaxed.propositions(), false),
       given_(relaxed.propositions(), false),
+      supports_(relaxed.propositions()),
       balances_(numbers.comparisons()) {
   for (const Action& action : task.actions) {
     if (action.instantaneous()) continue;
@@ -35,13 +36,18 @@ void RelaxedPlan::begin(StateView state, const EarliestTimes* times) {
   state_ = state;
   times_ = times;
   for (const SnapId op : plan_) repeats_[op] = 0;
-  for (const PropositionId proposition : needed_) is_needed_[proposition] = false;
+  for (const PropositionId proposition : needed_) {
+    is_needed_[proposition] = false;
+    supports_[proposition] = SnapId();
+  }
   for (const PropositionId proposition : given_now_) given_[proposition] = false;
   for (const ComparisonId comparison : touched_) balances_[comparison] = {};
   plan_.clear();
   needed_.clear();
   to_support_.clear();
   to_share_.clear();
+  to_choose_.clear();
+  careful_ = false;
   given_now_.clear();
   touched_.clear();
   to_settle_.clear();
@@ -108,21 +114,65 @@ SnapId RelaxedPlan::supporter(PropositionId proposition) {
   return !soonest.is_none() && supporters_.reaches(soonest) ? soonest : fewest;  // numbers know no times
 }
 
-// What several envelopes would hold as cheaply waits until it is known which of them are needed anyway.
+void RelaxedPlan::complete_with_care() {
+  careful_ = true;
+  complete();
+}
+
+// What several envelopes would hold as cheaply waits until it is known which of them are needed anyway; and
+// where care is taken, any choice until it is known what must not be undone.
 void RelaxedPlan::support_facts() {
-  while (!to_support_.empty() || !to_share_.empty()) {
-    const bool shared = to_support_.empty();
-    std::vector<PropositionId>& list = shared ? to_share_ : to_support_;
+  while (!to_support_.empty() || !to_share_.empty() || !to_choose_.empty()) {
+    const bool shared = to_support_.empty() && !to_share_.empty();
+    const bool chosen = to_support_.empty() && !shared;
+    std::vector<PropositionId>& list = chosen ? to_choose_ : shared ? to_share_ : to_support_;
     const PropositionId supported = list.back();
     list.pop_back();
     const SnapId supporter = this->supporter(supported);
     if (supporter.is_none() || (shared && given_[supported])) continue;
-    if (!shared && passes_[supported] && supporters_.tied(supported)) {
+    if (chosen) {
+      support(supported, least_harmful(supported));
+    } else if (!shared && passes_[supported] && supporters_.tied(supported)) {
       to_share_.push_back(supported);
+    } else if (!shared && careful_ && harm(supporter) > 0) {
+      to_choose_.push_back(supported);
     } else {
-      include(supporter);
+      support(supported, supporter);
     }
   }
+}
+
+void RelaxedPlan::support(PropositionId proposition, SnapId supporter) {
+  supports_[proposition] = supporter;
+  include(supporter);
+}
+
+SnapId RelaxedPlan::least_harmful(PropositionId proposition) {
+  SnapId best = supporter(proposition);
+  std::size_t least = harm(best);
+  const BucketQueue::Cost cost = supporters_.cost(best);
+  supporters_.reach_all(cost);
+  for (const SnapId op : relaxed_.added_by(proposition)) {
+    if (least == 0) break;
+    if (!supporters_.happens(op) || supporters_.cost(op) > cost) continue;
+    const std::size_t own = harm(op);
+    if (own >= least) continue;
+    best = op;
+    least = own;
+  }
+  return best;
+}
+
+// How many facts that the plan needs and that hold already its action undoes.
+std::size_t RelaxedPlan::harm(SnapId op) const {
+  const auto of = [&](SnapId step) {
+    return static_cast<std::size_t>(std::ranges::count_if(task_.deletes[step], [&](FactId fact) {
+      const PropositionId proposition = relaxed_.proposition(fact);
+      return is_needed_[proposition] && supporters_.supporter(proposition).is_none();
+    }));
+  };
+  const SnapId other = task_.other_end(op);
+  return of(op) + (other.is_none() ? 0 : of(other));
 }
 
 // Notes what passes and is added at no more cost than others would.

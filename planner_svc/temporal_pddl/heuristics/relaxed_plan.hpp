@@ -32,12 +32,18 @@ class RelaxedPlan {
   void begin(StateView state, const EarliestTimes* times);
   // All of it must be within reach of the supporters.
   void need(const Goal& goal);
+  void need_fact(FactId fact) { need(relaxed_.proposition(fact)); }
   void include(SnapId op);
   // Adds what is missing.
   void complete();
+  // As complete(), with some care that the plan can be carried out: among equally cheap supporters it takes
+  // what undoes the fewest of the facts that the plan needs and that hold already.
+  void complete_with_care();
 
   // In no order.
   std::span<const SnapId> operators() const { return plan_; }
+  // What was taken for it; none: nothing.
+  SnapId support(PropositionId proposition) const { return supports_[proposition]; }
   // How often it is applied. 0: it is not in the plan.
   std::int64_t times(SnapId op) const { return repeats_[op]; }
 
@@ -56,6 +62,9 @@ class RelaxedPlan {
   void need_at_end(ComparisonId comparison);
   SnapId supporter(PropositionId proposition);
   void support_facts();
+  void support(PropositionId proposition, SnapId supporter);
+  SnapId least_harmful(PropositionId proposition);
+  std::size_t harm(SnapId op) const;
   void give(SnapId op);
   // Queues the comparison if it is needed.
   void queue(ComparisonId comparison);
@@ -77,7 +86,9 @@ class RelaxedPlan {
   std::vector<SnapId> plan_;
   IdVector<PropositionId, bool> passes_;  // is deleted by the end of an action whose start adds it
   IdVector<PropositionId, bool> is_needed_, given_;
-  std::vector<PropositionId> needed_, to_support_, to_share_, given_now_;
+  IdVector<PropositionId, SnapId> supports_;
+  std::vector<PropositionId> needed_, to_support_, to_share_, to_choose_, given_now_;
+  bool careful_ = false;
   IdVector<ComparisonId, Balance> balances_;
   std::vector<ComparisonId> touched_;                                  // balances in use
   std::vector<std::pair<BucketQueue::Cost, ComparisonId>> to_settle_;  // a heap, the dearest first

@@ -39,7 +39,7 @@ std::int64_t metric_cost(const Task& task, const Semantics& semantics, SnapId op
 RelaxedTask::RelaxedTask(const Task& task, CostMeasure measure)
     : facts_(task.fact_names.size()), running_(task.actions.size()) {
   const Semantics semantics(task);
-  std::vector<std::vector<SnapId>> needed_by(propositions());
+  std::vector<std::vector<SnapId>> needed_by(propositions()), added_by(propositions());
   for (std::size_t i = 0; i < task.snaps.size(); ++i) {
     const SnapId op(i);
     const Snap& snap = task.snaps[op];
@@ -62,6 +62,7 @@ RelaxedTask::RelaxedTask(const Task& task, CostMeasure measure)
     std::ranges::sort(needs);
     needs.erase(std::unique(needs.begin(), needs.end()), needs.end());
     for (const PropositionId need : needs) needed_by[need.index()].push_back(op);
+    for (const PropositionId added : adds) added_by[added.index()].push_back(op);
     if (needs.empty() && snap.kind != SnapKind::timed_literal) free_.push_back(op);
     const std::int64_t duration =
         snap.kind == SnapKind::start ? least_duration(task, semantics, snap.action) : 0;
@@ -71,6 +72,7 @@ RelaxedTask::RelaxedTask(const Task& task, CostMeasure measure)
     lists_.push_back(adds);
   }
   for (const auto& list : needed_by) needed_by_.push_back(list);
+  for (const auto& list : added_by) added_by_.push_back(list);
 }
 
 }  // namespace roci::planner::temporal_pddl

@@ -49,6 +49,7 @@ class RelaxedTask {
   std::span<const PropositionId> needs(SnapId op) const { return lists_[2 * op.index()]; }
   std::span<const PropositionId> adds(SnapId op) const { return lists_[2 * op.index() + 1]; }
   std::span<const SnapId> needed_by(PropositionId proposition) const { return needed_by_[proposition]; }
+  std::span<const SnapId> added_by(PropositionId proposition) const { return added_by_[proposition]; }
   // A step that the planner chooses, and not what follows from one.
   bool is_choice(SnapId op) const { return is_choice_[op] != 0; }
   // Needs nothing and is no timed literal.
@@ -59,7 +60,7 @@ class RelaxedTask {
   std::size_t running_;
   IdVector<SnapId, std::int64_t> costs_;
   FlatLists<PropositionId> lists_;  // needs and adds of each operator, next to each other
-  FlatLists<SnapId> needed_by_;
+  FlatLists<SnapId> needed_by_, added_by_;
   IdVector<SnapId, std::uint8_t> is_choice_;
   std::vector<SnapId> free_;
 };

@@ -35,6 +35,13 @@ class Supporters {
   const Prices& prices() const { return prices_; }
   // None: holds from the beginning.
   SnapId supporter(PropositionId proposition) const { return reached_[proposition].supporter; }
+  // Of what may happen, as far as is known. Known are all that cost as much once reach_all() was called.
+  bool happens(SnapId op) const { return open_[op] == 0 && !too_late(op); }
+  // Explores all that costs no more.
+  void reach_all(BucketQueue::Cost cost) {
+    while (frontier_ <= cost && advance()) {
+    }
+  }
   // Is there another supporter that is as cheap?
   bool tied(PropositionId proposition) const { return reached_[proposition].tied; }
   // How often the supporter has to be applied.

@@ -14,17 +14,20 @@ class Evaluation {
   explicit Evaluation(const Task& task) : absolute_(task.has_absolute_times()), freedom_(task) {}
 
   void evaluate(const Successor& successor, Heuristic& heuristic, Estimate& estimate) {
+    heuristic.evaluate(situation(successor), estimate);
+  }
+  // Valid until the next call, and as long as the successor stays as it is.
+  Situation situation(const Successor& successor) {
     const PlanPrefix& prefix = successor.prefix;
-    Situation situation{successor.state, prefix.running_actions, prefix.timed_done, nullptr, {},
-                        prefix.steps};
+    Situation result{successor.state, prefix.running_actions, prefix.timed_done, nullptr, {}, prefix.steps};
     if (absolute_) {
       freedom_.measure(prefix.steps, successor.times);
       started_.clear();
       for (const Running& running : prefix.running) started_.push_back(successor.times[running.step]);
-      situation.freedom = &freedom_;
-      situation.started = started_;
+      result.freedom = &freedom_;
+      result.started = started_;
     }
-    heuristic.evaluate(situation, estimate);
+    return result;
   }
 
  private:

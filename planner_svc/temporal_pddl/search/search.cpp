@@ -3,16 +3,19 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "planner_svc/temporal_pddl/search/best_first_search.hpp"
+#include "planner_svc/temporal_pddl/search/serial_search.hpp"
 #include "planner_svc/temporal_pddl/search/width_search.hpp"
 
 namespace roci::planner::temporal_pddl {
 
 namespace {
 
-constexpr std::size_t kTurn = 250;  // evaluations
+constexpr std::size_t kTurn = 250;    // evaluations
+constexpr std::size_t kOpening = 50;  // before the first turn; easy tasks need no more
 
 // How often turns come. What follows relaxed plans solves most tasks, and of these most with whole actions;
 // by novelty is solved what it does not solve.
@@ -20,6 +23,7 @@ constexpr std::size_t kFirstShare = 4;
 constexpr std::size_t kLookaheadShare = 2;
 constexpr std::size_t kWidthShare = 3;
 constexpr std::size_t kPlainShare = 1;
+constexpr std::size_t kSerialShare = 1;
 
 // Does it make a difference whether actions are taken whole?
 bool splits_actions(const Task& task) {
@@ -37,8 +41,8 @@ struct Participant {
   double served() const { return static_cast<double>(turns) / static_cast<double>(share); }
 };
 
-std::vector<Participant> participants(const Task& task, Heuristic& heuristic, const Options& options,
-                                      Watch& watch, Statistics& statistics) {
+std::vector<Participant> participants(const Task& task, Heuristic& heuristic, FfHeuristic& ff,
+                                      const Options& options, Watch& watch, Statistics& statistics) {
   std::vector<Participant> result;
   const bool whole = options.whole_actions && splits_actions(task);
   const auto best_first = [&](ActionSteps steps, bool lookahead) {
@@ -49,19 +53,25 @@ std::vector<Participant> participants(const Task& task, Heuristic& heuristic, co
                                                                  statistics);
                       }});
   };
+  const ActionSteps simplest = whole ? ActionSteps::whole : ActionSteps::as_needed;
   const auto both = [&](bool lookahead) {
     if (whole) best_first(ActionSteps::whole, lookahead);
     best_first(ActionSteps::as_needed, lookahead);
   };
   if (options.lookahead) both(true);
   if (options.width && options.dominance) {
-    const ActionSteps steps = whole ? ActionSteps::whole : ActionSteps::as_needed;
-    result.push_back({kWidthShare, [&, steps] {
-                        return std::make_unique<WidthSearch>(task, heuristic, options, steps, watch,
+    result.push_back({kWidthShare, [&, simplest] {
+                        return std::make_unique<WidthSearch>(task, heuristic, options, simplest, watch,
                                                              statistics);
                       }});
   }
   both(false);
+  if (options.serial) {
+    result.push_back({kSerialShare, [&, simplest] {
+                        return std::make_unique<SerialSearch>(task, heuristic, ff, options, simplest, watch,
+                                                              statistics);
+                      }});
+  }
   return result;
 }
 
@@ -75,16 +85,27 @@ std::size_t bytes(const std::vector<Participant>& participants) {
 
 }  // namespace
 
-SearchOutcome search(const Task& task, Heuristic& heuristic, const Options& options, Watch& watch,
-                     Statistics& statistics) {
-  auto all = participants(task, heuristic, options, watch, statistics);
+SearchOutcome search(const Task& task, Heuristic& heuristic, FfHeuristic& ff, const Options& options,
+                     Watch& watch, Statistics& statistics) {
+  auto all = participants(task, heuristic, ff, options, watch, statistics);
+  // None: the search is not over.
+  const auto run = [&](std::vector<Participant>::iterator participant, std::size_t evaluations) {
+    if (!participant->searcher) participant->searcher = participant->make();
+    Searcher& searcher = *participant->searcher;
+    auto outcome = searcher.run(evaluations, bytes(all) - searcher.bytes());
+    const bool over = outcome && (outcome->plan || searcher.complete());
+    if (outcome && !over) all.erase(participant);
+    return over ? std::move(outcome) : std::nullopt;
+  };
+  if (options.serial && all.size() > 1) {
+    if (auto outcome = run(all.begin(), kOpening)) return std::move(*outcome);
+    ++all.back().turns;
+    if (auto outcome = run(all.end() - 1, kTurn)) return std::move(*outcome);
+  }
   while (true) {
     const auto next = std::ranges::min_element(all, {}, &Participant::served);
-    if (!next->searcher) next->searcher = next->make();
     ++next->turns;
-    auto outcome = next->searcher->run(kTurn, bytes(all) - next->searcher->bytes());
-    if (outcome && (outcome->plan || next->searcher->complete())) return std::move(*outcome);
-    if (outcome) all.erase(next);
+    if (auto outcome = run(next, kTurn)) return std::move(*outcome);
   }
 }
 

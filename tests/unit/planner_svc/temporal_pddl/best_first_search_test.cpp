@@ -53,8 +53,8 @@ std::size_t evaluations(const testing::Model& model, const Options& options) {
 
 TEST(BestFirstSearch, NoveltyLeadsAcrossPlateaus) {
   Options without;
-  without.preferred_operators = without.landmarks = without.lookahead = without.width = without.novelty =
-      false;
+  without.preferred_operators = without.landmarks = without.lookahead = without.width = without.serial =
+      without.novelty = false;
   Options with = without;
   with.novelty = true;
   const testing::Model model = fetch(8);

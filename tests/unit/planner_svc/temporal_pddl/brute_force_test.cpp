@@ -41,13 +41,15 @@ std::vector<Named> configurations() {
   result.back().options.lookahead = false;
   result.push_back({"no width", {}});
   result.back().options.width = false;
+  result.push_back({"no serial search", {}});
+  result.back().options.serial = false;
   result.push_back({"timed literals as steps", {}});
   result.back().options.windows = WindowExtraction::none;
   result.push_back({"one-off windows", {}});
   result.back().options.windows = WindowExtraction::one_off;
   result.push_back({"improved", {}});
   result.back().options.improvement_evaluations = 200;
-  Options bare{Duration{1000},         false,          false, false, false, false, false, false, false,
+  Options bare{Duration{1000},         false,          false, false, false, false, false, false, false, false,
                WindowExtraction::none, kNeverMeasured, 0,     17};
   result.push_back({"bare, shuffled", bare});
   return result;

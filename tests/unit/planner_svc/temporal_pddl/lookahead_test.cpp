@@ -77,7 +77,7 @@ TEST(LookaheadSearch, GoesAllTheWayWithOneEvaluation) {
                                                  ") (:goal (at r" + std::to_string(kRooms - 1) + "))");
   Options step_by_step;
   step_by_step.lookahead = false;
-  step_by_step.width = false;
+  step_by_step.width = step_by_step.serial = false;
   const Result far = testing::solved(made);
   testing::expect_valid(made, far);
   EXPECT_EQ(far.statistics.evaluated, 1u);

@@ -54,7 +54,7 @@ TEST(WholeActions, HalveTheWorkWhereNothingMustRunAtTheSameTime) {
                      "(:objects" + objects + ") (:init (lit)) (:goal (and" + goal + "))");
   Options step_by_step;
   step_by_step.lookahead = false;
-  step_by_step.width = false;
+  step_by_step.width = step_by_step.serial = false;
   Options split = step_by_step;
   split.whole_actions = false;
   const Result whole = testing::solved(made, step_by_step);
