@@ -1,6 +1,7 @@
 #include "planner_svc/temporal_pddl/heuristics/landmarks.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "planner_svc/temporal_pddl/heuristics/landmark_orders.hpp"
@@ -20,9 +21,12 @@ class Finder {
         watch_(watch),
         reached_(relaxed.propositions(), false),
         initially_(relaxed.propositions(), false),
-        open_(relaxed.operators(), 0) {
+        supporters_(relaxed.propositions()),
+        is_left_out_(relaxed.propositions(), false),
+        open_(relaxed.operators()) {
     RelaxedTask::each_fact(task, task.initial_state,
                            [&](FactId fact) { initially_[relaxed.proposition(fact)] = true; });
+    explore();
   }
 
   IdVector<LandmarkId, Landmark> run(std::span<const SnapId> relaxed_plan) {
@@ -70,10 +74,8 @@ class Finder {
     out_of_reach_[id] = reached_;
     std::vector<SnapId> first;
     for (const PropositionId proposition : found_[id].any_of) {
-      for (std::size_t i = 0; i < relaxed_.operators(); ++i) {
-        const SnapId op(i);
-        if (open_[op] == 0 && std::ranges::count(relaxed_.adds(op), proposition) > 0) first.push_back(op);
-      }
+      std::ranges::copy_if(relaxed_.added_by(proposition), std::back_inserter(first),
+                           [&](SnapId op) { return open_[op] == 0; });
     }
     if (first.empty()) return;
     for (const SnapId op : first) {
@@ -125,36 +127,89 @@ class Finder {
     return 2 * task_.predicates.size() + task_.actions[ActionId(proposition.index() - facts)].schema.index();
   }
 
-  void explore_without(std::span<const PropositionId> left_out) {
-    watch_.poll();
-    reached_.assign(reached_.size(), false);
+  // All that is within reach, and by what.
+  void explore() {
     for (std::size_t i = 0; i < relaxed_.operators(); ++i)
       open_[SnapId(i)] = static_cast<std::uint32_t>(relaxed_.needs(SnapId(i)).size());
-    queue_.clear();
-    const auto reach = [&](PropositionId proposition) {
-      if (reached_[proposition] || std::ranges::count(left_out, proposition) > 0) return;
+    const auto reach = [&](PropositionId proposition, SnapId by) {
+      if (reached_[proposition]) return;
       reached_[proposition] = true;
+      supporters_[proposition] = by;
       queue_.push_back(proposition);
     };
+    const auto reach_from = [&](SnapId op) {
+      for (const PropositionId added : relaxed_.adds(op)) reach(added, SnapId());
+    };
     RelaxedTask::each_fact(task_, task_.initial_state,
-                           [&](FactId fact) { reach(relaxed_.proposition(fact)); });
-    for (const TimedStep& timed : task_.timed_steps) {
-      for (const PropositionId added : relaxed_.adds(timed.snap)) reach(added);
-    }
-    for (const SnapId op : relaxed_.free()) {
-      for (const PropositionId added : relaxed_.adds(op)) reach(added);
-    }
-    std::size_t visits = relaxed_.operators();
+                           [&](FactId fact) { reach(relaxed_.proposition(fact), SnapId()); });
+    for (const TimedStep& timed : task_.timed_steps) reach_from(timed.snap);
+    for (const SnapId op : relaxed_.free()) reach_from(op);
+    visits_ = relaxed_.operators();
     while (!queue_.empty()) {
       const PropositionId proposition = queue_.back();
       queue_.pop_back();
       for (const SnapId op : relaxed_.needed_by(proposition)) {
-        ++visits;
+        ++visits_;
         if (--open_[op] > 0) continue;
-        for (const PropositionId added : relaxed_.adds(op)) reach(added);
+        for (const PropositionId added : relaxed_.adds(op)) reach(added, op);
       }
     }
-    visits_left_ -= std::min(visits, visits_left_);
+  }
+
+  // What is within reach if some propositions do not exist: first all goes that hangs on them by its
+  // supporters, then what of that has another supporter comes back. It counts as much as to explore
+  // everything.
+  void explore_without(std::span<const PropositionId> left_out) {
+    watch_.poll();
+    restore();
+    visits_left_ -= std::min(visits_, visits_left_);
+    for (const PropositionId proposition : left_out) {
+      is_left_out_[proposition] = true;
+      lose(proposition);
+    }
+    for (std::size_t i = 0; i < lost_.size(); ++i) {
+      for (const SnapId op : relaxed_.needed_by(lost_[i])) {
+        if (++open_[op] > 1) continue;
+        for (const PropositionId added : relaxed_.adds(op)) {
+          if (supporters_[added] == op) lose(added);
+        }
+      }
+    }
+    for (const PropositionId proposition : lost_) {
+      if (std::ranges::any_of(relaxed_.added_by(proposition), [&](SnapId op) { return open_[op] == 0; }))
+        find_again(proposition);
+    }
+    while (!queue_.empty()) {
+      const PropositionId proposition = queue_.back();
+      queue_.pop_back();
+      for (const SnapId op : relaxed_.needed_by(proposition)) {
+        if (--open_[op] > 0) continue;
+        for (const PropositionId added : relaxed_.adds(op)) find_again(added);
+      }
+    }
+    for (const PropositionId proposition : left_out) is_left_out_[proposition] = false;
+  }
+
+  // As it was after explore().
+  void restore() {
+    for (const PropositionId proposition : lost_) {
+      if (reached_[proposition]) continue;
+      reached_[proposition] = true;
+      for (const SnapId op : relaxed_.needed_by(proposition)) --open_[op];
+    }
+    lost_.clear();
+  }
+
+  void lose(PropositionId proposition) {
+    if (!reached_[proposition]) return;
+    reached_[proposition] = false;
+    lost_.push_back(proposition);
+  }
+
+  void find_again(PropositionId proposition) {
+    if (reached_[proposition] || is_left_out_[proposition]) return;
+    reached_[proposition] = true;
+    queue_.push_back(proposition);
   }
 
   bool goal_reached() const {
@@ -199,8 +254,12 @@ class Finder {
   // Of the last exploration.
   IdVector<PropositionId, bool> reached_;
   IdVector<PropositionId, bool> initially_;
+  IdVector<PropositionId, SnapId> supporters_;  // with nothing left out; none: holds, or is out of reach
+  IdVector<PropositionId, bool> is_left_out_;
   IdVector<SnapId, std::uint32_t> open_;  // needs that were not reached; 0: could be taken
+  std::vector<PropositionId> lost_;       // some of them found again
   std::vector<PropositionId> queue_;
+  std::size_t visits_ = 0;  // of operators, to explore everything
 };
 
 }  // namespace
