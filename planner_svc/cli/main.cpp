@@ -15,6 +15,7 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "core/pddl/check.hpp"
@@ -72,6 +73,12 @@ std::string read_file(const std::string& path) {
     throw pddl::ParseError({path, {}, "cannot be read", "check the path and its permissions"});
   }
   return text;
+}
+
+// The engine counts its large tables and ends in time; this holds for all else, too.
+void limit_memory(std::size_t megabytes) {
+  const rlimit limit{megabytes << 20, megabytes << 20};
+  setrlimit(RLIMIT_DATA, &limit);
 }
 
 double seconds(engine::Duration duration) { return std::chrono::duration<double>(duration).count(); }
@@ -158,12 +165,16 @@ int run(const Arguments& arguments) {
       return static_cast<double>(std::clock()) / CLOCKS_PER_SEC > arguments.processor_seconds;
     };
 
+  if (arguments.megabytes > 0) limit_memory(arguments.megabytes);
   engine::Result result;
   try {
     result = plan(arguments, out_of_time);
   } catch (const pddl::ParseError& error) {
     result.verdict = engine::Verdict::invalid_input;
     result.reason = error.what();
+  } catch (const std::bad_alloc&) {
+    result.verdict = engine::Verdict::out_of_memory;
+    result.reason = "the model itself takes more than the memory limit";
   }
   const nlohmann::json statistics = statistics_json(result, elapsed());
   if (!arguments.stats.empty()) {
@@ -195,7 +206,7 @@ int main(int argc, char** argv) {
   app.add_option("--improve", arguments.improve, "look for better plans with so many evaluations");
   app.add_option("--evaluations", arguments.evaluations,
                  "limit in heuristic evaluations until the first plan; 1: what grounding costs");
-  app.add_option("--memory", arguments.megabytes, "limit in MiB");
+  app.add_option("--memory", arguments.megabytes, "limit in MiB of all data of the process");
   app.add_option("--functions", arguments.functions,
                  "values of external functions: (traverse_time a b) 12.5");
   app.add_option("--remaining", arguments.remaining, "what is left of an earlier plan, to begin with");

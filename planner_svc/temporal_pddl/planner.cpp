@@ -52,6 +52,7 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   require_model(domain, problem);
   const Grounding grounding = ground(domain, problem, functions, options, watch, result.functions);
   describe(grounding.task, result.statistics);
+  watch.hold(grounding.task.bytes());
   FfHeuristic ff(grounding.task);
   std::optional<LandmarkCount> landmarks;
   if (options.landmarks) landmarks.emplace(grounding.task, ff, watch);

@@ -18,7 +18,7 @@ void Watch::memory(std::size_t bytes) {
 }
 
 void Watch::memory_on_top(std::size_t more) {
-  const std::size_t bytes = bytes_ + more;
+  const std::size_t bytes = held_bytes_ + bytes_ + more;
   peak_bytes_ = std::max(peak_bytes_, bytes);
   if (bytes > budget_.memory_bytes) throw Refusal(Verdict::out_of_memory, "the memory limit is reached");
 }

@@ -19,6 +19,8 @@ class Watch {
   }
   // Throws Refusal (out_of_memory) if the engine's memory would exceed the budget; keeps the peak.
   void memory(std::size_t bytes);
+  // So many bytes stay for good and count on top of all that is reported from now on.
+  void hold(std::size_t bytes) { held_bytes_ = bytes; }
   // As memory(), for what comes for a time on top of what was last reported there.
   void memory_on_top(std::size_t more);
   // Throws Refusal (timeout) if that many heuristic evaluations exceed the budget.
@@ -35,6 +37,7 @@ class Watch {
   const Budget& budget_;
   const Monitor& monitor_;
   std::size_t steps_ = 0;
+  std::size_t held_bytes_ = 0;
   std::size_t bytes_ = 0;  // as last reported
   std::size_t peak_bytes_ = 0;
 };

@@ -4,6 +4,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,11 @@ struct GroundEffects {
   auto operator<=>(const GroundEffects&) const = default;
 };
 
+// When the start and the end may happen; the whole action must lie in one of `span`. See timed_windows.hpp.
+struct ActionWindows {
+  TimeWindows start = any_time(), end = any_time(), span = any_time();
+};
+
 struct GroundAction {
   SchemaId schema;
   std::vector<ObjectId> arguments;
@@ -59,9 +65,7 @@ struct GroundAction {
   std::vector<DurationRule> duration_rules;
   Conjunction at_start, over_all, at_end;
   GroundEffects start_effects, end_effects;
-  // When the start and the end may happen; the whole action must lie in one of span_windows. See
-  // timed_windows.hpp.
-  TimeWindows start_windows = any_time(), end_windows = any_time(), span_windows = any_time();
+  std::shared_ptr<const ActionWindows> windows;  // none: any time
 };
 
 // Wherever the body holds, so does the head, a derived atom.

@@ -173,9 +173,18 @@ std::size_t bytes_of(const GroundEffects& effects) {
 }
 
 std::size_t bytes_of(const GroundAction& action) {
-  return sizeof(GroundAction) + action.arguments.capacity() * sizeof(ObjectId) + bytes_of(action.at_start) +
+  return action.arguments.capacity() * sizeof(ObjectId) + bytes_of(action.at_start) +
          bytes_of(action.over_all) + bytes_of(action.at_end) + bytes_of(action.start_effects) +
          bytes_of(action.end_effects);
+}
+
+// As many as there are without alternatives, which make more of them.
+std::size_t planned_actions(const std::vector<LiftedAction>& actions, const Reachability& reachability) {
+  std::size_t result = 0;
+  for (std::size_t schema = 0; schema < actions.size(); ++schema) {
+    if (!actions[schema].layer) result += reachability.instances[SchemaId(schema)].size();
+  }
+  return result;
 }
 
 }  // namespace
@@ -188,6 +197,9 @@ GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem
   FormulaGrounder formulas(world, reachability, touched, model.numbers, model.expressions, domain.file);
   ActionInstantiator instantiator(formulas);
   std::size_t counted = 0, lists = 0;
+  const std::size_t planned = planned_actions(actions, reachability);
+  watch.memory_on_top(planned * sizeof(GroundAction));
+  model.actions.reserve(planned);
   std::size_t bytes = reachability.atoms.bytes();
   for (std::size_t schema = 0; schema < actions.size(); ++schema) {
     const auto& instances = reachability.instances[SchemaId(schema)];
@@ -203,7 +215,7 @@ GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem
       for (; lists < model.mentions.size(); ++lists)
         bytes += model.mentions[lists].capacity() * sizeof(Mention);
       for (; counted < model.actions.size(); ++counted) bytes += bytes_of(model.actions[counted]);
-      watch.memory(bytes + instances.bytes());
+      watch.memory(bytes + instances.bytes() + model.actions.capacity() * sizeof(GroundAction));
     }
   }
   FormulaGrounder goals(world, reachability, touched, model.numbers, model.expressions, problem.file);

@@ -26,8 +26,8 @@ class RelaxedReach {
     for (std::uint32_t atom = 0; atom < initially.size(); ++atom) reach({atom, !initially[atom]});
     for (const auto& timed : model_.timed) take_effects(timed.effects);
     for (std::size_t i = 0; i < model_.rules.size(); ++i)
-      await(2 * model_.actions.size() + i, model_.rules[i].body.literals, 0);
-    for (std::size_t i = 0; i < model_.actions.size(); ++i) {
+      await(static_cast<std::uint32_t>(2 * model_.actions.size() + i), model_.rules[i].body.literals, 0);
+    for (std::uint32_t i = 0; i < model_.actions.size(); ++i) {
       watch_.step();
       const GroundAction& action = model_.actions[i];
       std::vector<GroundLiteral> end;
@@ -56,8 +56,8 @@ class RelaxedReach {
   }
 
   // Literals that are queued still count as missing until they are taken.
-  void await(std::size_t snap, const std::vector<GroundLiteral>& literals, std::size_t more) {
-    missing_[snap] = literals.size() + more;
+  void await(std::uint32_t snap, const std::vector<GroundLiteral>& literals, std::uint32_t more) {
+    missing_[snap] = static_cast<std::uint32_t>(literals.size()) + more;
     for (const auto literal : literals) waiting_[literal_index(literal)].push_back(snap);
     if (missing_[snap] == 0) happen(snap);
   }
@@ -81,8 +81,8 @@ class RelaxedReach {
   const GroundModel& model_;
   Watch& watch_;
   std::vector<bool> reached_;
-  std::vector<std::vector<std::size_t>> waiting_;
-  std::vector<std::size_t> missing_;  // by start and end of each action, then by rule
+  std::vector<std::vector<std::uint32_t>> waiting_;  // by literal: starts, ends and rules
+  std::vector<std::uint32_t> missing_;               // by start and end of each action, then by rule
   std::vector<std::size_t> queue_;
 };
 
@@ -99,6 +99,18 @@ std::vector<bool> brought_about(const GroundModel& model) {
   }
   for (const auto& timed : model.timed) note(timed.effects);
   return result;
+}
+
+// Of a list, those whose index satisfies a predicate; in place, since there may be many.
+template <typename T, typename Predicate>
+void keep(std::vector<T>& list, const Predicate& wanted) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!wanted(i)) continue;
+    if (kept < i) list[kept] = std::move(list[i]);
+    ++kept;
+  }
+  list.resize(kept);
 }
 
 }  // namespace
@@ -118,18 +130,10 @@ std::vector<bool> prune(GroundModel& model, Watch& watch) {
     RelaxedReach reach(model, watch);
     reach.run();
     const std::size_t before = model.actions.size();
-    std::vector<GroundAction> kept;
-    for (std::size_t i = 0; i < before; ++i) {
-      if (reach.ends(i)) kept.push_back(std::move(model.actions[i]));
-    }
-    model.actions = std::move(kept);
+    keep(model.actions, [&](std::size_t i) { return reach.ends(i); });
     if (model.actions.size() < before) continue;
 
-    std::vector<GroundRule> rules;
-    for (std::size_t i = 0; i < model.rules.size(); ++i) {
-      if (reach.derives(i)) rules.push_back(std::move(model.rules[i]));
-    }
-    model.rules = std::move(rules);
+    keep(model.rules, [&](std::size_t i) { return reach.derives(i); });
 
     const auto& reached = reach.reached();
     const std::vector<bool> brought = brought_about(model);

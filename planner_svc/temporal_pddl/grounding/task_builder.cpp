@@ -29,6 +29,7 @@ class Builder {
     for (std::size_t i = 0; i < model_.actions.size(); ++i) {
       add_action(model_.actions[i], compression[i]);
       watch.step();
+      watch.memory_on_top(task_.bytes());
     }
     for (const auto& timed : model_.timed) {
       task_.timed_steps.push_back(
@@ -122,15 +123,17 @@ class Builder {
     action.min_duration = source.min_duration;
     action.max_duration = source.max_duration;
     action.compression_safe = compression.safe;
+    static const ActionWindows kAnyTime;
+    const ActionWindows& windows = source.windows ? *source.windows : kAnyTime;
     const SnapKind kind = source.durative ? SnapKind::start : SnapKind::instant;
-    action.start = add_snap({kind, id}, source.at_start, source.start_effects, source.start_windows,
+    action.start = add_snap({kind, id}, source.at_start, source.start_effects, windows.start,
                             asked_besides(source, pddl::TimePoint::start));
     action.end = source.durative ? add_snap({SnapKind::end, id}, source.at_end, source.end_effects,
-                                            source.end_windows, asked_besides(source, pddl::TimePoint::end))
+                                            windows.end, asked_besides(source, pddl::TimePoint::end))
                                  : action.start;
     task_.actions.push_back(action);
     task_.action_arguments.push_back(source.arguments);
-    task_.span_windows.push_back(restricting(source.span_windows));
+    task_.span_windows.push_back(restricting(windows.span));
     task_.duration_rules.push_back(source.duration_rules);
     const auto invariants = facts_of(source.over_all.literals);
     task_.invariants.push_back(invariants);

@@ -49,7 +49,8 @@ class Extraction {
     for (auto& action : model_.actions) restrict(action);
     for (const auto& action : model_.actions) note_too_long(action);
     std::erase_if(model_.actions, [](const GroundAction& action) {
-      return action.start_windows.empty() || action.end_windows.empty() || action.span_windows.empty();
+      const auto& windows = action.windows;
+      return windows && (windows->start.empty() || windows->end.empty() || windows->span.empty());
     });
     const auto extracted = [&](std::uint32_t atom) { return windows_.contains(atom); };
     for (auto& timed : model_.timed) {
@@ -114,7 +115,8 @@ class Extraction {
   }
 
   void note_too_long(const GroundAction& action) {
-    const auto& span = action.span_windows;
+    if (!action.windows) return;
+    const auto& span = action.windows->span;
     if (span.empty() || !shrunk(span, Duration{0}, action.min_duration).empty()) return;
     TooLong note{action.schema, action.arguments, action.start_effects.adds, action.min_duration, {}};
     const auto& adds = action.end_effects.adds;
@@ -124,12 +126,13 @@ class Extraction {
   }
 
   void restrict(GroundAction& action) const {
-    action.start_windows = take(action.at_start, epsilon_);
-    action.end_windows = take(action.at_end, epsilon_);
-    action.span_windows = take(action.over_all, Duration{0});
-    const auto& span = action.span_windows;
-    action.start_windows = intersection(action.start_windows, shrunk(span, Duration{0}, action.min_duration));
-    action.end_windows = intersection(action.end_windows, shrunk(span, action.min_duration, Duration{0}));
+    const TimeWindows start = take(action.at_start, epsilon_);
+    const TimeWindows end = take(action.at_end, epsilon_);
+    const TimeWindows span = take(action.over_all, Duration{0});
+    if (is_any_time(start) && is_any_time(end) && is_any_time(span)) return;
+    action.windows = std::make_shared<ActionWindows>(
+        ActionWindows{intersection(start, shrunk(span, Duration{0}, action.min_duration)),
+                      intersection(end, shrunk(span, action.min_duration, Duration{0})), span});
   }
 
   GroundModel& model_;

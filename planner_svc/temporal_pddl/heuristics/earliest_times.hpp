@@ -28,6 +28,10 @@ class EarliestTimes {
   Ticks of(PropositionId proposition) const { return times_[proposition]; }
   // The operator that brings a proposition about at that time. None: it holds from the beginning.
   SnapId supporter(PropositionId proposition) const { return supporters_[proposition]; }
+  std::size_t bytes() const {
+    return times_.bytes() + supporters_.bytes() + initially_open_.bytes() + open_.bytes() + ready_.bytes() +
+           op_times_.bytes();
+  }
   // Of a proposition without a time: which action comes too late for its windows, and by how much. Empty:
   // time is not what blocks it.
   std::string why_never(PropositionId proposition) const;

@@ -37,6 +37,10 @@ class FfHeuristic final : public Heuristic {
   // those that it hangs on, those first that take the most actions. The fact must be within reach.
   void plan_for(FactId fact, std::vector<SnapId>& plan);
 
+  std::size_t bytes() const override {
+    return relaxed_.bytes() + numbers_.bytes() + earliest_.bytes() + supporters_.bytes() + plan_.bytes();
+  }
+
   const RelaxedTask& relaxed() const { return relaxed_; }
   // Of the state evaluated last, which is no dead end.
   std::span<const SnapId> relaxed_plan() const { return plan_.operators(); }

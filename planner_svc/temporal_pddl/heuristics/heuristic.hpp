@@ -39,7 +39,7 @@ class Heuristic {
   virtual void evaluate(const Situation& situation, Estimate& estimate) = 0;
   // Proved at little cost that no plan goes through the state? Asked before anything is stored or evaluated.
   virtual bool hopeless(StateView /*state*/, std::span<const ActionId> /*running*/) { return false; }
-  // What it keeps that grows with the problem.
+  // What it keeps that grows with the problem, that of what it builds upon included.
   virtual std::size_t bytes() const { return 0; }
 };
 

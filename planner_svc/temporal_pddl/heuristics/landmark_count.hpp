@@ -20,6 +20,8 @@ class LandmarkCount final : public Heuristic {
   // hold right before one that is not reached. Preferred is also what reaches one that can be next.
   void evaluate(const Situation& situation, Estimate& estimate) override;
 
+  std::size_t bytes() const override { return ff_.bytes() + of_.bytes() + landmarks_.bytes(); }
+
   const IdVector<LandmarkId, Landmark>& landmarks() const { return landmarks_; }
 
  private:

@@ -34,6 +34,9 @@ class RelaxedNumbers {
   // Every comparison that an application of `op` may make true in some state is among them.
   std::span<const Raise> raises(SnapId op) const { return raises_[op]; }
 
+  std::size_t bytes() const {
+    return needs_.bytes() + touches_.bytes() + needed_by_.bytes() + raises_.bytes();
+  }
   // The comparisons that an application may change, for better or worse.
   std::span<const ComparisonId> touches(SnapId op) const { return touches_[op]; }
 

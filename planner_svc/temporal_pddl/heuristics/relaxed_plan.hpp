@@ -44,6 +44,9 @@ class RelaxedPlan {
   std::span<const SnapId> operators() const { return plan_; }
   // What was taken for it; none: nothing.
   SnapId support(PropositionId proposition) const { return supports_[proposition]; }
+  std::size_t bytes() const {
+    return repeats_.bytes() + passes_.bytes() + is_needed_.bytes() + given_.bytes() + supports_.bytes();
+  }
   // How often it is applied. 0: it is not in the plan.
   std::int64_t times(SnapId op) const { return repeats_[op]; }
 

@@ -52,6 +52,9 @@ class RelaxedTask {
   std::span<const SnapId> added_by(PropositionId proposition) const { return added_by_[proposition]; }
   // A step that the planner chooses, and not what follows from one.
   bool is_choice(SnapId op) const { return is_choice_[op] != 0; }
+  std::size_t bytes() const {
+    return costs_.bytes() + lists_.bytes() + needed_by_.bytes() + is_choice_.bytes();
+  }
   // Needs nothing and is no timed literal.
   const std::vector<SnapId>& free() const { return free_; }
 

@@ -79,7 +79,7 @@ std::optional<PlanPrefix> Completion::find(std::span<const SnapId> beginning, co
       if (!advance(prefix_, snap)) continue;
       if (complete() || pursue()) return std::move(successor_.prefix);
     }
-    watch_.memory(space_.store().bytes() + dominance_.bytes());
+    watch_.memory(space_.store().bytes() + dominance_.bytes() + guide_->heuristic.bytes());
   }
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <utility>
 
 #include "planner_svc/temporal_pddl/grounding/refusal.hpp"
@@ -104,6 +105,7 @@ PlanPrefix improve(const Task& task, PlanPrefix first, std::span<const Guide> gu
     Improvement(task, plan, guides, options, watch, statistics).run();
   } catch (const Refusal& refusal) {
     if (refusal.verdict() == Verdict::cancelled) throw;
+  } catch (const std::bad_alloc&) {  // what was found stands
   }
   return plan;
 }

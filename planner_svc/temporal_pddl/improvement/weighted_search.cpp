@@ -46,7 +46,7 @@ class WeightedSearch {
         if (guide_.heuristic.hopeless(successor_.state, successor_.prefix.running_actions)) continue;
         if (take_up(prefix_.node)) return found();
       }
-      watch_.memory(space_.store().bytes() + open_.bytes() + dominance_.bytes());
+      watch_.memory(space_.store().bytes() + open_.bytes() + dominance_.bytes() + guide_.heuristic.bytes());
     }
     return {std::nullopt, true, evaluated_};
   }

@@ -28,7 +28,7 @@ void OpenList::push(const Ranks& ranks, NodeId parent, std::span<const SnapId> s
   own.list = std::make_unique_for_overwrite<Successor[]>(own.size);
   for (std::uint32_t i = 0; i < own.size; ++i)
     own.list[i] = {successors[i].value, std::ranges::binary_search(preferred, successors[i]), false};
-  listed_ += own.size;
+  list_bytes_ += bytes(own);
   for (Queue& queue : queues_) {
     Run run{parent, 0, own.size};
     trim(queue, run);
@@ -82,7 +82,7 @@ std::optional<OpenEntry> OpenList::serve(Queue& queue) {
 void OpenList::release(NodeId parent) {
   Successors& own = successors_[parent.index()];
   if (--own.runs > 0) return;
-  listed_ -= own.size;
+  list_bytes_ -= bytes(own);
   own = {};
 }
 
@@ -92,8 +92,13 @@ void OpenList::boost() {
   }
 }
 
+// With the allocator's share.
+std::size_t OpenList::bytes(const Successors& successors) {
+  return successors.size * sizeof(Successor) + 2 * sizeof(void*);
+}
+
 std::size_t OpenList::bytes() const {
-  std::size_t result = successors_.capacity() * sizeof(Successors) + listed_ * sizeof(Successor);
+  std::size_t result = successors_.capacity() * sizeof(Successors) + list_bytes_;
   for (const Queue& queue : queues_) result += queue.runs.bytes();
   return result;
 }

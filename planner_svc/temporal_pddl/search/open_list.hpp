@@ -78,6 +78,7 @@ class OpenList {
     RankedQueue<Run> runs = {};
   };
 
+  static std::size_t bytes(const Successors& successors);
   bool waits(const Queue& queue, Successor successor) const;
   void trim(const Queue& queue, Run& run) const;
   std::optional<OpenEntry> serve(Queue& queue);
@@ -85,7 +86,7 @@ class OpenList {
 
   std::vector<Queue> queues_;
   std::vector<Successors> successors_;  // by parent
-  std::size_t listed_ = 0;              // in all lists
+  std::size_t list_bytes_ = 0;          // of all lists
 };
 
 }  // namespace roci::planner::temporal_pddl

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 namespace roci::planner::temporal_pddl {
@@ -50,6 +51,8 @@ class IdVector {
   void assign(std::size_t size, const T& value) { items_.assign(size, value); }
   std::size_t size() const { return items_.size(); }
   bool empty() const { return items_.empty(); }
+  // Allocated, without what the items own.
+  std::size_t bytes() const { return items_.capacity() * sizeof(T) / (std::is_same_v<T, bool> ? 8 : 1); }
   auto begin() const { return items_.begin(); }
   auto end() const { return items_.end(); }
   auto begin() { return items_.begin(); }

@@ -37,6 +37,7 @@ class StateLayout {
   std::size_t packed_bits() const { return packed_bits_; }         // Σ ⌈log2(facts + 1)⌉
   std::span<const Variable> variables() const { return variables_; }
   std::size_t facts() const { return places_.size(); }
+  std::size_t bytes() const { return variables_.capacity() * sizeof(Variable) + places_.bytes(); }
   std::size_t numbers() const { return numbers_; }
 
   bool holds(StateView state, FactId fact) const {

@@ -19,6 +19,14 @@ SnapId Task::other_end(SnapId snap) const {
   return snap == action.start ? action.end : action.start;
 }
 
+std::size_t Task::bytes() const {
+  const auto sum = [](const auto&... lists) { return (lists.bytes() + ...); };
+  return sum(fact_names, atom_arguments, action_arguments, snaps, conditions, comparisons, adds, deletes,
+             numeric_effects, reads, writes, windows, actions, invariants, numeric_invariants,
+             invariant_reads, span_windows, duration_rules, derived_invariant_reads, absent_for_compression,
+             derived_goal_reads, is_derived, layout);
+}
+
 std::string name(const Task& task, FactId fact) {
   const FactName& fact_name = task.fact_names[fact];
   const std::string text = application(task, task.predicates[fact_name.predicate.index()],

@@ -124,6 +124,9 @@ struct Task {
   // Of the same durative action; none: there is none.
   SnapId other_end(SnapId snap) const;
 
+  // Allocated; what does not grow with the facts and actions is left out.
+  std::size_t bytes() const;
+
   std::size_t variables() const { return fact_names.size() + number_names.size(); }
   VariableId variable(FactId fact) const { return VariableId(fact.index()); }
   VariableId variable(NumberId number) const { return VariableId(fact_names.size() + number.index()); }

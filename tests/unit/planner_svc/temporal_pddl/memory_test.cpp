@@ -1,0 +1,82 @@
+// What the engine counts as its memory against what it takes: operator new is replaced in this program.
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <string>
+
+#include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
+
+namespace {
+
+std::size_t taken = 0;
+std::size_t most = 0;
+
+void* take(std::size_t size) {
+  void* const memory = std::malloc(size);
+  if (!memory) throw std::bad_alloc();
+  taken += malloc_usable_size(memory);
+  most = std::max(most, taken);
+  return memory;
+}
+
+void give_back(void* memory) {
+  taken -= malloc_usable_size(memory);
+  std::free(memory);
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return take(size); }
+void operator delete(void* memory) noexcept { give_back(memory); }
+void operator delete(void* memory, std::size_t) noexcept { give_back(memory); }
+
+namespace roci::planner::temporal_pddl {
+namespace {
+
+// share: of what is taken, how much at least is counted.
+void expect_honest(const testing::Model& model, std::size_t evaluations, double share) {
+  NoFunctions functions;
+  Budget budget;
+  budget.evaluations = evaluations;
+  const std::size_t before = taken;
+  most = taken;
+  const Result result = plan(model.domain, model.problem, functions, budget, {});
+  const auto counted = static_cast<double>(result.statistics.peak_bytes);
+  const auto real = static_cast<double>(most - before);
+  EXPECT_GT(real, 5e6);
+  EXPECT_GT(counted, share * real) << counted << " of " << real;
+  EXPECT_LT(counted, 1.1 * real) << counted << " of " << real;
+}
+
+TEST(Memory, OfGroundingIsCounted) {
+  std::string objects, init;
+  for (int i = 0; i < 30; ++i) {
+    objects += " o" + std::to_string(i);
+    init += " (p o" + std::to_string(i) + ")";
+  }
+  expect_honest(testing::model(R"((:requirements :typing :durative-actions) (:types t)
+    (:predicates (p ?a - t) (q ?a ?b ?c - t))
+    (:durative-action a :parameters (?a ?b ?c - t) :duration (= ?duration 1)
+      :condition (and (at start (p ?a)) (at start (p ?b)) (at start (p ?c)))
+      :effect (and (at start (not (p ?a))) (at end (p ?a)) (at end (q ?a ?b ?c)))))",
+                               "(:objects" + objects + " - t) (:init" + init + ") (:goal (q o0 o1 o2))"),
+                100, 0.8);
+}
+
+// Tables grow by doubling, which takes half as much again for a moment.
+TEST(Memory, OfTheSearchIsCounted) {
+  expect_honest(
+      testing::model(
+          R"((:requirements :typing :numeric-fluents) (:types t) (:predicates (p)) (:functions (x ?i - t))
+    (:action up :parameters (?i - t) :precondition () :effect (increase (x ?i) 1)))",
+          "(:objects a b c d e f - t) (:init (= (x a) 0) (= (x b) 0) (= (x c) 0) (= (x d) 0) (= (x e) 0)"
+          " (= (x f) 0)) (:goal (= (+ (x a) (x b) (x c) (x d) (x e) (x f)) 99.5))"),
+      20'000, 0.6);
+}
+
+}  // namespace
+}  // namespace roci::planner::temporal_pddl
