@@ -145,6 +145,7 @@ engine::Result plan(const Arguments& arguments, const std::function<bool()>& out
     options.dominance = false;
     options.windows = engine::WindowExtraction::none;
   }
+  options.describe_activities = false;
   options.improvement_evaluations = arguments.improve;
   if (arguments.seconds + arguments.processor_seconds > 0 && arguments.improve == 0)
     options.improvement_evaluations = std::numeric_limits<std::size_t>::max();

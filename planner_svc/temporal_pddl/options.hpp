@@ -32,6 +32,7 @@ struct Options {
   std::size_t improvement_evaluations = 0;  // after the first plan, in search of better ones; 0: only useless
                                             // actions go
   std::uint64_t seed = 0;  // breaks ties among equally good successors; 0: in order of generation
+  bool describe_activities = true;  // a plan's activities carry conditions and effects, for an executive
 };
 
 }  // namespace roci::planner::temporal_pddl

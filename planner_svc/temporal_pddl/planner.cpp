@@ -66,7 +66,7 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   if (outcome.plan) {
     const PlanPrefix best =
         improved(grounding.task, std::move(*outcome.plan), heuristic, options, watch, result.statistics);
-    result.plan = build_plan(domain, grounding, best, options.epsilon);
+    result.plan = build_plan(domain, grounding, best, options);
     result.verdict = Verdict::solved;
   } else {
     result.verdict = Verdict::unsolvable;

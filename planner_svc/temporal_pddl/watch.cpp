@@ -20,7 +20,12 @@ void Watch::memory(std::size_t bytes) {
 void Watch::memory_on_top(std::size_t more) {
   const std::size_t bytes = held_bytes_ + bytes_ + more;
   peak_bytes_ = std::max(peak_bytes_, bytes);
-  if (bytes > budget_.memory_bytes) throw Refusal(Verdict::out_of_memory, "the memory limit is reached");
+  require_room(more);
+}
+
+void Watch::require_room(std::size_t more) const {
+  if (held_bytes_ + bytes_ + more > budget_.memory_bytes)
+    throw Refusal(Verdict::out_of_memory, "the memory limit is reached");
 }
 
 void Watch::evaluations(std::size_t count) const {

@@ -23,6 +23,8 @@ class Watch {
   void hold(std::size_t bytes) { held_bytes_ = bytes; }
   // As memory(), for what comes for a time on top of what was last reported there.
   void memory_on_top(std::size_t more);
+  // As memory_on_top(), before it is taken.
+  void require_room(std::size_t more) const;
   // Throws Refusal (timeout) if that many heuristic evaluations exceed the budget.
   void evaluations(std::size_t count) const;
 

@@ -198,7 +198,7 @@ GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem
   ActionInstantiator instantiator(formulas);
   std::size_t counted = 0, lists = 0;
   const std::size_t planned = planned_actions(actions, reachability);
-  watch.memory_on_top(planned * sizeof(GroundAction));
+  watch.require_room(planned * sizeof(GroundAction));
   model.actions.reserve(planned);
   std::size_t bytes = reachability.atoms.bytes();
   for (std::size_t schema = 0; schema < actions.size(); ++schema) {

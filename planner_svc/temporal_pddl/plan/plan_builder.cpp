@@ -17,12 +17,13 @@ Duration or_unbounded(Ticks latest) { return latest == kNever ? kUnbounded : Dur
 class PlanBuilder {
  public:
   PlanBuilder(const pddl::Domain& domain, const Grounding& grounding, const PlanPrefix& steps,
-              Duration epsilon)
+              const Options& options)
       : domain_(domain),
         grounding_(grounding),
         task_(grounding.task),
         steps_(steps),
-        check_(task_, epsilon) {}
+        describes_(options.describe_activities),
+        check_(task_, options.epsilon) {}
 
   Plan run() {
     add_points();
@@ -110,7 +111,8 @@ class PlanBuilder {
     for (const ObjectId object : task_.action_arguments[id]) {
       activity.arguments.push_back(task_.objects[object.index()]);
     }
-    describe(task_.actions[id].schema, activity);
+    activity.name = task_.schemas[task_.actions[id].schema.index()];
+    if (describes_) describe(task_.actions[id].schema, activity);
     plan_.makespan = std::max(plan_.makespan, activity.end);
     plan_.activities.push_back(std::move(activity));
   }
@@ -125,14 +127,12 @@ class PlanBuilder {
     };
     if (schema.index() < domain_.actions.size()) {
       const pddl::Action& action = domain_.actions[schema.index()];
-      activity.name = action.name;
       activity.at_start = text(action.parameters).conditions(action.precondition);
       activity.start_effects = text(action.parameters).effects(action.effects);
       return;
     }
     const pddl::DurativeAction& action = domain_.durative_actions[schema.index() - domain_.actions.size()];
     const GroundText ground = text(action.parameters);
-    activity.name = action.name;
     activity.at_start = ground.conditions(action.condition.at_start);
     activity.over_all = ground.conditions(action.condition.over_all);
     activity.at_end = ground.conditions(action.condition.at_end);
@@ -144,6 +144,7 @@ class PlanBuilder {
   const Grounding& grounding_;
   const Task& task_;
   const PlanPrefix& steps_;
+  bool describes_;
   TemporalCheck check_;
   std::vector<TimeWindow> windows_;  // by step: the window in which the schedule puts it
   Plan plan_;
@@ -152,8 +153,8 @@ class PlanBuilder {
 }  // namespace
 
 Plan build_plan(const pddl::Domain& domain, const Grounding& grounding, const PlanPrefix& steps,
-                Duration epsilon) {
-  return PlanBuilder(domain, grounding, steps, epsilon).run();
+                const Options& options) {
+  return PlanBuilder(domain, grounding, steps, options).run();
 }
 
 }  // namespace roci::planner::temporal_pddl

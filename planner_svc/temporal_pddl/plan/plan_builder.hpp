@@ -8,8 +8,9 @@
 
 namespace roci::planner::temporal_pddl {
 
-// steps: a complete plan, temporally consistent. Each time point is scheduled at its earliest time.
+// steps: a complete plan, temporally consistent. Each time point is scheduled at its earliest time. Of the
+// options, epsilon and describe_activities count.
 Plan build_plan(const pddl::Domain& domain, const Grounding& grounding, const PlanPrefix& steps,
-                Duration epsilon);
+                const Options& options);
 
 }  // namespace roci::planner::temporal_pddl

@@ -24,13 +24,13 @@ struct Transition {
 // more than one block.
 class StateStore {
  public:
-  explicit StateStore(std::size_t words_per_state) : words_(words_per_state) {}
+  explicit StateStore(std::size_t words_per_state);
 
   // `code`: the serialized constraints of the transition's steps. The first node is the root: its parent is
   // none.
   NodeId add(StateView state, NodeId parent, Transition transition, std::span<const std::uint8_t> code);
 
-  // Forgets all nodes; keeps memory of one block.
+  // Forgets all nodes; keeps memory of one block of each kind.
   void clear();
 
   StateView state(NodeId node) const;
@@ -50,14 +50,19 @@ class StateStore {
     std::uint16_t code_offset = 0;
     std::uint16_t code_length = 0;
   };
-  static constexpr std::size_t kNodesPerBlock = 4096;
-  static constexpr std::size_t kCodeBlockBytes = 65536;
+  static constexpr std::size_t kBlockBytes = 65536;
+  static constexpr std::size_t kHeadsPerBlock = kBlockBytes / sizeof(Head);
 
   const Head& head(NodeId node) const {
-    return heads_[node.index() / kNodesPerBlock][node.index() % kNodesPerBlock];
+    return heads_[node.index() / kHeadsPerBlock][node.index() % kHeadsPerBlock];
+  }
+  std::size_t states_per_block() const { return std::size_t{1} << block_shift_; }
+  Word* place(std::size_t index) const {
+    return states_[index >> block_shift_].get() + (index & (states_per_block() - 1)) * words_;
   }
 
   std::size_t words_;
+  unsigned block_shift_;  // a block of states has room for 2^this
   std::size_t size_ = 0;
   std::size_t code_bytes_ = 0;
   std::size_t open_code_ = 0;  // bytes used of the last block
