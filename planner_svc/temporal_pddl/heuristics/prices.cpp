@@ -2,26 +2,20 @@
 
 #include <algorithm>
 
+#include "planner_svc/temporal_pddl/task/semantics.hpp"
+
 namespace roci::planner::temporal_pddl {
 
 namespace {
-
-bool contains(std::span<const FactId> facts, FactId fact) { return std::ranges::count(facts, fact) > 0; }
 
 std::vector<FactId> goals_of_all_alternatives(const Task& task) {
   std::vector<FactId> result;
   if (task.goals.empty()) return result;
   std::ranges::copy_if(task.goals.front().facts, std::back_inserter(result), [&](FactId fact) {
-    return std::ranges::all_of(task.goals, [&](const Goal& goal) { return contains(goal.facts, fact); });
+    return std::ranges::all_of(task.goals,
+                               [&](const Goal& goal) { return std::ranges::count(goal.facts, fact) > 0; });
   });
   return result;
-}
-
-// Is the fact false after the action, whatever it was before?
-bool undoes(const Task& task, const Action& action, FactId fact) {
-  if (contains(task.adds[action.end], fact)) return false;
-  return contains(task.deletes[action.end], fact) ||
-         (contains(task.deletes[action.start], fact) && !contains(task.adds[action.start], fact));
 }
 
 }  // namespace

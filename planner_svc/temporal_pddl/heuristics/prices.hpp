@@ -25,6 +25,7 @@ class Prices {
   Price of(SnapId op) const { return prices_[op]; }
   // The part that is for goals.
   Price of_undoing(SnapId op) const { return prices_[op] - (relaxed_.is_choice(op) ? 1 : 0); }
+  std::size_t bytes() const { return prices_.bytes() + undone_by_.bytes(); }
 
  private:
   const Task& task_;

@@ -50,7 +50,7 @@ class Supporters {
   SnapId producer(ComparisonId comparison);
 
   std::size_t propositions() const { return reached_.size(); }
-  std::size_t bytes() const { return reached_.bytes() + at_first_.bytes() + open_.bytes(); }
+  std::size_t bytes() const { return reached_.bytes() + at_first_.bytes() + open_.bytes() + prices_.bytes(); }
   PropositionId proposition(ComparisonId comparison) const {
     return PropositionId(relaxed_.propositions() + comparison.index());
   }

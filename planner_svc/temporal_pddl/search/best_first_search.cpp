@@ -9,7 +9,8 @@ namespace roci::planner::temporal_pddl {
 
 namespace {
 
-constexpr int kPatience = 8;  // relaxed plans that are followed although the estimate does not fall
+constexpr int kPatience = 8;   // relaxed plans that are followed although the estimate does not fall
+constexpr int kCarefully = 4;  // of these, the first ones; the others in the order of the relaxed plan
 
 }  // namespace
 
@@ -85,7 +86,7 @@ bool BestFirstSearch::reach(NodeId parent) {
   Priority best = by_plan();
   int in_vain = 0;
   while (follows_plans_ && in_vain < kPatience && !estimate_.dead_end) {
-    if (!look_ahead()) return false;
+    if (!look_ahead(in_vain < kCarefully)) return false;
     if (take_up()) return true;
     const bool nearer = by_plan() < best;
     in_vain = nearer ? 0 : in_vain + 1;
@@ -95,8 +96,8 @@ bool BestFirstSearch::reach(NodeId parent) {
 }
 
 // To a stored state that is new, in successor_.
-bool BestFirstSearch::look_ahead() {
-  if (!lookahead_.follow(successor_.prefix, estimate_.relaxed_plan, ahead_)) return false;
+bool BestFirstSearch::look_ahead(bool careful) {
+  if (!lookahead_.follow(successor_.prefix, estimate_.relaxed_plan, careful, ahead_)) return false;
   std::swap(successor_, ahead_);
   return !heuristic_.hopeless(successor_.state, successor_.prefix.running_actions) &&
          !(dominate_ && dominance_.dominated(successor_));

@@ -47,7 +47,7 @@ class BestFirstSearch final : public Searcher {
   SearchOutcome failed() const;
   bool reach(NodeId parent);
   bool take_up();
-  bool look_ahead();
+  bool look_ahead(bool careful);
   Priority by_plan() const { return {estimate_.steps, estimate_.cost}; }
   void expand(const PlanPrefix& prefix);
   void account();

@@ -2,15 +2,21 @@
 
 #include <algorithm>
 
+#include "planner_svc/temporal_pddl/task/semantics.hpp"
+
 namespace roci::planner::temporal_pddl {
 
-bool Lookahead::follow(const PlanPrefix& from, std::span<const SnapId> relaxed_plan, Successor& last) {
+bool Lookahead::follow(const PlanPrefix& from, std::span<const SnapId> relaxed_plan, bool careful,
+                       Successor& last) {
+  careful_ = careful;
   prefix_ = from;
   failures_left_ = relaxed_plan.size();
   starts_.clear();
   waiting_.clear();
   for (const SnapId snap : relaxed_plan) (waits(snap) ? waiting_ : starts_).push_back(snap);
-  while (take_starts(last) || take_one_that_waits(last)) {
+  std::ranges::fill(uses_, 0);
+  for (const SnapId start : starts_) count_uses(start, 1);
+  while (take_starts(last) || take_one_harmful_start(last) || take_one_that_waits(last)) {
   }
   return prefix_.node != from.node;
 }
@@ -21,7 +27,16 @@ bool Lookahead::waits(SnapId snap) const {
 }
 
 bool Lookahead::take_starts(Successor& last) {
-  return std::erase_if(starts_, [&](SnapId snap) { return take(snap, last); }) > 0;
+  return std::erase_if(starts_,
+                       [&](SnapId start) { return !has_to_wait(start) && take_start(start, last); }) > 0;
+}
+
+bool Lookahead::take_one_harmful_start(Successor& last) {
+  const auto taken = std::ranges::find_if(
+      starts_, [&](SnapId start) { return has_to_wait(start) && take_start(start, last); });
+  if (taken == starts_.end()) return false;
+  starts_.erase(taken);
+  return true;
 }
 
 bool Lookahead::take_one_that_waits(Successor& last) {
@@ -29,6 +44,32 @@ bool Lookahead::take_one_that_waits(Successor& last) {
   if (taken == waiting_.end()) return false;
   waiting_.erase(taken);
   return true;
+}
+
+bool Lookahead::take_start(SnapId start, Successor& last) {
+  if (!take(start, last)) return false;
+  count_uses(start, -1);
+  return true;
+}
+
+bool Lookahead::has_to_wait(SnapId start) const {
+  if (!careful_) return false;
+  const Action& action = action_of(start);
+  const StateView state = space_.store().state(prefix_.node);
+  const auto harmed = [&](FactId fact) {
+    return uses_[fact] > 0 && task_.layout.holds(state, fact) && undoes(task_, action, fact);
+  };
+  return std::ranges::any_of(task_.deletes[action.start], harmed) ||
+         std::ranges::any_of(task_.deletes[action.end], harmed);
+}
+
+void Lookahead::count_uses(SnapId start, int by) {
+  const Action& action = action_of(start);
+  const auto count = [&](FactId fact) {
+    if (!undoes(task_, action, fact)) uses_[fact] += by;
+  };
+  std::ranges::for_each(task_.conditions[start], count);
+  std::ranges::for_each(task_.invariants[task_.snaps[start].action], count);
 }
 
 bool Lookahead::take(SnapId snap, Successor& last) {

@@ -61,7 +61,7 @@ bool SerialSearch::begin() {
 // Of the pursuit at hand, once.
 SerialSearch::Step SerialSearch::follow() {
   watch_.poll();
-  if (!lookahead_.follow(state_.prefix, plan_, next_)) return Step::in_vain;
+  if (!lookahead_.follow(state_.prefix, plan_, false, next_)) return Step::in_vain;
   std::swap(state_, next_);
   if (goal_test_.complete(state_.state, state_.prefix)) return Step::found;
   if (pruning_.hopeless(state_.state, state_.prefix.running_actions) || !look_at()) return Step::in_vain;

@@ -78,4 +78,11 @@ bool Semantics::goal_satisfied(StateView state) const {
   return std::ranges::any_of(task_.goals, [&](const Goal& goal) { return satisfied(goal, state); });
 }
 
+bool undoes(const Task& task, const Action& action, FactId fact) {
+  const auto contains = [&](std::span<const FactId> facts) { return std::ranges::count(facts, fact) > 0; };
+  if (contains(task.adds[action.end])) return false;
+  return contains(task.deletes[action.end]) ||
+         (contains(task.deletes[action.start]) && !contains(task.adds[action.start]));
+}
+
 }  // namespace roci::planner::temporal_pddl

@@ -38,4 +38,7 @@ class Semantics {
   const Task& task_;
 };
 
+// Is the fact false after the action as a whole, whatever it was before?
+bool undoes(const Task& task, const Action& action, FactId fact);
+
 }  // namespace roci::planner::temporal_pddl

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "tests/unit/planner_svc/temporal_pddl/validated.hpp"
 
 namespace roci::planner::temporal_pddl {
@@ -44,7 +47,7 @@ TEST_F(LookaheadTest, TakesWhatItCanInAnyOrderAndEndsOnlyWhereNothingStarts) {
   Lookahead lookahead(task_, space_);
   ASSERT_TRUE(lookahead.follow(
       first_.prefix,
-      std::vector{start("(leave)"), end("(strike)"), end("(mend)"), start("(mend)"), start("(strike)")},
+      std::vector{start("(leave)"), end("(strike)"), end("(mend)"), start("(mend)"), start("(strike)")}, true,
       last_));
   // strike cannot end while mend needs its light; leave ends with its start: nothing can come between
   EXPECT_THAT(last_.prefix.steps, ElementsAre(start("(strike)"), start("(mend)"), end("(mend)"),
@@ -57,8 +60,40 @@ TEST_F(LookaheadTest, TakesWhatItCanInAnyOrderAndEndsOnlyWhereNothingStarts) {
 
 TEST_F(LookaheadTest, LeavesEverythingAsItIsWhereNothingCanBeTaken) {
   Lookahead lookahead(task_, space_);
-  EXPECT_FALSE(lookahead.follow(first_.prefix, std::vector{start("(leave)"), end("(mend)")}, last_));
+  EXPECT_FALSE(lookahead.follow(first_.prefix, std::vector{start("(leave)"), end("(mend)")}, true, last_));
   EXPECT_EQ(space_.store().size(), 1u);
+}
+
+TEST(LookaheadOrder, WhoeverLeavesAPlaceHasDoneWhatWasToBeDoneThere) {
+  const testing::Model room = testing::model(R"((:requirements :durative-actions)
+    (:predicates (here) (there) (brush) (painted) (rested))
+    (:durative-action leave :parameters () :duration (= ?duration 1)
+      :condition (at start (here)) :effect (and (at start (not (here))) (at end (there))))
+    (:durative-action paint :parameters () :duration (= ?duration 1)
+      :condition (and (over all (here)) (at start (brush))) :effect (at end (painted)))
+    (:durative-action fetch :parameters () :duration (= ?duration 1)
+      :condition (over all (here)) :effect (at end (brush)))
+    (:durative-action rest :parameters () :duration (= ?duration 1)
+      :condition (over all (there)) :effect (at end (rested))))",
+                                             "(:init (here)) (:goal (and (painted) (rested)))");
+  const Task task = testing::grounded(room).task;
+  StateSpace space(task, Duration(1000), ActionSteps::whole);
+  Successor first, last;
+  first.state = task.initial_state;
+  space.add(NodeId(), first);
+  const auto start = [&](const char* name) { return task.actions[testing::action(task, name)].start; };
+  Lookahead lookahead(task, space);
+  const auto taken = [&](bool careful) {
+    const std::vector plan{start("(leave)"), start("(rest)"), start("(paint)"), start("(fetch)")};
+    EXPECT_TRUE(lookahead.follow(first.prefix, plan, careful, last));
+    std::vector<SnapId> starts;
+    std::ranges::copy_if(last.prefix.steps, std::back_inserter(starts),
+                         [&](SnapId snap) { return task.snaps[snap].kind == SnapKind::start; });
+    return starts;
+  };
+  EXPECT_THAT(taken(true),
+              ElementsAre(start("(fetch)"), start("(paint)"), start("(leave)"), start("(rest)")));
+  EXPECT_THAT(taken(false), ElementsAre(start("(leave)"), start("(rest)")));
 }
 
 TEST(LookaheadSearch, GoesAllTheWayWithOneEvaluation) {
