@@ -12,6 +12,7 @@
 #include "planner_svc/temporal_pddl/heuristics/ff.hpp"
 #include "planner_svc/temporal_pddl/heuristics/landmark_count.hpp"
 #include "planner_svc/temporal_pddl/heuristics/within_resources.hpp"
+#include "planner_svc/temporal_pddl/improvement/fresh_starts.hpp"
 #include "planner_svc/temporal_pddl/improvement/improvement.hpp"
 #include "planner_svc/temporal_pddl/improvement/warm_start.hpp"
 #include "planner_svc/temporal_pddl/plan/plan_builder.hpp"
@@ -36,15 +37,16 @@ void describe(const Task& task, Statistics& statistics) {
   statistics.actions = task.actions.size();
 }
 
-PlanPrefix improved(const Task& task, PlanPrefix first, Heuristic& heuristic, const Options& options,
-                    Watch& watch, Statistics& statistics) {
+PlanPrefix improved(const Task& task, PlanPrefix first, Heuristic& heuristic, FfHeuristic& ff,
+                    const Options& options, Watch& watch, Statistics& statistics) {
   std::vector<Guide> guides{{heuristic, CostMeasure::duration}};
   std::optional<FfHeuristic> by_metric;
   if (!task.metric.only_time()) {
     by_metric.emplace(task, CostMeasure::metric);
     guides.push_back({*by_metric, CostMeasure::metric});
   }
-  return improve(task, std::move(first), guides, options, watch, statistics);
+  FreshStarts fresh_starts(task, heuristic, ff, options, watch, statistics);
+  return improve(task, std::move(first), guides, fresh_starts, options, watch, statistics);
 }
 
 void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
@@ -64,8 +66,9 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   result.statistics.from_remaining = outcome.plan.has_value();
   if (!outcome.plan) outcome = search(grounding.task, heuristic, ff, options, watch, result.statistics);
   if (outcome.plan) {
+    watch.first_plan_found();
     const PlanPrefix best =
-        improved(grounding.task, std::move(*outcome.plan), heuristic, options, watch, result.statistics);
+        improved(grounding.task, std::move(*outcome.plan), heuristic, ff, options, watch, result.statistics);
     result.plan = build_plan(domain, grounding, best, options);
     result.verdict = Verdict::solved;
   } else {

@@ -29,7 +29,7 @@ void Watch::require_room(std::size_t more) const {
 }
 
 void Watch::evaluations(std::size_t count) const {
-  if (count > budget_.evaluations)
+  if (!has_plan_ && count > budget_.evaluations)
     throw Refusal(Verdict::timeout, "the limit of heuristic evaluations is reached");
 }
 

@@ -25,8 +25,10 @@ class Watch {
   void memory_on_top(std::size_t more);
   // As memory_on_top(), before it is taken.
   void require_room(std::size_t more) const;
-  // Throws Refusal (timeout) if that many heuristic evaluations exceed the budget.
+  // Throws Refusal (timeout) if that many heuristic evaluations exceed the budget for the first plan.
   void evaluations(std::size_t count) const;
+  // From now on evaluations() lets everything pass.
+  void first_plan_found() { has_plan_ = true; }
 
   void progress(const Statistics& statistics) const {
     if (monitor_.progress) monitor_.progress(statistics);
@@ -40,6 +42,7 @@ class Watch {
   const Monitor& monitor_;
   std::size_t steps_ = 0;
   std::size_t held_bytes_ = 0;
+  bool has_plan_ = false;
   std::size_t bytes_ = 0;  // as last reported
   std::size_t peak_bytes_ = 0;
 };

@@ -17,15 +17,17 @@ namespace {
 constexpr std::size_t kStepsTakenAgain = 20'000;
 constexpr std::size_t kFirstLimit = 25;  // evaluations of one search; twice as many in each round
 constexpr std::size_t kVariations = 4;   // times as many for variations of the plan before
+constexpr std::size_t kFreshStarts = 4;  // for other first plans, if one of the last round's was better
 constexpr std::array<std::int64_t, 4> kWeights = {5, 3, 2, 1};
 
 class Improvement {
  public:
-  Improvement(const Task& task, PlanPrefix& plan, std::span<const Guide> guides, const Options& options,
-              Watch& watch, Statistics& statistics)
+  Improvement(const Task& task, PlanPrefix& plan, std::span<const Guide> guides, FreshStarts& fresh_starts,
+              const Options& options, Watch& watch, Statistics& statistics)
       : task_(task),
         plan_(plan),
         guides_(guides),
+        fresh_starts_(fresh_starts),
         options_(options),
         watch_(watch),
         statistics_(statistics),
@@ -35,8 +37,10 @@ class Improvement {
   void run() {
     drop_useless();
     std::size_t left = options_.improvement_evaluations;
+    std::size_t fresh_starts = 1;
     for (std::size_t limit = kFirstLimit; left > 0; limit *= 2) {
       vary(kVariations * limit, left);
+      fresh_starts = start_afresh(fresh_starts * limit, left) ? kFreshStarts : 1;
       bool exhausted = left > 0;
       for (const std::int64_t weight : kWeights) {
         for (const Guide& guide : guides_) exhausted = search(guide, weight, limit, left) && exhausted;
@@ -47,6 +51,23 @@ class Improvement {
 
  private:
   void drop_useless() { drop_useless_actions(task_, plan_, replay_, kStepsTakenAgain, watch_); }
+
+  // True: to a better plan.
+  bool start_afresh(std::size_t evaluations, std::size_t& left) {
+    bool better = false;
+    for (std::size_t spent = 0; spent < evaluations && left > 0 && fresh_starts_.promising();) {
+      auto outcome = fresh_starts_.next(std::min(evaluations - spent, left));
+      spent += outcome.evaluations;
+      left -= std::min(left, outcome.evaluations);
+      if (!outcome.plan) continue;
+      drop_useless_actions(task_, *outcome.plan, replay_, kStepsTakenAgain, watch_);
+      const Quality known = quality_of(task_, plan_, replay_.check());
+      if (quality_of(task_, *outcome.plan, replay_.check()) >= known) continue;
+      plan_ = std::move(*outcome.plan);
+      better = true;
+    }
+    return better;
+  }
 
   // Walks through plans that are no worse from one to the next, and keeps the best.
   void vary(std::size_t evaluations, std::size_t& left) {
@@ -89,6 +110,7 @@ class Improvement {
   const Task& task_;
   PlanPrefix& plan_;
   std::span<const Guide> guides_;
+  FreshStarts& fresh_starts_;
   const Options& options_;
   Watch& watch_;
   Statistics& statistics_;
@@ -98,11 +120,11 @@ class Improvement {
 
 }  // namespace
 
-PlanPrefix improve(const Task& task, PlanPrefix first, std::span<const Guide> guides, const Options& options,
-                   Watch& watch, Statistics& statistics) {
+PlanPrefix improve(const Task& task, PlanPrefix first, std::span<const Guide> guides,
+                   FreshStarts& fresh_starts, const Options& options, Watch& watch, Statistics& statistics) {
   PlanPrefix plan = std::move(first);
   try {
-    Improvement(task, plan, guides, options, watch, statistics).run();
+    Improvement(task, plan, guides, fresh_starts, options, watch, statistics).run();
   } catch (const Refusal& refusal) {
     if (refusal.verdict() == Verdict::cancelled) throw;
   } catch (const std::bad_alloc&) {  // what was found stands

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "planner_svc/temporal_pddl/improvement/fresh_starts.hpp"
 #include "planner_svc/temporal_pddl/improvement/weighted_search.hpp"
 #include "planner_svc/temporal_pddl/options.hpp"
 #include "planner_svc/temporal_pddl/plan/result.hpp"
@@ -11,10 +12,10 @@
 
 namespace roci::planner::temporal_pddl {
 
-// The given plan without useless actions, or a better one. The guides take turns.
+// The given plan without useless actions, or a better one. The guides take turns, and fresh starts with them.
 // Options::improvement_evaluations bounds the work. A spent budget ends it with the best plan so far; throws
 // Refusal (cancelled) only.
-PlanPrefix improve(const Task& task, PlanPrefix first, std::span<const Guide> guides, const Options& options,
-                   Watch& watch, Statistics& statistics);
+PlanPrefix improve(const Task& task, PlanPrefix first, std::span<const Guide> guides,
+                   FreshStarts& fresh_starts, const Options& options, Watch& watch, Statistics& statistics);
 
 }  // namespace roci::planner::temporal_pddl

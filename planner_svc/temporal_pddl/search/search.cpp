@@ -31,6 +31,14 @@ bool splits_actions(const Task& task) {
       task.actions, [](const Action& action) { return !action.instantaneous() && !action.compression_safe; });
 }
 
+}  // namespace
+
+ActionSteps simplest_steps(const Task& task, const Options& options) {
+  return options.whole_actions && splits_actions(task) ? ActionSteps::whole : ActionSteps::as_needed;
+}
+
+namespace {
+
 // One that takes turns; it is set up when its first turn comes.
 struct Participant {
   std::size_t share;
@@ -44,7 +52,7 @@ struct Participant {
 std::vector<Participant> participants(const Task& task, Heuristic& heuristic, FfHeuristic& ff,
                                       const Options& options, Watch& watch, Statistics& statistics) {
   std::vector<Participant> result;
-  const bool whole = options.whole_actions && splits_actions(task);
+  const ActionSteps simplest = simplest_steps(task, options);
   const auto best_first = [&](ActionSteps steps, bool lookahead) {
     const std::size_t share = result.empty() ? kFirstShare : lookahead ? kLookaheadShare : kPlainShare;
     const SearchStyle style{steps, lookahead};
@@ -53,10 +61,9 @@ std::vector<Participant> participants(const Task& task, Heuristic& heuristic, Ff
                                                                  statistics);
                       }});
   };
-  const ActionSteps simplest = whole ? ActionSteps::whole : ActionSteps::as_needed;
   const auto both = [&](bool lookahead) {
-    if (whole) best_first(ActionSteps::whole, lookahead);
-    best_first(ActionSteps::as_needed, lookahead);
+    best_first(simplest, lookahead);
+    if (simplest != ActionSteps::as_needed) best_first(ActionSteps::as_needed, lookahead);
   };
   if (options.lookahead) both(true);
   if (options.width && options.dominance) {

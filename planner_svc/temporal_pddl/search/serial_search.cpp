@@ -1,6 +1,7 @@
 #include "planner_svc/temporal_pddl/search/serial_search.hpp"
 
 #include <algorithm>
+#include <random>
 #include <utility>
 
 namespace roci::planner::temporal_pddl {
@@ -31,14 +32,15 @@ SerialSearch::SerialSearch(const Task& task, Heuristic& pruning, FfHeuristic& ff
       lookahead_(task, space_),
       goals_of_(task.layout.variables().size()) {
   if (task.goals.size() == 1) goals_ = task.goals.front().facts;
+  if (options.seed != 0) std::ranges::shuffle(goals_, std::mt19937_64(options.seed));
   for (std::uint32_t i = 0; i < goals_.size(); ++i)
     goals_of_[task.layout.variable_of(goals_[i])].push_back(i);
 }
 
 std::optional<SearchOutcome> SerialSearch::run(std::size_t evaluations, std::size_t bytes_elsewhere) {
   const auto found = [&] { return SearchOutcome{std::move(state_.prefix), std::move(state_.state), {}}; };
-  if (space_.store().size() == 0 && begin()) return found();
   const std::size_t until = evaluated_ + evaluations;
+  if (space_.store().size() == 0 && begin()) return found();
   while (evaluated_ < until) {
     if (pursuit_ == pursuits_.size()) return SearchOutcome{};
     const Step step = follow();
