@@ -9,6 +9,7 @@
 #include "core/pddl/forbidden.hpp"
 #include "planner_svc/temporal_pddl/grounding/grounder.hpp"
 #include "planner_svc/temporal_pddl/grounding/refusal.hpp"
+#include "planner_svc/temporal_pddl/heuristics/avoids_dead_pairs.hpp"
 #include "planner_svc/temporal_pddl/heuristics/ff.hpp"
 #include "planner_svc/temporal_pddl/heuristics/landmark_count.hpp"
 #include "planner_svc/temporal_pddl/heuristics/within_resources.hpp"
@@ -59,7 +60,8 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   std::optional<LandmarkCount> landmarks;
   if (options.landmarks) landmarks.emplace(grounding.task, ff, watch);
   Heuristic& guidance = landmarks ? static_cast<Heuristic&>(*landmarks) : ff;
-  WithinResources heuristic(grounding.task, guidance, options.resource_patience, watch);
+  WithinResources within(grounding.task, guidance, options.resource_patience, watch);
+  AvoidsDeadPairs heuristic(grounding.task, within, options.pair_patience, watch);
   SearchOutcome outcome;
   outcome.plan = warm_start(grounding.task, remaining, {heuristic, CostMeasure::duration}, options, watch,
                             result.statistics);
@@ -74,7 +76,7 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   } else {
     result.verdict = Verdict::unsolvable;
     result.reason = ff.why_too_late();
-    if (result.reason.empty()) result.reason = heuristic.why_too_little();
+    if (result.reason.empty()) result.reason = within.why_too_little();
     if (result.reason.empty()) result.reason = std::move(outcome.reason);
   }
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner_svc/temporal_pddl/constraints/time_freedom.hpp"
+#include "planner_svc/temporal_pddl/task/action_steps.hpp"
 #include "planner_svc/temporal_pddl/task/task.hpp"
 
 namespace roci::planner::temporal_pddl {
@@ -38,7 +39,9 @@ class Heuristic {
   // The estimate's memory is reused.
   virtual void evaluate(const Situation& situation, Estimate& estimate) = 0;
   // Proved at little cost that no plan goes through the state? Asked before anything is stored or evaluated.
-  virtual bool hopeless(StateView /*state*/, std::span<const ActionId> /*running*/) { return false; }
+  virtual bool hopeless(StateView /*state*/, std::span<const ActionId> /*running*/, ActionSteps /*steps*/) {
+    return false;
+  }
   // What it keeps that grows with the problem, that of what it builds upon included.
   virtual std::size_t bytes() const { return 0; }
 };

@@ -35,7 +35,7 @@ WithinResources::WithinResources(const Task& task, Heuristic& heuristic, std::si
   if (resources_.size() > kMaxResources) resources_.resize(kMaxResources);
 }
 
-bool WithinResources::hopeless(StateView state, std::span<const ActionId> running) {
+bool WithinResources::hopeless(StateView state, std::span<const ActionId> running, ActionSteps /*steps*/) {
   if (resources_.empty()) return false;
   short_ = short_ || runs_short(state);
   if (patience_ > 0) {

@@ -22,7 +22,7 @@ class WithinResources final : public Heuristic {
   void evaluate(const Situation& situation, Estimate& estimate) override {
     heuristic_.evaluate(situation, estimate);
   }
-  bool hopeless(StateView state, std::span<const ActionId> running) override;
+  bool hopeless(StateView state, std::span<const ActionId> running, ActionSteps steps) override;
   std::size_t bytes() const override;
 
   // Why resources alone forbid every plan from the task's initial state on, or nothing.

@@ -88,7 +88,8 @@ std::optional<PlanPrefix> Completion::find(std::span<const SnapId> beginning, co
 bool Completion::advance(const PlanPrefix& prefix, SnapId snap) {
   if (!space_.possible(prefix, snap) || space_.build(prefix, snap, successor_) != Rejection::none)
     return false;
-  if (guide_->heuristic.hopeless(successor_.state, successor_.prefix.running_actions)) return false;
+  if (guide_->heuristic.hopeless(successor_.state, successor_.prefix.running_actions, space_.steps()))
+    return false;
   if (only_grows_ && worse(quality_of(task_, successor_.prefix, space_.check()), bound_)) return false;
   if (successor_.prefix.steps.size() + 2 > kMaxSteps || dominance_.dominated(successor_)) return false;
   space_.add(prefix.node, successor_);

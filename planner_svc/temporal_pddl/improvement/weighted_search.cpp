@@ -43,7 +43,8 @@ class WeightedSearch {
         if (evaluated_ == limits_.evaluations) return {std::nullopt, false, evaluated_};
         ++statistics_.generated;
         if (space_.build(prefix_, snap, successor_) != Rejection::none) continue;
-        if (guide_.heuristic.hopeless(successor_.state, successor_.prefix.running_actions)) continue;
+        if (guide_.heuristic.hopeless(successor_.state, successor_.prefix.running_actions, space_.steps()))
+          continue;
         if (take_up(prefix_.node)) return found();
       }
       watch_.memory(space_.store().bytes() + open_.bytes() + dominance_.bytes() + guide_.heuristic.bytes());

@@ -110,7 +110,7 @@ struct Statistics {
   std::size_t expanded = 0;
   std::size_t temporally_inconsistent = 0;  // successors that the network pruned (R25)
   std::size_t dominated = 0;                // successors that the dominance check pruned
-  std::size_t hopeless = 0;                 // successors that resources do not suffice for
+  std::size_t hopeless = 0;                 // successors that resources do not suffice for, or with dead pairs
   double bytes_per_state =
       0;  // mean over stored states: packed state, numbers, parent, operator, constraints
   bool from_remaining = false;  // the first plan was made of what remained of an earlier one

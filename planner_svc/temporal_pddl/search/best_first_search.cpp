@@ -54,7 +54,7 @@ std::optional<SearchOutcome> BestFirstSearch::run(std::size_t evaluations, std::
     const Rejection rejection = space_.build(prefix_, entry->snap, successor_);
     if (rejection == Rejection::temporal) ++statistics_.temporally_inconsistent;
     if (rejection != Rejection::none) continue;
-    if (heuristic_.hopeless(successor_.state, successor_.prefix.running_actions)) {
+    if (heuristic_.hopeless(successor_.state, successor_.prefix.running_actions, space_.steps())) {
       ++statistics_.hopeless;
       continue;
     }
@@ -72,7 +72,7 @@ SearchOutcome BestFirstSearch::found() {
 }
 
 SearchOutcome BestFirstSearch::failed() const {
-  std::string reason = goal_.explain_failure(space_.store().size());
+  std::string reason = goal_.explain_failure(space_.store().size(), statistics_.hopeless > 0);
   const std::string number = blocking_number(task_, space_.store());
   if (!number.empty()) reason += "; " + number;
   return {std::nullopt, {}, std::move(reason)};
@@ -99,7 +99,7 @@ bool BestFirstSearch::reach(NodeId parent) {
 bool BestFirstSearch::look_ahead(bool careful) {
   if (!lookahead_.follow(successor_.prefix, estimate_.relaxed_plan, careful, ahead_)) return false;
   std::swap(successor_, ahead_);
-  return !heuristic_.hopeless(successor_.state, successor_.prefix.running_actions) &&
+  return !heuristic_.hopeless(successor_.state, successor_.prefix.running_actions, space_.steps()) &&
          !(dominate_ && dominance_.dominated(successor_));
 }
 

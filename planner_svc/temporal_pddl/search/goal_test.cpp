@@ -79,7 +79,7 @@ bool GoalTest::complete(StateView state, PlanPrefix& prefix) {
   return false;
 }
 
-std::string GoalTest::explain_failure(std::size_t states) const {
+std::string GoalTest::explain_failure(std::size_t states, bool cut) const {
   std::string never;
   for (std::size_t goal = 0; goal < task_.goals.size(); ++goal) {
     const auto& facts = task_.goals[goal].facts;
@@ -87,8 +87,9 @@ std::string GoalTest::explain_failure(std::size_t states) const {
       if (!held_[goal][i]) never += " " + name(task_, facts[i]);
     }
   }
-  const std::string tried =
-      "all " + std::to_string(states) + " states that time, numbers and conditions allow were tried; ";
+  const std::string tried = "all " + std::to_string(states) +
+                            " states that time, numbers and conditions allow were tried" +
+                            (cut ? ", but for those that provably lead nowhere; " : "; ");
   return tried + (never.empty() ? "each goal can be reached, but not all of them together"
                                 : "never reached:" + never);
 }

@@ -26,8 +26,9 @@ class GoalTest {
   bool has_deadlines() const { return has_deadlines_; }
   // May a timed literal make a goal true? Then how late a finished step may be matters too.
   bool has_openings() const { return has_openings_; }
-  // After a search without success: which goals held in none of the states that were tested.
-  std::string explain_failure(std::size_t states) const;
+  // After a search without success: which goals held in none of the states that were tested. cut: some states
+  // were not, as they lead nowhere.
+  std::string explain_failure(std::size_t states, bool cut) const;
 
  private:
   void note_held(StateView state);

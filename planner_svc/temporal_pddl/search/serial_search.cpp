@@ -66,7 +66,8 @@ SerialSearch::Step SerialSearch::follow() {
   if (!lookahead_.follow(state_.prefix, plan_, false, next_)) return Step::in_vain;
   std::swap(state_, next_);
   if (goal_test_.complete(state_.state, state_.prefix)) return Step::found;
-  if (pruning_.hopeless(state_.state, state_.prefix.running_actions) || !look_at()) return Step::in_vain;
+  if (pruning_.hopeless(state_.state, state_.prefix.running_actions, space_.steps()) || !look_at())
+    return Step::in_vain;
   const FactId goal = pursuits_[pursuit_].goal;
   if (task_.layout.holds(state_.state, goal)) return survey() ? Step::further : Step::in_vain;
   const auto distance = ff_.distance(goal);

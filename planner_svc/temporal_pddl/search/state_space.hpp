@@ -18,6 +18,7 @@ class StateSpace {
  public:
   StateSpace(const Task& task, Duration epsilon, ActionSteps steps)
       : task_(task),
+        steps_(steps),
         epsilon_(epsilon),
         store_(task.layout.words()),
         check_(task, epsilon),
@@ -44,12 +45,14 @@ class StateSpace {
   // Forgets all states.
   void clear() { store_.clear(); }
 
+  ActionSteps steps() const { return steps_; }
   const StateStore& store() const { return store_; }
   const BoundTable& bounds() const { return bounds_; }
   TemporalCheck& check() { return check_; }
 
  private:
   const Task& task_;
+  ActionSteps steps_;
   Duration epsilon_;
   StateStore store_;
   BoundTable bounds_;

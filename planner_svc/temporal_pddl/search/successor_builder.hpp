@@ -8,16 +8,12 @@
 #include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
 #include "planner_svc/temporal_pddl/search/state_store.hpp"
 #include "planner_svc/temporal_pddl/search/temporal_check.hpp"
+#include "planner_svc/temporal_pddl/task/action_steps.hpp"
 #include "planner_svc/temporal_pddl/task/semantics.hpp"
 
 namespace roci::planner::temporal_pddl {
 
 enum class Rejection { none, logical, temporal };
-
-enum class ActionSteps {
-  as_needed,  // an action that is not compression safe starts and ends in steps of its own
-  whole,      // every action ends at once: no plan has actions that run at the same time because they must
-};
 
 struct Successor {
   Transition transition;

@@ -71,7 +71,7 @@ bool WidthSearch::expand(NodeId node) {
   statistics_.generated += candidates_.size();
   const bool found = std::ranges::any_of(candidates_, [&](SnapId snap) {
     if (space_.build(prefix_, snap, successor_) != Rejection::none) return false;
-    if (heuristic_.hopeless(successor_.state, successor_.prefix.running_actions)) {
+    if (heuristic_.hopeless(successor_.state, successor_.prefix.running_actions, space_.steps())) {
       ++statistics_.hopeless;
       return false;
     }

@@ -55,6 +55,8 @@ class StateLayout {
 
   // The variable that a fact, or the one that it negates, is a value of.
   std::size_t variable_of(FactId fact) const { return places_[fact].variable; }
+  // Which of its values that is.
+  std::uint32_t value_of(FactId fact) const { return places_[fact].value; }
   bool is_negation(FactId fact) const { return places_[fact].negated; }
   std::span<const FactId> negations() const { return negations_; }
 

@@ -25,6 +25,8 @@ std::vector<Named> configurations() {
   std::vector<Named> result{{"default", {}}};
   result.push_back({"resources at once", {}});
   result.back().options.resource_patience = 0;
+  result.push_back({"dead pairs at once", {}});
+  result.back().options.pair_patience = 0;
   result.push_back({"no compression", {}});
   result.back().options.compression_safety = false;
   result.push_back({"no dominance", {}});
@@ -49,8 +51,9 @@ std::vector<Named> configurations() {
   result.back().options.windows = WindowExtraction::one_off;
   result.push_back({"improved", {}});
   result.back().options.improvement_evaluations = 200;
-  Options bare{Duration{1000},         false,          false, false, false, false, false, false, false, false,
-               WindowExtraction::none, kNeverMeasured, 0,     17};
+  Options bare{
+      Duration{1000},         false,          false,          false, false, false, false, false, false, false,
+      WindowExtraction::none, kNeverMeasured, kNeverMeasured, 0,     17};
   result.push_back({"bare, shuffled", bare});
   return result;
 }

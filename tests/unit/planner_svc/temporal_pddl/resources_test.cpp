@@ -139,11 +139,11 @@ TEST(Resources, NothingIsMeasuredBeforeOneIsHalfUsedUp) {
   Watch watch(budget, monitor);
   WithinResources within(task, ff, 1, watch);
   const std::size_t before = within.bytes();
-  for (int i = 0; i < 5; ++i) EXPECT_FALSE(within.hopeless(task.initial_state, {}));
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(within.hopeless(task.initial_state, {}, ActionSteps::as_needed));
   EXPECT_EQ(within.bytes(), before);
   auto state = task.initial_state;
   Semantics(task).apply(task.actions[testing::action(task, "(go p0 p1)")].start, 1, state);
-  within.hopeless(state, {});
+  within.hopeless(state, {}, ActionSteps::as_needed);
   EXPECT_GT(within.bytes(), before);
 }
 
