@@ -1,5 +1,6 @@
 #include "planner_svc/temporal_pddl/heuristics/avoids_dead_pairs.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace roci::planner::temporal_pddl {
@@ -8,6 +9,8 @@ namespace {
 
 constexpr std::size_t kMaxWork = 50'000'000;  // words of bits, for one table: about 50 ms
 constexpr std::size_t kMemoryShare = 8;       // of the limit, for one table
+constexpr std::size_t kMaxBytes = 16 << 20;   // likewise, whatever the limit
+constexpr std::size_t kRowsPerStep = 6;       // looked at when a step is, at least
 
 }  // namespace
 
@@ -27,9 +30,13 @@ bool AvoidsDeadPairs::hopeless(StateView state, std::span<const ActionId> runnin
 }
 
 std::optional<DeadPairs> AvoidsDeadPairs::find(ActionSteps style) {
+  const std::size_t literals = ValueSteps::literals(task_, style);
+  const std::size_t most = std::min(kMaxBytes, watch_.memory_limit() / kMemoryShare);
+  if (PairMatrix::bytes(literals) > most) return std::nullopt;
+  if (task_.actions.size() * kRowsPerStep > kMaxWork / (literals / 64 + 1)) return std::nullopt;
   ValueSteps steps(task_, style, [&] { watch_.step(); });
   const std::size_t bytes = steps.bytes() + DeadPairs::most_bytes(steps);
-  if (bytes > watch_.memory_limit() / kMemoryShare) return std::nullopt;
+  if (bytes > most) return std::nullopt;
   watch_.memory_on_top(bytes);
   std::size_t done = 0;
   return DeadPairs::find(task_, std::move(steps), [&](std::size_t work) {

@@ -28,6 +28,11 @@ ValueSteps::ValueSteps(const Task& task, ActionSteps style, const std::function<
     add_step(std::vector<Phase>{{timed.snap}}, {kNoLiteral, kNoLiteral});
 }
 
+std::size_t ValueSteps::literals(const Task& task, ActionSteps style) {
+  return task.layout.facts() + task.layout.variables().size() +
+         (style == ActionSteps::whole ? 0 : task.actions.size());
+}
+
 void ValueSteps::add_steps(ActionId id, ActionSteps style) {
   const Action& action = task_.actions[id];
   const auto invariants = task_.invariants[id];

@@ -56,6 +56,8 @@ class ValueSteps {
   // start and an end where it may not. poll: called every few microseconds.
   ValueSteps(const Task& task, ActionSteps style, const std::function<void()>& poll);
 
+  // How many there are at most.
+  static std::size_t literals(const Task& task, ActionSteps style);
   std::size_t literals() const { return literals_; }
   std::size_t size() const { return fixed_.size(); }
   ValueStep operator[](std::size_t step) const {

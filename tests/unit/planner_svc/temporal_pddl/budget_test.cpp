@@ -54,19 +54,20 @@ TEST(Budget, Memory) {
   EXPECT_LT(result.statistics.peak_bytes, std::size_t{6} << 20);
 }
 
-// n³ instances, and a goal that holds: all the work is grounding.
-testing::Model wide(int n) {
+// n³ instances, twice if the goal is (r ...); by default it holds: all the work is grounding.
+testing::Model wide(int n, const std::string& goal = "(not (q o0 o0 o0))") {
   std::string objects, init;
   for (int i = 0; i < n; ++i) {
     objects += " o" + std::to_string(i);
     init += " (p o" + std::to_string(i) + ")";
   }
   return testing::model(R"((:requirements :typing :durative-actions) (:types t)
-    (:predicates (p ?a - t) (q ?a ?b ?c - t))
+    (:predicates (p ?a - t) (q ?a ?b ?c - t) (r ?a ?b ?c - t))
+    (:action b :parameters (?a ?b ?c - t) :precondition (q ?a ?b ?c) :effect (r ?a ?b ?c))
     (:durative-action a :parameters (?a ?b ?c - t) :duration (= ?duration 1)
       :condition (and (at start (p ?a)) (at start (p ?b)) (at start (p ?c)))
       :effect (and (at start (not (p ?a))) (at end (p ?a)) (at end (q ?a ?b ?c)))))",
-                        "(:objects" + objects + " - t) (:init" + init + ") (:goal (not (q o0 o0 o0)))");
+                        "(:objects" + objects + " - t) (:init" + init + ") (:goal " + goal + ")");
 }
 
 TEST(Budget, GroundingIsWithinTheMemoryToo) {
@@ -78,6 +79,18 @@ TEST(Budget, GroundingIsWithinTheMemoryToo) {
   EXPECT_EQ(result.verdict, Verdict::out_of_memory);
   EXPECT_LT(result.statistics.peak_bytes, std::size_t{1200} << 10);
   EXPECT_EQ(result.statistics.evaluated, 0u);
+}
+
+// Their table would take over 90 MB.
+TEST(Budget, PairsOfFactsAreLeftOutWhereThereAreTooMany) {
+  const auto model = wide(24, "(and (r o0 o1 o2) (r o2 o1 o0))");
+  NoFunctions functions;
+  Options options;
+  const Result usual = plan(model.domain, model.problem, functions, {}, {}, options);
+  options.pair_patience = 0;
+  const Result with_pairs = plan(model.domain, model.problem, functions, {}, {}, options);
+  EXPECT_EQ(with_pairs.verdict, Verdict::solved);
+  EXPECT_LT(with_pairs.statistics.peak_bytes, usual.statistics.peak_bytes + (std::size_t{16} << 20));
 }
 
 // The work between two polls is bounded: each phase of grounding polls at least once in 256 instances.
