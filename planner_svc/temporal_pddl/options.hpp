@@ -28,12 +28,12 @@ struct Options {
   bool serial = true;               // see search/serial_search.hpp
   WindowExtraction windows = WindowExtraction::recurring;
   std::size_t resource_patience = 100;  // states before it is measured what resources suffice for, see
-                                        // heuristics/within_resources.hpp
+                                        // dead_ends/within_resources.hpp
   std::size_t pair_patience = 100;      // evaluations before the pairs of facts from which the goals are out
-                                        // of reach are looked for, see heuristics/avoids_dead_pairs.hpp
+                                        // of reach are looked for, see dead_ends/avoids_dead_pairs.hpp
   std::size_t improvement_evaluations = 0;  // after the first plan, in search of better ones; 0: only useless
                                             // actions go
-  std::uint64_t seed = 0;  // breaks ties among equally good successors; 0: in order of generation
+  std::uint64_t seed = 0;           // breaks ties among equally good successors; 0: in order of generation
   bool describe_activities = true;  // a plan's activities carry conditions and effects, for an executive
 };
 

@@ -74,6 +74,7 @@ void check_planner(const SourceFile& file, Complaints& out) {
       out.push_back(file.path + ": includes " + include + "; engines never see the validator");
     const bool search_sees_pddl = (file.under("planner_svc/temporal_pddl/search") ||
                                    file.under("planner_svc/temporal_pddl/heuristics") ||
+                                   file.under("planner_svc/temporal_pddl/dead_ends") ||
                                    file.under("planner_svc/temporal_pddl/constraints")) &&
                                   include.starts_with("core/pddl/");
     if (search_sees_pddl)

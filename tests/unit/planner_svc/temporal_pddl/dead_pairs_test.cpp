@@ -1,5 +1,5 @@
 // Pairs of facts from which the goals are out of reach, against all states of small tasks.
-#include "planner_svc/temporal_pddl/heuristics/dead_pairs.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/dead_pairs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include <numeric>
 #include <random>
 
+#include "planner_svc/temporal_pddl/dead_ends/resource_need.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/within_resources.hpp"
 #include "planner_svc/temporal_pddl/heuristics/ff.hpp"
-#include "planner_svc/temporal_pddl/heuristics/resource_need.hpp"
-#include "planner_svc/temporal_pddl/heuristics/within_resources.hpp"
 #include "planner_svc/temporal_pddl/task/semantics.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/validated.hpp"
 

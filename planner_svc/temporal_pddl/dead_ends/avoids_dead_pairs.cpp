@@ -1,4 +1,4 @@
-#include "planner_svc/temporal_pddl/heuristics/avoids_dead_pairs.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/avoids_dead_pairs.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "planner_svc/temporal_pddl/heuristics/reachable_pairs.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/reachable_pairs.hpp"
 
 namespace roci::planner::temporal_pddl {
 

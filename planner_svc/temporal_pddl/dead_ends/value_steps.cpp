@@ -1,4 +1,4 @@
-#include "planner_svc/temporal_pddl/heuristics/value_steps.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/value_steps.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "planner_svc/temporal_pddl/heuristics/reachable_pairs.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/reachable_pairs.hpp"
 
 #include <algorithm>
 #include <utility>

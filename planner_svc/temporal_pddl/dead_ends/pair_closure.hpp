@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "planner_svc/temporal_pddl/heuristics/pair_matrix.hpp"
-#include "planner_svc/temporal_pddl/heuristics/value_steps.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/pair_matrix.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/value_steps.hpp"
 
 namespace roci::planner::temporal_pddl {
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "planner_svc/temporal_pddl/heuristics/timeless_space.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/timeless_space.hpp"
 #include "planner_svc/temporal_pddl/task/resources.hpp"
 
 namespace roci::planner::temporal_pddl {

@@ -1,4 +1,4 @@
-#include "planner_svc/temporal_pddl/heuristics/timeless_space.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/timeless_space.hpp"
 
 #include <algorithm>
 

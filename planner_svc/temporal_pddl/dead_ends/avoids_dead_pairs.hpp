@@ -8,7 +8,7 @@
 #include <array>
 #include <optional>
 
-#include "planner_svc/temporal_pddl/heuristics/dead_pairs.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/dead_pairs.hpp"
 #include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
 #include "planner_svc/temporal_pddl/watch.hpp"
 

@@ -1,4 +1,4 @@
-#include "planner_svc/temporal_pddl/heuristics/resource_need.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/resource_need.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "planner_svc/temporal_pddl/heuristics/within_resources.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/within_resources.hpp"
 
 #include <algorithm>
 #include <cmath>

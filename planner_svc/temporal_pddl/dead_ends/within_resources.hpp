@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "planner_svc/temporal_pddl/dead_ends/resource_need.hpp"
 #include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
-#include "planner_svc/temporal_pddl/heuristics/resource_need.hpp"
 #include "planner_svc/temporal_pddl/watch.hpp"
 
 namespace roci::planner::temporal_pddl {
