@@ -2,6 +2,7 @@
 
 #include "core/temporal/duration.hpp"
 #include "core/temporal/value.hpp"
+#include "core/temporal/verdict.hpp"
 
 namespace roci::temporal {
 namespace {
@@ -29,6 +30,15 @@ TEST(ValueText, NamesStatesWithArguments) {
   EXPECT_EQ(to_text(Value{0.25}), "0.25");
   EXPECT_EQ(to_text(state("idle")), "idle");
   EXPECT_EQ(to_text(state("going-to", {"wp-1", "fast"})), "going-to(wp-1, fast)");
+}
+
+TEST(VerdictText, IsReadBackAsItWasWritten) {
+  for (int i = 0; i <= static_cast<int>(Verdict::no_reply); ++i) {
+    const auto verdict = static_cast<Verdict>(i);
+    EXPECT_EQ(verdict_named(to_string(verdict)), verdict);
+  }
+  EXPECT_EQ(verdict_named("solvable"), std::nullopt);
+  EXPECT_STREQ(to_string(static_cast<Verdict>(99)), "unknown");
 }
 
 }  // namespace
