@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Holds docs/requirements.md and mutations.yaml against the tree: every row is there, every file and every test that a row
-names exists, every built row has a mutation whose line is found once. Builds nothing.
+names exists, every built row has a mutation whose line is found once, and every test that any page names exists. Builds
+nothing.
 
     check.py            lists what is wrong; exit code 0 if nothing is
     check.py --mend     first writes the new path where a named file or test has moved and stands in one other place
@@ -142,6 +143,21 @@ def check_mutations(rows, entries, tree):
     return faults
 
 
+def check_pages(tree):
+    """Every test that a page of the project names in backticks exists: `Suite.Name`, `Suite.*` or `some_test`."""
+    faults = []
+    basenames = {file.rsplit("/", 1)[-1].rsplit(".", 1)[0] for file in tree.files}
+    suites = {name.split(".")[0] for name in tree.tests}
+    for page in (file for file in tree.files if file.endswith(".md")):
+        for number, line in enumerate((ROOT / page).read_text().splitlines(), 1):
+            for name in re.findall(r"`([A-Z]\w+\.(?:[A-Z]\w+|\*)|[a-z][a-z_]*_test)`", line):
+                suite = name.split(".")[0]
+                known = name in tree.tests or name in basenames or (name.endswith(".*") and suite in suites)
+                if not known:
+                    faults.append(f"{page}:{number}: there is no test {name}")
+    return faults
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--mend", action="store_true", help="write new paths of what has moved")
@@ -159,6 +175,7 @@ def main():
     rows = read_rows(text)
     entries = read_mutations(MUTATIONS.read_text())
     faults += check_mutations(rows, entries, tree)
+    faults += check_pages(tree)
     for fault in faults:
         print(fault)
     count = {state: sum(row.state == state and row.name.startswith("R") for row in rows) for state in STATES}
