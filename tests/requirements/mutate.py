@@ -211,12 +211,14 @@ def main():
     parser.add_argument("--seed", type=int, help="of --rotate; the number of commits if not given")
     parser.add_argument("--build", type=Path, default=ROOT / "build" / "release")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--as-built", action="store_true", help="do not bring tests and programs up to date first")
     arguments = parser.parse_args()
     entries = [entry for entry in read_mutations(MUTATIONS.read_text()) if "none" not in entry]
     tried = chosen(entries, arguments)
     build = Build(arguments.build)
     begun = time.monotonic()
-    build.bring_up_to_date(sorted({entry[key] for entry in tried for key in ("target", "program") if key in entry}))
+    if not arguments.as_built:
+        build.bring_up_to_date(sorted({entry[key] for entry in tried for key in ("target", "program") if key in entry}))
     mutants = [Mutant(entry, build, number) for number, entry in enumerate(tried)]
     counts = {"killed": 0, "survived": 0, "unsound": 0, "untried": 0}
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
