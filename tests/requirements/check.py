@@ -4,7 +4,8 @@ names exists, every built row has a mutation whose line is found once, and every
 nothing.
 
     check.py            lists what is wrong; exit code 0 if nothing is
-    check.py --mend     first writes the new path where a named file or test has moved and stands in one other place
+    check.py --mend     first writes what has moved, where it is clear: a test that stands elsewhere or under another suite, a
+                        file that stands in another folder or holds the line of the row's mutation
 """
 import argparse
 import re
@@ -66,9 +67,16 @@ class Tree:
     def fault_of_test(self, file, name):
         if file in self.texts and declares(self.texts[file], name):
             return "", None
-        others = self.tests.get(name, [])
         what = f"{file} has no test {name}" if file in self.files else f"{file} does not exist (test {name})"
-        return what, others[0] if len(others) == 1 else None
+        return what, self.successor_of(name)
+
+    def successor_of(self, name):
+        """Where a test stands now, as 'file: Suite.Name': under its name, or under another suite if that is the only one
+        with a test so called; None if that is not clear."""
+        wanted = [known for known in self.tests if known == name] or [
+            known for known in self.tests if known.partition(".")[2] == name.partition(".")[2]]
+        places = [f"{file}: {known}" for known in wanted for file in self.tests[known]]
+        return places[0] if len(places) == 1 else None
 
     def runs(self, gtest_filter):
         """Does one part of a filter name a test of the tree? Instances and parameters (around slashes) are left out."""
@@ -77,7 +85,7 @@ class Tree:
         return any(re.fullmatch(wanted, name) for name in self.tests)
 
 
-def check_rows(rows, tree, moved):
+def check_rows(rows, tree, moved, place_of_row):
     faults = []
     names = [row.name for row in rows]
     for wanted in [f"R{n}" for n in range(1, NUMBER_OF_ROWS + 1)] + [f"Z{n}" for n in range(1, NUMBER_OF_READINGS + 1)]:
@@ -97,13 +105,15 @@ def check_rows(rows, tree, moved):
         for path in row.files:
             fault, now = tree.fault_of_file(path)
             if fault:
+                only = place_of_row.get(row.name) if len(row.files) == 1 else None
+                now = only or now
                 faults.append(f"{where}: {fault}" + (f"; {now} does" if now else ""))
                 moved.setdefault(path, now)
         for file, name in row.tests:
             fault, now = tree.fault_of_test(file, name)
             if fault:
-                faults.append(f"{where}: {fault}" + (f"; {now} has it" if now else ""))
-                moved.setdefault(f"{file}: {name}", f"{now}: {name}" if now else None)
+                faults.append(f"{where}: {fault}" + (f"; perhaps it is {now}" if now else ""))
+                moved.setdefault(f"{file}: {name}", now)
     return faults
 
 
@@ -158,22 +168,39 @@ def check_pages(tree):
     return faults
 
 
+def places_of(entries):
+    """By row, the file in which its mutation is found."""
+    found = {entry["row"]: find_place(entry)[0] for entry in entries if "file" in entry}
+    return {row: str(place.file.relative_to(ROOT)) for row, place in found.items() if place}
+
+
+def mend(moved):
+    """Writes what has moved into the table, and suites with another name into the mutations' filters."""
+    table, mutations = TABLE.read_text(), MUTATIONS.read_text()
+    for old, new in moved.items():
+        if not new:
+            continue
+        table = table.replace(f"`{old}`", f"`{new}`")
+        if ": " in old:
+            before, after = (name.split(": ")[1].split(".")[0] for name in (old, new))
+            mutations = re.sub(rf"(?m)^(  test: .*?)(?<!\w){before}\.", rf"\g<1>{after}.", mutations)
+    TABLE.write_text(table)
+    MUTATIONS.write_text(mutations)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--mend", action="store_true", help="write new paths of what has moved")
     arguments = parser.parse_args()
     tree = Tree()
-    text = TABLE.read_text()
-    moved = {}
-    faults = check_rows(read_rows(text), tree, moved)
-    if arguments.mend and any(moved.values()):
-        for old, new in moved.items():
-            if new:
-                text = text.replace(f"`{old}`", f"`{new}`")
-        TABLE.write_text(text)
-        faults = check_rows(read_rows(text), tree, {})
-    rows = read_rows(text)
     entries = read_mutations(MUTATIONS.read_text())
+    moved = {}
+    faults = check_rows(read_rows(TABLE.read_text()), tree, moved, places_of(entries))
+    if arguments.mend:
+        mend(moved)
+        entries = read_mutations(MUTATIONS.read_text())
+        faults = check_rows(read_rows(TABLE.read_text()), tree, {}, {})
+    rows = read_rows(TABLE.read_text())
     faults += check_mutations(rows, entries, tree)
     faults += check_pages(tree)
     for fault in faults:
