@@ -74,8 +74,9 @@ def run(words, seconds, folder, limited=False, more=None):
     """Exit code and output; a program that does not end in time is ended, with all that it has started, as if it had failed."""
     def limit():
         resource.setrlimit(resource.RLIMIT_AS, (MUTANT_BYTES, MUTANT_BYTES))
-    process = subprocess.Popen(words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
-                               env={**os.environ, **(more or {})}, preexec_fn=limit if limited else None)
+    process = subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                               start_new_session=True, env={**os.environ, **(more or {})},
+                               preexec_fn=limit if limited else None)
     try:
         output = process.communicate(timeout=seconds)[0]
     except subprocess.TimeoutExpired:
