@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "exec_svc/journal/journaled_reactor.hpp"
-#include "sim_svc/command_ledger.hpp"
+#include "services/owner/command_ledger.hpp"
 
 namespace roci::exec::testing {
 
@@ -79,10 +79,10 @@ class CrashWorld {
   ReactorInputs pending_;
   // For who joins later: the newest of each key.
   std::map<std::string, Observation> observations_;
-  std::map<sim::ActivityKey, CommandAck> acks_;
+  std::map<services::owner::CommandKey, CommandAck> acks_;
   std::map<GoalKey, GoalRequest> goals_;
 
-  sim::CommandLedger ledger_;
+  services::owner::CommandLedger ledger_;
   std::optional<Command> imaging_;
   std::set<std::string> broken_;
   Flight flight_;

@@ -28,7 +28,9 @@ class SimService : public testing::Test {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     folder_ = std::filesystem::path(testing::TempDir()) / (std::string("roci_sim_") + test->name());
     std::filesystem::create_directories(folder_ / "scenarios");
-    write("mission.yaml", "site: site.yaml\narm: {poses: poses.yaml}\n");
+    write("mission.yaml",
+          "site: site.yaml\narm: {poses: poses.yaml}\nsimulation:\n  robots:\n    - name: rover\n"
+          "      power: {}\n      components: [{name: nav, type: drive}, {name: arm, type: arm}]\n");
     write("poses.yaml", "poses:\n  stow: {joints: [0, 1]}\n  sampling: {position: [1, 0, 0]}\n");
     write("site.yaml",
           "image: rocks.pgm\nresolution: 100\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
