@@ -179,6 +179,19 @@ TEST_F(SimService, CommandsOfOtherOwnersAreLeftAlone) {
   EXPECT_TRUE(fly({{5s, other}}, 10s).acks.empty());
 }
 
+TEST_F(SimService, ARobotThatIsDataAloneFliesWithoutSiteAndArm) {
+  write("mission.yaml",
+        "simulation:\n  robots:\n    - name: station\n      components:\n"
+        "        - {name: door, type: task, state: shut, commands: {open: {duration_s: 20, during: moving, "
+        "then: open}}}\n");
+  write("scenarios/nominal.yaml", "duration_s: 2000\n");
+  const Heard heard = fly({{5s, command("o", "door", "open", {})}, {6s, drive("d", "40")}}, 100s);
+  EXPECT_THAT(stages(heard, "o"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_COMPLETED));
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::COMMAND_REJECTED));
+  EXPECT_THAT(heard.observations, ElementsAre("0 station.door = shut", "5000000 station.door = moving",
+                                              "25000000 station.door = open"));
+}
+
 TEST_F(SimService, UploadsAndRecallsTheScenariosGoals) {
   scenario(
       "stimuli:\n"

@@ -5,9 +5,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "sim_svc/components/standard_types.hpp"
 #include "sim_svc/scenario/run_file.hpp"
+#include "tests/unit/sim_svc/world_fixture.hpp"
 
 namespace roci::sim::setup {
 namespace {
@@ -49,6 +51,29 @@ TEST_F(RosterFile, ARobotOfTasksNeedsNoSiteNoArmAndNoStart) {
   EXPECT_FALSE(run.world.robots[0].pose);
   EXPECT_FALSE(run.world.robots[0].power);
   EXPECT_EQ(run.world.ground.site, nullptr);
+}
+
+// The README's example of a component that is data alone.
+TEST_F(RosterFile, TheReadmesTaskFlies) {
+  std::ifstream in(std::filesystem::path(ROCI_SOURCE_DIR) / "sim_svc/README.md");
+  const std::string readme(std::istreambuf_iterator<char>(in), {});
+  const auto begin = readme.find("- name: drill");
+  std::istringstream lines(readme.substr(begin, readme.find("```", begin) - begin));
+  std::string robot =
+      "    - name: rover\n      components:\n        - {name: nav, type: task, state: [idle-at, a]}\n";
+  for (std::string line; std::getline(lines, line);) robot += "        " + line + "\n";
+  Flight run(load(robot).world);
+  EXPECT_EQ(run.state("rover.drill"), (temporal::State{"up", {}}));
+  EXPECT_EQ(last_number(run.said, "rover.drill.bits"), 4);
+  run.command(temporal::seconds(1), execute("b", "drill", "bore", {{"hole", "h1"}}));
+  EXPECT_EQ(run.state("rover.drill"), (temporal::State{"boring", {"h1"}}));
+  run.advance(temporal::seconds(200));
+  EXPECT_EQ(run.state("rover.drill"), (temporal::State{"in", {"h1"}}));
+  EXPECT_EQ(last_number(run.said, "rover.drill.depth"), 20);
+  EXPECT_EQ(last_number(run.said, "rover.drill.bits"), 3);
+  run.command(temporal::seconds(201), execute("c", "drill", "bore", {{"hole", "h2"}}));
+  run.command(temporal::seconds(210), execute("s", "drill", "stop"));
+  EXPECT_EQ(run.state("rover.drill"), (temporal::State{"jammed", {}}));
 }
 
 TEST_F(RosterFile, SettingsOfTheScenarioComeBeforeTheMissions) {
