@@ -31,6 +31,7 @@ Ending Camera::finish(Surroundings& around) {
               shot_->source,
               static_cast<std::uint64_t>(bytes),
               false,
+              shot_->end,
               around.view.pose,
               render_preview(around.ground, around.view.pose, camera.image_noise, noise_)};
   around.out.push_back(image);

@@ -16,7 +16,8 @@ std::optional<Ack> CommandLedger::refuse_old(const ActivityKey& key, std::uint64
                "epoch " + std::to_string(epoch) + " is over; the executive in charge has epoch " +
                    std::to_string(epoch_),
                now,
-               epoch};
+               epoch_,
+               true};
   }
   epoch_ = epoch;
   return std::nullopt;

@@ -18,6 +18,7 @@ namespace topics = services::topics;
 
 constexpr char kPathPlanner[] = "pathplan_svc";
 constexpr char kArmPlanner[] = "arm_svc";
+constexpr char kGround[] = "ground";  // who tells of hazards that the scenario states
 constexpr Duration kCallDeadline = std::chrono::seconds(30);
 constexpr Duration kFarewell = std::chrono::seconds(1);  // from the mission's outcome to the end of the run
 
@@ -83,7 +84,7 @@ class SimService final : public services::Service {
   }
 
   void warn_of(const RockSeen& rock) {
-    hazards_.write(wire::to_wire(rock));
+    hazards_.write(wire::to_wire(rock, node_.options().name));
     announce(v1::SEVERITY_WARNING, "hazard.seen",
              "a rock that the map does not show lies on the way (" + rock.id + ")");
   }
@@ -128,7 +129,8 @@ class SimService final : public services::Service {
               },
               [this](const HazardStimulus& hazard) {
                 const Rock& rock = hazard.rock;
-                hazards_.write(wire::to_wire(RockSeen{hazard.id, rock.x, rock.y, rock.radius, node_.now()}));
+                hazards_.write(
+                    wire::to_wire(RockSeen{hazard.id, rock.x, rock.y, rock.radius, node_.now()}, kGround));
               },
               [this](const Disturbance& disturbance) { tell(world_.disturb(node_.now(), disturbance)); }},
         stimulus.what);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -29,7 +30,14 @@ struct Pose {
 struct ActivityKey {
   std::string activity;
   std::uint32_t attempt = 0;
-  auto operator<=>(const ActivityKey&) const = default;
+  std::string commander{};
+  std::uint64_t epoch = 0;  ///< of issue
+  auto operator<=>(const ActivityKey& other) const {
+    return std::tie(activity, attempt) <=> std::tie(other.activity, other.attempt);
+  }
+  bool operator==(const ActivityKey& other) const {
+    return activity == other.activity && attempt == other.attempt;
+  }
 };
 
 /// One command as a component runs it.
@@ -56,7 +64,8 @@ struct Ack {
   std::string code;
   std::string reason;
   Time at{};
-  std::uint64_t refused_epoch = 0;  ///< of the request, if it was refused for it
+  std::uint64_t newest_epoch = 0;  ///< known to the owner
+  bool refused_epoch = false;      ///< the request came from an older one
   bool operator==(const Ack&) const = default;
 };
 
@@ -72,6 +81,7 @@ struct Image {
   std::string source;  ///< activity that took it
   std::uint64_t bytes = 0;
   bool sent = false;
+  Time taken{};
   Pose taken_from;
   std::vector<std::uint8_t> preview;  ///< kPreviewWidth x kPreviewHeight grey values, rows from the top
   bool operator==(const Image&) const = default;

@@ -1,5 +1,7 @@
 #include "sim_svc/wire_service.hpp"
 
+#include <limits>
+
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::sim::wire {
@@ -19,21 +21,21 @@ Action action_of(v1::CommandAction action) {
 v1::CommandStage stage_of(Stage stage) {
   switch (stage) {
     case Stage::accepted:
-      return v1::COMMAND_ACCEPTED;
+      return v1::STAGE_ACCEPTED;
     case Stage::rejected:
-      return v1::COMMAND_REJECTED;
+      return v1::STAGE_REJECTED;
     case Stage::completed:
-      return v1::COMMAND_COMPLETED;
+      return v1::STAGE_COMPLETED;
     case Stage::failed:
-      return v1::COMMAND_FAILED;
+      return v1::STAGE_FAILED;
     case Stage::cancelled:
-      return v1::COMMAND_CANCELLED;
+      return v1::STAGE_CANCELLED;
     case Stage::cancel_failed:
-      return v1::COMMAND_CANCEL_FAILED;
+      return v1::STAGE_CANCEL_FAILED;
     case Stage::unknown:
       break;
   }
-  return v1::COMMAND_UNKNOWN;
+  return v1::STAGE_UNKNOWN;
 }
 
 v1::GoalClass class_of(Importance importance) {
@@ -52,14 +54,14 @@ v1::GoalClass class_of(Importance importance) {
 
 Request from_wire(const v1::Command& command) {
   Request request;
-  request.key = {command.activity(), command.attempt()};
+  request.key = {command.activity(), command.attempt(), command.commander(), command.epoch()};
   request.action = action_of(command.action());
   request.component = command.subsystem();
   request.command = command.command_name();
   for (const v1::Property& argument : command.arguments()) {
     request.arguments[argument.name()] = argument.value();
   }
-  request.epoch = command.epoch();
+  request.epoch = command.sender_epoch();
   return request;
 }
 
@@ -78,12 +80,17 @@ std::vector<JointTarget> trajectory_of(const v1::ArmMotionReply& reply) {
 
 v1::CommandAck to_wire(const Ack& ack, const std::string& owner) {
   v1::CommandAck out;
+  out.commander(ack.key.commander);
+  out.epoch(ack.key.epoch);
   out.activity(ack.key.activity);
   out.attempt(ack.key.attempt);
   out.stage(stage_of(ack.stage));
   out.owner(owner);
   out.code(ack.code);
   out.reason(ack.reason);
+  out.outcome().duration_us(-1);
+  out.outcome().energy_j(std::numeric_limits<double>::quiet_NaN());
+  out.newest_epoch(ack.newest_epoch);
   out.refused_epoch(ack.refused_epoch);
   return out;
 }
@@ -102,15 +109,18 @@ v1::DataProduct to_wire(const Image& image) {
   out.product_kind("image");
   out.source(image.source);
   out.bytes(image.bytes);
-  out.state(image.sent ? v1::PRODUCT_SENT : v1::PRODUCT_STORED);
+  out.fate(image.sent ? v1::PRODUCT_SENT : v1::PRODUCT_STORED);
+  out.tier(v1::TIER_MANDATORY);
+  out.created_us(image.taken.count());
   out.x_m(image.taken_from.x);
   out.y_m(image.taken_from.y);
   out.preview(image.preview);
   return out;
 }
 
-v1::Hazard to_wire(const RockSeen& rock) {
+v1::Hazard to_wire(const RockSeen& rock, const std::string& finder) {
   v1::Hazard out;
+  out.found_by(finder);
   out.id(rock.id);
   out.x_m(rock.x);
   out.y_m(rock.y);
@@ -148,7 +158,8 @@ v1::Goal to_wire(const GoalStimulus& goal, bool recalled) {
     out.arguments().push_back(argument);
   }
   out.importance(class_of(goal.importance));
-  out.utility(goal.utility);
+  out.utility({goal.utility});
+  out.preferred_us(-1);
   out.priority(goal.priority);
   out.opens_us(goal.opens.count());
   out.closes_us(goal.closes.count());

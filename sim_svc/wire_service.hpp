@@ -20,7 +20,7 @@ std::vector<JointTarget> trajectory_of(const v1::ArmMotionReply&);
 v1::CommandAck to_wire(const Ack&, const std::string& owner);
 v1::Observation to_wire(const Observed&);
 v1::DataProduct to_wire(const Image&);
-v1::Hazard to_wire(const RockSeen&);
+v1::Hazard to_wire(const RockSeen&, const std::string& finder);
 v1::PathRequest to_wire(const PathWanted&);
 v1::ArmMotionRequest to_wire(const MotionWanted&);
 v1::Goal to_wire(const GoalStimulus&, bool recalled);

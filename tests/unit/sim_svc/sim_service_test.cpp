@@ -152,7 +152,7 @@ class SimService : public testing::Test {
 
 TEST_F(SimService, ADriveGoesByThePathPlannersWay) {
   const Heard heard = fly({{5s, drive("d", "40")}}, 400s);
-  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_COMPLETED));
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_COMPLETED));
   EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.nav = going-to there")));
   EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.nav = idle-at there")));
   EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.x = 40.0")));
@@ -160,13 +160,13 @@ TEST_F(SimService, ADriveGoesByThePathPlannersWay) {
 
 TEST_F(SimService, AnArmMoveTracksTheArmPlannersTrajectory) {
   const Heard heard = fly({{5s, command("m", "arm", "move", {{"from", "stow"}, {"to", "sampling"}})}}, 100s);
-  EXPECT_THAT(stages(heard, "m"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_COMPLETED));
+  EXPECT_THAT(stages(heard, "m"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_COMPLETED));
   EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.arm = idle-pose sampling")));
 }
 
 TEST_F(SimService, AnUnreachablePlaceFailsTheDriveWithThePlannersReason) {
   const Heard heard = fly({{5s, drive("d", "190")}}, 100s);
-  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_FAILED));
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_FAILED));
   EXPECT_EQ(heard.acks.back().code(), "no-path");
   EXPECT_EQ(heard.acks.back().reason(), "too far for this test");
 }
@@ -196,7 +196,7 @@ TEST_F(SimService, UploadsAndRecallsTheScenariosGoals) {
 TEST_F(SimService, AHiddenRockOnTheWayIsAHazard) {
   scenario("world: {rocks: [{x: 35, y: 20, radius: 1}]}\n");
   const Heard heard = fly({{5s, drive("d", "60")}}, 300s);
-  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_FAILED));
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_FAILED));
   ASSERT_EQ(heard.hazards.size(), 1u);
   EXPECT_EQ(heard.hazards[0].x_m(), 35);
   EXPECT_EQ(heard.hazards[0].radius_m(), 1);
