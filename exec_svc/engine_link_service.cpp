@@ -7,9 +7,8 @@
 
 namespace roci::exec {
 
-EngineLink::EngineLink(services::Node& node, const MissionModel& mission,
-                       std::function<void(temporal::PlanDelta)> take, std::function<void(const Note&)> report)
-    : mission_(mission.name), receipts_(services::advertise(node, services::topics::plan_receipt)) {
+EngineLink::EngineLink(services::Node& node, std::function<void(temporal::PlanDelta)> take, std::function<void(const Note&)> report)
+    : executive_(node.options().name), receipts_(services::advertise(node, services::topics::plan_receipt)) {
   services::subscribe(
       node, services::topics::plan_delta,
       [take = std::move(take), report = std::move(report)](const v1::PlanDelta& delta) {
@@ -22,6 +21,6 @@ EngineLink::EngineLink(services::Node& node, const MissionModel& mission,
       });
 }
 
-void EngineLink::tell(const PlanReceipt& receipt) { receipts_.write(wire::to_wire(receipt, mission_)); }
+void EngineLink::tell(const PlanReceipt& receipt) { receipts_.write(wire::to_wire(receipt, executive_)); }
 
 }  // namespace roci::exec

@@ -13,13 +13,13 @@ namespace roci::exec {
 class EngineLink {
  public:
   // `take` gets each delta as it comes, `report` what is wrong with one that cannot be read.
-  EngineLink(services::Node& node, const MissionModel& mission, std::function<void(temporal::PlanDelta)> take,
+  EngineLink(services::Node& node, std::function<void(temporal::PlanDelta)> take,
              std::function<void(const Note&)> report);
 
   void tell(const PlanReceipt& receipt);
 
  private:
-  std::string mission_;
+  std::string executive_;  // logical name
   services::Publisher<v1::PlanReceipt> receipts_;
 };
 

@@ -58,7 +58,7 @@ class ExecService final : public services::Service {
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
     if (reactor_.reactor().follows_engine()) {
       engine_.emplace(
-          node, mission_, [this](temporal::PlanDelta delta) { take(std::move(delta)); },
+          node, [this](temporal::PlanDelta delta) { take(std::move(delta)); },
           [this](const Note& note) { outbox_.report(note); });
     }
     recover();
@@ -155,10 +155,10 @@ class ExecService final : public services::Service {
   }
 
   void take(const v1::CommandAck& ack) {
-    if (Outbox::answers_epoch(ack)) return;
-    if (ack.refused_epoch() != 0 && leading_ != nullptr) {
-      if (ack.refused_epoch() == epoch_) leading_->refused();
-      return;  // of an earlier leader
+    if (ack.commander() != node_.options().name || Outbox::answers_epoch(ack)) return;
+    if (ack.refused_epoch() && leading_ != nullptr) {
+      if (ack.newest_epoch() > epoch_) leading_->refused();
+      return;  // else it was a command of an earlier leader
     }
     inputs_.acks.push_back(wire::from_wire(ack));
     seen_.push_back(wire::trace_line(ack));

@@ -17,6 +17,7 @@ constexpr char kEpochKey[] = "epoch";
 
 Outbox::Outbox(services::Node& node, const MissionModel& mission, std::uint64_t epoch, CrashPoints& crash)
     : mission_(&mission),
+      executive_(node.options().name),
       epoch_(epoch),
       crash_(&crash),
       commands_(services::advertise(node, topics::command)),
@@ -27,20 +28,26 @@ Outbox::Outbox(services::Node& node, const MissionModel& mission, std::uint64_t 
       events_(services::advertise(node, topics::event)) {}
 
 void Outbox::send_goals(const Reactor& reactor) const {
-  for (const GoalRecord* goal : reactor.goals().all()) goal_statuses_.write(wire::to_wire(*goal));
+  for (const GoalRecord* goal : reactor.goals().all()) goal_statuses_.write(wire::to_wire(*goal, executive_));
 }
 
 void Outbox::send_plan(const Reactor& reactor) const {
-  if (reactor.plan().version != 0) plans_.write(services::wire::to_wire(reactor.plan()));
-  for (const StepStatus& step : reactor.steps()) steps_.write(wire::to_wire(step, reactor.plan_version()));
+  if (reactor.plan().version != 0) plans_.write(to_wire(reactor.plan()));
+  for (const StepStatus& step : reactor.steps()) steps_.write(wire::to_wire(step, executive_, reactor.plan_version()));
 }
 
 void Outbox::send(const ReactorOutputs& out, std::uint32_t version) const {
-  for (const GoalRecord& goal : out.goal_changes) sent(goal_statuses_.write(wire::to_wire(goal)));
-  if (out.adopted) sent(plans_.write(services::wire::to_wire(*out.adopted)));
-  for (const Command& command : out.commands) sent(commands_.write(wire::to_wire(command, version, epoch_)));
-  for (const StepStatus& step : out.steps) sent(steps_.write(wire::to_wire(step, version)));
+  for (const GoalRecord& goal : out.goal_changes) sent(goal_statuses_.write(wire::to_wire(goal, executive_)));
+  if (out.adopted) sent(plans_.write(to_wire(*out.adopted)));
+  for (const Command& command : out.commands) sent(commands_.write(wire::to_wire(command, executive_, version, epoch_)));
+  for (const StepStatus& step : out.steps) sent(steps_.write(wire::to_wire(step, executive_, version)));
   for (const Note& note : out.notes) report(note);
+}
+
+v1::Plan Outbox::to_wire(const temporal::FlexiblePlan& plan) const {
+  v1::Plan out = services::wire::to_wire(plan);
+  out.executive(executive_);
+  return out;
 }
 
 void Outbox::report(const Note& note) const { events_.write(wire::to_wire(note)); }
@@ -48,6 +55,7 @@ void Outbox::report(const Note& note) const { events_.write(wire::to_wire(note))
 bool Outbox::publish(v1::MissionStatus status, const std::string& trace_sha256) {
   if (status == last_status_) return false;
   last_status_ = status;
+  status.executive(executive_);
   status.trace_sha256(trace_sha256);
   missions_.write(std::move(status));
   return true;
@@ -63,7 +71,7 @@ void Outbox::announce_epoch() {
     query.action = CommandAction::query;
     query.activity = kEpochKey;
     query.owner = owner;
-    commands_.write(wire::to_wire(query, 0, epoch_));
+    commands_.write(wire::to_wire(query, executive_, 0, epoch_));
   }
 }
 

@@ -36,7 +36,10 @@ class Outbox {
  private:
   void sent(bool) const { crash_->pass("during-send"); }
 
+  v1::Plan to_wire(const temporal::FlexiblePlan&) const;
+
   const MissionModel* mission_;
+  std::string executive_;  // logical name
   std::uint64_t epoch_;
   CrashPoints* crash_;
   bool epoch_announced_ = false;

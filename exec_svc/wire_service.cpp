@@ -11,7 +11,7 @@ GoalRequest from_wire(const v1::Goal& in) {
   out.kind = in.goal_kind();
   for (const v1::Property& argument : in.arguments()) out.arguments[argument.name()] = argument.value();
   out.importance = static_cast<GoalClass>(std::min<std::uint32_t>(in.importance(), v1::GOAL_OPPORTUNISTIC));
-  out.utility = in.utility();
+  out.utility = in.utility().empty() ? 0.0 : in.utility().front();
   out.priority = in.priority();
   out.opens = temporal::Time(in.opens_us());
   out.closes = temporal::Time(in.closes_us());
@@ -25,14 +25,14 @@ Observation from_wire(const v1::Observation& in) {
 }
 
 CommandAck from_wire(const v1::CommandAck& in) {
-  const auto stage = static_cast<CommandStage>(std::min<std::uint32_t>(in.stage(), v1::COMMAND_UNKNOWN));
+  const auto stage = static_cast<CommandStage>(std::min<std::uint32_t>(in.stage(), v1::STAGE_UNKNOWN));
   return {in.activity(), in.attempt(), stage, in.code(), in.reason()};
 }
 
 PlanAnswer from_wire(std::uint64_t call, const v1::PlanReply& in) {
   PlanAnswer out;
   out.call = call;
-  out.verdict = static_cast<PlanVerdict>(std::min<std::uint32_t>(in.verdict_code(), v1::VERDICT_CRASHED));
+  out.verdict = static_cast<PlanVerdict>(std::min<std::uint32_t>(in.verdict_code(), v1::VERDICT_NO_REPLY));
   out.reason = in.reason();
   if (out.verdict == PlanVerdict::solved) out.plan = services::wire::from_wire(in.solution());
   return out;
@@ -50,7 +50,7 @@ v1::Goal to_wire(const GoalRequest& in) {
     out.arguments().push_back(std::move(argument));
   }
   out.importance(static_cast<v1::GoalClass>(in.importance));
-  out.utility(in.utility);
+  out.utility({in.utility});
   out.priority(in.priority);
   out.opens_us(in.opens.count());
   out.closes_us(in.closes.count());
@@ -58,8 +58,9 @@ v1::Goal to_wire(const GoalRequest& in) {
   return out;
 }
 
-v1::GoalStatus to_wire(const GoalRecord& in) {
+v1::GoalStatus to_wire(const GoalRecord& in, const std::string& executive) {
   v1::GoalStatus out;
+  out.executive(executive);
   out.issuer(in.request.key.issuer);
   out.id(in.request.key.id);
   out.answers().sender(in.answers.sender);
@@ -73,24 +74,30 @@ v1::GoalStatus to_wire(const GoalRecord& in) {
   return out;
 }
 
-v1::Command to_wire(const Command& in, std::uint32_t plan_version, std::uint64_t epoch) {
+v1::Command to_wire(const Command& in, const std::string& commander, std::uint32_t plan_version,
+                    std::uint64_t epoch) {
   v1::Command out;
+  out.commander(commander);
   out.activity(in.activity);
   out.attempt(in.attempt);
   out.action(static_cast<v1::CommandAction>(in.action));
   out.owner(in.owner);
+  out.robot(in.robot);
   out.subsystem(in.subsystem);
   out.command_name(in.command_name);
   for (const temporal::Property& argument : in.arguments)
     out.arguments().push_back(services::wire::to_wire(argument));
   out.plan_version(plan_version);
-  out.epoch(epoch);
+  out.epoch(in.epoch != 0 ? in.epoch : epoch);
+  out.sender_epoch(epoch);
   out.expected_us(in.expected.count());
+  out.latest_end_us(in.latest_end == temporal::no_bound ? -1 : in.latest_end.count());
   return out;
 }
 
-v1::StepStatus to_wire(const StepStatus& in, std::uint32_t plan_version) {
+v1::StepStatus to_wire(const StepStatus& in, const std::string& executive, std::uint32_t plan_version) {
   v1::StepStatus out;
+  out.executive(executive);
   out.activity(in.activity);
   out.plan_version(plan_version);
   out.attempt(in.attempt);
@@ -107,7 +114,8 @@ v1::StepStatus to_wire(const StepStatus& in, std::uint32_t plan_version) {
 v1::PlanRequest to_wire(const PlanCall& in, const MissionModel& mission) {
   v1::PlanRequest out;
   out.engine(mission.planner.engine);
-  out.domain_text(mission.domain_text);
+  out.origin_us(in.origin.count());
+  out.model(mission.domain_text);
   out.problem_text(in.problem.text);
   for (const ProblemObject& object : in.problem.objects) {
     v1::PlanObject wire;
@@ -131,9 +139,9 @@ v1::PlanRequest to_wire(const PlanCall& in, const MissionModel& mission) {
   return out;
 }
 
-v1::PlanReceipt to_wire(const PlanReceipt& in, const std::string& mission) {
+v1::PlanReceipt to_wire(const PlanReceipt& in, const std::string& executive) {
   v1::PlanReceipt out;
-  out.mission(mission);
+  out.executive(executive);
   out.version(in.version);
   out.refused(in.refused);
   out.reason(in.reason);

@@ -16,11 +16,13 @@ CommandAck from_wire(const v1::CommandAck&);
 PlanAnswer from_wire(std::uint64_t call, const v1::PlanReply&);
 
 v1::Goal to_wire(const GoalRequest&);
-v1::GoalStatus to_wire(const GoalRecord&);
-v1::Command to_wire(const Command&, std::uint32_t plan_version, std::uint64_t epoch);
-v1::StepStatus to_wire(const StepStatus&, std::uint32_t plan_version);
+v1::GoalStatus to_wire(const GoalRecord&, const std::string& executive);
+/// `epoch`: of the commander now; the key's is that of issue, see Command::epoch.
+v1::Command to_wire(const Command&, const std::string& commander, std::uint32_t plan_version,
+                    std::uint64_t epoch);
+v1::StepStatus to_wire(const StepStatus&, const std::string& executive, std::uint32_t plan_version);
 v1::PlanRequest to_wire(const PlanCall&, const MissionModel&);
-v1::PlanReceipt to_wire(const PlanReceipt&, const std::string& mission);
+v1::PlanReceipt to_wire(const PlanReceipt&, const std::string& executive);
 v1::Event to_wire(const Note&);
 
 // One line of the trace each, for what was seen; journal/decisions.hpp has those for what was decided.

@@ -38,6 +38,7 @@ FunctionOutcome from_wire(v1::FunctionOutcome outcome, double number) {
       return FunctionOutcome::unknown_object;
     case v1::FUNCTION_WRONG_ARITY:
       return FunctionOutcome::wrong_arity;
+    case v1::FUNCTION_UNKNOWN:
     case v1::FUNCTION_UNKNOWN_FUNCTION:
     case v1::FUNCTION_FAILED:
       return FunctionOutcome::unavailable;
@@ -47,6 +48,7 @@ FunctionOutcome from_wire(v1::FunctionOutcome outcome, double number) {
 
 // What the owner means by an outcome that has no name of its own here.
 std::string detail_of(v1::FunctionOutcome outcome) {
+  if (outcome == v1::FUNCTION_UNKNOWN) return "it found no value with the effort that it spends";
   if (outcome == v1::FUNCTION_UNKNOWN_FUNCTION) return "it does not know this function";
   if (outcome == v1::FUNCTION_FAILED) return "it failed to compute the value";
   return "";
@@ -63,7 +65,7 @@ FunctionOutcome outcome_of(services::CallStatus failure) {
 PlanningCall from_wire(const v1::PlanRequest& in) {
   PlanningCall out;
   out.engine = in.engine();
-  out.domain_text = in.domain_text();
+  out.domain_text = in.model();
   out.problem_text = in.problem_text();
   out.remaining = from_wire(in.remaining());
   out.evaluations = in.budget().work();

@@ -34,7 +34,10 @@ struct MasterOptions {
 };
 
 struct NodeOptions {
-  std::string name;               // logical sender, e.g. "arm_svc"
+  std::string run;      // identity of the run; observers may leave it empty: they join the first that they hear
+  std::string mission;  // its name
+  std::string robot;    // that the service belongs to; empty: the team, the ground or the world
+  std::string name;     // logical sender, unique in the run, e.g. "arm_svc"
   std::uint32_t incarnation = 1;  // how often this service was started in this run, from 1
   ClockMode clock = ClockMode::live;
   double live_scale = 1;

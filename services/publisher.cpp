@@ -23,6 +23,7 @@ void Wire<T>::subscribe(Node& node, const Topic<T>& topic, std::function<void(co
 template <class T>
 bool Wire<T>::write(OutStream& stream, T&& value) {
   if constexpr (Headed<T>) stream.stamp(value.header());
+  if constexpr (OfRun<T>) value.run(stream.run());
   return stream.write(serialize(value));
 }
 
@@ -36,8 +37,8 @@ template struct Wire<v1::ClockReady>;
 template struct Wire<v1::ClockStep>;
 template struct Wire<v1::ClockDone>;
 template struct Wire<v1::Heartbeat>;
-template struct Wire<v1::ExecMember>;
-template struct Wire<v1::JournalParcel>;
+template struct Wire<v1::LeaseMessage>;
+template struct Wire<v1::JournalChunk>;
 template struct Wire<v1::Event>;
 template struct Wire<v1::Goal>;
 template struct Wire<v1::GoalStatus>;

@@ -36,9 +36,9 @@ inline constexpr Topic<v1::ClockStep> clock_step{"roci/clock/step", "roci::v1::C
 inline constexpr Topic<v1::ClockDone> clock_done{"roci/clock/done", "roci::v1::ClockDone", Qos::state, wall};
 inline constexpr Topic<v1::Heartbeat> heartbeat{"roci/heartbeat", "roci::v1::Heartbeat", Qos::state, wall};
 
-inline constexpr Topic<v1::ExecMember> exec_member{"roci/exec/member", "roci::v1::ExecMember", Qos::state,
+inline constexpr Topic<v1::LeaseMessage> exec_member{"roci/exec/member", "roci::v1::LeaseMessage", Qos::state,
                                                    wall};
-inline constexpr Topic<v1::JournalParcel> exec_journal{"roci/exec/journal", "roci::v1::JournalParcel",
+inline constexpr Topic<v1::JournalChunk> exec_journal{"roci/exec/journal", "roci::v1::JournalChunk",
                                                        Qos::request, wall};
 
 inline constexpr Topic<v1::Event> event{"roci/event", "roci::v1::Event", Qos::event, clocked};

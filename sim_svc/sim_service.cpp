@@ -37,6 +37,7 @@ namespace {
 namespace topics = services::topics;
 namespace owner = services::owner;
 
+constexpr char kGround[] = "ground";  // who tells of hazards that the scenario states
 constexpr Duration kCallDeadline = std::chrono::seconds(30);
 constexpr Duration kFarewell = std::chrono::seconds(1);  // from the mission's outcome to the end of the run
 
@@ -118,7 +119,7 @@ class SimService final : public services::Service, private owner::Driver {
   }
 
   void warn_of(const RockSeen& rock) {
-    hazards_.write(wire::to_wire(rock));
+    hazards_.write(wire::to_wire(rock, node_.options().name));
     announce(v1::SEVERITY_WARNING, "hazard.seen",
              "a rock that the map does not show lies on the way (" + rock.id + ")");
   }
@@ -163,8 +164,8 @@ class SimService final : public services::Service, private owner::Driver {
                      },
                      [this](const HazardStimulus& hazard) {
                        const world::Rock& rock = hazard.rock;
-                       hazards_.write(
-                           wire::to_wire(RockSeen{hazard.id, "", rock.x, rock.y, rock.radius, node_.now()}));
+                       hazards_.write(wire::to_wire(
+                           RockSeen{hazard.id, "", rock.x, rock.y, rock.radius, node_.now()}, kGround));
                      },
                      [this](const world::Disturbance& disturbance) {
                        tell(world_.disturb(node_.now(), disturbance));
@@ -204,6 +205,7 @@ class SimService final : public services::Service, private owner::Driver {
       report.push_back({{"time_us", one.at.count()},
                         {"robot", one.robot},
                         {"component", one.component},
+                        {"commander", one.task.key.commander},
                         {"activity", one.task.key.activity},
                         {"attempt", one.task.key.attempt},
                         {"command", one.task.command},

@@ -86,15 +86,18 @@ v1::DataProduct to_wire(const world::Image& image) {
   out.product_kind("image");
   out.source(image.source);
   out.bytes(image.bytes);
-  out.state(image.sent ? v1::PRODUCT_SENT : v1::PRODUCT_STORED);
+  out.fate(image.sent ? v1::PRODUCT_SENT : v1::PRODUCT_STORED);
+  out.tier(v1::TIER_MANDATORY);
+  out.created_us(image.taken.count());
   out.x_m(image.taken_from.x);
   out.y_m(image.taken_from.y);
   out.preview(image.preview);
   return out;
 }
 
-v1::Hazard to_wire(const world::RockSeen& rock) {
+v1::Hazard to_wire(const world::RockSeen& rock, const std::string& finder) {
   v1::Hazard out;
+  out.found_by(finder);
   out.id(rock.id);
   out.x_m(rock.x);
   out.y_m(rock.y);
@@ -132,7 +135,8 @@ v1::Goal to_wire(const scenario::GoalStimulus& goal, bool recalled) {
     out.arguments().push_back(argument);
   }
   out.importance(class_of(goal.importance));
-  out.utility(goal.utility);
+  out.utility({goal.utility});
+  out.preferred_us(-1);
   out.priority(goal.priority);
   out.opens_us(goal.opens.count());
   out.closes_us(goal.closes.count());

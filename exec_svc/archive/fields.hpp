@@ -35,10 +35,22 @@ void fields(A& a, Of<TemporalConstraint, A>& v) {
   a(v.from_point, v.to_point, v.kind, v.lower, v.upper);
 }
 template <class A>
+void fields(A& a, Of<RankVector, A>& v) {
+  std::vector<double> scores = v.scores();
+  a(scores);
+  if constexpr (!A::writes) v = RankVector(std::move(scores));
+}
+template <class A>
+void fields(A& a, Of<PlanCommand, A>& v) {
+  a(v.owner, v.robot, v.subsystem, v.command_name, v.arguments, v.answer_within);
+}
+template <class A>
 void fields(A& a, Of<PlanActivity, A>& v) {
-  a(v.id, v.name, v.owner, v.subsystem, v.command_name, v.arguments, v.start_point, v.end_point);
-  a(v.duration_lower, v.duration_upper, v.pre, v.maintenance, v.post, v.impacts, v.wait_timeout, v.retries);
-  a(v.may_skip, v.skip_if, v.lateness, v.commit, v.contingency, v.parent, v.goals_served, v.utility);
+  a(v.id, v.name, v.level, v.parent, v.owner, v.robot, v.subsystem, v.command_name, v.arguments,
+    v.answer_within);
+  a(v.then, v.start_point, v.end_point, v.duration_lower, v.duration_upper, v.preferred_start);
+  a(v.pre, v.maintenance, v.post, v.impacts, v.wait_timeout, v.retries, v.may_skip, v.skip_if, v.lateness);
+  a(v.commit, v.failure, v.contingency, v.priority, v.goals_served, v.utility);
 }
 template <class A>
 void fields(A& a, Of<Token, A>& v) {
@@ -46,15 +58,19 @@ void fields(A& a, Of<Token, A>& v) {
 }
 template <class A>
 void fields(A& a, Of<DecisionChoice, A>& v) {
-  a(v.name, v.activities);
+  a(v.name, v.activities, v.rule);
+}
+template <class A>
+void fields(A& a, Of<ArgumentBinding, A>& v) {
+  a(v.activity, v.argument);
 }
 template <class A>
 void fields(A& a, Of<DecisionPoint, A>& v) {
-  a(v.id, v.resolver, v.choices, v.decide_before);
+  a(v.id, v.resolver, v.choices, v.decide_before, v.resolver_kind, v.bindings, v.admissible);
 }
 template <class A>
 void fields(A& a, Of<FunctionValueUse, A>& v) {
-  a(v.function, v.arguments, v.number, v.owner, v.model_version, v.computed);
+  a(v.function, v.arguments, v.number, v.owner, v.model_version, v.computed, v.accuracy);
 }
 template <class A>
 void fields(A& a, Of<FlexiblePlan, A>& v) {

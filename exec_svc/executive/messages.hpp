@@ -52,7 +52,10 @@ struct Command {
   std::string subsystem;
   std::string command_name;
   std::vector<temporal::Property> arguments;
-  temporal::Duration expected{0};  ///< shortest duration of the activity
+  temporal::Duration expected{0};                  ///< shortest duration of the activity
+  std::uint64_t epoch = 0;                         ///< in which the key was issued; 0: the commander's own
+  temporal::Time latest_end = temporal::no_bound;  ///< by which its step must have ended
+  std::string robot{};                             ///< whose subsystem; empty: the owner's only one
 };
 
 /// State of one activity; times are mission times.

@@ -18,9 +18,9 @@ FollowingService::FollowingService(services::Node& node, Lease& lease, Journal& 
       copy_(journal),
       words_(services::advertise(node, topics::exec_member)),
       goals_(services::advertise(node, topics::goal)) {
-  services::subscribe(node, topics::exec_member, [this](const v1::ExecMember& member) { hear(member); });
+  services::subscribe(node, topics::exec_member, [this](const v1::LeaseMessage& member) { hear(member); });
   services::subscribe(node, topics::exec_journal,
-                      [this](const v1::JournalParcel& parcel) { take(wire::from_wire(parcel)); });
+                      [this](const v1::JournalChunk& parcel) { take(wire::from_wire(parcel)); });
   services::subscribe(node, topics::clock_step, [this](const v1::ClockStep& step) {
     over_ = over_ || step.last();
     if (over_) node_.stop();
@@ -28,7 +28,7 @@ FollowingService::FollowingService(services::Node& node, Lease& lease, Journal& 
   node.on_turn([this] { turn(); });
 }
 
-void FollowingService::hear(const v1::ExecMember& member) {
+void FollowingService::hear(const v1::LeaseMessage& member) {
   lease_->hear(wire::from_wire(member), wire::moment());
   turn();
 }

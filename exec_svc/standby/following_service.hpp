@@ -24,7 +24,7 @@ class FollowingService {
   bool run_is_over() const { return over_; }
 
  private:
-  void hear(const v1::ExecMember& member);
+  void hear(const v1::LeaseMessage& member);
   void take(const Parcel& parcel);
   void ask_again(const std::vector<GoalRecord>& earlier);
   void turn();
@@ -37,7 +37,7 @@ class FollowingService {
   JournalCopy copy_;
   std::optional<Lease::Turn> lead_;
   bool over_ = false;
-  services::Publisher<v1::ExecMember> words_;
+  services::Publisher<v1::LeaseMessage> words_;
   services::Publisher<v1::Goal> goals_;
 };
 

@@ -28,11 +28,11 @@ LeadingService::LeadingService(services::Node& node, Lease& lease, Journal& jour
       feed_(begin_feed(lease.epoch(), journal)),
       words_(services::advertise(node, topics::exec_member)),
       parcels_(services::advertise(node, topics::exec_journal)) {
-  services::subscribe(node, topics::exec_member, [this](const v1::ExecMember& member) { hear(member); });
+  services::subscribe(node, topics::exec_member, [this](const v1::LeaseMessage& member) { hear(member); });
   node.on_turn([this] { turn(); });
 }
 
-void LeadingService::hear(const v1::ExecMember& member) {
+void LeadingService::hear(const v1::LeaseMessage& member) {
   const Word word = wire::from_wire(member);
   if (word.member == lease_->word({}).member) return;
   const Moment now = wire::moment();

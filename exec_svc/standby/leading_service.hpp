@@ -46,7 +46,7 @@ class LeadingService {
     services::Node::WorkId work;
     std::function<void()> send;
   };
-  void hear(const v1::ExecMember& member);
+  void hear(const v1::LeaseMessage& member);
   void turn();
   void feed();
   void let_out();
@@ -59,8 +59,8 @@ class LeadingService {
   JournalFeed feed_;
   std::deque<Held> held_;
   std::vector<Note> notes_;
-  services::Publisher<v1::ExecMember> words_;
-  services::Publisher<v1::JournalParcel> parcels_;
+  services::Publisher<v1::LeaseMessage> words_;
+  services::Publisher<v1::JournalChunk> parcels_;
 };
 
 }  // namespace roci::exec

@@ -31,8 +31,8 @@ std::string name_of(Member member) { return member == Member::first ? "first" : 
 
 Member member_of(const std::string& name) { return name == "second" ? Member::second : Member::first; }
 
-v1::ExecMember to_wire(const Word& word, const Arrival& arrival) {
-  v1::ExecMember out;
+v1::LeaseMessage to_wire(const Word& word, const Arrival& arrival) {
+  v1::LeaseMessage out;
   out.member(name_of(word.member));
   out.exec_role(word.role == Role::leading ? v1::EXEC_LEADING : v1::EXEC_FOLLOWING);
   out.epoch(word.epoch);
@@ -49,7 +49,7 @@ v1::ExecMember to_wire(const Word& word, const Arrival& arrival) {
   return out;
 }
 
-Word from_wire(const v1::ExecMember& in) {
+Word from_wire(const v1::LeaseMessage& in) {
   Word out;
   out.member = member_of(in.member());
   out.role = in.exec_role() == v1::EXEC_LEADING ? Role::leading : Role::following;
@@ -63,10 +63,10 @@ Word from_wire(const v1::ExecMember& in) {
   return out;
 }
 
-Arrival arrival_of(const v1::ExecMember& in) { return {from_wire(in.arriving()), in.arrived_parts()}; }
+Arrival arrival_of(const v1::LeaseMessage& in) { return {from_wire(in.arriving()), in.arrived_parts()}; }
 
-v1::JournalParcel to_wire(const Parcel& parcel) {
-  v1::JournalParcel out;
+v1::JournalChunk to_wire(const Parcel& parcel) {
+  v1::JournalChunk out;
   out.leader(parcel.leader);
   out.after(to_wire(parcel.after));
   out.reached(to_wire(parcel.at));
@@ -77,7 +77,7 @@ v1::JournalParcel to_wire(const Parcel& parcel) {
   return out;
 }
 
-Parcel from_wire(const v1::JournalParcel& in) {
+Parcel from_wire(const v1::JournalChunk& in) {
   Parcel out;
   out.leader = in.leader();
   out.after = from_wire(in.after());

@@ -16,11 +16,11 @@ Moment moment();
 std::string name_of(Member member);  // "first", "second"
 Member member_of(const std::string& name);
 
-v1::ExecMember to_wire(const Word& word, const Arrival& arrival);
-Word from_wire(const v1::ExecMember& member);
-Arrival arrival_of(const v1::ExecMember& member);
+v1::LeaseMessage to_wire(const Word& word, const Arrival& arrival);
+Word from_wire(const v1::LeaseMessage& member);
+Arrival arrival_of(const v1::LeaseMessage& member);
 
-v1::JournalParcel to_wire(const Parcel& parcel);
-Parcel from_wire(const v1::JournalParcel& parcel);
+v1::JournalChunk to_wire(const Parcel& parcel);
+Parcel from_wire(const v1::JournalChunk& parcel);
 
 }  // namespace roci::exec::wire

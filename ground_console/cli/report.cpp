@@ -52,7 +52,7 @@ json status_json(const MissionView& view) {
     out["replans"] = mission->replans();
     out["outcome"] = mission->outcome();
   }
-  if (const v1::ExecMember* leader = view.leader()) {
+  if (const v1::LeaseMessage* leader = view.leader()) {
     const std::uint64_t behind =
         leader->has().commits() - std::min(leader->has().commits(), leader->receipt().commits());
     out["executive"] = {{"leader", leader->member()},
@@ -116,7 +116,7 @@ std::string status_text(const MissionView& view) {
   } else {
     out += "no status from exec_svc\n";
   }
-  if (const v1::ExecMember* leader = view.leader()) out += "executive: " + pair_text(*leader) + "\n";
+  if (const v1::LeaseMessage* leader = view.leader()) out += "executive: " + pair_text(*leader) + "\n";
   out += "\nGoals\n";
   for (const auto& [key, status] : view.goals()) out += "  " + goal_line(status) + "\n";
   out += "\nServices\n";

@@ -6,6 +6,7 @@
 #include "services/log.hpp"
 #include "services/node/impl.hpp"
 #include "services/publisher.hpp"
+#include "services/type_support.hpp"
 
 namespace roci::services {
 namespace {
@@ -26,8 +27,9 @@ class FollowerBarrier : public Barrier {
     subscribe(node, topics::clock_step, [this](const v1::ClockStep& step) {
       if (!step_ || order(step) > order(*step_)) step_ = step;
     });
-    node.impl().endpoints.find_in(topics::clock_step.name)->on_owner_lost.push_back([this](const Payload&) {
-      master_lost_ = step_.has_value();
+    node.impl().endpoints.find_in(topics::clock_step.name)->on_owner_lost.push_back([this](const Payload& key) {
+      v1::ClockStep lost;
+      if (deserialize_key(key, lost) && lost.run() == node_.impl().run) master_lost_ = step_.has_value();
     });
   }
 

@@ -53,7 +53,7 @@ class MasterBarrier : public Barrier {
         .endpoints.find_in(topics::heartbeat.name)
         ->on_owner_lost.push_back([this](const Payload& key) {
           v1::Heartbeat beat;
-          if (deserialize_key(key, beat)) peers_.owner_lost(beat.service());
+          if (deserialize_key(key, beat) && beat.run() == node_.impl().run) peers_.owner_lost(beat.service());
         });
   }
 

@@ -28,6 +28,8 @@ std::uint32_t resident_kb() {
 
 Heart::Heart(Node& node) : publisher_(advertise(node, topics::heartbeat)) {
   beat_.service(node.options().name);
+  beat_.mission(node.options().mission);
+  beat_.robot(node.options().robot);
   beat_.incarnation(node.options().incarnation);
   beat_.dds(node.options().vendor);
   beat_.host(host_name());

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "services/log.hpp"
+#include "services/node/impl.hpp"
 #include "services/qos.hpp"
 
 namespace roci::services {
@@ -32,11 +33,15 @@ OutStream::OutStream(Node& node, const TopicSpec& topic, Transport& transport,
 
 void OutStream::stamp(v1::SampleHeader& header) const {
   const NodeOptions& options = node_.options();
+  header.run(run());
+  header.robot(options.robot);
   header.sender(options.name);
   header.incarnation(options.clock == ClockMode::observer ? 0 : options.incarnation);
   header.seq(total_ + 1);
   header.stamp_us(node_.now().count());
 }
+
+const std::string& OutStream::run() const { return node_.impl().run; }
 
 bool OutStream::within_limit(const Payload& payload) {
   if (topic_.clocking == Clocking::wall || !simulated(node_)) return true;

@@ -21,6 +21,7 @@ struct Codec {
   TypeDescription type;
   std::shared_ptr<const void> (*decode)(std::span<const std::uint8_t>) = nullptr;  // null: malformed payload
   const v1::SampleHeader& (*header)(const void* value) = nullptr;  // null for types without one
+  const std::string& (*run)(const void* value) = nullptr;           // null for types that name no run
   Payload (*key)(const void* value) = nullptr;                     // empty for types without a key
 };
 
@@ -41,6 +42,7 @@ class OutStream {
   bool write(const Payload&);
   bool dispose(const Payload&);
 
+  const std::string& run() const;
   Guid guid() const { return writer_->guid(); }
   int matched_readers() const { return writer_->matched_readers(); }
   const TopicSpec& topic() const { return topic_; }

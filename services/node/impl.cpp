@@ -8,12 +8,15 @@
 namespace roci::services {
 namespace {
 
+constexpr std::size_t kForeignRuns = 16;
+
 bool simulated(ClockMode mode) { return mode == ClockMode::simulated || mode == ClockMode::master; }
 
 }  // namespace
 
 Node::Impl::Impl(Node& node, NodeOptions node_options, std::unique_ptr<Transport> node_transport)
     : options(std::move(node_options)),
+      run(options.run),
       transport(std::move(node_transport)),
       work(simulated(options.clock) ? ResultOrder::as_begun : ResultOrder::as_finished),
       endpoints(node, *transport, inbox) {}
@@ -40,9 +43,24 @@ void Node::Impl::take_in(Arrival&& arrival) {
     log_warning(options.name + " drops a malformed sample of " + input.topic.name);
     return;
   }
+  if (input.topic.codec.run && !is_of_this_run(input.topic.codec.run(value.get()), input.topic.name)) return;
   if (input.topic.clocking == Clocking::wall) return handle(input, value.get());
   const v1::SampleHeader& header = input.topic.codec.header(value.get());
   loop->take_clocked(input, header, std::move(value));
+}
+
+bool Node::Impl::is_of_this_run(const std::string& sample_run, const std::string& topic) {
+  if (run.empty() && options.clock == ClockMode::observer) run = sample_run;
+  if (sample_run == run) return true;
+  const auto known = foreign.find(sample_run);
+  if (known != foreign.end()) {
+    ++known->second;
+  } else if (foreign.size() < kForeignRuns) {
+    foreign[sample_run] = 1;
+    log_warning(options.name + " hears another run, \"" + sample_run + "\", on " + topic +
+                " and does not obey it; give each run a domain of its own");
+  }
+  return false;
 }
 
 void Node::Impl::handle(InTopic& input, const void* value) {

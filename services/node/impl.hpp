@@ -27,12 +27,15 @@ class Node::Impl {
 
   // Decodes an arrival and runs its handlers, or hands it to the loop if its topic is clocked.
   void take_in(Arrival&&);
+  // Whether a sample that names this run is to be obeyed; notes those of other runs.
+  bool is_of_this_run(const std::string& sample_run, const std::string& topic);
   static void handle(InTopic&, const void* value);
   void announce(const PeerChange&);
   void announce_match();
   void announce_turn();
 
   const NodeOptions options;
+  std::string run;  // that this node obeys; an observer without one takes the first that it hears
   std::unique_ptr<Transport> transport;
   Inbox inbox;
   TimerQueue timers;
@@ -45,6 +48,7 @@ class Node::Impl {
   std::map<std::string, std::shared_ptr<CallServer>> servers;
   Endpoints endpoints;
   bool running = false;
+  std::map<std::string, std::uint64_t> foreign;  // samples of other runs, by run; of the first kForeignRuns alone
   std::unique_ptr<Loop> loop;
 };
 

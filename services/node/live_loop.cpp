@@ -67,7 +67,7 @@ class LiveLoop : public Loop {
         .endpoints.find_in(topics::heartbeat.name)
         ->on_owner_lost.push_back([this](const Payload& key) {
           v1::Heartbeat beat;
-          if (deserialize_key(key, beat)) peers_.owner_lost(beat.service());
+          if (deserialize_key(key, beat) && beat.run() == node_.impl().run) peers_.owner_lost(beat.service());
         });
     if (observer_) {
       subscribe(node_, topics::clock_step, [this](const v1::ClockStep& step) {

@@ -30,7 +30,8 @@ enum class Action { execute, cancel, query };
 struct Request {
   CommandKey key;
   Action action = Action::execute;
-  std::uint64_t epoch = 0;  ///< of the commander now
+  std::uint64_t epoch = 0;  ///< of the sender now
+  std::string sender{};     ///< the commander that says this; not always the one of the key
   std::string robot{};      ///< empty: the owner's only one
   std::string subsystem{};
   std::string command{};
@@ -46,7 +47,7 @@ enum class Stage { accepted, rejected, completed, failed, cancelled, cancel_fail
 /// What a command came to that ran and ended.
 struct Results {
   std::optional<temporal::Duration> duration{};  ///< empty: the time since it was accepted
-  double energy_j = 0;
+  std::optional<double> energy_j{};              ///< drawn by it alone; empty: not measured
   std::map<std::string, temporal::Value> values{};
   bool operator==(const Results&) const = default;
 };
@@ -65,8 +66,8 @@ struct Ack {
   CommandKey key;
   Word word;
   temporal::Time at{};
-  std::uint64_t refused_epoch = 0;  ///< of the request, if it was refused for it
-  std::uint64_t newest_epoch = 0;   ///< of that commander, as far as the owner knows; with a refused one
+  std::uint64_t newest_epoch = 0;  ///< that the owner has taken of who asked; else of the key's commander
+  bool refused_epoch = false;      ///< the request came from an older one
   bool operator==(const Ack&) const = default;
 };
 

@@ -27,7 +27,7 @@ Reception CommandLedger::receive(const Request& request, Time now) {
 }
 
 std::optional<Ack> CommandLedger::refuse_old(const Request& request, Time now) {
-  std::uint64_t& newest = epochs_[request.key.commander];
+  std::uint64_t& newest = epochs_[request.sender];
   if (request.epoch >= newest) {
     newest = request.epoch;
     return std::nullopt;
@@ -35,7 +35,7 @@ std::optional<Ack> CommandLedger::refuse_old(const Request& request, Time now) {
   Word word{Stage::rejected, "old-epoch",
             "epoch " + std::to_string(request.epoch) + " is over; the executive in charge has epoch " +
                 std::to_string(newest)};
-  return Ack{request.key, std::move(word), now, request.epoch, newest};
+  return Ack{request.key, std::move(word), now, newest, true};
 }
 
 Reception CommandLedger::execute(const Request& request, Time now) {
@@ -55,11 +55,11 @@ Reception CommandLedger::cancel(const Request& request, Time now) {
     if (std::exchange(record->cancelling, true)) return {};  // its outcome is still to come
     return {Reception::Order::break_off, std::nullopt};
   }
-  Ack ack = answer(request.key, now);
-  if (ack.word.stage != Stage::unknown) {
-    ack.word = {Stage::cancel_failed, "already-ended", "it has already ended (" + ack.word.code + ")"};
+  Ack word = answer(request.key, now);
+  if (word.word.stage != Stage::unknown) {
+    word.word = {Stage::cancel_failed, "already-ended", "it has already ended (" + word.word.code + ")"};
   }
-  return {Reception::Order::nothing, std::move(ack)};
+  return {Reception::Order::nothing, std::move(word)};
 }
 
 CommandLedger::Record* CommandLedger::open_record(const CommandKey& key) {
@@ -76,13 +76,13 @@ std::optional<Ack> CommandLedger::say(const CommandKey& key, Word word, Time now
     word.results.duration = now - record->accepted;
   }
   record->word = std::move(word);
-  return Ack{key, *record->word, now};
+  return ack(key, *record->word, now);
 }
 
 std::optional<Ack> CommandLedger::refuse_cancel(const CommandKey& key, std::string reason, Time now) {
   Record* record = open_record(key);
   if (!record || !std::exchange(record->cancelling, false)) return std::nullopt;
-  return Ack{key, {Stage::cancel_failed, "cannot-cancel", std::move(reason)}, now};
+  return ack(key, {Stage::cancel_failed, "cannot-cancel", std::move(reason)}, now);
 }
 
 std::optional<Ack> CommandLedger::repair(const CommandKey& key, std::string reason, Time now) {
@@ -123,10 +123,15 @@ std::vector<CommandKey> CommandLedger::open(const std::string& robot, const std:
 Ack CommandLedger::answer(const CommandKey& key, Time now) const {
   const auto record = records_.find(key);
   if (record == records_.end()) {
-    return {key, {Stage::unknown, "unknown-key", "this activity was never commanded here"}, now};
+    return ack(key, {Stage::unknown, "unknown-key", "this activity was never commanded here"}, now);
   }
   // What was taken and not yet worded is on its way.
-  return {key, record->second.word.value_or(Word{}), now};
+  return ack(key, record->second.word.value_or(Word{}), now);
+}
+
+Ack CommandLedger::ack(const CommandKey& key, Word word, Time now) const {
+  const auto epoch = epochs_.find(key.commander);
+  return {key, std::move(word), now, epoch == epochs_.end() ? 0 : epoch->second};
 }
 
 }  // namespace roci::services::owner

@@ -19,11 +19,11 @@ struct Reception {
     break_off,  ///< end it with word(…, cancelled) or refuse with refuse_cancel()
   };
   Order order = Order::nothing;
-  std::optional<Ack> ack;  ///< to be sent at once
+  std::optional<Ack> ack{};  ///< to be sent at once
 };
 
 /// Each key is taken once. What repeats it, and every query, gets the last word again. An older epoch than
-/// the newest one of the same commander is refused, and told the newest. A cancel has two phases: the order
+/// the newest one of the same sender is refused, and told the newest. A cancel has two phases: the order
 /// to break off, and how that went. What ended keeps its last word for good.
 class CommandLedger {
  public:
@@ -63,8 +63,9 @@ class CommandLedger {
   Reception execute(const Request&, temporal::Time now);
   Reception cancel(const Request&, temporal::Time now);
   Record* open_record(const CommandKey&);
+  Ack ack(const CommandKey&, Word, temporal::Time now) const;
 
-  std::map<std::string, std::uint64_t> epochs_;  // newest by commander
+  std::map<std::string, std::uint64_t> epochs_;  // newest by who sent it
   std::map<CommandKey, Record> records_;
 };
 

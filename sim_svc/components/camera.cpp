@@ -43,13 +43,10 @@ std::optional<Time> Camera::next_change() const {
 Ending Camera::finish(Surroundings& around) {
   const double bytes = settings_.image_bytes * std::max(0.1, 1 + settings_.bytes_noise * noise_.normal());
   const world::Pose& pose = *around.body.pose;
-  Image image{shot_->image,
-              around.robot,
-              shot_->source,
-              static_cast<std::uint64_t>(bytes),
-              false,
-              pose,
-              render_preview(around.environment.ground, pose, settings_.image_noise, noise_)};
+  Image image{shot_->image,  around.robot,
+              shot_->source, static_cast<std::uint64_t>(bytes),
+              false,         shot_->end,
+              pose,          render_preview(around.environment.ground, pose, settings_.image_noise, noise_)};
   last_bytes_ = static_cast<double>(image.bytes);
   around.out.push_back(image);
   around.body.images.insert_or_assign(image.id, std::move(image));

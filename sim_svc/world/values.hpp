@@ -90,6 +90,7 @@ struct Image {
   std::string source;  ///< activity that took it
   std::uint64_t bytes = 0;
   bool sent = false;
+  temporal::Time taken{};
   Pose taken_from;
   std::vector<std::uint8_t> preview;  ///< 24 × 16 grey values, rows from the top
   bool operator==(const Image&) const = default;

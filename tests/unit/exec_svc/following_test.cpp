@@ -137,7 +137,7 @@ TEST_F(Following, ADeltaOfAnotherVersionIsRefusedAndTheWholePlanTaken) {
   run(10, with_plan(robot_and({photo("1"), photo("2")})));
   engine.image("2", CommitState::committed, 100);
   engine.delta();  // lost on its way
-  engine.find("2").utility = 1;
+  engine.find("2").utility = {1};
   ReactorInputs next;
   next.deltas.push_back(engine.delta());
   run(20, std::move(next));
@@ -274,7 +274,7 @@ TEST_P(RandomEngine, WhatItCommitsIsDoneOnceAndNothingElse) {
           engine.find(chosen.id).commit = CommitState::committed;
           break;
         default:
-          if (!bound) engine.find(chosen.id).utility += 1;
+          if (!bound) engine.find(chosen.id).utility += {1};
       }
     }
     const temporal::FlexiblePlan before = engine.told();

@@ -130,6 +130,8 @@ class SimService : public testing::Test {
     out.subsystem(component);
     out.command_name(name);
     out.epoch(1);
+    out.sender_epoch(1);
+    out.latest_end_us(-1);
     for (const auto& [key, value] : arguments) {
       v1::Property property;
       property.name(key);
@@ -154,7 +156,7 @@ class SimService : public testing::Test {
 
 TEST_F(SimService, ADriveGoesByThePathPlannersWay) {
   const Heard heard = fly({{5s, drive("d", "40")}}, 400s);
-  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_COMPLETED));
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_COMPLETED));
   EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.nav = going-to there")));
   EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.nav = idle-at there")));
   EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.x = 40.0")));
@@ -162,13 +164,13 @@ TEST_F(SimService, ADriveGoesByThePathPlannersWay) {
 
 TEST_F(SimService, AnArmMoveTracksTheArmPlannersTrajectory) {
   const Heard heard = fly({{5s, command("m", "arm", "move", {{"from", "stow"}, {"to", "sampling"}})}}, 100s);
-  EXPECT_THAT(stages(heard, "m"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_COMPLETED));
+  EXPECT_THAT(stages(heard, "m"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_COMPLETED));
   EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.arm = idle-pose sampling")));
 }
 
 TEST_F(SimService, AnUnreachablePlaceFailsTheDriveWithThePlannersReason) {
   const Heard heard = fly({{5s, drive("d", "190")}}, 100s);
-  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_FAILED));
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_FAILED));
   EXPECT_EQ(heard.acks.back().code(), "no-path");
   EXPECT_EQ(heard.acks.back().reason(), "too far for this test");
 }
@@ -186,10 +188,33 @@ TEST_F(SimService, ARobotThatIsDataAloneFliesWithoutSiteAndArm) {
         "then: open}}}\n");
   write("scenarios/nominal.yaml", "duration_s: 2000\n");
   const Heard heard = fly({{5s, command("o", "door", "open", {})}, {6s, drive("d", "40")}}, 100s);
-  EXPECT_THAT(stages(heard, "o"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_COMPLETED));
-  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::COMMAND_REJECTED));
+  EXPECT_THAT(stages(heard, "o"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_COMPLETED));
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::STAGE_REJECTED));
   EXPECT_THAT(heard.observations, ElementsAre("0 station.door = shut", "5000000 station.door = moving",
                                               "25000000 station.door = open"));
+}
+
+TEST_F(SimService, TwoRobotsAreToldApartByTheCommandsRobot) {
+  write("mission.yaml",
+        "simulation:\n  robots:\n"
+        "    - {name: one, components: [{name: door, type: task, commands: {open: {duration_s: 20, power_w: "
+        "5}}}]}\n"
+        "    - {name: two, components: [{name: door, type: task, commands: {open: {duration_s: 30, power_w: "
+        "5}}}]}\n");
+  write("scenarios/nominal.yaml", "duration_s: 2000\n");
+  v1::Command first = command("a", "door", "open", {});
+  first.robot("one");
+  v1::Command second = command("b", "door", "open", {});
+  second.robot("two");
+  const Heard heard = fly({{5s, first}, {6s, second}, {7s, command("c", "door", "open", {})}}, 100s);
+  EXPECT_THAT(heard.observations,
+              ElementsAre("0 one.door = idle", "0 two.door = idle", "5000000 one.door = open",
+                          "6000000 two.door = open", "25000000 one.door = idle", "36000000 two.door = idle"));
+  EXPECT_THAT(stages(heard, "c"), ElementsAre(v1::STAGE_REJECTED));
+  const v1::CommandAck& last = heard.acks.back();
+  EXPECT_EQ(last.activity(), "b");
+  EXPECT_EQ(last.outcome().duration_us(), 30'000'000);
+  EXPECT_NEAR(last.outcome().energy_j(), 150, 1e-6);
 }
 
 TEST_F(SimService, UploadsAndRecallsTheScenariosGoals) {
@@ -211,7 +236,7 @@ TEST_F(SimService, UploadsAndRecallsTheScenariosGoals) {
 TEST_F(SimService, AHiddenRockOnTheWayIsAHazard) {
   scenario("world: {rocks: [{x: 35, y: 20, radius: 1}]}\n");
   const Heard heard = fly({{5s, drive("d", "60")}}, 300s);
-  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_FAILED));
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_FAILED));
   ASSERT_EQ(heard.hazards.size(), 1u);
   EXPECT_EQ(heard.hazards[0].x_m(), 35);
   EXPECT_EQ(heard.hazards[0].radius_m(), 1);

@@ -44,7 +44,7 @@ world::WorldSetup FlatSetup::build() const {
 
 Request execute(const std::string& activity, const std::string& component, const std::string& command,
                 std::map<std::string, std::string> arguments, std::uint64_t epoch) {
-  return {{activity, 1},       services::owner::Action::execute, epoch, "", component, command,
+  return {{activity, 1},       services::owner::Action::execute, epoch, "", "", component, command,
           std::move(arguments)};
 }
 

@@ -59,7 +59,7 @@ PlanBuilder sampling_network() {
   downlink.pre = temporal::all_of({compare("earth.in-view", ConditionOp::eq, true),
                                    compare("phase", ConditionOp::eq, state("downlinking")),
                                    compare("samples", ConditionOp::ge, 1.0)});
-  downlink.utility = 10;
+  downlink.utility = {10};
 
   b.between(b.start("site-1"), b.start("prepare-arm"), 0);
   b.after("prepare-arm", "excavate");

@@ -15,7 +15,7 @@ using Order = Reception::Order;
 
 Request request(const std::string& activity, Action action = Action::execute, std::uint64_t epoch = 1,
                 const std::string& commander = "") {
-  return {{activity, 1, commander}, action, epoch, "", "drill", "bore"};
+  return {{activity, 1, commander}, action, epoch, commander, "", "drill", "bore"};
 }
 
 // A ledger that has accepted "a" at 1 s.
@@ -79,12 +79,26 @@ TEST(CommandLedger, EpochsAreCountedByCommander) {
   const Ack refused = *ledger.receive(request("c", Action::execute, 4, "first"), seconds(2)).ack;
   EXPECT_EQ(refused.word.stage, Stage::rejected);
   EXPECT_EQ(refused.word.code, "old-epoch");
-  EXPECT_EQ(refused.refused_epoch, 4u);
+  EXPECT_TRUE(refused.refused_epoch);
   EXPECT_EQ(refused.newest_epoch, 5u);
   EXPECT_THAT(refused.word.reason, HasSubstr("epoch 4 is over"));
   EXPECT_EQ(ledger.receive(request("c", Action::execute, 5, "first"), seconds(3)).order, Order::carry_out)
       << "a refused request does not take the key";
   EXPECT_EQ(ledger.receive(request("d", Action::execute, 1, "second"), seconds(3)).order, Order::carry_out);
+}
+
+// Who takes over asks under the old key, and is counted by its own epochs.
+TEST(CommandLedger, ASuccessorCancelsWhatAnotherCommanded) {
+  CommandLedger ledger;
+  const Request bore = request("a", Action::execute, 5, "first");
+  ledger.receive(bore, seconds(1));
+  ledger.say(bore.key, {Stage::accepted}, seconds(1));
+  Request cancel = request("a", Action::cancel, 2, "first");
+  cancel.sender = "second";
+  EXPECT_EQ(ledger.receive(cancel, seconds(2)).order, Order::break_off);
+  EXPECT_EQ(ledger.say(bore.key, {Stage::cancelled}, seconds(2))->newest_epoch, 5u);
+  cancel.epoch = 1;
+  EXPECT_TRUE(ledger.receive(cancel, seconds(3)).ack->refused_epoch) << "that one is counted now, too";
 }
 
 TEST(CommandLedger, AnOlderEpochMayNeitherAskNorCancel) {

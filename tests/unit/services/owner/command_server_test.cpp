@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -28,10 +29,13 @@ v1::Command command(const std::string& activity, v1::CommandAction action = v1::
   out.subsystem("drill");
   out.command_name(name);
   out.epoch(epoch);
+  out.sender_epoch(epoch);
+  out.latest_end_us(-1);
   return out;
 }
 
-v1::Command in_rock(v1::Command out) {
+v1::Command in_rock(v1::Command out, std::int64_t latest_end_us = -1) {
+  out.latest_end_us(latest_end_us);
   v1::Property rock;
   rock.name("rock");
   rock.value("basalt");
@@ -97,6 +101,42 @@ TEST(CommandServer, LeavesTheCommandsOfOtherOwnersAlone) {
 TEST(CommandServer, ARepairIsToldAndEndsAsASuccess) {
   EXPECT_THAT(talk({{1s, in_rock(command("a"))}}),
               ElementsAre("1 a accepted", "41 a accepted repairing", "81 a completed done"));
+}
+
+TEST(CommandServer, ARepairThatOverrunsItsStepFails) {
+  EXPECT_THAT(talk({{1s, in_rock(command("a"), 60'000'000)}, {70s, command("b")}}),
+              ElementsAre("1 a accepted", "41 a accepted repairing", "60 a failed repair-overrun",
+                          "70 b accepted", "110 b completed done"));
+}
+
+TEST(CommandServer, AfterItsLatestEndNothingIsRepaired) {
+  EXPECT_THAT(talk({{1s, in_rock(command("a"), 30'000'000)}}),
+              ElementsAre("1 a accepted", "41 a failed jammed"));
+}
+
+TEST(CommandServer, TheKeyAndTheResultsGoOverTheWire) {
+  v1::Command in = command("a");
+  in.commander("exec_svc");
+  in.robot("scout");
+  in.latest_end_us(7);
+  const Request request = from_wire(in);
+  EXPECT_EQ(request.key.commander, "exec_svc");
+  EXPECT_EQ(request.robot, "scout");
+  EXPECT_EQ(request.latest_end, 7us);
+  const Results results{3us, 2.5, {{"depth", 0.3}}};
+  const v1::CommandAck out =
+      to_wire({request.key, {Stage::completed, "done", "", results}, 9us, 4, true}, "drill");
+  EXPECT_EQ(out.commander(), "exec_svc");
+  EXPECT_EQ(out.newest_epoch(), 4u);
+  EXPECT_TRUE(out.refused_epoch());
+  EXPECT_EQ(out.outcome().duration_us(), 3);
+  EXPECT_EQ(out.outcome().energy_j(), 2.5);
+  ASSERT_EQ(out.outcome().measured().size(), 1u);
+  EXPECT_EQ(out.outcome().measured()[0].name(), "depth");
+  EXPECT_EQ(out.outcome().measured()[0].held().number(), 0.3);
+  const v1::CommandAck plain = to_wire({request.key, {Stage::accepted}, 9us}, "drill");
+  EXPECT_EQ(plain.outcome().duration_us(), -1);
+  EXPECT_TRUE(std::isnan(plain.outcome().energy_j()));
 }
 
 // A driver whose commands run for ever, and which repairs at once.

@@ -39,10 +39,12 @@ class Drill final : public services::Service, private owner::Driver {
     rest(why);
   }
   void bored() {
-    if (std::exchange(hard_rock_, false) && commands_.repair(*running_, "it jammed and tries again")) {
+    if (!std::exchange(hard_rock_, false)) {
+      rest({owner::Stage::completed, "done", "", {.energy_j = 1200, .values = {{"depth", 0.3}}}});
+    } else if (commands_.repair(*running_, "it jammed and tries again")) {
       timer_ = node_.after(40s, [this] { bored(); });  // nobody above has to plan for that
     } else {
-      rest({owner::Stage::completed, "done", "", {.energy_j = 1200, .values = {{"depth", 0.3}}}});
+      rest({owner::Stage::failed, "jammed", "the rock is hard, and no time is left"});
     }
   }
   void rest(const owner::Word& last) {

@@ -63,7 +63,7 @@ TEST(TaskComponent, GoesFromStateToStateAndChangesItsNumbers) {
   EXPECT_EQ(last_number(run.said, "station.drill.bits"), 3);
   const auto results = run.last_ack("b")->word.results;
   EXPECT_EQ(results.duration, seconds(100));
-  EXPECT_NEAR(results.energy_j, 5000, 1e-6);
+  EXPECT_NEAR(results.energy_j.value(), 5000, 1e-6);
   EXPECT_EQ(results.values.at("depth"), temporal::Value{21.0});
   EXPECT_NEAR(last_number(run.said, "station.battery"), 50000 - 102 * 10 - 5000, 1);
 }

@@ -260,7 +260,7 @@ TEST(Robots, APartOfATestFitsIn) {
   const auto ack = run.last_ack("l").value();
   EXPECT_EQ(ack.word.stage, Stage::completed);
   EXPECT_EQ(ack.word.results.duration, seconds(30));
-  EXPECT_NEAR(ack.word.results.energy_j, 3000, 1e-6);
+  EXPECT_NEAR(ack.word.results.energy_j.value(), 3000, 1e-6);
   EXPECT_EQ(ack.word.results.values.at("lit"), temporal::Value{true});
 }
 
