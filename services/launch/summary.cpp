@@ -8,7 +8,7 @@
 
 #include "services/service.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
 using nlohmann::json;
@@ -101,4 +101,4 @@ Summary complete_summary(const Options& options, double wall_s, bool ended_well)
           counts_goals ? text_with_goals(summary, options) : text_without_goals(summary, options)};
 }
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch
