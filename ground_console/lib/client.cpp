@@ -39,6 +39,8 @@ services::Connection choose_run(const services::ConnectionFlags& flags) {
   services::ConnectionFlags chosen = flags;
   if (!flags.domain && !flags.network && !environment("ROCI_DOMAIN") && !environment("ROCI_NETWORK")) {
     const auto runs = services::find_runs(services::runtime_folder());
+    const auto refused = services::refused_runs(services::runtime_folder());
+    if (runs.empty() && !refused.empty()) throw std::runtime_error("a mission runs, but " + refused.front());
     if (runs.empty())
       throw NoRun("no mission runs on this machine; start one with ./run, or name its --domain");
     if (runs.size() > 1) {
