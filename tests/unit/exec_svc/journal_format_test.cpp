@@ -71,7 +71,7 @@ TEST_F(JournalFormatTest, TheJournalOfBaseline05IsOfTheFirstVersionAndReadExactl
   journal.for_each(
       [&](temporal::Time, std::string_view kind, std::string_view) { ++kinds[std::string(kind)]; });
   EXPECT_THAT(kinds, ElementsAre(Pair("anchor", 1), Pair("call", 1), Pair("event", 10), Pair("goal", 6),
-                                 Pair("input", 5), Pair("step", 11), Pair("trace", 17)));
+                                 Pair("input", 6), Pair("step", 11), Pair("trace", 17)));
   const auto goals = journal.goals();
   ASSERT_EQ(goals.size(), 3U);
   EXPECT_EQ(goals[1].request.key, (GoalKey{"ground", "soil"}));
