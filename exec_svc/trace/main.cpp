@@ -34,10 +34,17 @@ trace::RecordedTrace read(const fs::path& run, const Options& options) {
   return out;
 }
 
+// Two runs that never began are not the same run.
+trace::RecordedTrace read_flown(const fs::path& run, const Options& options) {
+  trace::RecordedTrace out = read(run, options);
+  if (out.lines.empty()) throw trace::TraceError(run.string() + " has no line of a trace; fly it again");
+  return out;
+}
+
 trace::Comparison compare(const fs::path& before, const fs::path& after, const trace::TraceMap& map,
                           const Options& options, std::string& scenario) {
-  const trace::RecordedTrace old_trace = read(before, options);
-  const trace::RecordedTrace new_trace = read(after, options);
+  const trace::RecordedTrace old_trace = read_flown(before, options);
+  const trace::RecordedTrace new_trace = read_flown(after, options);
   scenario = old_trace.scenario.empty() ? new_trace.scenario : old_trace.scenario;
   return trace::compare(old_trace, new_trace, map);
 }

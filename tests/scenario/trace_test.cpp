@@ -122,6 +122,8 @@ TEST_F(TraceTest, BadInputHasItsOwnCode) {
   EXPECT_EQ(bad_map.exit_code, 2);
   EXPECT_THAT(bad_map.output, HasSubstr("bad.map.yaml:2:1: unknown key 'name'"));
   EXPECT_EQ(roci_trace("print nothing 2>&1").exit_code, 2);
+  plant("once", "never_began", "DELETE FROM record");
+  EXPECT_EQ(roci_trace("compare never_began never_began 2>&1").exit_code, 2);
   EXPECT_EQ(roci_trace("compare once 2>&1").exit_code, 2);
 }
 

@@ -28,16 +28,16 @@ if ((${#scenarios[@]} == 0)); then
   for file in "$mission"/scenarios/*.yaml; do scenarios+=("$(basename "$file" .yaml)"); done
 fi
 
-# The exit code of a flight tells how its mission ended; here it counts that it ended.
+# Codes 0 and 1 tell how a mission ended; here it counts that it ended.
 fly() {
-  local scenario=$1 seed=$2 run
+  local scenario=$1 seed=$2 run code=0
   run=$(mktemp -d)
-  "$bin/roci-rehearse" "$mission" --scenario "$scenario" --seed "$seed" --speed max --run-folder "$run" >"$run/out" 2>&1 || true
-  if [[ -f $run/summary.json ]] && "$trace" print --decisions "$run" >"$out/$scenario-$seed.trace"; then
+  "$bin/roci-rehearse" "$mission" --scenario "$scenario" --seed "$seed" --speed max --run-folder "$run" >"$run/out" 2>&1 || code=$?
+  if ((code <= 1)) && [[ -f $run/summary.json ]] && "$trace" print --decisions "$run" >"$out/$scenario-$seed.trace"; then
     cp "$run/summary.json" "$out/$scenario-$seed.summary.json"
     rm -rf "$run"
   else
-    echo "record.sh: $scenario with seed $seed left no trace; see $run" >&2
+    echo "record.sh: $scenario with seed $seed left no trace (code $code); see $run/out" >&2
     return 1
   fi
 }

@@ -88,6 +88,13 @@ TEST(ComparisonTest, AnAcceptedDifferenceIsCountedAndNoMore) {
                    .equal());
 }
 
+TEST(ComparisonTest, AcceptingAChangeAcceptsNoMissingLine) {
+  const std::string sections = "accepted: [{old: '^ack', new: '^ack drive 2$', reason: counts on}]";
+  EXPECT_FALSE(compare(kOld, with(kOld, "2 ack drive 1\n", ""), sections).equal());
+  EXPECT_FALSE(
+      compare(with(kOld, "ack drive 1", "stop"), with(kOld, "ack drive 1", "ack drive 2"), sections).equal());
+}
+
 TEST(ComparisonTest, AcceptingOneSideAcceptsNoChange) {
   const std::string changed = with(kOld, "ack drive 1", "ack drive 2");
   EXPECT_THAT(compare(kOld, changed, "accepted: [{old: '^ack', reason: not sent}]").differences,
