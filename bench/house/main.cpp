@@ -1,6 +1,7 @@
 // bench_house: what a house of so many processes costs. For each size the mission's services are started with
 // idle ones beside them, twice: at pace 1 before the first goal, for memory, threads and idle CPU, and as
 // fast as possible to the end of the mission, for its speed. Prints one JSON object.
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -28,6 +29,7 @@ struct Arguments {
   std::vector<int> sizes{7, 12, 20};
   double settle_s = 2;
   double idle_s = 5;
+  bool table = false;
 };
 
 double children_cpu_s() {
@@ -73,6 +75,21 @@ void measure_flight(house::HouseOptions options, const fs::path& folder, json& o
   out["samples_per_micro_step"] = static_cast<double>(clock.samples) / static_cast<double>(clock.micro_steps);
 }
 
+// The same as Markdown, for docs/house.md.
+void print_table(const json& houses) {
+  std::cout << "| processes | start | first command | memory (PSS) | threads | idle CPU | mission s per s | "
+               "CPU of a flight | "
+               "samples per micro-step |\n|---|---|---|---|---|---|---|---|---|\n";
+  for (const json& record : houses) {
+    std::cout << fmt::format(
+        "| {} | {:.2f} s | {:.2f} s | {:.0f} MB | {} | {:.1f} % | {:.0f} | {:.2f} s | {:.2f} |\n",
+        record["processes"].get<int>(), record["start_s"].get<double>(), record.value("first_command_s", 0.0),
+        record["pss_mb"].get<double>(), record["threads"].get<int>(),
+        record["idle_cpu_percent"].get<double>(), record["sim_s_per_s"].get<double>(),
+        record["cpu_s"].get<double>(), record["samples_per_micro_step"].get<double>());
+  }
+}
+
 int bench(const Arguments& arguments) {
   const fs::path folder = fs::temp_directory_path() / ("rocinante-house-" + std::to_string(getpid()));
   json houses = json::array();
@@ -85,6 +102,10 @@ int bench(const Arguments& arguments) {
     houses.push_back(record);
   }
   fs::remove_all(folder);
+  if (arguments.table) {
+    print_table(houses);
+    return 0;
+  }
   std::cout << json{{"bench", "house"},
                     {"mission", arguments.house.mission.filename().string()},
                     {"scenario", arguments.house.scenario},
@@ -124,6 +145,7 @@ int main(int argc, char** argv) {
   app.add_option("--settle", arguments.settle_s, "Seconds before idle CPU is counted")->capture_default_str();
   app.add_option("--idle-for", arguments.idle_s, "Seconds for which idle CPU is counted")
       ->capture_default_str();
+  app.add_flag("--table", arguments.table, "Print a table in Markdown in the place of JSON");
   CLI11_PARSE(app, argc, argv);
   try {
     return bench(arguments);

@@ -29,8 +29,6 @@ class TraceTest : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_ = fs::temp_directory_path() / ("roci_traces_" + std::to_string(::getpid()));
     fly("once", 1);
-    fly("again", 1);
-    fly("other", 2);
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
 
@@ -38,7 +36,7 @@ class TraceTest : public ::testing::Test {
     static int domain = 0;
     rehearsal::FlightOptions options;
     options.run.mission = ROCI_SOURCE_DIR "/missions/planetary";
-    options.run.scenario = "blocked_window";
+    options.run.scenario = "arm_fault";
     options.run.seed = seed;
     options.run.run_folder = folder_ / name;
     options.domain = ++domain;
@@ -72,15 +70,19 @@ class TraceTest : public ::testing::Test {
 fs::path TraceTest::folder_;
 
 TEST_F(TraceTest, TheSameFlightTwiceIsTheSameTrace) {
+  fly("again", 1);
   const trace::Comparison found = compare("once", "again");
   EXPECT_TRUE(found.equal());
-  EXPECT_GT(found.before.size(), 500U);
+  EXPECT_GT(found.before.size(), 100U);
   const Ended program = roci_trace("compare once again --decisions");
   EXPECT_EQ(program.exit_code, 0) << program.output;
   EXPECT_THAT(program.output, HasSubstr("equal: " + std::to_string(found.before.size()) + " lines"));
 }
 
-TEST_F(TraceTest, AnotherSeedIsAnotherTrace) { EXPECT_FALSE(compare("once", "other").equal()); }
+TEST_F(TraceTest, AnotherSeedIsAnotherTrace) {
+  fly("other", 2);
+  EXPECT_FALSE(compare("once", "other").equal());
+}
 
 TEST_F(TraceTest, APlantedDifferenceIsFound) {
   plant("once", "planted",
@@ -118,7 +120,7 @@ TEST_F(TraceTest, OneMapLeadsFromOldToNew) {
 
 TEST_F(TraceTest, BadInputHasItsOwnCode) {
   std::ofstream(folder_ / "bad.map.yaml") << "format: 1\nname: {}\n";
-  const Ended bad_map = roci_trace("compare once again --map bad.map.yaml 2>&1");
+  const Ended bad_map = roci_trace("compare once once --map bad.map.yaml 2>&1");
   EXPECT_EQ(bad_map.exit_code, 2);
   EXPECT_THAT(bad_map.output, HasSubstr("bad.map.yaml:2:1: unknown key 'name'"));
   EXPECT_EQ(roci_trace("print nothing 2>&1").exit_code, 2);
