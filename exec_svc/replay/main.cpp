@@ -66,6 +66,7 @@ void print(const RunReplay& run) {
 int replay(const Options& options) {
   const Journal journal(journal_file(options.journal), Durability::process);
   const std::int64_t format = journal.number("format", 0);
+  if (format == 0) throw JournalError(options.journal.string() + " holds no inputs of a run");
   if (format != roci::exec::journal::kInputFormat)
     throw JournalError(options.journal.string() + " holds inputs of format " + std::to_string(format) +
                        ", this roci-replay repeats format " +
