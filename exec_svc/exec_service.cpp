@@ -29,7 +29,7 @@ using services::Node;
 
 // For known services to be heard of after a restart; of wall time, live.
 temporal::Duration reunion(const Node& node) {
-  const bool live = node.options().clock == services::ClockMode::live;
+  const bool live = node.options().clock == services::clock::ClockMode::live;
   return temporal::seconds(5 * (live ? node.options().live_scale : 1));
 }
 
@@ -74,8 +74,8 @@ class ExecService final : public services::Service {
       inputs_.models.push_back({offer.owner(), offer.model_version()});
       step_soon();
     });
-    node.on_peer_change([this](const services::PeerChange& change) { take(change); });
-    if (leading_ != nullptr && node.options().clock == services::ClockMode::live)
+    node.on_peer_change([this](const services::health::PeerChange& change) { take(change); });
+    if (leading_ != nullptr && node.options().clock == services::clock::ClockMode::live)
       node.on_turn([this] { tell_pair(); });
     step_soon();
   }
@@ -115,7 +115,7 @@ class ExecService final : public services::Service {
     for (const Note& note : leading_->take_notes()) outbox_.report(note);
   }
 
-  void take(const services::PeerChange& change) {
+  void take(const services::health::PeerChange& change) {
     const auto known = missed_.extract(change.service);
     if (!change.alive) {
       journal_.remove_peer(change.service);
@@ -218,10 +218,10 @@ class ExecService final : public services::Service {
   void take(std::uint64_t call, const services::CallResult<v1::PlanReply>& result) {
     PlanAnswer answer;
     answer.call = call;
-    answer.verdict =
-        result.status == services::CallStatus::cancelled ? PlanVerdict::cancelled : PlanVerdict::no_reply;
+    answer.verdict = result.status == services::rpc::CallStatus::cancelled ? PlanVerdict::cancelled
+                                                                           : PlanVerdict::no_reply;
     answer.reason = result.message;
-    if (result.status == services::CallStatus::ok) {
+    if (result.status == services::rpc::CallStatus::ok) {
       slowest_call_s_ = std::max(slowest_call_s_, result.reply.statistics().wall_s());
       planner_peak_kb_ = std::max(planner_peak_kb_, result.reply.statistics().peak_rss_kb());
       journal_.set_number("slowest_call_us", temporal::seconds(slowest_call_s_).count());
@@ -264,7 +264,7 @@ class ExecService final : public services::Service {
   services::Client<v1::PlanRequest, v1::PlanReply> planner_;
   struct {
     std::uint64_t id = 0;       // the reactor's
-    services::CallId sent = 0;  // the wire's
+    services::rpc::CallId sent = 0;  // the wire's
   } call_;                      // the last one
   Outbox outbox_;
 };
@@ -274,7 +274,8 @@ class LoneExecutive final : public services::Service {
  public:
   LoneExecutive(Node& node, const services::RunSettings& settings)
       : journal_(settings.run_folder / "journal.sqlite",
-                 node.options().clock == services::ClockMode::live ? Durability::power : Durability::process),
+                 node.options().clock == services::clock::ClockMode::live ? Durability::power
+                                                                          : Durability::process),
         executive_(node, settings, journal_, journal_.next_epoch(), nullptr, false) {}
 
  private:

@@ -33,7 +33,8 @@ void write_summary(const services::RunSettings& settings, const MissionModel& mi
                    const RunFigures& figures) {
   const ReactorCounts counts = reactor.counts();
   const std::string outcome = reactor.outcome();
-  const nlohmann::json summary{{"mission", mission.name},
+  const nlohmann::json summary{{"format", services::kSummaryFormat},
+                               {"mission", mission.name},
                                {"scenario", settings.scenario},
                                {"seed", settings.seed},
                                {"result", outcome.empty() ? "failed" : outcome},
@@ -52,7 +53,7 @@ void write_summary(const services::RunSettings& settings, const MissionModel& mi
                                {"trace_sha256", figures.trace_sha256},
                                {"journal", figures.journal.lexically_relative(settings.run_folder).string()},
                                {"epoch", figures.epoch}};
-  std::ofstream(settings.run_folder / "summary.json") << summary.dump(2) << "\n";
+  std::ofstream(settings.run_folder / services::kSummaryFile) << summary.dump(2) << "\n";
 }
 
 }  // namespace roci::exec

@@ -7,7 +7,7 @@
 
 namespace roci::planner {
 
-FunctionOwners::FunctionOwners(services::Node& node, services::Duration timeout)
+FunctionOwners::FunctionOwners(services::Node& node, temporal::Duration timeout)
     : node_(node), timeout_(timeout), client_(node, services::topics::function_call) {
   services::subscribe(node, services::topics::function_offer,
                       [this](const v1::FunctionOffer& offer) { offers_[offer.module_name()] = offer; });

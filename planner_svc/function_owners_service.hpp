@@ -20,7 +20,7 @@ class FunctionOwners {
   using Done = std::function<void(std::vector<FunctionValue>)>;
 
   // `timeout`: of one batch.
-  FunctionOwners(services::Node& node, services::Duration timeout);
+  FunctionOwners(services::Node& node, temporal::Duration timeout);
   FunctionOwners(const FunctionOwners&) = delete;
   FunctionOwners& operator=(const FunctionOwners&) = delete;
 
@@ -34,7 +34,7 @@ class FunctionOwners {
   std::string no_offer(const std::string& module_name) const;
 
   services::Node& node_;
-  services::Duration timeout_;
+  temporal::Duration timeout_;
   services::Client<v1::FunctionRequest, v1::FunctionReply> client_;
   std::map<std::string, v1::FunctionOffer> offers_;  // by module
   std::uint64_t asked_ = 0;                          // batches so far

@@ -22,8 +22,8 @@
 namespace roci::planner {
 namespace {
 
-using services::Duration;
 using services::Node;
+using temporal::Duration;
 
 std::uint32_t peak_resident_kb() {
   rusage usage{};
@@ -48,7 +48,7 @@ class PlannerService final : public services::Service, private FunctionSource {
                       responder.on_cancel([this, number] { cancel(number); });
                       start_next();
                     });
-    node.on_peer_change([this](const services::PeerChange& change) {
+    node.on_peer_change([this](const services::health::PeerChange& change) {
       if (!change.alive) abandon_calls_of(change.service);
     });
   }
@@ -83,13 +83,13 @@ class PlannerService final : public services::Service, private FunctionSource {
   // On the worker thread, until it returns.
   void run() {
     PlanningCall call = wire::from_wire(job_->request);
-    const auto begun = services::wall::now();
+    const auto begun = services::clock::wall_now();
     const Duration limit(job_->request.budget().wall_us());
     if (limit.count() > 0 && is_live())
-      call.out_of_time = [begun, limit] { return services::wall::now() - begun > limit; };
+      call.out_of_time = [begun, limit] { return services::clock::wall_now() - begun > limit; };
     call.cancelled = [this] { return cancelled_.load(std::memory_order_relaxed); };
     PlanningAnswer answer = answer_call(call, *this);
-    const double wall_s = std::chrono::duration<double>(services::wall::now() - begun).count();
+    const double wall_s = std::chrono::duration<double>(services::clock::wall_now() - begun).count();
     node_.post_work_result(work_, [this, call = std::move(call), answer = std::move(answer), wall_s] {
       finish(call, answer, wall_s);
     });
@@ -112,7 +112,7 @@ class PlannerService final : public services::Service, private FunctionSource {
 
   // From here on: on the loop.
 
-  bool is_live() const { return node_.options().clock == services::ClockMode::live; }
+  bool is_live() const { return node_.options().clock == services::clock::ClockMode::live; }
 
   // Nobody waits for these answers any more.
   void abandon_calls_of(const std::string& client) {

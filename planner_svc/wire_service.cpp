@@ -54,9 +54,9 @@ std::string detail_of(v1::FunctionOutcome outcome) {
   return "";
 }
 
-FunctionOutcome outcome_of(services::CallStatus failure) {
-  if (failure == services::CallStatus::timeout) return FunctionOutcome::late;
-  if (failure == services::CallStatus::owner_lost) return FunctionOutcome::owner_lost;
+FunctionOutcome outcome_of(services::rpc::CallStatus failure) {
+  if (failure == services::rpc::CallStatus::timeout) return FunctionOutcome::late;
+  if (failure == services::rpc::CallStatus::owner_lost) return FunctionOutcome::owner_lost;
   return FunctionOutcome::unavailable;
 }
 
@@ -119,7 +119,7 @@ v1::FunctionRequest to_wire(const std::vector<FunctionCall>& calls, std::vector<
 
 std::vector<FunctionValue> values_of(const std::vector<FunctionCall>& calls, const Provenance& asked,
                                      const services::CallResult<v1::FunctionReply>& result) {
-  if (result.status != services::CallStatus::ok)
+  if (result.status != services::rpc::CallStatus::ok)
     return {calls.size(), FunctionValue{outcome_of(result.status), 0, asked, result.message}};
   const v1::FunctionReply& reply = result.reply;
   const bool whole = reply.results().size() == 1 && reply.results()[0].numbers().size() == calls.size() &&

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "services/node.hpp"
-#include "services/transport.hpp"
+#include "services/transport/plug_ins.hpp"
 
 namespace roci::rehearsal {
 namespace {
@@ -17,13 +17,13 @@ struct Seat {
   std::unique_ptr<services::Service> service;
 };
 
-services::NodeOptions node_options(const std::string& name, double pace) {
-  services::NodeOptions options;
+services::node::NodeOptions node_options(const std::string& name, double pace) {
+  services::node::NodeOptions options;
   options.name = name;
   options.vendor = "inproc";
-  options.clock = services::ClockMode::simulated;
+  options.clock = services::clock::ClockMode::simulated;
   if (name == members().back().name) {
-    options.clock = services::ClockMode::master;
+    options.clock = services::clock::ClockMode::master;
     options.master.pace = pace;
     for (const Member& member : members()) options.master.roster.push_back(member.name);
   }
@@ -51,12 +51,12 @@ class FirstFailure {
 void fly(const FlightOptions& options) {
   std::vector<Seat> seats;
   for (const Member& member : members()) {
-    services::TransportOptions transport;
+    services::transport::TransportOptions transport;
     transport.domain = options.domain;
     transport.participant = member.name;
     Seat seat;
     seat.node = std::make_unique<services::Node>(node_options(member.name, options.pace),
-                                                 services::open_transport("inproc", transport));
+                                                 services::transport::open_transport("inproc", transport));
     seat.service = member.make(*seat.node, options.run);
     seats.push_back(std::move(seat));
   }

@@ -18,41 +18,22 @@
 #include <utility>
 
 #include "services/node.hpp"
+#include "services/rpc/call_status.hpp"
 #include "services/topics.hpp"
 
 namespace roci::services {
 
-enum class CallStatus {
-  ok,
-  timeout,       // no answer before the deadline
-  no_owner,      // the service that should answer is not there, or nobody serves the procedure
-  owner_lost,    // it died while the call was under way
-  remote_error,  // it answered with an exception
-  overloaded,    // kMaxPendingCalls of this procedure are under way already
-  cancelled,     // before it was sent to anybody
-};
-
-const char* to_string(CallStatus);
-
-inline constexpr std::size_t kMaxPendingCalls = 256;
-
-using CallId = std::int64_t;  // of one client's calls
+namespace rpc {
+class CallTable;
+class PendingReply;
+}  // namespace rpc
 
 template <class Reply>
 struct CallResult {
-  CallStatus status = CallStatus::timeout;
+  rpc::CallStatus status = rpc::CallStatus::timeout;
   std::string message;  // for people, empty with CallStatus::ok
   Reply reply;          // only with CallStatus::ok
 };
-
-struct CallStatistics {
-  std::uint64_t sent = 0;     // repetitions included
-  std::uint64_t late = 0;     // replies to calls that had ended
-  std::uint64_t foreign = 0;  // replies to calls of other clients
-};
-
-class CallTable;
-class PendingReply;
 
 namespace detail {
 
@@ -60,22 +41,22 @@ namespace detail {
 template <class Request, class Reply>
 struct Calls {
   using OnResult = std::function<void(const CallResult<Reply>&)>;
-  using Handler = std::function<void(const Request&, std::shared_ptr<PendingReply>)>;
-  static std::shared_ptr<CallTable> client(Node&, const topics::Procedure<Request, Reply>&);
-  static CallId call(Node&, const topics::Procedure<Request, Reply>&, CallTable&, Request&&,
-                     std::string&& owner, Duration deadline, OnResult&&);
+  using Handler = std::function<void(const Request&, std::shared_ptr<rpc::PendingReply>)>;
+  static std::shared_ptr<rpc::CallTable> client(Node&, const topics::Procedure<Request, Reply>&);
+  static rpc::CallId call(Node&, const topics::Procedure<Request, Reply>&, rpc::CallTable&, Request&&,
+                          std::string&& owner, temporal::Duration deadline, OnResult&&);
   static void serve(Node&, const topics::Procedure<Request, Reply>&, Handler&&);
 };
 
 template <class Reply>
 struct Answer {
-  static void reply(PendingReply&, Reply&&);
-  static void fail(PendingReply&, v1::RemoteException, std::string&& message);
+  static void reply(rpc::PendingReply&, Reply&&);
+  static void fail(rpc::PendingReply&, v1::RemoteException, std::string&& message);
 };
 
-CallStatistics statistics(const CallTable&);
-void cancel(CallTable&, CallId);
-void on_cancel(PendingReply&, std::function<void()> handler);
+rpc::CallStatistics statistics(const rpc::CallTable&);
+void cancel(rpc::CallTable&, rpc::CallId);
+void on_cancel(rpc::PendingReply&, std::function<void()> handler);
 
 }  // namespace detail
 
@@ -89,19 +70,19 @@ class Client {
 
   // `on_result` runs on the node's loop, never inside call(). `owner`: the service that should answer; empty:
   // anybody. The request's header members are filled in here.
-  CallId call(Request request, std::string owner, Duration deadline,
-              std::function<void(const CallResult<Reply>&)> on_result) const {
+  rpc::CallId call(Request request, std::string owner, temporal::Duration deadline,
+                   std::function<void(const CallResult<Reply>&)> on_result) const {
     return detail::Calls<Request, Reply>::call(*node_, procedure_, *table_, std::move(request),
                                                std::move(owner), deadline, std::move(on_result));
   }
   // Nothing for a call that has ended.
-  void cancel(CallId call) const { detail::cancel(*table_, call); }
-  CallStatistics statistics() const { return detail::statistics(*table_); }
+  void cancel(rpc::CallId call) const { detail::cancel(*table_, call); }
+  rpc::CallStatistics statistics() const { return detail::statistics(*table_); }
 
  private:
   Node* node_ = nullptr;
   topics::Procedure<Request, Reply> procedure_{};
-  std::shared_ptr<CallTable> table_;
+  std::shared_ptr<rpc::CallTable> table_;
 };
 
 template <class Request, class Reply>
@@ -114,7 +95,7 @@ Client<Request, Reply> make_client(Node& node, const topics::Procedure<Request, 
 template <class Reply>
 class Responder {
  public:
-  explicit Responder(std::shared_ptr<PendingReply> pending) : pending_(std::move(pending)) {}
+  explicit Responder(std::shared_ptr<rpc::PendingReply> pending) : pending_(std::move(pending)) {}
   void reply(Reply reply) const { detail::Answer<Reply>::reply(*pending_, std::move(reply)); }
   void fail(v1::RemoteException exception, std::string message) const {
     detail::Answer<Reply>::fail(*pending_, exception, std::move(message));
@@ -124,7 +105,7 @@ class Responder {
   void on_cancel(std::function<void()> handler) const { detail::on_cancel(*pending_, std::move(handler)); }
 
  private:
-  std::shared_ptr<PendingReply> pending_;
+  std::shared_ptr<rpc::PendingReply> pending_;
 };
 
 // A duplicate request (same id) gets the first answer again and is not handled twice. A request that names
@@ -134,7 +115,7 @@ void serve(Node& node, const topics::Procedure<Request, Reply>& procedure,
            std::type_identity_t<std::function<void(const Request&, Responder<Reply>)>> handler) {
   detail::Calls<Request, Reply>::serve(
       node, procedure,
-      [handler = std::move(handler)](const Request& request, std::shared_ptr<PendingReply> pending) {
+      [handler = std::move(handler)](const Request& request, std::shared_ptr<rpc::PendingReply> pending) {
         handler(request, Responder<Reply>(std::move(pending)));
       });
 }

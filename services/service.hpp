@@ -1,10 +1,10 @@
 // A service: built on a node, alive until the node's loop ends. Each X_svc offers `make_service` in
-// x_service.hpp; its main() is service_main(argc, argv, "x_svc", make_service); rehearsal runs the same
-// functions in one process.
+// x_service.hpp; its main() is process::service_main(argc, argv, "x_svc", make_service); rehearsal runs the
+// same functions in one process.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -31,19 +31,9 @@ using MakeService = std::unique_ptr<Service>(Node&, const RunSettings&);
 // In the run folder: what sim_svc found when it compared the events with the scenario's list; optional.
 inline constexpr char kExpectedFile[] = "expected.json";
 
-// Reads the command line (`x_svc --help`), opens the transport, runs the service until it is stopped (SIGTERM
-// and SIGINT stop it cleanly). Returns a process exit code (docs/exit-codes.md); errors go to standard error
-// with their remedy.
-int service_main(int argc, char** argv, const std::string& name, MakeService* make);
-
-struct ServiceOptions;
-class StopSignals;
-
-// The same for a process that opens its nodes itself, one after the other.
-using RunProcess = void(const ServiceOptions&, StopSignals&);
-int service_main(int argc, char** argv, const std::string& name, RunProcess* run);
-
-// One node, one service, until it is stopped.
-void run_service(const ServiceOptions&, StopSignals&, MakeService* make);
+/// In the run folder: the outcome of a run, with `format`, the version of its schema (docs/formats.md). It
+/// rises when a key changes its meaning or goes; a summary without it is of version 1.
+inline constexpr char kSummaryFile[] = "summary.json";
+inline constexpr int kSummaryFormat = 1;
 
 }  // namespace roci::services

@@ -1,8 +1,8 @@
 #pragma once
 #include <utility>
 
-#include "services/job_queue.hpp"
 #include "services/node.hpp"
+#include "services/node/job_queue.hpp"
 
 namespace roci::services {
 
@@ -27,7 +27,7 @@ class Worker {
 
  private:
   Node& node_;
-  JobQueue jobs_;
+  node::JobQueue jobs_;
 };
 
 }  // namespace roci::services

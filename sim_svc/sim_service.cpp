@@ -146,8 +146,9 @@ class SimService final : public services::Service, private owner::Driver {
   // Why a call gave nothing to follow: "no-path" when there is none, "path-call" when nobody said so.
   template <class Reply>
   static std::optional<Failure> refusal(const services::CallResult<Reply>& result, const std::string& what) {
-    if (result.status != services::CallStatus::ok) {
-      return Failure{what + "-call", std::string(services::to_string(result.status)) + ": " + result.message};
+    if (result.status != services::rpc::CallStatus::ok) {
+      return Failure{what + "-call",
+                     std::string(services::rpc::to_string(result.status)) + ": " + result.message};
     }
     if (result.reply.outcome() != v1::MOTION_FOUND) return Failure{"no-" + what, result.reply.reason()};
     return std::nullopt;

@@ -10,7 +10,7 @@
 #include "exec_svc/exec_service.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
-#include "services/transport.hpp"
+#include "services/transport/plug_ins.hpp"
 #include "services/wire/plan_wire.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
@@ -24,11 +24,11 @@ namespace topics = services::topics;
 constexpr std::size_t kActivities = 8000;
 
 std::unique_ptr<services::Node> open_node(const std::string& name, const std::string& vendor, int domain) {
-  services::NodeOptions options;
+  services::node::NodeOptions options;
   options.name = name;
   options.vendor = vendor;
   return std::make_unique<services::Node>(
-      options, services::open_transport(vendor, {.domain = domain, .participant = name}));
+      options, services::transport::open_transport(vendor, {.domain = domain, .participant = name}));
 }
 
 // Images one after the other; each waits for the camera to be observed idle after the one before.

@@ -4,6 +4,8 @@
 #define SQLITE_ENABLE_PREUPDATE_HOOK
 #include <sqlite3.h>
 
+#include "exec_svc/journal/format.hpp"
+
 namespace roci::exec {
 namespace {
 
@@ -76,6 +78,7 @@ Journal::Database::Database(const std::filesystem::path& file, Durability durabi
   try {
     execute("PRAGMA journal_mode=WAL;");
     execute(durability == Durability::power ? "PRAGMA synchronous=FULL;" : "PRAGMA synchronous=OFF;");
+    journal::settle_format(handle);
     execute(kSchema);
     append_record =
         std::make_unique<Statement>(*this, "INSERT INTO record(time_us, kind, text) VALUES(?,?,?)");

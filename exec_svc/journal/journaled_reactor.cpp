@@ -3,12 +3,10 @@
 #include <algorithm>
 
 #include "exec_svc/archive/fields.hpp"
+#include "exec_svc/journal/format.hpp"
 
 namespace roci::exec {
 namespace {
-
-// Of inputs and snapshots. Rises when fields.hpp or the reactor's snapshot change.
-constexpr std::int64_t kFormat = 5;
 
 // A replay of so many turns takes a moment, no more; an anchor is written then wherever the reactor rests.
 constexpr std::size_t kTurnsUntilAnchor = 500;
@@ -36,7 +34,7 @@ void JournaledReactor::recover(bool doubtful) {
     if (kind == "trace") trace_.add(text);
   });
   if (empty && journal_->goals().empty()) {
-    journal_->set_number("format", kFormat);
+    journal_->set_number("format", journal::kInputFormat);
     return;
   }
   recovery_.restarted = true;
@@ -60,8 +58,9 @@ bool JournaledReactor::replay() {
     return false;
   };
   const std::int64_t format = journal_->number("format", 0);
-  if (format != kFormat)
-    return fail("a journal of format " + std::to_string(kFormat), "format " + std::to_string(format));
+  if (format != journal::kInputFormat)
+    return fail("a journal of format " + std::to_string(journal::kInputFormat),
+                "format " + std::to_string(format));
   try {
     journal_->for_each_from(journal_->number("anchor", 0),
                             [&](temporal::Time time, std::string_view kind, std::string_view bytes) {
@@ -89,7 +88,7 @@ bool JournaledReactor::replay() {
 void JournaledReactor::begin_anew() {
   reactor_ = std::make_unique<Reactor>(*mission_);
   reactor_->restore(journal_->goals(), static_cast<std::uint32_t>(journal_->number("plan_version", 0)));
-  journal_->set_number("format", kFormat);
+  journal_->set_number("format", journal::kInputFormat);
   anchor(temporal::Time{0}, "restored");
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/mission/entry.hpp"
 #include "exec_svc/archive/archive.hpp"
+#include "exec_svc/journal/format.hpp"
 #include "exec_svc/journal/run_replay.hpp"
 
 namespace {
@@ -64,6 +65,13 @@ void print(const RunReplay& run) {
 
 int replay(const Options& options) {
   const Journal journal(journal_file(options.journal), Durability::process);
+  const std::int64_t format = journal.number("format", 0);
+  if (format == 0) throw JournalError(options.journal.string() + " holds no inputs of a run");
+  if (format != roci::exec::journal::kInputFormat)
+    throw JournalError(options.journal.string() + " holds inputs of format " + std::to_string(format) +
+                       ", this roci-replay repeats format " +
+                       std::to_string(roci::exec::journal::kInputFormat) +
+                       "; repeat the run with the version that flew it");
   const fs::path mission = options.mission.empty() ? fs::path(journal.text("mission")) : options.mission;
   if (mission.empty()) throw JournalError("the journal names no mission; give its folder with --mission");
   const RunReplay run = replay_run(journal, read_mission(mission));

@@ -11,11 +11,11 @@
 #include "exec_svc/standby/leading_service.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
 #include "services/health/sign_of_life.hpp"
-#include "services/log.hpp"
+#include "services/log/log.hpp"
 #include "services/node.hpp"
-#include "services/service_options.hpp"
-#include "services/stop_signals.hpp"
-#include "services/transport.hpp"
+#include "services/process/service_options.hpp"
+#include "services/process/stop_signals.hpp"
+#include "services/transport/transport.hpp"
 
 namespace roci::exec {
 namespace {
@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kReconnectPause{500};
 
-Durability durability_for(const services::NodeOptions& node) {
-  return node.clock == services::ClockMode::live ? Durability::power : Durability::process;
+Durability durability_for(const services::node::NodeOptions& node) {
+  return node.clock == services::clock::ClockMode::live ? Durability::power : Durability::process;
 }
 
 fs::path folder_of(const services::RunSettings& run) {
@@ -79,7 +79,7 @@ class Reach {
 
 class PairProcess {
  public:
-  PairProcess(const services::ServiceOptions& options, services::StopSignals& signals)
+  PairProcess(const services::process::ServiceOptions& options, services::process::StopSignals& signals)
       : options_(options),
         sign_(options.notify_socket),
         self_(wire::member_of(options.run.pair)),
@@ -98,27 +98,28 @@ class PairProcess {
       const auto end = this->lead(lease, *lead);
       if (!end) return;
       superseded = end->superseded;
-      services::log_warning("exec_svc (" + options_.run.pair + ") stands down: " + end->what());
+      services::log::warning("exec_svc (" + options_.run.pair + ") stands down: " + end->what());
     }
   }
 
  private:
   void log(const Lease::Turn& turn, const Lease& lease) const {
-    services::log_info("exec_svc (" + options_.run.pair + ") leads in epoch " +
-                       std::to_string(lease.epoch()) + ": " + turn.why);
+    services::log::info("exec_svc (" + options_.run.pair + ") leads in epoch " +
+                        std::to_string(lease.epoch()) + ": " + turn.why);
   }
 
   // A member that was connected before waits for its network to come back; none: it was asked to stop.
-  std::unique_ptr<services::Transport> connect() {
+  std::unique_ptr<services::transport::Transport> connect() {
     for (bool told = false; !stop_.asked(); stop_.wait(kReconnectPause)) {
       sign_.give();
       try {
-        auto transport = services::connect(options_.connection);
+        auto transport = services::process::connect(options_.connection);
         connected_before_ = true;
         return transport;
-      } catch (const services::TransportError& error) {
+      } catch (const services::transport::TransportError& error) {
         if (!connected_before_) throw;
-        if (!std::exchange(told, true)) services::log_warning(std::string("exec_svc waits: ") + error.what());
+        if (!std::exchange(told, true))
+          services::log::warning(std::string("exec_svc waits: ") + error.what());
       }
     }
     return nullptr;
@@ -128,9 +129,9 @@ class PairProcess {
   std::optional<Lease::Turn> follow(Lease& lease) {
     auto transport = connect();
     if (!transport) return std::nullopt;
-    services::NodeOptions options = options_.node;
+    services::node::NodeOptions options = options_.node;
     options.name += "." + options_.run.pair;
-    options.clock = services::ClockMode::observer;
+    options.clock = services::clock::ClockMode::observer;
     services::Node node(options, std::move(transport));
     FollowingService following(node, lease, journal_, standing_);
     node.on_turn([this] { sign_.give(); });
@@ -144,7 +145,7 @@ class PairProcess {
   std::optional<StandDown> lead(Lease& lease, const Lease::Turn& why) {
     auto transport = connect();
     if (!transport) return std::nullopt;
-    services::NodeOptions options = options_.node;
+    services::node::NodeOptions options = options_.node;
     options.incarnation = static_cast<std::uint32_t>(lease.epoch());
     services::Node node(options, std::move(transport));
     node.on_turn([this] { sign_.give(); });
@@ -156,15 +157,15 @@ class PairProcess {
       return std::nullopt;
     } catch (const StandDown& end) {
       return end;
-    } catch (const services::ClockGone&) {
+    } catch (const services::clock::ClockGone&) {
       throw;
-    } catch (const services::ClockError& error) {
+    } catch (const services::clock::ClockError& error) {
       return StandDown(error.what(), true);
     }
   }
 
-  const services::ServiceOptions& options_;
-  services::SignOfLife sign_;
+  const services::process::ServiceOptions& options_;
+  services::health::SignOfLife sign_;
   Member self_;
   LeaseSettings lease_;
   Journal journal_;
@@ -175,7 +176,7 @@ class PairProcess {
 
 }  // namespace
 
-void run_pair(const services::ServiceOptions& options, services::StopSignals& signals) {
+void run_pair(const services::process::ServiceOptions& options, services::process::StopSignals& signals) {
   PairProcess(options, signals).run();
 }
 

@@ -25,7 +25,7 @@ Position from_wire(const v1::JournalPosition& position) { return {position.epoch
 
 }  // namespace
 
-Moment moment() { return std::chrono::duration_cast<Moment>(services::wall::now().time_since_epoch()); }
+Moment moment() { return std::chrono::duration_cast<Moment>(services::clock::wall_now().time_since_epoch()); }
 
 std::string name_of(Member member) { return member == Member::first ? "first" : "second"; }
 

@@ -9,11 +9,11 @@
 #include <stdexcept>
 
 #include "ground_console/lib/mission_view.hpp"
-#include "services/connection.hpp"
 #include "services/node.hpp"
+#include "services/process/connection.hpp"
 #include "services/publisher.hpp"
 
-namespace roci::console {
+namespace roci::console::lib {
 
 class NoRun : public std::runtime_error {
  public:
@@ -22,15 +22,15 @@ class NoRun : public std::runtime_error {
 
 // Where to join: what the command line and the environment say, else the one mission that runs on this
 // machine. Throws NoRun when there is none, std::runtime_error when several run, with the remedy.
-services::Connection choose_run(const services::ConnectionFlags& flags);
+services::process::Connection choose_run(const services::process::ConnectionFlags& flags);
 
 // The same, but waits until a mission runs; calls `tell_waiting` once if it has to. Wall time.
-services::Connection wait_for_run(const services::ConnectionFlags& flags,
-                                  const std::function<void()>& tell_waiting);
+services::process::Connection wait_for_run(const services::process::ConnectionFlags& flags,
+                                           const std::function<void()>& tell_waiting);
 
 class Client {
  public:
-  explicit Client(const services::Connection& connection);
+  explicit Client(const services::process::Connection& connection);
 
   const MissionView& view() const { return view_; }
 
@@ -53,4 +53,4 @@ class Client {
   services::Publisher<v1::Goal> goals_;
 };
 
-}  // namespace roci::console
+}  // namespace roci::console::lib

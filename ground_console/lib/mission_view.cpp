@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <tuple>
 
-namespace roci::console {
+namespace roci::console::lib {
 namespace {
 
 // Senders number their samples; a restarted sender begins again with a higher incarnation.
@@ -198,4 +198,4 @@ std::string clock_text(std::int64_t time_us) {
   return buffer.data();
 }
 
-}  // namespace roci::console
+}  // namespace roci::console::lib

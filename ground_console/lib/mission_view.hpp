@@ -16,7 +16,7 @@
 #include "roci_idl/plan.h"
 #include "roci_idl/standby.h"
 
-namespace roci::console {
+namespace roci::console::lib {
 
 struct Place {
   double x_m = 0;
@@ -97,4 +97,4 @@ std::string value_text(double number);
 std::string pair_text(const v1::LeaseMessage& leader);
 std::string clock_text(std::int64_t time_us);  // "01:23:45"
 
-}  // namespace roci::console
+}  // namespace roci::console::lib

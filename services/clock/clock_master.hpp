@@ -10,10 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "core/temporal/duration.hpp"
+#include "roci_idl/clock.h"
+#include "services/clock/clock_mode.hpp"
 #include "services/clock/follower.hpp"
-#include "services/node.hpp"
 
-namespace roci::services {
+namespace roci::services::clock {
 
 inline constexpr std::uint32_t kMicroStepCap = 10'000;
 
@@ -30,18 +32,18 @@ class ClockMaster {
   std::vector<std::string> missing() const;  // of the roster: not there yet, or lost
   std::vector<std::string> owing() const;    // who must answer the open step
   bool member(const std::string& service) const { return members_.contains(service); }
-  Time time() const { return time_; }
+  temporal::Time time() const { return time_; }
 
   // When the next step may be issued: exactly at `earliest`, or, if only input from outside asks for it,
   // anywhere up to `latest`. Nothing while a step is open, the roster incomplete or nobody wants to act.
   struct Window {
-    Time earliest;
-    Time latest;
+    temporal::Time earliest;
+    temporal::Time latest;
   };
   std::optional<Window> window() const;
 
   // The next step at a time in window(). Throws ClockError when a time has more micro-steps than the cap.
-  v1::ClockStep issue(Time);
+  v1::ClockStep issue(temporal::Time);
   // The open step again, after a death in it.
   std::optional<v1::ClockStep> take_revision();
   // Ends the run; every member answers it.
@@ -54,13 +56,13 @@ class ClockMaster {
     bool input = false;    // samples that it has not been asked to deliver yet
     bool outside = false;  // it holds input from an observer
     bool owes = false;
-    std::optional<Time> wish;
+    std::optional<temporal::Time> wish;
   };
   void admit();
-  void begin_step(Time);
+  void begin_step(temporal::Time);
   v1::ClockStep step() const;
   void forget_dead_streams();
-  bool wants_to_act(const Member&, Time) const;
+  bool wants_to_act(const Member&, temporal::Time) const;
   std::string livelock() const;
 
   std::string name_;
@@ -77,9 +79,9 @@ class ClockMaster {
   bool roster_changed_ = false;
   bool revise_ = false;
   bool last_ = false;
-  Time time_{0};
+  temporal::Time time_{0};
   std::uint32_t micro_step_ = 0;
   std::uint32_t revision_ = 0;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::clock

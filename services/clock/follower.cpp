@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-namespace roci::services {
+namespace roci::services::clock {
 namespace {
 
 StreamKey key_of(const v1::StreamCount& count) {
@@ -23,8 +23,8 @@ void Follower::Stream::close_gaps() {
   while (held.contains(received + 1)) ++received;
 }
 
-void Follower::subscribe(const std::string& topic, Qos qos, KeyOf key_of) {
-  inputs_.try_emplace(topic, Input{qos, std::move(key_of)});
+void Follower::subscribe(const std::string& topic, Durability durability, KeyOf key_of) {
+  inputs_.try_emplace(topic, Input{durability, std::move(key_of)});
 }
 
 void Follower::add(const std::string& topic, const v1::SampleHeader& header,
@@ -38,7 +38,7 @@ void Follower::add(const std::string& topic, const v1::SampleHeader& header,
 bool Follower::awaited(const v1::ClockStep& step, const v1::StreamCount& count) const {
   const auto input = inputs_.find(count.topic());
   if (input == inputs_.end() || !in_roster(step, count)) return false;
-  return joined_ || input->second.qos == Qos::state;
+  return joined_ || input->second.durability == Durability::transient_local;
 }
 
 bool Follower::has_all(const v1::StreamCount& count) const {
@@ -99,13 +99,13 @@ void Follower::deliver(const StreamKey& key, Stream& stream, std::uint64_t total
 void Follower::deliver_history(const StreamKey& key, Stream& stream, std::uint64_t total,
                                std::vector<Delivery>& deliveries) const {
   const Input& input = inputs_.at(key.topic);
-  if (input.qos != Qos::state) return;
+  if (input.durability != Durability::transient_local) return;
   std::set<std::string> seen;
   std::vector<Delivery> newest_first;
   auto sample = stream.held.upper_bound(total);
   while (sample != stream.held.begin()) {
     --sample;
-    const Payload instance = input.key_of(sample->second.get());
+    const Key instance = input.key_of(sample->second.get());
     if (!seen.emplace(instance.begin(), instance.end()).second) continue;
     newest_first.push_back({key.topic, std::move(sample->second)});
   }
@@ -113,4 +113,4 @@ void Follower::deliver_history(const StreamKey& key, Stream& stream, std::uint64
                     std::make_move_iterator(newest_first.rend()));
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::clock

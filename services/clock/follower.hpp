@@ -14,9 +14,10 @@
 #include <tuple>
 #include <vector>
 
-#include "services/topics.hpp"
+#include "roci_idl/basic.h"
+#include "roci_idl/clock.h"
 
-namespace roci::services {
+namespace roci::services::clock {
 
 struct StreamKey {
   std::string topic;
@@ -30,12 +31,19 @@ struct Delivery {
   std::shared_ptr<const void> value;
 };
 
+/// What a participant that joins late is given of a topic's past (the durability QoS of DDS).
+enum class Durability {
+  volatile_,        ///< Nothing.
+  transient_local,  ///< The newest sample of each key.
+};
+
 class Follower {
  public:
-  using KeyOf = std::function<Payload(const void* value)>;
+  using Key = std::vector<std::uint8_t>;  ///< The serialized key of an instance.
+  using KeyOf = std::function<Key(const void* value)>;
 
   // `key_of` tells the instances of a topic apart.
-  void subscribe(const std::string& topic, Qos, KeyOf key_of);
+  void subscribe(const std::string& topic, Durability, KeyOf key_of);
   void add(const std::string& topic, const v1::SampleHeader&, std::shared_ptr<const void> value);
 
   // Whether all is there that the step announces. Senders that are not in its roster are not waited for.
@@ -47,7 +55,7 @@ class Follower {
 
  private:
   struct Input {
-    Qos qos = Qos::state;
+    Durability durability = Durability::transient_local;
     KeyOf key_of;
   };
   struct Stream {
@@ -66,4 +74,4 @@ class Follower {
   std::map<StreamKey, Stream> streams_;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::clock

@@ -4,8 +4,9 @@
 
 #include <array>
 #include <fstream>
+#include <utility>
 
-namespace roci::services {
+namespace roci::services::health {
 namespace {
 
 constexpr double kPeriodS = 0.25;
@@ -26,20 +27,15 @@ std::uint32_t resident_kb() {
 
 }  // namespace
 
-Heart::Heart(Node& node) : publisher_(advertise(node, topics::heartbeat)) {
-  beat_.service(node.options().name);
-  beat_.mission(node.options().mission);
-  beat_.robot(node.options().robot);
-  beat_.incarnation(node.options().incarnation);
-  beat_.dds(node.options().vendor);
+Heart::Heart(v1::Heartbeat identity, Send send) : send_(std::move(send)), beat_(std::move(identity)) {
   beat_.host(host_name());
   beat_.process_id(getpid());
 }
 
-void Heart::beat(wall::Instant now) {
+void Heart::beat(clock::WallTime now) {
   ++turns_;
   if (now < next_) return;
-  next_ = now + wall::seconds(kPeriodS);
+  next_ = now + clock::wall_seconds(kPeriodS);
   send(v1::SERVICE_RUNNING);
 }
 
@@ -49,7 +45,7 @@ void Heart::send(v1::ServiceState state) {
   beat_.progress(turns_);
   beat_.state(state);
   beat_.resident_kb(resident_kb());
-  publisher_.write(beat_);
+  send_(beat_);
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::health

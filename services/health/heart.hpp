@@ -1,26 +1,33 @@
 // The heartbeat of a service. The work loop itself calls beat(), so that a hung loop goes silent.
 #pragma once
 
-#include "services/clock/wall.hpp"
-#include "services/publisher.hpp"
+#include <cstdint>
+#include <functional>
+#include <string>
 
-namespace roci::services {
+#include "roci_idl/health.h"
+#include "services/clock/wall.hpp"
+
+namespace roci::services::health {
 
 class Heart {
  public:
-  explicit Heart(Node&);
+  using Send = std::function<void(const v1::Heartbeat&)>;
 
-  void beat(wall::Instant now);  // each turn of the loop; sends when it is time
-  void leave();                  // the last one, SERVICE_STOPPING
-  wall::Instant next() const { return next_; }
+  /// `identity`: who beats (service, incarnation, mission, robot, vendor); the rest is filled in here.
+  Heart(v1::Heartbeat identity, Send);
+
+  void beat(clock::WallTime now);  // each turn of the loop; sends when it is time
+  void leave();                    // the last one, SERVICE_STOPPING
+  clock::WallTime next() const { return next_; }
 
  private:
   void send(v1::ServiceState);
 
-  Publisher<v1::Heartbeat> publisher_;
+  Send send_;
   v1::Heartbeat beat_;
   std::uint64_t turns_ = 0;
-  wall::Instant next_;
+  clock::WallTime next_;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::health

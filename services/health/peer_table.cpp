@@ -2,9 +2,9 @@
 
 #include <utility>
 
-namespace roci::services {
+namespace roci::services::health {
 
-void PeerTable::heartbeat(const v1::Heartbeat& beat, wall::Instant now) {
+void PeerTable::heartbeat(const v1::Heartbeat& beat, clock::WallTime now) {
   Peer& peer = peers_[beat.service()];
   if (beat.incarnation() < peer.incarnation) return;
   if (beat.incarnation() > peer.incarnation && peer.alive) die(beat.service(), peer, "restarted");
@@ -19,7 +19,7 @@ void PeerTable::heartbeat(const v1::Heartbeat& beat, wall::Instant now) {
   changes_.push_back({beat.service(), beat.incarnation(), true, ""});
 }
 
-void PeerTable::seen(const std::string& service, std::uint32_t incarnation, wall::Instant now) {
+void PeerTable::seen(const std::string& service, std::uint32_t incarnation, clock::WallTime now) {
   const auto found = peers_.find(service);
   if (found != peers_.end() && found->second.incarnation == incarnation) found->second.last_seen = now;
 }
@@ -30,7 +30,7 @@ void PeerTable::owner_lost(const std::string& service) {
   die(service, found->second, "killed");
 }
 
-void PeerTable::check(wall::Instant now) {
+void PeerTable::check(clock::WallTime now) {
   for (auto& [service, peer] : peers_) {
     if (peer.alive && now - peer.last_seen > hang_limit_) die(service, peer, "hung");
   }
@@ -49,4 +49,4 @@ void PeerTable::die(const std::string& service, Peer& peer, std::string cause) {
   changes_.push_back({service, peer.incarnation, false, std::move(cause)});
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::health

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace roci::services {
+namespace roci::services::health {
 namespace {
 
 constexpr double kPeriodS = 0.25;
@@ -48,11 +48,11 @@ SignOfLife::~SignOfLife() {
 }
 
 void SignOfLife::give() {
-  const wall::Instant now = wall::now();
+  const clock::WallTime now = clock::wall_now();
   if (socket_ < 0 || now < next_) return;
-  next_ = now + wall::seconds(kPeriodS);
+  next_ = now + clock::wall_seconds(kPeriodS);
   [[maybe_unused]] const auto lost =
       send(socket_, kAlive.data(), kAlive.size(), MSG_NOSIGNAL);  // the next one follows
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::health

@@ -7,7 +7,7 @@
 
 #include "services/clock/wall.hpp"
 
-namespace roci::services {
+namespace roci::services::health {
 
 class SignOfLife {
  public:
@@ -23,7 +23,7 @@ class SignOfLife {
 
  private:
   int socket_ = -1;
-  wall::Instant next_;
+  clock::WallTime next_;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::health

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace roci::launch {
+namespace roci::services::launch {
 
 struct Ending {
   bool exited = false;  // by itself, with `code`; otherwise by signal `code`
@@ -37,4 +37,4 @@ class Child {
   std::optional<Ending> ending_;
 };
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

@@ -5,10 +5,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "services/launch/mission_folder.hpp"
-#include "services/service_options.hpp"
+#include "services/process/mission_folder.hpp"
+#include "services/process/service_options.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
 std::optional<double> parse_speed(const std::string& text) {
@@ -28,7 +28,7 @@ std::optional<double> parse_speed(const std::string& text) {
 }
 
 std::vector<std::string> checked_services(const std::string& list, bool standby) {
-  auto names = services::split_list(list);
+  auto names = services::process::split_list(list);
   for (const std::string& name : names) {
     if (standby && name == kStandby) continue;
     if (std::ranges::find(kAllServices, name) != kAllServices.end()) continue;
@@ -41,9 +41,9 @@ std::vector<std::string> checked_services(const std::string& list, bool standby)
 
 }  // namespace
 
-Options parse_options(int argc, const char* const* argv, const services::Environment& environment) {
+Options parse_options(int argc, const char* const* argv, const services::process::Environment& environment) {
   Options options;
-  services::ConnectionFlags flags;
+  services::process::ConnectionFlags flags;
   std::string mission;
   std::string speed;
   std::string clock = "simulated";
@@ -79,9 +79,9 @@ Options parse_options(int argc, const char* const* argv, const services::Environ
   } catch (const CLI::ParseError& error) {
     std::ostringstream text;
     const int code = app.exit(error, text, text);
-    throw services::CommandLineEnd(code == 0 ? 0 : 2, text.str());
+    throw services::process::CommandLineEnd(code == 0 ? 0 : 2, text.str());
   }
-  options.mission = services::mission_folder(mission);
+  options.mission = services::process::mission_folder(mission);
   options.live = clock == "live";
   options.speed = parse_speed(speed);
   if (options.live && options.speed == 0.0)
@@ -89,11 +89,11 @@ Options parse_options(int argc, const char* const* argv, const services::Environ
   options.services = checked_services(service_list, options.standby);
   if (options.standby && service_list.empty()) options.services.emplace_back(kStandby);
   options.roster = checked_services(roster, false);
-  options.connection = services::resolve_connection(flags, environment, options.mission);
+  options.connection = services::process::resolve_connection(flags, environment, options.mission);
   if (options.standby && options.connection.dds == "inproc")
     throw std::invalid_argument("--standby needs processes: choose another transport than inproc");
   options.domain_given = options.connection.transport.domain != 0;
   return options;
 }
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "services/connection.hpp"
+#include "services/process/connection.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 
 struct Options {
   std::filesystem::path mission;  // folder
@@ -25,7 +25,7 @@ struct Options {
   std::vector<std::string> roster;    // of the whole run
   std::filesystem::path run_folder;   // empty: choose one
   bool domain_given = false;
-  services::Connection connection;  // dds may be "mixed" or "inproc"
+  services::process::Connection connection;  // dds may be "mixed" or "inproc"
 };
 
 inline const std::vector<std::string> kAllServices{"arm_svc",     "exec_svc",    "pathplan_svc",
@@ -36,6 +36,6 @@ inline constexpr char kExecutive[] = "exec_svc";
 inline constexpr char kStandby[] = "exec_svc.standby";
 
 // Throws services::CommandLineEnd, std::invalid_argument, mission::FileError.
-Options parse_options(int argc, const char* const* argv, const services::Environment&);
+Options parse_options(int argc, const char* const* argv, const services::process::Environment&);
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
 constexpr double kDefaultPace = 60;
@@ -96,4 +96,4 @@ std::vector<std::string> rehearsal_arguments(const Options& options) {
   return arguments;
 }
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

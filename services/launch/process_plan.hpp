@@ -7,7 +7,7 @@
 
 #include "services/launch/options.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 
 // Of a whole run: "mixed" means the planner, the standby and the console on one vendor, the rest on the
 // other.
@@ -27,4 +27,4 @@ std::vector<std::string> rehearsal_arguments(const Options&);
 // Simulated seconds per second.
 double pace_of(const Options&);
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

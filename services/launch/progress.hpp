@@ -9,7 +9,7 @@
 #include "services/node.hpp"
 #include "services/publisher.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 
 class Progress {
  public:
@@ -37,4 +37,4 @@ class Progress {
   std::string drawn_;
 };
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

@@ -10,21 +10,20 @@
 #include <utility>
 
 #include "services/clock/wall.hpp"
-#include "services/domain_claim.hpp"
-#include "services/end_within.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/progress.hpp"
-#include "services/launch/run_record.hpp"
 #include "services/launch/signs_of_life.hpp"
 #include "services/launch/summary.hpp"
 #include "services/launch/supervisor.hpp"
-#include "services/transport.hpp"
+#include "services/process/domain_claim.hpp"
+#include "services/process/end_within.hpp"
+#include "services/process/run_record.hpp"
+#include "services/transport/plug_ins.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
 namespace fs = std::filesystem;
-namespace wall = services::wall;
 
 constexpr std::chrono::milliseconds kTurn{20};
 constexpr std::size_t kShownLogLines = 8;
@@ -60,15 +59,15 @@ void refuse_used_folder(const Options& options) {
   }
 }
 
-services::NodeOptions observer_options(const std::string& vendor) {
-  services::NodeOptions options;
+services::node::NodeOptions observer_options(const std::string& vendor) {
+  services::node::NodeOptions options;
   options.name = "launcher";
-  options.clock = services::ClockMode::observer;
+  options.clock = services::clock::ClockMode::observer;
   options.vendor = vendor;
   return options;
 }
 
-services::RunRecord record_of(const Options& options, std::int64_t started_unix_us) {
+services::process::RunRecord record_of(const Options& options, std::int64_t started_unix_us) {
   const auto& transport = options.connection.transport;
   return {getpid(),         transport.domain,       options.mission,
           options.scenario, options.connection.dds, transport.address,
@@ -95,9 +94,9 @@ ExitCode exit_code(const std::optional<RunFailure>& failure, bool good) {
 }  // namespace
 
 ExitCode fly(Options options, const std::function<int()>& stop_asked) {
-  const auto begun = wall::now();
-  const std::int64_t started_unix_us = wall::unix_us();
-  std::optional<services::DomainClaim> claim;
+  const auto begun = clock::wall_now();
+  const std::int64_t started_unix_us = clock::unix_us();
+  std::optional<services::process::DomainClaim> claim;
   auto& transport = options.connection.transport;
   if (!options.domain_given) transport.domain = claim.emplace().id();
   if (options.run_folder.empty()) options.run_folder = choose_run_folder(options, started_unix_us);
@@ -107,9 +106,10 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
 
   const std::string vendor = vendor_of(kConsole, options.connection.dds);
   transport.participant = "launcher";
-  services::Node node(observer_options(vendor), services::open_transport(vendor, transport));
+  services::Node node(observer_options(vendor), services::transport::open_transport(vendor, transport));
   Progress progress(node, !options.headless);
-  const services::PublishedRun published(services::runtime_folder(), record_of(options, started_unix_us));
+  const services::process::PublishedRun published(services::process::runtime_folder(),
+                                                  record_of(options, started_unix_us));
 
   SignsOfLife signs;
   Supervisor::Hooks hooks;
@@ -124,31 +124,32 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   };
   Supervisor supervisor(options.services, kClockMaster, !options.live, Watchdog(options.watchdog_s),
                         std::move(hooks));
-  node.on_peer_change([&](const services::PeerChange& change) {
+  node.on_peer_change([&](const services::health::PeerChange& change) {
     // The executive that leads a pair counts its epochs as incarnations, so it cannot be told which one this
     // is.
     if (options.standby && change.service == kExecutive) return;
-    supervisor.watchdog().heard(change, wall::now());
+    supervisor.watchdog().heard(change, clock::wall_now());
   });
-  supervisor.start(wall::now());
+  supervisor.start(clock::wall_now());
   for (int stops = 0; !supervisor.finished();) {
     node.spin_once(kTurn);
     if (stop_asked() > stops) {
       ++stops;
-      supervisor.stop(wall::now());
+      supervisor.stop(clock::wall_now());
     }
-    for (const pid_t sender : signs.take()) supervisor.watchdog().sign(sender, wall::now());
-    supervisor.turn(wall::now());
+    for (const pid_t sender : signs.take()) supervisor.watchdog().sign(sender, clock::wall_now());
+    supervisor.turn(clock::wall_now());
     progress.show();
   }
 
   if (supervisor.failure()) print_failure(*supervisor.failure(), options.run_folder);
-  const Summary summary = complete_summary(
-      options, std::chrono::duration<double>(wall::now() - begun).count(), !supervisor.failure().has_value());
+  const Summary summary =
+      complete_summary(options, std::chrono::duration<double>(clock::wall_now() - begun).count(),
+                       !supervisor.failure().has_value());
   std::cout << (options.json ? summary.json + "\n" : summary.text) << std::flush;
   const ExitCode code = exit_code(supervisor.failure(), summary.good);
-  services::end_within(services::kEndLimit, code, "roci-launch: the run is over");
+  services::process::end_within(services::process::kEndLimit, code, "roci-launch: the run is over");
   return code;
 }
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

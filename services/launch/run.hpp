@@ -5,7 +5,7 @@
 
 #include "services/launch/options.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 
 // docs/exit-codes.md, "Runs".
 enum ExitCode { kAchieved = 0, kNotAchieved = 1, kBadInput = 2, kServiceFailed = 3 };
@@ -14,4 +14,4 @@ enum ExitCode { kAchieved = 0, kNotAchieved = 1, kBadInput = 2, kServiceFailed =
 // services::TransportError and std::system_error when the run cannot begin.
 ExitCode fly(Options, const std::function<int()>& stop_asked);
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <system_error>
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
 // The kernel chooses a free abstract name.
@@ -64,4 +64,4 @@ std::vector<pid_t> SignsOfLife::take() {
   }
 }
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace roci::launch {
+namespace roci::services::launch {
 
 class SignsOfLife {
  public:
@@ -23,4 +23,4 @@ class SignsOfLife {
   std::string address_;
 };
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

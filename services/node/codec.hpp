@@ -5,9 +5,10 @@
 #include <utility>
 
 #include "services/node/endpoints.hpp"
-#include "services/type_support.hpp"
+#include "services/topics.hpp"
+#include "services/transport/type_support.hpp"
 
-namespace roci::services {
+namespace roci::services::node {
 
 template <class T>
 concept Headed = requires(T value) {
@@ -24,21 +25,22 @@ concept OfRun = requires(T value, std::string run) {
 template <class T>
 std::shared_ptr<const void> decode_as(std::span<const std::uint8_t> payload) {
   auto value = std::make_shared<T>();
-  if (!deserialize(payload, *value)) return nullptr;
+  if (!transport::deserialize(payload, *value)) return nullptr;
   return value;
 }
 
 template <class T>
-Payload key_as(const void* value) {
-  Payload key;
-  if (T::isKeyDefined()) detail::serialized_key<T>(serialize(*static_cast<const T*>(value)), false, key);
+transport::Payload key_as(const void* value) {
+  transport::Payload key;
+  if (T::isKeyDefined())
+    transport::detail::serialized_key<T>(transport::serialize(*static_cast<const T*>(value)), false, key);
   return key;
 }
 
 template <class T>
 TopicSpec spec_of(const Topic<T>& topic) {
   Codec codec;
-  codec.type = describe_type<T>(topic.type_name);
+  codec.type = transport::describe_type<T>(topic.type_name);
   codec.decode = &decode_as<T>;
   codec.key = &key_as<T>;
   if constexpr (Headed<T>) {
@@ -56,4 +58,4 @@ TopicSpec spec_of(const Topic<T>& topic) {
   return {topic.name, topic.qos, topic.clocking, std::move(codec)};
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::node

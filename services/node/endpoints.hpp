@@ -10,51 +10,60 @@
 #include <unordered_map>
 #include <vector>
 
-#include "services/node.hpp"
+#include "core/temporal/duration.hpp"
+#include "roci_idl/basic.h"
+#include "roci_idl/clock.h"
 #include "services/node/inbox.hpp"
-#include "services/topics.hpp"
+#include "services/node/node_options.hpp"
+#include "services/node/run_identity.hpp"
+#include "services/transport/transport.hpp"
 
-namespace roci::services {
+namespace roci::services::node {
 
 // What the loop must know of a type.
 struct Codec {
-  TypeDescription type;
+  transport::TypeDescription type;
   std::shared_ptr<const void> (*decode)(std::span<const std::uint8_t>) = nullptr;  // null: malformed payload
   const v1::SampleHeader& (*header)(const void* value) = nullptr;  // null for types without one
-  const std::string& (*run)(const void* value) = nullptr;           // null for types that name no run
-  Payload (*key)(const void* value) = nullptr;                     // empty for types without a key
+  const std::string& (*run)(const void* value) = nullptr;          // null for types that name no run
+  transport::Payload (*key)(const void* value) = nullptr;          // empty for types without a key
 };
 
 struct TopicSpec {
   std::string name;
-  Qos qos = Qos::state;
-  Clocking clocking = Clocking::wall;
+  transport::Qos qos = transport::Qos::state;
+  transport::Clocking clocking = transport::Clocking::wall;
   Codec codec;
 };
 
 // All samples of one node on one topic.
 class OutStream {
  public:
-  OutStream(Node&, const TopicSpec&, Transport&, std::function<void()> on_matched);
+  using Now = std::function<temporal::Time()>;  ///< Mission time.
+
+  OutStream(const NodeOptions&, const RunIdentity&, Now, const TopicSpec&, transport::Transport&,
+            std::function<void()> on_matched);
 
   // Numbers the next sample; the number counts once write() has succeeded.
   void stamp(v1::SampleHeader&) const;
-  bool write(const Payload&);
-  bool dispose(const Payload&);
+  bool write(const transport::Payload&);
+  bool dispose(const transport::Payload&);
 
-  const std::string& run() const;
-  Guid guid() const { return writer_->guid(); }
+  const RunIdentity& run() const { return run_; }
+  transport::Guid guid() const { return writer_->guid(); }
   int matched_readers() const { return writer_->matched_readers(); }
   const TopicSpec& topic() const { return topic_; }
   std::uint64_t total() const { return total_; }
   void begin_micro_step() { written_.clear(); }
 
  private:
-  bool within_limit(const Payload&);
+  bool within_limit(const transport::Payload&);
 
-  Node& node_;
+  const NodeOptions& options_;
+  const RunIdentity& run_;
+  Now now_;
   TopicSpec topic_;
-  std::unique_ptr<Writer> writer_;
+  std::unique_ptr<transport::Writer> writer_;
   std::uint64_t total_ = 0;
   std::unordered_map<std::string, int> written_;  // samples of this micro-step by key
 };
@@ -62,14 +71,14 @@ class OutStream {
 struct InTopic {
   TopicSpec topic;
   std::vector<std::function<void(const void* value)>> on_value;
-  std::vector<std::function<void(const Payload& key)>> on_owner_lost;
+  std::vector<std::function<void(const transport::Payload& key)>> on_owner_lost;
   std::uint64_t malformed = 0;
-  std::unique_ptr<Reader> reader;
+  std::unique_ptr<transport::Reader> reader;
 };
 
 class Endpoints {
  public:
-  Endpoints(Node&, Transport&, Inbox&);
+  Endpoints(const NodeOptions&, const RunIdentity&, OutStream::Now, transport::Transport&, Inbox&);
   ~Endpoints();
 
   // The node's one writer or reader of a topic. Throws std::logic_error if the topic is known with another
@@ -84,12 +93,14 @@ class Endpoints {
   void begin_micro_step();
 
  private:
-  Node& node_;
-  Transport& transport_;
+  const NodeOptions& options_;
+  const RunIdentity& run_;
+  OutStream::Now now_;
+  transport::Transport& transport_;
   Inbox& inbox_;
   std::map<std::string, std::unique_ptr<OutStream>> out_;
   std::map<std::string, std::unique_ptr<InTopic>> in_;
   std::map<std::string, std::uint64_t> reported_;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::node

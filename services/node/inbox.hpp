@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "services/clock/wall.hpp"
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 
-namespace roci::services {
+namespace roci::services::node {
 
 struct InTopic;
 
 struct Arrival {
   InTopic* topic = nullptr;
-  Sample sample;
+  transport::Sample sample;
 };
 
 struct WorkResult {
@@ -39,7 +39,7 @@ class Inbox {
   void stop();
 
   // All that has come. Waits for something until `deadline`, not at all if that has passed.
-  Batch take(wall::Instant deadline);
+  Batch take(clock::WallTime deadline);
 
  private:
   std::mutex mutex_;
@@ -48,4 +48,4 @@ class Inbox {
   bool news_ = false;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::node

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace roci::services {
+namespace roci::services::node {
 
 std::uint64_t WorkTable::begin() { return *begun_.insert(next_++).first; }
 
@@ -25,4 +25,4 @@ void WorkTable::run_finished() {
   }
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::node

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-namespace roci::services {
+namespace roci::services::node {
 
 enum class ResultOrder { as_begun, as_finished };
 
@@ -28,4 +28,4 @@ class WorkTable {
   std::map<std::uint64_t, std::function<void()>> finished_;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::node

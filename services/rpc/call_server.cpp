@@ -1,6 +1,6 @@
 #include "services/rpc/call_server.hpp"
 
-namespace roci::services {
+namespace roci::services::rpc {
 
 CallServer::Request& CallServer::entry(const Id& id) {
   const auto [entry, fresh] = known_.try_emplace(id);
@@ -54,4 +54,4 @@ void PendingReply::answer(std::shared_ptr<const void> reply) {
 
 void PendingReply::on_cancel(std::function<void()> handler) { server_->on_cancel(id(), std::move(handler)); }
 
-}  // namespace roci::services
+}  // namespace roci::services::rpc

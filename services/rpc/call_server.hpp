@@ -12,7 +12,7 @@
 
 #include "roci_idl/rpc.h"
 
-namespace roci::services {
+namespace roci::services::rpc {
 
 inline constexpr std::size_t kRememberedAnswers = 256;
 
@@ -64,4 +64,4 @@ class PendingReply {
   bool answered_ = false;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::rpc

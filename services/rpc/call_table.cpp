@@ -3,48 +3,23 @@
 #include <utility>
 #include <vector>
 
-#include "services/node/impl.hpp"
+#include "services/node/node_impl.hpp"
 
-namespace roci::services {
+namespace roci::services::rpc {
 namespace {
 
-constexpr Duration kFirstRepetition = std::chrono::milliseconds(250);
-constexpr Duration kLongestRepetition = std::chrono::seconds(4);
+constexpr temporal::Duration kFirstRepetition = std::chrono::milliseconds(250);
+constexpr temporal::Duration kLongestRepetition = std::chrono::seconds(4);
 
 }  // namespace
 
-const char* to_string(CallStatus status) {
-  switch (status) {
-    case CallStatus::ok:
-      return "ok";
-    case CallStatus::timeout:
-      return "timeout";
-    case CallStatus::no_owner:
-      return "no_owner";
-    case CallStatus::owner_lost:
-      return "owner_lost";
-    case CallStatus::remote_error:
-      return "remote_error";
-    case CallStatus::overloaded:
-      return "overloaded";
-    case CallStatus::cancelled:
-      return "cancelled";
-  }
-  return "unknown";
-}
-
-CallTable::CallTable(Node& node, Guid client, std::string procedure, std::function<bool()> reachable,
-                     SendCancel send_cancel)
+CallTable::CallTable(node::NodeImpl& node, transport::Guid client, std::string procedure,
+                     std::function<bool()> reachable, SendCancel send_cancel)
     : node_(node),
       client_(client),
       procedure_(std::move(procedure)),
       reachable_(std::move(reachable)),
       send_cancel_(std::move(send_cancel)) {}
-
-bool CallTable::simulated() const {
-  const ClockMode mode = node_.options().clock;
-  return mode == ClockMode::simulated || mode == ClockMode::master;
-}
 
 v1::SampleIdentity CallTable::identity(CallId number) const {
   v1::SampleIdentity id;
@@ -53,9 +28,9 @@ v1::SampleIdentity CallTable::identity(CallId number) const {
   return id;
 }
 
-CallId CallTable::start(Call call, Duration deadline) {
+CallId CallTable::start(Call call, temporal::Duration deadline) {
   if (pending_.size() >= kMaxPendingCalls) {
-    node_.after(Duration(0), [finish = std::move(call.finish), name = procedure_] {
+    node_.after(temporal::Duration(0), [finish = std::move(call.finish), name = procedure_] {
       finish(CallStatus::overloaded,
              std::to_string(kMaxPendingCalls) + " calls of " + name + " are under way", nullptr);
     });
@@ -66,10 +41,10 @@ CallId CallTable::start(Call call, Duration deadline) {
   pending.call = std::move(call);
   pending.next_wait = kFirstRepetition;
   if (!pending.call.owner.empty()) {
-    pending.owner_check = node_.after(Duration(0), [this, number] { check_owner(number); });
+    pending.owner_check = node_.after(temporal::Duration(0), [this, number] { check_owner(number); });
   }
   pending.deadline = node_.after(deadline, [this, number] { expire(number); });
-  if (simulated() || reachable_()) send(number, pending);
+  if (node_.simulated() || reachable_()) send(number, pending);
   return number;
 }
 
@@ -80,13 +55,13 @@ void CallTable::cancel(CallId number) {
   Pending& pending = found->second;
   if (pending.sent) {
     send_cancel_(identity(number), pending.call.owner);
-    if (simulated()) return;
-    node_.cancel(pending.repetition);
+    if (node_.simulated()) return;
+    node_.timers.cancel(pending.repetition);
     pending.next_wait = kFirstRepetition;
     await_repetition(number, pending);
   } else {
-    node_.cancel(pending.deadline);
-    pending.deadline = node_.after(Duration(0), [this, number] { expire(number); });
+    node_.timers.cancel(pending.deadline);
+    pending.deadline = node_.after(temporal::Duration(0), [this, number] { expire(number); });
   }
 }
 
@@ -95,7 +70,7 @@ void CallTable::send(CallId number, Pending& pending) {
   ++statistics_.sent;
   pending.call.send(identity(number));
   if (pending.cancelled) send_cancel_(identity(number), pending.call.owner);
-  if (!simulated()) await_repetition(number, pending);
+  if (!node_.simulated()) await_repetition(number, pending);
 }
 
 void CallTable::await_repetition(CallId number, Pending& pending) {
@@ -109,7 +84,7 @@ void CallTable::repeat(CallId number) {
 }
 
 void CallTable::on_match() {
-  if (simulated() || !reachable_()) return;
+  if (node_.simulated() || !reachable_()) return;
   for (auto& [number, pending] : pending_) {
     if (!pending.sent && !pending.cancelled) send(number, pending);
   }
@@ -119,9 +94,10 @@ void CallTable::check_owner(CallId number) {
   const auto found = pending_.find(number);
   if (found == pending_.end()) return;
   const std::string& owner = found->second.call.owner;
-  const PeerState state = owner == node_.options().name ? PeerState::alive : node_.impl().loop->peer(owner);
+  const health::PeerState state = node_.peer(owner);
   // Live, a service that nobody has seen yet may still be starting: the deadline decides.
-  if (state == PeerState::alive || (state == PeerState::never_seen && !simulated())) return;
+  if (state == health::PeerState::alive || (state == health::PeerState::never_seen && !node_.simulated()))
+    return;
   finish(found, CallStatus::no_owner, owner + " is not there to answer " + procedure_);
 }
 
@@ -143,7 +119,7 @@ void CallTable::on_reply(const v1::ReplyHeader& header, const void* reply) {
   }
 }
 
-void CallTable::on_peer_change(const PeerChange& change) {
+void CallTable::on_peer_change(const health::PeerChange& change) {
   if (change.alive) return;
   std::vector<std::int64_t> lost;
   for (const auto& [number, pending] : pending_) {
@@ -165,7 +141,7 @@ void CallTable::expire(CallId number) {
     finish(found, CallStatus::cancelled, procedure_ + " was cancelled before it was sent");
   } else if (!found->second.sent) {
     finish(found, CallStatus::no_owner, "nobody serves " + procedure_);
-  } else if (!owner.empty() && !node_.peer_alive(owner)) {
+  } else if (!owner.empty() && node_.peer(owner) != health::PeerState::alive) {
     finish(found, CallStatus::no_owner, owner + " never appeared to answer " + procedure_);
   } else {
     finish(found, CallStatus::timeout, "no answer to " + procedure_ + " before the deadline");
@@ -174,10 +150,10 @@ void CallTable::expire(CallId number) {
 
 void CallTable::finish(Pendings::iterator found, CallStatus status, std::string message, const void* reply) {
   const Pending ended = std::move(pending_.extract(found).mapped());
-  node_.cancel(ended.deadline);
-  node_.cancel(ended.owner_check);
-  node_.cancel(ended.repetition);
+  node_.timers.cancel(ended.deadline);
+  node_.timers.cancel(ended.owner_check);
+  node_.timers.cancel(ended.repetition);
   ended.call.finish(status, std::move(message), reply);
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::rpc

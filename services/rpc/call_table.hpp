@@ -6,11 +6,18 @@
 #include <map>
 #include <string>
 
-#include "services/node.hpp"
-#include "services/rpc.hpp"
-#include "services/transport.hpp"
+#include "core/temporal/duration.hpp"
+#include "roci_idl/rpc.h"
+#include "services/health/peer.hpp"
+#include "services/node/timer_queue.hpp"
+#include "services/rpc/call_status.hpp"
+#include "services/transport/transport.hpp"
 
-namespace roci::services {
+namespace roci::services::node {
+class NodeImpl;
+}
+
+namespace roci::services::rpc {
 
 class CallTable {
  public:
@@ -23,12 +30,13 @@ class CallTable {
   using SendCancel = std::function<void(const v1::SampleIdentity&, const std::string& owner)>;
 
   // `reachable`: request and reply topic have both matched.
-  CallTable(Node&, Guid client, std::string procedure, std::function<bool()> reachable, SendCancel);
+  CallTable(node::NodeImpl&, transport::Guid client, std::string procedure, std::function<bool()> reachable,
+            SendCancel);
 
-  CallId start(Call, Duration deadline);
+  CallId start(Call, temporal::Duration deadline);
   void cancel(CallId);
   void on_reply(const v1::ReplyHeader&, const void* reply);
-  void on_peer_change(const PeerChange&);
+  void on_peer_change(const health::PeerChange&);
   void on_match();
 
   const CallStatistics& statistics() const { return statistics_; }
@@ -38,14 +46,13 @@ class CallTable {
     Call call;
     bool sent = false;
     bool cancelled = false;
-    Duration next_wait{0};
-    Node::TimerId deadline = 0;
-    Node::TimerId owner_check = 0;
-    Node::TimerId repetition = 0;
+    temporal::Duration next_wait{0};
+    node::TimerQueue::Id deadline = 0;
+    node::TimerQueue::Id owner_check = 0;
+    node::TimerQueue::Id repetition = 0;
   };
   using Pendings = std::map<CallId, Pending>;
 
-  bool simulated() const;
   void send(CallId number, Pending&);
   void await_repetition(CallId number, Pending&);
   void repeat(CallId number);
@@ -54,8 +61,8 @@ class CallTable {
   void finish(Pendings::iterator, CallStatus, std::string message, const void* reply = nullptr);
   v1::SampleIdentity identity(CallId number) const;
 
-  Node& node_;
-  Guid client_;
+  node::NodeImpl& node_;
+  transport::Guid client_;
   std::string procedure_;
   std::function<bool()> reachable_;
   SendCancel send_cancel_;
@@ -64,4 +71,4 @@ class CallTable {
   CallStatistics statistics_;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::rpc

@@ -9,8 +9,12 @@ namespace {
 
 using temporal::Duration;
 
-std::int64_t bound_to_wire(Duration bound) { return bound == temporal::no_bound ? -1 : bound.count(); }
-Duration bound_from_wire(std::int64_t bound) { return bound < 0 ? temporal::no_bound : Duration(bound); }
+std::int64_t bound_to_wire(temporal::Duration bound) {
+  return bound == temporal::no_bound ? -1 : bound.count();
+}
+temporal::Duration bound_from_wire(std::int64_t bound) {
+  return bound < 0 ? temporal::no_bound : temporal::Duration(bound);
+}
 
 // Enumerations have the same order on both sides.
 template <class Wire, class Core>
@@ -135,7 +139,7 @@ temporal::PlanActivity activity_from_wire(const v1::PlanActivity& in) {
   commands_from_wire(in.commands(), out);
   out.start_point = in.start_point();
   out.end_point = in.end_point();
-  out.duration_lower = Duration(in.duration_lower_us());
+  out.duration_lower = temporal::Duration(in.duration_lower_us());
   out.duration_upper = bound_from_wire(in.duration_upper_us());
   out.preferred_start = bound_from_wire(in.preferred_start_us());
   out.pre = from_wire(in.pre());
@@ -226,7 +230,7 @@ v1::TemporalConstraint constraint_to_wire(const temporal::TemporalConstraint& in
 temporal::TemporalConstraint constraint_from_wire(const v1::TemporalConstraint& in) {
   return {in.from_point(), in.to_point(),
           enum_from_wire(in.kind(), temporal::ConstraintKind::window, "constraint kind"),
-          Duration(in.lower_us()), bound_from_wire(in.upper_us())};
+          temporal::Duration(in.lower_us()), bound_from_wire(in.upper_us())};
 }
 
 v1::FunctionValueUse use_to_wire(const temporal::FunctionValueUse& in) {
@@ -316,7 +320,7 @@ temporal::FlexiblePlan from_wire(const v1::Plan& in) {
   out.id = in.id();
   out.version = in.version();
   out.engine = in.engine();
-  out.origin = Duration(in.origin_us());
+  out.origin = temporal::Duration(in.origin_us());
   out.point_count = in.point_count();
   out.activities = each<temporal::PlanActivity>(in.activities(), activity_from_wire);
   out.tokens = each<temporal::Token>(in.tokens(), token_from_wire);

@@ -1,6 +1,8 @@
 #include <algorithm>
-#include <array>
+#include <iterator>
 
+#include "tests/architecture/floors.hpp"
+#include "tests/architecture/namespaces.hpp"
 #include "tests/architecture/source_tree.hpp"
 
 namespace roci::architecture {
@@ -139,6 +141,8 @@ std::vector<std::string> broken_rules(const std::vector<SourceFile>& files) {
     check_size_and_names(file, out);
     check_missions(file, out);
   }
+  std::ranges::copy(foreign_namespaces(files), std::back_inserter(out));
+  std::ranges::copy(upward_includes(files), std::back_inserter(out));
   return out;
 }
 

@@ -7,15 +7,14 @@
 #include "exec_svc/standby/leading_service.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
 #include "services/clock/wall.hpp"
-#include "services/domain_claim.hpp"
-#include "services/transport.hpp"
+#include "services/process/domain_claim.hpp"
+#include "services/transport/plug_ins.hpp"
 
 namespace roci::exec {
 namespace {
 
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
-namespace wall = services::wall;
 
 constexpr auto kLimit = 20s;
 
@@ -25,8 +24,8 @@ struct Vendors {
   const char* follower;
 };
 
-services::NodeOptions options_of(const std::string& name, services::ClockMode clock) {
-  services::NodeOptions options;
+services::node::NodeOptions options_of(const std::string& name, services::clock::ClockMode clock) {
+  services::node::NodeOptions options;
   options.name = name;
   options.clock = clock;
   return options;
@@ -54,23 +53,24 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
     fs::remove_all(folder_);
   }
 
-  std::unique_ptr<services::Transport> transport(const char* vendor) const {
-    services::TransportOptions options;
+  std::unique_ptr<services::transport::Transport> transport(const char* vendor) const {
+    services::transport::TransportOptions options;
     options.domain = domain_.id();
     options.participant = "test";
-    return services::open_transport(vendor, options);
+    return services::transport::open_transport(vendor, options);
   }
 
   // Leads at once: it was alone before.
   void start_leader() {
     leader_lease_.emplace(Member::first, LeaseSettings{}, Standing{1, true}, false, -10s + wire::moment());
     ASSERT_EQ(leader_lease_->turn(leader_journal_->position(), wire::moment()).change, Lease::Change::lead);
-    leader_node_.emplace(options_of("exec_svc", services::ClockMode::live), transport(GetParam().leader));
+    leader_node_.emplace(options_of("exec_svc", services::clock::ClockMode::live),
+                         transport(GetParam().leader));
     leading_.emplace(*leader_node_, *leader_lease_, *leader_journal_, leader_standing_);
   }
   void start_follower() {
     follower_lease_.emplace(Member::second, LeaseSettings{}, Standing{}, false, wire::moment());
-    follower_node_.emplace(options_of("exec_svc.second", services::ClockMode::observer),
+    follower_node_.emplace(options_of("exec_svc.second", services::clock::ClockMode::observer),
                            transport(GetParam().follower));
     following_.emplace(*follower_node_, *follower_lease_, *follower_journal_, follower_standing_);
   }
@@ -84,7 +84,7 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
   }
 
   bool wait(const std::function<bool()>& done) {
-    for (const auto limit = wall::now() + kLimit; wall::now() < limit;) {
+    for (const auto limit = services::clock::wall_now() + kLimit; services::clock::wall_now() < limit;) {
       if (leader_node_) leader_node_->spin_once(2ms);
       if (follower_node_) follower_node_->spin_once(2ms);
       if (done()) return true;
@@ -108,7 +108,7 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
   }
   void expect_copy() const { EXPECT_TRUE(everything(*follower_journal_) == everything(*leader_journal_)); }
 
-  services::DomainClaim domain_;
+  services::process::DomainClaim domain_;
   fs::path folder_ = fs::temp_directory_path() / ("roci_standby_" + std::to_string(domain_.id()));
   std::optional<Journal> leader_journal_, follower_journal_;
   StandingFile leader_standing_{folder_ / "leader", Durability::process};
@@ -184,7 +184,7 @@ TEST_P(StandbyTest, StrayParcelsDoNoHarm) {
   write(0, 5);
   ASSERT_TRUE(wait_for_copy());
   const Position has = newest();
-  services::Node stranger(options_of("stranger", services::ClockMode::observer),
+  services::Node stranger(options_of("stranger", services::clock::ClockMode::observer),
                           transport(GetParam().leader));
   const auto parcels = services::advertise(stranger, services::topics::exec_journal);
   ASSERT_TRUE(wait([&] {
@@ -216,9 +216,10 @@ TEST_P(StandbyTest, TheFollowerLeadsWhenTheLeaderIsGoneAndTheOldOneStandsDown) {
   start_follower();
   ASSERT_TRUE(wait_for_pair());
   ASSERT_TRUE(wait([&] { return sent_ == 0; }));
-  const auto stopped_at = wall::now();
+  const auto stopped_at = services::clock::wall_now();
   ASSERT_TRUE([&] {  // the leader's loop stands still
-    while (!following_->lead() && wall::now() < stopped_at + kLimit) follower_node_->spin_once(5ms);
+    while (!following_->lead() && services::clock::wall_now() < stopped_at + kLimit)
+      follower_node_->spin_once(5ms);
     return following_->lead().has_value();
   }());
   EXPECT_EQ(follower_lease_->epoch(), 4U);

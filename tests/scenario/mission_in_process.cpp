@@ -77,7 +77,7 @@ std::string planetary_file(const std::string& name, const std::string& from, con
   return text;
 }
 
-void MissionInProcess::send(services::Time when, const v1::Goal& goal) {
+void MissionInProcess::send(temporal::Time when, const v1::Goal& goal) {
   ground_.at(when, [this, goal] { goals_out_.write(goal); });
 }
 

@@ -6,7 +6,7 @@
 
 #include "ground_console/cli/watch/panels.hpp"
 
-namespace roci::console {
+namespace roci::console::cli::watch {
 
 struct Span {
   std::int64_t from;
@@ -23,7 +23,7 @@ class Axis {
   static constexpr std::size_t kLeast = kLabel + 24;
 
   // `area` is at least kLeast wide.
-  Axis(const MissionView& view, const Rectangle& area);
+  Axis(const lib::MissionView& view, const Rectangle& area);
 
   std::size_t column() const { return column_; }
   std::size_t width() const { return width_; }
@@ -40,4 +40,4 @@ class Axis {
   std::size_t width_;
 };
 
-}  // namespace roci::console
+}  // namespace roci::console::cli::watch

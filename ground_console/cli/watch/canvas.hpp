@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace roci::console {
+namespace roci::console::cli::watch {
 
 enum class Style { plain, dim, title, good, active, warning, bad };
 
@@ -38,4 +38,4 @@ class Canvas {
   std::vector<Cell> cells_;
 };
 
-}  // namespace roci::console
+}  // namespace roci::console::cli::watch

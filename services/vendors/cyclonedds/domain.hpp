@@ -8,12 +8,12 @@ extern "C" {
 #include <memory>
 #include <string>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 
-namespace roci::services::cyclonedds {
+namespace roci::services::vendors::cyclonedds {
 
 // The XML that our settings come to: UDP unicast on options.address alone.
-std::string configuration(const TransportOptions&);
+std::string configuration(const transport::TransportOptions&);
 
 class Domain {
  public:
@@ -32,6 +32,6 @@ class Domain {
 
 // Shared by the participants of this process that are in the same domain; they must agree on its
 // configuration. Throws TransportError.
-std::shared_ptr<Domain> join_domain(const TransportOptions&);
+std::shared_ptr<Domain> join_domain(const transport::TransportOptions&);
 
-}  // namespace roci::services::cyclonedds
+}  // namespace roci::services::vendors::cyclonedds

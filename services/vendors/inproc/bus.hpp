@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 #include "services/vendors/inproc/reader_end.hpp"
 #include "services/vendors/inproc/writer_end.hpp"
 
-namespace roci::services::inproc {
+namespace roci::services::vendors::inproc {
 
 class Bus {
  public:
@@ -39,4 +39,4 @@ class Bus {
 // The bus of a domain lives as long as one of its participants holds it.
 std::shared_ptr<Bus> bus_of_domain(int domain);
 
-}  // namespace roci::services::inproc
+}  // namespace roci::services::vendors::inproc

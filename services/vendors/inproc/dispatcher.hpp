@@ -10,7 +10,7 @@
 #include <stop_token>
 #include <thread>
 
-namespace roci::services::inproc {
+namespace roci::services::vendors::inproc {
 
 class Dispatcher {
  public:
@@ -37,4 +37,4 @@ class Dispatcher {
   std::jthread thread_;
 };
 
-}  // namespace roci::services::inproc
+}  // namespace roci::services::vendors::inproc

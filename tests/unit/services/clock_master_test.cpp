@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace roci::services {
+namespace roci::services::clock {
 namespace {
 
 using namespace std::chrono_literals;
@@ -252,4 +252,4 @@ TEST_F(ClockMasterTest, TheLastStepIsForAll) {
 }
 
 }  // namespace
-}  // namespace roci::services
+}  // namespace roci::services::clock

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace roci::services {
+namespace roci::services::clock {
 namespace {
 
 using testing::ElementsAre;
@@ -22,7 +22,7 @@ v1::SampleHeader header(const std::string& sender, std::uint64_t seq, std::uint3
 std::shared_ptr<const void> value(const std::string& text) { return std::make_shared<std::string>(text); }
 
 // Values are strings "key=content".
-Payload key_of(const void* sample) {
+Follower::Key key_of(const void* sample) {
   const auto& text = *static_cast<const std::string*>(sample);
   const auto key = text.substr(0, text.find('='));
   return {key.begin(), key.end()};
@@ -63,8 +63,8 @@ std::vector<std::string> texts(const std::vector<Delivery>& deliveries) {
 class FollowerTest : public testing::Test {
  protected:
   FollowerTest() {
-    follower.subscribe("event", Qos::event, key_of);
-    follower.subscribe("state", Qos::state, key_of);
+    follower.subscribe("event", Durability::volatile_, key_of);
+    follower.subscribe("state", Durability::transient_local, key_of);
   }
   void join() { follower.take(step_with({"a", "b"}, {})); }
   Follower follower;
@@ -164,4 +164,4 @@ TEST_F(FollowerTest, IncarnationsAreStreamsOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace roci::services
+}  // namespace roci::services::clock

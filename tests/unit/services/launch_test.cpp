@@ -4,17 +4,18 @@
 
 #include <csignal>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
-#include "services/launch/mission_folder.hpp"
 #include "services/launch/options.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/restart_policy.hpp"
-#include "services/launch/run_record.hpp"
 #include "services/launch/summary.hpp"
 #include "services/launch/supervisor.hpp"
-#include "services/service_options.hpp"
+#include "services/process/mission_folder.hpp"
+#include "services/process/run_record.hpp"
+#include "services/process/service_options.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
 using namespace std::chrono_literals;
@@ -91,8 +92,8 @@ TEST_F(LaunchTest, ServiceArgumentsAreThoseThatServicesRead) {
     const auto arguments = service_arguments(options, service, 2, 0);
     std::vector<const char*> pointers;
     for (const auto& argument : arguments) pointers.push_back(argument.c_str());
-    const auto read = services::parse_service_options(static_cast<int>(pointers.size()), pointers.data(),
-                                                      service, [](const char*) { return std::nullopt; });
+    const auto read = process::parse_service_options(static_cast<int>(pointers.size()), pointers.data(),
+                                                     service, [](const char*) { return std::nullopt; });
     EXPECT_EQ(read.node.name, service);
     EXPECT_EQ(read.node.incarnation, 2U);
     EXPECT_EQ(read.run.seed, 9U);
@@ -100,19 +101,19 @@ TEST_F(LaunchTest, ServiceArgumentsAreThoseThatServicesRead) {
     EXPECT_EQ(read.connection.dds, "cyclonedds");
     EXPECT_EQ(read.connection.transport.domain, 7);
     const bool master = service == kClockMaster;
-    EXPECT_EQ(read.node.clock, master ? services::ClockMode::master : services::ClockMode::simulated);
+    EXPECT_EQ(read.node.clock, master ? clock::ClockMode::master : clock::ClockMode::simulated);
     EXPECT_EQ(read.node.master.pace, master ? 2.5 : 0);
   }
 }
 
 TEST_F(LaunchTest, MistakesOnTheCommandLineAreExplained) {
-  EXPECT_THROW(parse({"--clock", "lunar"}), services::CommandLineEnd);
+  EXPECT_THROW(parse({"--clock", "lunar"}), process::CommandLineEnd);
   EXPECT_THROW(parse({"--speed", "fast"}), std::invalid_argument);
   EXPECT_THROW(parse({"--speed", "-1"}), std::invalid_argument);
   EXPECT_THROW(parse({"--speed", "max", "--clock", "live"}), std::invalid_argument);
   EXPECT_THROW(parse({"--services", "leg_svc"}), std::invalid_argument);
   try {
-    services::mission_folder("no-such-mission");
+    process::mission_folder("no-such-mission");
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), HasSubstr("no mission \"no-such-mission\": give a folder with a mission.yaml"));
@@ -161,35 +162,78 @@ TEST_F(LaunchTest, AHostWithOneOfAPairServesIfTheOtherLedAtTheEnd) {
 }
 
 TEST_F(LaunchTest, RunningMissionsAreFound) {
-  services::RunRecord run;
+  process::RunRecord run;
   run.pid = getpid();
   run.domain = 5;
   run.mission = "/missions/x";
   run.peers = {"127.0.0.1"};
-  services::RunRecord dead = run;
+  process::RunRecord dead = run;
   dead.pid = 1 << 30;  // beyond the largest process id
   {
-    const services::PublishedRun published(folder, run);
-    const services::PublishedRun of_the_dead(folder, dead);
+    const process::PublishedRun published(folder, run);
+    const process::PublishedRun of_the_dead(folder, dead);
     std::ofstream(folder / "run-7.json") << "{ half a rec";
-    EXPECT_THAT(services::find_runs(folder), ElementsAre(run));
+    EXPECT_THAT(process::find_runs(folder), ElementsAre(run));
   }
+  EXPECT_TRUE(process::find_runs(folder).empty());
+}
+
+TEST_F(LaunchTest, ARecordStatesItsFormatAndOneThatDoesNotIsOfTheFirst) {
+  services::RunRecord run;
+  run.pid = getpid();
+  const services::PublishedRun published(folder, run);
+  std::ifstream written(folder / ("run-" + std::to_string(getpid()) + ".json"));
+  EXPECT_EQ(nlohmann::json::parse(written).at("format"), services::kRunRecordFormat);
+  std::ifstream golden(ROCI_SOURCE_DIR
+                       "/tests/unit/services/golden/run-record-1.json");  // baseline-05 wrote it
+  auto record = nlohmann::json::parse(golden);
+  ASSERT_FALSE(record.contains("format"));
+  record["pid"] = getpid();
+  std::ofstream(folder / "run-1.json") << record;
+  const auto runs = services::find_runs(folder);
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0].scenario, "nominal");
+  EXPECT_EQ(runs[0].domain, record["domain"]);
+}
+
+TEST_F(LaunchTest, ARecordOfANewerFormatIsRefusedInWords) {
+  std::ofstream(folder / "run-1.json") << R"({"format": 2, "pid": )" << getpid() << "}";
+  std::ofstream(folder / "run-2.json") << R"({"format": 2, "pid": 1073741824})";
   EXPECT_TRUE(services::find_runs(folder).empty());
+  EXPECT_THAT(services::refused_runs(folder),
+              ElementsAre(testing::AllOf(HasSubstr("run-1.json is of format 2"), HasSubstr("reads up to 1"),
+                                         HasSubstr("use the programs"))));
+}
+
+TEST_F(LaunchTest, ASummaryStatesItsFormatAndANewerOneIsRefused) {
+  Options options = parse({"--services", "exec_svc", "--dds", "fastdds"});
+  options.run_folder = folder;
+  EXPECT_THAT(complete_summary(options, 1, true).json, HasSubstr(R"("format":1)"));
+  fs::remove(folder / "summary.json");
+  fs::copy_file(ROCI_SOURCE_DIR "/tests/unit/services/golden/summary-1.json", folder / "summary.json");
+  EXPECT_THAT(complete_summary(options, 1, true).text, HasSubstr("3 achieved"));
+  std::ofstream(folder / "summary.json") << R"({"format": 2, "result": "achieved"})";
+  try {
+    complete_summary(options, 1, true);
+    ADD_FAILURE() << "it was read";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(),
+                testing::AllOf(HasSubstr("summary.json is of format 2"), HasSubstr("one version")));
+  }
 }
 
 TEST(RestartPolicy, WaitsLongerEachTimeAndGivesUp) {
   RestartPolicy policy;
-  EXPECT_DOUBLE_EQ(policy.died(0s)->count(), 0.2);
-  EXPECT_DOUBLE_EQ(policy.died(1s)->count(), 0.4);
-  EXPECT_DOUBLE_EQ(policy.died(1s)->count(), 0.8);
-  EXPECT_DOUBLE_EQ(policy.died(1s)->count(), 1.6);
+  EXPECT_EQ(*policy.died(0s), 200ms);
+  EXPECT_EQ(*policy.died(1s), 400ms);
+  EXPECT_EQ(*policy.died(1s), 800ms);
+  EXPECT_EQ(*policy.died(1s), 1600ms);
   EXPECT_FALSE(policy.died(1s));
 }
 
 TEST(RestartPolicy, ALongLifeStartsANewRow) {
   RestartPolicy policy;
-  for (int i = 0; i < 100; ++i)
-    EXPECT_DOUBLE_EQ(policy.died(i % 2 == 0 ? 60s : 1s)->count(), i % 2 == 0 ? 0.2 : 0.4);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(*policy.died(i % 2 == 0 ? 60s : 1s), i % 2 == 0 ? 200ms : 400ms);
 }
 
 // Services are shell commands here; time is what the test says.
@@ -209,12 +253,11 @@ class SupervisorTest : public LaunchTest {
     };
     return {names, "sim_svc", master_is_clock, Watchdog(10), std::move(hooks)};
   }
-  static void turn_until(Supervisor& supervisor, services::wall::Instant now,
-                         const std::function<bool()>& done) {
+  static void turn_until(Supervisor& supervisor, clock::WallTime now, const std::function<bool()>& done) {
     while (!done()) supervisor.turn(now);
   }
 
-  services::wall::Instant start{1000s};
+  clock::WallTime start{1000s};
   std::map<std::string, std::string> script;
   std::vector<std::string> starts;
   std::vector<std::string> deaths;
@@ -351,4 +394,4 @@ TEST_F(SupervisorTest, WhoDoesNotLeaveIsKilledInTheEnd) {
 }
 
 }  // namespace
-}  // namespace roci::launch
+}  // namespace roci::services::launch

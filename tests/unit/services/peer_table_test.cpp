@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace roci::services {
+namespace roci::services::health {
 namespace {
 
 using namespace std::chrono_literals;
@@ -28,7 +28,7 @@ class PeerTableTest : public testing::Test {
     return texts;
   }
   PeerTable peers{5s};
-  wall::Instant start{1000s};
+  clock::WallTime start{1000s};
 };
 
 TEST_F(PeerTableTest, TheFirstHeartbeatMakesAPeer) {
@@ -87,4 +87,4 @@ TEST_F(PeerTableTest, StrangersAreNobody) {
 }
 
 }  // namespace
-}  // namespace roci::services
+}  // namespace roci::services::health

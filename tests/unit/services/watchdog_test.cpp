@@ -5,15 +5,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "services/end_within.hpp"
 #include "services/health/sign_of_life.hpp"
 #include "services/launch/signs_of_life.hpp"
+#include "services/process/end_within.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
 using namespace std::chrono_literals;
-using services::PeerChange;
+using health::PeerChange;
 using testing::Each;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -28,7 +28,7 @@ class WatchdogTest : public testing::Test {
     watchdog.heard({"sim_svc", 1, true, ""}, start);
   }
   // Turns of the launcher until `end`, with a sign of life of `who` in each.
-  std::vector<std::string> hung_until(services::wall::Instant end, std::vector<pid_t> who) {
+  std::vector<std::string> hung_until(clock::WallTime end, std::vector<pid_t> who) {
     std::vector<std::string> hung;
     for (; now <= end; now += 100ms) {
       for (const pid_t pid : who) watchdog.sign(pid, now);
@@ -37,8 +37,8 @@ class WatchdogTest : public testing::Test {
     return hung;
   }
 
-  const services::wall::Instant start{1000s};
-  services::wall::Instant now = start;
+  const clock::WallTime start{1000s};
+  clock::WallTime now = start;
   Watchdog watchdog{10};
 };
 
@@ -103,7 +103,7 @@ TEST_F(WatchdogTest, NoLimitNoHang) {
 
 TEST(SignOfLife, ReachesTheSupervisorWithItsSender) {
   SignsOfLife signs;
-  services::SignOfLife sign(signs.address());
+  health::SignOfLife sign(signs.address());
   EXPECT_THAT(signs.take(), IsEmpty());
   sign.give();
   sign.give();  // too soon
@@ -111,22 +111,22 @@ TEST(SignOfLife, ReachesTheSupervisorWithItsSender) {
 }
 
 TEST(SignOfLife, NobodyNeedsToListen) {
-  services::SignOfLife("").give();
+  health::SignOfLife("").give();
   std::string address;
   {
     const SignsOfLife gone;
     address = gone.address();
   }
-  EXPECT_THROW(services::SignOfLife{address}, std::system_error);
-  EXPECT_THROW(services::SignOfLife{"nonsense"}, std::invalid_argument);
-  EXPECT_THROW(services::SignOfLife{"/" + std::string(200, 'x')}, std::invalid_argument);
+  EXPECT_THROW(health::SignOfLife{address}, std::system_error);
+  EXPECT_THROW(health::SignOfLife{"nonsense"}, std::invalid_argument);
+  EXPECT_THROW(health::SignOfLife{"/" + std::string(200, 'x')}, std::invalid_argument);
 }
 
 TEST(SignOfLife, ASupervisorThatDoesNotReadNeverBlocksAService) {
   const SignsOfLife signs;
-  std::vector<std::unique_ptr<services::SignOfLife>> senders;
+  std::vector<std::unique_ptr<health::SignOfLife>> senders;
   for (int i = 0; i < 1000; ++i) {
-    senders.push_back(std::make_unique<services::SignOfLife>(signs.address()));
+    senders.push_back(std::make_unique<health::SignOfLife>(signs.address()));
     senders.back()->give();
   }
 }
@@ -134,7 +134,7 @@ TEST(SignOfLife, ASupervisorThatDoesNotReadNeverBlocksAService) {
 TEST(EndWithin, EndsAProcessThatHangs) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto hang = [] {
-    services::end_within(50ms, 7, "arm_svc: its work is done");
+    process::end_within(50ms, 7, "arm_svc: its work is done");
     for (;;) pause();
   };
   EXPECT_EXIT(hang(), testing::ExitedWithCode(7),
@@ -144,11 +144,11 @@ TEST(EndWithin, EndsAProcessThatHangs) {
 TEST(EndWithin, LeavesOthersAlone) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto leave = [] {
-    services::end_within(1h, 7, "never said");
+    process::end_within(1h, 7, "never said");
     std::exit(3);
   };
   EXPECT_EXIT(leave(), testing::ExitedWithCode(3), Not(HasSubstr("never said")));
 }
 
 }  // namespace
-}  // namespace roci::launch
+}  // namespace roci::services::launch

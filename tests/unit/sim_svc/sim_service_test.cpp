@@ -51,12 +51,12 @@ class SimService : public testing::Test {
     std::vector<v1::Goal> goals;
     std::vector<v1::Hazard> hazards;
     std::vector<std::string> observations;  // "us timeline = value"
-    services::Time end{};
+    temporal::Time end{};
   };
 
   // Flies with these commands, each at its time; `outcome_at`: when the executive says that the mission is
   // over.
-  Heard fly(const std::map<services::Duration, v1::Command>& commands, services::Duration outcome_at = 0s,
+  Heard fly(const std::map<temporal::Duration, v1::Command>& commands, temporal::Duration outcome_at = 0s,
             std::uint64_t seed = 1) {
     services::SimRun run({"sim_svc", "exec_svc", "pathplan_svc", "arm_svc"});
     services::RunSettings settings;
@@ -263,7 +263,7 @@ TEST_F(SimService, ReportsWhetherTheEventsCameAsExpected) {
 TEST_F(SimService, EndsAtTheLatestWhenTheTimeIsUp) { EXPECT_EQ(fly({}).end, 2000s); }
 
 TEST_F(SimService, TheSameSeedIsTheSameRun) {
-  const std::map<services::Duration, v1::Command> commands{{5s, drive("d", "40")}};
+  const std::map<temporal::Duration, v1::Command> commands{{5s, drive("d", "40")}};
   const Heard first = fly(commands, 400s, 3);
   EXPECT_EQ(first.observations, fly(commands, 400s, 3).observations);
   EXPECT_NE(first.observations, fly(commands, 400s, 4).observations);

@@ -120,7 +120,7 @@ void ExecSeat::start_executive(std::uint32_t incarnation) {
   executive_ = make_service(node, settings);
 }
 
-void ExecSeat::kill_executive_at(services::Time when) {
+void ExecSeat::kill_executive_at(temporal::Time when) {
   killed_ = true;
   run_.node("exec_svc").at(when, [this] {
     executive_.reset();
@@ -128,7 +128,7 @@ void ExecSeat::kill_executive_at(services::Time when) {
   });
 }
 
-void ExecSeat::kill_both_at(services::Time when) {
+void ExecSeat::kill_both_at(temporal::Time when) {
   kill_executive_at(when);
   planner_killed_ = true;
   run_.node("planner_svc").at(when, [] { throw services::Crash{}; });
@@ -190,11 +190,11 @@ void ExecSeat::obey(const v1::Command& command) {
   });
 }
 
-void ExecSeat::send(services::Time when, const v1::Goal& goal) {
+void ExecSeat::send(temporal::Time when, const v1::Goal& goal) {
   robot_.at(when, [this, goal] { goals_.write(goal); });
 }
 
-void ExecSeat::run_until(services::Time end) {
+void ExecSeat::run_until(temporal::Time end) {
   robot_.at(end, [this] { robot_.stop(); });
   run_.start();
   if (killed_) {

@@ -30,13 +30,13 @@ class ExecSeat {
                     std::filesystem::path mission = ROCI_SOURCE_DIR "/missions/planetary");
   ~ExecSeat();
 
-  void send(services::Time when, const v1::Goal& goal);
+  void send(temporal::Time when, const v1::Goal& goal);
   // The executive dies then without a word, and starts again as its next incarnation.
-  void kill_executive_at(services::Time when);
+  void kill_executive_at(temporal::Time when);
   // With it the planner dies, and is back before it.
-  void kill_both_at(services::Time when);
-  void at(services::Time when, std::function<void()> what) { robot_.at(when, std::move(what)); }
-  void run_until(services::Time end);
+  void kill_both_at(temporal::Time when);
+  void at(temporal::Time when, std::function<void()> what) { robot_.at(when, std::move(what)); }
+  void run_until(temporal::Time end);
 
   services::SimRun& run() { return run_; }
   services::Node& robot() { return robot_; }

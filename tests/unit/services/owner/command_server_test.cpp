@@ -44,7 +44,7 @@ v1::Command in_rock(v1::Command out, std::int64_t latest_end_us = -1) {
 }
 
 // What the drill of the README says to these commands, each sent at its time: "<s> activity STAGE code".
-std::vector<std::string> talk(const std::multimap<Duration, v1::Command>& commands) {
+std::vector<std::string> talk(const std::multimap<temporal::Duration, v1::Command>& commands) {
   SimRun run({"master", "drill"});
   Node& master = run.add("master");
   const auto drill = example::make_drill(run.add("drill"));
