@@ -7,6 +7,11 @@
 
 namespace roci::exec {
 
+using mission::MissionModel;
+using reactor::Note;
+using reactor::NoteLevel;
+using reactor::PlanReceipt;
+
 EngineLink::EngineLink(services::Node& node, const MissionModel& mission,
                        std::function<void(temporal::PlanDelta)> take, std::function<void(const Note&)> report)
     : mission_(mission.name), receipts_(services::advertise(node, services::topics::plan_receipt)) {
@@ -22,6 +27,6 @@ EngineLink::EngineLink(services::Node& node, const MissionModel& mission,
       });
 }
 
-void EngineLink::tell(const PlanReceipt& receipt) { receipts_.write(wire::to_wire(receipt, mission_)); }
+void EngineLink::tell(const PlanReceipt& receipt) { receipts_.write(to_wire(receipt, mission_)); }
 
 }  // namespace roci::exec

@@ -13,10 +13,10 @@ namespace roci::exec {
 class EngineLink {
  public:
   // `take` gets each delta as it comes, `report` what is wrong with one that cannot be read.
-  EngineLink(services::Node& node, const MissionModel& mission, std::function<void(temporal::PlanDelta)> take,
-             std::function<void(const Note&)> report);
+  EngineLink(services::Node& node, const mission::MissionModel& mission,
+             std::function<void(temporal::PlanDelta)> take, std::function<void(const reactor::Note&)> report);
 
-  void tell(const PlanReceipt& receipt);
+  void tell(const reactor::PlanReceipt& receipt);
 
  private:
   std::string mission_;

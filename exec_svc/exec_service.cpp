@@ -22,6 +22,25 @@
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::exec {
+
+using journal::CrashPoints;
+using journal::Divergence;
+using journal::Durability;
+using journal::Journal;
+using journal::JournaledReactor;
+using journal::Recovery;
+using mission::MissionModel;
+using mission::read_mission;
+using reactor::Note;
+using reactor::NoteLevel;
+using reactor::PlanAnswer;
+using reactor::PlanCall;
+using reactor::PlanVerdict;
+using reactor::Reactor;
+using reactor::ReactorInputs;
+using reactor::ReactorOutputs;
+using standby::LeadingService;
+
 namespace {
 
 namespace topics = services::topics;
@@ -63,7 +82,7 @@ class ExecService final : public services::Service {
     }
     recover();
     services::subscribe(node, topics::goal, [this](const v1::Goal& goal) {
-      inputs_.goals.push_back(wire::from_wire(goal));
+      inputs_.goals.push_back(from_wire(goal));
       crash_.pass("after-goal");
       step_soon();
     });
@@ -139,13 +158,13 @@ class ExecService final : public services::Service {
 
   void take(const v1::Observation& observation) {
     try {
-      inputs_.observations.push_back(wire::from_wire(observation));
+      inputs_.observations.push_back(from_wire(observation));
     } catch (const services::wire::WireError& error) {
       outbox_.report(
           {NoteLevel::warning, "observation.malformed", observation.timeline() + ": " + error.what()});
       return;
     }
-    seen_.push_back(wire::trace_line(observation));
+    seen_.push_back(trace_line(observation));
     step_soon();
   }
 
@@ -160,8 +179,8 @@ class ExecService final : public services::Service {
       if (ack.refused_epoch() == epoch_) leading_->refused();
       return;  // of an earlier leader
     }
-    inputs_.acks.push_back(wire::from_wire(ack));
-    seen_.push_back(wire::trace_line(ack));
+    inputs_.acks.push_back(from_wire(ack));
+    seen_.push_back(trace_line(ack));
     crash_.pass("after-ack");
     step_soon();
   }
@@ -211,7 +230,7 @@ class ExecService final : public services::Service {
   void call_planner(const PlanCall& call) {
     call_.id = call.id;
     call_.sent = planner_.call(
-        wire::to_wire(call, mission_), "planner_svc", mission_.planner.reply_timeout,
+        to_wire(call, mission_), "planner_svc", mission_.planner.reply_timeout,
         [this, id = call.id](const services::CallResult<v1::PlanReply>& result) { take(id, result); });
   }
 
@@ -227,7 +246,7 @@ class ExecService final : public services::Service {
       journal_.set_number("slowest_call_us", temporal::seconds(slowest_call_s_).count());
       journal_.set_number("planner_peak_kb", planner_peak_kb_);
       try {
-        answer = wire::from_wire(call, result.reply);
+        answer = from_wire(call, result.reply);
       } catch (const services::wire::WireError& error) {
         answer.verdict = PlanVerdict::crashed;
         answer.reason = error.what();

@@ -8,7 +8,7 @@ void run(const roci::services::ServiceOptions& options, roci::services::StopSign
   if (options.run.pair.empty()) {
     roci::services::run_service(options, signals, roci::exec::make_service);
   } else {
-    roci::exec::run_pair(options, signals);
+    roci::exec::standby::run_pair(options, signals);
   }
 }
 

@@ -6,6 +6,18 @@
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::exec {
+
+using executive::Command;
+using executive::CommandAction;
+using executive::StepStatus;
+using goals::GoalRecord;
+using journal::CrashPoints;
+using mission::Component;
+using mission::MissionModel;
+using reactor::Note;
+using reactor::Reactor;
+using reactor::ReactorOutputs;
+
 namespace {
 
 namespace topics = services::topics;
@@ -27,23 +39,23 @@ Outbox::Outbox(services::Node& node, const MissionModel& mission, std::uint64_t 
       events_(services::advertise(node, topics::event)) {}
 
 void Outbox::send_goals(const Reactor& reactor) const {
-  for (const GoalRecord* goal : reactor.goals().all()) goal_statuses_.write(wire::to_wire(*goal));
+  for (const GoalRecord* goal : reactor.goals().all()) goal_statuses_.write(to_wire(*goal));
 }
 
 void Outbox::send_plan(const Reactor& reactor) const {
   if (reactor.plan().version != 0) plans_.write(services::wire::to_wire(reactor.plan()));
-  for (const StepStatus& step : reactor.steps()) steps_.write(wire::to_wire(step, reactor.plan_version()));
+  for (const StepStatus& step : reactor.steps()) steps_.write(to_wire(step, reactor.plan_version()));
 }
 
 void Outbox::send(const ReactorOutputs& out, std::uint32_t version) const {
-  for (const GoalRecord& goal : out.goal_changes) sent(goal_statuses_.write(wire::to_wire(goal)));
+  for (const GoalRecord& goal : out.goal_changes) sent(goal_statuses_.write(to_wire(goal)));
   if (out.adopted) sent(plans_.write(services::wire::to_wire(*out.adopted)));
-  for (const Command& command : out.commands) sent(commands_.write(wire::to_wire(command, version, epoch_)));
-  for (const StepStatus& step : out.steps) sent(steps_.write(wire::to_wire(step, version)));
+  for (const Command& command : out.commands) sent(commands_.write(to_wire(command, version, epoch_)));
+  for (const StepStatus& step : out.steps) sent(steps_.write(to_wire(step, version)));
   for (const Note& note : out.notes) report(note);
 }
 
-void Outbox::report(const Note& note) const { events_.write(wire::to_wire(note)); }
+void Outbox::report(const Note& note) const { events_.write(to_wire(note)); }
 
 bool Outbox::publish(v1::MissionStatus status, const std::string& trace_sha256) {
   if (status == last_status_) return false;
@@ -63,7 +75,7 @@ void Outbox::announce_epoch() {
     query.action = CommandAction::query;
     query.activity = kEpochKey;
     query.owner = owner;
-    commands_.write(wire::to_wire(query, 0, epoch_));
+    commands_.write(to_wire(query, 0, epoch_));
   }
 }
 

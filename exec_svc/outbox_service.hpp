@@ -17,14 +17,14 @@ namespace roci::exec {
 class Outbox {
  public:
   // `crash`: passes `during-send` after each sample of a step.
-  Outbox(services::Node&, const MissionModel&, std::uint64_t epoch, CrashPoints& crash);
+  Outbox(services::Node&, const mission::MissionModel&, std::uint64_t epoch, journal::CrashPoints& crash);
 
   // Goals, plan and steps as they stand, for who joins after a restart.
-  void send_goals(const Reactor&) const;
-  void send_plan(const Reactor&) const;
+  void send_goals(const reactor::Reactor&) const;
+  void send_plan(const reactor::Reactor&) const;
   // What a step decided, but for its planner call.
-  void send(const ReactorOutputs&, std::uint32_t plan_version) const;
-  void report(const Note&) const;
+  void send(const reactor::ReactorOutputs&, std::uint32_t plan_version) const;
+  void report(const reactor::Note&) const;
   // True if it is news: a status that equals the last one is not sent again.
   bool publish(v1::MissionStatus, const std::string& trace_sha256);
 
@@ -36,9 +36,9 @@ class Outbox {
  private:
   void sent(bool) const { crash_->pass("during-send"); }
 
-  const MissionModel* mission_;
+  const mission::MissionModel* mission_;
   std::uint64_t epoch_;
-  CrashPoints* crash_;
+  journal::CrashPoints* crash_;
   bool epoch_announced_ = false;
   v1::MissionStatus last_status_;
   services::Publisher<v1::Command> commands_;

@@ -4,7 +4,26 @@
 
 #include "services/wire/plan_wire.hpp"
 
-namespace roci::exec::wire {
+namespace roci::exec {
+
+using executive::Command;
+using executive::CommandAck;
+using executive::CommandStage;
+using executive::Observation;
+using executive::StepStatus;
+using goals::GoalClass;
+using goals::GoalRecord;
+using goals::GoalRequest;
+using mission::MissionModel;
+using problem::ProblemObject;
+using reactor::Note;
+using reactor::NoteLevel;
+using reactor::PlanAnswer;
+using reactor::PlanCall;
+using reactor::PlannedAction;
+using reactor::PlanReceipt;
+using reactor::PlanVerdict;
+
 GoalRequest from_wire(const v1::Goal& in) {
   GoalRequest out;
   out.key = {in.issuer(), in.id()};
@@ -161,4 +180,4 @@ std::string trace_line(const v1::Observation& in) {
          " sampled " + std::to_string(in.sampled_us());
 }
 
-}  // namespace roci::exec::wire
+}  // namespace roci::exec

@@ -4,7 +4,18 @@
 
 #include "exec_svc/mission/template_text.hpp"
 
-namespace roci::exec {
+namespace roci::exec::beliefs {
+
+using mission::Component;
+using mission::fill_positions;
+using mission::fill_star;
+using mission::FluentSource;
+using mission::MissionModel;
+using mission::StateModel;
+using mission::TimelineFamily;
+using mission::WindowModel;
+using mission::words_of;
+
 namespace {
 
 // The model of the state that `value` is in, and that state's arguments; null for a value that is no known
@@ -123,4 +134,4 @@ std::vector<const Component*> Beliefs::unseen() const {
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::beliefs

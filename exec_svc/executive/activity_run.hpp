@@ -7,9 +7,9 @@
 
 #include "exec_svc/executive/messages.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
-enum class Phase {
+enum class ActivityPhase {
   waiting,
   sent,        ///< command sent, no answer yet
   running,     ///< accepted, or without a command
@@ -32,7 +32,7 @@ struct Recovering {
 };
 
 struct ActivityRun {
-  Phase phase = Phase::waiting;
+  ActivityPhase phase = ActivityPhase::waiting;
   temporal::ActivityState state = temporal::ActivityState::waiting;
   std::uint32_t attempt = 0;  ///< part of the command's key: never reset
   std::uint32_t retries_used = 0;
@@ -49,7 +49,7 @@ struct ActivityRun {
   bool asked = false;  ///< its owner was asked, after a restart, what became of it; not answered yet
   std::string cause;
 
-  bool active() const { return phase != Phase::waiting && phase != Phase::done; }
+  bool active() const { return phase != ActivityPhase::waiting && phase != ActivityPhase::done; }
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -1,7 +1,7 @@
 // How an attempt at an activity ends: success, failure, another attempt, cancel.
 #include "exec_svc/executive/plan_run.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 using temporal::ActivityState;
 using temporal::Duration;
@@ -63,7 +63,7 @@ void PlanRun::try_again(Index activity, Time now, const std::string& cause) {
   const Duration spent = now - *run.started;
   const temporal::Window duration = points_.duration(activity);
   points_.set_duration(activity, plus(spent, duration.lower), plus(spent, duration.upper));
-  enter(activity, Phase::sent, now);
+  enter(activity, ActivityPhase::sent, now);
   send(activity, CommandAction::execute);
   change(activity, ActivityState::dispatched, cause);
 }
@@ -73,16 +73,16 @@ void PlanRun::close(Index activity, Time now, ActivityState state, const std::st
   if (run.started) run.ended = now;
   if (plan_.activities[activity].owner.empty() && run.started)
     store_.end(plan_.activities[activity], state == ActivityState::succeeded);
-  enter(activity, Phase::done, now);
+  enter(activity, ActivityPhase::done, now);
   change(activity, state, cause);
 }
 
 void PlanRun::cancel(Index activity, Time now, AfterCancel after, const std::string& cause) {
   ActivityRun& run = runs_[activity];
-  enter(activity, Phase::cancelling, now);
+  enter(activity, ActivityPhase::cancelling, now);
   run.after_cancel = after;
   send(activity, CommandAction::cancel);
   change(activity, run.state, cause);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

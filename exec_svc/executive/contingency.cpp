@@ -5,7 +5,7 @@
 
 #include "exec_svc/executive/plan_run.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 using temporal::ActivityState;
 using temporal::PlanActivity;
@@ -49,7 +49,7 @@ bool PlanRun::begin_contingency(Index activity, Time now, const std::string& cau
   ActivityRun& run = runs_[activity];
   ++run.contingencies_used;
   run.recovering = {0, "", now, now, false, cause};
-  enter(activity, Phase::recovering, now);
+  enter(activity, ActivityPhase::recovering, now);
   send_contingency(activity, CommandAction::execute);
   change(activity, ActivityState::running, "contingency " + contingency->name + " after: " + cause);
   recover(Rung::contingency, activity,
@@ -79,7 +79,8 @@ bool PlanRun::take_contingency_ack(const CommandAck& ack, Time now) {
   if (found == contingency_of_.end()) return false;
   const Index activity = found->second;
   Recovering& recovering = runs_[activity].recovering;
-  if (runs_[activity].phase != Phase::recovering || recovering.command_id != ack.activity) return false;
+  if (runs_[activity].phase != ActivityPhase::recovering || recovering.command_id != ack.activity)
+    return false;
   if (ack.stage == CommandStage::unknown && !recovering.accepted) {
     recovering.command_since = now;
     send_contingency(activity, CommandAction::execute);  // the key is the same: it is done once
@@ -140,4 +141,4 @@ Time PlanRun::contingency_timer(Index activity) const {
   return recovering.accepted ? end : std::min(end, recovering.command_since + settings_.ack_timeout);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -4,7 +4,7 @@
 
 #include "exec_svc/executive/plan_run.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 using temporal::bounded;
 using temporal::DecisionChoice;
@@ -30,7 +30,7 @@ bool PlanRun::take_answer(const DecisionAnswer& answer, Time now) {
     for (const std::string& id : choice.activities)
       if (!wanted.contains(id)) unwanted.insert(id);
   for (const std::string& id : unwanted)
-    if (runs_[index_of_.at(id)].phase == Phase::waiting)
+    if (runs_[index_of_.at(id)].phase == ActivityPhase::waiting)
       skip(index_of_.at(id), "decision " + decision.id + ": " + answer.choice);
   for (const TimePoint point : held_by_[index]) {
     points_.release(point);
@@ -69,4 +69,4 @@ Time PlanRun::answer_before(Index decision) const {
   return bounded(latest) ? latest : plus(*decisions_[decision], settings_.decision_timeout);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -10,7 +10,7 @@
 #include "core/temporal/flexible_plan.hpp"
 #include "core/temporal/value.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 enum class CommandAction { execute, cancel, query };
 
@@ -125,4 +125,4 @@ struct Outputs {
   std::optional<temporal::Time> next_wake{};  ///< step again then, if nothing happens before
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

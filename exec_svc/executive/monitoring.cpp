@@ -3,7 +3,7 @@
 
 #include "exec_svc/executive/plan_run.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 using temporal::PlanActivity;
 using temporal::Time;
@@ -23,13 +23,13 @@ bool PlanRun::monitor_activity(Index activity, Time now) {
   const ActivityRun& run = runs_[activity];
   const Time age = now - run.phase_since;
   const bool commanded = !planned.owner.empty();
-  if (run.phase == Phase::recovering) return monitor_contingency(activity, now);
-  if (run.phase == Phase::cancelling) {
+  if (run.phase == ActivityPhase::recovering) return monitor_contingency(activity, now);
+  if (run.phase == ActivityPhase::cancelling) {
     if (age < settings_.cancel_timeout) return false;
     cancel_is_over(activity, now, "cancel not answered within " + to_text(settings_.cancel_timeout));
     return true;
   }
-  if (run.phase == Phase::sent && age >= settings_.ack_timeout) {
+  if (run.phase == ActivityPhase::sent && age >= settings_.ack_timeout) {
     const std::string cause =
         "command not answered by " + planned.owner + " within " + to_text(settings_.ack_timeout);
     if (run.retries_used < planned.retries && starting()) {
@@ -40,7 +40,7 @@ bool PlanRun::monitor_activity(Index activity, Time now) {
     return true;
   }
   if (check_maintenance(activity, now)) return true;
-  if (run.phase == Phase::settling) return try_finish(activity, now);
+  if (run.phase == ActivityPhase::settling) return try_finish(activity, now);
   if (now > deadline(activity)) {
     fail(activity, now, BreakReason::deadline_passed,
          "still running at its deadline " + to_text(deadline(activity)), commanded);
@@ -57,7 +57,7 @@ bool PlanRun::monitor_activity(Index activity, Time now) {
 bool PlanRun::check_maintenance(Index activity, Time now) {
   const PlanActivity& planned = plan_.activities[activity];
   ActivityRun& run = runs_[activity];
-  if (planned.maintenance.empty() || run.phase == Phase::settling) return false;
+  if (planned.maintenance.empty() || run.phase == ActivityPhase::settling) return false;
   const Truth truth = evaluate(planned.maintenance, lookup());
   if (truth == Truth::yes) run.maintenance_held = true;
   const bool demanded = run.maintenance_held || now >= run.attempt_started + settings_.settle_time;
@@ -82,4 +82,4 @@ bool PlanRun::try_finish(Index activity, Time now) {
   return true;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

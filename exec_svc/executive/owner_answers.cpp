@@ -4,7 +4,7 @@
 
 #include "exec_svc/executive/plan_run.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 using temporal::ActivityState;
 using temporal::Time;
@@ -25,17 +25,17 @@ bool PlanRun::take_ack(const CommandAck& ack, Time now) {
   const Index activity = found->second;
   ActivityRun& run = runs_[activity];
   if (!run.active() || run.attempt != ack.attempt || plan_.activities[activity].owner.empty()) return false;
-  if (run.phase == Phase::recovering) return false;
+  if (run.phase == ActivityPhase::recovering) return false;
   if (take_query_answer(activity, ack, now)) return true;
-  if (run.phase == Phase::cancelling) {
+  if (run.phase == ActivityPhase::cancelling) {
     take_cancel_answer(activity, ack, now);
     return true;
   }
-  if (run.phase == Phase::settling) return ack.stage == CommandStage::completed;
+  if (run.phase == ActivityPhase::settling) return ack.stage == CommandStage::completed;
   switch (ack.stage) {
     case CommandStage::accepted:
-      if (run.phase == Phase::sent) {
-        enter(activity, Phase::running, now);
+      if (run.phase == ActivityPhase::sent) {
+        enter(activity, ActivityPhase::running, now);
         change(activity, ActivityState::running, run.cause);
       } else if (!ack.code.empty() || !ack.reason.empty()) {
         change(activity, ActivityState::running, with_reason("its owner repairs", ack));  // R146
@@ -46,7 +46,7 @@ bool PlanRun::take_ack(const CommandAck& ack, Time now) {
         fail(activity, now, BreakReason::deadline_passed, "it ended after its deadline", false);
         return true;
       }
-      enter(activity, Phase::settling, now);
+      enter(activity, ActivityPhase::settling, now);
       return true;
     case CommandStage::rejected:
       if (ack.code == "unknown-command" || ack.code == "unknown-component") {
@@ -74,13 +74,14 @@ void PlanRun::lose_owner(const std::string& owner, Time now) {
   const std::set<Index> active = active_;
   const std::string lost = "owner " + owner + " is lost";
   for (const Index activity : active) {
-    if (runs_[activity].phase == Phase::recovering) {
+    if (runs_[activity].phase == ActivityPhase::recovering) {
       if (contingency_owner(activity) == owner) end_contingency(activity, now, lost);
       continue;
     }
-    if (plan_.activities[activity].owner != owner || runs_[activity].phase == Phase::settling) continue;
-    const bool given_up =
-        runs_[activity].phase == Phase::cancelling && runs_[activity].after_cancel != AfterCancel::retry;
+    if (plan_.activities[activity].owner != owner || runs_[activity].phase == ActivityPhase::settling)
+      continue;
+    const bool given_up = runs_[activity].phase == ActivityPhase::cancelling &&
+                          runs_[activity].after_cancel != AfterCancel::retry;
     if (given_up && !starting()) {
       close(activity, now, ActivityState::failed, runs_[activity].cause + "; " + lost);
     } else {
@@ -93,7 +94,7 @@ void PlanRun::take_cancel_answer(Index activity, const CommandAck& ack, Time now
   ActivityRun& run = runs_[activity];
   if (ack.stage == CommandStage::accepted) return;  // crossed the cancel
   if (ack.stage == CommandStage::completed && run.after_cancel != AfterCancel::fail) {
-    enter(activity, Phase::settling, now);
+    enter(activity, ActivityPhase::settling, now);
     if (run.after_cancel == AfterCancel::withdraw)
       close(activity, now, ActivityState::succeeded, "completed before the cancel");
     return;
@@ -126,4 +127,4 @@ void PlanRun::cancel_is_over(Index activity, Time now, const std::string& answer
   }
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

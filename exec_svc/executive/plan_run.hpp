@@ -15,7 +15,7 @@
 #include "exec_svc/executive/point_dispatcher.hpp"
 #include "exec_svc/executive/timeline_store.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 class PlanRun {
  public:
@@ -59,7 +59,7 @@ class PlanRun {
   void update_outcome();
   std::optional<temporal::Time> next_wake(temporal::Time now);
   void change(Index activity, temporal::ActivityState state, std::string cause);
-  void enter(Index activity, Phase phase, temporal::Time now);
+  void enter(Index activity, ActivityPhase phase, temporal::Time now);
   void send(Index activity, CommandAction action);
   temporal::Lookup lookup() const;
   bool starting() const { return outcome_.kind == OutcomeKind::running; }
@@ -139,4 +139,4 @@ class PlanRun {
   Outputs outputs_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

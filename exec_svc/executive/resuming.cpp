@@ -3,21 +3,21 @@
 
 #include "exec_svc/executive/plan_run.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 using temporal::Time;
 
 void PlanRun::resume(Time now) {
   for (const Index activity : active_) {
     ActivityRun& run = runs_[activity];
-    if (plan_.activities[activity].owner.empty() || run.phase == Phase::settling) continue;
-    if (run.phase == Phase::recovering) {
+    if (plan_.activities[activity].owner.empty() || run.phase == ActivityPhase::settling) continue;
+    if (run.phase == ActivityPhase::recovering) {
       run.recovering.command_since = now;
       send_contingency(activity, CommandAction::query);
       continue;
     }
     run.asked = true;
-    if (run.phase != Phase::running) run.phase_since = now;  // the time for an answer counts anew
+    if (run.phase != ActivityPhase::running) run.phase_since = now;  // the time for an answer counts anew
     send(activity, CommandAction::query);
   }
 }
@@ -27,12 +27,12 @@ void PlanRun::resume(Time now) {
 bool PlanRun::take_query_answer(Index activity, const CommandAck& ack, Time now) {
   ActivityRun& run = runs_[activity];
   const bool asked = std::exchange(run.asked, false);
-  if (ack.stage == CommandStage::unknown && run.phase == Phase::sent) {
+  if (ack.stage == CommandStage::unknown && run.phase == ActivityPhase::sent) {
     run.phase_since = now;
     send(activity, CommandAction::execute);  // the key is the same: it is done once
     return true;
   }
-  if (asked && ack.stage == CommandStage::accepted && run.phase == Phase::cancelling) {
+  if (asked && ack.stage == CommandStage::accepted && run.phase == ActivityPhase::cancelling) {
     run.phase_since = now;
     send(activity, CommandAction::cancel);
     return true;
@@ -40,4 +40,4 @@ bool PlanRun::take_query_answer(Index activity, const CommandAck& ack, Time now)
   return false;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

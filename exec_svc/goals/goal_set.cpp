@@ -7,7 +7,14 @@
 
 #include "exec_svc/mission/template_text.hpp"
 
-namespace roci::exec {
+namespace roci::exec::goals {
+
+using mission::ArgumentKind;
+using mission::fill_names;
+using mission::GoalKind;
+using mission::ObjectModel;
+using mission::words_of;
+
 namespace {
 
 // Ids become parts of PDDL names.
@@ -239,4 +246,4 @@ std::optional<GoalKey> GoalSet::drop_candidate(const std::vector<GoalKey>& among
   return std::nullopt;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::goals

@@ -11,7 +11,7 @@
 #include "core/temporal/duration.hpp"
 #include "exec_svc/mission/mission_model.hpp"
 
-namespace roci::exec {
+namespace roci::exec::goals {
 
 enum class GoalClass { hard, optional, opportunistic };
 enum class GoalState { rejected, pending, planned, achieved, dropped, failed, recalled };
@@ -67,7 +67,7 @@ bool is_final(GoalState state);
 
 class GoalSet {
  public:
-  explicit GoalSet(const MissionModel& mission) : mission_(&mission) {}
+  explicit GoalSet(const mission::MissionModel& mission) : mission_(&mission) {}
 
   // What became of a request.
   enum class Taken {
@@ -115,9 +115,9 @@ class GoalSet {
   bool names(const GoalRequest& request, const GoalRequest& other) const;
   std::string fault_of_reference(const GoalRequest& request, const std::string& argument) const;
 
-  const MissionModel* mission_;
+  const mission::MissionModel* mission_;
   std::map<GoalKey, GoalRecord> records_;
   std::uint64_t next_arrival_ = 1;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::goals

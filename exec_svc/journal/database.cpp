@@ -4,7 +4,7 @@
 #define SQLITE_ENABLE_PREUPDATE_HOOK
 #include <sqlite3.h>
 
-namespace roci::exec {
+namespace roci::exec::journal {
 namespace {
 
 // "position" is this copy's own; a batch changes the other tables.
@@ -155,4 +155,4 @@ void Journal::Database::set_position(const Position& position) {
       .run();
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -2,7 +2,16 @@
 
 #include <sstream>
 
-namespace roci::exec {
+namespace roci::exec::journal {
+
+using executive::Command;
+using executive::StepStatus;
+using goals::GoalRecord;
+using reactor::Note;
+using reactor::PlannedAction;
+using reactor::PlanReceipt;
+using reactor::ReactorOutputs;
+
 namespace {
 
 std::string properties_text(const std::vector<temporal::Property>& properties) {
@@ -86,4 +95,4 @@ bool is_decision(std::string_view kind, std::string_view text) {
   return kind == "goal" || kind == "event" || kind == "step" || kind == "call";
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -5,7 +5,15 @@
 
 #include "exec_svc/journal/database.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
+
+using goals::GoalClass;
+using goals::GoalKey;
+using goals::GoalRecord;
+using goals::GoalRequest;
+using goals::GoalState;
+using goals::SampleName;
+
 namespace {
 
 nlohmann::json to_json(const SampleName& sample) {
@@ -167,4 +175,4 @@ std::int64_t Journal::number(std::string_view name, std::int64_t fallback) const
   return row.row() ? row.number(0) : fallback;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

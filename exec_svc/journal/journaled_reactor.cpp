@@ -4,7 +4,16 @@
 
 #include "exec_svc/archive/fields.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
+
+using archive::ArchiveError;
+using archive::to_bytes;
+using goals::GoalRecord;
+using mission::MissionModel;
+using reactor::Reactor;
+using reactor::ReactorInputs;
+using reactor::ReactorOutputs;
+
 namespace {
 
 // Of inputs and snapshots. Rises when fields.hpp or the reactor's snapshot change.
@@ -131,4 +140,4 @@ void JournaledReactor::anchor(temporal::Time now, std::string_view kind) {
   turns_since_anchor_ = 0;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

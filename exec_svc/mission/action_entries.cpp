@@ -4,10 +4,15 @@
 #include <iterator>
 #include <utility>
 
-namespace roci::exec {
+namespace roci::exec::mission {
+
+using executive::Contingency;
+using executive::ContingencyCommand;
+using executive::StartPolicy;
+
 namespace {
 
-using mission::Entry;
+using roci::mission::Entry;
 
 // One of the words that may stand there.
 template <typename Meaning, std::size_t Count>
@@ -125,4 +130,4 @@ Replanning read_replanning(const Entry& entry) {
   return read_word(entry, "way of replanning", ways);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::mission

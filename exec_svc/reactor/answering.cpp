@@ -5,7 +5,17 @@
 #include "exec_svc/reactor/plan_binding.hpp"
 #include "exec_svc/reactor/reactor.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
+
+using goals::GoalClass;
+using goals::GoalKey;
+using goals::GoalRecord;
+using goals::GoalSet;
+using goals::GoalState;
+using mission::FluentSource;
+using mission::WindowModel;
+using problem::goal_facts;
+using problem::Reserves;
 
 using temporal::Time;
 
@@ -75,7 +85,7 @@ void Reactor::adopt(Time now, const PlanAnswer& answer) {
 }
 
 void Reactor::begin_plan(Time now, temporal::FlexiblePlan plan) {
-  phase_ = Phase::executing;
+  phase_ = MissionPhase::executing;
   condition_values_.clear();
   for (const temporal::PlanActivity& activity : plan.activities) {
     for (const temporal::Condition* condition : {&activity.pre, &activity.maintenance}) {
@@ -171,10 +181,10 @@ void Reactor::try_again_later(Time now, const PlanAnswer& answer) {
     return;
   }
   note(NoteLevel::warning, "plan.retry", what + "; will be tried again");
-  phase_ = Phase::idle;
+  phase_ = MissionPhase::idle;
   not_before_ = now + temporal::seconds(5.0 * static_cast<double>(1U << std::min(failed_calls_, 5U)));
   want_plan("the planner call is tried again");
   wake_at(not_before_);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -6,7 +6,10 @@
 
 #include "core/temporal/execution_windows.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
+
+using executive::StepStatus;
+
 namespace {
 
 using temporal::CommitState;
@@ -77,4 +80,4 @@ std::string breach_of_commitment(const temporal::FlexiblePlan& running, const st
   return lateness_of(steps, next, after, now);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -1,6 +1,6 @@
 #include "exec_svc/reactor/demands.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
 
 using temporal::ConditionNode;
 using temporal::ConditionOp;
@@ -21,4 +21,4 @@ std::vector<ConditionNode> demands(const temporal::Condition& condition) {
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

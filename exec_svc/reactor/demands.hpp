@@ -5,10 +5,10 @@
 
 #include "core/temporal/condition.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
 
 // The comparisons that must all hold: the condition itself, or the parts of its conjunction. What lies below
 // an alternative or a negation is no demand by itself; nothing that follows such a part is told.
 std::vector<temporal::ConditionNode> demands(const temporal::Condition& condition);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

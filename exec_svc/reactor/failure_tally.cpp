@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace roci::exec {
+namespace roci::exec::reactor {
 
 FailureTally::Count FailureTally::failed(const std::string& component) {
   Count out;
@@ -16,4 +16,4 @@ FailureTally::Count FailureTally::failed(const std::string& component) {
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

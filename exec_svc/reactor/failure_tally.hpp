@@ -8,7 +8,7 @@
 
 #include "core/temporal/duration.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
 
 class FailureTally {
  public:
@@ -35,4 +35,4 @@ class FailureTally {
   std::map<std::string, std::uint32_t> in_a_row_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -7,7 +7,15 @@
 #include "exec_svc/reactor/commitment.hpp"
 #include "exec_svc/reactor/reactor.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
+
+using executive::Outcome;
+using executive::OutcomeKind;
+using executive::StepStatus;
+using goals::GoalKey;
+using goals::GoalRecord;
+using goals::GoalState;
+using mission::Replanning;
 
 using temporal::Time;
 
@@ -15,7 +23,7 @@ bool Reactor::follows_engine() const { return mission_->executive.replanning == 
 
 void Reactor::follow_engine(Time now, const ReactorInputs& inputs) {
   for (const temporal::PlanDelta& delta : inputs.deltas) take_delta(now, delta);
-  if (phase_ == Phase::executing) follow_version(now);
+  if (phase_ == MissionPhase::executing) follow_version(now);
   wanted_ = false;  // whoever wants a plan: the engine knows
   forget_ended_plan(now);
   finish_if_done();
@@ -23,7 +31,8 @@ void Reactor::follow_engine(Time now, const ReactorInputs& inputs) {
 }
 
 void Reactor::take_delta(Time now, const temporal::PlanDelta& delta) {
-  temporal::FlexiblePlan next = phase_ == Phase::executing ? executive_.plan() : temporal::FlexiblePlan{};
+  temporal::FlexiblePlan next =
+      phase_ == MissionPhase::executing ? executive_.plan() : temporal::FlexiblePlan{};
   std::string fault = fault_of(now, delta, next);
   if (fault.empty()) {
     receipt_.refused = 0;
@@ -51,7 +60,7 @@ std::string Reactor::fault_of(Time now, const temporal::PlanDelta& delta,
   if (const auto faults = check(next); !faults.empty()) return faults.front();
   for (const temporal::PlanActivity& activity : next.activities)
     if (std::ranges::binary_search(ended_, activity.id)) return activity.id + " has ended in the plan before";
-  const bool runs = phase_ == Phase::executing;
+  const bool runs = phase_ == MissionPhase::executing;
   return breach_of_commitment(runs ? executive_.plan() : temporal::FlexiblePlan{},
                               runs ? executive_.steps() : std::vector<StepStatus>{}, next, now);
 }
@@ -93,19 +102,19 @@ void Reactor::follow_version(Time now) {
     break_plan(now, (outcome.activity.empty() ? "" : outcome.activity + ": ") + outcome.cause);
   } else if (outcome.kind == OutcomeKind::finished) {
     note(NoteLevel::info, "plan.finished", plan + " finished");
-    phase_ = Phase::idle;
+    phase_ = MissionPhase::idle;
   } else if (unfit_ && now >= mend_before_) {
     make_safe(now, plan + " is broken, and no other version came within " +
                        temporal::to_text(mission_->planner.reply_timeout));
   }
-  if (phase_ == Phase::executing && unfit_) wake_at(mend_before_);
+  if (phase_ == MissionPhase::executing && unfit_) wake_at(mend_before_);
 }
 
 // What ended is no base for deltas: the next plan comes whole, and without what was done.
 void Reactor::forget_ended_plan(Time now) {
   const OutcomeKind kind = executive_.outcome().kind;
   const bool ended = kind == OutcomeKind::finished || kind == OutcomeKind::cancelled;
-  if (phase_ == Phase::executing || !ended || executive_.plan().activities.empty()) return;
+  if (phase_ == MissionPhase::executing || !ended || executive_.plan().activities.empty()) return;
   ended_.clear();
   for (const StepStatus& step : executive_.steps())
     if (step.state != temporal::ActivityState::waiting) ended_.push_back(step.activity);
@@ -115,17 +124,17 @@ void Reactor::forget_ended_plan(Time now) {
 }
 
 bool Reactor::takes_plans() const {
-  if (phase_ == Phase::executing) return true;
+  if (phase_ == MissionPhase::executing) return true;
   return executive_.outcome().kind != OutcomeKind::cancelling && beliefs_.unseen().empty() &&
          beliefs_.active().empty();
 }
 
 void Reactor::tell_receipt() {
-  receipt_.version = phase_ == Phase::executing ? plan_version_ : 0;
+  receipt_.version = phase_ == MissionPhase::executing ? plan_version_ : 0;
   receipt_.open = takes_plans();
   if (receipt_ == told_receipt_) return;
   told_receipt_ = receipt_;
   out_.receipt = receipt_;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -4,7 +4,7 @@
 
 #include "exec_svc/reactor/demands.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
 namespace {
 
 using temporal::ActivityState;
@@ -121,4 +121,4 @@ std::optional<Time> Foresight::next_look() const {
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -14,7 +14,7 @@
 #include "core/temporal/condition.hpp"
 #include "core/temporal/flexible_plan.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
 
 struct StateConflict {
   std::string activity;  // the first waiting one, in plan order, whose pre condition can not come about
@@ -71,4 +71,4 @@ class Foresight {
   std::vector<std::vector<std::string>> touched_by_;  // timelines of each activity
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

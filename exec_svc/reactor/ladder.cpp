@@ -1,6 +1,11 @@
 #include "exec_svc/reactor/ladder.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
+
+using executive::ExecutiveSettings;
+using mission::MissionModel;
+using mission::RecoveryStrategy;
+using mission::Replanning;
 
 Ladder ladder_of(RecoveryStrategy strategy) {
   switch (strategy) {
@@ -39,4 +44,4 @@ ExecutiveSettings executive_settings(const MissionModel& mission) {
   return settings;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

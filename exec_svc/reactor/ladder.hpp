@@ -6,7 +6,7 @@
 #include "exec_svc/executive/executive.hpp"
 #include "exec_svc/mission/mission_model.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
 
 struct Ladder {
   bool flexible = true;  // push, retry, contingency
@@ -14,12 +14,12 @@ struct Ladder {
   bool asks_ground = true;
 };
 
-Ladder ladder_of(RecoveryStrategy strategy);
+Ladder ladder_of(mission::RecoveryStrategy strategy);
 
 // Takes the executive's rungs out of a plan.
 void make_inflexible(temporal::FlexiblePlan& plan);
 
 // Bounds, contingencies and start policy of the mission.
-ExecutiveSettings executive_settings(const MissionModel& mission);
+executive::ExecutiveSettings executive_settings(const mission::MissionModel& mission);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

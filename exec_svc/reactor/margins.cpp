@@ -7,7 +7,7 @@
 
 #include "exec_svc/reactor/demands.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
 namespace {
 
 using temporal::Condition;
@@ -133,4 +133,4 @@ std::string Margins::lacking(const temporal::Lookup& now) const {
   return lack;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -12,7 +12,7 @@
 #include "core/temporal/condition.hpp"
 #include "core/temporal/flexible_plan.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
 
 // For every numeric timeline that the plan's activities change by a known amount: the range in which its
 // value must lie now, so that the pre conditions of all waiting activities hold in plan order. What running
@@ -62,4 +62,4 @@ class Margins {
   std::unordered_map<std::string, std::size_t> index_of_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

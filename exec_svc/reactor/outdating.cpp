@@ -4,7 +4,7 @@
 
 #include "exec_svc/reactor/reactor.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
 namespace {
 
 // Calls given up for a changed model, in a row; after that many the answer is taken: what has changed since
@@ -18,10 +18,10 @@ constexpr char kModelChanged[] = "a map or arm model changed";
 void Reactor::cancel_stale_call() {
   if (!call_open_ || call_cancelled_) return;
   const bool by_models = models_changed_ && outdated_calls_ < kOutdatedLimit;
-  const bool wants_answer = (phase_ == Phase::planning || meanwhile_) && !wanted_;
+  const bool wants_answer = (phase_ == MissionPhase::planning || meanwhile_) && !wanted_;
   if (wants_answer && !goals_.open().empty() && !by_models) return;
   std::string why = by_models ? kModelChanged : "no goal is open any more";
-  if (!wants_answer) why = phase_ == Phase::safe ? "the robot was made safe" : wanted_why_;
+  if (!wants_answer) why = phase_ == MissionPhase::safe ? "the robot was made safe" : wanted_why_;
   call_cancelled_ = true;
   if (wants_answer && by_models) ++outdated_calls_;
   out_.cancelled_call = call_.id;
@@ -56,4 +56,4 @@ bool Reactor::count_as_outdated(const PlanAnswer& answer) {
   return true;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -2,7 +2,15 @@
 // back (R43, R44), then the problem is written. Where that fails, the robot is made safe.
 #include "exec_svc/reactor/reactor.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
+
+using executive::Command;
+using executive::OutcomeKind;
+using goals::GoalRecord;
+using goals::GoalState;
+using mission::Component;
+using problem::Forecast;
+
 namespace {
 
 using temporal::Time;
@@ -24,7 +32,7 @@ bool Reactor::count_replan(Time now) {
 }
 
 void Reactor::begin_pause(Time now) {
-  if (goals_.open().empty() && phase_ != Phase::executing && phase_ != Phase::planning) {
+  if (goals_.open().empty() && phase_ != MissionPhase::executing && phase_ != MissionPhase::planning) {
     wanted_ = false;
     return;
   }
@@ -34,7 +42,7 @@ void Reactor::begin_pause(Time now) {
   if (!count_replan(now)) return;
   meanwhile_.reset();
   unfit_ = false;
-  phase_ = Phase::pausing;
+  phase_ = MissionPhase::pausing;
   pause_deadline_ = now + mission_->executive.fallback_timeout;
   fallbacks_sent_ = false;
   pass_on(executive_.cancel_all(now));
@@ -74,10 +82,10 @@ void Reactor::send_fallbacks() {
 void Reactor::begin_planning(Time now) {
   wanted_ = false;  // the problem holds all that is known now
   if (goals_.open().empty()) {
-    phase_ = Phase::idle;
+    phase_ = MissionPhase::idle;
     return;
   }
-  phase_ = Phase::planning;
+  phase_ = MissionPhase::planning;
   suspicion_.clear();
   call_planner(now, now + mission_->planner.allowance, {});
 }
@@ -99,7 +107,7 @@ void Reactor::call_planner(Time now, Time origin, const Forecast& forecast) {
 std::vector<PlannedAction> Reactor::remaining() const { return without_begun(planned_, executive_.steps()); }
 
 void Reactor::make_safe(Time now, const std::string& why) {
-  phase_ = Phase::safe;
+  phase_ = MissionPhase::safe;
   wanted_ = false;
   meanwhile_.reset();
   unfit_ = false;
@@ -112,4 +120,4 @@ void Reactor::make_safe(Time now, const std::string& why) {
   note(NoteLevel::error, "robot.safe", "made safe, waiting for the ground: " + why);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

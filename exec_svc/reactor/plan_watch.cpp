@@ -3,7 +3,17 @@
 
 #include "exec_svc/reactor/reactor.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
+
+using executive::BreakReason;
+using executive::Outcome;
+using executive::OutcomeKind;
+using executive::StepStatus;
+using goals::GoalClass;
+using goals::GoalKey;
+using goals::GoalRecord;
+using goals::GoalSet;
+using goals::GoalState;
 
 using temporal::Time;
 
@@ -39,7 +49,7 @@ void Reactor::follow_plan(Time now) {
     }
   } else if (outcome.kind == OutcomeKind::finished && !meanwhile_) {
     note(NoteLevel::info, "plan.finished", "plan " + std::to_string(plan_version_) + " finished");
-    phase_ = Phase::idle;
+    phase_ = MissionPhase::idle;
     if (!goals_.open().empty()) want_plan("the plan ended with goals open");
   } else if (outcome.kind == OutcomeKind::running && !wanted_) {
     look_ahead(now);
@@ -106,4 +116,4 @@ void Reactor::give_up(const std::vector<GoalKey>& goals, const std::string& why)
   }
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -2,7 +2,21 @@
 
 #include <algorithm>
 
-namespace roci::exec {
+namespace roci::exec::reactor {
+
+using executive::Inputs;
+using executive::Observation;
+using executive::Outputs;
+using executive::RecoveryStep;
+using executive::Rung;
+using executive::StepStatus;
+using goals::GoalClass;
+using goals::GoalKey;
+using goals::GoalRecord;
+using goals::GoalState;
+using mission::MissionModel;
+using problem::goal_facts;
+
 namespace {
 
 using temporal::Time;
@@ -87,7 +101,7 @@ void Reactor::run_executive(Time now, const ReactorInputs& inputs) {
   for (const RecoveryStep& recovery : done.recoveries)
     note(NoteLevel::info, code_of(recovery.rung), recovery.activity + ": " + recovery.cause);
   pass_on(std::move(done));
-  if (!out_.steps.empty() && phase_ == Phase::executing) tell_windows();
+  if (!out_.steps.empty() && phase_ == MissionPhase::executing) tell_windows();
 }
 
 void Reactor::pass_on(Outputs done) {
@@ -126,26 +140,26 @@ void Reactor::advance(Time now, const ReactorInputs& inputs) {
   const bool answered = call_open_ && inputs.answer && inputs.answer->call == call_id_;
   if (answered) {
     call_open_ = false;
-    if (phase_ == Phase::planning && !wanted_) take_answer(now, *inputs.answer);
+    if (phase_ == MissionPhase::planning && !wanted_) take_answer(now, *inputs.answer);
     if (meanwhile_) meanwhile_->answer = *inputs.answer;
   }
-  if (phase_ == Phase::executing) follow_plan(now);
+  if (phase_ == MissionPhase::executing) follow_plan(now);
   if (meanwhile_) continue_meanwhile(now);
-  if (wanted_ && phase_ != Phase::pausing && (phase_ != Phase::planning || answered)) {
+  if (wanted_ && phase_ != MissionPhase::pausing && (phase_ != MissionPhase::planning || answered)) {
     if (!may_go_on()) {
       begin_pause(now);
     } else if (!call_open_) {
       begin_meanwhile(now);
     }
   }
-  if (phase_ == Phase::pausing) continue_pause(now);
+  if (phase_ == MissionPhase::pausing) continue_pause(now);
   cancel_stale_call();
   finish_if_done();
 }
 
 void Reactor::finish_if_done() {
-  const bool resting = phase_ == Phase::idle || phase_ == Phase::finished;
-  if (resting && !wanted_ && goals_.open().empty() && !goals_.all().empty()) phase_ = Phase::finished;
+  const bool resting = phase_ == MissionPhase::idle || phase_ == MissionPhase::finished;
+  if (resting && !wanted_ && goals_.open().empty() && !goals_.all().empty()) phase_ = MissionPhase::finished;
 }
 
 void Reactor::want_plan(const std::string& why) {
@@ -179,8 +193,8 @@ ReactorCounts Reactor::counts() const {
 }
 
 std::string Reactor::outcome() const {
-  if (phase_ == Phase::safe) return beliefs_.active().empty() ? "partial" : "failed";
-  if (phase_ != Phase::finished) return "";
+  if (phase_ == MissionPhase::safe) return beliefs_.active().empty() ? "partial" : "failed";
+  if (phase_ != MissionPhase::finished) return "";
   auto asked = goals_.all();
   std::erase_if(asked, [](const GoalRecord* record) {
     return record->state == GoalState::rejected && said_by_console(record->request);
@@ -192,4 +206,4 @@ std::string Reactor::outcome() const {
   return every_hard_goal && !asked.empty() ? "achieved" : "partial";
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

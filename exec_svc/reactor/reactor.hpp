@@ -22,7 +22,7 @@
 #include "exec_svc/reactor/margins.hpp"
 #include "exec_svc/reactor/remaining_plan.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
 
 struct PeerLoss {
   std::string service;
@@ -33,7 +33,7 @@ struct PeerLoss {
 struct PlanCall {
   std::uint64_t id = 0;
   std::string problem_name;
-  Problem problem;
+  problem::Problem problem;
   temporal::Time origin{0};              // mission time of the problem's 0
   std::vector<PlannedAction> remaining;  // of the plan before
 };
@@ -80,9 +80,9 @@ struct PlanReceipt {
 
 struct ReactorInputs {
   bool restarted = false;  // the executive was started anew and stands as before; its owners may not
-  std::vector<GoalRequest> goals;
-  std::vector<Observation> observations;
-  std::vector<CommandAck> acks;
+  std::vector<goals::GoalRequest> goals;
+  std::vector<executive::Observation> observations;
+  std::vector<executive::CommandAck> acks;
   std::vector<PeerLoss> losses;
   std::vector<std::string> arrivals;  // services that came (back)
   std::vector<ModelVersion> models;
@@ -90,8 +90,8 @@ struct ReactorInputs {
   std::vector<temporal::PlanDelta> deltas;  // of an engine that plans all the time
 };
 
-enum class Phase { idle, pausing, planning, executing, safe, finished };
-const char* to_string(Phase phase);
+enum class MissionPhase { idle, pausing, planning, executing, safe, finished };
+const char* to_string(MissionPhase phase);
 
 enum class NoteLevel { info, warning, error };
 
@@ -103,9 +103,9 @@ struct Note {
 };
 
 struct ReactorOutputs {
-  std::vector<Command> commands;
-  std::vector<GoalRecord> goal_changes;
-  std::vector<StepStatus> steps;
+  std::vector<executive::Command> commands;
+  std::vector<goals::GoalRecord> goal_changes;
+  std::vector<executive::StepStatus> steps;
   std::vector<Note> notes;
   std::optional<std::uint64_t> cancelled_call;  // its answer is wanted no more; it is still awaited
   std::optional<PlanCall> call;
@@ -122,10 +122,10 @@ struct ReactorCounts {
 
 class Reactor {
  public:
-  explicit Reactor(const MissionModel& mission);
+  explicit Reactor(const mission::MissionModel& mission);
 
   // Before the first step, after a restart: goals as the journal has them, the last plan version used.
-  void restore(const std::vector<GoalRecord>& goals, std::uint32_t last_plan_version);
+  void restore(const std::vector<goals::GoalRecord>& goals, std::uint32_t last_plan_version);
 
   ReactorOutputs step(temporal::Time now, const ReactorInputs& inputs);
 
@@ -136,12 +136,12 @@ class Reactor {
   void restore(std::string_view snapshot);
 
   const temporal::FlexiblePlan& plan() const { return executive_.plan(); }
-  std::vector<StepStatus> steps() const { return executive_.steps(); }
+  std::vector<executive::StepStatus> steps() const { return executive_.steps(); }
 
-  Phase phase() const { return phase_; }
+  MissionPhase phase() const { return phase_; }
   std::uint32_t plan_version() const { return plan_version_; }
   ReactorCounts counts() const;
-  const GoalSet& goals() const { return goals_; }
+  const goals::GoalSet& goals() const { return goals_; }
   bool follows_engine() const;  // that plans all the time
   const PlanReceipt& receipt() const { return receipt_; }
   // "achieved": every hard goal, and there was one (a console's goals that were rejected do not count:
@@ -150,9 +150,9 @@ class Reactor {
   std::string outcome() const;
 
  private:
-  void take_goals(temporal::Time now, const std::vector<GoalRequest>& requests);
+  void take_goals(temporal::Time now, const std::vector<goals::GoalRequest>& requests);
   void take_peers(const ReactorInputs& inputs);
-  void assume_unobserved(const GoalRequest& goal);
+  void assume_unobserved(const goals::GoalRequest& goal);
   void note_achieved();
   void advance(temporal::Time now, const ReactorInputs& inputs);
   void resume(temporal::Time now);
@@ -162,14 +162,14 @@ class Reactor {
   void follow_plan(temporal::Time now);
   void look_ahead(temporal::Time now);
   void break_plan(temporal::Time now, const std::string& why);
-  void count_failure(temporal::Time now, const Outcome& outcome);
-  void give_up(const std::vector<GoalKey>& goals, const std::string& why);
+  void count_failure(temporal::Time now, const executive::Outcome& outcome);
+  void give_up(const std::vector<goals::GoalKey>& goals, const std::string& why);
   bool count_replan(temporal::Time now);
   void begin_pause(temporal::Time now);
   void continue_pause(temporal::Time now);
   void send_fallbacks();
   void begin_planning(temporal::Time now);
-  void call_planner(temporal::Time now, temporal::Time origin, const Forecast& forecast);
+  void call_planner(temporal::Time now, temporal::Time origin, const problem::Forecast& forecast);
   void cancel_stale_call();
   bool is_end_of_cancelled_call(const PlanAnswer& answer) const;
   bool count_as_outdated(const PlanAnswer& answer);
@@ -180,7 +180,7 @@ class Reactor {
   void keep_plan(temporal::Time now);
   void change_plans(temporal::Time now);
   std::vector<PlannedAction> remaining() const;
-  std::string surprise_of(const Forecast& forecast) const;
+  std::string surprise_of(const problem::Forecast& forecast) const;
   bool outdated(const PlanAnswer& answer) const;
   void follow_engine(temporal::Time now, const ReactorInputs& inputs);
   void take_delta(temporal::Time now, const temporal::PlanDelta& delta);
@@ -197,42 +197,42 @@ class Reactor {
   void adopt(temporal::Time now, const PlanAnswer& answer);
   // False: no goal has gone, the next call is to leave out the soft ones.
   bool give_way(const PlanAnswer& answer);
-  GoalKey newest_hard() const;
-  GoalSet hard_goals() const;
-  bool spend_reserves(const std::vector<GoalKey>& leaving, const std::string& why);
-  std::vector<GoalKey> goals_to_blame(const PlanAnswer& answer) const;
-  std::optional<GoalKey> soft_goal_to_leave(const PlanAnswer& answer) const;
-  std::vector<GoalKey> named_goals(const std::string& reason) const;
+  goals::GoalKey newest_hard() const;
+  goals::GoalSet hard_goals() const;
+  bool spend_reserves(const std::vector<goals::GoalKey>& leaving, const std::string& why);
+  std::vector<goals::GoalKey> goals_to_blame(const PlanAnswer& answer) const;
+  std::optional<goals::GoalKey> soft_goal_to_leave(const PlanAnswer& answer) const;
+  std::vector<goals::GoalKey> named_goals(const std::string& reason) const;
   void try_again_later(temporal::Time now, const PlanAnswer& answer);
   void run_executive(temporal::Time now, const ReactorInputs& inputs);
-  void pass_on(Outputs done);
+  void pass_on(executive::Outputs done);
   void make_safe(temporal::Time now, const std::string& why);
   void finish_if_done();
   void want_plan(const std::string& why);
-  void change_goal(const GoalKey& key, GoalState state, const std::string& reason);
+  void change_goal(const goals::GoalKey& key, goals::GoalState state, const std::string& reason);
   void wake_at(temporal::Time time);
   void note(NoteLevel level, std::string code, std::string text);
   void tell_windows();
-  std::vector<Observation> changed_conditions();
+  std::vector<executive::Observation> changed_conditions();
 
   // A planner call during which what runs goes on.
   struct Meanwhile {
-    Forecast forecast;  // of the state that the running activities leave
+    problem::Forecast forecast;  // of the state that the running activities leave
     std::optional<PlanAnswer> answer;
     std::optional<temporal::Time> doubt_until;  // for that state to be observed
   };
 
-  const MissionModel* mission_;
-  Beliefs beliefs_;
-  GoalSet goals_;
-  Executive executive_;
+  const mission::MissionModel* mission_;
+  beliefs::Beliefs beliefs_;
+  goals::GoalSet goals_;
+  executive::Executive executive_;
   Ladder ladder_;
   FailureTally failures_;
   Margins margins_;      // of the running plan
   Foresight foresight_;  // of the running plan
   ReactorOutputs out_;
 
-  Phase phase_ = Phase::idle;
+  MissionPhase phase_ = MissionPhase::idle;
   bool wanted_ = false;  // a plan is wanted, for the reason below
   std::string wanted_why_;
   bool first_plan_ = true;
@@ -259,11 +259,11 @@ class Reactor {
   bool fallbacks_sent_ = false;
   std::uint32_t failed_calls_ = 0;
   std::string suspicion_;  // why soft goals are left out of the call under way; empty: they are in it
-  Reserves reserves_ = Reserves::kept;                 // spent: for hard goals, until one fails or comes
-  temporal::Time not_before_{0};                       // next planner call
-  std::map<std::string, temporal::Time> told_starts_;  // earliest starts last reported
+  problem::Reserves reserves_ = problem::Reserves::kept;  // spent: for hard goals, until one fails or comes
+  temporal::Time not_before_{0};                          // next planner call
+  std::map<std::string, temporal::Time> told_starts_;     // earliest starts last reported
   std::map<std::string, temporal::Value>
       condition_values_;  // timelines of the plan's conditions, as last told to the executive
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -1,6 +1,6 @@
 #include "exec_svc/reactor/reactor.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
 
 const char* to_string(PlanVerdict verdict) {
   switch (verdict) {
@@ -28,22 +28,22 @@ const char* to_string(PlanVerdict verdict) {
   return "unknown";
 }
 
-const char* to_string(Phase phase) {
+const char* to_string(MissionPhase phase) {
   switch (phase) {
-    case Phase::idle:
+    case MissionPhase::idle:
       return "idle";
-    case Phase::pausing:
+    case MissionPhase::pausing:
       return "pausing";
-    case Phase::planning:
+    case MissionPhase::planning:
       return "planning";
-    case Phase::executing:
+    case MissionPhase::executing:
       return "executing";
-    case Phase::safe:
+    case MissionPhase::safe:
       return "safe";
-    case Phase::finished:
+    case MissionPhase::finished:
       return "finished";
   }
   return "unknown";
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

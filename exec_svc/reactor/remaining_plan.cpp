@@ -5,7 +5,10 @@
 
 #include "core/temporal/schedule.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
+
+using executive::StepStatus;
+
 namespace {
 
 using temporal::ActivityState;
@@ -49,4 +52,4 @@ std::vector<PlannedAction> without_begun(std::vector<PlannedAction> planned,
   return planned;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -3,16 +3,22 @@
 #include "exec_svc/archive/fields.hpp"
 #include "exec_svc/reactor/reactor.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
+
+using archive::Reader;
+using archive::Writer;
+using executive::Inputs;
+using executive::OutcomeKind;
+using goals::GoalRecord;
 
 void Reactor::resume(temporal::Time now) {
   note(NoteLevel::info, "executive.resumed",
        std::string("goes on where it was: ") + to_string(phase_) +
-           (phase_ == Phase::executing ? " plan " + std::to_string(plan_version_) : ""));
+           (phase_ == MissionPhase::executing ? " plan " + std::to_string(plan_version_) : ""));
   pass_on(executive_.resume(now));
   call_open_ = false;  // nobody waits for the old answer
-  if (phase_ == Phase::planning && !wanted_) begin_planning(now);
-  if (phase_ == Phase::planning && wanted_) phase_ = Phase::idle;
+  if (phase_ == MissionPhase::planning && !wanted_) begin_planning(now);
+  if (phase_ == MissionPhase::planning && wanted_) phase_ = MissionPhase::idle;
   if (meanwhile_ && !meanwhile_->answer) {
     call_.id = ++call_id_;
     call_open_ = true;
@@ -20,12 +26,12 @@ void Reactor::resume(temporal::Time now) {
     out_.call = call_;
   }
   fallbacks_sent_ = false;
-  if (phase_ == Phase::safe && !beliefs_.active().empty()) send_fallbacks();
+  if (phase_ == MissionPhase::safe && !beliefs_.active().empty()) send_fallbacks();
 }
 
 bool Reactor::at_rest() const {
   const OutcomeKind kind = executive_.outcome().kind;
-  return phase_ != Phase::executing &&
+  return phase_ != MissionPhase::executing &&
          (kind == OutcomeKind::idle || kind == OutcomeKind::finished || kind == OutcomeKind::cancelled);
 }
 
@@ -68,4 +74,4 @@ void Reactor::restore(std::string_view snapshot) {
   failures_.restore(std::move(in_a_row));
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

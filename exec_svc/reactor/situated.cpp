@@ -5,7 +5,15 @@
 
 #include "exec_svc/reactor/reactor.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
+
+using executive::OutcomeKind;
+using executive::StepStatus;
+using goals::GoalRecord;
+using goals::GoalState;
+using mission::Replanning;
+using problem::Forecast;
+
 namespace {
 
 using temporal::Impact;
@@ -41,8 +49,8 @@ void foresee(const Remainder& remainder, Forecast& forecast) {
 }  // namespace
 
 bool Reactor::may_go_on() const {
-  return mission_->executive.replanning == Replanning::situated && phase_ == Phase::executing && !unfit_ &&
-         executive_.outcome().kind == OutcomeKind::running && !executive_.running().empty() &&
+  return mission_->executive.replanning == Replanning::situated && phase_ == MissionPhase::executing &&
+         !unfit_ && executive_.outcome().kind == OutcomeKind::running && !executive_.running().empty() &&
          !goals_.open().empty();
 }
 
@@ -131,4 +139,4 @@ std::string Reactor::surprise_of(const Forecast& forecast) const {
   return "";
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -2,7 +2,12 @@
 #include "exec_svc/mission/template_text.hpp"
 #include "exec_svc/reactor/reactor.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
+
+using goals::GoalRequest;
+using goals::GoalSet;
+using mission::fill_names;
+using problem::Reserves;
 
 using temporal::Time;
 
@@ -12,7 +17,7 @@ void Reactor::take_peers(const ReactorInputs& inputs) {
   }
   for (const std::string& service : inputs.arrivals) {
     note(NoteLevel::info, "service.found", service + " is there");
-    if (phase_ == Phase::safe && !goals_.open().empty()) want_plan(service + " came back");
+    if (phase_ == MissionPhase::safe && !goals_.open().empty()) want_plan(service + " came back");
     failed_calls_ = 0;
     not_before_ = Time{0};
     fallbacks_sent_ = false;  // one that came back has not heard them
@@ -40,7 +45,8 @@ void Reactor::take_goals(Time now, const std::vector<GoalRequest>& requests) {
       note(NoteLevel::warning, "goal.refused", name + ": " + record->reason);
     } else if (taken == GoalSet::Taken::recalled) {
       note(NoteLevel::info, "goal.recalled", name + " recalled");
-      if (phase_ == Phase::executing || phase_ == Phase::planning) want_plan(name + " was recalled");
+      if (phase_ == MissionPhase::executing || phase_ == MissionPhase::planning)
+        want_plan(name + " was recalled");
     } else if (taken == GoalSet::Taken::accepted) {
       note(NoteLevel::info, "goal.accepted", name + " accepted");
       assume_unobserved(record->request);
@@ -59,4 +65,4 @@ void Reactor::assume_unobserved(const GoalRequest& goal) {
   }
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

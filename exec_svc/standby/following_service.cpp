@@ -5,7 +5,11 @@
 #include "exec_svc/standby/standby_wire_service.hpp"
 #include "exec_svc/wire_service.hpp"
 
-namespace roci::exec {
+namespace roci::exec::standby {
+
+using goals::GoalRecord;
+using goals::GoalState;
+using journal::Journal;
 
 namespace topics = services::topics;
 
@@ -20,7 +24,7 @@ FollowingService::FollowingService(services::Node& node, Lease& lease, Journal& 
       goals_(services::advertise(node, topics::goal)) {
   services::subscribe(node, topics::exec_member, [this](const v1::ExecMember& member) { hear(member); });
   services::subscribe(node, topics::exec_journal,
-                      [this](const v1::JournalParcel& parcel) { take(wire::from_wire(parcel)); });
+                      [this](const v1::JournalParcel& parcel) { take(from_wire(parcel)); });
   services::subscribe(node, topics::clock_step, [this](const v1::ClockStep& step) {
     over_ = over_ || step.last();
     if (over_) node_.stop();
@@ -29,7 +33,7 @@ FollowingService::FollowingService(services::Node& node, Lease& lease, Journal& 
 }
 
 void FollowingService::hear(const v1::ExecMember& member) {
-  lease_->hear(wire::from_wire(member), wire::moment());
+  lease_->hear(from_wire(member), moment());
   turn();
 }
 
@@ -39,7 +43,7 @@ void FollowingService::take(const Parcel& parcel) {
   const std::vector<GoalRecord> earlier = completes ? journal_->goals() : std::vector<GoalRecord>{};
   const JournalCopy::Taken taken = copy_.take(parcel, lease_->epoch());
   if (taken == JournalCopy::Taken::old || taken == JournalCopy::Taken::corrupt) return;
-  lease_->hear_leader(parcel.leader, wire::moment());
+  lease_->hear_leader(parcel.leader, moment());
   if (taken == JournalCopy::Taken::whole) ask_again(earlier);
   if (taken != JournalCopy::Taken::known) say();
 }
@@ -51,13 +55,13 @@ void FollowingService::ask_again(const std::vector<GoalRecord>& earlier) {
     const bool open = goal.state == GoalState::pending || goal.state == GoalState::planned;
     const bool known = std::ranges::any_of(
         goals, [&](const GoalRecord& other) { return other.request.key == goal.request.key; });
-    if (open && !known) goals_.write(wire::to_wire(goal.request));
+    if (open && !known) goals_.write(exec::to_wire(goal.request));
   }
 }
 
 void FollowingService::turn() {
   if (lead_) return;
-  const Lease::Turn turn = lease_->turn(copy_.has(), wire::moment());
+  const Lease::Turn turn = lease_->turn(copy_.has(), moment());
   standing_->keep(lease_->standing());
   if (turn.speak) say();
   if (turn.change != Lease::Change::lead) return;
@@ -65,6 +69,6 @@ void FollowingService::turn() {
   node_.stop();
 }
 
-void FollowingService::say() { words_.write(wire::to_wire(lease_->word(copy_.has()), copy_.arrival())); }
+void FollowingService::say() { words_.write(to_wire(lease_->word(copy_.has()), copy_.arrival())); }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

@@ -11,12 +11,12 @@
 #include "services/node.hpp"
 #include "services/publisher.hpp"
 
-namespace roci::exec {
+namespace roci::exec::standby {
 
 class FollowingService {
  public:
   // On an observer's node, so that it stands outside the simulated clock. All outlive this.
-  FollowingService(services::Node& node, Lease& lease, Journal& journal, StandingFile& standing);
+  FollowingService(services::Node& node, Lease& lease, journal::Journal& journal, StandingFile& standing);
 
   // Why this member leads, once it does; the node has been stopped then.
   const std::optional<Lease::Turn>& lead() const { return lead_; }
@@ -26,13 +26,13 @@ class FollowingService {
  private:
   void hear(const v1::ExecMember& member);
   void take(const Parcel& parcel);
-  void ask_again(const std::vector<GoalRecord>& earlier);
+  void ask_again(const std::vector<goals::GoalRecord>& earlier);
   void turn();
   void say();
 
   services::Node& node_;
   Lease* lease_;
-  Journal* journal_;
+  journal::Journal* journal_;
   StandingFile* standing_;
   JournalCopy copy_;
   std::optional<Lease::Turn> lead_;
@@ -41,4 +41,4 @@ class FollowingService {
   services::Publisher<v1::Goal> goals_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

@@ -2,7 +2,10 @@
 
 #include <utility>
 
-namespace roci::exec {
+namespace roci::exec::standby {
+
+using journal::JournalError;
+using journal::kOwnPast;
 
 JournalCopy::Taken JournalCopy::take(const Parcel& parcel, std::uint64_t epoch) {
   if (parcel.checksum != checksum(parcel)) return Taken::corrupt;
@@ -44,4 +47,4 @@ JournalCopy::Taken JournalCopy::take_part(const Parcel& parcel) {
   return Taken::whole;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

@@ -7,11 +7,11 @@
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/standby/parcel.hpp"
 
-namespace roci::exec {
+namespace roci::exec::standby {
 
 class JournalCopy {
  public:
-  explicit JournalCopy(Journal& journal) : journal_(&journal), has_(journal.position()) {}
+  explicit JournalCopy(journal::Journal& journal) : journal_(&journal), has_(journal.position()) {}
 
   enum class Taken {
     batch,    // it is in the journal, on the disk
@@ -26,17 +26,17 @@ class JournalCopy {
   Taken take(const Parcel& parcel, std::uint64_t epoch);
 
   // kOwnPast after a batch that does not fit, though its position does: the whole journal is wanted then.
-  const Position& has() const { return has_; }
+  const journal::Position& has() const { return has_; }
   const Arrival& arrival() const { return arrival_; }
 
  private:
   Taken take_batch(const Parcel& parcel);
   Taken take_part(const Parcel& parcel);
 
-  Journal* journal_;
-  Position has_;
+  journal::Journal* journal_;
+  journal::Position has_;
   Arrival arrival_;
   std::string arriving_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-namespace roci::exec {
+namespace roci::exec::standby {
+
+using journal::Batch;
+using journal::Position;
+
 namespace {
 
 constexpr std::size_t kMostBatches = 4096;  // kept for a follower that comes back
@@ -80,4 +84,4 @@ std::vector<Parcel> JournalFeed::next_parts(const std::function<std::string()>& 
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

@@ -4,7 +4,11 @@
 
 #include "exec_svc/standby/standby_wire_service.hpp"
 
-namespace roci::exec {
+namespace roci::exec::standby {
+
+using journal::Batch;
+using journal::Journal;
+using reactor::NoteLevel;
 
 namespace topics = services::topics;
 
@@ -33,20 +37,20 @@ LeadingService::LeadingService(services::Node& node, Lease& lease, Journal& jour
 }
 
 void LeadingService::hear(const v1::ExecMember& member) {
-  const Word word = wire::from_wire(member);
+  const Word word = from_wire(member);
   if (word.member == lease_->word({}).member) return;
-  const Moment now = wire::moment();
+  const Moment now = moment();
   lease_->hear(word, now);
-  if (word.role == Role::following) feed_.hear(word.has, wire::arrival_of(member), now);
+  if (word.role == Role::following) feed_.hear(word.has, arrival_of(member), now);
   turn();
 }
 
 void LeadingService::turn() {
-  const Lease::Turn turn = lease_->turn(feed_.newest(), wire::moment());
+  const Lease::Turn turn = lease_->turn(feed_.newest(), moment());
   standing_->keep(lease_->standing());
   if (turn.change == Lease::Change::stand_down) throw StandDown(turn.why, lease_->superseded());
   note(turn.change, turn.why);
-  if (turn.speak) words_.write(wire::to_wire(lease_->word(feed_.newest()), {}));
+  if (turn.speak) words_.write(to_wire(lease_->word(feed_.newest()), {}));
   feed();
   let_out();
 }
@@ -60,7 +64,7 @@ void LeadingService::note(Lease::Change change, const std::string& why) {
 
 void LeadingService::feed() {
   const auto whole = [this] { return journal_->whole(); };
-  for (const Parcel& parcel : feed_.due(wire::moment(), whole)) parcels_.write(wire::to_wire(parcel));
+  for (const Parcel& parcel : feed_.due(moment(), whole)) parcels_.write(to_wire(parcel));
 }
 
 void LeadingService::hold(std::function<void()> send) {
@@ -70,7 +74,7 @@ void LeadingService::hold(std::function<void()> send) {
 }
 
 void LeadingService::let_out() {
-  while (!held_.empty() && lease_->may_send(held_.front().decided, wire::moment())) {
+  while (!held_.empty() && lease_->may_send(held_.front().decided, moment())) {
     const Held held = std::move(held_.front());
     held_.pop_front();
     held.send();
@@ -83,4 +87,4 @@ void LeadingService::refused() {
   turn();
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

@@ -15,7 +15,7 @@
 #include "services/node.hpp"
 #include "services/publisher.hpp"
 
-namespace roci::exec {
+namespace roci::exec::standby {
 
 // Leaves Node::run() of a leader that is none any more.
 class StandDown : public std::runtime_error {
@@ -28,7 +28,7 @@ class StandDown : public std::runtime_error {
 class LeadingService {
  public:
   // `lease` leads already; its epoch begins in the journal. All outlive this.
-  LeadingService(services::Node& node, Lease& lease, Journal& journal, StandingFile& standing);
+  LeadingService(services::Node& node, Lease& lease, journal::Journal& journal, StandingFile& standing);
 
   // What was decided with the journal's newest commit: `send` runs now or later, in the order of these calls,
   // unless this leader stands down before. Under the simulated clock the micro-step lasts until then.
@@ -38,11 +38,11 @@ class LeadingService {
 
   std::uint64_t epoch() const { return lease_->epoch(); }
   // For operators, since the last call.
-  std::vector<Note> take_notes() { return std::exchange(notes_, {}); }
+  std::vector<reactor::Note> take_notes() { return std::exchange(notes_, {}); }
 
  private:
   struct Held {
-    Position decided;
+    journal::Position decided;
     services::Node::WorkId work;
     std::function<void()> send;
   };
@@ -54,13 +54,13 @@ class LeadingService {
 
   services::Node& node_;
   Lease* lease_;
-  Journal* journal_;
+  journal::Journal* journal_;
   StandingFile* standing_;
   JournalFeed feed_;
   std::deque<Held> held_;
-  std::vector<Note> notes_;
+  std::vector<reactor::Note> notes_;
   services::Publisher<v1::ExecMember> words_;
   services::Publisher<v1::JournalParcel> parcels_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

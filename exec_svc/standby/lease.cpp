@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-namespace roci::exec {
+namespace roci::exec::standby {
+
+using journal::Position;
+
 namespace {
 
 constexpr std::uint64_t kNear = 64;  // batches; so close a follower is waited for
@@ -224,4 +227,4 @@ Word Lease::word(const Position& newest) const {
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

@@ -9,7 +9,7 @@
 
 #include "exec_svc/journal/batch.hpp"
 
-namespace roci::exec {
+namespace roci::exec::standby {
 
 using Moment = std::chrono::microseconds;  // on a clock that never jumps, of this member alone
 
@@ -21,10 +21,11 @@ struct Word {
   Member member = Member::first;
   Role role = Role::following;
   std::uint64_t epoch = 0;  // the highest that it knows of; a leader's own
-  Position has;             // of its journal
+  journal::Position has;    // of its journal
   // A leader: the other may take over once this word is a term old. A follower: it will.
   bool entitled = false;
-  Position receipt;  // a leader: what it knows that the other has; with less on its disk it is not entitled
+  journal::Position
+      receipt;  // a leader: what it knows that the other has; with less on its disk it is not entitled
   bool searching = false;  // a follower that has heard no leader for a term
   Moment said{0};          // on the clock of who says it
   Moment echo{0};          // the newest `said` heard from the other, on the other's clock
@@ -76,12 +77,12 @@ class Lease {
   };
   // To be called often, and after everything heard. When standing() has changed, it goes to the disk before
   // anything else is done.
-  Turn turn(const Position& newest, Moment now);
+  Turn turn(const journal::Position& newest, Moment now);
 
   // Whether what was decided at this position of the journal may be sent. To be asked right before sending.
-  bool may_send(const Position& decided, Moment now) const;
+  bool may_send(const journal::Position& decided, Moment now) const;
 
-  Word word(const Position& newest) const;
+  Word word(const journal::Position& newest) const;
   const Standing& standing() const { return standing_; }
   // Of a leader that stands down: another one leads.
   bool superseded() const { return refused_ || standing_.epoch > own_epoch_; }
@@ -97,20 +98,20 @@ class Lease {
     Moment at{0};
   };
   void note_epoch(std::uint64_t epoch);
-  Turn follow(const Position& newest, Moment now);
+  Turn follow(const journal::Position& newest, Moment now);
   Turn lead(std::string why, Moment now);
-  Turn keep_leading(const Position& newest, Moment now);
-  void note_progress(const Position& newest, Moment now);
-  Turn bind(const Position& newest, Moment now);
-  std::optional<std::string> reason_to_lead(const Position& newest, Moment now) const;
-  bool right_holds(const Position& newest, Moment now) const;
-  bool wins(const Word& other, const Position& newest) const;
+  Turn keep_leading(const journal::Position& newest, Moment now);
+  void note_progress(const journal::Position& newest, Moment now);
+  Turn bind(const journal::Position& newest, Moment now);
+  std::optional<std::string> reason_to_lead(const journal::Position& newest, Moment now) const;
+  bool right_holds(const journal::Position& newest, Moment now) const;
+  bool wins(const Word& other, const journal::Position& newest) const;
   bool expired(Moment now) const { return now - entitled_at_ >= settings_.term; }
   bool heard_lately(Moment now) const { return other_ && now - other_->at <= settings_.term; }
   // When the newest word of the other was said at the earliest, on this clock; nothing: long ago.
   std::optional<Moment> said_since() const;
-  bool other_has(const Position& position) const;
-  bool other_is_near(const Position& newest) const;
+  bool other_has(const journal::Position& position) const;
+  bool other_is_near(const journal::Position& newest) const;
 
   Member self_;
   LeaseSettings settings_;
@@ -120,10 +121,10 @@ class Lease {
   bool refused_ = false;
   Moment spoke_at_{0};
 
-  bool barred_;               // following: the newest leader does not want it to take over
-  bool entitled_ = false;     // following: by its newest word, with a journal that has
-  Position receipt_;          // this at least,
-  Moment entitled_since_{0};  // when it was said at the earliest
+  bool barred_;                // following: the newest leader does not want it to take over
+  bool entitled_ = false;      // following: by its newest word, with a journal that has
+  journal::Position receipt_;  // this at least,
+  Moment entitled_since_{0};   // when it was said at the earliest
   Moment leaderless_since_;
   Moment started_;
 
@@ -134,8 +135,8 @@ class Lease {
   Moment bond_since_{0};
   Moment behind_since_{0};  // the other's journal, without progress
   bool behind_ = false;
-  Position progress_;
-  Position joined_at_;  // newest when the follower began to be waited for
+  journal::Position progress_;
+  journal::Position joined_at_;  // newest when the follower began to be waited for
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

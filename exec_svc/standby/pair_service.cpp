@@ -17,7 +17,12 @@
 #include "services/stop_signals.hpp"
 #include "services/transport.hpp"
 
-namespace roci::exec {
+namespace roci::exec::standby {
+
+using journal::Durability;
+using journal::Journal;
+using mission::read_mission;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,7 +87,7 @@ class PairProcess {
   PairProcess(const services::ServiceOptions& options, services::StopSignals& signals)
       : options_(options),
         sign_(options.notify_socket),
-        self_(wire::member_of(options.run.pair)),
+        self_(member_of(options.run.pair)),
         lease_{read_mission(options.run.mission).executive.standby_term},
         journal_(folder_of(options.run) / "journal.sqlite", durability_for(options.node)),
         standing_(folder_of(options.run) / "standing", durability_for(options.node)) {
@@ -91,7 +96,7 @@ class PairProcess {
 
   void run() {
     for (bool superseded = false; !stop_.asked();) {
-      Lease lease(self_, lease_, standing_.read(), superseded, wire::moment());
+      Lease lease(self_, lease_, standing_.read(), superseded, moment());
       const auto lead = follow(lease);
       if (!lead) return;
       log(*lead, lease);
@@ -179,4 +184,4 @@ void run_pair(const services::ServiceOptions& options, services::StopSignals& si
   PairProcess(options, signals).run();
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

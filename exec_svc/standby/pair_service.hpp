@@ -3,9 +3,9 @@
 
 #include "services/service.hpp"
 
-namespace roci::exec {
+namespace roci::exec::standby {
 
 // RunSettings::pair says which member this is; both may have the same run folder.
 void run_pair(const services::ServiceOptions& options, services::StopSignals& signals);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <boost/crc.hpp>
 
-namespace roci::exec {
+namespace roci::exec::standby {
+
+using journal::Position;
+
 namespace {
 
 constexpr std::size_t kPartBytes = 128 * 1024;
@@ -38,4 +41,4 @@ std::vector<Parcel> split(std::uint64_t leader, const Position& at, const std::s
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

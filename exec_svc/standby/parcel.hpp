@@ -7,12 +7,12 @@
 
 #include "exec_svc/journal/batch.hpp"
 
-namespace roci::exec {
+namespace roci::exec::standby {
 
 struct Parcel {
   std::uint64_t leader = 0;    // epoch of who sends it
-  Position after;              // a batch: of the journal that it fits
-  Position at;                 // of the journal with it
+  journal::Position after;     // a batch: of the journal that it fits
+  journal::Position at;        // of the journal with it
   std::uint32_t part = 0;      // of a whole journal: this one, from 0,
   std::uint32_t parts = 0;     // of so many; 0: a batch
   std::uint32_t checksum = 0;  // of all other members
@@ -25,12 +25,12 @@ std::uint32_t checksum(const Parcel& parcel);
 
 // How much of a whole journal the follower has in a row.
 struct Arrival {
-  Position at;
+  journal::Position at;
   std::uint32_t parts = 0;
   bool operator==(const Arrival&) const = default;
 };
 
 // Seals each part with its checksum.
-std::vector<Parcel> split(std::uint64_t leader, const Position& at, const std::string& whole);
+std::vector<Parcel> split(std::uint64_t leader, const journal::Position& at, const std::string& whole);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

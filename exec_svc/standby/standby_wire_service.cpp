@@ -6,7 +6,10 @@
 
 #include "services/clock/wall.hpp"
 
-namespace roci::exec::wire {
+namespace roci::exec::standby {
+
+using journal::Position;
+
 namespace {
 
 std::string host_name() {
@@ -89,4 +92,4 @@ Parcel from_wire(const v1::JournalParcel& in) {
   return out;
 }
 
-}  // namespace roci::exec::wire
+}  // namespace roci::exec::standby

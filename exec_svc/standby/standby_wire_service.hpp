@@ -8,7 +8,7 @@
 #include "exec_svc/standby/parcel.hpp"
 #include "roci_idl/standby.h"
 
-namespace roci::exec::wire {
+namespace roci::exec::standby {
 
 // The steady clock of this host.
 Moment moment();
@@ -23,4 +23,4 @@ Arrival arrival_of(const v1::ExecMember& member);
 v1::JournalParcel to_wire(const Parcel& parcel);
 Parcel from_wire(const v1::JournalParcel& parcel);
 
-}  // namespace roci::exec::wire
+}  // namespace roci::exec::standby

@@ -5,7 +5,10 @@
 
 #include <fstream>
 
-namespace roci::exec {
+namespace roci::exec::standby {
+
+using journal::Durability;
+using journal::JournalError;
 
 namespace fs = std::filesystem;
 
@@ -37,4 +40,4 @@ void StandingFile::write(const Standing& standing) const {
   fs::rename(unfinished, file_);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

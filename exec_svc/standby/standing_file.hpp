@@ -7,11 +7,11 @@
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/standby/lease.hpp"
 
-namespace roci::exec {
+namespace roci::exec::standby {
 
 class StandingFile {
  public:
-  StandingFile(std::filesystem::path file, Durability durability)
+  StandingFile(std::filesystem::path file, journal::Durability durability)
       : file_(std::move(file)), durability_(durability) {}
 
   // As new if there is no file. Throws JournalError for one that cannot be read.
@@ -23,8 +23,8 @@ class StandingFile {
   void write(const Standing& standing) const;
 
   std::filesystem::path file_;
-  Durability durability_;
+  journal::Durability durability_;
   std::optional<Standing> kept_;  // as read or written by keep()
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

@@ -11,6 +11,21 @@
 #include "services/transport.hpp"
 
 namespace roci::exec {
+
+using journal::Durability;
+using journal::Journal;
+using journal::Position;
+using standby::FollowingService;
+using standby::LeadingService;
+using standby::Lease;
+using standby::LeaseSettings;
+using standby::Member;
+using standby::moment;
+using standby::Parcel;
+using standby::StandDown;
+using standby::Standing;
+using standby::StandingFile;
+
 namespace {
 
 using namespace std::chrono_literals;
@@ -63,13 +78,13 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
 
   // Leads at once: it was alone before.
   void start_leader() {
-    leader_lease_.emplace(Member::first, LeaseSettings{}, Standing{1, true}, false, -10s + wire::moment());
-    ASSERT_EQ(leader_lease_->turn(leader_journal_->position(), wire::moment()).change, Lease::Change::lead);
+    leader_lease_.emplace(Member::first, LeaseSettings{}, Standing{1, true}, false, -10s + moment());
+    ASSERT_EQ(leader_lease_->turn(leader_journal_->position(), moment()).change, Lease::Change::lead);
     leader_node_.emplace(options_of("exec_svc", services::ClockMode::live), transport(GetParam().leader));
     leading_.emplace(*leader_node_, *leader_lease_, *leader_journal_, leader_standing_);
   }
   void start_follower() {
-    follower_lease_.emplace(Member::second, LeaseSettings{}, Standing{}, false, wire::moment());
+    follower_lease_.emplace(Member::second, LeaseSettings{}, Standing{}, false, moment());
     follower_node_.emplace(options_of("exec_svc.second", services::ClockMode::observer),
                            transport(GetParam().follower));
     following_.emplace(*follower_node_, *follower_lease_, *follower_journal_, follower_standing_);
@@ -194,7 +209,7 @@ TEST_P(StandbyTest, StrayParcelsDoNoHarm) {
   const auto stray = [&](std::uint64_t leader, Position after, Position at, bool sealed) {
     Parcel parcel{leader, after, at, 0, 0, 0, "no changes"};
     parcel.checksum = checksum(parcel) + (sealed ? 0 : 1);
-    parcels.write(wire::to_wire(parcel));
+    parcels.write(standby::to_wire(parcel));
   };
   const Position next{has.epoch, has.sequence + 1};
   stray(has.epoch, has, next, false);                                  // garbled

@@ -9,6 +9,17 @@
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec {
+
+using archive::ArchiveError;
+using archive::from_bytes;
+using archive::to_bytes;
+using executive::CommandStage;
+using goals::GoalClass;
+using goals::GoalRequest;
+using reactor::PlanAnswer;
+using reactor::PlanVerdict;
+using reactor::ReactorInputs;
+
 namespace {
 
 using temporal::Time;

@@ -7,6 +7,12 @@
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using goals::GoalClass;
+using goals::GoalRequest;
+using goals::GoalState;
+using mission::Replanning;
+
 namespace {
 
 // Three plans and more: a goal comes in flight, one is recalled, a command fails.

@@ -8,6 +8,20 @@
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using executive::Command;
+using executive::CommandAck;
+using executive::CommandAction;
+using executive::CommandStage;
+using executive::Observation;
+using goals::GoalRecord;
+using goals::GoalRequest;
+using journal::Durability;
+using journal::JournaledReactor;
+using reactor::PlanAnswer;
+using reactor::PlanVerdict;
+using reactor::ReactorOutputs;
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 namespace roci::exec {
+
+using reactor::FailureTally;
+
 namespace {
 
 using temporal::seconds;

@@ -7,6 +7,16 @@
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using executive::Command;
+using executive::CommandAction;
+using goals::GoalRequest;
+using mission::Replanning;
+using reactor::MissionPhase;
+using reactor::PlanReceipt;
+using reactor::Reactor;
+using reactor::ReactorInputs;
+
 namespace {
 
 using temporal::CommitState;
@@ -192,7 +202,7 @@ TEST_F(Following, ABrokenPlanThatNobodyMendsMakesTheRobotSafe) {
   engine.image("1", CommitState::committed);
   run(1000, with_plan(robot_and({photo("1")})));
   EXPECT_THAT(trace, Contains("robot.safe"));
-  EXPECT_EQ(reactor.phase(), Phase::safe);
+  EXPECT_EQ(reactor.phase(), MissionPhase::safe);
   camera_works = true;
   engine = Engine();
   engine.plan.version = 7;

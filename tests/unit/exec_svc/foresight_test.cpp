@@ -6,6 +6,13 @@
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using reactor::Foresight;
+using reactor::MissionPhase;
+using reactor::PlanAnswer;
+using reactor::PlanCall;
+using reactor::ReactorInputs;
+
 namespace {
 
 using temporal::ActivityState;
@@ -135,7 +142,7 @@ TEST_F(ReactorTest, AStateThatIsLostBreaksThePlanBeforeTheActivityThatNeedsItIsD
     return out;
   };
   run(20, robot_and({photo("a"), photo("b")}));
-  ASSERT_EQ(reactor.phase(), Phase::executing);
+  ASSERT_EQ(reactor.phase(), MissionPhase::executing);
   trace.clear();
   ReactorInputs lost;
   lost.observations = {{"rover.gripper", state("holding", {"sample-x"})}};

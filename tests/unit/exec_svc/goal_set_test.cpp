@@ -8,6 +8,14 @@
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec {
+
+using goals::GoalClass;
+using goals::GoalRecord;
+using goals::GoalRequest;
+using goals::GoalSet;
+using goals::GoalState;
+using mission::MissionModel;
+
 namespace {
 
 using temporal::seconds;

@@ -12,6 +12,15 @@
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec {
+
+using goals::GoalClass;
+using goals::GoalRecord;
+using goals::GoalState;
+using journal::Durability;
+using journal::Journal;
+using journal::JournalError;
+using journal::Trace;
+
 namespace {
 
 using temporal::seconds;

@@ -6,6 +6,9 @@
 #include <random>
 
 namespace roci::exec {
+
+using reactor::Margins;
+
 namespace {
 
 using temporal::ConditionOp;

@@ -4,6 +4,28 @@
 
 namespace roci::exec::testing {
 
+using executive::Command;
+using executive::CommandAction;
+using executive::CommandStage;
+using executive::Observation;
+using executive::StartPolicy;
+using executive::StepStatus;
+using goals::GoalClass;
+using goals::GoalRecord;
+using goals::GoalRequest;
+using goals::GoalState;
+using mission::ActionBinding;
+using mission::MissionModel;
+using mission::RecoveryStrategy;
+using mission::Replanning;
+using reactor::MissionPhase;
+using reactor::Note;
+using reactor::PlanAnswer;
+using reactor::PlanCall;
+using reactor::PlanVerdict;
+using reactor::ReactorInputs;
+using reactor::ReactorOutputs;
+
 using temporal::seconds;
 using temporal::state;
 using temporal::Time;
@@ -54,7 +76,7 @@ void RandomWorld::run() {
   for (const Observation& observation : standing_robot()) pending_.observations.push_back(observation);
   let_pass(now_ + seconds(20'000));
   for (const GoalRecord* goal : reactor_.goals().open()) {
-    EXPECT_EQ(reactor_.phase(), Phase::safe) << goal->request.key.text() << " is open in a calm world";
+    EXPECT_EQ(reactor_.phase(), MissionPhase::safe) << goal->request.key.text() << " is open in a calm world";
     pending_.goals.push_back(goal->request);
     pending_.goals.back().recalled = true;
   }
@@ -242,8 +264,8 @@ void RandomWorld::check(const ReactorOutputs& out) {
     ASSERT_TRUE(executed_.emplace(command.activity, command.attempt).second)
         << command.activity << " was commanded twice under one key";
     if (command.activity.starts_with("fallback.")) continue;
-    ASSERT_EQ(reactor_.phase() == Phase::executing || reactor_.phase() == Phase::pausing ||
-                  reactor_.phase() == Phase::idle,
+    ASSERT_EQ(reactor_.phase() == MissionPhase::executing || reactor_.phase() == MissionPhase::pausing ||
+                  reactor_.phase() == MissionPhase::idle,
               true)
         << command.activity << " commanded while " << to_string(reactor_.phase());
     ASSERT_TRUE(command.activity.starts_with(live)) << command.activity << " without a live plan";
@@ -266,7 +288,7 @@ void RandomWorld::check(const ReactorOutputs& out) {
       final_[goal->request.key] = goal->state;
     }
   }
-  if (reactor_.phase() == Phase::executing) check_steps();
+  if (reactor_.phase() == MissionPhase::executing) check_steps();
 }
 
 /// The steps of one component never overlap in time.

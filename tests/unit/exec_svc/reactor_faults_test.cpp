@@ -3,6 +3,21 @@
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using executive::Command;
+using executive::CommandStage;
+using goals::GoalClass;
+using goals::GoalRequest;
+using goals::GoalState;
+using mission::Component;
+using mission::StateModel;
+using mission::TimelineFamily;
+using reactor::MissionPhase;
+using reactor::PlanAnswer;
+using reactor::PlanCall;
+using reactor::PlanVerdict;
+using reactor::ReactorInputs;
+
 namespace {
 
 using ::testing::Contains;
@@ -65,16 +80,16 @@ INSTANTIATE_TEST_SUITE_P(
 // The robot dies while it is paused: nothing answers the cancel, nothing confirms the fallback.
 TEST_F(ReactorTest, AnOwnerLostDuringThePauseMakesTheRobotSafeAndItsReturnResumes) {
   run(20, robot_and({photo("a")}));
-  ASSERT_EQ(reactor.phase(), Phase::executing);
+  ASSERT_EQ(reactor.phase(), MissionPhase::executing);
   robot_is_dead = true;
   robot_events.clear();
   ReactorInputs lost;
   lost.goals = {photo("b", GoalClass::opportunistic)};
   lost.losses = {{"sim_svc", "killed"}};
   run(70, std::move(lost));
-  EXPECT_EQ(reactor.phase(), Phase::pausing);
+  EXPECT_EQ(reactor.phase(), MissionPhase::pausing);
   run(200, {});
-  EXPECT_EQ(reactor.phase(), Phase::safe);
+  EXPECT_EQ(reactor.phase(), MissionPhase::safe);
   EXPECT_EQ(reactor.outcome(), "failed") << "nobody knows that the camera has stopped";
   EXPECT_THAT(reasons["a"], HasSubstr("camera did not become inactive in time"));
   EXPECT_THAT(trace, Not(Contains("goal.dropped")));
@@ -105,7 +120,7 @@ TEST_F(ReactorTest, AnOwnerThatComesBackWithinThePauseHearsTheFallbackAgain) {
   back.arrivals = {"sim_svc"};
   run(61, std::move(back));
   EXPECT_EQ(stops(), 2);
-  EXPECT_EQ(reactor.phase(), Phase::pausing);
+  EXPECT_EQ(reactor.phase(), MissionPhase::pausing);
 }
 
 // As the mission says: a longest pause of 120 s, and eight failures in a row.
@@ -206,7 +221,7 @@ TEST_F(ReactorTest, EnergyThatIsGoneBreaksThePlanAtOnce) {
     return fits ? out : answer(PlanVerdict::unsolvable, "too little energy");
   };
   run(20, robot_and({photo("a"), photo("b", GoalClass::optional, 1), photo("c", GoalClass::optional, 2)}));
-  ASSERT_EQ(reactor.phase(), Phase::executing);
+  ASSERT_EQ(reactor.phase(), MissionPhase::executing);
   trace.clear();
   battery = 450000.0;
   ReactorInputs loss;
@@ -220,7 +235,7 @@ TEST_F(ReactorTest, EnergyThatIsGoneBreaksThePlanAtOnce) {
 TEST_F(ReactorTest, AGoalThatArrivesDuringAPlannerCallGetsAPlanOfItsOwnAfterwards) {
   planning_time = seconds(30);
   run(10, robot_and({photo("a")}));
-  ASSERT_EQ(reactor.phase(), Phase::planning);
+  ASSERT_EQ(reactor.phase(), MissionPhase::planning);
   ReactorInputs more;
   more.goals = {photo("b")};
   run(20, std::move(more));
@@ -257,7 +272,7 @@ TEST_F(ReactorTest, AGoalThatArrivesEndsTheStaleCallAndOneMoreFollowsAtOnce) {
   run(11, std::move(more));
   EXPECT_THAT(trace, ElementsAre("goal.accepted", "plan.outdated", "cancel call", "plan.wanted", "call"));
   run(41, {});
-  EXPECT_EQ(reactor.phase(), Phase::executing)
+  EXPECT_EQ(reactor.phase(), MissionPhase::executing)
       << "30 s after the goal came, not 30 s after the stale call's end";
 }
 
@@ -297,7 +312,7 @@ TEST_F(ReactorTest, TheLastGoalRecalledDuringAPlannerCallEndsTheMission) {
   recall.goals = {photo("a")};
   recall.goals[0].recalled = true;
   run(1000, std::move(recall));
-  EXPECT_EQ(reactor.phase(), Phase::finished);
+  EXPECT_EQ(reactor.phase(), MissionPhase::finished);
   EXPECT_TRUE(commands.empty());
 }
 

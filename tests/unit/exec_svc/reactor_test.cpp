@@ -2,6 +2,15 @@
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using goals::GoalClass;
+using goals::GoalRequest;
+using goals::GoalState;
+using reactor::MissionPhase;
+using reactor::PlanCall;
+using reactor::PlanVerdict;
+using reactor::ReactorInputs;
+
 namespace {
 
 using ::testing::Contains;
@@ -42,7 +51,7 @@ TEST_F(ReactorTest, WaitsForTheFirstObservationOfEveryComponent) {
 
 TEST_F(ReactorTest, AGoalInFlightPausesFallsBackPlansAndResumes) {
   run(20, robot_and({photo("a")}));
-  ASSERT_EQ(reactor.phase(), Phase::executing);
+  ASSERT_EQ(reactor.phase(), MissionPhase::executing);
   trace.clear();
   ReactorInputs more;
   more.goals = {photo("b", GoalClass::opportunistic)};
@@ -195,7 +204,7 @@ TEST_F(ReactorTest, RecallOfTheOnlyGoalStopsTheRobot) {
   inputs.goals = {recall};
   run(1000, std::move(inputs));
   EXPECT_THAT(trace, Contains("cancel"));
-  EXPECT_EQ(reactor.phase(), Phase::finished);
+  EXPECT_EQ(reactor.phase(), MissionPhase::finished);
   EXPECT_EQ(reactor.counts().achieved, 0U);
 }
 

@@ -3,6 +3,15 @@
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using executive::Command;
+using executive::CommandAction;
+using executive::CommandStage;
+using goals::GoalState;
+using mission::RecoveryStrategy;
+using reactor::Reactor;
+using reactor::ReactorInputs;
+
 namespace {
 
 using ::testing::Contains;

@@ -4,6 +4,19 @@
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using executive::StepStatus;
+using mission::Replanning;
+using reactor::PlanAnswer;
+using reactor::PlanCall;
+using reactor::PlannedAction;
+using reactor::PlanVerdict;
+using reactor::planned_actions;
+using reactor::Reactor;
+using reactor::ReactorInputs;
+using reactor::ReactorOutputs;
+using reactor::without_begun;
+
 namespace {
 
 using temporal::ActivityState;

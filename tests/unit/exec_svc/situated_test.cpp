@@ -2,6 +2,15 @@
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using goals::GoalClass;
+using goals::GoalRecord;
+using goals::GoalRequest;
+using mission::Replanning;
+using reactor::PlanAnswer;
+using reactor::PlanCall;
+using reactor::PlanVerdict;
+
 namespace {
 
 using ::testing::Contains;

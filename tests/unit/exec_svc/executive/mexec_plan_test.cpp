@@ -8,6 +8,10 @@
 #include "tests/unit/exec_svc/executive/scripted_world.hpp"
 
 namespace roci::exec::testing {
+
+using executive::BreakReason;
+using executive::CommandStage;
+
 namespace {
 
 using temporal::ImpactKind;

@@ -11,6 +11,20 @@
 #include "tests/unit/exec_svc/executive/random_plan.hpp"
 
 namespace roci::exec::testing {
+
+using executive::BreakReason;
+using executive::CommandStage;
+using executive::Executive;
+using executive::Inputs;
+using executive::OutcomeKind;
+using executive::Outputs;
+using executive::point_owners;
+using executive::PointOwner;
+using executive::PointRole;
+using executive::Precedence;
+using executive::precedence_of;
+using executive::StepStatus;
+
 namespace {
 
 using temporal::Duration;

@@ -6,6 +6,19 @@
 #include <stdexcept>
 
 namespace roci::exec::testing {
+
+using executive::BreakReason;
+using executive::Command;
+using executive::CommandAction;
+using executive::CommandStage;
+using executive::DecisionRequest;
+using executive::ExecutiveSettings;
+using executive::Inputs;
+using executive::OutcomeKind;
+using executive::Outputs;
+using executive::RecoveryStep;
+using executive::StepStatus;
+
 namespace {
 
 using temporal::seconds;

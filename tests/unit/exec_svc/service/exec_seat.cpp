@@ -11,6 +11,10 @@
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using goals::GoalRecord;
+using journal::Journal;
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -9,6 +9,18 @@
 #include "exec_svc/standby/journal_feed.hpp"
 
 namespace roci::exec {
+
+using goals::GoalRecord;
+using journal::Batch;
+using journal::Durability;
+using journal::Journal;
+using journal::kOwnPast;
+using journal::JournalError;
+using journal::Position;
+using standby::JournalCopy;
+using standby::JournalFeed;
+using standby::Parcel;
+
 namespace {
 
 using namespace std::chrono_literals;

@@ -7,6 +7,10 @@
 #include "tests/unit/exec_svc/standby/pair_world.hpp"
 
 namespace roci::exec {
+
+using standby::Lease;
+using standby::Member;
+
 namespace {
 
 using namespace std::chrono_literals;

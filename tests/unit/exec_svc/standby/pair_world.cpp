@@ -4,6 +4,14 @@
 #include <utility>
 
 namespace roci::exec::testing {
+
+using journal::Position;
+using standby::Lease;
+using standby::LeaseSettings;
+using standby::Member;
+using standby::Moment;
+using standby::Role;
+
 namespace {
 
 constexpr Moment kStep = std::chrono::milliseconds(10);
