@@ -8,12 +8,13 @@
 namespace roci::exec {
 
 using mission::MissionModel;
-using reactor::Note;
-using reactor::NoteLevel;
+using reactor::Event;
 using reactor::PlanReceipt;
+using reactor::Severity;
 
 EngineLink::EngineLink(services::Node& node, const MissionModel& mission,
-                       std::function<void(temporal::PlanDelta)> take, std::function<void(const Note&)> report)
+                       std::function<void(temporal::PlanDelta)> take,
+                       std::function<void(const Event&)> report)
     : mission_(mission.name), receipts_(services::advertise(node, services::topics::plan_receipt)) {
   services::subscribe(
       node, services::topics::plan_delta,
@@ -21,7 +22,7 @@ EngineLink::EngineLink(services::Node& node, const MissionModel& mission,
         try {
           take(services::wire::from_wire(delta));
         } catch (const services::wire::WireError& error) {
-          report({NoteLevel::warning, "plan.malformed",
+          report({Severity::warning, "plan.malformed",
                   "version " + std::to_string(delta.added().version()) + ": " + error.what()});
         }
       });

@@ -14,7 +14,8 @@ class EngineLink {
  public:
   // `take` gets each delta as it comes, `report` what is wrong with one that cannot be read.
   EngineLink(services::Node& node, const mission::MissionModel& mission,
-             std::function<void(temporal::PlanDelta)> take, std::function<void(const reactor::Note&)> report);
+             std::function<void(temporal::PlanDelta)> take,
+             std::function<void(const reactor::Event&)> report);
 
   void tell(const reactor::PlanReceipt& receipt);
 

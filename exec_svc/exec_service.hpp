@@ -12,7 +12,7 @@ namespace journal {
 class Journal;
 }
 namespace standby {
-class LeadingService;
+class LeaderService;
 }
 
 // Alone, with the journal of the run folder.
@@ -20,6 +20,6 @@ std::unique_ptr<services::Service> make_service(services::Node&, const services:
 
 // The leader of a pair; `doubtful` as in JournaledReactor.
 std::unique_ptr<services::Service> make_executive(services::Node&, const services::RunSettings&,
-                                                  journal::Journal&, standby::LeadingService&, bool doubtful);
+                                                  journal::Journal&, standby::LeaderService&, bool doubtful);
 
 }  // namespace roci::exec

@@ -13,15 +13,15 @@ namespace roci::exec {
 goals::GoalRequest from_wire(const v1::Goal&);
 executive::Observation from_wire(const v1::Observation&);
 executive::CommandAck from_wire(const v1::CommandAck&);
-reactor::PlanAnswer from_wire(std::uint64_t call, const v1::PlanReply&);
+reactor::PlanReply from_wire(std::uint64_t call, const v1::PlanReply&);
 
 v1::Goal to_wire(const goals::GoalRequest&);
 v1::GoalStatus to_wire(const goals::GoalRecord&);
 v1::Command to_wire(const executive::Command&, std::uint32_t plan_version, std::uint64_t epoch);
 v1::StepStatus to_wire(const executive::StepStatus&, std::uint32_t plan_version);
-v1::PlanRequest to_wire(const reactor::PlanCall&, const mission::MissionModel&);
+v1::PlanRequest to_wire(const reactor::PlanRequest&, const mission::MissionModel&);
 v1::PlanReceipt to_wire(const reactor::PlanReceipt&, const std::string& mission);
-v1::Event to_wire(const reactor::Note&);
+v1::Event to_wire(const reactor::Event&);
 
 // One line of the trace each, for what was seen; journal/decisions.hpp has those for what was decided.
 // Nothing in them depends on the machine.

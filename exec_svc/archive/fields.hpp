@@ -70,13 +70,12 @@ void fields(A& a, Of<goals::GoalKey, A>& v) {
   a(v.issuer, v.id);
 }
 template <class A>
-void fields(A& a, Of<goals::SampleName, A>& v) {
+void fields(A& a, Of<goals::SampleId, A>& v) {
   a(v.sender, v.incarnation, v.number);
 }
 template <class A>
 void fields(A& a, Of<goals::GoalRequest, A>& v) {
-  a(v.key, v.kind, v.arguments, v.importance, v.utility, v.priority, v.opens, v.closes, v.recalled,
-    v.said_in);
+  a(v.key, v.kind, v.arguments, v.importance, v.utility, v.priority, v.opens, v.closes, v.recalled, v.sample);
 }
 template <class A>
 void fields(A& a, Of<goals::GoalRecord, A>& v) {
@@ -92,19 +91,19 @@ void fields(A& a, Of<executive::CommandAck, A>& v) {
 }
 template <class A>
 void fields(A& a, Of<reactor::PeerLoss, A>& v) {
-  a(v.service, v.cause);
+  a(v.service, v.reason);
 }
 template <class A>
 void fields(A& a, Of<reactor::ModelVersion, A>& v) {
   a(v.owner, v.version);
 }
 template <class A>
-void fields(A& a, Of<reactor::PlanAnswer, A>& v) {
+void fields(A& a, Of<reactor::PlanReply, A>& v) {
   a(v.call, v.verdict, v.reason, v.plan);
 }
 template <class A>
 void fields(A& a, Of<reactor::ReactorInputs, A>& v) {
-  a(v.restarted, v.goals, v.observations, v.acks, v.losses, v.arrivals, v.models, v.answer, v.deltas);
+  a(v.restarted, v.goals, v.observations, v.acks, v.losses, v.arrivals, v.models, v.reply, v.deltas);
 }
 template <class A>
 void fields(A& a, Of<problem::ProblemObject, A>& v) {
@@ -119,7 +118,7 @@ void fields(A& a, Of<reactor::PlannedAction, A>& v) {
   a(v.activity, v.name, v.arguments, v.start, v.duration);
 }
 template <class A>
-void fields(A& a, Of<reactor::PlanCall, A>& v) {
+void fields(A& a, Of<reactor::PlanRequest, A>& v) {
   a(v.id, v.problem_name, v.problem, v.origin, v.remaining);
 }
 template <class A>

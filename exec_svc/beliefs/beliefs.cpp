@@ -126,7 +126,7 @@ std::vector<const Component*> Beliefs::active() const {
   return out;
 }
 
-std::vector<const Component*> Beliefs::unseen() const {
+std::vector<const Component*> Beliefs::unobserved() const {
   std::vector<const Component*> out;
   for (const Component& component : mission_->components) {
     if (value(component.timeline) == nullptr) out.push_back(&component);

@@ -37,7 +37,7 @@ class Beliefs {
 
   // Components that are in an active state now, and those never observed yet.
   std::vector<const mission::Component*> active() const;
-  std::vector<const mission::Component*> unseen() const;
+  std::vector<const mission::Component*> unobserved() const;
 
  private:
   const mission::MissionModel* mission_;

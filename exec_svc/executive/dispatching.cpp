@@ -49,7 +49,7 @@ bool PlanRun::try_start(Index activity, Time now) {
     if (!unmet.empty()) unmet = plan_.activities[other].id + " at the same time, which needs " + unmet;
   }
   if (!unmet.empty()) {
-    run.cause = "waits for " + unmet;
+    run.reason = "waits for " + unmet;
     begin_wait(activity, now, bounded(planned.wait_timeout) ? planned.wait_timeout : settings_.default_wait);
     return false;
   }
@@ -88,12 +88,12 @@ bool PlanRun::try_internal_end(Index activity, Time now) {
   return true;
 }
 
-void PlanRun::skip(Index activity, const std::string& cause) {
+void PlanRun::skip(Index activity, const std::string& reason) {
   const PlanActivity& planned = plan_.activities[activity];
   enter(activity, ActivityPhase::done, {});
   points_.drop(planned.start_point);
   points_.drop(planned.end_point);
-  change(activity, ActivityState::skipped, cause);
+  change(activity, ActivityState::skipped, reason);
 }
 
 /// A stated wait timeout counts from the earliest start on, also while a predecessor that runs is late (R98),
@@ -115,7 +115,7 @@ void PlanRun::begin_wait(Index activity, Time now, Duration bound) {
   if (planned.lateness != LatenessPolicy::push || !points_.due(planned.start_point)) return;
   const std::string unmet = explain(planned.pre, lookup());
   if (!unmet.empty())
-    recover(Rung::push, activity, "waits until " + to_text(*run.wait_until) + " for " + unmet);
+    recover(RecoveryAction::push, activity, "waits until " + to_text(*run.wait_until) + " for " + unmet);
 }
 
 bool PlanRun::expire_waits(Time now) {
@@ -125,12 +125,12 @@ bool PlanRun::expire_waits(Time now) {
     waits_.erase(waits_.begin());
     const PlanActivity& planned = plan_.activities[activity];
     const std::string unmet = explain(planned.pre, lookup());
-    const std::string cause =
+    const std::string reason =
         "could not start within its wait timeout: " + (unmet.empty() ? "a predecessor has not ended" : unmet);
     if (planned.may_skip) {
-      skip(activity, cause);
+      skip(activity, reason);
     } else {
-      fail(activity, now, BreakReason::activity_failed, cause, false);
+      fail(activity, now, Breakage::activity_failed, reason, false);
     }
     progress = true;
   }
@@ -157,15 +157,15 @@ void PlanRun::break_if_late(Time now) {
   if (!late) return;
   const Index activity = points_.owner(*late).activity;
   const PlanActivity& planned = plan_.activities[activity];
-  std::string cause = "latest start " + to_text(points_.window(*late).upper) + " has passed";
+  std::string reason = "latest start " + to_text(points_.window(*late).upper) + " has passed";
   if (const std::string unmet = explain(planned.pre, lookup()); !unmet.empty())
-    cause += "; it needs " + unmet;
+    reason += "; it needs " + unmet;
   for (const TimePoint point : points_.precedence().predecessors[planned.start_point]) {
     const PointOwner& owner = points_.owner(point);
     if (owner.role == PointRole::free || points_.happened_at(point) || points_.dropped(point)) continue;
-    cause += "; it waits for " + plan_.activities[owner.activity].id;
+    reason += "; it waits for " + plan_.activities[owner.activity].id;
   }
-  break_plan(BreakReason::late_start, planned.id, cause, planned.contingency);
+  break_plan(Breakage::late_start, planned.id, reason, planned.contingency);
 }
 
 /// Ends come as they come; two that came in the wrong order cannot be mended by waiting.
@@ -177,7 +177,7 @@ void PlanRun::break_if_disordered() {
       if (owner.role != PointRole::observed_end || points_.happened_at(point) || points_.dropped(point))
         continue;
       if (runs_[owner.activity].phase == ActivityPhase::settling) continue;
-      break_plan(BreakReason::ordering_violated, planned.id,
+      break_plan(Breakage::ordering_violated, planned.id,
                  "it ended before " + plan_.activities[owner.activity].id + " had ended",
                  planned.contingency);
     }

@@ -44,7 +44,7 @@ Time PlanRun::next_timer(Index activity, Time now) const {
   const PlanActivity& planned = plan_.activities[activity];
   const ActivityRun& run = runs_[activity];
   if (run.phase == ActivityPhase::cancelling) return run.phase_since + settings_.cancel_timeout;
-  if (run.phase == ActivityPhase::recovering) return contingency_timer(activity);
+  if (run.phase == ActivityPhase::contingency) return contingency_timer(activity);
   if (run.phase == ActivityPhase::settling) {
     const Time from = settled_from(activity);
     return now < from ? from : from + settings_.settle_time;

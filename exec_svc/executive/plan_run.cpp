@@ -49,8 +49,8 @@ void PlanRun::adopt(PlanRun& before) {
   std::vector<std::pair<Time, TimePoint>> events;
   for (const Index old : before.active_) {
     const PlanActivity& activity = before.plan_.activities[old];
-    if (index_of_.contains(activity.id) && before.runs_[old].phase != ActivityPhase::recovering) continue;
-    if (before.runs_[old].phase == ActivityPhase::recovering) {
+    if (index_of_.contains(activity.id) && before.runs_[old].phase != ActivityPhase::contingency) continue;
+    if (before.runs_[old].phase == ActivityPhase::contingency) {
       before.send_contingency(old, CommandAction::cancel);
     } else if (!activity.owner.empty() && before.runs_[old].phase != ActivityPhase::settling) {
       before.send(old, CommandAction::cancel);
@@ -61,7 +61,7 @@ void PlanRun::adopt(PlanRun& before) {
     const auto found = before.index_of_.find(plan_.activities[i].id);
     if (found == before.index_of_.end()) continue;
     const ActivityRun& run = before.runs_[found->second];
-    if ((!run.active() && run.state != ActivityState::succeeded) || run.phase == ActivityPhase::recovering) {
+    if ((!run.active() && run.state != ActivityState::succeeded) || run.phase == ActivityPhase::contingency) {
       runs_[i].attempt = run.attempt;
       runs_[i].contingency_commands = run.contingency_commands;
       continue;
@@ -103,7 +103,7 @@ void PlanRun::cancel_all(Time now) {
     } else if (owner_works && !plan_.activities[i].owner.empty()) {
       cancel(i, now, AfterCancel::withdraw, "cancel requested");
     } else {
-      if (run.phase == ActivityPhase::recovering) send_contingency(i, CommandAction::cancel);
+      if (run.phase == ActivityPhase::contingency) send_contingency(i, CommandAction::cancel);
       close(i, now, ActivityState::cancelled,
             run.phase == ActivityPhase::settling ? "cancelled before its end was confirmed" : "");
     }
@@ -127,7 +127,7 @@ StepStatus PlanRun::status(Index activity) const {
   const ActivityRun& run = runs_[activity];
   const temporal::Window window = points_.window(planned.start_point);
   return {planned.id,   planned.name, run.attempt, run.state, window.lower,
-          window.upper, run.started,  run.ended,   run.cause};
+          window.upper, run.started,  run.ended,   run.reason};
 }
 
 std::vector<StepStatus> PlanRun::statuses() const {
@@ -158,10 +158,10 @@ std::vector<Executive::TokenStatus> PlanRun::tokens() const {
 }
 
 /// The first reason stands.
-void PlanRun::break_plan(BreakReason reason, const std::string& who, const std::string& cause,
+void PlanRun::break_plan(Breakage breakage, const std::string& who, const std::string& reason,
                          const std::string& contingency) {
   if (outcome_.kind == OutcomeKind::running)
-    outcome_ = {OutcomeKind::broken, reason, who, cause, contingency};
+    outcome_ = {OutcomeKind::broken, breakage, who, reason, contingency};
 }
 
 void PlanRun::update_outcome() {
@@ -185,9 +185,9 @@ std::optional<Time> PlanRun::next_wake(Time now) {
   return bounded(next) ? std::optional(next) : std::nullopt;
 }
 
-void PlanRun::change(Index activity, ActivityState state, std::string cause) {
+void PlanRun::change(Index activity, ActivityState state, std::string reason) {
   runs_[activity].state = state;
-  runs_[activity].cause = std::move(cause);
+  runs_[activity].reason = std::move(reason);
   while (first_waiting_ < runs_.size() && runs_[first_waiting_].state != ActivityState::waiting)
     ++first_waiting_;
   outputs_.changes.push_back(status(activity));
@@ -212,8 +212,8 @@ void PlanRun::send(Index activity, CommandAction action) {
                                planned.command_name, planned.arguments, points_.duration(activity).lower});
 }
 
-void PlanRun::recover(Rung rung, Index activity, std::string cause) {
-  outputs_.recoveries.push_back({rung, plan_.activities[activity].id, std::move(cause)});
+void PlanRun::recover(RecoveryAction action, Index activity, std::string reason) {
+  outputs_.recoveries.push_back({action, plan_.activities[activity].id, std::move(reason)});
 }
 
 temporal::Lookup PlanRun::lookup() const {

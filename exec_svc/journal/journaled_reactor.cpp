@@ -85,7 +85,7 @@ bool JournaledReactor::replay() {
   recovery_.turns = replay.turns();
   recovery_.divergence = replay.divergence();
   if (recovery_.divergence) return false;
-  recovery_.last_notes = replay.outputs().notes;
+  recovery_.last_events = replay.outputs().events;
   const auto replayed = reactor_->goals().all();
   const auto journaled = journal_->goals();
   const auto equal = [](const GoalRecord* a, const GoalRecord& b) { return same(*a, b); };

@@ -21,8 +21,8 @@ struct Recovery {
   bool restarted = false;  // an earlier start left something
   bool resumed = false;    // its state is back; else only its goals are, and all is planned anew
   std::size_t turns = 0;   // replayed since the last anchor
-  std::optional<Divergence> divergence;   // why not resumed
-  std::vector<reactor::Note> last_notes;  // of the newest turn: perhaps nobody heard them
+  std::optional<Divergence> divergence;     // why not resumed
+  std::vector<reactor::Event> last_events;  // of the newest turn: perhaps nobody heard them
 };
 
 class JournaledReactor {

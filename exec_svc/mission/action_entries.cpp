@@ -124,8 +124,8 @@ StartPolicy read_start(const Entry& entry) {
 }
 
 Replanning read_replanning(const Entry& entry) {
-  static constexpr std::pair<const char*, Replanning> ways[]{{"paused", Replanning::paused},
-                                                             {"situated", Replanning::situated},
+  static constexpr std::pair<const char*, Replanning> ways[]{{"paused", Replanning::stop_and_replan},
+                                                             {"situated", Replanning::background},
                                                              {"continuous", Replanning::continuous}};
   return read_word(entry, "way of replanning", ways);
 }

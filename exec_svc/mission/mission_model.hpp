@@ -105,11 +105,11 @@ enum class RecoveryStrategy {
   replan,      // replan at once, drop goals, then the ground
 };
 
-// What goes on while the planner works.
+/// What goes on while the planner works. In mission.yaml: `paused`, `situated`, `continuous`.
 enum class Replanning {
-  paused,      // nothing: what runs is cancelled, all components fall back first (R43, R44)
-  situated,    // what runs: it is planned from the state that it will leave, and the plans change there
-  continuous,  // everything: the engine plans all the time and sends versions of its plan (R66)
+  stop_and_replan,  ///< nothing: what runs is cancelled, all components fall back first (R43, R44)
+  background,       ///< what runs: it is planned from the state that it will leave, and the plans change there
+  continuous,       ///< everything: the engine plans all the time and sends versions of its plan (R66)
 };
 
 struct PlannerSettings {
@@ -134,7 +134,7 @@ struct ReactorSettings {
   bool keep_inputs = true;  // of the whole mission in the journal; false: since the last anchor
   RecoveryStrategy recovery = RecoveryStrategy::cascade;
   executive::StartPolicy start = executive::StartPolicy::earliest;
-  Replanning replanning = Replanning::paused;
+  Replanning replanning = Replanning::stop_and_replan;
   temporal::Duration standby_term = temporal::seconds(2);  // wall time; see standby/lease.hpp
 };
 

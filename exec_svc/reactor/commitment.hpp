@@ -14,7 +14,7 @@ namespace roci::exec::reactor {
 // activity that is committed or has begun stands in the next plan unchanged and committed until it has ended;
 // what ended without success does not stand in it; no id comes again for another activity; and by what has
 // happened every committed activity can still start in time. The next plan has passed check().
-std::string breach_of_commitment(const temporal::FlexiblePlan& running,
+std::string commitment_violation(const temporal::FlexiblePlan& running,
                                  const std::vector<executive::StepStatus>& steps,
                                  const temporal::FlexiblePlan& next, temporal::Time now);
 

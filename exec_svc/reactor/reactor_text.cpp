@@ -2,32 +2,6 @@
 
 namespace roci::exec::reactor {
 
-const char* to_string(PlanVerdict verdict) {
-  switch (verdict) {
-    case PlanVerdict::solved:
-      return "solved";
-    case PlanVerdict::unsolvable:
-      return "unsolvable";
-    case PlanVerdict::timeout:
-      return "timeout";
-    case PlanVerdict::out_of_memory:
-      return "out_of_memory";
-    case PlanVerdict::unsupported:
-      return "unsupported";
-    case PlanVerdict::function_unavailable:
-      return "function_unavailable";
-    case PlanVerdict::cancelled:
-      return "cancelled";
-    case PlanVerdict::invalid_input:
-      return "invalid_input";
-    case PlanVerdict::crashed:
-      return "crashed";
-    case PlanVerdict::no_reply:
-      return "no_reply";
-  }
-  return "unknown";
-}
-
 const char* to_string(MissionPhase phase) {
   switch (phase) {
     case MissionPhase::idle:

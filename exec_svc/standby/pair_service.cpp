@@ -7,8 +7,8 @@
 
 #include "exec_svc/exec_service.hpp"
 #include "exec_svc/mission/mission_model.hpp"
-#include "exec_svc/standby/following_service.hpp"
-#include "exec_svc/standby/leading_service.hpp"
+#include "exec_svc/standby/follower_service.hpp"
+#include "exec_svc/standby/leader_service.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
 #include "services/health/sign_of_life.hpp"
 #include "services/log.hpp"
@@ -90,13 +90,13 @@ class PairProcess {
         self_(member_of(options.run.pair)),
         lease_{read_mission(options.run.mission).executive.standby_term},
         journal_(folder_of(options.run) / "journal.sqlite", durability_for(options.node)),
-        standing_(folder_of(options.run) / "standing", durability_for(options.node)) {
+        persisted_term_(folder_of(options.run) / "standing", durability_for(options.node)) {
     signals.watch([this] { stop_.ask(); });
   }
 
   void run() {
     for (bool superseded = false; !stop_.asked();) {
-      Lease lease(self_, lease_, standing_.read(), superseded, moment());
+      Lease lease(self_, lease_, persisted_term_.read(), superseded, moment());
       const auto lead = follow(lease);
       if (!lead) return;
       log(*lead, lease);
@@ -110,7 +110,7 @@ class PairProcess {
  private:
   void log(const Lease::Turn& turn, const Lease& lease) const {
     services::log_info("exec_svc (" + options_.run.pair + ") leads in epoch " +
-                       std::to_string(lease.epoch()) + ": " + turn.why);
+                       std::to_string(lease.epoch()) + ": " + turn.reason);
   }
 
   // A member that was connected before waits for its network to come back; none: it was asked to stop.
@@ -137,7 +137,7 @@ class PairProcess {
     options.name += "." + options_.run.pair;
     options.clock = services::ClockMode::observer;
     services::Node node(options, std::move(transport));
-    FollowingService following(node, lease, journal_, standing_);
+    FollowerService following(node, lease, journal_, persisted_term_);
     node.on_turn([this] { sign_.give(); });
     const Reach reach(stop_, node);
     node.run();
@@ -146,7 +146,7 @@ class PairProcess {
 
   // Nothing: the run is over. Under the simulated clock the epoch is the incarnation, so the clock drops who
   // led before.
-  std::optional<StandDown> lead(Lease& lease, const Lease::Turn& why) {
+  std::optional<StandDown> lead(Lease& lease, const Lease::Turn& turn) {
     auto transport = connect();
     if (!transport) return std::nullopt;
     services::NodeOptions options = options_.node;
@@ -154,8 +154,8 @@ class PairProcess {
     services::Node node(options, std::move(transport));
     node.on_turn([this] { sign_.give(); });
     try {
-      LeadingService leading(node, lease, journal_, standing_);
-      const auto executive = make_executive(node, options_.run, journal_, leading, why.doubtful);
+      LeaderService leading(node, lease, journal_, persisted_term_);
+      const auto executive = make_executive(node, options_.run, journal_, leading, turn.doubtful);
       const Reach reach(stop_, node);
       node.run();
       return std::nullopt;
@@ -173,7 +173,7 @@ class PairProcess {
   Member self_;
   LeaseSettings lease_;
   Journal journal_;
-  StandingFile standing_;
+  PersistedTermFile persisted_term_;
   Stop stop_;
   bool connected_before_ = false;
 };

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "exec_svc/standby/chunk.hpp"
 #include "exec_svc/standby/lease.hpp"
-#include "exec_svc/standby/parcel.hpp"
 #include "roci_idl/standby.h"
 
 namespace roci::exec::standby {
@@ -16,11 +16,11 @@ Moment moment();
 std::string name_of(Member member);  // "first", "second"
 Member member_of(const std::string& name);
 
-v1::ExecMember to_wire(const Word& word, const Arrival& arrival);
-Word from_wire(const v1::ExecMember& member);
-Arrival arrival_of(const v1::ExecMember& member);
+v1::ExecMember to_wire(const LeaseMessage& message, const TransferProgress& arrival);
+LeaseMessage from_wire(const v1::ExecMember& member);
+TransferProgress arrival_of(const v1::ExecMember& member);
 
-v1::JournalParcel to_wire(const Parcel& parcel);
-Parcel from_wire(const v1::JournalParcel& parcel);
+v1::JournalParcel to_wire(const Chunk& chunk);
+Chunk from_wire(const v1::JournalParcel& chunk);
 
 }  // namespace roci::exec::standby

@@ -31,7 +31,7 @@ struct CrashPlan {
   Moment moment = Moment::after_send;
   temporal::Duration away{0};  // until it is back; the robot goes on meanwhile
   bool compact = false;        // the journal forgets inputs before the newest anchor
-  mission::Replanning replanning = mission::Replanning::paused;
+  mission::Replanning replanning = mission::Replanning::stop_and_replan;
 };
 
 struct Flight {

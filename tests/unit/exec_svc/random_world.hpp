@@ -36,7 +36,7 @@ class RandomWorld {
   void obey(const executive::Command& command);
   void execute(const executive::Command& command);
   void end_job(const std::string& activity);
-  reactor::PlanAnswer answer_of(const reactor::PlanCall& call);
+  reactor::PlanReply answer_of(const reactor::PlanRequest& call);
   void acknowledge(const executive::Command& command, executive::CommandStage stage);
   void observe(const std::string& timeline, temporal::Value value);
   void check(const reactor::ReactorOutputs& out);
@@ -54,7 +54,7 @@ class RandomWorld {
   temporal::Time now_{0};
   reactor::ReactorInputs pending_;
   std::map<std::string, Job> jobs_;
-  std::multimap<temporal::Time, reactor::PlanAnswer> answers_;
+  std::multimap<temporal::Time, reactor::PlanReply> answers_;
   std::optional<temporal::Time> wake_;
   bool wild_ = true;  ///< rules fire; else everybody does what is asked
   bool dead_ = false;

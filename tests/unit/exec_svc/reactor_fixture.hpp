@@ -41,14 +41,14 @@ inline temporal::FlexiblePlan images(const std::vector<std::string>& ids) {
 
 inline bool is_empty(const reactor::ReactorInputs& inputs) {
   return inputs.goals.empty() && inputs.observations.empty() && inputs.acks.empty() &&
-         inputs.losses.empty() && inputs.arrivals.empty() && inputs.models.empty() && !inputs.answer &&
+         inputs.losses.empty() && inputs.arrivals.empty() && inputs.models.empty() && !inputs.reply &&
          inputs.deltas.empty();
 }
 
 class ReactorTest : public ::testing::Test {
  protected:
   // The answer to a planner call; by default a plan with an image of every goal in the problem.
-  using Planner = std::function<reactor::PlanAnswer(const reactor::PlanCall&)>;
+  using Planner = std::function<reactor::PlanReply(const reactor::PlanRequest&)>;
   using Events = std::multimap<Time, std::function<void()>>;
 
   // With these inputs now; the clock then stands at `until_s`.
@@ -77,15 +77,15 @@ class ReactorTest : public ::testing::Test {
   }
 
   void take(const reactor::ReactorOutputs& out) {
-    for (const reactor::Note& note : out.notes) trace.push_back(note.code);
+    for (const reactor::Event& event : out.events) trace.push_back(event.code);
     for (const goals::GoalRecord& goal : out.goal_changes) reasons[goal.request.key.id] = goal.reason;
     if (out.cancelled_call) {
       trace.push_back("cancel call");
       if (planner_hears_cancels) {
         EXPECT_TRUE(std::exchange(planner_is_busy, false)) << "nothing to cancel";
         other_events.erase(planned);
-        pending.answer = answer(reactor::PlanVerdict::cancelled);
-        pending.answer->call = *out.cancelled_call;
+        pending.reply = reply(temporal::Verdict::cancelled);
+        pending.reply->call = *out.cancelled_call;
       }
     }
     if (out.call) {
@@ -93,8 +93,8 @@ class ReactorTest : public ::testing::Test {
       EXPECT_FALSE(std::exchange(planner_is_busy, true)) << "two planner calls at a time";
       planned = other_events.emplace(now + planning_time, [this, call = *out.call] {
         planner_is_busy = false;
-        pending.answer = planner(call);
-        pending.answer->call = call.id;
+        pending.reply = planner(call);
+        pending.reply->call = call.id;
       });
     }
     for (const executive::Command& command : out.commands) obey(command);
@@ -130,15 +130,15 @@ class ReactorTest : public ::testing::Test {
     return inputs;
   }
 
-  static reactor::PlanAnswer answer(reactor::PlanVerdict verdict, std::string reason = "") {
-    reactor::PlanAnswer out;
+  static reactor::PlanReply reply(temporal::Verdict verdict, std::string reason = "") {
+    reactor::PlanReply out;
     out.verdict = verdict;
     out.reason = std::move(reason);
     return out;
   }
 
-  reactor::PlanAnswer image_every_goal(const reactor::PlanCall& call) {
-    reactor::PlanAnswer out = answer(reactor::PlanVerdict::solved);
+  reactor::PlanReply image_every_goal(const reactor::PlanRequest& call) {
+    reactor::PlanReply out = reply(temporal::Verdict::solved);
     std::vector<std::string> ids;
     for (const goals::GoalRecord* goal : reactor.goals().open()) ids.push_back(goal->request.key.id);
     EXPECT_THAT(call.problem.text, ::testing::HasSubstr("(:goal"));
@@ -153,7 +153,7 @@ class ReactorTest : public ::testing::Test {
   Time camera_time = seconds(40);
   bool camera_works = true;
   temporal::Value battery = 900000.0;
-  Planner planner = [this](const reactor::PlanCall& call) { return image_every_goal(call); };
+  Planner planner = [this](const reactor::PlanRequest& call) { return image_every_goal(call); };
   reactor::ReactorInputs pending;
   Events robot_events;  // a cancel clears them
   Events other_events;

@@ -70,7 +70,7 @@ class ExecSeat {
   services::Publisher<v1::Observation> observations_;
   services::Publisher<v1::CommandAck> acks_;
   std::unique_ptr<services::Service> executive_;
-  std::map<std::pair<std::string, std::uint32_t>, v1::CommandStage> words_;  // the last on each key
+  std::map<std::pair<std::string, std::uint32_t>, v1::CommandStage> messages_;  // the last on each key
   bool killed_ = false;
   bool planner_killed_ = false;
 };

@@ -25,7 +25,7 @@ struct Line {
 
 // What survives the death of a member.
 struct Disk {
-  standby::Standing standing;
+  standby::PersistedTerm persisted_term;
   std::vector<Line> lines;
   journal::Position newest() const { return lines.empty() ? journal::Position{} : lines.back().at; }
 };
@@ -51,7 +51,7 @@ class PairWorld {
   bool paused(standby::Member member) const { return members_[index(member)].paused; }
   void lose_disk(standby::Member member) { at(member).disk = {}; }
   void drop_messages() { under_way_.clear(); }
-  void ask_for_a_goal() { wanted_.insert(++goals_); }
+  void ask_for_a_goal() { replan_wanted_.insert(++goals_); }
   // It is paused between looking at its lease and sending, the next time; resumed, it sends first.
   void stop_before_sending(standby::Member member) { at(member).stops_before_sending = true; }
 
@@ -81,15 +81,15 @@ class PairWorld {
     bool stops_before_sending = false;
     std::deque<Line> unsent;
     std::optional<Line> late;
-    std::optional<standby::Word> other;  // newest word of the other, as far as the copy is concerned
-    journal::Position fed;               // up to which lines are under way
+    std::optional<standby::LeaseMessage> other;  // newest word of the other, as far as the copy is concerned
+    journal::Position fed;                       // up to which lines are under way
     standby::Moment fed_at{0};
     standby::Lease::Change last_change = standby::Lease::Change::none;
   };
   struct Message {
     standby::Moment due;
     standby::Member to;
-    std::optional<standby::Word> word;
+    std::optional<standby::LeaseMessage> message;
     std::uint64_t leader = 0;  // of the lines
     journal::Position after;   // none of the sender's lines before them: the whole journal
     std::vector<Line> lines;
@@ -119,7 +119,7 @@ class PairWorld {
   Process members_[2];
   std::vector<Message> under_way_;
   int goals_ = 0;
-  std::set<int> wanted_;  // not acknowledged yet: their issuer asks again
+  std::set<int> replan_wanted_;  // not acknowledged yet: their issuer asks again
   std::set<int> acknowledged_;
   std::uint64_t owner_epoch_ = 0;
   std::map<std::uint64_t, standby::Member> commanders_;  // by epoch
