@@ -36,6 +36,7 @@ class Entry {
   std::vector<Entry> items() const;                            // of a sequence
   std::vector<std::pair<std::string, Entry>> fields() const;   // of a mapping, in file order
   bool is_mapping() const;
+  bool is_sequence() const;
 
   std::string text() const;
   double number() const;  // finite

@@ -19,7 +19,7 @@ const std::vector<House> kHouses = {
     {"core/", {"core/temporal/", "core/mission/", "core/pddl/", "core/kinematics/", "core/terrain/"}},
     {"services/",
      {"services/clock/", "services/log/", "services/wire/", "services/transport/", "services/vendors/",
-      "services/topics.hpp", "services/health/", "services/node/", "services/rpc/", "services/",
+      "services/topics.hpp", "services/health/", "services/node/", "services/rpc/", "services/", "services/owner/",
       "services/process/", "services/launch/"}},
 };
 

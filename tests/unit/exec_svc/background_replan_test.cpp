@@ -154,7 +154,7 @@ TEST_F(Situated, WhatFailsMeanwhileLeadsToThePause) {
 TEST_F(Situated, AStateThatHasNotComeAboutIsPlannedAnew) {
   other_events.emplace(seconds(20), [this] {
     pending.goals.push_back(photo("2"));
-    pending.observations.push_back({"image.image-1", state("lost")});
+    pending.observations.push_back({"rover.image.image-1", state("lost")});
   });
   camera_works = true;
   bool lied = false;

@@ -102,21 +102,19 @@ void CrashWorld::deliver(const ReactorOutputs& out) {
 }
 
 void CrashWorld::obey(const Command& command) {
-  const sim::ActivityKey key{command.activity, command.attempt};
-  const auto repeat = [&](const sim::Ack& word) {
-    tell(command, static_cast<CommandStage>(word.stage), word.code);
-  };
-  if (command.action == CommandAction::query) return repeat(ledger_.answer(key, now_));
-  if (command.action == CommandAction::cancel) {
-    if (!imaging_ || imaging_->activity != command.activity)
-      return tell(command, ledger_.answer(key, now_).stage == sim::Stage::unknown
-                               ? CommandStage::unknown
-                               : CommandStage::cancel_failed);
+  using services::owner::Reception;
+  const services::owner::CommandKey key{command.activity, command.attempt};
+  const auto action = static_cast<services::owner::Action>(command.action);
+  const Reception reception = ledger_.receive({key, action}, now_);
+  if (reception.ack) {
+    const services::owner::Word& word = reception.ack->word;
+    return tell(command, static_cast<CommandStage>(word.stage), word.code);
+  }
+  if (reception.order == Reception::Order::break_off) {
     imaging_.reset();
     observe("rover.camera", state("idle"));
     return tell(command, CommandStage::cancelled);
   }
-  if (const auto word = ledger_.take(key, 1, now_)) return repeat(*word);
   ++flight_.carried_out[{command.activity, command.attempt}];
   if (command.command_name == "image") return take_image(command);
   if (imaging_) tell(*std::exchange(imaging_, std::nullopt), CommandStage::cancelled);
@@ -136,16 +134,16 @@ void CrashWorld::take_image(const Command& command) {
     imaging_.reset();
     observe("rover.camera", state("idle"));
     const bool works = broken_.erase(image) == 0;
-    if (works) observe("image." + image, state("sent"));
+    if (works) observe("rover.image." + image, state("sent"));
     tell(command, works ? CommandStage::completed : CommandStage::failed, works ? "" : "shutter");
   });
 }
 
 void CrashWorld::tell(const Command& command, CommandStage stage, const std::string& code) {
-  const sim::ActivityKey key{command.activity, command.attempt};
+  const services::owner::CommandKey key{command.activity, command.attempt};
   const CommandAck ack{command.activity, command.attempt, stage, code, ""};
   if (stage != CommandStage::unknown && stage != CommandStage::cancel_failed)
-    ledger_.note({key, static_cast<sim::Stage>(stage), code, "", now_});
+    ledger_.say(key, {static_cast<services::owner::Stage>(stage), code, ""}, now_);
   acks_[key] = ack;
   pending_.acks.push_back(ack);
 }

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "exec_svc/journal/journaled_reactor.hpp"
-#include "sim_svc/command_ledger.hpp"
+#include "services/owner/command_ledger.hpp"
 
 namespace roci::exec::testing {
 
@@ -79,10 +79,10 @@ class CrashWorld {
   reactor::ReactorInputs pending_;
   // For who joins later: the newest of each key.
   std::map<std::string, executive::Observation> observations_;
-  std::map<sim::ActivityKey, executive::CommandAck> acks_;
+  std::map<services::owner::CommandKey, executive::CommandAck> acks_;
   std::map<goals::GoalKey, goals::GoalRequest> goals_;
 
-  sim::CommandLedger ledger_;
+  services::owner::CommandLedger ledger_;
   std::optional<executive::Command> imaging_;
   std::set<std::string> broken_;
   Flight flight_;

@@ -121,7 +121,7 @@ TEST_F(ProblemWriterTest, AssumedFactsOfGoalsGivenUpGoWithThem) {
   GoalRequest pick = photo("soil");
   pick.kind = "pick_sample";
   submit(pick);
-  beliefs.assume("sample.sample-soil", {"(sample-at sample-soil place-soil)"});
+  beliefs.assume("rover.sample.sample-soil", {"(sample-at sample-soil place-soil)"});
   goals.set_state({"ground", "soil"}, GoalState::recalled, "given up");
   EXPECT_THAT(write().text, Not(HasSubstr("soil")));
 }
@@ -130,9 +130,9 @@ TEST_F(ProblemWriterTest, AssumedFactsEndWithTheFirstObservation) {
   GoalRequest pick = photo("soil");
   pick.kind = "pick_sample";
   submit(pick);
-  beliefs.assume("sample.sample-soil", {"(sample-at sample-soil place-soil)"});
+  beliefs.assume("rover.sample.sample-soil", {"(sample-at sample-soil place-soil)"});
   EXPECT_THAT(write().text, HasSubstr("(sample-at sample-soil place-soil)"));
-  beliefs.observe("sample.sample-soil", temporal::state("held"));
+  beliefs.observe("rover.sample.sample-soil", temporal::state("held"));
   EXPECT_THAT(write().text, Not(HasSubstr("(sample-at")));
   EXPECT_THAT(write().text, HasSubstr("(picked sample-soil)"));
 }

@@ -243,7 +243,7 @@ void RandomWorld::end_job(const std::string& activity) {
   const bool works = !wild_ || !one_in(5);
   observe("rover.camera", state("idle"));
   if (works && !job.command.arguments.empty())
-    observe("image." + job.command.arguments.front().value, state("sent"));
+    observe("rover.image." + job.command.arguments.front().value, state("sent"));
   acknowledge(job.command, works ? CommandStage::completed : CommandStage::failed);
 }
 

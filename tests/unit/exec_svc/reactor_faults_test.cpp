@@ -281,7 +281,7 @@ TEST_F(ReactorTest, ACallThatNobodyNeedsAnyMoreIsCancelled) {
   run(10, robot_and({photo("a")}));
   trace.clear();
   ReactorInputs seen;
-  seen.observations = {{"image.image-a", state("sent")}};
+  seen.observations = {{"rover.image.image-a", state("sent")}};
   run(11, std::move(seen));
   EXPECT_THAT(trace, ElementsAre("goal.achieved", "plan.outdated", "cancel call"));
   EXPECT_EQ(reactor.outcome(), "achieved");

@@ -117,7 +117,7 @@ class ReactorTest : public ::testing::Test {
     const std::string image = command.arguments.front().value;
     robot_events.emplace(now + camera_time, [this, command, image] {
       pending.observations.push_back({"rover.camera", state("idle")});
-      if (camera_works) pending.observations.push_back({"image." + image, state("sent")});
+      if (camera_works) pending.observations.push_back({"rover.image." + image, state("sent")});
       const auto stage = camera_works ? executive::CommandStage::completed : executive::CommandStage::failed;
       pending.acks.push_back({command.activity, command.attempt, stage, "", "shutter"});
     });

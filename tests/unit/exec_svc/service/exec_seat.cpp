@@ -189,7 +189,7 @@ void ExecSeat::obey(const v1::Command& command) {
   const std::string image = command.arguments().at(0).value();
   robot_.after(40s, [this, image, activity = command.activity(), attempt = command.attempt()] {
     observe("rover.camera", temporal::state("idle"));
-    observe("image." + image, temporal::state("sent"));
+    observe("rover.image." + image, temporal::state("sent"));
     tell(activity, attempt, v1::STAGE_COMPLETED);
   });
 }
