@@ -7,7 +7,12 @@
 
 namespace roci::exec {
 
-EngineLink::EngineLink(services::Node& node, std::function<void(temporal::PlanDelta)> take, std::function<void(const Note&)> report)
+using reactor::Event;
+using reactor::PlanReceipt;
+using reactor::Severity;
+
+EngineLink::EngineLink(services::Node& node, std::function<void(temporal::PlanDelta)> take,
+                       std::function<void(const Event&)> report)
     : executive_(node.options().name), receipts_(services::advertise(node, services::topics::plan_receipt)) {
   services::subscribe(
       node, services::topics::plan_delta,
@@ -15,12 +20,12 @@ EngineLink::EngineLink(services::Node& node, std::function<void(temporal::PlanDe
         try {
           take(services::wire::from_wire(delta));
         } catch (const services::wire::WireError& error) {
-          report({NoteLevel::warning, "plan.malformed",
+          report({Severity::warning, "plan.malformed",
                   "version " + std::to_string(delta.added().version()) + ": " + error.what()});
         }
       });
 }
 
-void EngineLink::tell(const PlanReceipt& receipt) { receipts_.write(wire::to_wire(receipt, executive_)); }
+void EngineLink::tell(const PlanReceipt& receipt) { receipts_.write(to_wire(receipt, executive_)); }
 
 }  // namespace roci::exec

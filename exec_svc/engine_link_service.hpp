@@ -14,9 +14,9 @@ class EngineLink {
  public:
   // `take` gets each delta as it comes, `report` what is wrong with one that cannot be read.
   EngineLink(services::Node& node, std::function<void(temporal::PlanDelta)> take,
-             std::function<void(const Note&)> report);
+             std::function<void(const reactor::Event&)> report);
 
-  void tell(const PlanReceipt& receipt);
+  void tell(const reactor::PlanReceipt& receipt);
 
  private:
   std::string executive_;  // logical name

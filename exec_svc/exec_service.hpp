@@ -8,14 +8,18 @@
 
 namespace roci::exec {
 
+namespace journal {
 class Journal;
-class LeadingService;
+}
+namespace standby {
+class LeaderService;
+}
 
 // Alone, with the journal of the run folder.
 std::unique_ptr<services::Service> make_service(services::Node&, const services::RunSettings&);
 
 // The leader of a pair; `doubtful` as in JournaledReactor.
-std::unique_ptr<services::Service> make_executive(services::Node&, const services::RunSettings&, Journal&,
-                                                  LeadingService&, bool doubtful);
+std::unique_ptr<services::Service> make_executive(services::Node&, const services::RunSettings&,
+                                                  journal::Journal&, standby::LeaderService&, bool doubtful);
 
 }  // namespace roci::exec

@@ -5,6 +5,11 @@
 
 namespace roci::exec {
 
+using mission::MissionModel;
+using mission::WindowModel;
+using reactor::Reactor;
+using reactor::ReactorCounts;
+
 v1::MissionStatus mission_status(const Reactor& reactor, const MissionModel& mission) {
   v1::MissionStatus status;
   const ReactorCounts counts = reactor.counts();

@@ -4,7 +4,26 @@
 
 #include "services/wire/plan_wire.hpp"
 
-namespace roci::exec::wire {
+namespace roci::exec {
+
+using executive::Command;
+using executive::CommandAck;
+using executive::CommandStage;
+using executive::Observation;
+using executive::StepStatus;
+using goals::GoalClass;
+using goals::GoalRecord;
+using goals::GoalRequest;
+using mission::MissionModel;
+using problem::ProblemObject;
+using reactor::Event;
+using reactor::PlannedAction;
+using reactor::PlanReceipt;
+using reactor::PlanReply;
+using reactor::PlanRequest;
+using reactor::Severity;
+using temporal::Verdict;
+
 GoalRequest from_wire(const v1::Goal& in) {
   GoalRequest out;
   out.key = {in.issuer(), in.id()};
@@ -16,7 +35,7 @@ GoalRequest from_wire(const v1::Goal& in) {
   out.opens = temporal::Time(in.opens_us());
   out.closes = temporal::Time(in.closes_us());
   out.recalled = in.recalled();
-  out.said_in = {in.header().sender(), in.header().incarnation(), in.header().seq()};
+  out.sample = {in.header().sender(), in.header().incarnation(), in.header().seq()};
   return out;
 }
 
@@ -29,12 +48,12 @@ CommandAck from_wire(const v1::CommandAck& in) {
   return {in.activity(), in.attempt(), stage, in.code(), in.reason()};
 }
 
-PlanAnswer from_wire(std::uint64_t call, const v1::PlanReply& in) {
-  PlanAnswer out;
+PlanReply from_wire(std::uint64_t call, const v1::PlanReply& in) {
+  PlanReply out;
   out.call = call;
-  out.verdict = static_cast<PlanVerdict>(std::min<std::uint32_t>(in.verdict_code(), v1::VERDICT_NO_REPLY));
+  out.verdict = static_cast<Verdict>(std::min<std::uint32_t>(in.verdict_code(), v1::VERDICT_NO_REPLY));
   out.reason = in.reason();
-  if (out.verdict == PlanVerdict::solved) out.plan = services::wire::from_wire(in.solution());
+  if (out.verdict == Verdict::solved) out.plan = services::wire::from_wire(in.solution());
   return out;
 }
 
@@ -51,6 +70,7 @@ v1::Goal to_wire(const GoalRequest& in) {
   }
   out.importance(static_cast<v1::GoalClass>(in.importance));
   out.utility({in.utility});
+  out.preferred_us(-1);
   out.priority(in.priority);
   out.opens_us(in.opens.count());
   out.closes_us(in.closes.count());
@@ -107,11 +127,11 @@ v1::StepStatus to_wire(const StepStatus& in, const std::string& executive, std::
   out.latest_start_us(in.latest_start == temporal::no_bound ? -1 : in.latest_start.count());
   out.started_us(in.started ? in.started->count() : -1);
   out.ended_us(in.ended ? in.ended->count() : -1);
-  out.cause(in.cause);
+  out.cause(in.reason);
   return out;
 }
 
-v1::PlanRequest to_wire(const PlanCall& in, const MissionModel& mission) {
+v1::PlanRequest to_wire(const PlanRequest& in, const MissionModel& mission) {
   v1::PlanRequest out;
   out.engine(mission.planner.engine);
   out.origin_us(in.origin.count());
@@ -149,11 +169,11 @@ v1::PlanReceipt to_wire(const PlanReceipt& in, const std::string& executive) {
   return out;
 }
 
-v1::Event to_wire(const Note& in) {
+v1::Event to_wire(const Event& in) {
   v1::Event out;
-  out.severity_level(in.level == NoteLevel::info      ? v1::SEVERITY_INFO
-                     : in.level == NoteLevel::warning ? v1::SEVERITY_WARNING
-                                                      : v1::SEVERITY_ERROR);
+  out.severity_level(in.level == Severity::info      ? v1::SEVERITY_INFO
+                     : in.level == Severity::warning ? v1::SEVERITY_WARNING
+                                                     : v1::SEVERITY_ERROR);
   out.code(in.code);
   out.text(in.text);
   return out;
@@ -169,4 +189,4 @@ std::string trace_line(const v1::Observation& in) {
          " sampled " + std::to_string(in.sampled_us());
 }
 
-}  // namespace roci::exec::wire
+}  // namespace roci::exec

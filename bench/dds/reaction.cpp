@@ -98,7 +98,8 @@ class RobotPort : public Port {
       responder.reply(reply);
     });
     services::subscribe(*robot_, topics::command, [this](const v1::Command& command) { take(command); });
-    for (const exec::Observation& seen : exec::testing::standing_robot()) observe(seen.timeline, seen.value);
+    for (const exec::executive::Observation& seen : exec::testing::standing_robot())
+      observe(seen.timeline, seen.value);
     v1::Goal goal;
     goal.issuer("bench");
     goal.id("1");

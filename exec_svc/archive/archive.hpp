@@ -16,7 +16,7 @@
 #include <variant>
 #include <vector>
 
-namespace roci::exec {
+namespace roci::exec::archive {
 
 // Bytes that are not what a Writer wrote.
 class ArchiveError : public std::runtime_error {
@@ -186,4 +186,4 @@ class Reader {
 template <class T, class Archive>
 using Of = std::conditional_t<Archive::writes, const T, T>;
 
-}  // namespace roci::exec
+}  // namespace roci::exec::archive

@@ -11,11 +11,11 @@
 #include "core/temporal/value.hpp"
 #include "exec_svc/mission/mission_model.hpp"
 
-namespace roci::exec {
+namespace roci::exec::beliefs {
 
 class Beliefs {
  public:
-  explicit Beliefs(const MissionModel& mission);
+  explicit Beliefs(const mission::MissionModel& mission);
 
   void observe(const std::string& timeline, temporal::Value value);
   // Facts that hold for as long as a timeline has not been observed.
@@ -36,14 +36,14 @@ class Beliefs {
   bool holds(const std::vector<std::string>& facts) const;
 
   // Components that are in an active state now, and those never observed yet.
-  std::vector<const Component*> active() const;
-  std::vector<const Component*> unseen() const;
+  std::vector<const mission::Component*> active() const;
+  std::vector<const mission::Component*> unobserved() const;
 
  private:
-  const MissionModel* mission_;
+  const mission::MissionModel* mission_;
   std::map<std::string, temporal::Value> values_;
   std::map<std::string, std::vector<std::string>> assumed_;
   std::set<std::string> observable_predicates_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::beliefs

@@ -5,7 +5,7 @@
 
 #include "exec_svc/executive/plan_run.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 using temporal::ActivityState;
 using temporal::PlanActivity;
@@ -39,22 +39,22 @@ const Contingency* PlanRun::contingency_of(Index activity) const {
 /// Who executes the command that runs; empty: none does.
 std::string PlanRun::contingency_owner(Index activity) const {
   const auto& commands = settings_.contingencies.at(plan_.activities[activity].contingency).commands;
-  const std::size_t command = runs_[activity].recovering.command;
+  const std::size_t command = runs_[activity].contingency.command;
   return command < commands.size() ? commands[command].owner : "";
 }
 
-bool PlanRun::begin_contingency(Index activity, Time now, const std::string& cause) {
+bool PlanRun::begin_contingency(Index activity, Time now, const std::string& reason) {
   const Contingency* contingency = contingency_of(activity);
   if (contingency == nullptr) return false;
   ActivityRun& run = runs_[activity];
   ++run.contingencies_used;
-  run.recovering = {0, "", now, now, false, cause};
-  enter(activity, Phase::recovering, now);
+  run.contingency = {0, "", now, now, false, reason};
+  enter(activity, ActivityPhase::contingency, now);
   send_contingency(activity, CommandAction::execute);
-  change(activity, ActivityState::running, "contingency " + contingency->name + " after: " + cause);
-  recover(Rung::contingency, activity,
+  change(activity, ActivityState::running, "contingency " + contingency->name + " after: " + reason);
+  recover(RecoveryAction::contingency, activity,
           contingency->name + ", " + std::to_string(run.contingencies_used) + " of " +
-              std::to_string(contingency->times) + ", after: " + cause);
+              std::to_string(contingency->times) + ", after: " + reason);
   return true;
 }
 
@@ -62,14 +62,14 @@ void PlanRun::send_contingency(Index activity, CommandAction action) {
   const PlanActivity& planned = plan_.activities[activity];
   const Contingency& contingency = settings_.contingencies.at(planned.contingency);
   ActivityRun& run = runs_[activity];
-  if (run.recovering.command >= contingency.commands.size()) return;
-  const ContingencyCommand& command = contingency.commands[run.recovering.command];
-  if (run.recovering.command_id.empty()) {
-    run.recovering.command_id =
+  if (run.contingency.command >= contingency.commands.size()) return;
+  const ContingencyCommand& command = contingency.commands[run.contingency.command];
+  if (run.contingency.command_id.empty()) {
+    run.contingency.command_id =
         planned.id + ".c" + std::to_string(++run.contingency_commands) + "-" + command.command_name;
-    contingency_of_[run.recovering.command_id] = activity;
+    contingency_of_[run.contingency.command_id] = activity;
   }
-  outputs_.commands.push_back({action, run.recovering.command_id, 1, command.owner, command.subsystem,
+  outputs_.commands.push_back({action, run.contingency.command_id, 1, command.owner, command.subsystem,
                                command.command_name, filled(command.arguments, planned),
                                temporal::Duration{0}});
 }
@@ -78,18 +78,19 @@ bool PlanRun::take_contingency_ack(const CommandAck& ack, Time now) {
   const auto found = contingency_of_.find(ack.activity);
   if (found == contingency_of_.end()) return false;
   const Index activity = found->second;
-  Recovering& recovering = runs_[activity].recovering;
-  if (runs_[activity].phase != Phase::recovering || recovering.command_id != ack.activity) return false;
-  if (ack.stage == CommandStage::unknown && !recovering.accepted) {
-    recovering.command_since = now;
+  ContingencyRun& current = runs_[activity].contingency;
+  if (runs_[activity].phase != ActivityPhase::contingency || current.command_id != ack.activity)
+    return false;
+  if (ack.stage == CommandStage::unknown && !current.accepted) {
+    current.command_since = now;
     send_contingency(activity, CommandAction::execute);  // the key is the same: it is done once
   } else if (ack.stage == CommandStage::accepted) {
-    recovering.accepted = true;
+    current.accepted = true;
   } else if (ack.stage == CommandStage::completed) {
-    ++recovering.command;
-    recovering.command_id.clear();
-    recovering.command_since = now;
-    recovering.accepted = false;
+    ++current.command;
+    current.command_id.clear();
+    current.command_since = now;
+    current.accepted = false;
     send_contingency(activity, CommandAction::execute);
   } else {
     end_contingency(activity, now,
@@ -101,43 +102,44 @@ bool PlanRun::take_contingency_ack(const CommandAck& ack, Time now) {
 bool PlanRun::monitor_contingency(Index activity, Time now) {
   const PlanActivity& planned = plan_.activities[activity];
   const Contingency& contingency = settings_.contingencies.at(planned.contingency);
-  const Recovering& recovering = runs_[activity].recovering;
-  if (recovering.command == contingency.commands.size()) {
+  const ContingencyRun& current = runs_[activity].contingency;
+  if (current.command == contingency.commands.size()) {
     const std::string unmet = contingency.retries ? explain(planned.pre, lookup()) : "";
-    if (!unmet.empty() && now < recovering.command_since + settings_.settle_time) return false;
+    if (!unmet.empty() && now < current.command_since + settings_.settle_time) return false;
     end_contingency(activity, now, unmet.empty() ? "" : "then the activity lacks " + unmet);
     return true;
   }
   if (now < contingency_timer(activity)) return false;
   send_contingency(activity, CommandAction::cancel);
   end_contingency(activity, now,
-                  recovering.accepted ? "not done within " + to_text(contingency.within)
-                                      : "not answered within " + to_text(settings_.ack_timeout));
+                  current.accepted ? "not done within " + to_text(contingency.within)
+                                       : "not answered within " + to_text(settings_.ack_timeout));
   return true;
 }
 
-/// fault: why it did not help; empty if all is done.
-void PlanRun::end_contingency(Index activity, Time now, const std::string& fault) {
+/// reason: why it did not help; empty if all is done.
+void PlanRun::end_contingency(Index activity, Time now, const std::string& reason) {
   const Contingency& contingency = settings_.contingencies.at(plan_.activities[activity].contingency);
-  const std::string failure = runs_[activity].recovering.failure;
+  const std::string failure = runs_[activity].contingency.failure;
   const std::string what = "contingency " + contingency.name;
-  if (fault.empty() && contingency.retries && starting() && now <= deadline(activity)) {
-    recover(Rung::contingency, activity, contingency.name + " is done, the activity is tried again");
+  if (reason.empty() && contingency.retries && starting() && now <= deadline(activity)) {
+    recover(RecoveryAction::contingency, activity,
+            contingency.name + " is done, the activity is tried again");
     try_again(activity, now, "tried again after " + what);
     return;
   }
   runs_[activity].contingencies_used = contingency.times;
-  fail(activity, now, BreakReason::activity_failed,
-       failure + "; " + what + (fault.empty() ? " is done" : " did not help: " + fault), false);
+  fail(activity, now, Breakage::activity_failed,
+       failure + "; " + what + (reason.empty() ? " is done" : " did not help: " + reason), false);
 }
 
 Time PlanRun::contingency_timer(Index activity) const {
   const Contingency& contingency = settings_.contingencies.at(plan_.activities[activity].contingency);
-  const Recovering& recovering = runs_[activity].recovering;
-  if (recovering.command == contingency.commands.size())
-    return recovering.command_since + settings_.settle_time;
-  const Time end = plus(recovering.since, contingency.within);
-  return recovering.accepted ? end : std::min(end, recovering.command_since + settings_.ack_timeout);
+  const ContingencyRun& current = runs_[activity].contingency;
+  if (current.command == contingency.commands.size())
+    return current.command_since + settings_.settle_time;
+  const Time end = plus(current.since, contingency.within);
+  return current.accepted ? end : std::min(end, current.command_since + settings_.ack_timeout);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -9,7 +9,7 @@
 #include "core/temporal/duration.hpp"
 #include "core/temporal/flexible_plan.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 struct ContingencyCommand {
   std::string owner;
@@ -28,4 +28,4 @@ struct Contingency {
   temporal::Duration within = temporal::seconds(300);  ///< for all of its commands
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -3,7 +3,7 @@
 
 #include "exec_svc/executive/plan_run.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 using temporal::ActivityState;
 using temporal::bounded;
@@ -36,7 +36,7 @@ bool PlanRun::attempt(TimePoint point, Time now) {
 bool PlanRun::try_start(Index activity, Time now) {
   const PlanActivity& planned = plan_.activities[activity];
   ActivityRun& run = runs_[activity];
-  if (run.phase != Phase::waiting) return false;
+  if (run.phase != ActivityPhase::waiting) return false;
   if (!planned.skip_if.empty() && evaluate(planned.skip_if, lookup()) == Truth::yes) {
     skip(activity, "skipped: " + describe(planned.skip_if));
     return true;
@@ -44,12 +44,12 @@ bool PlanRun::try_start(Index activity, Time now) {
   std::string unmet = explain(planned.pre, lookup());
   for (const TimePoint point : points_.precedence().together[planned.start_point]) {
     const Index other = points_.owner(point).activity;
-    if (!unmet.empty() || runs_[other].phase != Phase::waiting) continue;
+    if (!unmet.empty() || runs_[other].phase != ActivityPhase::waiting) continue;
     unmet = explain(plan_.activities[other].pre, lookup());
     if (!unmet.empty()) unmet = plan_.activities[other].id + " at the same time, which needs " + unmet;
   }
   if (!unmet.empty()) {
-    run.cause = "waits for " + unmet;
+    run.reason = "waits for " + unmet;
     begin_wait(activity, now, bounded(planned.wait_timeout) ? planned.wait_timeout : settings_.default_wait);
     return false;
   }
@@ -64,12 +64,12 @@ void PlanRun::start(Index activity, Time now) {
   run.started = run.attempt_started = now;
   run.maintenance_held = evaluate(planned.maintenance, lookup()) == Truth::yes;
   if (planned.owner.empty()) {
-    enter(activity, Phase::running, now);
+    enter(activity, ActivityPhase::running, now);
     store_.begin(planned);
     change(activity, ActivityState::running, "");
   } else {
     ++run.attempt;
-    enter(activity, Phase::sent, now);
+    enter(activity, ActivityPhase::sent, now);
     send(activity, CommandAction::execute);
     change(activity, ActivityState::dispatched, "");
   }
@@ -78,9 +78,9 @@ void PlanRun::start(Index activity, Time now) {
 bool PlanRun::try_internal_end(Index activity, Time now) {
   const PlanActivity& planned = plan_.activities[activity];
   ActivityRun& run = runs_[activity];
-  if (run.phase != Phase::running && run.phase != Phase::settling) return false;
+  if (run.phase != ActivityPhase::running && run.phase != ActivityPhase::settling) return false;
   if (evaluate(planned.post, lookup()) != Truth::yes) {
-    if (run.phase == Phase::running) enter(activity, Phase::settling, now);
+    if (run.phase == ActivityPhase::running) enter(activity, ActivityPhase::settling, now);
     return false;
   }
   if (!points_.try_happen(planned.end_point, now)) return false;
@@ -88,12 +88,12 @@ bool PlanRun::try_internal_end(Index activity, Time now) {
   return true;
 }
 
-void PlanRun::skip(Index activity, const std::string& cause) {
+void PlanRun::skip(Index activity, const std::string& reason) {
   const PlanActivity& planned = plan_.activities[activity];
-  enter(activity, Phase::done, {});
+  enter(activity, ActivityPhase::done, {});
   points_.drop(planned.start_point);
   points_.drop(planned.end_point);
-  change(activity, ActivityState::skipped, cause);
+  change(activity, ActivityState::skipped, reason);
 }
 
 /// A stated wait timeout counts from the earliest start on, also while a predecessor that runs is late (R98),
@@ -101,7 +101,7 @@ void PlanRun::skip(Index activity, const std::string& cause) {
 /// open.
 void PlanRun::consider_wait(Index activity, Time now) {
   const PlanActivity& planned = plan_.activities[activity];
-  if (runs_[activity].phase != Phase::waiting || !bounded(planned.wait_timeout)) return;
+  if (runs_[activity].phase != ActivityPhase::waiting || !bounded(planned.wait_timeout)) return;
   if (points_.due(planned.start_point) && !points_.held(planned.start_point))
     begin_wait(activity, now, planned.wait_timeout);
 }
@@ -115,7 +115,7 @@ void PlanRun::begin_wait(Index activity, Time now, Duration bound) {
   if (planned.lateness != LatenessPolicy::push || !points_.due(planned.start_point)) return;
   const std::string unmet = explain(planned.pre, lookup());
   if (!unmet.empty())
-    recover(Rung::push, activity, "waits until " + to_text(*run.wait_until) + " for " + unmet);
+    recover(RecoveryAction::push, activity, "waits until " + to_text(*run.wait_until) + " for " + unmet);
 }
 
 bool PlanRun::expire_waits(Time now) {
@@ -125,12 +125,12 @@ bool PlanRun::expire_waits(Time now) {
     waits_.erase(waits_.begin());
     const PlanActivity& planned = plan_.activities[activity];
     const std::string unmet = explain(planned.pre, lookup());
-    const std::string cause =
+    const std::string reason =
         "could not start within its wait timeout: " + (unmet.empty() ? "a predecessor has not ended" : unmet);
     if (planned.may_skip) {
-      skip(activity, cause);
+      skip(activity, reason);
     } else {
-      fail(activity, now, BreakReason::activity_failed, cause, false);
+      fail(activity, now, Breakage::activity_failed, reason, false);
     }
     progress = true;
   }
@@ -157,15 +157,15 @@ void PlanRun::break_if_late(Time now) {
   if (!late) return;
   const Index activity = points_.owner(*late).activity;
   const PlanActivity& planned = plan_.activities[activity];
-  std::string cause = "latest start " + to_text(points_.window(*late).upper) + " has passed";
+  std::string reason = "latest start " + to_text(points_.window(*late).upper) + " has passed";
   if (const std::string unmet = explain(planned.pre, lookup()); !unmet.empty())
-    cause += "; it needs " + unmet;
+    reason += "; it needs " + unmet;
   for (const TimePoint point : points_.precedence().predecessors[planned.start_point]) {
     const PointOwner& owner = points_.owner(point);
     if (owner.role == PointRole::free || points_.happened_at(point) || points_.dropped(point)) continue;
-    cause += "; it waits for " + plan_.activities[owner.activity].id;
+    reason += "; it waits for " + plan_.activities[owner.activity].id;
   }
-  break_plan(BreakReason::late_start, planned.id, cause, planned.contingency);
+  break_plan(Breakage::late_start, planned.id, reason, planned.contingency);
 }
 
 /// Ends come as they come; two that came in the wrong order cannot be mended by waiting.
@@ -176,8 +176,8 @@ void PlanRun::break_if_disordered() {
       const PointOwner& owner = points_.owner(point);
       if (owner.role != PointRole::observed_end || points_.happened_at(point) || points_.dropped(point))
         continue;
-      if (runs_[owner.activity].phase == Phase::settling) continue;
-      break_plan(BreakReason::ordering_violated, planned.id,
+      if (runs_[owner.activity].phase == ActivityPhase::settling) continue;
+      break_plan(Breakage::ordering_violated, planned.id,
                  "it ended before " + plan_.activities[owner.activity].id + " had ended",
                  planned.contingency);
     }
@@ -185,4 +185,4 @@ void PlanRun::break_if_disordered() {
   ended_now_.clear();
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -3,7 +3,7 @@
 
 #include "exec_svc/executive/plan_run.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 using temporal::bounded;
 using temporal::Duration;
@@ -43,18 +43,18 @@ Time PlanRun::settled_from(Index activity) const {
 Time PlanRun::next_timer(Index activity, Time now) const {
   const PlanActivity& planned = plan_.activities[activity];
   const ActivityRun& run = runs_[activity];
-  if (run.phase == Phase::cancelling) return run.phase_since + settings_.cancel_timeout;
-  if (run.phase == Phase::recovering) return contingency_timer(activity);
-  if (run.phase == Phase::settling) {
+  if (run.phase == ActivityPhase::cancelling) return run.phase_since + settings_.cancel_timeout;
+  if (run.phase == ActivityPhase::contingency) return contingency_timer(activity);
+  if (run.phase == ActivityPhase::settling) {
     const Time from = settled_from(activity);
     return now < from ? from : from + settings_.settle_time;
   }
   Time next = plus(deadline(activity), Duration{1});
   if (!planned.owner.empty()) next = std::min(next, hung_after(activity));
-  if (run.phase == Phase::sent) next = std::min(next, run.phase_since + settings_.ack_timeout);
+  if (run.phase == ActivityPhase::sent) next = std::min(next, run.phase_since + settings_.ack_timeout);
   if (!planned.maintenance.empty() && !run.maintenance_held)
     next = std::min(next, run.attempt_started + settings_.settle_time);
   return next;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -7,7 +7,7 @@
 #include "exec_svc/executive/plan_run.hpp"
 #include "exec_svc/executive/timeline_store.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 struct Executive::Impl {
   ExecutiveSettings settings;
@@ -110,4 +110,4 @@ std::optional<temporal::Value> Executive::value_of(const std::string& timeline) 
 std::uint64_t Executive::ignored_acks() const { return impl_->ignored_acks; }
 std::uint64_t Executive::ignored_answers() const { return impl_->ignored_answers; }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -12,7 +12,7 @@
 #include "exec_svc/executive/contingency.hpp"
 #include "exec_svc/executive/messages.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 /// When an activity starts within its window (R144). Latest: at its upper bound, if it has one.
 enum class StartPolicy { earliest, latest };
@@ -100,4 +100,4 @@ class Executive {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -10,7 +10,7 @@
 #include "core/temporal/flexible_plan.hpp"
 #include "core/temporal/value.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 enum class CommandAction { execute, cancel, query };
 
@@ -68,7 +68,7 @@ struct StepStatus {
   temporal::Time latest_start = temporal::no_bound;
   std::optional<temporal::Time> started;
   std::optional<temporal::Time> ended;
-  std::string cause;  ///< why it is in this state, where that is not obvious
+  std::string reason;  ///< why it is in this state, where that is not obvious
 };
 
 struct DecisionRequest {
@@ -79,7 +79,7 @@ struct DecisionRequest {
 };
 
 /// The rungs of the recovery ladder that need no planner, cheapest first.
-enum class Rung {
+enum class RecoveryAction {
   push,         ///< a start waits for its preconditions, until its wait timeout (R98)
   retry,        ///< the same command again (R99)
   contingency,  ///< commands of a template, then the same command again or a broken plan (R69, R70)
@@ -87,9 +87,9 @@ enum class Rung {
 
 /// A rung was entered, or a contingency ended.
 struct RecoveryStep {
-  Rung rung = Rung::push;
+  RecoveryAction action = RecoveryAction::push;
   std::string activity;
-  std::string cause;  ///< why, and what is done
+  std::string reason;  ///< why, and what is done
 };
 
 enum class OutcomeKind {
@@ -101,7 +101,7 @@ enum class OutcomeKind {
   cancelled,   ///< nothing of the plan runs any more, or its owner did not answer the cancel in time
 };
 
-enum class BreakReason {
+enum class Breakage {
   none,
   late_start,         ///< an activity's latest start has passed (R49)
   activity_failed,    ///< its command, a condition, a wait or its owner failed; the retries are used up
@@ -113,9 +113,9 @@ enum class BreakReason {
 
 struct Outcome {
   OutcomeKind kind = OutcomeKind::idle;
-  BreakReason reason = BreakReason::none;  ///< of broken
-  std::string activity;                    ///< that broke it; for decision_missing the decision
-  std::string cause;                       ///< in plain words
+  Breakage breakage = Breakage::none;  ///< of broken
+  std::string activity;                ///< that broke it; for decision_missing the decision
+  std::string reason;                  ///< in plain words
   std::string contingency;  ///< the one that the activity names; it has been used up, or is none of ours
 };
 
@@ -128,4 +128,4 @@ struct Outputs {
   std::optional<temporal::Time> next_wake{};  ///< step again then, if nothing happens before
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

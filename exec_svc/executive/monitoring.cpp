@@ -3,7 +3,7 @@
 
 #include "exec_svc/executive/plan_run.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 using temporal::PlanActivity;
 using temporal::Time;
@@ -23,31 +23,31 @@ bool PlanRun::monitor_activity(Index activity, Time now) {
   const ActivityRun& run = runs_[activity];
   const Time age = now - run.phase_since;
   const bool commanded = !planned.owner.empty();
-  if (run.phase == Phase::recovering) return monitor_contingency(activity, now);
-  if (run.phase == Phase::cancelling) {
+  if (run.phase == ActivityPhase::contingency) return monitor_contingency(activity, now);
+  if (run.phase == ActivityPhase::cancelling) {
     if (age < settings_.cancel_timeout) return false;
     cancel_is_over(activity, now, "cancel not answered within " + to_text(settings_.cancel_timeout));
     return true;
   }
-  if (run.phase == Phase::sent && age >= settings_.ack_timeout) {
-    const std::string cause =
+  if (run.phase == ActivityPhase::sent && age >= settings_.ack_timeout) {
+    const std::string reason =
         "command not answered by " + planned.owner + " within " + to_text(settings_.ack_timeout);
     if (run.retries_used < planned.retries && starting()) {
-      cancel(activity, now, AfterCancel::retry, cause);
+      cancel(activity, now, AfterCancel::retry, reason);
     } else {
-      fail(activity, now, BreakReason::activity_failed, cause, true);
+      fail(activity, now, Breakage::activity_failed, reason, true);
     }
     return true;
   }
   if (check_maintenance(activity, now)) return true;
-  if (run.phase == Phase::settling) return try_finish(activity, now);
+  if (run.phase == ActivityPhase::settling) return try_finish(activity, now);
   if (now > deadline(activity)) {
-    fail(activity, now, BreakReason::deadline_passed,
+    fail(activity, now, Breakage::deadline_passed,
          "still running at its deadline " + to_text(deadline(activity)), commanded);
     return true;
   }
   if (commanded && now >= hung_after(activity)) {
-    fail(activity, now, BreakReason::activity_failed, "no end long after its longest duration", true);
+    fail(activity, now, Breakage::activity_failed, "no end long after its longest duration", true);
     return true;
   }
   return false;
@@ -57,12 +57,12 @@ bool PlanRun::monitor_activity(Index activity, Time now) {
 bool PlanRun::check_maintenance(Index activity, Time now) {
   const PlanActivity& planned = plan_.activities[activity];
   ActivityRun& run = runs_[activity];
-  if (planned.maintenance.empty() || run.phase == Phase::settling) return false;
+  if (planned.maintenance.empty() || run.phase == ActivityPhase::settling) return false;
   const Truth truth = evaluate(planned.maintenance, lookup());
   if (truth == Truth::yes) run.maintenance_held = true;
   const bool demanded = run.maintenance_held || now >= run.attempt_started + settings_.settle_time;
   if (truth != Truth::no || !demanded) return false;
-  fail(activity, now, BreakReason::activity_failed,
+  fail(activity, now, Breakage::activity_failed,
        "maintenance condition broken: " + explain(planned.maintenance, lookup()), !planned.owner.empty());
   return true;
 }
@@ -77,9 +77,9 @@ bool PlanRun::try_finish(Index activity, Time now) {
     return true;
   }
   if (now < from + settings_.settle_time) return false;
-  fail(activity, now, BreakReason::activity_failed,
+  fail(activity, now, Breakage::activity_failed,
        "post condition does not hold: " + explain(planned.post, lookup()), false);
   return true;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 using temporal::ActivityState;
 using temporal::bounded;
@@ -49,10 +49,10 @@ void PlanRun::adopt(PlanRun& before) {
   std::vector<std::pair<Time, TimePoint>> events;
   for (const Index old : before.active_) {
     const PlanActivity& activity = before.plan_.activities[old];
-    if (index_of_.contains(activity.id) && before.runs_[old].phase != Phase::recovering) continue;
-    if (before.runs_[old].phase == Phase::recovering) {
+    if (index_of_.contains(activity.id) && before.runs_[old].phase != ActivityPhase::contingency) continue;
+    if (before.runs_[old].phase == ActivityPhase::contingency) {
       before.send_contingency(old, CommandAction::cancel);
-    } else if (!activity.owner.empty() && before.runs_[old].phase != Phase::settling) {
+    } else if (!activity.owner.empty() && before.runs_[old].phase != ActivityPhase::settling) {
       before.send(old, CommandAction::cancel);
     }
     store_.end(activity, false);
@@ -61,14 +61,14 @@ void PlanRun::adopt(PlanRun& before) {
     const auto found = before.index_of_.find(plan_.activities[i].id);
     if (found == before.index_of_.end()) continue;
     const ActivityRun& run = before.runs_[found->second];
-    if ((!run.active() && run.state != ActivityState::succeeded) || run.phase == Phase::recovering) {
+    if ((!run.active() && run.state != ActivityState::succeeded) || run.phase == ActivityPhase::contingency) {
       runs_[i].attempt = run.attempt;
       runs_[i].contingency_commands = run.contingency_commands;
       continue;
     }
     runs_[i] = run;
     if (run.active()) active_.insert(i);
-    if (run.phase == Phase::done) --unfinished_;
+    if (run.phase == ActivityPhase::done) --unfinished_;
     if (run.started) events.emplace_back(*run.started, plan_.activities[i].start_point);
     if (run.ended) events.emplace_back(*run.ended, plan_.activities[i].end_point);
   }
@@ -96,16 +96,16 @@ void PlanRun::cancel_all(Time now) {
   outcome_.kind = OutcomeKind::cancelling;
   for (Index i = 0; i < runs_.size(); ++i) {
     ActivityRun& run = runs_[i];
-    const bool owner_works = run.phase == Phase::sent || run.phase == Phase::running;
-    if (run.phase == Phase::done) continue;
-    if (run.phase == Phase::cancelling) {
+    const bool owner_works = run.phase == ActivityPhase::sent || run.phase == ActivityPhase::running;
+    if (run.phase == ActivityPhase::done) continue;
+    if (run.phase == ActivityPhase::cancelling) {
       if (run.after_cancel == AfterCancel::retry) run.after_cancel = AfterCancel::withdraw;
     } else if (owner_works && !plan_.activities[i].owner.empty()) {
       cancel(i, now, AfterCancel::withdraw, "cancel requested");
     } else {
-      if (run.phase == Phase::recovering) send_contingency(i, CommandAction::cancel);
+      if (run.phase == ActivityPhase::contingency) send_contingency(i, CommandAction::cancel);
       close(i, now, ActivityState::cancelled,
-            run.phase == Phase::settling ? "cancelled before its end was confirmed" : "");
+            run.phase == ActivityPhase::settling ? "cancelled before its end was confirmed" : "");
     }
   }
   update_outcome();
@@ -127,7 +127,7 @@ StepStatus PlanRun::status(Index activity) const {
   const ActivityRun& run = runs_[activity];
   const temporal::Window window = points_.window(planned.start_point);
   return {planned.id,   planned.name, run.attempt, run.state, window.lower,
-          window.upper, run.started,  run.ended,   run.cause};
+          window.upper, run.started,  run.ended,   run.reason};
 }
 
 std::vector<StepStatus> PlanRun::statuses() const {
@@ -158,10 +158,10 @@ std::vector<Executive::TokenStatus> PlanRun::tokens() const {
 }
 
 /// The first reason stands.
-void PlanRun::break_plan(BreakReason reason, const std::string& who, const std::string& cause,
+void PlanRun::break_plan(Breakage breakage, const std::string& who, const std::string& reason,
                          const std::string& contingency) {
   if (outcome_.kind == OutcomeKind::running)
-    outcome_ = {OutcomeKind::broken, reason, who, cause, contingency};
+    outcome_ = {OutcomeKind::broken, breakage, who, reason, contingency};
 }
 
 void PlanRun::update_outcome() {
@@ -185,18 +185,18 @@ std::optional<Time> PlanRun::next_wake(Time now) {
   return bounded(next) ? std::optional(next) : std::nullopt;
 }
 
-void PlanRun::change(Index activity, ActivityState state, std::string cause) {
+void PlanRun::change(Index activity, ActivityState state, std::string reason) {
   runs_[activity].state = state;
-  runs_[activity].cause = std::move(cause);
+  runs_[activity].reason = std::move(reason);
   while (first_waiting_ < runs_.size() && runs_[first_waiting_].state != ActivityState::waiting)
     ++first_waiting_;
   outputs_.changes.push_back(status(activity));
 }
 
-void PlanRun::enter(Index activity, Phase phase, Time now) {
+void PlanRun::enter(Index activity, ActivityPhase phase, Time now) {
   ActivityRun& run = runs_[activity];
   if (run.wait_until) waits_.erase({*run.wait_until, activity});
-  if (phase == Phase::done && run.phase != Phase::done) --unfinished_;
+  if (phase == ActivityPhase::done && run.phase != ActivityPhase::done) --unfinished_;
   run.phase = phase;
   run.phase_since = now;
   if (run.active()) {
@@ -212,12 +212,12 @@ void PlanRun::send(Index activity, CommandAction action) {
                                planned.command_name, planned.arguments, points_.duration(activity).lower});
 }
 
-void PlanRun::recover(Rung rung, Index activity, std::string cause) {
-  outputs_.recoveries.push_back({rung, plan_.activities[activity].id, std::move(cause)});
+void PlanRun::recover(RecoveryAction action, Index activity, std::string reason) {
+  outputs_.recoveries.push_back({action, plan_.activities[activity].id, std::move(reason)});
 }
 
 temporal::Lookup PlanRun::lookup() const {
   return [this](const std::string& timeline) { return store_.value_of(timeline); };
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

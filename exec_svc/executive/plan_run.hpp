@@ -15,7 +15,7 @@
 #include "exec_svc/executive/point_dispatcher.hpp"
 #include "exec_svc/executive/timeline_store.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 class PlanRun {
  public:
@@ -54,12 +54,12 @@ class PlanRun {
   using Index = std::size_t;  // of an activity
 
   // plan_run.cpp: the run as a whole
-  void break_plan(BreakReason reason, const std::string& who, const std::string& cause,
+  void break_plan(Breakage breakage, const std::string& who, const std::string& reason,
                   const std::string& contingency);
   void update_outcome();
   std::optional<temporal::Time> next_wake(temporal::Time now);
-  void change(Index activity, temporal::ActivityState state, std::string cause);
-  void enter(Index activity, Phase phase, temporal::Time now);
+  void change(Index activity, temporal::ActivityState state, std::string reason);
+  void enter(Index activity, ActivityPhase phase, temporal::Time now);
   void send(Index activity, CommandAction action);
   temporal::Lookup lookup() const;
   bool starting() const { return outcome_.kind == OutcomeKind::running; }
@@ -74,10 +74,10 @@ class PlanRun {
   bool try_start(Index activity, temporal::Time now);
   bool try_internal_end(Index activity, temporal::Time now);
   void start(Index activity, temporal::Time now);
-  void skip(Index activity, const std::string& cause);
+  void skip(Index activity, const std::string& reason);
   void consider_wait(Index activity, temporal::Time now);
   void begin_wait(Index activity, temporal::Time now, temporal::Duration bound);
-  void recover(Rung rung, Index activity, std::string cause);
+  void recover(RecoveryAction action, Index activity, std::string reason);
 
   bool expire_waits(temporal::Time now);
   void break_if_late(temporal::Time now);
@@ -89,13 +89,13 @@ class PlanRun {
   bool check_maintenance(Index activity, temporal::Time now);
   bool try_finish(Index activity, temporal::Time now);
   void succeed(Index activity, temporal::Time now);
-  void fail(Index activity, temporal::Time now, BreakReason reason, const std::string& cause,
+  void fail(Index activity, temporal::Time now, Breakage breakage, const std::string& reason,
             bool still_commanded);
-  void fail_or_retry(Index activity, temporal::Time now, const std::string& cause);
-  bool retry(Index activity, temporal::Time now, const std::string& cause);
-  void try_again(Index activity, temporal::Time now, const std::string& cause);
-  void close(Index activity, temporal::Time now, temporal::ActivityState state, const std::string& cause);
-  void cancel(Index activity, temporal::Time now, AfterCancel after, const std::string& cause);
+  void fail_or_retry(Index activity, temporal::Time now, const std::string& reason);
+  bool retry(Index activity, temporal::Time now, const std::string& reason);
+  void try_again(Index activity, temporal::Time now, const std::string& reason);
+  void close(Index activity, temporal::Time now, temporal::ActivityState state, const std::string& reason);
+  void cancel(Index activity, temporal::Time now, AfterCancel after, const std::string& reason);
   void take_cancel_answer(Index activity, const CommandAck& ack, temporal::Time now);
   void cancel_is_over(Index activity, temporal::Time now, const std::string& answer);
   temporal::Time deadline(Index activity) const;
@@ -106,11 +106,11 @@ class PlanRun {
   // contingency.cpp: commands from a template after a failure
   const Contingency* contingency_of(Index activity) const;
   std::string contingency_owner(Index activity) const;
-  bool begin_contingency(Index activity, temporal::Time now, const std::string& cause);
+  bool begin_contingency(Index activity, temporal::Time now, const std::string& reason);
   void send_contingency(Index activity, CommandAction action);
   bool take_contingency_ack(const CommandAck& ack, temporal::Time now);
   bool monitor_contingency(Index activity, temporal::Time now);
-  void end_contingency(Index activity, temporal::Time now, const std::string& fault);
+  void end_contingency(Index activity, temporal::Time now, const std::string& reason);
   temporal::Time contingency_timer(Index activity) const;
 
   // deciding.cpp: open choices
@@ -139,4 +139,4 @@ class PlanRun {
   Outputs outputs_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

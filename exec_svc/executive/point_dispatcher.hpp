@@ -10,7 +10,7 @@
 #include "exec_svc/executive/agenda.hpp"
 #include "exec_svc/executive/precedence.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 class PointDispatcher {
  public:
@@ -106,4 +106,4 @@ class PointDispatcher {
   Agenda earliest_, latest_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

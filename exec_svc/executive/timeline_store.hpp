@@ -9,7 +9,7 @@
 
 #include "core/temporal/flexible_plan.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 /// External states are observed; internal states are what activities without a command make of them (R73). A
 /// timeline that was observed once is external for ever: planned impacts are never taken for the world.
@@ -44,4 +44,4 @@ class TimelineStore {
   std::optional<temporal::Time> now_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -11,7 +11,7 @@
 #include "core/temporal/duration.hpp"
 #include "exec_svc/mission/mission_model.hpp"
 
-namespace roci::exec {
+namespace roci::exec::goals {
 
 enum class GoalClass { hard, optional, opportunistic };
 enum class GoalState { rejected, pending, planned, achieved, dropped, failed, recalled };
@@ -24,11 +24,11 @@ struct GoalKey {
 };
 
 // Which of its sender's samples brought a request; numbered per sender and start of it.
-struct SampleName {
+struct SampleId {
   std::string sender;
   std::uint32_t incarnation = 0;  // 0: a console
   std::uint64_t number = 0;
-  bool operator==(const SampleName&) const = default;
+  bool operator==(const SampleId&) const = default;
 };
 
 struct GoalRequest {
@@ -41,15 +41,15 @@ struct GoalRequest {
   temporal::Time opens{0};   // 0: any time
   temporal::Time closes{0};  // 0: never
   bool recalled = false;
-  SampleName said_in;
+  SampleId sample;
   bool operator==(const GoalRequest&) const = default;
 };
 
 // Whoever says it, and however often.
-bool same_wish(const GoalRequest&, const GoalRequest&);
+bool same_request(const GoalRequest&, const GoalRequest&);
 
 // By somebody who reads the answer; the services of a run, which pass on what its scenario says, do not.
-bool said_by_console(const GoalRequest&);
+bool from_console(const GoalRequest&);
 
 // What the templates of the goal's kind are filled with: its arguments and its id.
 std::map<std::string, std::string> template_values(const GoalRequest& goal);
@@ -60,17 +60,17 @@ struct GoalRecord {
   std::string reason;
   std::uint64_t arrival = 0;  // rises with each goal
   std::uint32_t plan_version = 0;
-  SampleName answers;  // the newest request of this key, also one that was refused or changed nothing
+  SampleId answers;  // the newest request of this key, also one that was refused or changed nothing
 };
 
 bool is_final(GoalState state);
 
 class GoalSet {
  public:
-  explicit GoalSet(const MissionModel& mission) : mission_(&mission) {}
+  explicit GoalSet(const mission::MissionModel& mission) : mission_(&mission) {}
 
   // What became of a request.
-  enum class Taken {
+  enum class Disposition {
     known,     // this very sample: nothing is to be told
     repeated,  // the same wish in a new sample, or a recall that is too late: it is answered, nothing else
     refused,   // the goal stays as it was
@@ -79,7 +79,7 @@ class GoalSet {
     accepted,
   };
   struct Submission {
-    Taken taken;
+    Disposition taken;
     const GoalRecord* record;
   };
   // Takes a request in: a new goal, a change, or a recall. A bad new one is stored as rejected, with a reason
@@ -88,7 +88,7 @@ class GoalSet {
 
   // These, but each after those of them that its arguments name: who joins a writer late hears goals of
   // different keys in any order.
-  std::vector<GoalRequest> in_order(std::vector<GoalRequest> requests) const;
+  std::vector<GoalRequest> in_reference_order(std::vector<GoalRequest> requests) const;
 
   // Puts a goal back as the journal has it.
   void restore(const GoalRecord& record);
@@ -110,14 +110,14 @@ class GoalSet {
   std::optional<GoalKey> drop_candidate(const std::vector<GoalKey>& among) const;
 
  private:
-  Taken change(GoalRecord&, const GoalRequest&, temporal::Time now);
+  Disposition change(GoalRecord&, const GoalRequest&, temporal::Time now);
   std::string fault_of(const GoalRequest& request, temporal::Time now) const;
   bool names(const GoalRequest& request, const GoalRequest& other) const;
   std::string fault_of_reference(const GoalRequest& request, const std::string& argument) const;
 
-  const MissionModel* mission_;
+  const mission::MissionModel* mission_;
   std::map<GoalKey, GoalRecord> records_;
   std::uint64_t next_arrival_ = 1;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::goals

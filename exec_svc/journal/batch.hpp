@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
 // Of the newest commit of a journal. Only the leader of an epoch makes commits of that epoch, each from the
 // one before: two journals with the same position are the same journal. {0, 0}: an empty one.
@@ -25,4 +25,4 @@ struct Batch {
   std::string changes;  // an SQLite changeset
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
 // In the order of one turn.
 inline constexpr std::array<std::string_view, 8> kCrashPoints{
@@ -37,4 +37,4 @@ class CrashPoints {
   std::function<void()> die_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

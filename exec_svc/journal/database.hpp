@@ -16,7 +16,7 @@ struct sqlite3;
 struct sqlite3_stmt;
 struct sqlite3_session;
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
 // A prepared statement; bound values are copied.
 class Statement {
@@ -67,4 +67,4 @@ struct Journal::Database {
   sqlite3_session* session_ = nullptr;  // of the open transaction, if it becomes a batch
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -9,7 +9,7 @@
 #include "core/temporal/duration.hpp"
 #include "exec_svc/reactor/reactor.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
 struct Line {
   std::string kind;  // "goal", "event", "step", "trace" (plans and commands), "call"
@@ -19,9 +19,9 @@ struct Line {
 
 // In the order in which they are journaled and sent. Lines of kind "trace" begin with the mission time in
 // microseconds.
-std::vector<Line> decisions(temporal::Time now, const ReactorOutputs& out);
+std::vector<Line> decisions(temporal::Time now, const reactor::ReactorOutputs& out);
 
 // Whether a record of the journal is such a line; the other records were seen or measured.
 bool is_decision(std::string_view kind, std::string_view text);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -17,7 +17,7 @@
 #include "exec_svc/goals/goal_set.hpp"
 #include "exec_svc/journal/batch.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
 class JournalError : public std::runtime_error {
  public:
@@ -62,8 +62,8 @@ class Journal {
   std::string whole() const;
   void become(std::string_view whole);
 
-  void put_goal(const GoalRecord& record);
-  std::vector<GoalRecord> goals() const;
+  void put_goal(const goals::GoalRecord& record);
+  std::vector<goals::GoalRecord> goals() const;
 
   // The services that were there when the last turn was journaled, with their incarnations.
   void put_peer(const std::string& service, std::uint32_t incarnation);
@@ -97,4 +97,4 @@ class Journal {
   std::unique_ptr<Database> database_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -11,7 +11,7 @@
 
 #include "exec_svc/journal/database.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -120,4 +120,4 @@ void Journal::become(std::string_view whole) {
   database_ = std::make_unique<Database>(file_, durability_);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

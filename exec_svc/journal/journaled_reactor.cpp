@@ -5,7 +5,16 @@
 #include "exec_svc/archive/fields.hpp"
 #include "exec_svc/journal/format.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
+
+using archive::ArchiveError;
+using archive::to_bytes;
+using goals::GoalRecord;
+using mission::MissionModel;
+using reactor::Reactor;
+using reactor::ReactorInputs;
+using reactor::ReactorOutputs;
+
 namespace {
 
 // A replay of so many turns takes a moment, no more; an anchor is written then wherever the reactor rests.
@@ -75,7 +84,7 @@ bool JournaledReactor::replay() {
   recovery_.turns = replay.turns();
   recovery_.divergence = replay.divergence();
   if (recovery_.divergence) return false;
-  recovery_.last_notes = replay.outputs().notes;
+  recovery_.last_events = replay.outputs().events;
   const auto replayed = reactor_->goals().all();
   const auto journaled = journal_->goals();
   const auto equal = [](const GoalRecord* a, const GoalRecord& b) { return same(*a, b); };
@@ -130,4 +139,4 @@ void JournaledReactor::anchor(temporal::Time now, std::string_view kind) {
   turns_since_anchor_ = 0;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -4,7 +4,12 @@
 
 #include "exec_svc/archive/fields.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
+
+using archive::ArchiveError;
+using archive::from_bytes;
+using reactor::ReactorInputs;
+
 namespace {
 
 // Of long texts (problems) the kind and the first line that differs.
@@ -60,4 +65,4 @@ void Replay::differ(std::string expected, std::string got) {
   divergence_ = Divergence{now_, std::move(expected), std::move(got)};
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -11,7 +11,7 @@
 #include "exec_svc/journal/decisions.hpp"
 #include "exec_svc/reactor/reactor.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
 // The first decision that came out differently.
 struct Divergence {
@@ -22,7 +22,7 @@ struct Divergence {
 
 class Replay {
  public:
-  explicit Replay(Reactor& reactor) : reactor_(&reactor) {}
+  explicit Replay(reactor::Reactor& reactor) : reactor_(&reactor) {}
 
   // One record of the journal after the other. After a divergence nothing more happens.
   void take(temporal::Time time, std::string_view kind, std::string_view bytes);
@@ -33,7 +33,7 @@ class Replay {
   std::size_t turns() const { return turns_; }
   temporal::Time now() const { return now_; }
   // Of the newest turn.
-  const ReactorOutputs& outputs() const { return outputs_; }
+  const reactor::ReactorOutputs& outputs() const { return outputs_; }
   // The decision that equalled the newest journaled one.
   const Line& matched() const { return lines_.at(matched_ - 1); }
 
@@ -41,8 +41,8 @@ class Replay {
   void turn(temporal::Time time, std::string_view bytes);
   void differ(std::string expected, std::string got);
 
-  Reactor* reactor_;
-  ReactorOutputs outputs_;
+  reactor::Reactor* reactor_;
+  reactor::ReactorOutputs outputs_;
   std::vector<Line> lines_;  // decided now
   std::size_t matched_ = 0;  // of them
   std::size_t turns_ = 0;
@@ -50,4 +50,4 @@ class Replay {
   std::optional<Divergence> divergence_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

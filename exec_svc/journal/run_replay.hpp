@@ -8,7 +8,7 @@
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/replay.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
 struct RunReplay {
   std::size_t turns = 0;
@@ -23,6 +23,6 @@ struct RunReplay {
 
 // `mission` as it was then; a changed one may diverge like changed code. Throws ArchiveError for a snapshot
 // that this code cannot read.
-RunReplay replay_run(const Journal& journal, const MissionModel& mission);
+RunReplay replay_run(const Journal& journal, const mission::MissionModel& mission);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

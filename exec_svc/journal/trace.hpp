@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
 class Trace {
  public:
@@ -20,4 +20,4 @@ class Trace {
   std::unique_ptr<Digest> digest_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

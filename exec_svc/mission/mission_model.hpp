@@ -15,7 +15,7 @@
 #include "exec_svc/executive/contingency.hpp"
 #include "exec_svc/executive/executive.hpp"
 
-namespace roci::exec {
+namespace roci::exec::mission {
 
 // A state of a component. `facts` may hold ?1, ?2, …: the observed state's arguments; * is a family's object.
 struct StateModel {
@@ -105,11 +105,11 @@ enum class RecoveryStrategy {
   replan,      // replan at once, drop goals, then the ground
 };
 
-// What goes on while the planner works.
+/// What goes on while the planner works. In mission.yaml: `paused`, `situated`, `continuous`.
 enum class Replanning {
-  paused,    // nothing: what runs is cancelled, all components fall back first (R43, R44)
-  situated,  // what runs: it is planned from the state that it will leave, and the plans change there
-  continuous,  // everything: the engine plans all the time and sends versions of its plan (R66)
+  stop_and_replan,  ///< nothing: what runs is cancelled, all components fall back first (R43, R44)
+  background,       ///< what runs: it is planned from the state that it will leave, and the plans change there
+  continuous,       ///< everything: the engine plans all the time and sends versions of its plan (R66)
 };
 
 struct PlannerSettings {
@@ -133,8 +133,8 @@ struct ReactorSettings {
   temporal::Duration failure_pause_max = temporal::seconds(600);  // but is never longer
   bool keep_inputs = true;  // of the whole mission in the journal; false: since the last anchor
   RecoveryStrategy recovery = RecoveryStrategy::cascade;
-  StartPolicy start = StartPolicy::earliest;
-  Replanning replanning = Replanning::paused;
+  executive::StartPolicy start = executive::StartPolicy::earliest;
+  Replanning replanning = Replanning::stop_and_replan;
   temporal::Duration standby_term = temporal::seconds(2);  // wall time; see standby/lease.hpp
 };
 
@@ -148,13 +148,13 @@ struct MissionModel {
   std::vector<FluentSource> fluents;
   std::vector<WindowModel> windows;
   std::map<std::string, ActionBinding> actions;
-  std::map<std::string, Contingency> contingencies;
+  std::map<std::string, executive::Contingency> contingencies;
   std::map<std::string, GoalKind> goal_kinds;
   PlannerSettings planner;
   ReactorSettings executive;
 };
 
-// Throws mission::FileError naming file, line, column and remedy.
+// Throws roci::mission::FileError naming file, line, column and remedy.
 MissionModel read_mission(const std::filesystem::path& mission_folder);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::mission

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace roci::exec {
+namespace roci::exec::mission {
 
 // Replaces ?1, ?2, … by arguments; a position without argument stays as it is.
 std::string fill_positions(const std::string& text, const std::vector<std::string>& arguments);
@@ -17,4 +17,4 @@ std::string fill_names(const std::string& text, const std::map<std::string, std:
 // "(at place-1)" → {"at", "place-1"}.
 std::vector<std::string> words_of(const std::string& fact);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::mission

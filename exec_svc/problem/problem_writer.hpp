@@ -11,7 +11,7 @@
 #include "exec_svc/goals/goal_set.hpp"
 #include "exec_svc/mission/mission_model.hpp"
 
-namespace roci::exec {
+namespace roci::exec::problem {
 
 struct ProblemObject {
   std::string name;
@@ -34,11 +34,12 @@ struct Forecast {
 };
 
 // `origin`: the mission time that the problem calls 0. Windows that ended before it are left out.
-Problem write_problem(const MissionModel& mission, const Beliefs& beliefs, const GoalSet& goals,
-                      const std::string& name, temporal::Time now, temporal::Time origin,
-                      Reserves reserves = Reserves::kept, const Forecast& forecast = {});
+Problem write_problem(const mission::MissionModel& mission, const beliefs::Beliefs& beliefs,
+                      const goals::GoalSet& goals, const std::string& name, temporal::Time now,
+                      temporal::Time origin, Reserves reserves = Reserves::kept,
+                      const Forecast& forecast = {});
 
 // The goal's PDDL facts; it is achieved when all are observed.
-std::vector<std::string> goal_facts(const MissionModel& mission, const GoalRequest& goal);
+std::vector<std::string> goal_facts(const mission::MissionModel& mission, const goals::GoalRequest& goal);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::problem

@@ -8,7 +8,7 @@
 #include "core/temporal/flexible_plan.hpp"
 #include "exec_svc/executive/messages.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
 
 // An action as the planner wrote it, before it was bound to a command.
 struct PlannedAction {
@@ -24,7 +24,7 @@ struct PlannedAction {
 std::vector<PlannedAction> planned_actions(const temporal::FlexiblePlan& plan);
 
 // Without those that run, have done their work or were skipped; what no step tells of stays.
-std::vector<PlannedAction> without_begun(std::vector<PlannedAction> planned,
-                                         const std::vector<StepStatus>& steps);
+std::vector<PlannedAction> remaining_actions(std::vector<PlannedAction> planned,
+                                             const std::vector<executive::StepStatus>& steps);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -15,7 +15,12 @@
 namespace {
 
 namespace fs = std::filesystem;
-using namespace roci::exec;
+using roci::exec::journal::Durability;
+using roci::exec::journal::Journal;
+using roci::exec::journal::JournalError;
+using roci::exec::journal::replay_run;
+using roci::exec::journal::RunReplay;
+using roci::exec::mission::read_mission;
 
 enum ExitCode { kSame = 0, kDiverged = 1, kBadUsage = 2, kNoJournal = 3 };
 

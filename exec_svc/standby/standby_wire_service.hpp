@@ -4,11 +4,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "exec_svc/standby/chunk.hpp"
 #include "exec_svc/standby/lease.hpp"
-#include "exec_svc/standby/parcel.hpp"
 #include "roci_idl/standby.h"
 
-namespace roci::exec::wire {
+namespace roci::exec::standby {
 
 // The steady clock of this host.
 Moment moment();
@@ -16,11 +16,11 @@ Moment moment();
 std::string name_of(Member member);  // "first", "second"
 Member member_of(const std::string& name);
 
-v1::LeaseMessage to_wire(const Word& word, const Arrival& arrival);
-Word from_wire(const v1::LeaseMessage& member);
-Arrival arrival_of(const v1::LeaseMessage& member);
+v1::LeaseMessage to_wire(const LeaseMessage& message, const TransferProgress& arrival);
+LeaseMessage from_wire(const v1::LeaseMessage& member);
+TransferProgress arrival_of(const v1::LeaseMessage& member);
 
-v1::JournalChunk to_wire(const Parcel& parcel);
-Parcel from_wire(const v1::JournalChunk& parcel);
+v1::JournalChunk to_wire(const Chunk& chunk);
+Chunk from_wire(const v1::JournalChunk& chunk);
 
-}  // namespace roci::exec::wire
+}  // namespace roci::exec::standby

@@ -43,7 +43,7 @@ struct Reader {
 };
 
 const std::vector<Reader> kReaders{
-    {"exec_svc", [](const fs::path& folder) { exec::read_mission(folder); }},
+    {"exec_svc", [](const fs::path& folder) { exec::mission::read_mission(folder); }},
     {"sim_svc", [](const fs::path& folder) { sim::scenario::load_run(folder, "opportunistic"); }},
     {"arm_svc",
      [](const fs::path& folder) { arm::load_setup(folder / "arm/arm.urdf", folder / "arm/poses.yaml"); }},

@@ -8,6 +8,20 @@
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using executive::Command;
+using executive::CommandAck;
+using executive::CommandAction;
+using executive::CommandStage;
+using executive::Observation;
+using goals::GoalRecord;
+using goals::GoalRequest;
+using journal::Durability;
+using journal::JournaledReactor;
+using reactor::PlanReply;
+using reactor::ReactorOutputs;
+using temporal::Verdict;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -77,13 +91,13 @@ void CrashWorld::deliver(const ReactorOutputs& out) {
   if (!out.call) return;
   later(kPlanning, [this, id = out.call->id, caller = incarnation_] {
     if (caller != incarnation_) return;
-    PlanAnswer answer;
-    answer.call = id;
-    answer.verdict = PlanVerdict::solved;
+    PlanReply reply;
+    reply.call = id;
+    reply.verdict = Verdict::solved;
     std::vector<std::string> ids;
     for (const GoalRecord* goal : executive_->reactor().goals().open()) ids.push_back(goal->request.key.id);
-    answer.plan = images(ids);
-    pending_.answer = std::move(answer);
+    reply.plan = images(ids);
+    pending_.reply = std::move(reply);
   });
 }
 

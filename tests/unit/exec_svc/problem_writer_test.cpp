@@ -9,6 +9,16 @@
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec {
+
+using beliefs::Beliefs;
+using goals::GoalRequest;
+using goals::GoalSet;
+using goals::GoalState;
+using mission::MissionModel;
+using problem::Problem;
+using problem::write_problem;
+using problem::ProblemObject;
+
 namespace {
 
 using temporal::seconds;

@@ -9,6 +9,17 @@
 #include "tests/unit/exec_svc/executive/scripted_world.hpp"
 
 namespace roci::exec::testing {
+
+using executive::CommandAck;
+using executive::CommandAction;
+using executive::CommandStage;
+using executive::Contingency;
+using executive::Executive;
+using executive::ExecutiveSettings;
+using executive::OutcomeKind;
+using executive::Outputs;
+using executive::StartPolicy;
+
 namespace {
 
 using ::testing::Contains;

@@ -11,6 +11,10 @@
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using goals::GoalRecord;
+using journal::Journal;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -161,17 +165,17 @@ void ExecSeat::tell(const std::string& activity, std::uint32_t attempt, v1::Comm
   out.attempt(attempt);
   out.stage(stage);
   out.owner("sim_svc");
-  if (stage != v1::STAGE_UNKNOWN) words_[{activity, attempt}] = stage;
+  if (stage != v1::STAGE_UNKNOWN) messages_[{activity, attempt}] = stage;
   acks_.write(out);
 }
 
 void ExecSeat::obey(const v1::Command& command) {
   commands.push_back(command);
   const std::pair key(command.activity(), command.attempt());
-  const auto word = words_.find(key);
+  const auto word = messages_.find(key);
   if (command.action() == v1::COMMAND_QUERY ||
-      (command.action() == v1::COMMAND_EXECUTE && word != words_.end())) {
-    tell(command.activity(), command.attempt(), word == words_.end() ? v1::STAGE_UNKNOWN : word->second);
+      (command.action() == v1::COMMAND_EXECUTE && word != messages_.end())) {
+    tell(command.activity(), command.attempt(), word == messages_.end() ? v1::STAGE_UNKNOWN : word->second);
     return;
   }
   if (command.command_name() == "stop" || command.action() == v1::COMMAND_CANCEL) {

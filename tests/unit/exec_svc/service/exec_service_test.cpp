@@ -11,6 +11,11 @@
 #include "tests/unit/exec_svc/service/exec_seat.hpp"
 
 namespace roci::exec {
+
+using goals::GoalRecord;
+using goals::GoalState;
+using journal::Journal;
+
 namespace {
 
 using namespace std::chrono_literals;
