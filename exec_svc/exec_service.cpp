@@ -75,11 +75,12 @@ class ExecService final : public services::Service {
         planner_(node, topics::plan_request),
         publisher_(node, mission_, epoch, crash_) {
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
-    if (reactor_.reactor().follows_engine()) {
+    if (reactor_.reactor().plans_continuously()) {
       engine_.emplace(
           node, [this](temporal::PlanDelta delta) { take(std::move(delta)); },
           [this](const Event& event) { publisher_.report(event); });
     }
+    inputs_.epoch = epoch_;
     recover();
     services::subscribe(node, topics::goal, [this](const v1::Goal& goal) {
       inputs_.goals.push_back(from_wire(goal));

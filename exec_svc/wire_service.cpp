@@ -45,7 +45,7 @@ Observation from_wire(const v1::Observation& in) {
 
 CommandAck from_wire(const v1::CommandAck& in) {
   const auto stage = static_cast<CommandStage>(std::min<std::uint32_t>(in.stage(), v1::STAGE_UNKNOWN));
-  return {in.activity(), in.attempt(), stage, in.code(), in.reason()};
+  return {in.activity(), in.attempt(), stage, in.code(), in.reason(), in.epoch()};
 }
 
 PlanReply from_wire(std::uint64_t call, const v1::PlanReply& in) {

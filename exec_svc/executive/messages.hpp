@@ -29,6 +29,7 @@ struct CommandAck {
   CommandStage stage = CommandStage::accepted;
   std::string code;
   std::string reason;
+  std::uint64_t epoch = 0;  ///< in which the command was issued; 0: not told, any fits
 };
 
 struct DecisionAnswer {
@@ -42,6 +43,7 @@ struct Inputs {
   std::vector<CommandAck> acks{};
   std::vector<std::string> lost_owners{};  ///< services found dead, hung or cut off
   std::vector<DecisionAnswer> answers{};
+  std::uint64_t epoch = 0;  ///< of the executive from this step on; 0: as before
 };
 
 struct Command {

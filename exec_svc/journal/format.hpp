@@ -13,7 +13,7 @@ namespace roci::exec::journal {
 inline constexpr int kFormat = 1;
 
 /// The version of inputs and snapshots, which the journal states as its number `format`. It rises when
-/// archive/fields.hpp or the reactor's snapshot change. Those of another version are never read: the
+/// reactor/message_fields.hpp or the reactor's snapshot change. Those of another version are never read: the
 /// executive keeps goals and plan numbers and plans anew, roci-replay refuses.
 inline constexpr std::int64_t kInputFormat = 6;
 

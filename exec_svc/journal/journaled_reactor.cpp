@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "exec_svc/archive/fields.hpp"
 #include "exec_svc/journal/format.hpp"
+#include "exec_svc/reactor/message_fields.hpp"
 
 namespace roci::exec::journal {
 

@@ -10,6 +10,18 @@
 #include "tests/unit/exec_svc/golden/golden.hpp"
 
 namespace roci::exec {
+
+using goals::GoalClass;
+using goals::GoalKey;
+using goals::GoalRecord;
+using goals::GoalState;
+using journal::Durability;
+using journal::Journal;
+using journal::JournalError;
+using journal::JournaledReactor;
+using mission::MissionModel;
+using mission::read_mission;
+
 namespace {
 
 using ::testing::AllOf;
