@@ -47,7 +47,8 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
     conflict_monitor_.observe(change.timeline, change.value);
     told.observations.push_back(std::move(change));
   }
-  told.epoch = inputs.epoch;
+  if (inputs.epoch != 0) epoch_ = inputs.epoch;
+  told.epoch = epoch_;
   told.acks = inputs.acks;
   for (const PeerLoss& loss : inputs.losses) told.lost_owners.push_back(loss.service);
   Outputs done = executive_.step(now, told);

@@ -61,7 +61,7 @@ class RunningPlan {
 
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self) {
-    archive(self.version_, self.invalid_, self.reported_starts_, self.condition_values_);
+    archive(self.version_, self.epoch_, self.invalid_, self.reported_starts_, self.condition_values_);
   }
 
  private:
@@ -72,6 +72,7 @@ class RunningPlan {
   MissionState* state_;
   executive::Executive executive_;
   std::uint32_t version_ = 0;
+  std::uint64_t epoch_ = 0;  // of the executive, as the inputs told last
   bool invalid_ = false;
   std::vector<PlannedAction> planned_;  ///< of the last plan; after a restart what remained of it
   ResourceMonitor resource_monitor_;
