@@ -75,7 +75,7 @@ class ExecService final : public services::Service {
         planner_(node, topics::plan_request),
         publisher_(node, mission_, epoch, crash_) {
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
-    if (reactor_.reactor().follows_engine()) {
+    if (reactor_.reactor().plans_continuously()) {
       engine_.emplace(
           node, mission_, [this](temporal::PlanDelta delta) { take(std::move(delta)); },
           [this](const Event& event) { publisher_.report(event); });

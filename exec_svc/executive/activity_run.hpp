@@ -1,4 +1,4 @@
-// How far one activity of the running plan has come.
+/// How far one activity of the running plan has come.
 #pragma once
 
 #include <cstdint>
@@ -19,26 +19,14 @@ enum class ActivityPhase {
   done,
 };
 
+/// What follows when a cancel has been answered.
 enum class AfterCancel { retry, fail, withdraw };
-
-/// A contingency under way.
-struct ContingencyRun {
-  std::size_t command = 0;  ///< index of the one that runs; as many as there are: all are done
-  std::string command_id;
-  temporal::Time since{0};
-  temporal::Time command_since{0};
-  bool accepted = false;
-  std::string failure;  ///< of the activity
-};
 
 struct ActivityRun {
   ActivityPhase phase = ActivityPhase::waiting;
   temporal::ActivityState state = temporal::ActivityState::waiting;
-  std::uint32_t attempt = 0;  ///< part of the command's key: never reset
+  std::uint32_t attempt = 0;  ///< part of the command's key: it is never reset
   std::uint32_t retries_used = 0;
-  std::uint32_t contingencies_used = 0;
-  std::uint32_t contingency_commands = 0;  ///< part of their keys: never reset
-  ContingencyRun contingency;
   std::optional<temporal::Time> started, ended;
   temporal::Time attempt_started{0};
   temporal::Time phase_since{0};

@@ -12,7 +12,7 @@ namespace roci::exec::executive {
 struct Executive::Impl {
   ExecutiveSettings settings;
   TimelineStore store;
-  std::optional<PlanRun> run;
+  std::unique_ptr<PlanRun> run;
   temporal::FlexiblePlan no_plan;
   temporal::Time now{0};
   std::uint64_t ignored_acks = 0;
@@ -36,8 +36,8 @@ std::vector<std::string> Executive::load(temporal::FlexiblePlan plan, temporal::
   std::vector<std::string> faults = check(plan);
   if (!faults.empty()) return faults;
   impl_->move_to(now);
-  std::optional<PlanRun> before = std::exchange(impl_->run, std::nullopt);
-  impl_->run.emplace(std::move(plan), impl_->settings, impl_->store);
+  const std::unique_ptr<PlanRun> before = std::move(impl_->run);
+  impl_->run = std::make_unique<PlanRun>(std::move(plan), impl_->settings, impl_->store);
   if (before) impl_->run->adopt(*before);
   return {};
 }
@@ -46,7 +46,7 @@ Outputs Executive::step(temporal::Time now, const Inputs& inputs) {
   impl_->move_to(now);
   for (const Observation& observation : inputs.observations)
     impl_->store.observe(observation.timeline, observation.value);
-  std::optional<PlanRun>& run = impl_->run;
+  PlanRun* run = impl_->run.get();
   for (const CommandAck& ack : inputs.acks)
     if (!run || !run->take_ack(ack, impl_->now)) ++impl_->ignored_acks;
   for (const DecisionAnswer& answer : inputs.answers)

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "exec_svc/archive/fields.hpp"
+#include "exec_svc/reactor/message_fields.hpp"
 
 namespace roci::exec::journal {
 
@@ -17,7 +17,7 @@ using reactor::ReactorOutputs;
 namespace {
 
 // Of inputs and snapshots. Rises when fields.hpp or the reactor's snapshot change.
-constexpr std::int64_t kFormat = 5;
+constexpr std::int64_t kFormat = 6;
 
 // A replay of so many turns takes a moment, no more; an anchor is written then wherever the reactor rests.
 constexpr std::size_t kTurnsUntilAnchor = 500;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "exec_svc/archive/fields.hpp"
+#include "exec_svc/reactor/message_fields.hpp"
 
 namespace roci::exec::journal {
 

@@ -1,6 +1,6 @@
 #include "exec_svc/journal/run_replay.hpp"
 
-#include "exec_svc/archive/fields.hpp"
+#include "exec_svc/reactor/message_fields.hpp"
 #include "exec_svc/journal/trace.hpp"
 
 namespace roci::exec::journal {

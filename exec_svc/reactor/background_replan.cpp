@@ -1,32 +1,29 @@
-// Reactor: replanning while what runs goes on. The problem is written for the state that the running
-// activities will leave; nothing else starts meanwhile; the plans change when they have ended, if that state
-// has come about. Where the old plan must not go on, the pause follows.
-#include <algorithm>
+#include "exec_svc/reactor/background_replan.hpp"
 
-#include "exec_svc/reactor/reactor.hpp"
+#include <algorithm>
+#include <utility>
 
 namespace roci::exec::reactor {
-
-using temporal::Verdict;
 
 using executive::OutcomeKind;
 using executive::StepStatus;
 using goals::GoalRecord;
 using goals::GoalState;
-using mission::Replanning;
 using problem::Forecast;
-
-namespace {
-
 using temporal::Impact;
 using temporal::ImpactKind;
 using temporal::PlanActivity;
 using temporal::Time;
+using temporal::Verdict;
+
+namespace {
+
+constexpr char kModelChanged[] = "a map or arm model changed during the planner call";
 
 struct Remainder {
   const PlanActivity* activity;
   Time ends;
-  double part;  // of the duration, that is still to come
+  double part;  ///< of the duration, that is still to come
 };
 
 Remainder remainder_of(const PlanActivity& activity, Time started, Time now) {
@@ -35,8 +32,9 @@ Remainder remainder_of(const PlanActivity& activity, Time started, Time now) {
   return {&activity, ends, whole > 0 ? static_cast<double>((ends - now).count()) / whole : 0.0};
 }
 
-// Amounts of fluents come little by little over an activity, whatever the domain says for simplicity.
-void foresee(const Remainder& remainder, Forecast& forecast) {
+/// Adds what the rest of an activity will change. Amounts of fluents come little by little over an activity,
+/// whatever the domain says for simplicity.
+void add_effects(const Remainder& remainder, Forecast& forecast) {
   for (const temporal::ImpactWhen moment : {temporal::ImpactWhen::at_start, temporal::ImpactWhen::at_end}) {
     for (const Impact& impact : remainder.activity->impacts) {
       if (impact.moment != moment) continue;
@@ -48,99 +46,134 @@ void foresee(const Remainder& remainder, Forecast& forecast) {
   }
 }
 
-}  // namespace
-
-bool Reactor::can_replan_in_background() const {
-  return mission_->executive.replanning == Replanning::background && phase_ == MissionPhase::executing &&
-         !plan_invalid_ && executive_.outcome().kind == OutcomeKind::running &&
-         !executive_.running().empty() && !goals_.open().empty();
-}
-
-void Reactor::begin_background_replan(Time now) {
-  replan_wanted_ = false;
-  report(Severity::info, "plan.wanted", replan_reason_ + "; what runs goes on");
-  if (count_replan(now)) request_background_plan(now);
-}
-
-void Reactor::request_background_plan(Time now) {
-  std::vector<Remainder> running;
-  for (const StepStatus& step : executive_.running())
-    running.push_back(remainder_of(*executive_.activity(step.activity), step.started.value_or(now), now));
-  std::stable_sort(running.begin(), running.end(),
-                   [](const Remainder& a, const Remainder& b) { return a.ends < b.ends; });
-  background_replan_ = BackgroundReplan{};
-  for (const Remainder& remainder : running) foresee(remainder, background_replan_->forecast);
-  executive_.hold_starts(true);
-  call_planner(now, std::max(now + mission_->planner.allowance, running.back().ends),
-               background_replan_->forecast);
-}
-
-void Reactor::continue_background_replan(Time now) {
-  if (plan_invalid_) {
-    background_replan_.reset();
-  } else if (background_replan_->reply && replan_wanted_) {
-    background_replan_.reset();  // goals have changed since it was asked for
-  } else if (background_replan_->reply) {
-    const Verdict verdict = background_replan_->reply->verdict;
-    if (verdict == Verdict::solved) return change_plans(now);
-    const PlanReply reply = *std::exchange(background_replan_, std::nullopt)->reply;
-    if (goals_.open().empty()) return keep_plan(now);  // what ran has achieved them
-    if (is_end_of_cancelled_call(reply))
-      return want_plan("a map or arm model changed during the planner call");
-    if (!speaks_of_goals(verdict))
-      return break_plan(now, std::string("planner call ended as ") + to_string(verdict));
-    if (soft_goal_to_leave(reply)) {
-      give_way(reply);
-      keep_plan(now);
-    } else {  // no hard goal is given up for the sake of what runs
-      plan_invalid_ = true;
-      want_plan("a hard goal may fit if what runs is cancelled");
-    }
-  }
-}
-
-// One goal less than was asked for: if the running plan serves all others, it goes on.
-void Reactor::keep_plan(Time now) {
-  const auto open = goals_.open();
-  const bool all_served = std::all_of(open.begin(), open.end(), [this](const GoalRecord* record) {
-    return record->state == GoalState::planned && record->plan_version == plan_version_;
-  });
-  if (all_served) {
-    executive_.hold_starts(false);
-    report(Severity::info, "plan.kept", "plan " + std::to_string(plan_version_) + " goes on");
-    wake_at(now);
-  } else if (can_replan_in_background()) {
-    request_background_plan(now);
-  } else {
-    want_plan("without the goal that does not fit");
-  }
-}
-
-void Reactor::change_plans(Time now) {
-  if (!executive_.running().empty()) return;
-  const std::string surprise = forecast_mismatch(background_replan_->forecast);
-  if (surprise.empty() && !is_stale(*background_replan_->reply)) {
-    adopt(now, *std::exchange(background_replan_, std::nullopt)->reply);
-    return;
-  }
-  if (!background_replan_->observed_by)
-    background_replan_->observed_by = now + mission_->executive.ack_timeout;
-  if (!surprise.empty() && now < *background_replan_->observed_by) {
-    wake_at(*background_replan_->observed_by);  // observations may follow the acknowledgement
-    return;
-  }
-  background_replan_.reset();
-  want_plan(surprise.empty() ? "a map or arm model changed during the planner call" : surprise);
-}
-
-// What has come about differently; empty if nothing has.
-std::string Reactor::forecast_mismatch(const Forecast& forecast) const {
+/// What has come about differently; empty if nothing has.
+std::string mismatch(const Forecast& forecast, const beliefs::Beliefs& beliefs) {
   for (const auto& [fact, holds] : forecast.facts) {
-    const auto value = beliefs_.lookup(fact);
+    const auto value = beliefs.lookup(fact);
     if (value && *value != temporal::Value(holds))
       return fact + (holds ? " was foreseen and is not so" : " is still so, unforeseen");
   }
   return "";
+}
+
+}  // namespace
+
+void BackgroundReplan::step(Time now, const ReactorInputs& inputs) {
+  MissionState& state = parts_.state;
+  const auto executing = [&] { return state.phase == MissionPhase::executing; };
+  const PlanReply* reply = parts_.call.take(inputs);
+  if (reply != nullptr && state.phase == MissionPhase::planning && !state.replan_wanted)
+    parts_.planning.take_reply(now, *reply);
+  if (reply != nullptr && call_) call_->reply = *reply;
+  if (executing()) parts_.recovery.monitor(now, call_.has_value());
+  if (!executing()) call_.reset();
+  if (call_) proceed(now);
+  const bool may_begin =
+      state.phase != MissionPhase::pausing && (state.phase != MissionPhase::planning || reply != nullptr);
+  if (state.replan_wanted && may_begin) {
+    if (!possible()) {
+      stop_.begin_pause(now);
+    } else if (!parts_.call.open()) {
+      grant(now);
+    }
+  }
+  if (!executing()) call_.reset();
+  if (state.phase == MissionPhase::pausing) stop_.continue_pause(now);
+  const bool reply_wanted = state.phase == MissionPhase::planning || call_.has_value();
+  parts_.call.cancel_if_stale(reply_wanted && !state.replan_wanted);
+}
+
+bool BackgroundReplan::possible() const {
+  return parts_.state.phase == MissionPhase::executing && !parts_.plan.invalid() &&
+         parts_.plan.outcome().kind == OutcomeKind::running && !parts_.plan.executive().running().empty() &&
+         !parts_.state.goals.open().empty();
+}
+
+void BackgroundReplan::grant(Time now) {
+  parts_.state.replan_wanted = false;
+  parts_.state.report(Severity::info, "plan.wanted", parts_.state.replan_reason + "; what runs goes on");
+  if (parts_.recovery.may_replan(now)) call_planner(now);
+}
+
+void BackgroundReplan::call_planner(Time now) {
+  std::vector<Remainder> running;
+  for (const StepStatus& step : parts_.plan.executive().running())
+    running.push_back(
+        remainder_of(*parts_.plan.executive().activity(step.activity), step.started.value_or(now), now));
+  std::stable_sort(running.begin(), running.end(),
+                   [](const Remainder& a, const Remainder& b) { return a.ends < b.ends; });
+  call_ = Call{};
+  for (const Remainder& remainder : running) add_effects(remainder, call_->forecast);
+  parts_.plan.hold_starts(true);
+  const Time earliest = now + parts_.state.mission->planner.allowance;
+  parts_.planning.call(now, std::max(earliest, running.back().ends), call_->forecast);
+}
+
+void BackgroundReplan::proceed(Time now) {
+  if (parts_.plan.invalid()) {
+    call_.reset();
+  } else if (call_->reply && parts_.state.replan_wanted) {
+    call_.reset();  // goals have changed since it was asked for
+  } else if (call_->reply && call_->reply->verdict == Verdict::solved) {
+    change_plans(now);
+  } else if (call_->reply) {
+    act_on_failure(now, *std::exchange(call_, std::nullopt)->reply);
+  }
+}
+
+void BackgroundReplan::act_on_failure(Time now, const PlanReply& reply) {
+  MissionState& state = parts_.state;
+  if (state.goals.open().empty()) return keep_plan(now);  // what ran has achieved them
+  if (parts_.call.is_end_of_cancelled(reply)) return state.want_plan(kModelChanged);
+  if (!speaks_of_goals(reply.verdict))
+    return parts_.recovery.break_plan(now, std::string("planner call ended as ") + to_string(reply.verdict));
+  if (parts_.planning.soft_goal_would_leave(reply)) {
+    parts_.planning.relax(reply);
+    keep_plan(now);
+  } else {  // no hard goal is given up for the sake of what runs
+    parts_.plan.invalidate();
+    state.want_plan("a hard goal may fit if what runs is cancelled");
+  }
+}
+
+/// One goal less than was asked for: if the running plan serves all others, it goes on.
+void BackgroundReplan::keep_plan(Time now) {
+  MissionState& state = parts_.state;
+  const auto open = state.goals.open();
+  const bool all_served = std::all_of(open.begin(), open.end(), [this](const GoalRecord* record) {
+    return record->state == GoalState::planned && record->plan_version == parts_.plan.version();
+  });
+  if (all_served) {
+    parts_.plan.hold_starts(false);
+    state.report(Severity::info, "plan.kept", parts_.plan.name() + " goes on");
+    state.wake_at(now);
+  } else if (possible()) {
+    call_planner(now);
+  } else {
+    state.want_plan("without the goal that does not fit");
+  }
+}
+
+void BackgroundReplan::change_plans(Time now) {
+  if (!parts_.plan.executive().running().empty()) return;
+  MissionState& state = parts_.state;
+  const std::string different = mismatch(call_->forecast, state.beliefs);
+  if (different.empty() && !parts_.call.is_stale(*call_->reply)) {
+    parts_.planning.adopt(now, *std::exchange(call_, std::nullopt)->reply);
+    return;
+  }
+  if (!call_->observed_by) call_->observed_by = now + state.mission->executive.ack_timeout;
+  if (!different.empty() && now < *call_->observed_by) {
+    state.wake_at(*call_->observed_by);  // observations may follow the acknowledgement
+    return;
+  }
+  call_.reset();
+  state.want_plan(different.empty() ? kModelChanged : different);
+}
+
+void BackgroundReplan::resume(Time now) {
+  stop_.resume(now);
+  if (call_ && !call_->reply) parts_.call.resend();
 }
 
 }  // namespace roci::exec::reactor

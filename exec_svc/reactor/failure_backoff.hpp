@@ -24,9 +24,12 @@ class FailureBackoff {
     temporal::Duration pause{0};  // before the next plan; none after the first failure and after the last
   };
   Count failed(const std::string& component);
-  const std::map<std::string, std::uint32_t>& in_a_row() const { return in_a_row_; }
-  void restore(std::map<std::string, std::uint32_t> in_a_row) { in_a_row_ = std::move(in_a_row); }
   void succeeded(const std::string& component) { in_a_row_.erase(component); }
+
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self) {
+    archive(self.in_a_row_);
+  }
 
  private:
   std::uint32_t limit_;

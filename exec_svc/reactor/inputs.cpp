@@ -1,67 +1,58 @@
-// What comes in from outside the running plan: services, models, goals.
+#include "exec_svc/reactor/inputs.hpp"
+
 #include "exec_svc/mission/template_text.hpp"
-#include "exec_svc/reactor/reactor.hpp"
+#include "exec_svc/problem/problem_writer.hpp"
 
 namespace roci::exec::reactor {
 
+using goals::GoalKey;
+using goals::GoalRecord;
 using goals::GoalRequest;
 using goals::GoalSet;
+using goals::GoalState;
 using mission::fill_names;
-using problem::Reserves;
-
 using temporal::Time;
 
-void Reactor::take_peers(const ReactorInputs& inputs) {
-  for (const PeerLoss& loss : inputs.losses) {
-    report(Severity::warning, "service.lost", loss.service + " was lost: " + loss.reason);
-  }
-  for (const std::string& service : inputs.arrivals) {
-    report(Severity::info, "service.found", service + " is there");
-    if (phase_ == MissionPhase::safe && !goals_.open().empty()) want_plan(service + " came back");
-    failed_calls_ = 0;
-    next_call_at_ = Time{0};
-    fallbacks_sent_ = false;  // one that came back has not heard them
-  }
-}
-
-void Reactor::take_models(const std::vector<ModelVersion>& models) {
-  for (const ModelVersion& model : models) {
-    const auto [known, is_new] = models_.try_emplace(model.owner, model.version);
-    if (is_new || known->second == model.version) continue;
-    known->second = model.version;
-    models_changed_ = true;
-  }
-}
-
-void Reactor::take_goals(Time now, const std::vector<GoalRequest>& requests) {
-  for (const GoalRequest& request : goals_.in_reference_order(requests)) {
-    const auto [taken, record] = goals_.submit(request, now);
-    if (taken == GoalSet::Disposition::known) continue;
-    out_.goal_changes.push_back(*record);
+bool take_goals(MissionState& state, Time now, const std::vector<GoalRequest>& requests) {
+  bool accepted = false;
+  for (const GoalRequest& request : state.goals.in_reference_order(requests)) {
+    const auto [disposition, record] = state.goals.submit(request, now);
+    if (disposition == GoalSet::Disposition::known) continue;
+    state.out.goal_changes.push_back(*record);
     const std::string name = "goal " + record->request.key.text();
-    if (taken == GoalSet::Disposition::rejected) {
-      report(Severity::warning, "goal.rejected", name + " rejected: " + record->reason);
-    } else if (taken == GoalSet::Disposition::refused) {
-      report(Severity::warning, "goal.refused", name + ": " + record->reason);
-    } else if (taken == GoalSet::Disposition::recalled) {
-      report(Severity::info, "goal.recalled", name + " recalled");
-      if (phase_ == MissionPhase::executing || phase_ == MissionPhase::planning)
-        want_plan(name + " was recalled");
-    } else if (taken == GoalSet::Disposition::accepted) {
-      report(Severity::info, "goal.accepted", name + " accepted");
-      assume_unobserved(record->request);
-      reserves_ = Reserves::kept;
-      want_plan(name + " arrived");
+    if (disposition == GoalSet::Disposition::rejected) {
+      state.report(Severity::warning, "goal.rejected", name + " rejected: " + record->reason);
+    } else if (disposition == GoalSet::Disposition::refused) {
+      state.report(Severity::warning, "goal.refused", name + ": " + record->reason);
+    } else if (disposition == GoalSet::Disposition::recalled) {
+      state.report(Severity::info, "goal.recalled", name + " recalled");
+      if (state.phase == MissionPhase::executing || state.phase == MissionPhase::planning)
+        state.want_plan(name + " was recalled");
+    } else if (disposition == GoalSet::Disposition::accepted) {
+      state.report(Severity::info, "goal.accepted", name + " accepted");
+      assume_unobserved(state, record->request);
+      state.want_plan(name + " arrived");
+      accepted = true;
     }
   }
+  return accepted;
 }
 
-void Reactor::assume_unobserved(const GoalRequest& goal) {
+void assume_unobserved(MissionState& state, const GoalRequest& goal) {
   const auto values = template_values(goal);
-  for (const auto& [timeline, templates] : mission_->goal_kinds.at(goal.kind).unobserved) {
+  for (const auto& [timeline, templates] : state.mission->goal_kinds.at(goal.kind).unobserved) {
     std::vector<std::string> facts;
     for (const std::string& fact : templates) facts.push_back(fill_names(fact, values));
-    beliefs_.assume(fill_names(timeline, values), std::move(facts));
+    state.beliefs.assume(fill_names(timeline, values), std::move(facts));
+  }
+}
+
+void note_achieved(MissionState& state) {
+  for (const GoalRecord* record : state.goals.open()) {
+    if (!state.beliefs.holds(problem::goal_facts(*state.mission, record->request))) continue;
+    const GoalKey key = record->request.key;
+    state.set_goal(key, GoalState::achieved, "observed");
+    state.report(Severity::info, "goal.achieved", "goal " + key.text() + " achieved");
   }
 }
 

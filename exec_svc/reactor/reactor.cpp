@@ -1,190 +1,176 @@
 #include "exec_svc/reactor/reactor.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "exec_svc/reactor/inputs.hpp"
+#include "exec_svc/reactor/message_fields.hpp"
+#include "exec_svc/reactor/replanning_policy.hpp"
 
 namespace roci::exec::reactor {
 
-using executive::Inputs;
 using executive::Observation;
-using executive::Outputs;
-using executive::RecoveryAction;
-using executive::RecoveryStep;
+using executive::OutcomeKind;
 using executive::StepStatus;
 using goals::GoalClass;
-using goals::GoalKey;
 using goals::GoalRecord;
+using goals::GoalSet;
 using goals::GoalState;
 using mission::MissionModel;
-using problem::goal_facts;
+using mission::Replanning;
+using temporal::Time;
+
+struct Reactor::Parts {
+  explicit Parts(const MissionModel& mission) : state(mission) {}
+
+  MissionState state;
+  RunningPlan plan{state};
+  PlannerCall call{state};
+  Safing safing{state, plan};
+  PlanningCycle planning{state, plan, call, safing};
+  PlanRecovery recovery{state, plan, call, safing};
+  std::unique_ptr<ReplanningPolicy> policy = make_replanning_policy(
+      state.mission->executive.replanning, {state, plan, call, safing, planning, recovery});
+};
+
+Reactor::Reactor(const MissionModel& mission) : parts_(std::make_unique<Parts>(mission)) {}
+Reactor::~Reactor() = default;
+Reactor::Reactor(Reactor&&) noexcept = default;
+Reactor& Reactor::operator=(Reactor&&) noexcept = default;
+
+void Reactor::restore(const std::vector<GoalRecord>& goals, std::uint32_t last_plan_version) {
+  MissionState& state = parts_->state;
+  for (const GoalRecord& record : goals) {
+    state.goals.restore(record);
+    if (record.state != GoalState::rejected) assume_unobserved(state, record.request);
+  }
+  parts_->plan.restore_version(last_plan_version);
+  if (!state.goals.open().empty()) state.want_plan("restarted with open goals");
+}
+
+ReactorOutputs Reactor::step(Time now, const ReactorInputs& inputs) {
+  MissionState& state = parts_->state;
+  state.out = {};
+  for (const Observation& observation : inputs.observations)
+    state.beliefs.observe(observation.timeline, observation.value);
+  take_services(inputs);
+  parts_->call.note_models(inputs.models);
+  if (take_goals(state, now, inputs.goals)) parts_->planning.keep_reserves();
+  note_achieved(state);
+  parts_->plan.step(now, inputs);
+  parts_->recovery.note_successes();
+  if (inputs.restarted) resume(now);
+  parts_->policy->step(now, inputs);
+  finish_if_done();
+  return std::move(state.out);
+}
+
+void Reactor::take_services(const ReactorInputs& inputs) {
+  MissionState& state = parts_->state;
+  for (const PeerLoss& loss : inputs.losses)
+    state.report(Severity::warning, "service.lost", loss.service + " was lost: " + loss.reason);
+  for (const std::string& service : inputs.arrivals) {
+    state.report(Severity::info, "service.found", service + " is there");
+    if (state.phase == MissionPhase::safe && !state.goals.open().empty())
+      state.want_plan(service + " came back");
+    parts_->call.clear_failures();
+    parts_->call.wait_until(Time{0});
+    parts_->safing.expect_fallbacks_again();  // one that came back has not heard them
+  }
+}
+
+/// What was on its way to owners and planner is asked for again.
+void Reactor::resume(Time now) {
+  MissionState& state = parts_->state;
+  state.report(Severity::info, "executive.resumed",
+               std::string("goes on where it was: ") + to_string(state.phase) +
+                   (state.phase == MissionPhase::executing ? " " + parts_->plan.name() : ""));
+  parts_->plan.resume(now);
+  parts_->policy->resume(now);
+  parts_->safing.resume();
+}
+
+void Reactor::finish_if_done() {
+  MissionState& state = parts_->state;
+  const bool resting = state.phase == MissionPhase::idle || state.phase == MissionPhase::finished;
+  if (resting && !state.replan_wanted && state.goals.open().empty() && !state.goals.all().empty())
+    state.phase = MissionPhase::finished;
+}
+
+bool Reactor::at_rest() const {
+  const OutcomeKind kind = parts_->plan.outcome().kind;
+  return phase() != MissionPhase::executing &&
+         (kind == OutcomeKind::idle || kind == OutcomeKind::finished || kind == OutcomeKind::cancelled);
+}
 
 namespace {
 
-using temporal::Time;
-
-// Activities whose windows are told to the ground when these move: what a screen shows, and no work in the
-// size of the plan.
-constexpr std::size_t kReportedAhead = 32;
-
-const char* code_of(RecoveryAction action) {
-  switch (action) {
-    case RecoveryAction::push:
-      return "recovery.push";
-    case RecoveryAction::retry:
-      return "recovery.retry";
-    case RecoveryAction::contingency:
-      return "recovery.contingency";
-  }
-  return "recovery";
+/// What each part keeps of itself, in one order for both ways.
+template <class Archive, class Parts>
+void part_fields(Archive& archive, Parts& parts) {
+  MissionState::fields(archive, parts.state);
+  RunningPlan::fields(archive, parts.plan);
+  PlannerCall::fields(archive, parts.call);
+  Safing::fields(archive, parts.safing);
+  PlanningCycle::fields(archive, parts.planning);
+  PlanRecovery::fields(archive, parts.recovery);
 }
 
 }  // namespace
 
-Reactor::Reactor(const MissionModel& mission)
-    : mission_(&mission),
-      beliefs_(mission),
-      goals_(mission),
-      executive_(executive_settings(mission)),
-      recovery_policy_(recovery_policy_of(mission.executive.recovery)),
-      failure_backoff_(mission.executive.failure_limit, mission.executive.failure_pause,
-                       mission.executive.failure_pause_max) {}
+std::string Reactor::snapshot() const {
+  archive::Writer writer;
+  part_fields(writer, std::as_const(*parts_));
+  std::vector<GoalRecord> goals;
+  for (const GoalRecord* record : parts_->state.goals.all()) goals.push_back(*record);
+  writer(goals, parts_->state.beliefs.values(), parts_->state.beliefs.assumed(), parts_->plan.remaining());
+  parts_->policy->save(writer);
+  return writer.take();
+}
 
-void Reactor::restore(const std::vector<GoalRecord>& goals, std::uint32_t last_plan_version) {
-  for (const GoalRecord& record : goals) {
-    goals_.restore(record);
-    if (record.state != GoalState::rejected) assume_unobserved(record.request);
+void Reactor::restore(std::string_view snapshot) {
+  archive::Reader reader(snapshot);
+  part_fields(reader, *parts_);
+  std::vector<GoalRecord> goals;
+  std::map<std::string, temporal::Value> values;
+  std::map<std::string, std::vector<std::string>> assumed;
+  std::vector<PlannedAction> remaining;
+  reader(goals, values, assumed, remaining);
+  parts_->policy->restore(reader);
+  reader.finish();
+  MissionState& state = parts_->state;
+  for (const GoalRecord& record : goals) state.goals.restore(record);
+  std::vector<Observation> observed;
+  for (auto& [timeline, value] : values) {
+    state.beliefs.observe(timeline, value);
+    observed.push_back({timeline, value});
   }
-  plan_version_ = last_plan_version;
-  first_plan_ = last_plan_version == 0;
-  if (!goals_.open().empty()) want_plan("restarted with open goals");
+  parts_->plan.restore_observations(observed);
+  parts_->plan.keep_actions(std::move(remaining));
+  for (auto& [timeline, facts] : assumed) state.beliefs.assume(timeline, std::move(facts));
 }
 
-ReactorOutputs Reactor::step(Time now, const ReactorInputs& inputs) {
-  out_ = {};
-  for (const Observation& observation : inputs.observations)
-    beliefs_.observe(observation.timeline, observation.value);
-  take_peers(inputs);
-  take_models(inputs.models);
-  take_goals(now, inputs.goals);
-  note_achieved();
-  run_executive(now, inputs);
-  if (inputs.restarted) resume(now);
-  advance(now, inputs);
-  return std::move(out_);
-}
+const temporal::FlexiblePlan& Reactor::plan() const { return parts_->plan.executive().plan(); }
 
-void Reactor::note_achieved() {
-  for (const GoalRecord* record : goals_.open()) {
-    if (!beliefs_.holds(goal_facts(*mission_, record->request))) continue;
-    const GoalKey key = record->request.key;
-    change_goal(key, GoalState::achieved, "observed");
-    report(Severity::info, "goal.achieved", "goal " + key.text() + " achieved");
-  }
-}
+std::vector<StepStatus> Reactor::steps() const { return parts_->plan.executive().steps(); }
 
-// The executive hears what happened in every phase, so that cancels are answered and observations kept.
-void Reactor::run_executive(Time now, const ReactorInputs& inputs) {
-  Inputs told;
-  told.observations = inputs.observations;
-  for (Observation& change : changed_conditions()) {
-    conflict_monitor_.observe(change.timeline, change.value);
-    told.observations.push_back(std::move(change));
-  }
-  told.acks = inputs.acks;
-  for (const PeerLoss& loss : inputs.losses) told.lost_owners.push_back(loss.service);
-  Outputs done = executive_.step(now, told);
-  for (const StepStatus& step : done.changes) {
-    conflict_monitor_.change(step.activity, step.state);
-    if (step.state != temporal::ActivityState::waiting) resource_monitor_.remove(step.activity);
-    if (step.state != temporal::ActivityState::succeeded) continue;
-    if (const auto* activity = executive_.activity(step.activity))
-      failure_backoff_.succeeded(activity->subsystem);
-  }
-  for (const RecoveryStep& recovery : done.recoveries)
-    report(Severity::info, code_of(recovery.action), recovery.activity + ": " + recovery.reason);
-  forward(std::move(done));
-  if (!out_.steps.empty() && phase_ == MissionPhase::executing) report_windows();
-}
+MissionPhase Reactor::phase() const { return parts_->state.phase; }
 
-void Reactor::forward(Outputs done) {
-  std::move(done.commands.begin(), done.commands.end(), std::back_inserter(out_.commands));
-  std::move(done.changes.begin(), done.changes.end(), std::back_inserter(out_.steps));
-  if (done.next_wake) wake_at(*done.next_wake);
-}
+std::uint32_t Reactor::plan_version() const { return parts_->plan.version(); }
 
-// Windows of what starts next, where real events have moved them.
-void Reactor::report_windows() {
-  for (const StepStatus& step : executive_.upcoming(kReportedAhead)) {
-    const auto [told, added] = reported_starts_.try_emplace(step.activity, step.earliest_start);
-    if (!added && told->second == step.earliest_start) continue;
-    told->second = step.earliest_start;
-    out_.steps.push_back(step);
-  }
-}
+const GoalSet& Reactor::goals() const { return parts_->state.goals; }
 
-// Facts are derived from observations here, where the metadata is; the executive sees each as one more
-// timeline.
-std::vector<Observation> Reactor::changed_conditions() {
-  std::vector<Observation> out;
-  for (auto& [name, last] : condition_values_) {
-    auto value = beliefs_.lookup(name);
-    if (!value || *value == last) continue;
-    last = *value;
-    out.push_back({name, std::move(*value)});
-  }
-  return out;
-}
+bool Reactor::plans_continuously() const { return parts_->policy->receipt() != nullptr; }
 
-// A wish for a plan that comes up during a planner call cancels it and waits for its end: there is never more
-// than one call.
-void Reactor::advance(Time now, const ReactorInputs& inputs) {
-  if (follows_engine()) return step_continuous(now, inputs);
-  const bool answered = call_open_ && inputs.reply && inputs.reply->call == call_id_;
-  if (answered) {
-    call_open_ = false;
-    if (phase_ == MissionPhase::planning && !replan_wanted_) take_answer(now, *inputs.reply);
-    if (background_replan_) background_replan_->reply = *inputs.reply;
-  }
-  if (phase_ == MissionPhase::executing) monitor_plan(now);
-  if (background_replan_) continue_background_replan(now);
-  if (replan_wanted_ && phase_ != MissionPhase::pausing && (phase_ != MissionPhase::planning || answered)) {
-    if (!can_replan_in_background()) {
-      begin_pause(now);
-    } else if (!call_open_) {
-      begin_background_replan(now);
-    }
-  }
-  if (phase_ == MissionPhase::pausing) continue_pause(now);
-  cancel_stale_call();
-  finish_if_done();
-}
-
-void Reactor::finish_if_done() {
-  const bool resting = phase_ == MissionPhase::idle || phase_ == MissionPhase::finished;
-  if (resting && !replan_wanted_ && goals_.open().empty() && !goals_.all().empty())
-    phase_ = MissionPhase::finished;
-}
-
-void Reactor::want_plan(const std::string& reason) {
-  replan_wanted_ = true;
-  replan_reason_ = reason;
-}
-
-void Reactor::change_goal(const GoalKey& key, GoalState state, const std::string& reason) {
-  goals_.set_state(key, state, reason);
-  out_.goal_changes.push_back(*goals_.find(key));
-}
-
-void Reactor::wake_at(Time time) {
-  if (!out_.wake || time < *out_.wake) out_.wake = time;
-}
-
-void Reactor::report(Severity level, std::string code, std::string text) {
-  out_.events.push_back({level, std::move(code), std::move(text)});
+const PlanReceipt& Reactor::receipt() const {
+  static const PlanReceipt kNone;
+  const PlanReceipt* receipt = parts_->policy->receipt();
+  return receipt == nullptr ? kNone : *receipt;
 }
 
 ReactorCounts Reactor::counts() const {
-  ReactorCounts counts = counts_;
-  for (const GoalRecord* record : goals_.all()) {
+  ReactorCounts counts = parts_->state.counts;
+  for (const GoalRecord* record : goals().all()) {
     if (record->state == GoalState::achieved) ++counts.achieved;
     if (record->state == GoalState::dropped) ++counts.dropped;
     if (record->state == GoalState::failed) ++counts.failed;
@@ -195,9 +181,9 @@ ReactorCounts Reactor::counts() const {
 }
 
 std::string Reactor::outcome() const {
-  if (phase_ == MissionPhase::safe) return beliefs_.active().empty() ? "partial" : "failed";
-  if (phase_ != MissionPhase::finished) return "";
-  auto asked = goals_.all();
+  if (phase() == MissionPhase::safe) return parts_->state.beliefs.active().empty() ? "partial" : "failed";
+  if (phase() != MissionPhase::finished) return "";
+  auto asked = goals().all();
   std::erase_if(asked, [](const GoalRecord* record) {
     return record->state == GoalState::rejected && from_console(record->request);
   });

@@ -1,19 +1,12 @@
-// Reactor: from a wish for a plan to the planner call. What runs is cancelled, what is still active falls
-// back (R43, R44), then the problem is written. Where that fails, the robot is made safe.
-#include "exec_svc/reactor/reactor.hpp"
+#include "exec_svc/reactor/stop_and_replan.hpp"
 
 namespace roci::exec::reactor {
 
-using executive::Command;
 using executive::OutcomeKind;
-using goals::GoalRecord;
-using goals::GoalState;
 using mission::Component;
-using problem::Forecast;
+using temporal::Time;
 
 namespace {
-
-using temporal::Time;
 
 std::string names_of(const std::vector<const Component*>& components) {
   std::string out;
@@ -23,104 +16,71 @@ std::string names_of(const std::vector<const Component*>& components) {
 
 }  // namespace
 
-// False: there were too many, and the robot is safe.
-bool Reactor::count_replan(Time now) {
-  if (first_plan_ || ++counts_.replans <= mission_->executive.replan_limit) return true;
-  make_safe(now, "the limit of " + std::to_string(mission_->executive.replan_limit) +
-                     " replans is reached; the last: " + replan_reason_);
-  return false;
+/// A wish for a plan that comes up during a planner call cancels it and waits for its end: there is never
+/// more than one call.
+void StopAndReplan::step(Time now, const ReactorInputs& inputs) {
+  MissionState& state = parts_.state;
+  const PlanReply* reply = parts_.call.take(inputs);
+  if (reply != nullptr && state.phase == MissionPhase::planning && !state.replan_wanted)
+    parts_.planning.take_reply(now, *reply);
+  if (state.phase == MissionPhase::executing) parts_.recovery.monitor(now, false);
+  const bool may_pause =
+      state.phase != MissionPhase::pausing && (state.phase != MissionPhase::planning || reply != nullptr);
+  if (state.replan_wanted && may_pause) begin_pause(now);
+  if (state.phase == MissionPhase::pausing) continue_pause(now);
+  parts_.call.cancel_if_stale(state.phase == MissionPhase::planning && !state.replan_wanted);
 }
 
-void Reactor::begin_pause(Time now) {
-  if (goals_.open().empty() && phase_ != MissionPhase::executing && phase_ != MissionPhase::planning) {
-    replan_wanted_ = false;
+void StopAndReplan::begin_pause(Time now) {
+  MissionState& state = parts_.state;
+  const bool at_work = state.phase == MissionPhase::executing || state.phase == MissionPhase::planning;
+  if (state.goals.open().empty() && !at_work) {
+    state.replan_wanted = false;
     return;
   }
-  if (!beliefs_.unobserved().empty())
-    return;  // the first observation of the last component brings us here again
-  replan_wanted_ = false;
-  report(Severity::info, "plan.wanted", replan_reason_);
-  if (!count_replan(now)) return;
-  background_replan_.reset();
-  plan_invalid_ = false;
-  phase_ = MissionPhase::pausing;
-  pause_deadline_ = now + mission_->executive.fallback_timeout;
-  fallbacks_sent_ = false;
-  forward(executive_.cancel_all(now));
+  if (!state.beliefs.unobserved().empty())
+    return;  // the first observation of the last one brings us here again
+  state.replan_wanted = false;
+  state.report(Severity::info, "plan.wanted", state.replan_reason);
+  if (!parts_.recovery.may_replan(now)) return;
+  parts_.plan.restore_validity();
+  state.phase = MissionPhase::pausing;
+  pause_deadline_ = now + state.mission->executive.fallback_timeout;
+  parts_.safing.expect_fallbacks_again();
+  parts_.plan.cancel(now);
 }
 
-void Reactor::continue_pause(Time now) {
-  const bool stopping = executive_.outcome().kind == OutcomeKind::cancelling;
-  if (!stopping && beliefs_.active().empty()) {
-    if (call_open_) return;  // of before the pause; its answer brings us here again
-    if (now < next_call_at_ && !goals_.open().empty()) {
-      wake_at(next_call_at_);
+void StopAndReplan::continue_pause(Time now) {
+  MissionState& state = parts_.state;
+  const bool stopping = parts_.plan.outcome().kind == OutcomeKind::cancelling;
+  if (!stopping && state.beliefs.active().empty()) {
+    if (parts_.call.open()) return;  // it was made before the pause; its reply brings us here again
+    if (now < parts_.call.not_before() && !state.goals.open().empty()) {
+      state.wake_at(parts_.call.not_before());
     } else {
-      begin_planning(now);
+      parts_.planning.begin(now);
     }
   } else if (now >= pause_deadline_) {
-    make_safe(now, names_of(beliefs_.active()) + " did not become inactive in time");
+    parts_.safing.make_safe(now, names_of(state.beliefs.active()) + " did not become inactive in time");
   } else {
-    if (!stopping && !fallbacks_sent_) send_fallbacks();
-    wake_at(pause_deadline_);
+    if (!stopping && !parts_.safing.fallbacks_sent()) parts_.safing.send_fallbacks();
+    state.wake_at(pause_deadline_);
   }
 }
 
-void Reactor::send_fallbacks() {
-  fallbacks_sent_ = true;
-  ++fallback_round_;
-  for (const Component* component : beliefs_.active()) {
-    Command command;
-    command.activity = "fallback." + std::to_string(plan_version_) + "." + std::to_string(fallback_round_) +
-                       "." + component->name;
-    command.owner = component->owner;
-    command.subsystem = component->name;
-    command.command_name = component->fallback;
-    out_.commands.push_back(std::move(command));
+void StopAndReplan::resume(Time now) {
+  MissionState& state = parts_.state;
+  parts_.call.forget();
+  if (state.phase != MissionPhase::planning) return;
+  if (state.replan_wanted) {
+    state.phase = MissionPhase::idle;
+  } else {
+    parts_.planning.begin(now);
   }
 }
 
-void Reactor::begin_planning(Time now) {
-  replan_wanted_ = false;  // the problem holds all that is known now
-  if (goals_.open().empty()) {
-    phase_ = MissionPhase::idle;
-    return;
-  }
-  phase_ = MissionPhase::planning;
-  soft_goals_left_out_.clear();
-  call_planner(now, now + mission_->planner.allowance, {});
-}
+void StopAndReplan::save(archive::Writer& archive) const { archive(pause_deadline_); }
 
-void Reactor::call_planner(Time now, Time origin, const Forecast& forecast) {
-  ++counts_.planner_calls;
-  models_changed_ = false;
-  call_open_ = true;
-  call_cancelled_ = false;
-  call_.id = ++call_id_;
-  call_.problem_name = mission_->name + "-" + std::to_string(call_id_);
-  call_.origin = origin;
-  call_.problem = write_problem(*mission_, beliefs_, soft_goals_left_out_.empty() ? goals_ : hard_goals(),
-                                call_.problem_name, now, origin, reserves_, forecast);
-  call_.remaining = remaining();
-  out_.call = call_;
-}
-
-std::vector<PlannedAction> Reactor::remaining() const {
-  return remaining_actions(planned_, executive_.steps());
-}
-
-void Reactor::make_safe(Time now, const std::string& reason) {
-  phase_ = MissionPhase::safe;
-  replan_wanted_ = false;
-  background_replan_.reset();
-  plan_invalid_ = false;
-  forward(executive_.cancel_all(now));
-  send_fallbacks();
-  for (const GoalRecord* record : goals_.open()) {
-    goals_.set_state(record->request.key, GoalState::pending, "waiting for the ground: " + reason);
-    out_.goal_changes.push_back(*goals_.find(record->request.key));
-  }
-  report(Severity::error, "robot.safe", "made safe, waiting for the ground: " + reason);
-}
+void StopAndReplan::restore(archive::Reader& archive) { archive(pause_deadline_); }
 
 }  // namespace roci::exec::reactor

@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "exec_svc/archive/fields.hpp"
+#include "exec_svc/reactor/message_fields.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 

@@ -9,6 +9,7 @@ using goals::GoalRequest;
 using mission::Replanning;
 using reactor::PlanReply;
 using reactor::PlanRequest;
+using reactor::Reactor;
 using temporal::Verdict;
 
 namespace {
@@ -18,10 +19,11 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class Situated : public ReactorTest {
+class BackgroundReplanning : public ReactorTest {
  protected:
-  Situated() {
+  BackgroundReplanning() {
     mission.executive.replanning = Replanning::background;
+    reactor = Reactor(mission);
     planner = [this](const PlanRequest& call) {
       problems.push_back(call.problem.text);
       origins.push_back(call.origin);
@@ -60,7 +62,7 @@ class Situated : public ReactorTest {
   std::vector<Time> origins;
 };
 
-TEST_F(Situated, AGoalThatArrivesCancelsNothing) {
+TEST_F(BackgroundReplanning, AGoalThatArrivesCancelsNothing) {
   planning_time = seconds(3);
   send(20, photo("2"));
   run(1000, robot_and({photo("1")}));
@@ -72,7 +74,7 @@ TEST_F(Situated, AGoalThatArrivesCancelsNothing) {
 }
 
 // At 20 s, 15 of the image's 40 s have passed; 25/40 of its energy is still to come.
-TEST_F(Situated, TheProblemIsOfTheStateThatIsLeft) {
+TEST_F(BackgroundReplanning, TheProblemIsOfTheStateThatIsLeft) {
   planning_time = seconds(0);
   send(20, photo("2"));
   run(1000, robot_and({photo("1")}));
@@ -83,7 +85,7 @@ TEST_F(Situated, TheProblemIsOfTheStateThatIsLeft) {
   EXPECT_EQ(origins[1], seconds(45));
 }
 
-TEST_F(Situated, NothingNewStartsBeforeTheAnswer) {
+TEST_F(BackgroundReplanning, NothingNewStartsBeforeTheAnswer) {
   planning_time = seconds(100);
   send(120, photo("3"));
   run(1000, robot_and({photo("1"), photo("2")}));
@@ -95,7 +97,7 @@ TEST_F(Situated, NothingNewStartsBeforeTheAnswer) {
   EXPECT_EQ(commands[1].activity.substr(0, 3), "p2.");
 }
 
-TEST_F(Situated, WhatDoesNotFitIsDroppedAndThePlanGoesOn) {
+TEST_F(BackgroundReplanning, WhatDoesNotFitIsDroppedAndThePlanGoesOn) {
   const Planner all = planner;
   planner = [this, all](const PlanRequest& call) {
     return reactor.goals().open().size() > 2 ? reply(Verdict::unsolvable, "not enough of it") : all(call);
@@ -109,7 +111,7 @@ TEST_F(Situated, WhatDoesNotFitIsDroppedAndThePlanGoesOn) {
   EXPECT_EQ(reactor.plan_version(), 1U);
 }
 
-TEST_F(Situated, AHardGoalMayTakeThePlaceOfAnOptionalOne) {
+TEST_F(BackgroundReplanning, AHardGoalMayTakeThePlaceOfAnOptionalOne) {
   const Planner all = planner;
   planner = [this, all](const PlanRequest& call) {
     return reactor.goals().open().size() > 2 ? reply(Verdict::unsolvable, "not enough of it") : all(call);
@@ -124,7 +126,7 @@ TEST_F(Situated, AHardGoalMayTakeThePlaceOfAnOptionalOne) {
 }
 
 // A window may close before what runs has ended.
-TEST_F(Situated, NoHardGoalIsGivenUpForWhatRuns) {
+TEST_F(BackgroundReplanning, NoHardGoalIsGivenUpForWhatRuns) {
   const Planner all = planner;
   planner = [this, all](const PlanRequest& call) {
     return problems.size() == 1 && call.origin > now + mission.planner.allowance
@@ -139,7 +141,7 @@ TEST_F(Situated, NoHardGoalIsGivenUpForWhatRuns) {
   EXPECT_THAT(trace, Contains("cancel"));
 }
 
-TEST_F(Situated, WhatFailsMeanwhileLeadsToThePause) {
+TEST_F(BackgroundReplanning, WhatFailsMeanwhileLeadsToThePause) {
   planning_time = seconds(60);
   send(70, photo("2"));
   other_events.emplace(seconds(80), [this] { camera_works = false; });
@@ -151,7 +153,7 @@ TEST_F(Situated, WhatFailsMeanwhileLeadsToThePause) {
 }
 
 // The image is reported complete, but its state is not what the plan stands on.
-TEST_F(Situated, AStateThatHasNotComeAboutIsPlannedAnew) {
+TEST_F(BackgroundReplanning, AStateThatHasNotComeAboutIsPlannedAnew) {
   other_events.emplace(seconds(20), [this] {
     pending.goals.push_back(photo("2"));
     pending.observations.push_back({"image.image-1", state("lost")});
@@ -172,7 +174,7 @@ TEST_F(Situated, AStateThatHasNotComeAboutIsPlannedAnew) {
   EXPECT_EQ(reactor.counts().planner_calls, 3U);
 }
 
-TEST_F(Situated, ASecondGoalDuringTheCallIsPlannedWithIt) {
+TEST_F(BackgroundReplanning, ASecondGoalDuringTheCallIsPlannedWithIt) {
   planning_time = seconds(10);
   send(20, photo("2"));
   send(22, photo("3"));
@@ -182,7 +184,7 @@ TEST_F(Situated, ASecondGoalDuringTheCallIsPlannedWithIt) {
   EXPECT_THAT(trace, Not(Contains("cancel")));
 }
 
-TEST_F(Situated, AnUnavailablePlannerLeadsToThePauseAndIsAskedAgain) {
+TEST_F(BackgroundReplanning, AnUnavailablePlannerLeadsToThePauseAndIsAskedAgain) {
   const Planner all = planner;
   int calls = 0;
   planner = [&, all](const PlanRequest& call) {

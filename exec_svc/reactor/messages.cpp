@@ -1,4 +1,4 @@
-#include "exec_svc/reactor/reactor.hpp"
+#include "exec_svc/reactor/messages.hpp"
 
 namespace roci::exec::reactor {
 
