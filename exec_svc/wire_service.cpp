@@ -155,7 +155,8 @@ v1::PlanReceipt to_wire(const PlanReceipt& in, const std::string& mission) {
   out.mission(mission);
   out.version(in.version);
   out.refused(in.refused);
-  out.reason(in.reason);
+  const bool both = !in.reason.empty() && !in.conflict.empty();
+  out.reason(in.reason + (both ? "; " : "") + in.conflict);
   out.open(in.open);
   return out;
 }

@@ -49,7 +49,8 @@ std::string line_of(const temporal::FlexiblePlan& plan) {
 
 std::string line_of(const PlanReceipt& receipt) {
   return "receipt " + std::to_string(receipt.version) + " refused " + std::to_string(receipt.refused) + " " +
-         receipt.reason + (receipt.open ? "" : " (no plan would be taken)");
+         receipt.reason + (receipt.conflict.empty() ? "" : " conflict: " + receipt.conflict) +
+         (receipt.open ? "" : " (no plan would be taken)");
 }
 
 std::string line_of(const Command& command) {

@@ -61,6 +61,18 @@ ConflictMonitor::ConflictMonitor(const temporal::FlexiblePlan& plan, const std::
   }
 }
 
+void ConflictMonitor::continue_from(const ConflictMonitor& before) {
+  for (auto& [name, timeline] : timelines_) {
+    const auto known = before.timelines_.find(name);
+    if (known == before.timelines_.end() || timeline.consumers.empty()) continue;
+    timeline.value = known->second.value;
+    touched_.insert(name);
+    if (known->second.conflict == nullptr) continue;
+    timeline.since = known->second.since;
+    timeline.conflict = timeline.consumers.data();  // update() finds the one that it is, if it still stands
+  }
+}
+
 void ConflictMonitor::observe(const std::string& timeline, const Value& value) {
   const auto known = timelines_.find(timeline);
   if (known == timelines_.end()) return;
@@ -101,7 +113,7 @@ void ConflictMonitor::update(Time now) {
   touched_.clear();
 }
 
-std::optional<StateConflict> ConflictMonitor::conflict(Time now) {
+std::optional<PredictedConflict> ConflictMonitor::conflict(Time now) {
   update(now);
   const Timeline* first = nullptr;
   for (const auto& [name, timeline] : timelines_) {
@@ -109,8 +121,8 @@ std::optional<StateConflict> ConflictMonitor::conflict(Time now) {
     if (first == nullptr || timeline.conflict->activity < first->conflict->activity) first = &timeline;
   }
   if (first == nullptr) return std::nullopt;
-  return StateConflict{ids_[first->conflict->activity],
-                       temporal::explain(Condition{{first->conflict->node}}, only(*first->value))};
+  return PredictedConflict{ids_[first->conflict->activity],
+                           temporal::explain(Condition{{first->conflict->node}}, only(*first->value))};
 }
 
 std::optional<Time> ConflictMonitor::next_check() const {

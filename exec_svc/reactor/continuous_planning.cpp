@@ -65,6 +65,8 @@ std::string ContinuousPlanning::fault_of(Time now, const temporal::PlanDelta& de
 
 void ContinuousPlanning::adopt_version(Time now, FlexiblePlan plan) {
   parts_.plan.load(plan, now);
+  conflicting_activity_.clear();  // this version may still have it
+  receipt_.conflict.clear();
   note_planned(plan);
   parts_.state.report(Severity::info, "plan.adopted",
                       parts_.plan.name() + " with " + std::to_string(plan.activities.size()) + " activities");
@@ -86,23 +88,42 @@ void ContinuousPlanning::note_planned(const FlexiblePlan& plan) {
   }
 }
 
-/// A broken plan waits for the version that repairs it, as long as for a planner's reply.
 void ContinuousPlanning::monitor(Time now) {
   MissionState& state = parts_.state;
   const Outcome outcome = parts_.plan.outcome();
-  const temporal::Duration patience = state.mission->planner.reply_timeout;
   if (outcome.kind == OutcomeKind::broken && !parts_.plan.invalid()) {
-    repair_deadline_ = now + patience;
-    parts_.recovery.break_plan(now,
-                               (outcome.activity.empty() ? "" : outcome.activity + ": ") + outcome.reason);
+    await_repair(now, (outcome.activity.empty() ? "" : outcome.activity + ": ") + outcome.reason);
   } else if (outcome.kind == OutcomeKind::finished) {
     state.report(Severity::info, "plan.finished", parts_.plan.name() + " finished");
     state.phase = MissionPhase::idle;
   } else if (parts_.plan.invalid() && now >= repair_deadline_) {
     parts_.safing.make_safe(now, parts_.plan.name() + " is broken, and no other version came within " +
-                                     temporal::to_text(patience));
+                                     temporal::to_text(state.mission->planner.reply_timeout));
+  } else if (outcome.kind == OutcomeKind::running && !parts_.plan.invalid()) {
+    check_ahead(now);
   }
   if (state.phase == MissionPhase::executing && parts_.plan.invalid()) state.wake_at(repair_deadline_);
+}
+
+/// A broken plan waits for the version that repairs it, as long as for a planner's reply. Nothing new starts.
+void ContinuousPlanning::await_repair(Time now, const std::string& reason) {
+  repair_deadline_ = now + parts_.state.mission->planner.reply_timeout;
+  parts_.plan.hold_starts(true);
+  parts_.recovery.break_plan(now, reason);
+}
+
+/// The engine is told of a conflict once, in words that stay as long as it is about the same activity.
+void ContinuousPlanning::check_ahead(Time now) {
+  const auto conflict = parts_.plan.conflict_ahead(now);
+  const std::string activity = conflict ? conflict->activity : "";
+  if (activity == conflicting_activity_) return;
+  conflicting_activity_ = activity;
+  receipt_.conflict = conflict ? conflict->reason : "";
+  if (!conflict) return;
+  const temporal::PlanActivity* planned = parts_.plan.executive().activity(activity);
+  if (planned->commit == temporal::CommitState::committed) return await_repair(now, conflict->reason);
+  parts_.state.report(Severity::info, "plan.conflict",
+                      parts_.plan.name() + ": " + conflict->reason + "; the engine is told");
 }
 
 /// What ended is no base for deltas: the next plan comes whole, and without what was done.
@@ -127,6 +148,7 @@ bool ContinuousPlanning::takes_plans() const {
 
 void ContinuousPlanning::tell_receipt() {
   receipt_.version = parts_.state.phase == MissionPhase::executing ? parts_.plan.version() : 0;
+  if (receipt_.version == 0) receipt_.conflict.clear();
   receipt_.open = takes_plans();
   if (receipt_ == told_receipt_) return;
   told_receipt_ = receipt_;
@@ -134,11 +156,11 @@ void ContinuousPlanning::tell_receipt() {
 }
 
 void ContinuousPlanning::save(archive::Writer& archive) const {
-  archive(receipt_, told_receipt_, repair_deadline_, ended_activities_);
+  archive(receipt_, told_receipt_, conflicting_activity_, repair_deadline_, ended_activities_);
 }
 
 void ContinuousPlanning::restore(archive::Reader& archive) {
-  archive(receipt_, told_receipt_, repair_deadline_, ended_activities_);
+  archive(receipt_, told_receipt_, conflicting_activity_, repair_deadline_, ended_activities_);
 }
 
 }  // namespace roci::exec::reactor

@@ -1,5 +1,7 @@
 /// The engine plans all the time (R66, R76-R81): it hears goals, observations and steps itself and sends
-/// versions of its plan. What is committed in one version is executed, whatever the next ones say.
+/// versions of its plan. What is committed in one version is executed, whatever the next ones say. Conflicts
+/// are looked for in all that waits, to the end of the plan: the engine is told, and what is committed is
+/// left as it is; if that is what the conflict is about, the recovery policy follows.
 #pragma once
 
 #include <optional>
@@ -27,6 +29,8 @@ class ContinuousPlanning final : public ReplanningPolicy {
   void adopt_version(temporal::Time now, temporal::FlexiblePlan plan);
   void note_planned(const temporal::FlexiblePlan& plan);
   void monitor(temporal::Time now);
+  void check_ahead(temporal::Time now);
+  void await_repair(temporal::Time now, const std::string& reason);
   void forget_ended_plan(temporal::Time now);
   bool takes_plans() const;
   void tell_receipt();
@@ -34,6 +38,7 @@ class ContinuousPlanning final : public ReplanningPolicy {
   PolicyParts parts_;
   PlanReceipt receipt_;
   std::optional<PlanReceipt> told_receipt_;
+  std::string conflicting_activity_;           ///< of the conflict in the receipt
   temporal::Time repair_deadline_{0};          ///< for the version that repairs a broken plan
   std::vector<std::string> ended_activities_;  ///< of the engine's plan that ended last, sorted
 };

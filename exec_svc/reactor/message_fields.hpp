@@ -36,7 +36,7 @@ void fields(A& a, archive::Of<PlanRequest, A>& v) {
 }
 template <class A>
 void fields(A& a, archive::Of<PlanReceipt, A>& v) {
-  a(v.version, v.refused, v.reason, v.open);
+  a(v.version, v.refused, v.reason, v.conflict, v.open);
 }
 template <class A>
 void fields(A& a, archive::Of<ReactorCounts, A>& v) {

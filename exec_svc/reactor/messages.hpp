@@ -50,7 +50,8 @@ struct PlanReceipt {
   std::uint32_t version = 0;  ///< that is executed; 0: none is, and the next one is to come whole
   std::uint32_t refused = 0;  ///< the newest one, if it was not taken, for this reason
   std::string reason;
-  bool open = false;  ///< a plan would be taken now
+  std::string conflict;  ///< seen ahead in the version that is executed (R81); empty: none is
+  bool open = false;     ///< a plan would be taken now
   bool operator==(const PlanReceipt&) const = default;
 };
 

@@ -60,7 +60,7 @@ void PlanRecovery::monitor(Time now, bool next_is_coming) {
     state_->phase = MissionPhase::idle;
     if (!state_->goals.open().empty()) state_->want_plan("the plan ended with goals open");
   } else if (outcome.kind == OutcomeKind::running && !state_->replan_wanted) {
-    if (const auto conflict = plan_->conflict_ahead(now)) break_plan(now, *conflict);
+    if (const auto conflict = plan_->conflict_ahead(now)) break_plan(now, conflict->reason);
   }
 }
 

@@ -72,13 +72,16 @@ ResourceMonitor::ResourceMonitor(const temporal::FlexiblePlan& plan) {
     for (const temporal::Impact& impact : activity.impacts)
       if (impact.kind == temporal::ImpactKind::delta) timelines_.try_emplace(impact.timeline);
   }
+  for (const PlanActivity& activity : plan.activities)
+    for (const temporal::Impact& impact : activity.impacts)
+      if (impact.kind != temporal::ImpactKind::delta) timelines_.erase(impact.timeline);
   std::map<std::string, std::vector<Segment>> stretches;
   for (std::size_t i = 0; i < plan.activities.size(); ++i) {
     const PlanActivity& activity = plan.activities[i];
     std::map<std::string, Segment> touched;
     for (const temporal::Impact& impact : activity.impacts) {
       const double* amount = std::get_if<double>(&impact.amount);
-      if (impact.kind == temporal::ImpactKind::delta && amount != nullptr)
+      if (amount != nullptr && timelines_.contains(impact.timeline))
         touched[impact.timeline].change += *amount;
     }
     for (const ConditionNode& node : conjuncts(activity.pre)) {
@@ -109,9 +112,9 @@ void ResourceMonitor::remove(const std::string& activity) {
   }
 }
 
-std::string ResourceMonitor::shortfall(const temporal::Lookup& now) const {
+std::optional<PredictedConflict> ResourceMonitor::conflict(const temporal::Lookup& now) const {
   std::optional<std::size_t> first;
-  std::string lack;
+  std::optional<PredictedConflict> out;
   for (const auto& [name, timeline] : timelines_) {
     const auto value = now(name);
     const double* number = value ? std::get_if<double>(&*value) : nullptr;
@@ -127,10 +130,10 @@ std::string ResourceMonitor::shortfall(const temporal::Lookup& now) const {
     for (const ConditionNode& node : conjuncts(activity.pre)) {
       const Condition part{{node}};
       if (node.timeline == name && temporal::evaluate(part, projected) == temporal::Truth::no)
-        lack = activity.id + " will lack " + temporal::explain(part, projected);
+        out = PredictedConflict{activity.id, temporal::explain(part, projected)};
     }
   }
-  return lack;
+  return out;
 }
 
 }  // namespace roci::exec::reactor

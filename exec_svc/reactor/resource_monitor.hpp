@@ -1,5 +1,5 @@
-// Whether what is there now suffices for the rest of a plan: energy that was lost is missed long before the
-// activity that lacks it is due (conflicts seen ahead, R72–R74).
+/// Whether what is there now suffices for the rest of a plan: energy that was lost is missed long before the
+/// activity that lacks it is due (conflicts seen ahead, R72–R74).
 #pragma once
 
 #include <cstddef>
@@ -11,37 +11,37 @@
 
 #include "core/temporal/condition.hpp"
 #include "core/temporal/flexible_plan.hpp"
+#include "exec_svc/reactor/predicted_conflict.hpp"
 
 namespace roci::exec::reactor {
 
-// For every numeric timeline that the plan's activities change by a known amount: the range in which its
-// value must lie now, so that the pre conditions of all waiting activities hold in plan order. What running
-// activities will still take counts as nothing, so that no alarm is false. An activity that leaves the queue
-// costs the logarithm of the plan's length, a look at the margins one comparison for each timeline.
+/// For every numeric timeline that the plan's activities change by a known amount, and in no other way: the
+/// range in which its value must lie now, so that the pre conditions of all waiting activities hold in plan
+/// order. What running activities will still take counts as nothing, so that no alarm is false. An activity
+/// that waits no more costs the logarithm of the plan's length, a check one comparison for each timeline.
 class ResourceMonitor {
  public:
   ResourceMonitor() = default;
-  // All activities wait.
+  /// At first all activities wait.
   explicit ResourceMonitor(const temporal::FlexiblePlan& plan);
 
-  // The activity waits no more: it was started, skipped or cancelled.
+  /// The activity waits no more: it was started, skipped or cancelled.
   void remove(const std::string& activity);
 
-  // The first waiting activity, in plan order, whose pre conditions will fail on the values of now, in words;
-  // empty if there is none.
-  std::string shortfall(const temporal::Lookup& now) const;
+  /// The first waiting activity, in plan order, whose pre conditions will fail on the values of now.
+  std::optional<PredictedConflict> conflict(const temporal::Lookup& now) const;
 
  private:
-  // A stretch of the plan: what its waiting activities add up to, and the range that they ask of the value
-  // before the first of them.
+  /// A part of the plan: what its waiting activities add up to, and the range that they ask of the value
+  /// before the first of them.
   struct Segment {
     double change = 0;
     double least, most;
     Segment();
     bool holds(double value) const;
   };
-  // The stretches of one timeline as a tree in an array: node i holds 2i and 2i + 1, the leaves are the
-  // activities that touch the timeline.
+  /// The segments of one timeline as a tree in an array: node i holds 2i and 2i + 1, the leaves are the
+  /// activities that touch the timeline.
   struct Timeline {
     std::vector<std::size_t> activities;
     std::vector<Segment> tree;

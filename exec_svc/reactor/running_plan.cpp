@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "core/temporal/schedule.hpp"
 #include "exec_svc/reactor/recovery_policy.hpp"
 
 namespace roci::exec::reactor {
@@ -33,6 +34,16 @@ const char* code_of(RecoveryAction action) {
       return "recovery.contingency";
   }
   return "recovery";
+}
+
+temporal::FlexiblePlan in_order_of_starts(const temporal::FlexiblePlan& plan) {
+  temporal::FlexiblePlan out = plan;
+  const auto times = temporal::earliest_schedule(plan.point_count, temporal::all_constraints(plan));
+  if (!times) return out;
+  std::ranges::stable_sort(out.activities, {}, [&](const temporal::PlanActivity& activity) {
+    return (*times)[activity.start_point];
+  });
+  return out;
 }
 
 }  // namespace
@@ -69,11 +80,28 @@ std::string RunningPlan::load(temporal::FlexiblePlan plan, Time now) {
   if (!faults.empty()) return faults.front();
   version_ = plan.version;
   invalid_ = false;
-  resource_monitor_ = ResourceMonitor(plan);
-  std::set<std::string> predicted;
-  for (const mission::WindowModel& window : state_->mission->windows) predicted.insert(window.fact);
-  conflict_monitor_ = ConflictMonitor(plan, predicted, state_->mission->executive.ack_timeout);
+  watch(plan);
   return "";
+}
+
+/// An engine that plans all the time sends activities in any order and changes a plan of which a part has
+/// happened; a planner's plan comes in the order of its starts, and all of it waits.
+void RunningPlan::watch(const temporal::FlexiblePlan& plan) {
+  const mission::MissionModel& mission = *state_->mission;
+  std::set<std::string> predicted;
+  for (const mission::WindowModel& window : mission.windows) predicted.insert(window.fact);
+  const bool new_version = mission.executive.replanning == mission::Replanning::continuous;
+  const temporal::FlexiblePlan watched = new_version ? in_order_of_starts(plan) : plan;
+  ConflictMonitor conflicts(watched, predicted, mission.executive.ack_timeout);
+  resource_monitor_ = ResourceMonitor(watched);
+  if (new_version) {
+    conflicts.continue_from(conflict_monitor_);
+    for (const StepStatus& step : executive_.steps()) {
+      conflicts.change(step.activity, step.state);
+      if (step.state != temporal::ActivityState::waiting) resource_monitor_.remove(step.activity);
+    }
+  }
+  conflict_monitor_ = std::move(conflicts);
 }
 
 void RunningPlan::begin(Time now) {
@@ -95,15 +123,17 @@ void RunningPlan::unload(Time now) {
   forward(executive_.step(now, {}));
 }
 
-std::optional<std::string> RunningPlan::conflict_ahead(Time now) {
-  const std::string shortfall = resource_monitor_.shortfall(
-      [this](const std::string& timeline) { return state_->beliefs.lookup(timeline); });
-  if (!shortfall.empty()) return shortfall;
+std::optional<ConflictAhead> RunningPlan::conflict_ahead(Time now) {
+  const auto lookup = [this](const std::string& timeline) { return state_->beliefs.lookup(timeline); };
+  if (const auto conflict = resource_monitor_.conflict(lookup))
+    return ConflictAhead{conflict->activity, conflict->activity + " will lack " + conflict->description};
   if (const auto conflict = conflict_monitor_.conflict(now)) {
     const auto steps = executive_.steps();
     const auto due = std::ranges::find(steps, conflict->activity, &StepStatus::activity);
-    return conflict->activity + ", due at " + temporal::to_text(due->earliest_start) + ", will lack " +
-           conflict->description + ", and nothing in the plan brings it about";
+    return ConflictAhead{conflict->activity, conflict->activity + ", due at " +
+                                                 temporal::to_text(due->earliest_start) + ", will lack " +
+                                                 conflict->description +
+                                                 ", and nothing in the plan brings it about"};
   }
   if (const auto next = conflict_monitor_.next_check()) state_->wake_at(*next);
   return std::nullopt;

@@ -15,6 +15,12 @@
 
 namespace roci::exec::reactor {
 
+/// A conflict seen ahead, for operators and engines.
+struct ConflictAhead {
+  std::string activity;
+  std::string reason;  ///< in plain words: the activity, when it is due, and what it will lack
+};
+
 class RunningPlan {
  public:
   /// The state outlives this.
@@ -39,9 +45,9 @@ class RunningPlan {
   /// What the planner wrote for the loaded plan; each with its id in it.
   void keep_actions(std::vector<PlannedAction> planned) { planned_ = std::move(planned); }
 
-  /// Why an activity that waits will not find what it needs (R73-R76), in words; nothing: as far as is known
-  /// it will. Asks to be woken when a doubt becomes certain.
-  std::optional<std::string> conflict_ahead(temporal::Time now);
+  /// The first activity that will not find what it needs, as far as is known (R73-R76). Asks to be woken when
+  /// a doubt becomes certain.
+  std::optional<ConflictAhead> conflict_ahead(temporal::Time now);
 
   /// The plan must not go on.
   void invalidate() { invalid_ = true; }
@@ -65,6 +71,7 @@ class RunningPlan {
   }
 
  private:
+  void watch(const temporal::FlexiblePlan& plan);
   std::vector<executive::Observation> changed_conditions();
   void forward(executive::Outputs done);
   void report_windows();

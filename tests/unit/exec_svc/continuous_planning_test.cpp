@@ -260,6 +260,98 @@ TEST_F(ContinuousPlanning, AtRestASnapshotIsAllThereIsToKnow) {
   EXPECT_EQ(reactor.outcome(), "achieved");
 }
 
+// R81: conflicts are looked for from the end of the commit window to the end of the plan.
+class ConflictsAhead : public ContinuousPlanning {
+ protected:
+  ConflictsAhead() {
+    engine.image("1", CommitState::committed);
+    engine.image("2", CommitState::planned, 400);
+  }
+  void needs_battery(const std::string& id) {
+    engine.find(id).pre = temporal::compare("rover.battery", temporal::ConditionOp::ge, 500000.0);
+    engine.find(id).impacts = {
+        {"rover.battery", temporal::ImpactKind::delta, temporal::ImpactWhen::at_end, -1.0}};
+  }
+  void needs_lamp(const std::string& id) {
+    engine.find(id).pre = temporal::compare("lamp", temporal::ConditionOp::eq, true);
+  }
+  void see_at(double time_s, const std::string& timeline, const temporal::Value& value) {
+    at(time_s, [this, timeline, value] { pending.observations.push_back({timeline, value}); });
+  }
+};
+
+TEST_F(ConflictsAhead, AreToldToTheEngineAndWhatIsCommittedGoesOn) {
+  needs_battery("2");
+  see_at(10, "rover.battery", 400000.0);
+  run(20, with_plan(robot_and({photo("1"), photo("2")})));
+  EXPECT_THAT(reactor.receipt(), AllOf(Field(&PlanReceipt::version, 1U), Field(&PlanReceipt::refused, 0U),
+                                       Field(&PlanReceipt::conflict,
+                                             HasSubstr("2 will lack rover.battery >= 500000 (is 400000)"))));
+  EXPECT_EQ(std::ranges::count(trace, "plan.conflict"), 1);
+  see_at(30, "rover.battery", 390000.0);
+  see_at(40, "rover.battery", 900000.0);
+  run(35, {});
+  EXPECT_THAT(reactor.receipt().conflict, HasSubstr("(is 400000)")) << "the same conflict is told once";
+  run(100, {});
+  EXPECT_EQ(reactor.receipt().conflict, "");
+  EXPECT_THAT(trace, Not(Contains("plan.broken")));
+  EXPECT_THAT(begun(), ElementsAre("1"));
+}
+
+TEST_F(ConflictsAhead, OfWhatIsCommittedBreakThePlanUntilAVersionRepairsIt) {
+  engine.find("2").commit = CommitState::committed;
+  needs_lamp("2");
+  ReactorInputs first = robot_and({photo("1"), photo("2")});
+  first.observations.push_back({"lamp", true});
+  see_at(100, "lamp", false);
+  send_at(150, [this] {
+    engine.image("light", CommitState::committed, 160);
+    engine.find("light").impacts = {
+        {"lamp", temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, true}};
+  });
+  see_at(200, "lamp", true);
+  run(140, with_plan(std::move(first)));
+  EXPECT_THAT(trace, Contains("plan.broken"));
+  EXPECT_THAT(reactor.receipt().conflict, HasSubstr("2, due at"));
+  EXPECT_EQ(reactor.phase(), MissionPhase::executing);
+  run(1000, {});
+  EXPECT_THAT(begun(), ElementsAre("1", "light", "2"));
+  EXPECT_EQ(reactor.outcome(), "achieved");
+}
+
+TEST_F(ConflictsAhead, OfWhatIsCommittedThatNobodyRepairsMakeTheRobotSafe) {
+  engine.find("2").commit = CommitState::committed;
+  needs_battery("2");
+  see_at(50, "rover.battery", 400000.0);
+  run(390, with_plan(robot_and({photo("1"), photo("2")})));
+  EXPECT_EQ(reactor.phase(), MissionPhase::safe);
+  EXPECT_THAT(begun(), ElementsAre("1"));
+}
+
+// A state conflict must last; versions that come faster than that do not hide it.
+TEST_F(ConflictsAhead, AreSeenThroughOneVersionAfterTheOther) {
+  needs_lamp("2");
+  ReactorInputs first = robot_and({photo("1"), photo("2")});
+  first.observations.push_back({"lamp", false});
+  for (int second = 1; second < 20; ++second) send_at(second, [this] { engine.find("2").utility += 1; });
+  run(19.5, with_plan(std::move(first)));
+  EXPECT_EQ(reactor.plan_version(), 20U);
+  EXPECT_THAT(reactor.receipt().conflict, HasSubstr("lamp = true (is false)"));
+}
+
+// Activities come in the order in which the engine thinks of them.
+TEST_F(ConflictsAhead, AreReckonedInTheOrderOfStarts) {
+  needs_battery("2");
+  engine.find("2").impacts[0].amount = -500000.0;
+  send_at(10, [this] {
+    engine.image("3", CommitState::planned, 200, 300);
+    needs_battery("3");
+  });
+  run(20, with_plan(robot_and({photo("1"), photo("2"), photo("3")})));
+  EXPECT_EQ(reactor.plan_version(), 2U);
+  EXPECT_EQ(reactor.receipt().conflict, "") << "3 starts before 2 takes the rest";
+}
+
 // An engine that changes its mind about everything but what it has promised, and sometimes about that.
 class RandomEngine : public ContinuousPlanning, public ::testing::WithParamInterface<int> {};
 

@@ -42,8 +42,13 @@ temporal::Lookup levels(std::map<std::string, double> values) {
   };
 }
 
+std::string shortfall(const ResourceMonitor& monitor, const temporal::Lookup& now) {
+  const auto conflict = monitor.conflict(now);
+  return conflict ? conflict->activity + " will lack " + conflict->description : "";
+}
+
 std::string shortfall(const std::vector<Draw>& draws, double battery) {
-  return ResourceMonitor(plan_of(draws)).shortfall(levels({{"(battery)", battery}}));
+  return shortfall(ResourceMonitor(plan_of(draws)), levels({{"(battery)", battery}}));
 }
 
 TEST(ResourceMonitor, NameTheFirstActivityThatWillLackSomething) {
@@ -55,12 +60,23 @@ TEST(ResourceMonitor, NameTheFirstActivityThatWillLackSomething) {
 TEST(ResourceMonitor, WhatWaitsNoMoreTakesNothing) {
   ResourceMonitor monitor(plan_of({{50, 30}, {60, 40}}));
   monitor.remove("a1");
-  EXPECT_EQ(monitor.shortfall(levels({{"(battery)", 60}})), "");
-  EXPECT_NE(monitor.shortfall(levels({{"(battery)", 59}})), "");
+  EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 60}})), "");
+  EXPECT_NE(shortfall(monitor, levels({{"(battery)", 59}})), "");
 }
 
 TEST(ResourceMonitor, AnUnseenLevelIsNoAlarm) {
-  EXPECT_EQ(ResourceMonitor(plan_of({{10, 5}})).shortfall(levels({})), "");
+  EXPECT_EQ(shortfall(ResourceMonitor(plan_of({{10, 5}})), levels({})), "");
+}
+
+// What is filled up, or runs at a rate, has no sum: no alarm is better than a false one.
+TEST(ResourceMonitor, ALevelThatIsSetOrRunsAtARateIsNoAlarm) {
+  for (const ImpactKind kind : {ImpactKind::assign, ImpactKind::rate}) {
+    temporal::FlexiblePlan plan = plan_of({{50, 30}});
+    temporal::PlanActivity& charge = *plan.activities.emplace(plan.activities.begin());
+    charge.id = "charge";
+    charge.impacts = {{"(battery)", kind, temporal::ImpactWhen::at_end, 100.0}};
+    EXPECT_EQ(shortfall(ResourceMonitor(plan), levels({{"(battery)", 10}})), "");
+  }
 }
 
 TEST(ResourceMonitor, WhatIsLostByRoundingIsNotMissed) {
@@ -76,8 +92,8 @@ TEST(ResourceMonitor, AFullStoreIsMissedToo) {
     activity.pre = temporal::compare("(memory)", ConditionOp::le, 20.0);
     activity.impacts = {{"(memory)", ImpactKind::delta, ImpactWhen::at_end, 10.0}};
   }
-  EXPECT_EQ(ResourceMonitor(plan).shortfall(levels({{"(memory)", 0}})), "");
-  EXPECT_EQ(ResourceMonitor(plan).shortfall(levels({{"(memory)", 1}})),
+  EXPECT_EQ(shortfall(ResourceMonitor(plan), levels({{"(memory)", 0}})), "");
+  EXPECT_EQ(shortfall(ResourceMonitor(plan), levels({{"(memory)", 1}})),
             "take-image-3 will lack (memory) <= 20 (is 21)");
 }
 
@@ -87,11 +103,11 @@ TEST(ResourceMonitor, OnlyWhatMustHoldIsADemand) {
   temporal::PlanActivity& activity = plan.activities.front();
   const auto low = temporal::compare("(battery)", ConditionOp::ge, 80.0);
   activity.pre = temporal::any_of({low, temporal::compare("(docked)", ConditionOp::eq, true)});
-  EXPECT_EQ(ResourceMonitor(plan).shortfall(levels({{"(battery)", 50}})), "");
+  EXPECT_EQ(shortfall(ResourceMonitor(plan), levels({{"(battery)", 50}})), "");
   activity.pre = temporal::negate(low);
-  EXPECT_EQ(ResourceMonitor(plan).shortfall(levels({{"(battery)", 50}})), "");
+  EXPECT_EQ(shortfall(ResourceMonitor(plan), levels({{"(battery)", 50}})), "");
   activity.pre = temporal::all_of({low, temporal::compare("(docked)", ConditionOp::eq, true)});
-  EXPECT_NE(ResourceMonitor(plan).shortfall(levels({{"(battery)", 50}})), "");
+  EXPECT_NE(shortfall(ResourceMonitor(plan), levels({{"(battery)", 50}})), "");
 }
 
 // The waiting activities gone through one by one.
@@ -121,7 +137,7 @@ TEST(ResourceMonitor, AgreeWithAWalkOverThePlanWhileItIsWorkedOff) {
     for (std::size_t look = 0; look <= draws.size(); ++look, ++looks) {
       const double battery = static_cast<double>(random() % 120);
       const std::string expected = by_hand(plan, waits, battery);
-      const std::string got = monitor.shortfall(levels({{"(battery)", battery}}));
+      const std::string got = shortfall(monitor, levels({{"(battery)", battery}}));
       EXPECT_EQ(got.substr(0, got.find(' ')), expected) << round;
       alarms += !expected.empty();
       const std::size_t gone = random() % draws.size();
