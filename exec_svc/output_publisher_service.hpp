@@ -1,4 +1,4 @@
-// What leaves an executive: commands, plans, statuses and events, in one order and with its epoch.
+/// What leaves an executive: commands, plans, statuses and events, in one order and with its epoch.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +16,21 @@ namespace roci::exec {
 
 class OutputPublisher {
  public:
-  // `crash`: passes `during-send` after each sample of a step.
+  /// `crash`: passes `during-send` after each sample of a step.
   OutputPublisher(services::Node&, const mission::MissionModel&, std::uint64_t epoch,
                   journal::CrashPoints& crash);
 
-  // Goals, plan and steps as they stand, for who joins after a restart.
+  /// Goals, plan and steps as they stand, for who joins after a restart.
   void send_goals(const reactor::Reactor&) const;
   void send_plan(const reactor::Reactor&) const;
-  // What a step decided, but for its planner call.
+  /// What a step decided, but for its planner call.
   void send(const reactor::ReactorOutputs&, std::uint32_t plan_version) const;
   void report(const reactor::Event&) const;
-  // True if it is news: a status that equals the last one is not sent again.
+  /// True if it is news: a status that equals the last one is not sent again.
   bool publish(v1::MissionStatus, const std::string& trace_sha256);
 
-  // Owners that know this epoch refuse what an earlier leader may still send. Does nothing until somebody
-  // hears commands, and after the first time. (The simulated clock drops an earlier leader.)
+  /// Owners that know this epoch refuse what an earlier leader may still send. Does nothing until somebody
+  /// hears commands, and after the first time. (The simulated clock drops an earlier leader.)
   void announce_epoch();
   static bool answers_epoch(const v1::CommandAck&);
 

@@ -1,4 +1,4 @@
-// The reactor's inputs and outputs in their wire form.
+/// The reactor's inputs and outputs in their wire form.
 #pragma once
 
 #include "exec_svc/reactor/reactor.hpp"
@@ -25,8 +25,8 @@ v1::PlanRequest to_wire(const reactor::PlanRequest&, const mission::MissionModel
 v1::PlanReceipt to_wire(const reactor::PlanReceipt&, const std::string& executive);
 v1::Event to_wire(const reactor::Event&);
 
-// One line of the trace each, for what was seen; journal/decisions.hpp has those for what was decided.
-// Nothing in them depends on the machine.
+/// One line of the trace each, for what was seen; journal/decisions.hpp has those for what was decided.
+/// Nothing in them depends on the machine.
 std::string trace_line(const v1::CommandAck&);
 std::string trace_line(const v1::Observation&);
 

@@ -42,7 +42,7 @@ class Writer {
   template <class T>
   requires std::integral<T> || std::is_enum_v<T>
   void put(T value) {
-    // Small numbers of either sign are short.
+    /// Small numbers of either sign are short.
     const auto wide = static_cast<std::int64_t>(value);
     number(static_cast<std::uint64_t>(wide) << 1 ^ static_cast<std::uint64_t>(wide >> 63));
   }
@@ -92,7 +92,7 @@ class Reader {
 
   explicit Reader(std::string_view bytes) : rest_(bytes) {}
 
-  // Throw ArchiveError.
+  /// Throw ArchiveError.
   template <class... Ts>
   void operator()(Ts&... values) {
     (get(values), ...);

@@ -1,4 +1,4 @@
-// Times to come of things whose time may still change.
+/// Times to come of things whose time may still change.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What is done about a failed activity before its plan is given up (R69, R70): commands from a template, sent
-// at once and without a planner.
+/// What is done about a failed activity before its plan is given up (R69, R70): commands from a template,
+/// sent at once and without a planner.
 #pragma once
 
 #include <cstdint>

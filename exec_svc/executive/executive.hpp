@@ -1,5 +1,5 @@
-// The executive: runs any FlexiblePlan on the plan's own temporal network. A functional core: no clock, no
-// I/O, the same inputs give the same outputs.
+/// The executive: runs any FlexiblePlan on the plan's own temporal network. A functional core: no clock, no
+/// I/O, the same inputs give the same outputs.
 #pragma once
 
 #include <cstdint>

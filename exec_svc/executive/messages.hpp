@@ -1,4 +1,4 @@
-// What goes into the executive and what comes out of it: plain values, no DDS.
+/// What goes into the executive and what comes out of it: plain values, no DDS.
 #pragma once
 
 #include <cstdint>
@@ -80,14 +80,14 @@ struct DecisionRequest {
   temporal::Time answer_before = temporal::no_bound;  ///< later answers are ignored
 };
 
-/// The rungs of the recovery ladder that need no planner, cheapest first.
+/// What is done about a step that cannot start or fails, and needs no planner; cheapest first.
 enum class RecoveryAction {
   push,         ///< a start waits for its preconditions, until its wait timeout (R98)
   retry,        ///< the same command again (R99)
   contingency,  ///< commands of a template, then the same command again or a broken plan (R69, R70)
 };
 
-/// A rung was entered, or a contingency ended.
+/// A recovery action was taken, or a contingency ended.
 struct RecoveryStep {
   RecoveryAction action = RecoveryAction::push;
   std::string activity;

@@ -1,4 +1,4 @@
-// Which time points must have happened before which.
+/// Which time points must have happened before which.
 #pragma once
 
 #include <vector>

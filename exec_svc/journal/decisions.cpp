@@ -71,9 +71,9 @@ std::string line_of(const std::vector<PlannedAction>& remaining) {
 
 }  // namespace
 
-std::vector<Line> decisions(temporal::Time now, const ReactorOutputs& out) {
+std::vector<DecisionLine> decisions(temporal::Time now, const ReactorOutputs& out) {
   const std::string stamp = std::to_string(now.count()) + " ";
-  std::vector<Line> lines;
+  std::vector<DecisionLine> lines;
   for (const GoalRecord& goal : out.goal_changes) lines.push_back({"goal", line_of(goal)});
   for (const Event& event : out.events) lines.push_back({"event", event.code + " " + event.text});
   for (const StepStatus& step : out.steps) lines.push_back({"step", line_of(step)});

@@ -113,7 +113,7 @@ void JournaledReactor::write(temporal::Time now, const ReactorInputs& inputs,
                              const std::vector<std::string>& seen, const ReactorOutputs& out) {
   journal_->append_bytes(now, "input", to_bytes(inputs));
   for (const std::string& line : seen) trace(now, std::to_string(now.count()) + " " + line);
-  for (const Line& line : decisions(now, out)) {
+  for (const DecisionLine& line : decisions(now, out)) {
     if (line.kind == "trace") {
       trace(now, line.text);
     } else {

@@ -1,5 +1,5 @@
-// A reactor whose inputs and decisions stand in the journal before anything leaves it, so that whoever opens
-// the journal after a crash goes on exactly where it was.
+/// A reactor whose inputs and decisions stand in the journal before anything leaves it, so that whoever opens
+/// the journal after a crash goes on exactly where it was.
 #pragma once
 
 #include <cstddef>
@@ -16,24 +16,24 @@
 
 namespace roci::exec::journal {
 
-// What was found in the journal.
+/// What was found in the journal.
 struct Recovery {
-  bool restarted = false;  // an earlier start left something
-  bool resumed = false;    // its state is back; else only its goals are, and all is planned anew
-  std::size_t turns = 0;   // replayed since the last anchor
-  std::optional<Divergence> divergence;     // why not resumed
-  std::vector<reactor::Event> last_events;  // of the newest turn: perhaps nobody heard them
+  bool restarted = false;  ///< an earlier start left something
+  bool resumed = false;    ///< its state is back; else only its goals are, and all is planned anew
+  std::size_t turns = 0;   ///< replayed since the last anchor
+  std::optional<Divergence> divergence;     ///< why not resumed
+  std::vector<reactor::Event> last_events;  ///< of the newest turn: perhaps nobody heard them
 };
 
 class JournaledReactor {
  public:
-  // Both outlive this. Throws JournalError.
-  // `doubtful`: another executive may have gone on from this journal; its goals count, all else is planned
-  // anew, under numbers of plans that nobody used.
+  /// Both outlive this. Throws JournalError.
+  /// `doubtful`: another executive may have gone on from this journal; its goals count, all else is planned
+  /// anew, under numbers of plans that nobody used.
   JournaledReactor(const mission::MissionModel& mission, Journal& journal, bool doubtful = false);
 
-  // Steps the reactor; returns when inputs and decisions are durable. `seen`: lines of the trace for the
-  // inputs.
+  /// Steps the reactor; returns when inputs and decisions are durable. `seen`: lines of the trace for the
+  /// inputs.
   reactor::ReactorOutputs step(temporal::Time now, reactor::ReactorInputs inputs,
                                const std::vector<std::string>& seen);
 

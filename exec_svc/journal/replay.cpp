@@ -30,7 +30,7 @@ void Replay::take(temporal::Time time, std::string_view kind, std::string_view b
   if (kind == "input") return turn(time, bytes);
   if (turns_ == 0 || !is_decision(kind, bytes))
     return;  // what came before the first inputs has no cause here
-  const Line journaled{std::string(kind), std::string(bytes)};
+  const DecisionLine journaled{std::string(kind), std::string(bytes)};
   if (matched_ < lines_.size() && lines_[matched_] == journaled) {
     ++matched_;
   } else {

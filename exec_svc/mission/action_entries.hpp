@@ -1,5 +1,5 @@
-// What mission.yaml says of commands: actions with their policies, contingencies, and the recovery ladder.
-// Every reader throws roci::mission::FileError with the place and the remedy.
+/// What mission.yaml says of commands: actions with their policies, contingencies, and the recovery strategy.
+/// Every reader throws roci::mission::FileError with the place and the remedy.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ RecoveryStrategy read_strategy(const roci::mission::Entry& entry);
 executive::StartPolicy read_start(const roci::mission::Entry& entry);
 Replanning read_replanning(const roci::mission::Entry& entry);
 
-// A whole number from `least` to 1000000, or the fallback where the key is missing.
+/// A whole number from `least` to 1000000, or the fallback where the key is missing.
 std::uint32_t count_or(const roci::mission::Entry& parent, const char* key, std::uint32_t fallback,
                        std::uint32_t least);
 

@@ -22,7 +22,7 @@ void ContinuousPlanning::step(Time now, const ReactorInputs& inputs) {
   if (parts_.state.phase == MissionPhase::executing) monitor(now);
   parts_.state.replan_wanted = false;  // whoever wants a plan: the engine knows
   forget_ended_plan(now);
-  tell_receipt();
+  report_receipt();
 }
 
 void ContinuousPlanning::take_delta(Time now, const temporal::PlanDelta& delta) {
@@ -146,21 +146,21 @@ bool ContinuousPlanning::takes_plans() const {
          state.beliefs.active().empty();
 }
 
-void ContinuousPlanning::tell_receipt() {
+void ContinuousPlanning::report_receipt() {
   receipt_.version = parts_.state.phase == MissionPhase::executing ? parts_.plan.version() : 0;
   if (receipt_.version == 0) receipt_.conflict.clear();
   receipt_.open = takes_plans();
-  if (receipt_ == told_receipt_) return;
-  told_receipt_ = receipt_;
+  if (receipt_ == reported_receipt_) return;
+  reported_receipt_ = receipt_;
   parts_.state.out.receipt = receipt_;
 }
 
 void ContinuousPlanning::save(archive::Writer& archive) const {
-  archive(receipt_, told_receipt_, conflicting_activity_, repair_deadline_, ended_activities_);
+  archive(receipt_, reported_receipt_, conflicting_activity_, repair_deadline_, ended_activities_);
 }
 
 void ContinuousPlanning::restore(archive::Reader& archive) {
-  archive(receipt_, told_receipt_, conflicting_activity_, repair_deadline_, ended_activities_);
+  archive(receipt_, reported_receipt_, conflicting_activity_, repair_deadline_, ended_activities_);
 }
 
 }  // namespace roci::exec::reactor

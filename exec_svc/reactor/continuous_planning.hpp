@@ -17,7 +17,7 @@ class ContinuousPlanning final : public ReplanningPolicy {
   explicit ContinuousPlanning(const PolicyParts& parts) : parts_(parts) {}
 
   void step(temporal::Time now, const ReactorInputs& inputs) override;
-  void resume(temporal::Time) override {}  // the engine hears of the restart by the receipt
+  void resume(temporal::Time) override {}  ///< the engine hears of the restart by the receipt
   const PlanReceipt* receipt() const override { return &receipt_; }
   void save(archive::Writer& archive) const override;
   void restore(archive::Reader& archive) override;
@@ -33,11 +33,11 @@ class ContinuousPlanning final : public ReplanningPolicy {
   void await_repair(temporal::Time now, const std::string& reason);
   void forget_ended_plan(temporal::Time now);
   bool takes_plans() const;
-  void tell_receipt();
+  void report_receipt();
 
   PolicyParts parts_;
   PlanReceipt receipt_;
-  std::optional<PlanReceipt> told_receipt_;
+  std::optional<PlanReceipt> reported_receipt_;
   std::string conflicting_activity_;           ///< of the conflict in the receipt
   temporal::Time repair_deadline_{0};          ///< for the version that repairs a broken plan
   std::vector<std::string> ended_activities_;  ///< of the engine's plan that ended last, sorted

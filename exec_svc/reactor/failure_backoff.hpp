@@ -1,4 +1,4 @@
-// Commands that fail again and again: how long to wait before the next plan, and when to stop trying.
+/// Commands that fail again and again: how long to wait before the next plan, and when to stop trying.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@ namespace roci::exec::reactor {
 
 class FailureBackoff {
  public:
-  // `limit`: failures of one component in a row, at least 1. `first_pause`: after the second one; it doubles
-  // with each further one, up to `longest_pause`. All tries together thus wait for less than
-  // limit × longest_pause.
+  /// `limit`: failures of one component in a row, at least 1. `first_pause`: after the second one; it doubles
+  /// with each further one, up to `longest_pause`. All tries together thus wait for less than
+  /// limit × longest_pause.
   FailureBackoff(std::uint32_t limit, temporal::Duration first_pause, temporal::Duration longest_pause)
       : limit_(limit), first_pause_(first_pause), longest_pause_(longest_pause) {}
 
   struct Count {
     std::uint32_t in_a_row = 0;
-    bool used_up = false;         // the limit is reached; the next failure counts as the first
-    temporal::Duration pause{0};  // before the next plan; none after the first failure and after the last
+    bool used_up = false;         ///< the limit is reached; the next failure counts as the first
+    temporal::Duration pause{0};  ///< before the next plan; none after the first failure and after the last
   };
   Count failed(const std::string& component);
   void succeeded(const std::string& component) { in_a_row_.erase(component); }

@@ -50,7 +50,7 @@ class Reactor {
   std::string outcome() const;
 
  private:
-  struct Parts;  // on the heap: they know each other by address
+  struct Parts;  ///< on the heap: they know each other by address
   void take_services(const ReactorInputs& inputs);
   void resume(temporal::Time now);
   void finish_if_done();

@@ -1,5 +1,5 @@
-// The recovery ladder: which rungs a strategy has (R102). Push, retry and contingency are the executive's;
-// replanning, dropping goals and asking the ground the reactor's. One plan generator serves all strategies.
+/// What a strategy of recovery may do (R102). Push, retry and contingency are the executive's; replanning,
+/// dropping goals and asking the ground the reactor's. One plan generator serves all strategies.
 #pragma once
 
 #include "core/temporal/flexible_plan.hpp"
@@ -9,17 +9,17 @@
 namespace roci::exec::reactor {
 
 struct RecoveryPolicy {
-  bool flexible = true;  // push, retry, contingency
-  bool replans = true;   // from observations; goals are dropped where not all fit
+  bool flexible = true;  ///< push, retry, contingency
+  bool replans = true;   ///< from observations; goals are dropped where not all fit
   bool asks_ground = true;
 };
 
 RecoveryPolicy recovery_policy_of(mission::RecoveryStrategy strategy);
 
-// Takes the executive's rungs out of a plan.
+/// Takes the executive's recovery actions out of a plan.
 void make_inflexible(temporal::FlexiblePlan& plan);
 
-// Bounds, contingencies and start policy of the mission.
+/// Bounds, contingencies and start policy of the mission.
 executive::ExecutiveSettings executive_settings(const mission::MissionModel& mission);
 
 }  // namespace roci::exec::reactor

@@ -1,4 +1,4 @@
-// The follower's side on the wire: takes the leader's journal, says what it has, and finds out when to lead.
+/// The follower's side on the wire: takes the leader's journal, says what it has, and finds out when to lead.
 #pragma once
 
 #include <optional>
@@ -15,13 +15,13 @@ namespace roci::exec::standby {
 
 class FollowerService {
  public:
-  // On an observer's node, so that it stands outside the simulated clock. All outlive this.
+  /// On an observer's node, so that it stands outside the simulated clock. All outlive this.
   FollowerService(services::Node& node, Lease& lease, journal::Journal& journal,
                   PersistedTermFile& persisted_term);
 
-  // Why this member leads, once it does; the node has been stopped then.
+  /// Why this member leads, once it does; the node has been stopped then.
   const std::optional<Lease::Turn>& lead() const { return lead_; }
-  // The simulated clock has come to its end, and with it the run.
+  /// The simulated clock has come to its end, and with it the run.
   bool run_is_over() const { return over_; }
 
  private:

@@ -5,7 +5,7 @@
 namespace roci::exec::standby {
 
 using journal::JournalError;
-using journal::kOwnPast;
+using journal::kForkedHistory;
 
 JournalCopy::Result JournalCopy::take(const Chunk& chunk, std::uint64_t epoch) {
   if (chunk.checksum != checksum(chunk)) return Result::corrupt;
@@ -19,7 +19,7 @@ JournalCopy::Result JournalCopy::take_batch(const Chunk& chunk) {
   try {
     journal_->apply({chunk.after, chunk.at, chunk.bytes});
   } catch (const JournalError&) {
-    has_ = kOwnPast;
+    has_ = kForkedHistory;
     return Result::corrupt;
   }
   has_ = chunk.at;
@@ -39,7 +39,7 @@ JournalCopy::Result JournalCopy::take_part(const Chunk& chunk) {
   const std::string whole = std::exchange(arriving_, {});
   arrival_ = {};
   try {
-    journal_->become(whole);
+    journal_->replace_with(whole);
   } catch (const JournalError&) {
     return Result::corrupt;
   }

@@ -1,4 +1,4 @@
-// The follower's side: a journal that takes another one's batches, each once, in order, unharmed.
+/// The follower's side: a journal that takes another one's batches, each once, in order, unharmed.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@ class JournalCopy {
   explicit JournalCopy(journal::Journal& journal) : journal_(&journal), has_(journal.position()) {}
 
   enum class Result {
-    batch,    // it is in the journal, on the disk
-    part,     // of a whole journal that is not complete
-    whole,    // complete: the journal is the leader's now
-    known,    // this journal has it
-    gap,      // something before it is missing, or this journal has another past
-    corrupt,  // refused
-    old,      // of a leader whose epoch is over; refused
+    batch,    ///< it is in the journal, on the disk
+    part,     ///< of a whole journal that is not complete
+    whole,    ///< complete: the journal is the leader's now
+    known,    ///< this journal has it
+    gap,      ///< something before it is missing, or this journal has another past
+    corrupt,  ///< refused
+    old,      ///< of a leader whose epoch is over; refused
   };
-  // `epoch`: the latest that the follower knows of.
+  /// `epoch`: the latest that the follower knows of.
   Result take(const Chunk& chunk, std::uint64_t epoch);
 
-  // kOwnPast after a batch that does not fit, though its position does: the whole journal is wanted then.
+  /// kOwnPast after a batch that does not fit, though its position does: the whole journal is wanted then.
   const journal::Position& has() const { return has_; }
   const TransferProgress& arrival() const { return arrival_; }
 

@@ -64,7 +64,7 @@ void LeaderService::report(Lease::Change change, const std::string& reason) {
 }
 
 void LeaderService::feed() {
-  const auto whole = [this] { return journal_->whole(); };
+  const auto whole = [this] { return journal_->serialized(); };
   for (const Chunk& chunk : feed_.due(moment(), whole)) chunks_.write(to_wire(chunk));
 }
 
@@ -76,7 +76,7 @@ void LeaderService::send_once_copied(std::function<void()> send) {
 
 void LeaderService::release() {
   while (!held_.empty() && lease_->may_send(held_.front().decided, moment())) {
-    const Held held = std::move(held_.front());
+    const PendingOutput held = std::move(held_.front());
     held_.pop_front();
     held.send();
     node_.post_work_result(held.work, [] {});

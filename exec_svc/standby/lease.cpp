@@ -40,7 +40,7 @@ void Lease::hear(const LeaseMessage& message, Moment now) {
   if (message.role != Role::leading) return note_epoch(message.epoch);
   hear_leader(message.epoch, now);
   if (role_ == Role::leading || message.epoch < persisted_term_.epoch) return;
-  const auto since = said_since();
+  const auto since = sent_since();
   entitled_ = message.entitled && since;
   takeover_forbidden_ = !message.entitled;
   receipt_ = message.receipt;
@@ -92,7 +92,7 @@ std::optional<std::string> Lease::reason_to_lead(const Position& newest, Moment 
            milliseconds_text(waited);
   if (persisted_term_.alone) return "it led alone before";
   if (other_follows) {
-    const auto since = said_since();
+    const auto since = sent_since();
     const bool open =
         !other_->message.entitled && other_->message.searching && since && now - *since < settings_.term;
     if (open && wins(other_->message, newest)) return "of both it has the longer journal";
@@ -105,7 +105,7 @@ bool Lease::right_holds(const Position& newest, Moment now) const {
          now - entitled_since_ < settings_.term + settings_.takeover_window;
 }
 
-std::optional<Moment> Lease::said_since() const {
+std::optional<Moment> Lease::sent_since() const {
   if (!other_ || other_->message.echo < started_ || other_->message.echo > other_->at) return std::nullopt;
   return other_->message.echo;
 }

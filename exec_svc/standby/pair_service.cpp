@@ -40,7 +40,7 @@ fs::path folder_of(const services::RunSettings& run) {
 }
 
 // The node that is open now, for the thread that hears of signals.
-class Stop {
+class StopRequest {
  public:
   void ask() {
     const std::scoped_lock lock(mutex_);
@@ -71,15 +71,15 @@ class Stop {
 };
 
 // Within reach of signals for as long as it lives.
-class Reach {
+class InterruptibleNode {
  public:
-  Reach(Stop& stop, services::Node& node) : stop_(stop) { stop_.reach(&node); }
-  ~Reach() { stop_.reach(nullptr); }
-  Reach(const Reach&) = delete;
-  Reach& operator=(const Reach&) = delete;
+  InterruptibleNode(StopRequest& stop, services::Node& node) : stop_(stop) { stop_.reach(&node); }
+  ~InterruptibleNode() { stop_.reach(nullptr); }
+  InterruptibleNode(const InterruptibleNode&) = delete;
+  InterruptibleNode& operator=(const InterruptibleNode&) = delete;
 
  private:
-  Stop& stop_;
+  StopRequest& stop_;
 };
 
 class PairProcess {
@@ -139,7 +139,7 @@ class PairProcess {
     services::Node node(options, std::move(transport));
     FollowerService following(node, lease, journal_, persisted_term_);
     node.on_turn([this] { sign_.give(); });
-    const Reach reach(stop_, node);
+    const InterruptibleNode reach(stop_, node);
     node.run();
     return following.run_is_over() || stop_.asked() ? std::nullopt : following.lead();
   }
@@ -156,7 +156,7 @@ class PairProcess {
     try {
       LeaderService leading(node, lease, journal_, persisted_term_);
       const auto executive = make_executive(node, options_.run, journal_, leading, turn.doubtful);
-      const Reach reach(stop_, node);
+      const InterruptibleNode reach(stop_, node);
       node.run();
       return std::nullopt;
     } catch (const StandDown& end) {
@@ -174,7 +174,7 @@ class PairProcess {
   LeaseSettings lease_;
   Journal journal_;
   PersistedTermFile persisted_term_;
-  Stop stop_;
+  StopRequest stop_;
   bool connected_before_ = false;
 };
 

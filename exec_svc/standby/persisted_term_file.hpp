@@ -1,4 +1,4 @@
-// A member's standing on its disk.
+/// A member's persisted term on its disk.
 #pragma once
 
 #include <filesystem>
@@ -14,9 +14,9 @@ class PersistedTermFile {
   PersistedTermFile(std::filesystem::path file, journal::Durability durability)
       : file_(std::move(file)), durability_(durability) {}
 
-  // As new if there is no file. Throws JournalError for one that cannot be read.
+  /// As new if there is no file. Throws JournalError for one that cannot be read.
   PersistedTerm read() const;
-  // Writes what is new: either all of it stands in the file or nothing. Throws JournalError.
+  /// Writes what is new: either all of it stands in the file or nothing. Throws JournalError.
   void keep(const PersistedTerm& persisted_term);
 
  private:
@@ -24,7 +24,7 @@ class PersistedTermFile {
 
   std::filesystem::path file_;
   journal::Durability durability_;
-  std::optional<PersistedTerm> kept_;  // as read or written by keep()
+  std::optional<PersistedTerm> kept_;  ///< as read or written by keep()
 };
 
 }  // namespace roci::exec::standby

@@ -1,4 +1,4 @@
-// Words and parcels in their wire form, and the clock that they count on.
+/// Lease messages and chunks in their wire form, and the clock that they count on.
 #pragma once
 
 #include <stdexcept>
@@ -10,10 +10,10 @@
 
 namespace roci::exec::standby {
 
-// The steady clock of this host.
+/// The steady clock of this host.
 Moment moment();
 
-std::string name_of(Member member);  // "first", "second"
+std::string name_of(Member member);  ///< "first", "second"
 Member member_of(const std::string& name);
 
 v1::LeaseMessage to_wire(const LeaseMessage& message, const TransferProgress& arrival);

@@ -1,4 +1,4 @@
-// The rungs of the ladder that need no planner: push, retry, contingency (R69, R70, R98, R99, R141), the
+// The recovery actions that need no planner: push, retry, contingency (R69, R70, R98, R99, R141), the
 // owner's own repair (R146), and each of them told with its cause.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

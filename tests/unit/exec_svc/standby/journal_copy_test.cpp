@@ -15,7 +15,7 @@ using journal::Batch;
 using journal::Durability;
 using journal::Journal;
 using journal::JournalError;
-using journal::kOwnPast;
+using journal::kForkedHistory;
 using journal::Position;
 using standby::Chunk;
 using standby::JournalCopy;
@@ -186,7 +186,7 @@ TEST_F(JournalCopyTest, AfterABatchThatDoesNotFitTheWholeJournalIsWanted) {
   Batch batch = journal.take_batches().at(0);
   batch.changes = "no changes";
   EXPECT_EQ(copy.take(parcel_of(batch), 2), Result::corrupt);
-  EXPECT_EQ(copy.has(), kOwnPast);
+  EXPECT_EQ(copy.has(), kForkedHistory);
 }
 
 TEST_F(JournalCopyTest, AJournalWithAnotherPastIsReplaced) {
@@ -199,8 +199,8 @@ TEST_F(JournalCopyTest, AJournalWithAnotherPastIsReplaced) {
   JournalCopy copy(other);
   feed.hear(copy.has(), copy.arrival(), 0us);
   int parts = 0;
-  for (auto due = feed.due(0us, [&] { return journal.whole(); }); !due.empty();
-       due = feed.due(0us, [&] { return journal.whole(); })) {
+  for (auto due = feed.due(0us, [&] { return journal.serialized(); }); !due.empty();
+       due = feed.due(0us, [&] { return journal.serialized(); })) {
     for (const Chunk& chunk : due) {
       const Result taken = copy.take(chunk, 2);
       ASSERT_TRUE(taken == Result::part || taken == Result::whole);
@@ -217,10 +217,10 @@ TEST_F(JournalCopyTest, WhatIsNoJournalReplacesNothing) {
   Journal other = open("copy");
   write_step(other, 1);
   const std::string before = everything(other);
-  const std::string whole = other.whole();
+  const std::string whole = other.serialized();
   for (const std::string& bytes :
        {std::string("no journal"), std::string(), whole.substr(0, whole.size() / 2)})
-    EXPECT_THROW(other.become(bytes), JournalError);
+    EXPECT_THROW(other.replace_with(bytes), JournalError);
   EXPECT_EQ(everything(other), before);
 }
 
@@ -228,7 +228,7 @@ TEST_F(JournalCopyTest, TheWholeJournalLeavesOutWhatIsNotCommitted) {
   Journal journal = open("journal"), other = open("copy");
   write_step(journal, 1);
   journal.put_peer("arm_svc", 1);
-  other.become(journal.whole());
+  other.replace_with(journal.serialized());
   EXPECT_TRUE(other.peers().empty());
 }
 
@@ -248,7 +248,7 @@ TEST_F(JournalCopyTest, OverABadChannelTheCopyBecomesTheJournal) {
       const JournalFeed::Moment now = 100ms * step;
       if (step < 300) write_step(journal, step);
       for (Batch& batch : journal.take_batches()) feed.add(std::move(batch));
-      for (Chunk& chunk : feed.due(now, [&] { return journal.whole(); })) {
+      for (Chunk& chunk : feed.due(now, [&] { return journal.serialized(); })) {
         const bool bad = step < 300;
         if (bad && chance(10)) continue;
         if (bad && chance(5)) chunk.bytes[random() % chunk.bytes.size()] ^= 1;
