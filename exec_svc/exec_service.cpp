@@ -66,7 +66,7 @@ class ExecService final : public services::Service {
               LeaderService* leading, bool doubtful)
       : node_(node),
         settings_(settings),
-        mission_(read_mission(settings.mission)),
+        mission_(read_mission(settings.mission_file())),
         journal_(journal),
         epoch_(epoch),
         leader_(leading),

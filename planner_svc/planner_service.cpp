@@ -40,7 +40,7 @@ class PlannerService final : public services::Service, private FunctionSource {
  public:
   PlannerService(Node& node, const services::RunSettings& settings)
       : node_(node),
-        settings_(read_settings(settings.mission)),
+        settings_(read_settings(settings.mission_file())),
         records_(settings.run_folder.empty() ? "" : settings.run_folder / "planner_calls"),
         events_(services::advertise(node, services::topics::event)),
         owners_(node, settings_.function_timeout) {

@@ -24,6 +24,9 @@ struct RunSettings {
   std::uint64_t seed = 1;
   std::filesystem::path run_folder;  // journal, summary.json, logs of this run
   std::string pair;  // "first", "second": of two processes that stand in for each other; empty: it is alone
+  std::filesystem::path settings{};  // the mission file that this service reads; empty: mission.yaml of the folder
+
+  std::filesystem::path mission_file() const { return settings.empty() ? mission / "mission.yaml" : settings; }
 };
 
 using MakeService = std::unique_ptr<Service>(Node&, const RunSettings&);

@@ -248,7 +248,7 @@ class SimService final : public services::Service, private owner::Driver {
 }  // namespace
 
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
-  return std::make_unique<SimService>(node, scenario::load_run(settings.mission, settings.scenario),
+  return std::make_unique<SimService>(node, scenario::load_run(settings.mission_file(), settings.scenario),
                                       settings);
 }
 

@@ -8,32 +8,28 @@
 
 #include "services/launch/process_plan.hpp"
 #include "services/publisher.hpp"
-#include "services/transport.hpp"
+#include "services/transport/plug_ins.hpp"
 
 namespace roci::bench::house {
 namespace {
 
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
+namespace launch = services::launch;
 namespace topics = services::topics;
 
-std::vector<std::string> idle_names(int processes) {
-  std::vector<std::string> out;
-  for (int i = static_cast<int>(launch::kAllServices.size()) + 1; i < processes; ++i)
-    out.push_back("idle_" + std::to_string(out.size() + 1));
-  return out;
-}
+constexpr char kIdle[] = "bench_house";  // the program of the processes that do nothing
 
 std::unique_ptr<services::Node> observer(const HouseOptions& options, int domain) {
-  services::NodeOptions node;
+  services::node::NodeOptions node;
   node.name = "bench_house";
   node.incarnation = 0;
-  node.clock = services::ClockMode::observer;
-  node.vendor = launch::vendor_of(launch::kConsole, options.dds);
-  services::TransportOptions transport;
+  node.clock = services::clock::ClockMode::observer;
+  node.vendor = launch::console_vendor(options.dds);
+  services::transport::TransportOptions transport;
   transport.domain = domain;
   transport.participant = node.name;
-  return std::make_unique<services::Node>(node, services::open_transport(node.vendor, transport));
+  return std::make_unique<services::Node>(node, services::transport::open_transport(node.vendor, transport));
 }
 
 launch::Options launch_options(const HouseOptions& options, const fs::path& run_folder, int domain) {
@@ -43,8 +39,16 @@ launch::Options launch_options(const HouseOptions& options, const fs::path& run_
   out.seed = options.seed;
   out.speed = options.pace;
   out.run_folder = run_folder;
-  out.roster = launch::kAllServices;
-  for (const std::string& name : idle_names(options.processes)) out.roster.push_back(name);
+  out.list = mission::load_service_list(options.mission);
+  const std::size_t idle = static_cast<std::size_t>(options.processes) - 1 - out.list.services.size();
+  for (std::size_t i = 1; i <= idle; ++i) {
+    mission::ServiceEntry entry;
+    entry.name = "idle_" + std::to_string(i);
+    entry.program = kIdle;
+    out.list.services.push_back(entry);
+  }
+  out.roster = out.list.names();
+  out.run = "house";
   out.connection.dds = options.dds;
   out.connection.transport.domain = domain;
   return out;
@@ -52,7 +56,7 @@ launch::Options launch_options(const HouseOptions& options, const fs::path& run_
 
 }  // namespace
 
-House::House(const HouseOptions& options, const fs::path& run_folder) : begun_(services::wall::now()) {
+House::House(const HouseOptions& options, const fs::path& run_folder) : begun_(services::clock::wall_now()) {
   node_ = observer(options, domain_.id());
   services::subscribe(*node_, topics::clock_step, [this](const v1::ClockStep& step) { take(step); });
   services::subscribe(*node_, topics::command, [this](const v1::Command&) {
@@ -63,19 +67,19 @@ House::House(const HouseOptions& options, const fs::path& run_folder) : begun_(s
 
 House::~House() {
   for (const auto& child : children_) child->signal(SIGTERM);
-  const auto begin = services::wall::now();
-  while (!all_ended() && services::wall::now() - begin < 10s) node_->spin_once(20ms);
+  const auto begin = services::clock::wall_now();
+  while (!all_ended() && services::clock::wall_now() - begin < 10s) node_->spin_once(20ms);
 }
 
 void House::start(const HouseOptions& options, const fs::path& run_folder) {
   fs::create_directories(run_folder);
   const launch::Options plan = launch_options(options, run_folder, domain_.id());
   const fs::path self = fs::read_symlink("/proc/self/exe");
-  begun_ = services::wall::now();
+  begun_ = services::clock::wall_now();
   for (const std::string& name : plan.roster) {
-    const bool ours = std::ranges::find(launch::kAllServices, name) != launch::kAllServices.end();
+    const bool ours = plan.list.find(name)->program != kIdle;
     std::vector<std::string> arguments = launch::service_arguments(plan, name, 1, 0);
-    if (!ours) arguments.insert(arguments.begin(), {"bench_house", "--idle"});
+    if (!ours) arguments.insert(arguments.begin() + 1, {"--idle", kIdle});
     children_.push_back(std::make_unique<launch::Child>(ours ? options.bin / name : self, arguments,
                                                         run_folder / (name + ".log")));
   }
@@ -90,8 +94,8 @@ void House::wait_for_clock() {
 }
 
 void House::listen(std::chrono::duration<double> time) {
-  const auto begin = services::wall::now();
-  while (services::wall::now() - begin < time) node_->spin_once(2ms);
+  const auto begin = services::clock::wall_now();
+  while (services::clock::wall_now() - begin < time) node_->spin_once(2ms);
 }
 
 bool House::wait_for_end() {
@@ -134,7 +138,7 @@ bool House::all_ended() {
 }
 
 double House::since_begin() const {
-  return std::chrono::duration<double>(services::wall::now() - begun_).count();
+  return std::chrono::duration<double>(services::clock::wall_now() - begun_).count();
 }
 
 }  // namespace roci::bench::house

@@ -12,7 +12,7 @@
 #include "bench/house/proc.hpp"
 #include "roci_idl/clock.h"
 #include "services/clock/wall.hpp"
-#include "services/domain_claim.hpp"
+#include "services/process/domain_claim.hpp"
 #include "services/launch/child.hpp"
 #include "services/node.hpp"
 
@@ -65,10 +65,10 @@ class House {
   bool all_ended();
   double since_begin() const;
 
-  services::DomainClaim domain_;
-  services::wall::Instant begun_;
+  services::process::DomainClaim domain_;
+  services::clock::WallTime begun_;
   std::unique_ptr<services::Node> node_;
-  std::vector<std::unique_ptr<launch::Child>> children_;
+  std::vector<std::unique_ptr<services::launch::Child>> children_;
   ClockFigures clock_;
   std::int64_t step_time_us_ = -1;
   std::uint32_t micro_step_ = 0;

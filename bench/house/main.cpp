@@ -16,6 +16,7 @@
 
 #include "bench/house/house.hpp"
 #include "bench/house/idle_service.hpp"
+#include "services/process/service_main.hpp"
 
 namespace {
 
@@ -121,7 +122,7 @@ int bench(const Arguments& arguments) {
 // This program as one of the idle services: its name stands in the place of the program's.
 int be_idle(int argc, char** argv) {
   constexpr int kBefore = 2;
-  return roci::services::service_main(argc - kBefore, argv + kBefore, argv[kBefore],
+  return roci::services::process::service_main(argc - kBefore, argv + kBefore, argv[kBefore],
                                       house::make_idle_service);
 }
 

@@ -41,7 +41,7 @@ nlohmann::json fly(const Arguments& arguments, int seed, const fs::path& folder)
   node::NodeOptions options;
   options.name = "bench";
   options.clock = clock::ClockMode::observer;
-  options.vendor = roci::launch::vendor_of(roci::launch::kConsole, arguments.dds);
+  options.vendor = roci::services::launch::console_vendor(arguments.dds);
   Node node(options, transport::open_transport(options.vendor, transport));
   std::optional<clock::WallTime> first_command;
   subscribe(node, topics::command, [&first_command](const roci::v1::Command&) {
@@ -51,13 +51,13 @@ nlohmann::json fly(const Arguments& arguments, int seed, const fs::path& folder)
   const auto program = fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "bin" / "roci-launch";
   const fs::path run_folder = folder / ("seed-" + std::to_string(seed));
   const auto begun = clock::wall_now();
-  roci::launch::Child launcher(
+  roci::services::launch::Child launcher(
       program,
       {"roci-launch", arguments.mission, "--scenario", arguments.scenario, "--dds", arguments.dds, "--speed",
        arguments.speed, "--seed", std::to_string(seed), "--domain", std::to_string(domain.id()), "--headless",
        "--run-folder", run_folder.string()},
       folder / "launcher.log");
-  std::optional<roci::launch::Ending> ending;
+  std::optional<roci::services::launch::Ending> ending;
   while (!(ending = launcher.ending())) node.spin_once(2ms);
   const std::chrono::duration<double> wall_s = clock::wall_now() - begun;
 

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/mission/entry.hpp"
+#include "core/mission/scenario.hpp"
 #include "exec_svc/mission/action_entries.hpp"
 #include "exec_svc/mission/domain_names.hpp"
 
@@ -200,7 +201,7 @@ ReactorSettings read_executive(const Entry& entry) {
 }  // namespace
 
 MissionModel read_mission(const std::filesystem::path& mission_folder) {
-  const Entry root = Entry::load(mission_folder / "mission.yaml");
+  const Entry root = Entry::load(roci::mission::mission_file(mission_folder));
   MissionModel out;
   out.name = root.at("name").text();
   out.domain_text = whole_file(root.at("domain"));

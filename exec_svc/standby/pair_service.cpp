@@ -88,7 +88,7 @@ class PairProcess {
       : options_(options),
         sign_(options.notify_socket),
         self_(member_of(options.run.pair)),
-        lease_{read_mission(options.run.mission).executive.standby_term},
+        lease_{read_mission(options.run.mission_file()).executive.standby_term},
         journal_(folder_of(options.run) / "journal.sqlite", durability_for(options.node)),
         persisted_term_(folder_of(options.run) / "standing", durability_for(options.node)) {
     signals.watch([this] { stop_.ask(); });

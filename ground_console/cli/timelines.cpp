@@ -23,7 +23,7 @@ temporal::Progress progress_of(const lib::MissionView& view) {
   return out;
 }
 
-temporal::ObservedValues observed_of(const MissionView& view) {
+temporal::ObservedValues observed_of(const lib::MissionView& view) {
   temporal::ObservedValues out;
   for (const auto& [name, observation] : view.timelines())
     out[name] = {temporal::Time(observation.sampled_us()), services::wire::from_wire(observation.observed())};

@@ -25,6 +25,7 @@ services::node::NodeOptions observer(const services::process::Connection& connec
   options.incarnation = 0;
   options.clock = services::clock::ClockMode::observer;
   options.vendor = connection.dds;
+  options.run = connection.run;
   return options;
 }
 
@@ -38,6 +39,7 @@ std::string described(const services::process::RunRecord& run) {
 services::process::Connection choose_run(const services::process::ConnectionFlags& flags) {
   const auto environment = services::process::process_environment();
   services::process::ConnectionFlags chosen = flags;
+  std::string run;
   if (!flags.domain && !flags.network && !environment("ROCI_DOMAIN") && !environment("ROCI_NETWORK")) {
     const auto runs = services::process::find_runs(services::process::runtime_folder());
     const auto refused = services::process::refused_runs(services::process::runtime_folder());
@@ -50,6 +52,7 @@ services::process::Connection choose_run(const services::process::ConnectionFlag
       throw std::runtime_error(text);
     }
     chosen.domain = runs.front().domain;
+    run = runs.front().run;
     if (!chosen.dds) chosen.dds = runs.front().dds;
     if (!chosen.address) chosen.address = runs.front().address;
     if (!chosen.peers) {
@@ -60,6 +63,7 @@ services::process::Connection choose_run(const services::process::ConnectionFlag
   }
   services::process::Connection connection = services::process::resolve_connection(chosen, environment, {});
   if (connection.dds == "mixed") connection.dds = "cyclonedds";
+  connection.run = run;
   return connection;
 }
 

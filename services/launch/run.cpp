@@ -28,8 +28,8 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds kTurn{20};
 constexpr std::size_t kShownLogLines = 8;
 
-fs::path path_of(const std::string& service) {
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / program_of(service);
+fs::path path_of(const Options& options, const std::string& process) {
+  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / program_of(options, process);
   if (access(program.c_str(), X_OK) == 0) return program;
   throw std::system_error(errno, std::generic_category(), "cannot start " + program.string());
 }
@@ -59,9 +59,10 @@ void refuse_used_folder(const Options& options) {
   }
 }
 
-services::node::NodeOptions observer_options(const std::string& vendor) {
+services::node::NodeOptions observer_options(const std::string& vendor, const std::string& run) {
   services::node::NodeOptions options;
   options.name = "launcher";
+  options.run = run;
   options.clock = services::clock::ClockMode::observer;
   options.vendor = vendor;
   return options;
@@ -72,7 +73,7 @@ services::process::RunRecord record_of(const Options& options, std::int64_t star
   return {getpid(),         transport.domain,       options.mission,
           options.scenario, options.connection.dds, transport.address,
           transport.peers,  options.run_folder,     options.live ? "live" : "simulated",
-          started_unix_us};
+          started_unix_us,  options.run};
 }
 
 void print_failure(const RunFailure& failure, const fs::path& run_folder) {
@@ -104,9 +105,9 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   refuse_used_folder(options);
   fs::create_directories(options.run_folder);
 
-  const std::string vendor = vendor_of(kConsole, options.connection.dds);
+  const std::string vendor = console_vendor(options.connection.dds);
   transport.participant = "launcher";
-  services::Node node(observer_options(vendor), services::transport::open_transport(vendor, transport));
+  services::Node node(observer_options(vendor, options.run), services::transport::open_transport(vendor, transport));
   Progress progress(node, !options.headless);
   const services::process::PublishedRun published(services::process::runtime_folder(),
                                                   record_of(options, started_unix_us));
@@ -114,7 +115,7 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   SignsOfLife signs;
   Supervisor::Hooks hooks;
   hooks.start = [&](const std::string& service, std::uint32_t incarnation) {
-    return std::make_unique<Child>(path_of(service),
+    return std::make_unique<Child>(path_of(options, service),
                                    service_arguments(options, service, incarnation, started_unix_us),
                                    options.run_folder / (service + ".log"),
                                    std::vector<std::string>{"NOTIFY_SOCKET=" + signs.address()});
@@ -122,12 +123,13 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   hooks.on_death = [&](const std::string& service, const std::string& what) {
     progress.report(v1::SEVERITY_WARNING, "service.died", service + " " + what);
   };
-  Supervisor supervisor(options.services, kClockMaster, !options.live, Watchdog(options.watchdog_s),
+  const mission::ServiceEntry* master = options.list.clock_master();
+  Supervisor supervisor(options.services, master == nullptr ? "" : master->name, !options.live, Watchdog(options.watchdog_s),
                         std::move(hooks));
   node.on_peer_change([&](const services::health::PeerChange& change) {
-    // The executive that leads a pair counts its epochs as incarnations, so it cannot be told which one this
-    // is.
-    if (options.standby && change.service == kExecutive) return;
+    // Who leads a pair counts its epochs as incarnations, so it cannot be told which process this is.
+    const mission::ServiceEntry* entry = options.list.find(change.service);
+    if (options.standby && entry != nullptr && entry->paired) return;
     supervisor.watchdog().heard(change, clock::wall_now());
   });
   supervisor.start(clock::wall_now());

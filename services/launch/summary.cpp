@@ -16,14 +16,18 @@ using nlohmann::json;
 
 constexpr char kServed[] = "served";
 
-bool starts(const Options& options, const char* service) {
-  return std::ranges::find(options.services, service) != options.services.end();
+constexpr char kExecutive[] = "exec_svc";  // the program that counts goals
+
+bool starts(const Options& options, const std::string& process) {
+  return std::ranges::find(options.services, process) != options.services.end();
 }
 
 // No: they may well be counted on another host.
 bool must_count_goals(const Options& options) {
-  if (!starts(options, kExecutive)) return false;
-  return !options.standby || starts(options, kStandby);
+  return std::ranges::any_of(options.list.services, [&](const mission::ServiceEntry& entry) {
+    const bool here = entry.program == kExecutive && starts(options, entry.name);
+    return here && (!options.standby || starts(options, standby_of(entry.name)));
+  });
 }
 
 // What exec_svc wrote here, if it did.

@@ -85,13 +85,13 @@ void NodeImpl::announce_match() {
 
 health::Heart NodeImpl::make_heart() {
   OutStream& stream = advertise(*this, topics::heartbeat);
-  v1::Heartbeat beat;
-  beat.service(options.name);
-  beat.mission(options.mission);
-  beat.robot(options.robot);
-  beat.incarnation(options.incarnation);
-  beat.dds(options.vendor);
-  return health::Heart(std::move(beat),
+  v1::Heartbeat identity;
+  identity.service(options.name);
+  identity.mission(options.mission);
+  identity.robot(options.robot);
+  identity.incarnation(options.incarnation);
+  identity.dds(options.vendor);
+  return health::Heart(std::move(identity),
                        [&stream](const v1::Heartbeat& beat) { write(stream, beat); });
 }
 

@@ -22,6 +22,7 @@ struct ConnectionFlags {
 
 struct Connection {
   std::string dds;
+  std::string run{};  // identity of the run, where it is known; else the first that is heard
   transport::TransportOptions transport;
 };
 

@@ -26,7 +26,8 @@ json to_json(const RunRecord& run) {
           {"peers", run.peers},
           {"run_folder", run.run_folder.string()},
           {"clock", run.clock},
-          {"started_unix_us", run.started_unix_us}};
+          {"started_unix_us", run.started_unix_us},
+          {"run", run.run}};
 }
 
 // A record that names no version is of version 1.
@@ -51,6 +52,7 @@ std::optional<RunRecord> read(const fs::path& file) {
     run.run_folder = record.at("run_folder").get<std::string>();
     run.clock = record.at("clock");
     run.started_unix_us = record.at("started_unix_us");
+    run.run = record.value("run", "");
     return run;
   } catch (const json::exception&) {
     return std::nullopt;  // it is no record

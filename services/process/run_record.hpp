@@ -23,6 +23,7 @@ struct RunRecord {
   std::filesystem::path run_folder;
   std::string clock;  // live or simulated
   std::int64_t started_unix_us = 0;
+  std::string run{};  // identity; empty in records of before there were any
 
   bool operator==(const RunRecord&) const = default;
 };

@@ -69,7 +69,7 @@ world::RobotSetup read_robot(const RobotEntry& robot, const Start& start, const 
 
 RunSetup load_run(const std::filesystem::path& mission_folder, const std::string& scenario_name,
                   const setup::Registry& types) {
-  const Entry mission = Entry::load(mission_folder / "mission.yaml");
+  const Entry mission = Entry::load(mission::mission_file(mission_folder));
   const Entry scenario_file = mission::load_scenario(mission_folder, scenario_name);
   const Roster roster = setup::read_roster(mission.at("simulation"), types);
   RunSetup run;

@@ -31,7 +31,14 @@ class LaunchTest : public testing::Test {
  protected:
   LaunchTest() {
     fs::create_directories(folder);
-    std::ofstream(folder / "mission.yaml") << "name: test\n";
+    std::ofstream(folder / "mission.yaml") << "name: test\n"
+                                              "robots: [rover]\n"
+                                              "services:\n"
+                                              "  - {name: arm_svc, robot: rover}\n"
+                                              "  - {name: exec_svc, standby: true}\n"
+                                              "  - {name: planner_svc, vendor: cyclonedds}\n"
+                                              "  - {name: sim_svc, clock: master}\n"
+                                              "  - {name: second.arm, program: arm_svc, arguments: [--seed, 12]}\n";
   }
   ~LaunchTest() override { fs::remove_all(folder); }
 
@@ -47,19 +54,20 @@ class LaunchTest : public testing::Test {
                                    testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
-TEST_F(LaunchTest, MixedPutsThePlannerAndTheConsoleOnTheOtherVendor) {
+TEST_F(LaunchTest, MixedPutsWhoNamesItAndTheConsoleOnTheOtherVendor) {
   const Options options = parse({"--dds", "mixed"});
   EXPECT_THAT(service_arguments(options, "planner_svc", 1, 0), Contains("cyclonedds"));
   EXPECT_THAT(service_arguments(options, "exec_svc", 1, 0), Contains("fastdds"));
-  EXPECT_EQ(vendor_of(kConsole, "mixed"), "cyclonedds");
-  EXPECT_EQ(vendor_of(kConsole, "fastdds"), "fastdds");
+  EXPECT_EQ(console_vendor("mixed"), "cyclonedds");
+  EXPECT_EQ(console_vendor("fastdds"), "fastdds");
+  EXPECT_THAT(service_arguments(parse({"--dds", "fastdds"}), "planner_svc", 1, 0), Not(Contains("cyclonedds")));
 }
 
 TEST_F(LaunchTest, OnlyTheMasterKnowsRosterAndPace) {
   const Options options = parse({"--speed", "max"});
   EXPECT_THAT(
       service_arguments(options, "sim_svc", 3, 0),
-      IsSupersetOf({"master", "--roster", "arm_svc,exec_svc,pathplan_svc,planner_svc,science_svc,sim_svc",
+      IsSupersetOf({"master", "--roster", "arm_svc,exec_svc,planner_svc,sim_svc,second.arm",
                     "--pace", "0", "--incarnation", "3"}));
   EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Contains("simulated"));
   EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Not(Contains("--roster")));
@@ -67,16 +75,39 @@ TEST_F(LaunchTest, OnlyTheMasterKnowsRosterAndPace) {
 
 TEST_F(LaunchTest, AStandbyIsASecondExecutiveAndNoMemberOfTheRoster) {
   const Options options = parse({"--standby", "--dds", "mixed"});
-  EXPECT_THAT(options.services, Contains(kStandby));
-  EXPECT_THAT(options.roster, Not(Contains(kStandby)));
-  EXPECT_THAT(service_arguments(options, kExecutive, 1, 0), IsSupersetOf({"exec_svc", "--pair", "first"}));
-  EXPECT_THAT(service_arguments(options, kStandby, 1, 0),
+  EXPECT_THAT(options.services, Contains("exec_svc.standby"));
+  EXPECT_THAT(options.roster, Not(Contains("exec_svc.standby")));
+  EXPECT_THAT(service_arguments(options, "exec_svc", 1, 0), IsSupersetOf({"exec_svc", "--pair", "first"}));
+  EXPECT_THAT(service_arguments(options, "exec_svc.standby", 1, 0),
               IsSupersetOf({"exec_svc", "--pair", "second", "cyclonedds"}));
   EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Not(Contains("--pair")));
-  EXPECT_THAT(service_arguments(parse({}), kExecutive, 1, 0), Not(Contains("--pair")));
-  EXPECT_THAT(parse({"--standby", "--services", "exec_svc.standby"}).services, ElementsAre(kStandby));
+  EXPECT_THAT(service_arguments(parse({}), "exec_svc", 1, 0), Not(Contains("--pair")));
+  EXPECT_THAT(parse({"--standby", "--services", "exec_svc.standby"}).services, ElementsAre("exec_svc.standby"));
   EXPECT_THROW(parse({"--services", "exec_svc.standby"}), std::invalid_argument);
   EXPECT_THROW(parse({"--standby", "--dds", "inproc"}), std::invalid_argument);
+}
+
+TEST_F(LaunchTest, TheMissionSaysWhichServicesThereAre) {
+  const Options options = parse({});
+  EXPECT_THAT(options.services, ElementsAre("arm_svc", "exec_svc", "planner_svc", "sim_svc", "second.arm"));
+  EXPECT_THAT(service_arguments(options, "second.arm", 1, 0),
+              IsSupersetOf({"arm_svc", "--name", "second.arm", "--seed", "12"}));
+  EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), IsSupersetOf({"--robot", "rover"}));
+  EXPECT_THAT(service_arguments(options, "sim_svc", 1, 0), Not(Contains("--robot")));
+  std::ofstream(folder / "mission.yaml") << "name: test\nservices:\n  - {name: exec_svc}\n";
+  EXPECT_THROW(parse({}), std::invalid_argument) << "nobody drives the simulated clock";
+  EXPECT_THAT(parse({"--clock", "live"}).services, ElementsAre("exec_svc"));
+  EXPECT_THROW(parse({"--clock", "live", "--standby"}), std::invalid_argument) << "nobody may be paired";
+  std::ofstream(folder / "mission.yaml") << "name: test\n";
+  EXPECT_THROW(parse({}), mission::FileError);
+}
+
+TEST_F(LaunchTest, ARunHasAnIdentityThatItsHostsShare) {
+  EXPECT_NE(parse({}).run, parse({}).run) << "flown by one launcher it is like no other";
+  EXPECT_EQ(parse({"--services", "arm_svc"}).run, parse({"--services", "sim_svc,exec_svc"}).run);
+  const Options named = parse({"--run", "sol-12"});
+  EXPECT_EQ(named.run, "sol-12");
+  EXPECT_THAT(service_arguments(named, "arm_svc", 1, 0), IsSupersetOf({"--run", "sol-12"}));
 }
 
 TEST_F(LaunchTest, LiveServicesShareAnEpoch) {
@@ -88,7 +119,9 @@ TEST_F(LaunchTest, LiveServicesShareAnEpoch) {
 TEST_F(LaunchTest, ServiceArgumentsAreThoseThatServicesRead) {
   Options options = parse({"--dds", "cyclonedds", "--seed", "9", "--domain", "7", "--speed", "2.5"});
   options.run_folder = "/run";
-  for (const std::string& service : kAllServices) {
+  for (const mission::ServiceEntry& entry : options.list.services) {
+    const std::string& service = entry.name;
+    if (!entry.arguments.empty()) continue;  // they are its program's own
     const auto arguments = service_arguments(options, service, 2, 0);
     std::vector<const char*> pointers;
     for (const auto& argument : arguments) pointers.push_back(argument.c_str());
@@ -100,7 +133,10 @@ TEST_F(LaunchTest, ServiceArgumentsAreThoseThatServicesRead) {
     EXPECT_EQ(read.run.mission, options.mission);
     EXPECT_EQ(read.connection.dds, "cyclonedds");
     EXPECT_EQ(read.connection.transport.domain, 7);
-    const bool master = service == kClockMaster;
+    EXPECT_EQ(read.node.run, options.run);
+    EXPECT_EQ(read.node.robot, entry.robot);
+    EXPECT_EQ(read.run.mission_file(), entry.settings);
+    const bool master = entry.clock_master;
     EXPECT_EQ(read.node.clock, master ? clock::ClockMode::master : clock::ClockMode::simulated);
     EXPECT_EQ(read.node.master.pace, master ? 2.5 : 0);
   }
@@ -154,7 +190,7 @@ TEST_F(LaunchTest, AHostWithOneOfAPairServesIfTheOtherLedAtTheEnd) {
   fs::remove(folder / "summary.json");
   EXPECT_FALSE(complete_summary(options, 1, false).good);
   fs::remove(folder / "summary.json");
-  options.services.emplace_back(kStandby);
+  options.services.emplace_back("exec_svc.standby");
   EXPECT_FALSE(complete_summary(options, 1, true).good) << "one of the two leads";
   std::ofstream(folder / "summary.json") << R"({"result": "achieved", "goals": {"achieved": 3}, "sim_s": 7})";
   options.services.pop_back();
@@ -179,18 +215,18 @@ TEST_F(LaunchTest, RunningMissionsAreFound) {
 }
 
 TEST_F(LaunchTest, ARecordStatesItsFormatAndOneThatDoesNotIsOfTheFirst) {
-  services::RunRecord run;
+  process::RunRecord run;
   run.pid = getpid();
-  const services::PublishedRun published(folder, run);
+  const process::PublishedRun published(folder, run);
   std::ifstream written(folder / ("run-" + std::to_string(getpid()) + ".json"));
-  EXPECT_EQ(nlohmann::json::parse(written).at("format"), services::kRunRecordFormat);
+  EXPECT_EQ(nlohmann::json::parse(written).at("format"), process::kRunRecordFormat);
   std::ifstream golden(ROCI_SOURCE_DIR
                        "/tests/unit/services/golden/run-record-1.json");  // baseline-05 wrote it
   auto record = nlohmann::json::parse(golden);
   ASSERT_FALSE(record.contains("format"));
   record["pid"] = getpid();
   std::ofstream(folder / "run-1.json") << record;
-  const auto runs = services::find_runs(folder);
+  const auto runs = process::find_runs(folder);
   ASSERT_EQ(runs.size(), 2U);
   EXPECT_EQ(runs[0].scenario, "nominal");
   EXPECT_EQ(runs[0].domain, record["domain"]);
@@ -199,8 +235,8 @@ TEST_F(LaunchTest, ARecordStatesItsFormatAndOneThatDoesNotIsOfTheFirst) {
 TEST_F(LaunchTest, ARecordOfANewerFormatIsRefusedInWords) {
   std::ofstream(folder / "run-1.json") << R"({"format": 2, "pid": )" << getpid() << "}";
   std::ofstream(folder / "run-2.json") << R"({"format": 2, "pid": 1073741824})";
-  EXPECT_TRUE(services::find_runs(folder).empty());
-  EXPECT_THAT(services::refused_runs(folder),
+  EXPECT_TRUE(process::find_runs(folder).empty());
+  EXPECT_THAT(process::refused_runs(folder),
               ElementsAre(testing::AllOf(HasSubstr("run-1.json is of format 2"), HasSubstr("reads up to 1"),
                                          HasSubstr("use the programs"))));
 }

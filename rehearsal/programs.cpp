@@ -8,8 +8,8 @@
 
 namespace roci::rehearsal {
 
-const std::vector<Member>& members() {
-  static const std::vector<Member> all = {
+const std::vector<Program>& programs() {
+  static const std::vector<Program> all = {
       {"arm_svc", arm::make_service},           {"exec_svc", exec::make_service},
       {"pathplan_svc", pathplan::make_service}, {"planner_svc", planner::make_service},
       {"science_svc", science::make_service},   {"sim_svc", sim::make_service}};
