@@ -73,7 +73,7 @@ nlohmann::json measure(const std::string& shape, std::size_t size, std::size_t s
     us.push_back(processor_us() - begun);
     if (outputs.outcome.kind != exec::executive::OutcomeKind::running) {
       if (outputs.outcome.kind != exec::executive::OutcomeKind::finished)
-        throw std::logic_error(shape + ": the plan broke: " + outputs.outcome.cause);
+        throw std::logic_error(shape + ": the plan broke: " + outputs.outcome.reason);
       break;
     }
     obey(outputs, now, random, answers);
