@@ -333,7 +333,7 @@ TEST_F(ConflictsAhead, AreSeenThroughOneVersionAfterTheOther) {
   needs_lamp("2");
   ReactorInputs first = robot_and({photo("1"), photo("2")});
   first.observations.push_back({"lamp", false});
-  for (int second = 1; second < 20; ++second) send_at(second, [this] { engine.find("2").utility += 1; });
+  for (int second = 1; second < 20; ++second) send_at(second, [this] { engine.find("2").utility += {1}; });
   run(19.5, with_plan(std::move(first)));
   EXPECT_EQ(reactor.plan_version(), 20U);
   EXPECT_THAT(reactor.receipt().conflict, HasSubstr("lamp = true (is false)"));
