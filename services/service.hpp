@@ -23,7 +23,7 @@ struct RunSettings {
   std::string scenario = "nominal";  // scenarios/<name>.yaml in the mission folder
   std::uint64_t seed = 1;
   std::filesystem::path run_folder;  // journal, summary.json, logs of this run
-  std::string pair;  // "first", "second": of two processes that stand in for each other; empty: it is alone
+  std::string pair{};  // "first", "second": of two processes that stand in for each other; empty: it is alone
   std::filesystem::path settings{};  // the mission file that this service reads; empty: mission.yaml of the folder
 
   std::filesystem::path mission_file() const { return settings.empty() ? mission / "mission.yaml" : settings; }

@@ -48,7 +48,7 @@ services::process::Connection choose_run(const services::process::ConnectionFlag
       throw NoRun("no mission runs on this machine; start one with ./run, or name its --domain");
     if (runs.size() > 1) {
       std::string text = "several missions run on this machine; name one:";
-      for (const services::process::RunRecord& run : runs) text += "\n" + described(run);
+      for (const services::process::RunRecord& other : runs) text += "\n" + described(other);
       throw std::runtime_error(text);
     }
     chosen.domain = runs.front().domain;
