@@ -220,7 +220,7 @@ class ExecService final : public services::Service {
     answer.call = call;
     answer.verdict = result.status == services::rpc::CallStatus::cancelled ? PlanVerdict::cancelled
                                                                            : PlanVerdict::no_reply;
-    answer.reason = result.message;
+    answer.reason = result.reason;
     if (result.status == services::rpc::CallStatus::ok) {
       slowest_call_s_ = std::max(slowest_call_s_, result.reply.statistics().wall_s());
       planner_peak_kb_ = std::max(planner_peak_kb_, result.reply.statistics().peak_rss_kb());

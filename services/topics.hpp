@@ -52,14 +52,14 @@ inline constexpr Topic<v1::StepStatus>    step_status   {"roci/plan/step",      
 inline constexpr Topic<v1::MissionStatus> mission_status{"roci/mission",          "roci::v1::MissionStatus", Qos::state, clocked};
 inline constexpr Topic<v1::FunctionOffer> function_offer{"roci/function/offer",   "roci::v1::FunctionOffer", Qos::state, clocked};
 
-// With an engine that plans all the time.
+// An engine that plans all the time uses these.
 inline constexpr Topic<v1::PlanDelta>     plan_delta    {"roci/planner/delta",    "roci::v1::PlanDelta",     Qos::request, clocked};
 inline constexpr Topic<v1::PlanReceipt>   plan_receipt  {"roci/planner/receipt",  "roci::v1::PlanReceipt",   Qos::state, clocked};
 
-// Of every procedure below.
+// Every procedure below uses this.
 inline constexpr Topic<v1::CallCancel>    call_cancel   {"roci/call/cancel",      "roci::v1::CallCancel",    Qos::request, clocked};
 
-// A remote procedure: a pair of topics with the DDS-RPC headers.
+/// A remote procedure is a pair of topics with the DDS-RPC headers.
 template <class Request, class Reply>
 struct Procedure {
   Topic<Request> request;

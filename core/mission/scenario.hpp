@@ -8,7 +8,7 @@
 
 namespace roci::mission {
 
-// Throws FileError; for a name that no file has, with the names that there are.
+/// Reads a scenario of a mission. Throws FileError; for a name that no file has, it lists those that there are.
 Entry load_scenario(const std::filesystem::path& mission_folder, const std::string& name);
 
 }  // namespace roci::mission

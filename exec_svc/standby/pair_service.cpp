@@ -10,7 +10,7 @@
 #include "exec_svc/standby/following_service.hpp"
 #include "exec_svc/standby/leading_service.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
-#include "services/health/sign_of_life.hpp"
+#include "services/health/watchdog_notifier.hpp"
 #include "services/log/log.hpp"
 #include "services/node.hpp"
 #include "services/process/service_options.hpp"
@@ -81,7 +81,7 @@ class PairProcess {
  public:
   PairProcess(const services::process::ServiceOptions& options, services::process::StopSignals& signals)
       : options_(options),
-        sign_(options.notify_socket),
+        watchdog_(options.notify_socket),
         self_(wire::member_of(options.run.pair)),
         lease_{read_mission(options.run.mission).executive.standby_term},
         journal_(folder_of(options.run) / "journal.sqlite", durability_for(options.node)),
@@ -111,7 +111,7 @@ class PairProcess {
   // A member that was connected before waits for its network to come back; none: it was asked to stop.
   std::unique_ptr<services::transport::Transport> connect() {
     for (bool told = false; !stop_.asked(); stop_.wait(kReconnectPause)) {
-      sign_.give();
+      watchdog_.notify();
       try {
         auto transport = services::process::connect(options_.connection);
         connected_before_ = true;
@@ -134,7 +134,7 @@ class PairProcess {
     options.clock = services::clock::ClockMode::observer;
     services::Node node(options, std::move(transport));
     FollowingService following(node, lease, journal_, standing_);
-    node.on_turn([this] { sign_.give(); });
+    node.on_turn([this] { watchdog_.notify(); });
     const Reach reach(stop_, node);
     node.run();
     return following.run_is_over() || stop_.asked() ? std::nullopt : following.lead();
@@ -148,7 +148,7 @@ class PairProcess {
     services::node::NodeOptions options = options_.node;
     options.incarnation = static_cast<std::uint32_t>(lease.epoch());
     services::Node node(options, std::move(transport));
-    node.on_turn([this] { sign_.give(); });
+    node.on_turn([this] { watchdog_.notify(); });
     try {
       LeadingService leading(node, lease, journal_, standing_);
       const auto executive = make_executive(node, options_.run, journal_, leading, why.doubtful);
@@ -165,7 +165,7 @@ class PairProcess {
   }
 
   const services::process::ServiceOptions& options_;
-  services::health::SignOfLife sign_;
+  services::health::WatchdogNotifier watchdog_;
   Member self_;
   LeaseSettings lease_;
   Journal journal_;

@@ -12,13 +12,13 @@ namespace roci::console::cli {
 
 using Timelines = std::map<std::string, std::vector<temporal::ProjectedChange>>;
 
-// Of the running plan and of what is observed (the newest value of each, as executed by nobody); with names:
-// of these alone. A number of the plan is its change since the plan began. Throws WireError for a plan that
-// no executive sends.
+/// Of the running plan and of what is observed (the newest value of each, as executed by nobody); with names:
+/// of these alone. A number of the plan is its change since the plan began. Throws WireError for a plan that
+/// no executive sends.
 Timelines timelines_of(const lib::MissionView& view, const std::vector<std::string>& names);
 
 nlohmann::json timelines_json(const lib::MissionView& view, const Timelines& timelines);
-// A block of lines for each timeline: time, value, kind, activity.
+/// A block of lines for each timeline: time, value, kind, activity.
 std::string timelines_text(const Timelines& timelines);
 
 }  // namespace roci::console::cli

@@ -11,7 +11,7 @@
 namespace roci::services::node {
 
 template <class T>
-concept Headed = requires(T value) {
+concept HasHeader = requires(T value) {
   { value.header() } -> std::same_as<v1::SampleHeader&>;
 };
 
@@ -36,7 +36,7 @@ TopicSpec spec_of(const Topic<T>& topic) {
   codec.type = transport::describe_type<T>(topic.type_name);
   codec.decode = &decode_as<T>;
   codec.key = &key_as<T>;
-  if constexpr (Headed<T>) {
+  if constexpr (HasHeader<T>) {
     codec.header = [](const void* value) -> const v1::SampleHeader& {
       return static_cast<const T*>(value)->header();
     };

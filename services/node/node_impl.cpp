@@ -24,7 +24,7 @@ health::PeerState NodeImpl::peer(std::string_view service) const {
   return service == options.name ? health::PeerState::alive : loop->peer(service);
 }
 
-InTopic& NodeImpl::subscribe(const TopicSpec& topic) {
+TopicReader& NodeImpl::subscribe(const TopicSpec& topic) {
   const bool barriered = topic.clocking == transport::Clocking::clocked && simulated();
   if (running && barriered && endpoints.find_in(topic.name) == nullptr) {
     throw std::logic_error(
@@ -34,10 +34,10 @@ InTopic& NodeImpl::subscribe(const TopicSpec& topic) {
   return endpoints.in(topic);
 }
 
-void NodeImpl::take_in(Arrival&& arrival) {
-  InTopic& input = *arrival.topic;
-  if (arrival.sample.kind == transport::SampleKind::owner_lost) {
-    for (const auto& lost : input.on_owner_lost) lost(arrival.sample.payload);
+void NodeImpl::receive(Arrival&& arrival) {
+  TopicReader& input = *arrival.topic;
+  if (arrival.sample.kind == transport::SampleKind::no_writers) {
+    for (const auto& lost : input.on_no_writers) lost(arrival.sample.payload);
   }
   if (arrival.sample.kind != transport::SampleKind::data) return;
   auto value = input.topic.codec.decode(arrival.sample.payload);
@@ -51,7 +51,7 @@ void NodeImpl::take_in(Arrival&& arrival) {
   loop->take_clocked(input, header, std::move(value));
 }
 
-void NodeImpl::handle(InTopic& input, const void* value) {
+void NodeImpl::handle(TopicReader& input, const void* value) {
   // By index: a handler may subscribe, live.
   for (std::size_t i = 0; i < input.on_value.size(); ++i) {
     const auto handler = input.on_value[i];
@@ -80,10 +80,10 @@ void NodeImpl::announce_match() {
   }
 }
 
-health::Heart NodeImpl::make_heart() {
-  OutStream& stream = advertise(*this, topics::heartbeat);
-  return health::Heart(options.name, options.incarnation, options.vendor,
-                       [&stream](const v1::Heartbeat& beat) { write(stream, beat); });
+health::HeartbeatSender NodeImpl::make_heartbeat_sender() {
+  TopicWriter& stream = advertise(*this, topics::heartbeat);
+  return health::HeartbeatSender(options.name, options.incarnation, options.vendor,
+                                 [&stream](const v1::Heartbeat& beat) { write(stream, beat); });
 }
 
 }  // namespace roci::services::node

@@ -1,4 +1,4 @@
-#include "services/health/heart.hpp"
+#include "services/health/heartbeat_sender.hpp"
 
 #include <unistd.h>
 
@@ -27,7 +27,8 @@ std::uint32_t resident_kb() {
 
 }  // namespace
 
-Heart::Heart(const std::string& service, std::uint32_t incarnation, const std::string& dds, Send send)
+HeartbeatSender::HeartbeatSender(const std::string& service, std::uint32_t incarnation,
+                                 const std::string& dds, Send send)
     : send_(std::move(send)) {
   beat_.service(service);
   beat_.incarnation(incarnation);
@@ -36,16 +37,16 @@ Heart::Heart(const std::string& service, std::uint32_t incarnation, const std::s
   beat_.process_id(getpid());
 }
 
-void Heart::beat(clock::WallTime now) {
+void HeartbeatSender::beat(clock::WallTime now) {
   ++turns_;
   if (now < next_) return;
   next_ = now + clock::wall_seconds(kPeriodS);
   send(v1::SERVICE_RUNNING);
 }
 
-void Heart::leave() { send(v1::SERVICE_STOPPING); }
+void HeartbeatSender::leave() { send(v1::SERVICE_STOPPING); }
 
-void Heart::send(v1::ServiceState state) {
+void HeartbeatSender::send(v1::ServiceState state) {
   beat_.progress(turns_);
   beat_.state(state);
   beat_.resident_kb(resident_kb());

@@ -1,4 +1,4 @@
-#include "services/clock/follower.hpp"
+#include "services/clock/hold_back_queue.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ v1::SampleHeader header(const std::string& sender, std::uint64_t seq, std::uint3
 std::shared_ptr<const void> value(const std::string& text) { return std::make_shared<std::string>(text); }
 
 // Values are strings "key=content".
-Follower::Key key_of(const void* sample) {
+HoldBackQueue::Key key_of(const void* sample) {
   const auto& text = *static_cast<const std::string*>(sample);
   const auto key = text.substr(0, text.find('='));
   return {key.begin(), key.end()};
@@ -67,7 +67,7 @@ class FollowerTest : public testing::Test {
     follower.subscribe("state", Durability::transient_local, key_of);
   }
   void join() { follower.take(step_with({"a", "b"}, {})); }
-  Follower follower;
+  HoldBackQueue follower;
 };
 
 TEST_F(FollowerTest, IsCompleteWithExactlyTheAnnouncedSamples) {

@@ -1,4 +1,4 @@
-#include "services/health/peer_table.hpp"
+#include "services/health/failure_detector.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ class PeerTableTest : public testing::Test {
     }
     return texts;
   }
-  PeerTable peers{5s};
+  FailureDetector peers{5s};
   clock::WallTime start{1000s};
 };
 
@@ -62,13 +62,13 @@ TEST_F(PeerTableTest, OtherSignsOfLifeCount) {
 
 TEST_F(PeerTableTest, AKillIsNotALeave) {
   peers.heartbeat(beat(1), start);
-  peers.owner_lost("arm_svc");
-  peers.owner_lost("arm_svc");
+  peers.writer_lost("arm_svc");
+  peers.writer_lost("arm_svc");
   EXPECT_THAT(changes(), ElementsAre("1 alive", "1 killed"));
   peers.heartbeat(beat(2), start);
   peers.heartbeat(beat(2, v1::SERVICE_STOPPING), start);
   peers.heartbeat(beat(2, v1::SERVICE_STOPPING), start + 1s);
-  peers.owner_lost("arm_svc");
+  peers.writer_lost("arm_svc");
   EXPECT_THAT(changes(), ElementsAre("2 alive", "2 left"));
 }
 
@@ -80,7 +80,7 @@ TEST_F(PeerTableTest, ANewIncarnationProvesTheDeathOfTheOld) {
 }
 
 TEST_F(PeerTableTest, StrangersAreNobody) {
-  peers.owner_lost("unknown");
+  peers.writer_lost("unknown");
   peers.seen("unknown", 1, start);
   peers.check(start + 100s);
   EXPECT_THAT(changes(), IsEmpty());

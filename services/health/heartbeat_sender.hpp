@@ -1,4 +1,4 @@
-// The heartbeat of a service. The work loop itself calls beat(), so that a hung loop goes silent.
+// Sends the heartbeat of a service. The work loop itself calls beat(), so that a hung loop goes silent.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,17 @@
 
 namespace roci::services::health {
 
-class Heart {
+class HeartbeatSender {
  public:
   using Send = std::function<void(const v1::Heartbeat&)>;
 
-  /// `dds`: the vendor in use, as the heartbeat reports it.
-  Heart(const std::string& service, std::uint32_t incarnation, const std::string& dds, Send);
+  /// `dds` is the vendor in use, as the heartbeat reports it.
+  HeartbeatSender(const std::string& service, std::uint32_t incarnation, const std::string& dds, Send);
 
-  void beat(clock::WallTime now);  // each turn of the loop; sends when it is time
-  void leave();                    // the last one, SERVICE_STOPPING
+  /// The loop calls it in each of its turns; it sends when it is time.
+  void beat(clock::WallTime now);
+  /// Sends the last heartbeat, SERVICE_STOPPING.
+  void leave();
   clock::WallTime next() const { return next_; }
 
  private:
