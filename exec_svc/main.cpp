@@ -9,7 +9,7 @@ void run(const roci::services::process::ServiceOptions& options,
   if (options.run.pair.empty()) {
     roci::services::process::run_service(options, signals, roci::exec::make_service);
   } else {
-    roci::exec::run_pair(options, signals);
+    roci::exec::standby::run_pair(options, signals);
   }
 }
 

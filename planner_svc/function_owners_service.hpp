@@ -19,15 +19,15 @@ class FunctionOwners {
  public:
   using Done = std::function<void(std::vector<FunctionValue>)>;
 
-  // `timeout`: of one batch.
+  /// `timeout`: of one batch.
   FunctionOwners(services::Node& node, temporal::Duration timeout);
   FunctionOwners(const FunctionOwners&) = delete;
   FunctionOwners& operator=(const FunctionOwners&) = delete;
 
-  // `calls`: at least one, of one function. `done` gets one value for each, perhaps before this returns.
+  /// `calls`: at least one, of one function. `done` gets one value for each, perhaps before this returns.
   void ask(const std::vector<FunctionCall>& calls, const std::vector<v1::PlanObject>& objects, Done done);
 
-  // The batch under way is wanted no more, its `done` will not run. False: none was under way.
+  /// The batch under way is wanted no more, its `done` will not run. False: none was under way.
   bool forget();
 
  private:

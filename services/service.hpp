@@ -33,4 +33,9 @@ using MakeService = std::unique_ptr<Service>(Node&, const RunSettings&);
 /// has one.
 inline constexpr char kExpectedFile[] = "expected.json";
 
+/// In the run folder: the outcome of a run, with `format`, the version of its schema (docs/formats.md). It
+/// rises when a key changes its meaning or goes; a summary without it is of version 1.
+inline constexpr char kSummaryFile[] = "summary.json";
+inline constexpr int kSummaryFormat = 1;
+
 }  // namespace roci::services

@@ -8,6 +8,7 @@
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
 #include "roci_idl/motion.h"
+#include "roci_idl/order.h"
 #include "roci_idl/plan.h"
 #include "roci_idl/planner.h"
 #include "roci_idl/rpc.h"
@@ -35,9 +36,10 @@ inline constexpr Topic<v1::ClockReady>    clock_ready   {"roci/clock/ready",    
 inline constexpr Topic<v1::ClockStep>     clock_step    {"roci/clock/step",       "roci::v1::ClockStep",     Qos::state, wall};
 inline constexpr Topic<v1::ClockDone>     clock_done    {"roci/clock/done",       "roci::v1::ClockDone",     Qos::state, wall};
 inline constexpr Topic<v1::Heartbeat>     heartbeat     {"roci/heartbeat",        "roci::v1::Heartbeat",     Qos::state, wall};
+inline constexpr Topic<v1::TimeProbe>     time_probe    {"roci/clock/probe",      "roci::v1::TimeProbe",     Qos::stream, wall};
 
-inline constexpr Topic<v1::ExecMember>    exec_member   {"roci/exec/member",      "roci::v1::ExecMember",    Qos::state, wall};
-inline constexpr Topic<v1::JournalParcel> exec_journal  {"roci/exec/journal",     "roci::v1::JournalParcel", Qos::request, wall};
+inline constexpr Topic<v1::LeaseMessage>  exec_member   {"roci/exec/member",      "roci::v1::LeaseMessage",  Qos::state, wall};
+inline constexpr Topic<v1::JournalChunk>  exec_journal  {"roci/exec/journal",     "roci::v1::JournalChunk",  Qos::request, wall};
 
 inline constexpr Topic<v1::Event>         event         {"roci/event",            "roci::v1::Event",         Qos::event, clocked};
 inline constexpr Topic<v1::Goal>          goal          {"roci/goal",             "roci::v1::Goal",          Qos::state, clocked};
@@ -51,6 +53,13 @@ inline constexpr Topic<v1::Plan>          plan          {"roci/plan",           
 inline constexpr Topic<v1::StepStatus>    step_status   {"roci/plan/step",        "roci::v1::StepStatus",    Qos::state, clocked};
 inline constexpr Topic<v1::MissionStatus> mission_status{"roci/mission",          "roci::v1::MissionStatus", Qos::state, clocked};
 inline constexpr Topic<v1::FunctionOffer> function_offer{"roci/function/offer",   "roci::v1::FunctionOffer", Qos::state, clocked};
+
+// Orders from the ground, and open decisions of the running plan with their answers.
+inline constexpr Topic<v1::Order>         order         {"roci/order",            "roci::v1::Order",         Qos::state, clocked};
+inline constexpr Topic<v1::OrderStatus>   order_status  {"roci/order/status",     "roci::v1::OrderStatus",   Qos::state, clocked};
+inline constexpr Topic<v1::Decision>      decision      {"roci/decision",         "roci::v1::Decision",      Qos::state, clocked};
+inline constexpr Topic<v1::DecisionAnswer>  decision_answer {"roci/decision/answer",  "roci::v1::DecisionAnswer",  Qos::state, clocked};
+inline constexpr Topic<v1::DecisionReceipt> decision_receipt{"roci/decision/receipt", "roci::v1::DecisionReceipt", Qos::state, clocked};
 
 // An engine that plans all the time uses these.
 inline constexpr Topic<v1::PlanDelta>     plan_delta    {"roci/planner/delta",    "roci::v1::PlanDelta",     Qos::request, clocked};

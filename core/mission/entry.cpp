@@ -71,6 +71,8 @@ std::vector<std::pair<std::string, Entry>> Entry::fields() const {
 
 bool Entry::is_mapping() const { return node().IsMap(); }
 
+bool Entry::is_sequence() const { return node().IsSequence(); }
+
 std::string Entry::text() const {
   if (!node().IsScalar()) fail("expected a single value");
   return node().Scalar();

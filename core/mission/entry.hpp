@@ -39,6 +39,7 @@ class Entry {
   /// Returns the fields of a mapping, in the order of the file.
   std::vector<std::pair<std::string, Entry>> fields() const;
   bool is_mapping() const;
+  bool is_sequence() const;
 
   std::string text() const;
   double number() const;  ///< It is finite.

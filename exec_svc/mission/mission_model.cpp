@@ -7,10 +7,10 @@
 #include "exec_svc/mission/action_entries.hpp"
 #include "exec_svc/mission/domain_names.hpp"
 
-namespace roci::exec {
+namespace roci::exec::mission {
 namespace {
 
-using mission::Entry;
+using roci::mission::Entry;
 using temporal::Duration;
 
 Duration seconds(const Entry& entry) { return temporal::seconds(entry.number()); }
@@ -233,4 +233,4 @@ MissionModel read_mission(const std::filesystem::path& mission_folder) {
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::mission

@@ -7,8 +7,8 @@
 
 #include "exec_svc/exec_service.hpp"
 #include "exec_svc/mission/mission_model.hpp"
-#include "exec_svc/standby/following_service.hpp"
-#include "exec_svc/standby/leading_service.hpp"
+#include "exec_svc/standby/follower_service.hpp"
+#include "exec_svc/standby/leader_service.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
 #include "services/health/watchdog_notifier.hpp"
 #include "services/log/log.hpp"
@@ -17,7 +17,12 @@
 #include "services/process/stop_signals.hpp"
 #include "services/transport/transport.hpp"
 
-namespace roci::exec {
+namespace roci::exec::standby {
+
+using journal::Durability;
+using journal::Journal;
+using mission::read_mission;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,7 +40,7 @@ fs::path folder_of(const services::RunSettings& run) {
 }
 
 // The node that is open now, for the thread that hears of signals.
-class Stop {
+class StopRequest {
  public:
   void ask() {
     const std::scoped_lock lock(mutex_);
@@ -66,15 +71,15 @@ class Stop {
 };
 
 // Within reach of signals for as long as it lives.
-class Reach {
+class InterruptibleNode {
  public:
-  Reach(Stop& stop, services::Node& node) : stop_(stop) { stop_.reach(&node); }
-  ~Reach() { stop_.reach(nullptr); }
-  Reach(const Reach&) = delete;
-  Reach& operator=(const Reach&) = delete;
+  InterruptibleNode(StopRequest& stop, services::Node& node) : stop_(stop) { stop_.reach(&node); }
+  ~InterruptibleNode() { stop_.reach(nullptr); }
+  InterruptibleNode(const InterruptibleNode&) = delete;
+  InterruptibleNode& operator=(const InterruptibleNode&) = delete;
 
  private:
-  Stop& stop_;
+  StopRequest& stop_;
 };
 
 class PairProcess {
@@ -82,16 +87,16 @@ class PairProcess {
   PairProcess(const services::process::ServiceOptions& options, services::process::StopSignals& signals)
       : options_(options),
         watchdog_(options.notify_socket),
-        self_(wire::member_of(options.run.pair)),
+        self_(member_of(options.run.pair)),
         lease_{read_mission(options.run.mission).executive.standby_term},
         journal_(folder_of(options.run) / "journal.sqlite", durability_for(options.node)),
-        standing_(folder_of(options.run) / "standing", durability_for(options.node)) {
+        persisted_term_(folder_of(options.run) / "standing", durability_for(options.node)) {
     signals.watch([this] { stop_.ask(); });
   }
 
   void run() {
     for (bool superseded = false; !stop_.asked();) {
-      Lease lease(self_, lease_, standing_.read(), superseded, wire::moment());
+      Lease lease(self_, lease_, persisted_term_.read(), superseded, moment());
       const auto lead = follow(lease);
       if (!lead) return;
       log(*lead, lease);
@@ -105,7 +110,7 @@ class PairProcess {
  private:
   void log(const Lease::Turn& turn, const Lease& lease) const {
     services::log::info("exec_svc (" + options_.run.pair + ") leads in epoch " +
-                        std::to_string(lease.epoch()) + ": " + turn.why);
+                       std::to_string(lease.epoch()) + ": " + turn.reason);
   }
 
   // A member that was connected before waits for its network to come back; none: it was asked to stop.
@@ -118,8 +123,7 @@ class PairProcess {
         return transport;
       } catch (const services::transport::TransportError& error) {
         if (!connected_before_) throw;
-        if (!std::exchange(told, true))
-          services::log::warning(std::string("exec_svc waits: ") + error.what());
+        if (!std::exchange(told, true)) services::log::warning(std::string("exec_svc waits: ") + error.what());
       }
     }
     return nullptr;
@@ -133,16 +137,16 @@ class PairProcess {
     options.name += "." + options_.run.pair;
     options.clock = services::clock::ClockMode::observer;
     services::Node node(options, std::move(transport));
-    FollowingService following(node, lease, journal_, standing_);
+    FollowerService following(node, lease, journal_, persisted_term_);
     node.on_turn([this] { watchdog_.notify(); });
-    const Reach reach(stop_, node);
+    const InterruptibleNode reach(stop_, node);
     node.run();
     return following.run_is_over() || stop_.asked() ? std::nullopt : following.lead();
   }
 
   // Nothing: the run is over. Under the simulated clock the epoch is the incarnation, so the clock drops who
   // led before.
-  std::optional<StandDown> lead(Lease& lease, const Lease::Turn& why) {
+  std::optional<StandDown> lead(Lease& lease, const Lease::Turn& turn) {
     auto transport = connect();
     if (!transport) return std::nullopt;
     services::node::NodeOptions options = options_.node;
@@ -150,9 +154,9 @@ class PairProcess {
     services::Node node(options, std::move(transport));
     node.on_turn([this] { watchdog_.notify(); });
     try {
-      LeadingService leading(node, lease, journal_, standing_);
-      const auto executive = make_executive(node, options_.run, journal_, leading, why.doubtful);
-      const Reach reach(stop_, node);
+      LeaderService leading(node, lease, journal_, persisted_term_);
+      const auto executive = make_executive(node, options_.run, journal_, leading, turn.doubtful);
+      const InterruptibleNode reach(stop_, node);
       node.run();
       return std::nullopt;
     } catch (const StandDown& end) {
@@ -169,8 +173,8 @@ class PairProcess {
   Member self_;
   LeaseSettings lease_;
   Journal journal_;
-  StandingFile standing_;
-  Stop stop_;
+  PersistedTermFile persisted_term_;
+  StopRequest stop_;
   bool connected_before_ = false;
 };
 
@@ -180,4 +184,4 @@ void run_pair(const services::process::ServiceOptions& options, services::proces
   PairProcess(options, signals).run();
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

@@ -52,7 +52,7 @@ json status_json(const lib::MissionView& view) {
     out["replans"] = mission->replans();
     out["outcome"] = mission->outcome();
   }
-  if (const v1::ExecMember* leader = view.leader()) {
+  if (const v1::LeaseMessage* leader = view.leader()) {
     const std::uint64_t behind =
         leader->has().commits() - std::min(leader->has().commits(), leader->receipt().commits());
     out["executive"] = {{"leader", leader->member()},
@@ -117,7 +117,7 @@ std::string status_text(const lib::MissionView& view) {
   } else {
     out += "no status from exec_svc\n";
   }
-  if (const v1::ExecMember* leader = view.leader()) out += "executive: " + lib::pair_text(*leader) + "\n";
+  if (const v1::LeaseMessage* leader = view.leader()) out += "executive: " + lib::pair_text(*leader) + "\n";
   out += "\nGoals\n";
   for (const auto& [key, status] : view.goals()) out += "  " + goal_line(status) + "\n";
   out += "\nServices\n";

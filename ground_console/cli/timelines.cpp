@@ -23,22 +23,27 @@ temporal::Progress progress_of(const lib::MissionView& view) {
   return out;
 }
 
+temporal::ObservedValues observed_of(const MissionView& view) {
+  temporal::ObservedValues out;
+  for (const auto& [name, observation] : view.timelines())
+    out[name] = {temporal::Time(observation.sampled_us()), services::wire::from_wire(observation.observed())};
+  return out;
+}
+
 double seconds_of(temporal::Time time) { return temporal::to_seconds(time); }
 
 }  // namespace
 
 Timelines timelines_of(const lib::MissionView& view, const std::vector<std::string>& names) {
   Timelines out;
+  const temporal::ObservedValues observed = observed_of(view);
   if (view.plan()) {
     const temporal::FlexiblePlan plan = services::wire::from_wire(*view.plan());
     if (temporal::check(plan).empty())
-      out = temporal::project(plan, progress_of(view), temporal::Time(view.now_us()), {});
+      out = temporal::project(plan, progress_of(view), temporal::Time(view.now_us()), {}, observed);
   }
-  for (const auto& [name, observation] : view.timelines()) {
-    out[name].push_back({temporal::Time(observation.sampled_us()),
-                         services::wire::from_wire(observation.observed()),
-                         temporal::ProjectionKind::executed, ""});
-  }
+  for (const auto& [name, seen] : observed)
+    if (!out.contains(name)) out[name] = {{seen.sampled, seen.value, temporal::ProjectionKind::executed, ""}};
   if (!names.empty()) {
     std::erase_if(out, [&](const auto& timeline) {
       return std::find(names.begin(), names.end(), timeline.first) == names.end();

@@ -40,6 +40,8 @@ services::process::Connection choose_run(const services::process::ConnectionFlag
   services::process::ConnectionFlags chosen = flags;
   if (!flags.domain && !flags.network && !environment("ROCI_DOMAIN") && !environment("ROCI_NETWORK")) {
     const auto runs = services::process::find_runs(services::process::runtime_folder());
+    const auto refused = services::process::refused_runs(services::process::runtime_folder());
+    if (runs.empty() && !refused.empty()) throw std::runtime_error("a mission runs, but " + refused.front());
     if (runs.empty())
       throw NoRun("no mission runs on this machine; start one with ./run, or name its --domain");
     if (runs.size() > 1) {

@@ -27,12 +27,8 @@ std::uint32_t resident_kb() {
 
 }  // namespace
 
-HeartbeatSender::HeartbeatSender(const std::string& service, std::uint32_t incarnation,
-                                 const std::string& dds, Send send)
-    : send_(std::move(send)) {
-  beat_.service(service);
-  beat_.incarnation(incarnation);
-  beat_.dds(dds);
+HeartbeatSender::HeartbeatSender(v1::Heartbeat identity, Send send)
+    : send_(std::move(send)), beat_(std::move(identity)) {
   beat_.host(host_name());
   beat_.process_id(getpid());
 }

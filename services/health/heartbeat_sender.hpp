@@ -1,4 +1,4 @@
-// Sends the heartbeat of a service. The work loop itself calls beat(), so that a hung loop goes silent.
+// The heartbeat of a service. The work loop itself calls beat(), so that a hung loop goes silent.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ class HeartbeatSender {
  public:
   using Send = std::function<void(const v1::Heartbeat&)>;
 
-  /// `dds` is the vendor in use, as the heartbeat reports it.
-  HeartbeatSender(const std::string& service, std::uint32_t incarnation, const std::string& dds, Send);
+  /// `identity`: who beats (service, incarnation, mission, robot, vendor); the rest is filled in here.
+  HeartbeatSender(v1::Heartbeat identity, Send);
 
   /// The loop calls it in each of its turns; it sends when it is time.
   void beat(clock::WallTime now);

@@ -16,7 +16,8 @@ struct Summary {
 
 /// Completes run_folder/summary.json and reads it. Where exec_svc flew here and left none, the result is
 /// "failed". On a host without exec_svc, or with one of a pair that did not lead at the end, it is "served"
-/// when its services `ended_well`: goals are counted where exec_svc leads.
+/// when its services `ended_well`: goals are counted where exec_svc leads. Throws std::runtime_error for a
+/// summary of a newer format (services/service.hpp).
 Summary complete_summary(const Options&, double wall_s, bool ended_well);
 
 }  // namespace roci::services::launch

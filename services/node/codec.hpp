@@ -15,6 +15,13 @@ concept HasHeader = requires(T value) {
   { value.header() } -> std::same_as<v1::SampleHeader&>;
 };
 
+/// Types without a header that name their run.
+template <class T>
+concept OfRun = requires(T value, std::string run) {
+  { std::as_const(value).run() } -> std::same_as<const std::string&>;
+  value.run(run);
+};
+
 template <class T>
 std::shared_ptr<const void> decode_as(std::span<const std::uint8_t> payload) {
   auto value = std::make_shared<T>();
@@ -39,6 +46,13 @@ TopicSpec spec_of(const Topic<T>& topic) {
   if constexpr (HasHeader<T>) {
     codec.header = [](const void* value) -> const v1::SampleHeader& {
       return static_cast<const T*>(value)->header();
+    };
+  }
+  if constexpr (OfRun<T>)
+    codec.run = [](const void* value) -> const std::string& { return static_cast<const T*>(value)->run(); };
+  if constexpr (HasHeader<T>) {
+    codec.run = [](const void* value) -> const std::string& {
+      return std::as_const(static_cast<const T*>(value)->header()).run();
     };
   }
   return {topic.name, topic.qos, topic.clocking, std::move(codec)};

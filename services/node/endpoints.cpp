@@ -17,15 +17,17 @@ void check_same_type(const TopicSpec& known, const TopicSpec& wanted) {
 
 }  // namespace
 
-TopicWriter::TopicWriter(const NodeOptions& options, Now now, const TopicSpec& topic,
+TopicWriter::TopicWriter(const NodeOptions& options, const RunIdentity& run, Now now, const TopicSpec& topic,
                          transport::Transport& transport, std::function<void()> on_matched)
-    : options_(options), now_(std::move(now)), topic_(topic) {
+    : options_(options), run_(run), now_(std::move(now)), topic_(topic) {
   const transport::EndpointDescription endpoint{
       topic.name, topic.codec.type, transport::writer_qos(topic.qos, topic.clocking, options.clock)};
   writer_ = transport.create_writer(endpoint, {[on_matched = std::move(on_matched)](int) { on_matched(); }});
 }
 
 void TopicWriter::stamp(v1::SampleHeader& header) const {
+  header.run(run_.name());
+  header.robot(options_.robot);
   header.sender(options_.name);
   header.incarnation(options_.clock == clock::ClockMode::observer ? 0 : options_.incarnation);
   header.seq(total_ + 1);
@@ -54,16 +56,17 @@ bool TopicWriter::write(const transport::Payload& payload) {
 
 bool TopicWriter::dispose(const transport::Payload& payload) { return writer_->dispose(payload); }
 
-Endpoints::Endpoints(const NodeOptions& options, TopicWriter::Now now, transport::Transport& transport,
-                     Inbox& inbox)
-    : options_(options), now_(std::move(now)), transport_(transport), inbox_(inbox) {}
+Endpoints::Endpoints(const NodeOptions& options, const RunIdentity& run, TopicWriter::Now now,
+                     transport::Transport& transport, Inbox& inbox)
+    : options_(options), run_(run), now_(std::move(now)), transport_(transport), inbox_(inbox) {}
 
 Endpoints::~Endpoints() { in_.clear(); }  // no callback may find a writer gone
 
 TopicWriter& Endpoints::out(const TopicSpec& topic) {
   auto& stream = out_[topic.name];
   if (!stream)
-    stream = std::make_unique<TopicWriter>(options_, now_, topic, transport_, [this] { inbox_.matched(); });
+    stream =
+        std::make_unique<TopicWriter>(options_, run_, now_, topic, transport_, [this] { inbox_.matched(); });
   check_same_type(stream->topic(), topic);
   return *stream;
 }

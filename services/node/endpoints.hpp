@@ -15,6 +15,7 @@
 #include "roci_idl/clock.h"
 #include "services/node/inbox.hpp"
 #include "services/node/node_options.hpp"
+#include "services/node/run_identity.hpp"
 #include "services/transport/transport.hpp"
 
 namespace roci::services::node {
@@ -22,9 +23,10 @@ namespace roci::services::node {
 /// The loop must know this of a type.
 struct Codec {
   transport::TypeDescription type;
-  /// Returns null for a malformed payload.
+  /// Null: malformed payload.
   std::shared_ptr<const void> (*decode)(std::span<const std::uint8_t>) = nullptr;
   const v1::SampleHeader& (*header)(const void* value) = nullptr;  ///< Null for types without one.
+  const std::string& (*run)(const void* value) = nullptr;          ///< null for types that name no run
   transport::Payload (*key)(const void* value) = nullptr;          ///< Empty for types without a key.
 };
 
@@ -40,7 +42,7 @@ class TopicWriter {
  public:
   using Now = std::function<temporal::Time()>;  ///< Mission time.
 
-  TopicWriter(const NodeOptions&, Now, const TopicSpec&, transport::Transport&,
+  TopicWriter(const NodeOptions&, const RunIdentity&, Now, const TopicSpec&, transport::Transport&,
               std::function<void()> on_matched);
 
   /// Numbers the next sample; the number counts once write() has succeeded.
@@ -48,6 +50,7 @@ class TopicWriter {
   bool write(const transport::Payload&);
   bool dispose(const transport::Payload&);
 
+  const RunIdentity& run() const { return run_; }
   transport::Guid guid() const { return writer_->guid(); }
   int matched_readers() const { return writer_->matched_readers(); }
   const TopicSpec& topic() const { return topic_; }
@@ -58,6 +61,7 @@ class TopicWriter {
   bool within_limit(const transport::Payload&);
 
   const NodeOptions& options_;
+  const RunIdentity& run_;
   Now now_;
   TopicSpec topic_;
   std::unique_ptr<transport::Writer> writer_;
@@ -75,7 +79,7 @@ struct TopicReader {
 
 class Endpoints {
  public:
-  Endpoints(const NodeOptions&, TopicWriter::Now, transport::Transport&, Inbox&);
+  Endpoints(const NodeOptions&, const RunIdentity&, TopicWriter::Now, transport::Transport&, Inbox&);
   ~Endpoints();
 
   /// Return the node's one writer or reader of a topic. They throw std::logic_error if the topic is known
@@ -91,6 +95,7 @@ class Endpoints {
 
  private:
   const NodeOptions& options_;
+  const RunIdentity& run_;
   TopicWriter::Now now_;
   transport::Transport& transport_;
   Inbox& inbox_;

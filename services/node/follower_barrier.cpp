@@ -6,6 +6,7 @@
 #include "services/node/barrier.hpp"
 #include "services/node/node_impl.hpp"
 #include "services/node/typed_endpoints.hpp"
+#include "services/transport/type_support.hpp"
 
 namespace roci::services::node {
 namespace {
@@ -27,7 +28,11 @@ class FollowerBarrier : public Barrier {
       if (!step_ || order(step) > order(*step_)) step_ = step;
     });
     node.endpoints.find_in(topics::clock_step.name)
-        ->on_no_writers.push_back([this](const transport::Payload&) { master_lost_ = step_.has_value(); });
+        ->on_no_writers.push_back([this](const transport::Payload& key) {
+          v1::ClockStep lost;
+          if (transport::deserialize_key(key, lost) && lost.run() == node_.run.name())
+            master_lost_ = step_.has_value();
+        });
   }
 
   void open(const v1::ClockReady& ready) override { ready_ = ready; }

@@ -52,7 +52,8 @@ class MasterBarrier : public Barrier {
     node.endpoints.find_in(topics::heartbeat.name)
         ->on_no_writers.push_back([this](const transport::Payload& key) {
           v1::Heartbeat beat;
-          if (transport::deserialize_key(key, beat)) peers_.writer_lost(beat.service());
+          if (transport::deserialize_key(key, beat) && beat.run() == node_.run.name())
+            peers_.writer_lost(beat.service());
         });
   }
 

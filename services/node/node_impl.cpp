@@ -10,10 +10,11 @@ namespace roci::services::node {
 
 NodeImpl::NodeImpl(NodeOptions node_options, std::unique_ptr<transport::Transport> node_transport)
     : options(std::move(node_options)),
+      run(options.name, options.run, options.clock == clock::ClockMode::observer),
       transport(std::move(node_transport)),
       work(simulated() ? ResultOrder::as_begun : ResultOrder::as_finished),
       endpoints(
-          options, [this] { return now(); }, *transport, inbox),
+          options, run, [this] { return now(); }, *transport, inbox),
       loop(simulated() ? make_sim_loop(*this) : make_live_loop(*this)) {}
 
 TimerQueue::Id NodeImpl::after(temporal::Duration wait, std::function<void()> fire) {
@@ -46,6 +47,8 @@ void NodeImpl::receive(Arrival&& arrival) {
     log::warning(options.name + " drops a malformed sample of " + input.topic.name);
     return;
   }
+  const auto run_of = input.topic.codec.run;
+  if (run_of != nullptr && !run.obeys(run_of(value.get()), input.topic.name)) return;
   if (input.topic.clocking == transport::Clocking::wall) return handle(input, value.get());
   const v1::SampleHeader& header = input.topic.codec.header(value.get());
   loop->take_clocked(input, header, std::move(value));
@@ -82,7 +85,13 @@ void NodeImpl::announce_match() {
 
 health::HeartbeatSender NodeImpl::make_heartbeat_sender() {
   TopicWriter& stream = advertise(*this, topics::heartbeat);
-  return health::HeartbeatSender(options.name, options.incarnation, options.vendor,
+  v1::Heartbeat beat;
+  beat.service(options.name);
+  beat.mission(options.mission);
+  beat.robot(options.robot);
+  beat.incarnation(options.incarnation);
+  beat.dds(options.vendor);
+  return health::HeartbeatSender(std::move(beat),
                                  [&stream](const v1::Heartbeat& beat) { write(stream, beat); });
 }
 

@@ -52,6 +52,7 @@ class NodeImpl {
   health::HeartbeatSender make_heartbeat_sender();
 
   const NodeOptions options;
+  RunIdentity run;
   std::unique_ptr<transport::Transport> transport;
   Inbox inbox;
   TimerQueue timers;

@@ -24,6 +24,7 @@ void TypedEndpoints<T>::subscribe(NodeImpl& node, const Topic<T>& topic,
 template <class T>
 bool TypedEndpoints<T>::write(TopicWriter& stream, T&& value) {
   if constexpr (HasHeader<T>) stream.stamp(value.header());
+  if constexpr (OfRun<T>) value.run(stream.run().name());
   return stream.write(transport::serialize(value));
 }
 
@@ -37,8 +38,8 @@ template struct TypedEndpoints<v1::ClockReady>;
 template struct TypedEndpoints<v1::ClockStep>;
 template struct TypedEndpoints<v1::ClockDone>;
 template struct TypedEndpoints<v1::Heartbeat>;
-template struct TypedEndpoints<v1::ExecMember>;
-template struct TypedEndpoints<v1::JournalParcel>;
+template struct TypedEndpoints<v1::LeaseMessage>;
+template struct TypedEndpoints<v1::JournalChunk>;
 template struct TypedEndpoints<v1::Event>;
 template struct TypedEndpoints<v1::Goal>;
 template struct TypedEndpoints<v1::GoalStatus>;
@@ -51,6 +52,12 @@ template struct TypedEndpoints<v1::Plan>;
 template struct TypedEndpoints<v1::StepStatus>;
 template struct TypedEndpoints<v1::MissionStatus>;
 template struct TypedEndpoints<v1::FunctionOffer>;
+template struct TypedEndpoints<v1::Order>;
+template struct TypedEndpoints<v1::OrderStatus>;
+template struct TypedEndpoints<v1::Decision>;
+template struct TypedEndpoints<v1::DecisionAnswer>;
+template struct TypedEndpoints<v1::DecisionReceipt>;
+template struct TypedEndpoints<v1::TimeProbe>;
 template struct TypedEndpoints<v1::PlanDelta>;
 template struct TypedEndpoints<v1::PlanReceipt>;
 template struct TypedEndpoints<v1::CallCancel>;

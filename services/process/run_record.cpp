@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 json to_json(const RunRecord& run) {
-  return {{"pid", run.pid},
+  return {{"format", kRunRecordFormat},
+          {"pid", run.pid},
           {"domain", run.domain},
           {"mission", run.mission.string()},
           {"scenario", run.scenario},
@@ -28,10 +29,16 @@ json to_json(const RunRecord& run) {
           {"started_unix_us", run.started_unix_us}};
 }
 
+// A record that names no version is of version 1.
+int format_of(const json& record) {
+  const auto found = record.find("format");
+  return found != record.end() && found->is_number_integer() ? found->get<int>() : 1;
+}
+
 std::optional<RunRecord> read(const fs::path& file) {
   std::ifstream in(file);
   const json record = json::parse(in, nullptr, false);
-  if (record.is_discarded()) return std::nullopt;
+  if (!record.is_object() || format_of(record) > kRunRecordFormat) return std::nullopt;
   try {
     RunRecord run;
     run.pid = record.at("pid");
@@ -46,11 +53,20 @@ std::optional<RunRecord> read(const fs::path& file) {
     run.started_unix_us = record.at("started_unix_us");
     return run;
   } catch (const json::exception&) {
-    return std::nullopt;  // of another version
+    return std::nullopt;  // it is no record
   }
 }
 
 bool lives(std::int64_t pid) { return kill(static_cast<pid_t>(pid), 0) == 0 || errno == EPERM; }
+
+std::vector<fs::path> records_in(const fs::path& folder) {
+  std::vector<fs::path> out;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".json") out.push_back(entry.path());
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -77,13 +93,26 @@ PublishedRun::~PublishedRun() {
 
 std::vector<RunRecord> find_runs(const fs::path& folder) {
   std::vector<RunRecord> runs;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() != ".json") continue;
-    if (auto run = read(entry.path()); run && lives(run->pid)) runs.push_back(std::move(*run));
+  for (const fs::path& file : records_in(folder)) {
+    if (auto run = read(file); run && lives(run->pid)) runs.push_back(std::move(*run));
   }
   std::ranges::sort(runs, std::greater<>{}, &RunRecord::started_unix_us);
   return runs;
+}
+
+std::vector<std::string> refused_runs(const fs::path& folder) {
+  std::vector<std::string> out;
+  for (const fs::path& file : records_in(folder)) {
+    std::ifstream in(file);
+    const json record = json::parse(in, nullptr, false);
+    if (!record.is_object() || format_of(record) <= kRunRecordFormat) continue;
+    const auto pid = record.find("pid");
+    if (pid != record.end() && pid->is_number_integer() && !lives(pid->get<std::int64_t>())) continue;
+    out.push_back(file.string() + " is of format " + std::to_string(format_of(record)) +
+                  ", this version reads up to " + std::to_string(kRunRecordFormat) +
+                  "; use the programs that the run was started with");
+  }
+  return out;
 }
 
 }  // namespace roci::services::process

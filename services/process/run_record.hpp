@@ -8,6 +8,10 @@
 
 namespace roci::services::process {
 
+/// The newest version of the record's schema (docs/formats.md) that this code reads; it writes this one. It
+/// rises when a key changes its meaning or goes; a record that names no version is of version 1.
+inline constexpr int kRunRecordFormat = 1;
+
 struct RunRecord {
   std::int64_t pid = 0;  ///< The launcher's.
   int domain = 0;
@@ -40,5 +44,9 @@ class PublishedRun {
 
 /// Returns the runs whose launcher lives, newest first. Records of dead ones are passed over.
 std::vector<RunRecord> find_runs(const std::filesystem::path& folder);
+
+/// Those records of a newer format whose launcher may live, in words with a remedy; find_runs() does not read
+/// them.
+std::vector<std::string> refused_runs(const std::filesystem::path& folder);
 
 }  // namespace roci::services::process

@@ -20,7 +20,9 @@ const std::vector<House> kHouses = {
     {"services/",
      {"services/clock/", "services/log/", "services/wire/", "services/transport/", "services/vendors/",
       "services/topics.hpp", "services/health/", "services/node/", "services/rpc/", "services/",
-      "services/process/", "services/launch/"}},
+      "services/owner/", "services/process/", "services/launch/"}},
+    {"sim_svc/",
+     {"sim_svc/world/", "sim_svc/setup/", "sim_svc/components/", "sim_svc/scenario/", "sim_svc/"}},
 };
 
 // The floor of a file in a house, counted from the ground.

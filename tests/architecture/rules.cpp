@@ -3,6 +3,7 @@
 
 #include "tests/architecture/floors.hpp"
 #include "tests/architecture/namespaces.hpp"
+#include "tests/architecture/planner_rules.hpp"
 #include "tests/architecture/source_tree.hpp"
 
 namespace roci::architecture {
@@ -87,27 +88,6 @@ void check_libraries(const SourceFile& file, Complaints& out) {
   }
 }
 
-void check_planner(const SourceFile& file, Complaints& out) {
-  for (const std::string& include : file.includes) {
-    const bool validator_sees_engine = file.under("planner_svc/validate") &&
-                                       include.starts_with("planner_svc/") &&
-                                       !include.starts_with("planner_svc/validate/");
-    if (validator_sees_engine)
-      out.push_back(file.path + ": includes " + include + "; the validator shares only core/pddl");
-    const bool engine_sees_validator =
-        file.under("planner_svc/temporal_pddl") && include.starts_with("planner_svc/validate/");
-    if (engine_sees_validator)
-      out.push_back(file.path + ": includes " + include + "; engines never see the validator");
-    const bool search_sees_pddl = (file.under("planner_svc/temporal_pddl/search") ||
-                                   file.under("planner_svc/temporal_pddl/heuristics") ||
-                                   file.under("planner_svc/temporal_pddl/dead_ends") ||
-                                   file.under("planner_svc/temporal_pddl/constraints")) &&
-                                  include.starts_with("core/pddl/");
-    if (search_sees_pddl)
-      out.push_back(file.path + ": includes " + include + "; the search never sees PDDL text");
-  }
-}
-
 // The simulator must not be right by construction.
 void check_simulator(const SourceFile& file, Complaints& out) {
   if (!file.under("sim_svc")) return;
@@ -174,7 +154,6 @@ std::vector<std::string> broken_rules(const std::vector<SourceFile>& files) {
     check_floors(file, out);
     check_vendors(file, out);
     check_libraries(file, out);
-    check_planner(file, out);
     check_simulator(file, out);
     check_clock(file, out);
     check_size_and_names(file, out);
@@ -183,6 +162,8 @@ std::vector<std::string> broken_rules(const std::vector<SourceFile>& files) {
   }
   std::ranges::copy(foreign_namespaces(files), std::back_inserter(out));
   std::ranges::copy(upward_includes(files), std::back_inserter(out));
+  const Complaints planner = broken_planner_rules(files);
+  out.insert(out.end(), planner.begin(), planner.end());
   return out;
 }
 

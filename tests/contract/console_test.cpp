@@ -66,7 +66,7 @@ TEST_P(ConsoleTest, ALateOneSeesTheStateOfTheMission) {
       kLimit));
   EXPECT_TRUE(late.wait(
       [&] {
-        const v1::TimelineValue* image = view.timeline("image.image-ridge");
+        const v1::TimelineValue* image = view.timeline("rover.image.image-ridge");
         return image != nullptr && value_text(*image) == "sent";
       },
       kLimit));

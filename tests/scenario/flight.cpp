@@ -10,7 +10,7 @@
 namespace roci::scenario {
 
 Ended run(const std::string& command) {
-  const std::string line = "PATH=" ROCI_BINARY_DIR "/bin:$PATH; " + command;
+  const std::string line = "PATH=${ROCI_BIN:-" ROCI_BINARY_DIR "/bin}:$PATH; " + command;
   FILE* pipe = popen(line.c_str(), "r");
   if (pipe == nullptr) return {};
   Ended out;

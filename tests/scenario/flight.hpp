@@ -13,7 +13,7 @@ struct Ended {
   std::string output;  // standard output; standard error goes to the test's own
 };
 
-// Runs a shell command line with the build's bin folder first in PATH.
+// Runs a shell command line with the build's bin folder, or ROCI_BIN if that is set, first in PATH.
 Ended run(const std::string& command);
 
 // An empty object if the last line is none.

@@ -97,7 +97,8 @@ v1::Goal goal(const std::string& id, const std::string& kind,
     out.arguments().push_back(argument);
   }
   out.importance(importance);
-  out.utility(utility);
+  out.utility({utility});
+  out.preferred_us(-1);
   return out;
 }
 

@@ -32,7 +32,7 @@ void draw_head(const lib::MissionView& view, Canvas& canvas) {
                         mission.outcome() == "achieved" ? Style::good : Style::bad) +
              3;
   }
-  if (const v1::ExecMember* leader = view.leader())
+  if (const v1::LeaseMessage* leader = view.leader())
     canvas.put(0, column, lib::pair_text(*leader), leader->entitled() ? Style::dim : Style::warning);
 }
 

@@ -18,7 +18,7 @@
 #include "pathplan_svc/rover_file.hpp"
 #include "science_svc/detector_file.hpp"
 #include "services/process/connection.hpp"
-#include "sim_svc/setup_file.hpp"
+#include "sim_svc/scenario/run_file.hpp"
 #include "tests/fuzz/missions/mutate.hpp"
 #include "tests/fuzz/rounds.hpp"
 
@@ -43,8 +43,8 @@ struct Reader {
 };
 
 const std::vector<Reader> kReaders{
-    {"exec_svc", [](const fs::path& folder) { exec::read_mission(folder); }},
-    {"sim_svc", [](const fs::path& folder) { sim::load_run(folder, "opportunistic"); }},
+    {"exec_svc", [](const fs::path& folder) { exec::mission::read_mission(folder); }},
+    {"sim_svc", [](const fs::path& folder) { sim::scenario::load_run(folder, "opportunistic"); }},
     {"arm_svc",
      [](const fs::path& folder) { arm::load_setup(folder / "arm/arm.urdf", folder / "arm/poses.yaml"); }},
     {"pathplan_svc",

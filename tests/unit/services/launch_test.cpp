@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "services/launch/options.hpp"
 #include "services/launch/process_plan.hpp"
@@ -175,6 +176,50 @@ TEST_F(LaunchTest, RunningMissionsAreFound) {
     EXPECT_THAT(process::find_runs(folder), ElementsAre(run));
   }
   EXPECT_TRUE(process::find_runs(folder).empty());
+}
+
+TEST_F(LaunchTest, ARecordStatesItsFormatAndOneThatDoesNotIsOfTheFirst) {
+  services::RunRecord run;
+  run.pid = getpid();
+  const services::PublishedRun published(folder, run);
+  std::ifstream written(folder / ("run-" + std::to_string(getpid()) + ".json"));
+  EXPECT_EQ(nlohmann::json::parse(written).at("format"), services::kRunRecordFormat);
+  std::ifstream golden(ROCI_SOURCE_DIR
+                       "/tests/unit/services/golden/run-record-1.json");  // baseline-05 wrote it
+  auto record = nlohmann::json::parse(golden);
+  ASSERT_FALSE(record.contains("format"));
+  record["pid"] = getpid();
+  std::ofstream(folder / "run-1.json") << record;
+  const auto runs = services::find_runs(folder);
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0].scenario, "nominal");
+  EXPECT_EQ(runs[0].domain, record["domain"]);
+}
+
+TEST_F(LaunchTest, ARecordOfANewerFormatIsRefusedInWords) {
+  std::ofstream(folder / "run-1.json") << R"({"format": 2, "pid": )" << getpid() << "}";
+  std::ofstream(folder / "run-2.json") << R"({"format": 2, "pid": 1073741824})";
+  EXPECT_TRUE(services::find_runs(folder).empty());
+  EXPECT_THAT(services::refused_runs(folder),
+              ElementsAre(testing::AllOf(HasSubstr("run-1.json is of format 2"), HasSubstr("reads up to 1"),
+                                         HasSubstr("use the programs"))));
+}
+
+TEST_F(LaunchTest, ASummaryStatesItsFormatAndANewerOneIsRefused) {
+  Options options = parse({"--services", "exec_svc", "--dds", "fastdds"});
+  options.run_folder = folder;
+  EXPECT_THAT(complete_summary(options, 1, true).json, HasSubstr(R"("format":1)"));
+  fs::remove(folder / "summary.json");
+  fs::copy_file(ROCI_SOURCE_DIR "/tests/unit/services/golden/summary-1.json", folder / "summary.json");
+  EXPECT_THAT(complete_summary(options, 1, true).text, HasSubstr("3 achieved"));
+  std::ofstream(folder / "summary.json") << R"({"format": 2, "result": "achieved"})";
+  try {
+    complete_summary(options, 1, true);
+    ADD_FAILURE() << "it was read";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(),
+                testing::AllOf(HasSubstr("summary.json is of format 2"), HasSubstr("one version")));
+  }
 }
 
 TEST(RestartPolicy, WaitsLongerEachTimeAndGivesUp) {

@@ -54,7 +54,7 @@ std::string road_problem(const std::string& goal) {
 v1::PlanRequest plan_request(const std::string& domain, const std::string& problem) {
   v1::PlanRequest out;
   out.engine("temporal_pddl");
-  out.domain_text(domain);
+  out.model(domain);
   out.problem_text(problem);
   return out;
 }

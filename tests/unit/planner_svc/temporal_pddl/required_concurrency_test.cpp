@@ -6,6 +6,8 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using call::Options;
+
 // Each match burns for 5 s, long enough to mend two fuses, one after the other; there are just enough.
 testing::Model cellar(int fuses) {
   std::string objects, init = "(:init (handfree)", goal;
@@ -37,6 +39,34 @@ TEST(RequiredConcurrency, NoMatchIsTakenForLongerThanItBurns) {
   EXPECT_LT(result.statistics.evaluated, 2000u);
 }
 
+// R12, R26: the match outlasts the fuses only if each of them is mended quickly. States in which the same
+// fuses are mended differ in nothing but the time that is left; and the goals hold while it still burns,
+// which has to end.
+TEST(RequiredConcurrency, AStateReachedInLessTimeIsNoDuplicate) {
+  const std::string slowly = "mend-slowly :parameters (?f - fuse) :duration (= ?duration 3)";
+  const std::string quickly = "mend-quickly :parameters (?f - fuse) :duration (= ?duration 2)";
+  for (const auto& ways : {std::vector{slowly, quickly}, {quickly, slowly}}) {
+    std::string domain = R"((:requirements :typing :durative-actions) (:types fuse)
+      (:predicates (handfree) (unused) (light) (mended ?f - fuse))
+      (:durative-action light-match :parameters () :duration (= ?duration 9)
+        :condition (at start (unused))
+        :effect (and (at start (not (unused))) (at start (light)) (at end (not (light))))))";
+    for (const std::string& way : ways) {
+      domain += "(:durative-action " + way + R"(
+        :condition (and (at start (handfree)) (over all (light)))
+        :effect (and (at start (not (handfree))) (at end (handfree)) (at end (mended ?f)))))";
+    }
+    const testing::Model made =
+        testing::model(domain,
+                       "(:objects f0 f1 f2 f3 - fuse) (:init (handfree) (unused))"
+                       "(:goal (and (mended f0) (mended f1) (mended f2) (mended f3)))");
+    Options step_by_step;
+    step_by_step.lookahead = false;
+    for (const Options& options : {Options{}, step_by_step})
+      testing::expect_valid(made, testing::solved(made, options), options);
+  }
+}
+
 TEST(WholeActions, HalveTheWorkWhereNothingMustRunAtTheSameTime) {
   std::string objects, goal;
   for (int i = 0; i < 20; ++i) {
@@ -54,9 +84,9 @@ TEST(WholeActions, HalveTheWorkWhereNothingMustRunAtTheSameTime) {
                      "(:objects" + objects + ") (:init (lit)) (:goal (and" + goal + "))");
   Options step_by_step;
   step_by_step.lookahead = false;
-  step_by_step.width = step_by_step.serial = false;
+  step_by_step.best_first_width = step_by_step.goal_serialization = false;
   Options split = step_by_step;
-  split.whole_actions = false;
+  split.compress_all_actions = false;
   const Result whole = testing::solved(made, step_by_step);
   const Result parts = testing::solved(made, split);
   testing::expect_valid(made, whole);
