@@ -239,7 +239,7 @@ class ExecService final : public services::Service {
     PlanReply reply;
     reply.call = call;
     reply.verdict = result.status == services::rpc::CallStatus::cancelled ? Verdict::cancelled : Verdict::no_reply;
-    reply.reason = result.message;
+    reply.reason = result.reason;
     if (result.status == services::rpc::CallStatus::ok) {
       slowest_call_s_ = std::max(slowest_call_s_, result.reply.statistics().wall_s());
       planner_peak_kb_ = std::max(planner_peak_kb_, result.reply.statistics().peak_rss_kb());

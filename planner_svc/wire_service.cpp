@@ -123,7 +123,7 @@ v1::FunctionRequest to_wire(const std::vector<FunctionCall>& calls, std::vector<
 std::vector<FunctionValue> values_of(const std::vector<FunctionCall>& calls, const Provenance& asked,
                                      const services::CallResult<v1::FunctionReply>& result) {
   if (result.status != services::rpc::CallStatus::ok)
-    return {calls.size(), FunctionValue{outcome_of(result.status), 0, asked, result.message}};
+    return {calls.size(), FunctionValue{outcome_of(result.status), 0, asked, result.reason}};
   const v1::FunctionReply& reply = result.reply;
   const bool whole = reply.results().size() == 1 && reply.results()[0].numbers().size() == calls.size() &&
                      reply.results()[0].outcomes().size() == calls.size();

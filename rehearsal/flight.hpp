@@ -31,8 +31,8 @@ services::MakeService* make_of(const mission::ServiceEntry&);
 
 struct FlightOptions {
   services::RunSettings run;
-  int domain = 1;   // flights with different domains do not hear each other
-  double pace = 0;  // simulated seconds per wall second; 0: as fast as possible
+  int domain = 1;   ///< flights with different domains do not hear each other
+  double pace = 0;  ///< simulated seconds per wall second; 0: as fast as possible
 };
 
 /// Flies the services that the mission names. Returns when the clock's master has ended the run; the summary

@@ -40,8 +40,10 @@ nlohmann::json fly_once(const Arguments& arguments, std::uint64_t seed,
                         const std::filesystem::path& run_folder, int domain) {
   std::filesystem::create_directories(run_folder);
   FlightOptions options;
-  options.run = {roci::services::process::mission_folder(arguments.mission), arguments.scenario, seed,
-                 run_folder};
+  options.run.mission = roci::services::process::mission_folder(arguments.mission);
+  options.run.scenario = arguments.scenario;
+  options.run.seed = seed;
+  options.run.run_folder = run_folder;
   options.domain = domain;
   options.pace = arguments.speed == "max" ? 0 : std::stod(arguments.speed);
   const auto begun = roci::services::clock::wall_now();

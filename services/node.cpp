@@ -3,13 +3,11 @@
 #include <utility>
 
 #include "services/node/node_impl.hpp"
-#include "services/rpc/call_registry.hpp"
 
 namespace roci::services {
 
 Node::Node(node::NodeOptions options, std::unique_ptr<transport::Transport> transport)
-    : calls_(std::make_unique<rpc::CallRegistry>()),
-      impl_(std::make_unique<node::NodeImpl>(std::move(options), std::move(transport))) {}
+    : impl_(std::make_unique<node::NodeImpl>(std::move(options), std::move(transport))) {}
 
 Node::~Node() = default;
 

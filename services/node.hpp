@@ -22,11 +22,8 @@ namespace roci::services {
 namespace node {
 class NodeImpl;
 }
-namespace rpc {
-class CallRegistry;
-}
 
-// The untyped half that typed wrappers stand on; see publisher.hpp for Publisher<T> and subscribe<T>().
+/// The untyped half that typed wrappers stand on; see publisher.hpp for Publisher<T> and subscribe<T>().
 class Node {
  public:
   Node(node::NodeOptions, std::unique_ptr<transport::Transport>);
@@ -38,40 +35,40 @@ class Node {
   temporal::Time now() const;
 
   using TimerId = std::uint64_t;
-  TimerId at(temporal::Time, std::function<void()>);  // at a past time: in the next turn of the loop
+  /// Fires at this mission time; at a past one in the next turn of the loop.
+  TimerId at(temporal::Time, std::function<void()>);
   TimerId after(temporal::Duration, std::function<void()>);
   void cancel(TimerId);
 
-  // Called in each turn of the loop, before timers fire: four times a second at least, in wall time, also
-  // while the simulated clock stands still.
+  /// The handler is called in each turn of the loop, before timers fire: at least four times a second of wall
+  /// time, also while the simulated clock stands still.
   void on_turn(std::function<void()>);
 
   void on_peer_change(std::function<void(const health::PeerChange&)>);
   bool peer_alive(std::string_view service) const;
 
-  // Lets a worker thread hand a result to the loop. Under the simulated clock the loop does not answer its
-  // barrier between begin_work() and the end of the posted function, and results run in the order in which
-  // their works began, so that a worker's result has one place in mission time. post_work_result may be
-  // called from any thread.
+  /// These let a worker thread hand a result to the loop. Under the simulated clock the loop does not answer
+  /// its barrier between begin_work() and the end of the posted function, and results run in the order in
+  /// which their works began, so that a worker's result has one place in mission time. post_work_result may
+  /// be called from any thread.
   using WorkId = std::uint64_t;
   WorkId begin_work();
   void post_work_result(WorkId, std::function<void()>);
 
-  // The master ends the run for every participant; elsewhere only this node's loop. Any thread may call it.
+  /// Ends the run for every participant if this node is the master, else only its own loop. Any thread may
+  /// call it.
   void stop();
-  // Until stop() or the master's last step. Under the simulated clock all subscriptions are made before
-  // run(). Throws clock::ClockError; an exception of a handler passes through.
+  /// Runs the loop until stop() or the master's last step. Under the simulated clock all subscriptions are
+  /// made before run(). Throws clock::ClockError; an exception of a handler passes through.
   void run();
-  // Live and observer nodes: handles what is pending, waits at most `wait` of wall time for something to
-  // handle.
+  /// On live and observer nodes, handles what is pending and waits at most `wait` of wall time for something
+  /// to handle. Throws std::logic_error under the simulated clock.
   void spin_once(std::chrono::milliseconds wait);
 
-  // For the typed halves alone (publisher.hpp, rpc.hpp).
+  /// Only the typed halves use it (publisher.hpp, rpc.hpp).
   node::NodeImpl& impl() { return *impl_; }
-  rpc::CallRegistry& calls() { return *calls_; }
 
  private:
-  std::unique_ptr<rpc::CallRegistry> calls_;  // before impl_: its endpoints end first
   std::unique_ptr<node::NodeImpl> impl_;
 };
 

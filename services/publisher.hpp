@@ -13,24 +13,24 @@
 
 namespace roci::services {
 
-// Copyable; lives no longer than its node.
+/// Writes the samples of one node on one topic. It can be copied, and lives no longer than its node.
 template <class T>
 class Publisher {
  public:
   Publisher() = default;
-  explicit Publisher(node::OutStream& stream) : stream_(&stream) {}
+  explicit Publisher(node::TopicWriter& stream) : stream_(&stream) {}
 
-  // Fills in the header of clocked types. False: the transport refused the sample (see Writer::write), or
-  // more than kMicroStepLimit samples of the instance were written in one micro-step.
+  /// Fills in the header of clocked types. Returns false if the transport refused the sample (see
+  /// Writer::write), or more than kMicroStepLimit samples of the instance were written in one micro-step.
   bool write(T value) const { return node::TypedEndpoints<T>::write(*stream_, std::move(value)); }
-  // Late joiners no longer see the instance; nobody is told.
+  /// Late joiners no longer see the instance; nobody is told.
   bool dispose(const T& value) const { return node::TypedEndpoints<T>::dispose(*stream_, value); }
-  // How many were written so far: for clocked types the `seq` of the newest one.
+  /// Returns how many were written so far: for clocked types the `seq` of the newest one.
   std::uint64_t written() const { return node::written(*stream_); }
   int matched_readers() const { return node::matched_readers(*stream_); }
 
  private:
-  node::OutStream* stream_ = nullptr;
+  node::TopicWriter* stream_ = nullptr;
 };
 
 template <class T>

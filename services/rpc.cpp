@@ -7,9 +7,9 @@
 
 namespace roci::services::detail {
 
-rpc::CallStatistics statistics(const rpc::CallTable& table) { return table.statistics(); }
+rpc::CallStatistics statistics(const rpc::PendingCalls& table) { return table.statistics(); }
 
-void cancel(rpc::CallTable& table, rpc::CallId call) { table.cancel(call); }
+void cancel(rpc::PendingCalls& table, rpc::CallId call) { table.cancel(call); }
 
 void on_cancel(rpc::PendingReply& pending, std::function<void()> handler) {
   pending.on_cancel(std::move(handler));
@@ -17,7 +17,7 @@ void on_cancel(rpc::PendingReply& pending, std::function<void()> handler) {
 
 namespace {
 
-rpc::CallTable::SendCancel cancels_of(Node& node, const char* procedure) {
+rpc::PendingCalls::SendCancel cancels_of(Node& node, const char* procedure) {
   return [publisher = advertise(node, topics::call_cancel), procedure](const v1::SampleIdentity& call,
                                                                        const std::string& owner) {
     v1::CallCancel cancel;
@@ -32,20 +32,20 @@ bool is_for(const Node& node, const v1::RequestHeader& header) {
   return header.instance_name().empty() || header.instance_name() == node.options().name;
 }
 
-rpc::CallServer::Id id_of(const v1::RequestHeader& header) {
+rpc::ReplyCache::Id id_of(const v1::RequestHeader& header) {
   return {header.request_id().writer_guid(), header.request_id().sequence_number()};
 }
 
 }  // namespace
 
 template <class Request, class Reply>
-std::shared_ptr<rpc::CallTable> Calls<Request, Reply>::client(
+std::shared_ptr<rpc::PendingCalls> Calls<Request, Reply>::client(
     Node& node, const topics::Procedure<Request, Reply>& procedure) {
-  auto& table = node.calls().table(procedure.request.name);
+  auto& table = node.impl().attachment<rpc::CallRegistry>().table(procedure.request.name);
   if (table) return table;
-  const node::OutStream& requests = node.impl().endpoints.out(node::spec_of(procedure.request));
-  node::InTopic& replies = node.impl().subscribe(node::spec_of(procedure.reply));
-  table = std::make_shared<rpc::CallTable>(
+  const node::TopicWriter& requests = node.impl().endpoints.out(node::spec_of(procedure.request));
+  node::TopicReader& replies = node.impl().subscribe(node::spec_of(procedure.reply));
+  table = std::make_shared<rpc::PendingCalls>(
       node.impl(), requests.guid(), procedure.request.name,
       [&requests, &replies] {
         return requests.matched_readers() > 0 && replies.reader->matched_writers() > 0;
@@ -60,10 +60,10 @@ std::shared_ptr<rpc::CallTable> Calls<Request, Reply>::client(
 
 template <class Request, class Reply>
 rpc::CallId Calls<Request, Reply>::call(Node& node, const topics::Procedure<Request, Reply>& procedure,
-                                        rpc::CallTable& table, Request&& request, std::string&& owner,
+                                        rpc::PendingCalls& table, Request&& request, std::string&& owner,
                                         temporal::Duration deadline, OnResult&& on_result) {
   request.request().instance_name(owner);
-  rpc::CallTable::Call call;
+  rpc::PendingCalls::Call call;
   call.owner = std::move(owner);
   call.send = [publisher = advertise(node, procedure.request),
                request = std::move(request)](const v1::SampleIdentity& id) mutable {
@@ -82,9 +82,9 @@ rpc::CallId Calls<Request, Reply>::call(Node& node, const topics::Procedure<Requ
 template <class Request, class Reply>
 void Calls<Request, Reply>::serve(Node& node, const topics::Procedure<Request, Reply>& procedure,
                                   Handler&& handler) {
-  auto& server = node.calls().server(procedure.request.name);
+  auto& server = node.impl().attachment<rpc::CallRegistry>().server(procedure.request.name);
   if (server) throw std::logic_error(node.options().name + " serves " + procedure.request.name + " twice");
-  server = std::make_shared<rpc::CallServer>();
+  server = std::make_shared<rpc::ReplyCache>();
   const rpc::PendingReply::Write write = [publisher = advertise(node, procedure.reply)](const void* reply) {
     publisher.write(*static_cast<const Reply*>(reply));
   };

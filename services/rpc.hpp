@@ -24,26 +24,27 @@
 namespace roci::services {
 
 namespace rpc {
-class CallTable;
+class PendingCalls;
 class PendingReply;
 }  // namespace rpc
 
 template <class Reply>
 struct CallResult {
   rpc::CallStatus status = rpc::CallStatus::timeout;
-  std::string message;  // for people, empty with CallStatus::ok
-  Reply reply;          // only with CallStatus::ok
+  std::string reason;  // for people, empty with CallStatus::ok
+  Reply reply;         // only with CallStatus::ok
 };
 
 namespace detail {
 
-// Defined and instantiated in rpc.cpp, so that users of this header compile no serialization.
+/// The members are defined and instantiated in rpc.cpp, so that users of this header compile no
+/// serialization.
 template <class Request, class Reply>
 struct Calls {
   using OnResult = std::function<void(const CallResult<Reply>&)>;
   using Handler = std::function<void(const Request&, std::shared_ptr<rpc::PendingReply>)>;
-  static std::shared_ptr<rpc::CallTable> client(Node&, const topics::Procedure<Request, Reply>&);
-  static rpc::CallId call(Node&, const topics::Procedure<Request, Reply>&, rpc::CallTable&, Request&&,
+  static std::shared_ptr<rpc::PendingCalls> client(Node&, const topics::Procedure<Request, Reply>&);
+  static rpc::CallId call(Node&, const topics::Procedure<Request, Reply>&, rpc::PendingCalls&, Request&&,
                           std::string&& owner, temporal::Duration deadline, OnResult&&);
   static void serve(Node&, const topics::Procedure<Request, Reply>&, Handler&&);
 };
@@ -54,13 +55,13 @@ struct Answer {
   static void fail(rpc::PendingReply&, v1::RemoteException, std::string&& message);
 };
 
-rpc::CallStatistics statistics(const rpc::CallTable&);
-void cancel(rpc::CallTable&, rpc::CallId);
+rpc::CallStatistics statistics(const rpc::PendingCalls&);
+void cancel(rpc::PendingCalls&, rpc::CallId);
 void on_cancel(rpc::PendingReply&, std::function<void()> handler);
 
 }  // namespace detail
 
-// Copyable; lives no longer than its node.
+/// Calls one procedure of other services. It can be copied, and lives no longer than its node.
 template <class Request, class Reply>
 class Client {
  public:
@@ -68,21 +69,21 @@ class Client {
   Client(Node& node, const topics::Procedure<Request, Reply>& procedure)
       : node_(&node), procedure_(procedure), table_(detail::Calls<Request, Reply>::client(node, procedure)) {}
 
-  // `on_result` runs on the node's loop, never inside call(). `owner`: the service that should answer; empty:
-  // anybody. The request's header members are filled in here.
+  /// `on_result` runs on the node's loop, never inside call(). `owner` is the service that should answer,
+  /// or empty for anybody. The request's header members are filled in here.
   rpc::CallId call(Request request, std::string owner, temporal::Duration deadline,
                    std::function<void(const CallResult<Reply>&)> on_result) const {
     return detail::Calls<Request, Reply>::call(*node_, procedure_, *table_, std::move(request),
                                                std::move(owner), deadline, std::move(on_result));
   }
-  // Nothing for a call that has ended.
+  /// Does nothing for a call that has ended.
   void cancel(rpc::CallId call) const { detail::cancel(*table_, call); }
   rpc::CallStatistics statistics() const { return detail::statistics(*table_); }
 
  private:
   Node* node_ = nullptr;
   topics::Procedure<Request, Reply> procedure_{};
-  std::shared_ptr<rpc::CallTable> table_;
+  std::shared_ptr<rpc::PendingCalls> table_;
 };
 
 template <class Request, class Reply>
@@ -90,8 +91,8 @@ Client<Request, Reply> make_client(Node& node, const topics::Procedure<Request, 
   return {node, procedure};
 }
 
-// Answers later or at once, on the node's loop. Copyable; the first answer counts; dropping it without one
-// leaves the caller to its deadline.
+/// Answers one request, at once or later, on the node's loop. It can be copied; the first answer counts;
+/// whoever drops it without one leaves the caller to its deadline.
 template <class Reply>
 class Responder {
  public:
@@ -100,16 +101,16 @@ class Responder {
   void fail(v1::RemoteException exception, std::string message) const {
     detail::Answer<Reply>::fail(*pending_, exception, std::move(message));
   }
-  // `handler` runs once, when the caller cancels before there is an answer; within this call if it already
-  // has. Who sets none answers in its own time.
+  /// `handler` runs once, when the caller cancels before there is an answer; within this call if it already
+  /// has. Who sets none answers in its own time.
   void on_cancel(std::function<void()> handler) const { detail::on_cancel(*pending_, std::move(handler)); }
 
  private:
   std::shared_ptr<rpc::PendingReply> pending_;
 };
 
-// A duplicate request (same id) gets the first answer again and is not handled twice. A request that names
-// another owner is left to that one.
+/// A duplicate request (same id) gets the first answer again and is not handled twice. A request that names
+/// another owner is left to that one.
 template <class Request, class Reply>
 void serve(Node& node, const topics::Procedure<Request, Reply>& procedure,
            std::type_identity_t<std::function<void(const Request&, Responder<Reply>)>> handler) {

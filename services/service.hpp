@@ -17,21 +17,23 @@ class Service {
   virtual ~Service() = default;
 };
 
-// What a run hands to each service. Files are read by the services themselves (core/mission/entry.hpp).
+/// A run hands this to each service. Files are read by the services themselves (core/mission/entry.hpp).
 struct RunSettings {
-  std::filesystem::path mission;     // folder with mission.yaml
-  std::string scenario = "nominal";  // scenarios/<name>.yaml in the mission folder
+  std::filesystem::path mission;     ///< The folder with mission.yaml.
+  std::string scenario = "nominal";  ///< It stands in scenarios/<name>.yaml of the mission folder.
   std::uint64_t seed = 1;
-  std::filesystem::path run_folder;  // journal, summary.json, logs of this run
-  std::string pair{};  // "first", "second": of two processes that stand in for each other; empty: it is alone
-  std::filesystem::path settings{};  // the mission file that this service reads; empty: mission.yaml of the folder
+  std::filesystem::path run_folder{};  ///< It holds journal, summary.json and logs of this run.
+  /// "first" or "second" of two processes that stand in for each other; empty when the process is alone.
+  std::string pair{};
+  std::filesystem::path settings{};  ///< The mission file that this service reads; empty: mission.yaml.
 
   std::filesystem::path mission_file() const { return settings.empty() ? mission / "mission.yaml" : settings; }
 };
 
 using MakeService = std::unique_ptr<Service>(Node&, const RunSettings&);
 
-// In the run folder: what sim_svc found when it compared the events with the scenario's list; optional.
+/// In this file of the run folder sim_svc tells how the events compare with the list of the scenario, if it
+/// has one.
 inline constexpr char kExpectedFile[] = "expected.json";
 
 /// In the run folder: the outcome of a run, with `format`, the version of its schema (docs/formats.md). It

@@ -61,14 +61,14 @@ inline constexpr Topic<v1::Decision>      decision      {"roci/decision",       
 inline constexpr Topic<v1::DecisionAnswer>  decision_answer {"roci/decision/answer",  "roci::v1::DecisionAnswer",  Qos::state, clocked};
 inline constexpr Topic<v1::DecisionReceipt> decision_receipt{"roci/decision/receipt", "roci::v1::DecisionReceipt", Qos::state, clocked};
 
-// With an engine that plans all the time.
+// An engine that plans all the time uses these.
 inline constexpr Topic<v1::PlanDelta>     plan_delta    {"roci/planner/delta",    "roci::v1::PlanDelta",     Qos::request, clocked};
 inline constexpr Topic<v1::PlanReceipt>   plan_receipt  {"roci/planner/receipt",  "roci::v1::PlanReceipt",   Qos::state, clocked};
 
-// Of every procedure below.
+// Every procedure below uses this.
 inline constexpr Topic<v1::CallCancel>    call_cancel   {"roci/call/cancel",      "roci::v1::CallCancel",    Qos::request, clocked};
 
-// A remote procedure: a pair of topics with the DDS-RPC headers.
+/// A remote procedure is a pair of topics with the DDS-RPC headers.
 template <class Request, class Reply>
 struct Procedure {
   Topic<Request> request;

@@ -148,7 +148,7 @@ class SimService final : public services::Service, private owner::Driver {
   static std::optional<Failure> refusal(const services::CallResult<Reply>& result, const std::string& what) {
     if (result.status != services::rpc::CallStatus::ok) {
       return Failure{what + "-call",
-                     std::string(services::rpc::to_string(result.status)) + ": " + result.message};
+                     std::string(services::rpc::to_string(result.status)) + ": " + result.reason};
     }
     if (result.reply.outcome() != v1::MOTION_FOUND) return Failure{"no-" + what, result.reply.reason()};
     return std::nullopt;

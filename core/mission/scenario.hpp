@@ -11,7 +11,7 @@ namespace roci::mission {
 /// What a service reads: a mission file is named itself or by its folder, whose mission.yaml it then is.
 std::filesystem::path mission_file(const std::filesystem::path& folder_or_file);
 
-// Throws FileError; for a name that no file has, with the names that there are.
+/// Reads a scenario of a mission. Throws FileError; for a name that no file has, it lists those that there are.
 Entry load_scenario(const std::filesystem::path& folder_or_file, const std::string& name);
 
 }  // namespace roci::mission

@@ -14,8 +14,8 @@ namespace roci::mission {
 /// One process of a run.
 struct ServiceEntry {
   std::string name;  ///< logical name, unique in the mission; samples carry it as their sender
-  std::string
-      program;  ///< a program beside the launcher, or a path seen from the mission's folder if it holds a '/'
+  /// A program beside the launcher, or a path seen from the mission's folder if it holds a '/'.
+  std::string program;
   std::string robot;   ///< whose inner topics it shares; empty: the team's, with those of every robot
   std::string vendor;  ///< DDS vendor in a mixed run; empty: the run's first vendor
   std::filesystem::path settings;  ///< the mission file that it reads, mission.yaml unless another is named

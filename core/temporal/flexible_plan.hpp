@@ -40,11 +40,13 @@ struct Impact {
 
 /// What happens when an activity's latest start has passed.
 enum class LatenessPolicy {
-  replan,  ///< the plan is broken (Stellar, R49)
-  push,    ///< wait on, until wait_timeout; success only after the shortest duration has elapsed (MEXEC, R86,
-           ///< R98)
-  deadline,  ///< as replan, and it must end before the latest next change of its timeline (SanchoExpress,
-             ///< R144)
+  /// The plan is broken (Stellar, R49).
+  replan,
+  /// It waits on until wait_timeout, and succeeds only after the shortest duration has elapsed (MEXEC, R86,
+  /// R98).
+  push,
+  /// As replan; moreover it must end before the latest next change of its timeline (SanchoExpress, R144).
+  deadline,
 };
 
 enum class CommitState { planned, committed };

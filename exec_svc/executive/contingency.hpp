@@ -22,8 +22,8 @@ struct ContingencyCommand {
 struct Contingency {
   std::string name;
   std::vector<ContingencyCommand> commands;  ///< one after the other
-  bool retries =
-      false;  ///< then the activity is tried again, if its preconditions hold; else the plan is broken
+  /// Then the activity is tried again, if its preconditions hold; else the plan is broken.
+  bool retries = false;
   std::uint32_t times = 1;                             ///< for one activity
   temporal::Duration within = temporal::seconds(300);  ///< for all of its commands
 };

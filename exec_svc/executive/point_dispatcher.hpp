@@ -22,7 +22,7 @@ class PointDispatcher {
   temporal::Window window(temporal::TimePoint point) const { return windows_.window(point); }
   /// Makes window() cheap for every point.
   void settle() const { windows_.settle(); }
-  /// What the windows have cost so far, as of temporal::BoundField.
+  /// What the windows have cost so far, as of temporal::LazyShortestPaths.
   std::uint64_t work() const { return windows_.work(); }
   const PointOwner& owner(temporal::TimePoint point) const { return owners_[point]; }
   /// As planned.

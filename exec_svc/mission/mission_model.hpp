@@ -77,8 +77,8 @@ struct GoalKind {
   std::map<std::string, ArgumentKind> arguments;
   std::vector<ObjectModel> objects;
   std::vector<std::string> facts;
-  std::vector<std::pair<std::string, std::vector<std::string>>>
-      unobserved;           ///< timeline → facts that hold until it is seen
+  /// Timeline → facts that hold until it is seen.
+  std::vector<std::pair<std::string, std::vector<std::string>>> unobserved;
   std::string window_fact;  ///< empty: the kind has no window
   std::vector<std::string> goal;
 };
@@ -119,8 +119,8 @@ struct PlannerSettings {
   std::uint32_t memory_mb = 0;
   temporal::Duration wall{0};
   temporal::Duration allowance = temporal::seconds(5);  ///< a plan's origin lies this long after the request
-  temporal::Duration reply_timeout =
-      temporal::seconds(120);  ///< mission time after which a call counts as lost
+  /// Mission time after which a call counts as lost.
+  temporal::Duration reply_timeout = temporal::seconds(120);
 };
 
 struct ReactorSettings {
@@ -128,8 +128,8 @@ struct ReactorSettings {
   temporal::Duration fallback_timeout = temporal::seconds(60);  ///< for components to become inactive
   std::uint32_t replan_limit = 50;
   std::uint32_t call_retries = 5;  ///< planner calls that failed for want of a service
-  std::uint32_t failure_limit =
-      5;  ///< failed commands of one component in a row; then their goals are given up
+  /// Failed commands of one component in a row; then their goals are given up.
+  std::uint32_t failure_limit = 5;
   temporal::Duration failure_pause = temporal::seconds(30);  ///< after the second of them; doubles with each
   temporal::Duration failure_pause_max = temporal::seconds(600);  ///< but is never longer
   bool keep_inputs = true;  ///< of the whole mission in the journal; false: since the last anchor

@@ -24,8 +24,8 @@ struct LeaseMessage {
   journal::Position has;    ///< of its journal
   /// A leader: the other may take over once this message is a term old. A follower: it will.
   bool entitled = false;
-  journal::Position
-      receipt;  ///< a leader: what it knows that the other has; with less on its disk it is not entitled
+  /// A leader: what it knows that the other has; with less on its disk it is not entitled.
+  journal::Position receipt;
   bool searching = false;  ///< a follower that has heard no leader for a term
   Moment said{0};          ///< on the clock of who says it
   Moment echo{0};          ///< the newest `said` heard from the other, on the other's clock

@@ -10,7 +10,7 @@
 #include "exec_svc/standby/follower_service.hpp"
 #include "exec_svc/standby/leader_service.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
-#include "services/health/sign_of_life.hpp"
+#include "services/health/watchdog_notifier.hpp"
 #include "services/log/log.hpp"
 #include "services/node.hpp"
 #include "services/process/service_options.hpp"
@@ -86,7 +86,7 @@ class PairProcess {
  public:
   PairProcess(const services::process::ServiceOptions& options, services::process::StopSignals& signals)
       : options_(options),
-        sign_(options.notify_socket),
+        watchdog_(options.notify_socket),
         self_(member_of(options.run.pair)),
         lease_{read_mission(options.run.mission_file()).executive.standby_term},
         journal_(folder_of(options.run) / "journal.sqlite", durability_for(options.node)),
@@ -116,7 +116,7 @@ class PairProcess {
   // A member that was connected before waits for its network to come back; none: it was asked to stop.
   std::unique_ptr<services::transport::Transport> connect() {
     for (bool told = false; !stop_.asked(); stop_.wait(kReconnectPause)) {
-      sign_.give();
+      watchdog_.notify();
       try {
         auto transport = services::process::connect(options_.connection);
         connected_before_ = true;
@@ -138,7 +138,7 @@ class PairProcess {
     options.clock = services::clock::ClockMode::observer;
     services::Node node(options, std::move(transport));
     FollowerService following(node, lease, journal_, persisted_term_);
-    node.on_turn([this] { sign_.give(); });
+    node.on_turn([this] { watchdog_.notify(); });
     const InterruptibleNode reach(stop_, node);
     node.run();
     return following.run_is_over() || stop_.asked() ? std::nullopt : following.lead();
@@ -152,7 +152,7 @@ class PairProcess {
     services::node::NodeOptions options = options_.node;
     options.incarnation = static_cast<std::uint32_t>(lease.epoch());
     services::Node node(options, std::move(transport));
-    node.on_turn([this] { sign_.give(); });
+    node.on_turn([this] { watchdog_.notify(); });
     try {
       LeaderService leading(node, lease, journal_, persisted_term_);
       const auto executive = make_executive(node, options_.run, journal_, leading, turn.doubtful);
@@ -169,7 +169,7 @@ class PairProcess {
   }
 
   const services::process::ServiceOptions& options_;
-  services::health::SignOfLife sign_;
+  services::health::WatchdogNotifier watchdog_;
   Member self_;
   LeaseSettings lease_;
   Journal journal_;

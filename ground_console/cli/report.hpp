@@ -13,11 +13,11 @@ nlohmann::json to_json(const v1::Event& event);
 nlohmann::json status_json(const lib::MissionView& view);
 nlohmann::json plan_json(const lib::MissionView& view);
 
-// One line of JSON, whatever bytes its texts hold.
+/// One line of JSON, whatever bytes its texts hold.
 std::string json_text(const nlohmann::json& json);
 
 std::string padded(std::string text, std::size_t width);
-// Control characters of others never reach the terminal: "?" stands for each.
+/// Control characters of others never reach the terminal: "?" stands for each.
 std::string printable(std::string text);
 
 std::string goal_line(const v1::GoalStatus& status);

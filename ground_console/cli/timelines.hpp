@@ -19,7 +19,7 @@ using Timelines = std::map<std::string, std::vector<temporal::ProjectedChange>>;
 Timelines timelines_of(const lib::MissionView& view, const std::vector<std::string>& names);
 
 nlohmann::json timelines_json(const lib::MissionView& view, const Timelines& timelines);
-// A block of lines for each timeline: time, value, kind, activity.
+/// A block of lines for each timeline: time, value, kind, activity.
 std::string timelines_text(const Timelines& timelines);
 
 }  // namespace roci::console::cli

@@ -17,15 +17,15 @@ struct GoalArguments {
   std::string issuer = "ground";
   std::string id;
   std::string kind;
-  std::vector<std::string> arguments;  // "x=110"
+  std::vector<std::string> arguments;  ///< "x=110"
   std::string importance = "hard";
   double utility = 0;
   std::int32_t priority = 0;
-  double opens_s = 0;   // 0: any time
-  double closes_s = 0;  // 0: never
+  double opens_s = 0;   ///< 0: any time
+  double closes_s = 0;  ///< 0: never
 };
 
-// How long a verb waits for the mission's answer, in wall time.
+/// How long a verb waits for the mission's answer, in wall time.
 inline constexpr std::chrono::milliseconds kAnswerLimit{15000};
 
 int add_goal(lib::Client& client, const GoalArguments& arguments, bool json);
@@ -33,9 +33,9 @@ int cancel_goal(lib::Client& client, const std::string& issuer, const std::strin
 int list_goals(lib::Client& client, bool json);
 int show_status(lib::Client& client, bool json);
 int show_plan(lib::Client& client, bool json);
-// Planned, executed and projected values; `names`: of these timelines alone.
+/// Planned, executed and projected values; `names`: of these timelines alone.
 int show_timelines(lib::Client& client, const std::vector<std::string>& names, bool json);
-// Prints events as they come; `count`: ends after so many, 0: never, unless the mission ends.
+/// Prints events as they come; `count`: ends after so many, 0: never, unless the mission ends.
 int follow_events(lib::Client& client, std::size_t count, bool json);
 
 }  // namespace roci::console::cli

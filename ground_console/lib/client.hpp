@@ -20,11 +20,11 @@ class NoRun : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Where to join: what the command line and the environment say, else the one mission that runs on this
-// machine. Throws NoRun when there is none, std::runtime_error when several run, with the remedy.
+/// Where to join: what the command line and the environment say, else the one mission that runs on this
+/// machine. Throws NoRun when there is none, std::runtime_error when several run, with the remedy.
 services::process::Connection choose_run(const services::process::ConnectionFlags& flags);
 
-// The same, but waits until a mission runs; calls `tell_waiting` once if it has to. Wall time.
+/// The same, but waits until a mission runs; calls `tell_waiting` once if it has to. Wall time.
 services::process::Connection wait_for_run(const services::process::ConnectionFlags& flags,
                                            const std::function<void()>& tell_waiting);
 
@@ -34,14 +34,14 @@ class Client {
 
   const MissionView& view() const { return view_; }
 
-  // Handles what comes until `done` or for at most `limit` of wall time; returns whether `done`.
+  /// Handles what comes until `done` or for at most `limit` of wall time; returns whether `done`.
   bool wait(const std::function<bool()>& done, std::chrono::milliseconds limit);
 
-  // Sends a goal and waits for exec_svc's answer to this very sample, which stands in its journal then;
-  // nothing if none came in time.
+  /// Sends a goal and waits for exec_svc's answer to this very sample, which stands in its journal then;
+  /// nothing if none came in time.
   std::optional<v1::GoalStatus> send_goal(const v1::Goal& goal, std::chrono::milliseconds limit);
 
-  // Waits until the mission's state has come down (late joiners get the newest of everything).
+  /// Waits until the mission's state has come down (late joiners get the newest of everything).
   bool wait_for_mission(std::chrono::milliseconds limit);
 
  private:

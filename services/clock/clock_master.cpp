@@ -65,7 +65,7 @@ std::vector<std::string> ClockMaster::missing() const {
   return names;
 }
 
-std::vector<std::string> ClockMaster::owing() const {
+std::vector<std::string> ClockMaster::awaited() const {
   std::vector<std::string> names;
   for (const auto& [service, member] : members_) {
     if (member.owes) names.push_back(service);
@@ -74,7 +74,7 @@ std::vector<std::string> ClockMaster::owing() const {
 }
 
 std::optional<ClockMaster::Window> ClockMaster::window() const {
-  if (last_ || !owing().empty() || (!started_ && !missing().empty())) return std::nullopt;
+  if (last_ || !awaited().empty() || (!started_ && !missing().empty())) return std::nullopt;
   if (!started_ || roster_changed_ || !waiting_.empty()) return Window{time_, time_};
   std::optional<temporal::Time> wish;
   bool outside = false;
@@ -84,7 +84,7 @@ std::optional<ClockMaster::Window> ClockMaster::window() const {
     if (member.wish) wish = wish ? std::min(*wish, *member.wish) : *member.wish;
   }
   if (wish && *wish <= time_) return Window{time_, time_};
-  if (outside) return Window{time_, wish.value_or(temporal::Time::max())};
+  if (outside) return Window{time_, wish.value_or(temporal::no_bound)};
   if (wish) return Window{*wish, *wish};
   return std::nullopt;
 }
@@ -141,7 +141,7 @@ v1::ClockStep ClockMaster::issue(temporal::Time time) {
 }
 
 std::optional<v1::ClockStep> ClockMaster::take_revision() {
-  if (!std::exchange(revise_, false) || owing().empty()) return std::nullopt;
+  if (!std::exchange(revise_, false) || awaited().empty()) return std::nullopt;
   ++revision_;
   return step();
 }

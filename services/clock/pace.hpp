@@ -8,12 +8,12 @@ namespace roci::services::clock {
 
 class Pace {
  public:
-  // rate: simulated seconds per wall second; 0: no limit.
+  /// `rate` is in simulated seconds per wall second; 0 means no limit.
   Pace(double rate, WallTime start) : rate_(rate), reached_at_(start) {}
 
-  // When `time` may be reached at the earliest.
+  /// Returns when `time` may be reached at the earliest.
   WallTime earliest(temporal::Time time) const;
-  // The mission time that fits `now`.
+  /// Returns the mission time that fits `now`.
   temporal::Time time_at(WallTime now) const;
   void reached(temporal::Time time, WallTime now);
 

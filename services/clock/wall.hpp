@@ -6,14 +6,14 @@
 
 namespace roci::services::clock {
 
-/// Monotonic: it neither jumps nor stands still, and has no date.
+/// The clock is monotonic: it neither jumps nor stands still, and has no date.
 using WallClock = std::chrono::steady_clock;
 using WallTime = WallClock::time_point;
 using WallDuration = WallClock::duration;
 
 inline WallTime wall_now() { return WallClock::now(); }
 
-/// The system clock: microseconds since 1970.
+/// Reads the system clock: microseconds since 1970.
 std::int64_t unix_us();
 
 inline WallDuration wall_seconds(double s) {

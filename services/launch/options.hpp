@@ -13,22 +13,23 @@
 namespace roci::services::launch {
 
 struct Options {
-  std::filesystem::path mission;  // folder
-  mission::ServiceList list;      // of the mission: who there is to start
+  std::filesystem::path mission;  ///< A folder with mission.yaml.
+  mission::ServiceList list;      ///< Of the mission: who there is to start.
   std::string scenario = "nominal";
   std::uint64_t seed = 1;
   bool live = false;
-  std::optional<double> speed;  // mission seconds per second; 0: as fast as possible; nothing: not given
+  /// Mission seconds per second; 0 means as fast as possible.
+  std::optional<double> speed;
   bool headless = false;
   bool json = false;
-  bool standby = false;               // services that can be paired have a second process
-  double watchdog_s = 10;             // of silence until a service counts as hung; 0: never
-  std::vector<std::string> services;  // processes started here: services and their standbys
-  std::vector<std::string> roster;    // services of the whole run
-  std::string run;                    // identity of the run; every host's launcher has the same
-  std::filesystem::path run_folder;   // empty: choose one
+  bool standby = false;               ///< Services that can be paired have a second process.
+  double watchdog_s = 10;             ///< Silence after which a service counts as hung; 0: never.
+  std::vector<std::string> services;  ///< Processes that are started here: services and their standbys.
+  std::vector<std::string> roster;    ///< The services of the whole run.
+  std::string run;                    ///< Identity of the run; every host's launcher has the same.
+  std::filesystem::path run_folder;   ///< If empty, the launcher chooses one.
   bool domain_given = false;
-  services::process::Connection connection;  // dds may be "mixed" or "inproc"
+  services::process::Connection connection;  ///< Its `dds` may be "mixed" or "inproc".
 };
 
 /// The second process of a paired service; it is no member of the roster of its own.

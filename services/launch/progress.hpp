@@ -13,15 +13,15 @@ namespace roci::services::launch {
 
 class Progress {
  public:
-  // `shown`: on standard error, one line that is rewritten on a terminal, else a line for each change. Errors
-  // are always told, each on a line of its own.
+  /// `shown` asks for a line on standard error that is rewritten on a terminal, else for one line a change.
+  /// Errors are always told, each on a line of its own.
   Progress(services::Node&, bool shown);
-  ~Progress();  // ends the line
+  ~Progress();  ///< Ends the line.
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void show();  // draws what changed
-  // An event of the launcher itself, to all consoles and to the line.
+  void show();  ///< Draws what has changed.
+  /// Sends an event of the launcher itself to all consoles and to the line.
   void report(v1::Severity, const std::string& code, const std::string& text);
 
  private:

@@ -8,18 +8,19 @@
 
 namespace roci::services::launch {
 
-// 0.2 s after the first death, twice as long after each further one in a row, at most 10 s; after the fifth,
-// never. A service that ran for `kHealthyAfter` starts a new row.
+/// The pause is 0.2 s after the first death, twice as long after each further one in a row, at most 10 s;
+/// after the fifth there is no new start (exponential back-off). A service that ran for `kHealthyAfter`
+/// starts a new row.
 class RestartPolicy {
  public:
   static constexpr int kDeathsInARow = 5;
   static constexpr clock::WallDuration kFirstPause = std::chrono::milliseconds(200);
   static constexpr clock::WallDuration kLongestPause = std::chrono::seconds(10);
   static constexpr clock::WallDuration kHealthyAfter = std::chrono::seconds(30);
-  // Between the starts of a service whose network went out after it had run: for as long as it takes.
+  /// Passes between the starts of a service whose network went out after it had run, for as long as it takes.
   static constexpr clock::WallDuration kNetworkPause = std::chrono::seconds(2);
 
-  // The pause until the next start; nothing: give up.
+  /// Returns the pause until the next start; without one the service is given up.
   std::optional<clock::WallDuration> died(clock::WallDuration ran_for);
 
  private:

@@ -10,13 +10,13 @@
 #include <utility>
 
 #include "services/clock/wall.hpp"
+#include "services/launch/notify_socket.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/progress.hpp"
-#include "services/launch/signs_of_life.hpp"
 #include "services/launch/summary.hpp"
 #include "services/launch/supervisor.hpp"
 #include "services/process/domain_claim.hpp"
-#include "services/process/end_within.hpp"
+#include "services/process/forced_exit.hpp"
 #include "services/process/run_record.hpp"
 #include "services/transport/plug_ins.hpp"
 
@@ -77,7 +77,7 @@ services::process::RunRecord record_of(const Options& options, std::int64_t star
 }
 
 void print_failure(const RunFailure& failure, const fs::path& run_folder) {
-  std::cerr << "roci-launch: " << failure.service << " " << failure.what << "\n";
+  std::cerr << "roci-launch: " << failure.service << " " << failure.reason << "\n";
   const fs::path log = run_folder / (failure.service + ".log");
   std::ifstream in(log);
   std::vector<std::string> lines;
@@ -112,13 +112,13 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   const services::process::PublishedRun published(services::process::runtime_folder(),
                                                   record_of(options, started_unix_us));
 
-  SignsOfLife signs;
+  NotifySocket notifications;
   Supervisor::Hooks hooks;
   hooks.start = [&](const std::string& service, std::uint32_t incarnation) {
     return std::make_unique<Child>(path_of(options, service),
                                    service_arguments(options, service, incarnation, started_unix_us),
                                    options.run_folder / (service + ".log"),
-                                   std::vector<std::string>{"NOTIFY_SOCKET=" + signs.address()});
+                                   std::vector<std::string>{"NOTIFY_SOCKET=" + notifications.address()});
   };
   hooks.on_death = [&](const std::string& service, const std::string& what) {
     progress.report(v1::SEVERITY_WARNING, "service.died", service + " " + what);
@@ -139,7 +139,7 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
       ++stops;
       supervisor.stop(clock::wall_now());
     }
-    for (const pid_t sender : signs.take()) supervisor.watchdog().sign(sender, clock::wall_now());
+    for (const pid_t sender : notifications.receive()) supervisor.watchdog().kick(sender, clock::wall_now());
     supervisor.turn(clock::wall_now());
     progress.show();
   }
@@ -150,7 +150,7 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
                        !supervisor.failure().has_value());
   std::cout << (options.json ? summary.json + "\n" : summary.text) << std::flush;
   const ExitCode code = exit_code(supervisor.failure(), summary.good);
-  services::process::end_within(services::process::kEndLimit, code, "roci-launch: the run is over");
+  services::process::force_exit_after(services::process::kExitLimit, code, "roci-launch: the run is over");
   return code;
 }
 

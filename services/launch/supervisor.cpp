@@ -29,7 +29,7 @@ void Supervisor::start(clock::WallTime now) {
 void Supervisor::launch(const std::string& name, Service& service, clock::WallTime now) {
   service.restart.reset();
   service.started = now;
-  service.hung_why.clear();
+  service.hung_reason.clear();
   service.child = hooks_.start(name, ++service.incarnation);
   watchdog_.started(name, service.incarnation, service.child->pid(), now);
 }
@@ -47,7 +47,7 @@ void Supervisor::kill_hung(clock::WallTime now) {
   for (Watchdog::Hung& hung : watchdog_.check(now)) {
     Service& service = services_.at(hung.service);
     if (terminate_at_ || !service.child) continue;
-    service.hung_why = std::move(hung.why);
+    service.hung_reason = std::move(hung.reason);
     service.child->signal(SIGKILL);
   }
 }
@@ -75,7 +75,7 @@ void Supervisor::after_end(const std::string& name, Service& service, const Endi
   }
   if (clean || terminate_at_) return;
   const std::string what =
-      to_string(ending) + (service.hung_why.empty() ? "" : " (" + service.hung_why + ")");
+      to_string(ending) + (service.hung_reason.empty() ? "" : " (" + service.hung_reason + ")");
   if (ending.exited && ending.code == kServiceClockGone)
     return fail(name, "lost the clock of the run", false, now);
   if (ending.exited && ending.code == kServiceBadInput) return fail(name, what, true, now);

@@ -17,7 +17,7 @@
 
 namespace roci::services::launch {
 
-// Exit codes of services (docs/exit-codes.md) that a new start does not mend.
+/// Exit codes of services (docs/exit-codes.md) that a new start does not mend.
 enum ServiceExit {
   kServiceStopped = 0,
   kServiceBadInput = 2,
@@ -25,11 +25,11 @@ enum ServiceExit {
   kServiceClockGone = 4
 };
 
-// Why a run cannot go on.
+/// Says why a run cannot go on.
 struct RunFailure {
   std::string service;
-  std::string what;
-  bool bad_input = false;  // of the user: mission file or command line
+  std::string reason;
+  bool bad_input = false;  ///< The user must mend the mission file or the command line.
 };
 
 class Supervisor {
@@ -38,16 +38,17 @@ class Supervisor {
     std::function<std::unique_ptr<Child>(const std::string& service, std::uint32_t incarnation)> start;
     std::function<void(const std::string& service, const std::string& what)> on_death;
   };
-  // `master`: with its clean end the run is over; if `master_is_clock`, with any end.
+  /// With the clean end of `master` the run is over; if `master_is_clock`, with any end of it.
   Supervisor(const std::vector<std::string>& services, std::string master, bool master_is_clock, Watchdog,
              Hooks);
 
-  void start(clock::WallTime now);  // throws what Hooks::start throws
-  // Looks after ended and hung children, due restarts, and the end of the run.
+  void start(clock::WallTime now);  ///< Throws what Hooks::start throws.
+  /// Looks after ended and hung children, due restarts, and the end of the run.
   void turn(clock::WallTime now);
-  void stop(clock::WallTime now);  // asks the run to end; a second time: less politely
+  /// Asks the run to end; the second time less politely.
+  void stop(clock::WallTime now);
 
-  // Is told of every sign of life, and of whom the launcher hears.
+  /// It must be told of every notification, and of whom the launcher hears.
   Watchdog& watchdog() { return watchdog_; }
 
   bool finished() const;
@@ -60,8 +61,8 @@ class Supervisor {
     clock::WallTime started;
     std::optional<clock::WallTime> restart;
     RestartPolicy policy;
-    bool ran = false;      // any incarnation of it got as far as its loop
-    std::string hung_why;  // empty: it was not killed as hung
+    bool ran = false;         // any incarnation of it got as far as its loop
+    std::string hung_reason;  // empty: it was not killed as hung
   };
   void launch(const std::string& name, Service&, clock::WallTime now);
   void look_after(std::pair<const std::string, Service>&, clock::WallTime now);

@@ -17,7 +17,7 @@ void Watchdog::started(const std::string& service, std::uint32_t incarnation, pi
   watched_[service] = {incarnation, pid, false, now, std::nullopt};
 }
 
-void Watchdog::sign(pid_t pid, clock::WallTime now) {
+void Watchdog::kick(pid_t pid, clock::WallTime now) {
   const auto found =
       std::ranges::find_if(watched_, [pid](const auto& entry) { return entry.second.pid == pid; });
   if (found == watched_.end()) return;
@@ -38,7 +38,7 @@ bool Watchdog::ran(const std::string& service) const {
   return found != watched_.end() && found->second.ran;
 }
 
-std::optional<std::string> Watchdog::why_hung(const Watched& watched, clock::WallTime now) const {
+std::optional<std::string> Watchdog::reason_hung(const Watched& watched, clock::WallTime now) const {
   const auto limit = watched.ran ? limit_ : std::max(limit_, clock::wall_seconds(kStartLimitS));
   if (now - watched.seen > limit) return "hung: its loop has not turned for " + seconds_text(limit);
   // Who hears nobody is cut off itself.
@@ -60,7 +60,7 @@ std::vector<Watchdog::Hung> Watchdog::check(clock::WallTime now) {
   if (last_check_ && now - *last_check_ > limit_ / 2) count_anew(now);
   last_check_ = now;
   for (const auto& [service, watched] : watched_) {
-    if (auto why = why_hung(watched, now)) hung.push_back({service, std::move(*why)});
+    if (auto why = reason_hung(watched, now)) hung.push_back({service, std::move(*why)});
   }
   for (const Hung& one : hung) watched_.erase(one.service);
   return hung;

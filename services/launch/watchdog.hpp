@@ -1,8 +1,8 @@
 // Which services of a launcher are hung. Pure.
 //
-// Two signs are watched for each process: that its loop turns (health/sign_of_life.hpp), and that it is heard
-// over DDS. A service whose loop turns but whose DDS has locked up is dead to all others, and only a new
-// process mends it.
+// Two signs are watched for each process: that its loop turns (health/watchdog_notifier.hpp), and that it is
+// heard over DDS. A service whose loop turns but whose DDS has locked up is dead to all others, and only a
+// new process mends it.
 #pragma once
 
 #include <sys/types.h>
@@ -21,25 +21,26 @@ namespace roci::services::launch {
 
 class Watchdog {
  public:
-  // For reading files and journals, before the first turn of the loop.
+  /// A service has so long for reading files and journals, before the first turn of its loop.
   static constexpr double kStartLimitS = 60;
 
-  // `limit_s`: of silence; 0: nobody ever counts as hung.
+  /// `limit_s` bounds the silence of a service, in seconds; 0 means that nobody ever counts as hung.
   explicit Watchdog(double limit_s) : limit_(clock::wall_seconds(limit_s)) {}
 
   void started(const std::string& service, std::uint32_t incarnation, pid_t, clock::WallTime now);
   void ended(const std::string& service) { watched_.erase(service); }
-  void sign(pid_t, clock::WallTime now);
-  // As the launcher's own node hears the services of all hosts.
+  void kick(pid_t, clock::WallTime now);
+  /// Takes what the launcher's own node hears of the services of all hosts.
   void heard(const services::health::PeerChange&, clock::WallTime now);
-  // Whether this one's loop has turned since it was started.
+  /// True once the service's loop has turned since it was started.
   bool ran(const std::string& service) const;
 
   struct Hung {
     std::string service;
-    std::string why;
+    std::string reason;
   };
-  // Each is named once. A launcher that stood still itself (stopped, swapped out) begins to count anew.
+  /// Returns who is hung; each is named once. A launcher that stood still itself (stopped, swapped out)
+  /// begins to count anew.
   std::vector<Hung> check(clock::WallTime now);
 
  private:
@@ -50,7 +51,7 @@ class Watchdog {
     clock::WallTime seen;                    // the last sign, or the start
     std::optional<clock::WallTime> unheard;  // since when the transport has lost it
   };
-  std::optional<std::string> why_hung(const Watched&, clock::WallTime now) const;
+  std::optional<std::string> reason_hung(const Watched&, clock::WallTime now) const;
   void count_anew(clock::WallTime now);
 
   clock::WallDuration limit_;

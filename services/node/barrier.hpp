@@ -15,18 +15,18 @@ class NodeImpl;
 class Barrier {
  public:
   virtual ~Barrier() = default;
-  // Once, before everything else: this node has all its endpoints.
+  /// Is called once, before everything else, when this node has all its endpoints.
   virtual void open(const v1::ClockReady&) = 0;
-  // Each turn of the loop. Throws ClockError when the run cannot go on.
+  /// Is called in each turn of the loop. Throws ClockError when the run cannot go on.
   virtual void turn(clock::WallTime now) = 0;
-  // The newest step.
+  /// The newest step.
   virtual const std::optional<v1::ClockStep>& step() const = 0;
   virtual void answer(const v1::ClockDone&) = 0;
-  // True: the node stays until the last step. False: it may leave its loop at once.
+  /// Returns true if the node stays until the last step, false if it may leave its loop at once.
   virtual bool stop() = 0;
-  // After the answer to the last step: whether the node may leave.
+  /// Tells, after the answer to the last step, whether the node may leave.
   virtual bool over(clock::WallTime now) const = 0;
-  // When turn() wants to be called again if nothing arrives.
+  /// Returns when turn() wants to be called again if nothing arrives.
   virtual clock::WallTime next_turn(clock::WallTime now) const = 0;
 };
 

@@ -11,11 +11,11 @@
 namespace roci::services::node {
 
 template <class T>
-concept Headed = requires(T value) {
+concept HasHeader = requires(T value) {
   { value.header() } -> std::same_as<v1::SampleHeader&>;
 };
 
-// Types without a header that name their run.
+/// Types without a header that name their run.
 template <class T>
 concept OfRun = requires(T value, std::string run) {
   { std::as_const(value).run() } -> std::same_as<const std::string&>;
@@ -43,14 +43,14 @@ TopicSpec spec_of(const Topic<T>& topic) {
   codec.type = transport::describe_type<T>(topic.type_name);
   codec.decode = &decode_as<T>;
   codec.key = &key_as<T>;
-  if constexpr (Headed<T>) {
+  if constexpr (HasHeader<T>) {
     codec.header = [](const void* value) -> const v1::SampleHeader& {
       return static_cast<const T*>(value)->header();
     };
   }
   if constexpr (OfRun<T>)
     codec.run = [](const void* value) -> const std::string& { return static_cast<const T*>(value)->run(); };
-  if constexpr (Headed<T>) {
+  if constexpr (HasHeader<T>) {
     codec.run = [](const void* value) -> const std::string& {
       return std::as_const(static_cast<const T*>(value)->header()).run();
     };

@@ -17,15 +17,15 @@ void check_same_type(const TopicSpec& known, const TopicSpec& wanted) {
 
 }  // namespace
 
-OutStream::OutStream(const NodeOptions& options, const RunIdentity& run, Now now, const TopicSpec& topic,
-                     transport::Transport& transport, std::function<void()> on_matched)
+TopicWriter::TopicWriter(const NodeOptions& options, const RunIdentity& run, Now now, const TopicSpec& topic,
+                         transport::Transport& transport, std::function<void()> on_matched)
     : options_(options), run_(run), now_(std::move(now)), topic_(topic) {
   const transport::EndpointDescription endpoint{
       topic.name, topic.codec.type, transport::writer_qos(topic.qos, topic.clocking, options.clock)};
   writer_ = transport.create_writer(endpoint, {[on_matched = std::move(on_matched)](int) { on_matched(); }});
 }
 
-void OutStream::stamp(v1::SampleHeader& header) const {
+void TopicWriter::stamp(v1::SampleHeader& header) const {
   header.run(run_.name());
   header.robot(options_.robot);
   header.sender(options_.name);
@@ -34,7 +34,7 @@ void OutStream::stamp(v1::SampleHeader& header) const {
   header.stamp_us(now_().count());
 }
 
-bool OutStream::within_limit(const transport::Payload& payload) {
+bool TopicWriter::within_limit(const transport::Payload& payload) {
   if (topic_.clocking == transport::Clocking::wall || !clock::is_simulated(options_.clock)) return true;
   transport::Payload key;
   const transport::TypeDescription& type = topic_.codec.type;
@@ -42,7 +42,7 @@ bool OutStream::within_limit(const transport::Payload& payload) {
   return ++written_[std::string(key.begin(), key.end())] <= transport::kMicroStepLimit;
 }
 
-bool OutStream::write(const transport::Payload& payload) {
+bool TopicWriter::write(const transport::Payload& payload) {
   if (!within_limit(payload)) {
     log::error(options_.name + " wrote more than " + std::to_string(transport::kMicroStepLimit) +
                " samples of one instance of " + topic_.name +
@@ -54,26 +54,27 @@ bool OutStream::write(const transport::Payload& payload) {
   return true;
 }
 
-bool OutStream::dispose(const transport::Payload& payload) { return writer_->dispose(payload); }
+bool TopicWriter::dispose(const transport::Payload& payload) { return writer_->dispose(payload); }
 
-Endpoints::Endpoints(const NodeOptions& options, const RunIdentity& run, OutStream::Now now, transport::Transport& transport,
-                     Inbox& inbox)
+Endpoints::Endpoints(const NodeOptions& options, const RunIdentity& run, TopicWriter::Now now,
+                     transport::Transport& transport, Inbox& inbox)
     : options_(options), run_(run), now_(std::move(now)), transport_(transport), inbox_(inbox) {}
 
 Endpoints::~Endpoints() { in_.clear(); }  // no callback may find a writer gone
 
-OutStream& Endpoints::out(const TopicSpec& topic) {
+TopicWriter& Endpoints::out(const TopicSpec& topic) {
   auto& stream = out_[topic.name];
   if (!stream)
-    stream = std::make_unique<OutStream>(options_, run_, now_, topic, transport_, [this] { inbox_.matched(); });
+    stream =
+        std::make_unique<TopicWriter>(options_, run_, now_, topic, transport_, [this] { inbox_.matched(); });
   check_same_type(stream->topic(), topic);
   return *stream;
 }
 
-InTopic& Endpoints::in(const TopicSpec& topic) {
+TopicReader& Endpoints::in(const TopicSpec& topic) {
   auto& input = in_[topic.name];
   if (!input) {
-    input = std::make_unique<InTopic>();
+    input = std::make_unique<TopicReader>();
     input->topic = topic;
     const transport::EndpointDescription endpoint{
         topic.name, topic.codec.type, transport::reader_qos(topic.qos, topic.clocking, options_.clock)};
@@ -88,7 +89,7 @@ InTopic& Endpoints::in(const TopicSpec& topic) {
   return *input;
 }
 
-InTopic* Endpoints::find_in(const std::string& topic) {
+TopicReader* Endpoints::find_in(const std::string& topic) {
   const auto found = in_.find(topic);
   return found == in_.end() ? nullptr : found->second.get();
 }

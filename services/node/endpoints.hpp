@@ -1,4 +1,4 @@
-// A node's topics without their types: what is written (OutStream) and what is read (InTopic).
+// A node's topics without their types: what is written (TopicWriter) and what is read (TopicReader).
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,14 @@
 
 namespace roci::services::node {
 
-// What the loop must know of a type.
+/// The loop must know this of a type.
 struct Codec {
   transport::TypeDescription type;
-  std::shared_ptr<const void> (*decode)(std::span<const std::uint8_t>) = nullptr;  // null: malformed payload
-  const v1::SampleHeader& (*header)(const void* value) = nullptr;  // null for types without one
-  const std::string& (*run)(const void* value) = nullptr;          // null for types that name no run
-  transport::Payload (*key)(const void* value) = nullptr;          // empty for types without a key
+  /// Null: malformed payload.
+  std::shared_ptr<const void> (*decode)(std::span<const std::uint8_t>) = nullptr;
+  const v1::SampleHeader& (*header)(const void* value) = nullptr;  ///< Null for types without one.
+  const std::string& (*run)(const void* value) = nullptr;          ///< null for types that name no run
+  transport::Payload (*key)(const void* value) = nullptr;          ///< Empty for types without a key.
 };
 
 struct TopicSpec {
@@ -36,15 +37,15 @@ struct TopicSpec {
   Codec codec;
 };
 
-// All samples of one node on one topic.
-class OutStream {
+/// Writes all samples of one node on one topic.
+class TopicWriter {
  public:
   using Now = std::function<temporal::Time()>;  ///< Mission time.
 
-  OutStream(const NodeOptions&, const RunIdentity&, Now, const TopicSpec&, transport::Transport&,
-            std::function<void()> on_matched);
+  TopicWriter(const NodeOptions&, const RunIdentity&, Now, const TopicSpec&, transport::Transport&,
+              std::function<void()> on_matched);
 
-  // Numbers the next sample; the number counts once write() has succeeded.
+  /// Numbers the next sample; the number counts once write() has succeeded.
   void stamp(v1::SampleHeader&) const;
   bool write(const transport::Payload&);
   bool dispose(const transport::Payload&);
@@ -68,38 +69,38 @@ class OutStream {
   std::unordered_map<std::string, int> written_;  // samples of this micro-step by key
 };
 
-struct InTopic {
+struct TopicReader {
   TopicSpec topic;
   std::vector<std::function<void(const void* value)>> on_value;
-  std::vector<std::function<void(const transport::Payload& key)>> on_owner_lost;
+  std::vector<std::function<void(const transport::Payload& key)>> on_no_writers;
   std::uint64_t malformed = 0;
   std::unique_ptr<transport::Reader> reader;
 };
 
 class Endpoints {
  public:
-  Endpoints(const NodeOptions&, const RunIdentity&, OutStream::Now, transport::Transport&, Inbox&);
+  Endpoints(const NodeOptions&, const RunIdentity&, TopicWriter::Now, transport::Transport&, Inbox&);
   ~Endpoints();
 
-  // The node's one writer or reader of a topic. Throws std::logic_error if the topic is known with another
-  // type.
-  OutStream& out(const TopicSpec&);
-  InTopic& in(const TopicSpec&);
-  InTopic* find_in(const std::string& topic);
+  /// Return the node's one writer or reader of a topic. They throw std::logic_error if the topic is known
+  /// with another type.
+  TopicWriter& out(const TopicSpec&);
+  TopicReader& in(const TopicSpec&);
+  TopicReader* find_in(const std::string& topic);
 
-  std::vector<TopicSpec> clocked_inputs() const;  // by name
-  // Clocked streams with samples that this did not yet report.
+  std::vector<TopicSpec> clocked_inputs() const;  ///< They are sorted by name.
+  /// Returns the clocked streams with samples that it has not yet reported.
   std::vector<v1::StreamCount> take_growth();
   void begin_micro_step();
 
  private:
   const NodeOptions& options_;
   const RunIdentity& run_;
-  OutStream::Now now_;
+  TopicWriter::Now now_;
   transport::Transport& transport_;
   Inbox& inbox_;
-  std::map<std::string, std::unique_ptr<OutStream>> out_;
-  std::map<std::string, std::unique_ptr<InTopic>> in_;
+  std::map<std::string, std::unique_ptr<TopicWriter>> out_;
+  std::map<std::string, std::unique_ptr<TopicReader>> in_;
   std::map<std::string, std::uint64_t> reported_;
 };
 

@@ -28,7 +28,7 @@ class FollowerBarrier : public Barrier {
       if (!step_ || order(step) > order(*step_)) step_ = step;
     });
     node.endpoints.find_in(topics::clock_step.name)
-        ->on_owner_lost.push_back([this](const transport::Payload& key) {
+        ->on_no_writers.push_back([this](const transport::Payload& key) {
           v1::ClockStep lost;
           if (transport::deserialize_key(key, lost) && lost.run() == node_.run.name())
             master_lost_ = step_.has_value();
@@ -71,8 +71,8 @@ class FollowerBarrier : public Barrier {
   }
 
   NodeImpl& node_;
-  OutStream& ready_stream_;
-  OutStream& done_stream_;
+  TopicWriter& ready_stream_;
+  TopicWriter& done_stream_;
   v1::ClockReady ready_;
   std::optional<v1::ClockStep> step_;
   clock::WallTime next_ready_;

@@ -12,10 +12,10 @@
 
 namespace roci::services::node {
 
-struct InTopic;
+struct TopicReader;
 
 struct Arrival {
-  InTopic* topic = nullptr;
+  TopicReader* topic = nullptr;
   transport::Sample sample;
 };
 
@@ -29,8 +29,8 @@ class Inbox {
   struct Batch {
     std::vector<Arrival> arrivals;
     std::vector<WorkResult> results;
-    bool matched = false;  // some endpoint's matches changed
-    bool stop = false;     // stays true once asked for
+    bool matched = false;  ///< Some endpoint's matches have changed.
+    bool stop = false;     ///< It stays true once asked for.
   };
 
   void push(Arrival);
@@ -38,7 +38,8 @@ class Inbox {
   void matched();
   void stop();
 
-  // All that has come. Waits for something until `deadline`, not at all if that has passed.
+  /// Removes and returns all that has come. Waits for something until `deadline`, not at all if that has
+  /// passed.
   Batch take(clock::WallTime deadline);
 
  private:

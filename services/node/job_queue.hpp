@@ -7,8 +7,8 @@
 
 namespace roci::services::node {
 
-// One thread that runs jobs in the order in which they were given. Destruction stops the running job through
-// its token, drops the waiting ones and joins.
+/// Runs jobs on one thread, in the order in which they were given. Destruction stops the running job through
+/// its token, drops the waiting ones and joins.
 class JobQueue {
  public:
   using Job = std::function<void(std::stop_token)>;

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "services/clock/live_clock.hpp"
-#include "services/health/heart.hpp"
-#include "services/health/peer_table.hpp"
+#include "services/health/failure_detector.hpp"
+#include "services/health/heartbeat_sender.hpp"
 #include "services/node/node_impl.hpp"
 #include "services/node/typed_endpoints.hpp"
 #include "services/transport/type_support.hpp"
@@ -26,7 +26,7 @@ class LiveLoop : public Loop {
   temporal::Time timer_now() const override { return clock_.now(); }
   health::PeerState peer(std::string_view service) const override { return peers_.state(service); }
 
-  void take_clocked(InTopic& input, const v1::SampleHeader& header,
+  void take_clocked(TopicReader& input, const v1::SampleHeader& header,
                     std::shared_ptr<const void> value) override {
     newest_stamp_ = std::max(newest_stamp_, temporal::Time(header.stamp_us()));
     NodeImpl::handle(input, value.get());
@@ -34,7 +34,7 @@ class LiveLoop : public Loop {
 
   void run() override {
     while (!stopped_) spin_once(std::chrono::hours(1));
-    if (heart_) heart_->leave();
+    if (heartbeat_) heartbeat_->leave();
   }
 
   void spin_once(std::chrono::milliseconds wait) override {
@@ -43,9 +43,9 @@ class LiveLoop : public Loop {
     Inbox::Batch batch = impl.inbox.take(wake_up(clock::wall_now() + wait));
     stopped_ = batch.stop;
     if (batch.matched) impl.announce_match();
-    for (auto& arrival : batch.arrivals) impl.take_in(std::move(arrival));
+    for (auto& arrival : batch.arrivals) impl.receive(std::move(arrival));
     const clock::WallTime now = clock::wall_now();
-    if (heart_) heart_->beat(now);
+    if (heartbeat_) heartbeat_->beat(now);
     impl.announce_turn();
     peers_.check(now);
     for (const health::PeerChange& change : peers_.take_changes()) {
@@ -60,13 +60,14 @@ class LiveLoop : public Loop {
   void open() {
     if (opened_) return;
     opened_ = true;
-    if (!observer_) heart_.emplace(node_.make_heart());
+    if (!observer_) heartbeat_.emplace(node_.make_heartbeat_sender());
     subscribe(node_, topics::heartbeat,
               [this](const v1::Heartbeat& beat) { peers_.heartbeat(beat, clock::wall_now()); });
     node_.endpoints.find_in(topics::heartbeat.name)
-        ->on_owner_lost.push_back([this](const transport::Payload& key) {
+        ->on_no_writers.push_back([this](const transport::Payload& key) {
           v1::Heartbeat beat;
-          if (transport::deserialize_key(key, beat) && beat.run() == node_.run.name()) peers_.owner_lost(beat.service());
+          if (transport::deserialize_key(key, beat) && beat.run() == node_.run.name())
+            peers_.writer_lost(beat.service());
         });
     if (observer_) {
       subscribe(node_, topics::clock_step, [this](const v1::ClockStep& step) {
@@ -77,7 +78,7 @@ class LiveLoop : public Loop {
 
   clock::WallTime wake_up(clock::WallTime latest) const {
     latest = std::min(latest, clock::wall_now() + clock::wall_seconds(kLongestWaitS));
-    if (heart_) latest = std::min(latest, heart_->next());
+    if (heartbeat_) latest = std::min(latest, heartbeat_->next());
     if (const auto due = node_.timers.earliest()) {
       latest = std::min(
           latest, clock::wall_now() + clock_.wall_for(std::max(*due - timer_now(), temporal::Duration(0))));
@@ -88,8 +89,8 @@ class LiveLoop : public Loop {
   NodeImpl& node_;
   clock::LiveClock clock_;
   bool observer_;
-  health::PeerTable peers_;
-  std::optional<health::Heart> heart_;
+  health::FailureDetector peers_;
+  std::optional<health::HeartbeatSender> heartbeat_;
   temporal::Time newest_stamp_{0};
   bool opened_ = false;
   bool stopped_ = false;

@@ -13,7 +13,7 @@
 namespace roci::services::node {
 
 class NodeImpl;
-struct InTopic;
+struct TopicReader;
 
 class Loop {
  public:
@@ -22,9 +22,9 @@ class Loop {
   virtual void run() = 0;
   virtual void spin_once(std::chrono::milliseconds wait) = 0;
   virtual health::PeerState peer(std::string_view service) const = 0;
-  // A decoded sample of a clocked topic.
-  virtual void take_clocked(InTopic&, const v1::SampleHeader&, std::shared_ptr<const void>) = 0;
-  // The clock that timers count on: now(), but wall time for observers.
+  /// Takes a decoded sample of a clocked topic.
+  virtual void take_clocked(TopicReader&, const v1::SampleHeader&, std::shared_ptr<const void>) = 0;
+  /// Reads the clock on which timers count: now(), but wall time for observers.
   virtual temporal::Time timer_now() const { return now(); }
 };
 

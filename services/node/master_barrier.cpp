@@ -5,7 +5,7 @@
 #include "services/clock/clock_master.hpp"
 #include "services/clock/pace.hpp"
 #include "services/clock/restart_hold.hpp"
-#include "services/health/peer_table.hpp"
+#include "services/health/failure_detector.hpp"
 #include "services/log/log.hpp"
 #include "services/node/barrier.hpp"
 #include "services/node/node_impl.hpp"
@@ -50,9 +50,10 @@ class MasterBarrier : public Barrier {
       if (beat.service() != node_.options.name) peers_.heartbeat(beat, clock::wall_now());
     });
     node.endpoints.find_in(topics::heartbeat.name)
-        ->on_owner_lost.push_back([this](const transport::Payload& key) {
+        ->on_no_writers.push_back([this](const transport::Payload& key) {
           v1::Heartbeat beat;
-          if (transport::deserialize_key(key, beat) && beat.run() == node_.run.name()) peers_.owner_lost(beat.service());
+          if (transport::deserialize_key(key, beat) && beat.run() == node_.run.name())
+            peers_.writer_lost(beat.service());
         });
   }
 
@@ -67,7 +68,7 @@ class MasterBarrier : public Barrier {
       if (!change.alive) lose(change, now);
     }
     if (auto revision = master_.take_revision()) publish(std::move(*revision), now);
-    if (master_.owing().empty()) advance(now);
+    if (master_.awaited().empty()) advance(now);
     note_long_wait(now);
   }
 
@@ -79,7 +80,7 @@ class MasterBarrier : public Barrier {
     return step_.has_value();  // before time 0 there is no run to end
   }
   bool over(clock::WallTime now) const override {
-    return step_ && step_->last() && (master_.owing().empty() || now > leave_by_);
+    return step_ && step_->last() && (master_.awaited().empty() || now > leave_by_);
   }
 
   clock::WallTime next_turn(clock::WallTime now) const override {
@@ -132,16 +133,16 @@ class MasterBarrier : public Barrier {
     noted_ = true;
     if (const auto missing = master_.missing(); !missing.empty()) {
       log::warning("the clock waits for services to start: " + joined(missing));
-    } else if (const auto owing = master_.owing(); !owing.empty()) {
+    } else if (const auto owing = master_.awaited(); !owing.empty()) {
       log::warning("the clock waits at " + std::to_string(master_.time().count()) +
                    " us for: " + joined(owing));
     }
   }
 
   NodeImpl& node_;
-  OutStream& step_stream_;
+  TopicWriter& step_stream_;
   clock::ClockMaster master_;
-  health::PeerTable peers_;
+  health::FailureDetector peers_;
   clock::Pace pace_;
   clock::RestartHold hold_;
   std::optional<v1::ClockStep> step_;

@@ -25,7 +25,7 @@ health::PeerState NodeImpl::peer(std::string_view service) const {
   return service == options.name ? health::PeerState::alive : loop->peer(service);
 }
 
-InTopic& NodeImpl::subscribe(const TopicSpec& topic) {
+TopicReader& NodeImpl::subscribe(const TopicSpec& topic) {
   const bool barriered = topic.clocking == transport::Clocking::clocked && simulated();
   if (running && barriered && endpoints.find_in(topic.name) == nullptr) {
     throw std::logic_error(
@@ -35,10 +35,10 @@ InTopic& NodeImpl::subscribe(const TopicSpec& topic) {
   return endpoints.in(topic);
 }
 
-void NodeImpl::take_in(Arrival&& arrival) {
-  InTopic& input = *arrival.topic;
-  if (arrival.sample.kind == transport::SampleKind::owner_lost) {
-    for (const auto& lost : input.on_owner_lost) lost(arrival.sample.payload);
+void NodeImpl::receive(Arrival&& arrival) {
+  TopicReader& input = *arrival.topic;
+  if (arrival.sample.kind == transport::SampleKind::no_writers) {
+    for (const auto& lost : input.on_no_writers) lost(arrival.sample.payload);
   }
   if (arrival.sample.kind != transport::SampleKind::data) return;
   auto value = input.topic.codec.decode(arrival.sample.payload);
@@ -54,7 +54,7 @@ void NodeImpl::take_in(Arrival&& arrival) {
   loop->take_clocked(input, header, std::move(value));
 }
 
-void NodeImpl::handle(InTopic& input, const void* value) {
+void NodeImpl::handle(TopicReader& input, const void* value) {
   // By index: a handler may subscribe, live.
   for (std::size_t i = 0; i < input.on_value.size(); ++i) {
     const auto handler = input.on_value[i];
@@ -83,16 +83,16 @@ void NodeImpl::announce_match() {
   }
 }
 
-health::Heart NodeImpl::make_heart() {
-  OutStream& stream = advertise(*this, topics::heartbeat);
+health::HeartbeatSender NodeImpl::make_heartbeat_sender() {
+  TopicWriter& stream = advertise(*this, topics::heartbeat);
   v1::Heartbeat identity;
   identity.service(options.name);
   identity.mission(options.mission);
   identity.robot(options.robot);
   identity.incarnation(options.incarnation);
   identity.dds(options.vendor);
-  return health::Heart(std::move(identity),
-                       [&stream](const v1::Heartbeat& beat) { write(stream, beat); });
+  return health::HeartbeatSender(std::move(identity),
+                                 [&stream](const v1::Heartbeat& beat) { write(stream, beat); });
 }
 
 }  // namespace roci::services::node

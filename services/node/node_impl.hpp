@@ -2,19 +2,21 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string_view>
+#include <typeindex>
 #include <vector>
 
 #include "core/temporal/duration.hpp"
-#include "services/health/heart.hpp"
+#include "services/health/heartbeat_sender.hpp"
 #include "services/health/peer.hpp"
+#include "services/node/completion_queue.hpp"
 #include "services/node/endpoints.hpp"
 #include "services/node/inbox.hpp"
 #include "services/node/loop.hpp"
 #include "services/node/node_options.hpp"
 #include "services/node/timer_queue.hpp"
-#include "services/node/work_table.hpp"
 #include "services/transport/transport.hpp"
 
 namespace roci::services::node {
@@ -28,28 +30,38 @@ class NodeImpl {
   TimerQueue::Id after(temporal::Duration, std::function<void()> fire);
   health::PeerState peer(std::string_view service) const;
 
-  // Subscribing under the simulated clock is over once the loop runs: throws std::logic_error.
-  InTopic& subscribe(const TopicSpec&);
+  /// Subscribing under the simulated clock is over once the loop runs: throws std::logic_error.
+  TopicReader& subscribe(const TopicSpec&);
 
-  // Decodes an arrival and runs its handlers, or hands it to the loop if its topic is clocked.
-  void take_in(Arrival&&);
-  static void handle(InTopic&, const void* value);
+  /// Decodes an arrival and runs its handlers, or hands it to the loop if its topic is clocked.
+  void receive(Arrival&&);
+  static void handle(TopicReader&, const void* value);
   void announce(const health::PeerChange&);
   void announce_match();
   void announce_turn();
 
-  // The heartbeat of this node, on its topic.
-  health::Heart make_heart();
+  /// Keeps one T for a floor above for as long as the node lives; makes it when it is first asked for.
+  template <class T>
+  T& attachment() {
+    std::shared_ptr<void>& kept = attachments[typeid(T)];
+    if (!kept) kept = std::make_shared<T>();
+    return *static_cast<T*>(kept.get());
+  }
+
+  /// Makes the sender of this node's heartbeats, on their topic.
+  health::HeartbeatSender make_heartbeat_sender();
 
   const NodeOptions options;
   RunIdentity run;
   std::unique_ptr<transport::Transport> transport;
   Inbox inbox;
   TimerQueue timers;
-  WorkTable work;
+  CompletionQueue work;
   std::vector<std::function<void(const health::PeerChange&)>> on_peer_change;
   std::vector<std::function<void()>> on_match;
   std::vector<std::function<void()>> on_turn;
+  /// They outlive the endpoints, whose handlers use them.
+  std::map<std::type_index, std::shared_ptr<void>> attachments;
   Endpoints endpoints;
   bool running = false;
   std::unique_ptr<Loop> loop;

@@ -18,10 +18,10 @@ struct MasterOptions {
 };
 
 struct NodeOptions {
-  std::string name;     ///< The logical sender, unique in the run, e.g. "arm_svc".
-  std::string run{};    ///< Identity of the run; an observer without one joins the first run that it hears.
+  std::string name;       ///< The logical sender, unique in the run, e.g. "arm_svc".
+  std::string run{};      ///< Identity of the run; an observer without one joins the first run that it hears.
   std::string mission{};  ///< The mission's name.
-  std::string robot{};  ///< That the service belongs to; empty: the team, the ground or the world.
+  std::string robot{};    ///< That the service belongs to; empty: the team, the ground or the world.
   std::uint32_t incarnation = 1;  ///< How often this service was started in this run, from 1.
   clock::ClockMode clock = clock::ClockMode::live;
   double live_scale = 1;           ///< Live: mission seconds per wall second.

@@ -16,7 +16,7 @@ bool contains(const std::vector<v1::RosterEntry>&, std::string_view service, std
 
 class RosterView {
  public:
-  // What changed since the last step for a node of name `self`: deaths first, each by name.
+  /// Returns what has changed since the last step for a node of name `self`: deaths first, each by name.
   std::vector<health::PeerChange> update(const v1::ClockStep&, std::string_view self);
   health::PeerState state(std::string_view service) const;
 

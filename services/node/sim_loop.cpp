@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "services/clock/follower.hpp"
-#include "services/health/heart.hpp"
+#include "services/clock/hold_back_queue.hpp"
+#include "services/health/heartbeat_sender.hpp"
 #include "services/node/barrier.hpp"
 #include "services/node/node_impl.hpp"
 #include "services/node/roster_view.hpp"
@@ -26,12 +26,12 @@ class SimLoop : public Loop {
   temporal::Time now() const override { return now_; }
   health::PeerState peer(std::string_view service) const override { return roster_.state(service); }
 
-  void take_clocked(InTopic& input, const v1::SampleHeader& header,
+  void take_clocked(TopicReader& input, const v1::SampleHeader& header,
                     std::shared_ptr<const void> value) override {
     if (header.incarnation() == 0) {
       outside_.push_back({&input, std::move(value)});
     } else {
-      follower_.add(input.topic.name, header, std::move(value));
+      held_back_.add(input.topic.name, header, std::move(value));
     }
   }
 
@@ -42,24 +42,24 @@ class SimLoop : public Loop {
   void run() override {
     open();
     while (!over_) turn();
-    heart_->leave();
+    heartbeat_->leave();
   }
 
  private:
   struct OutsideInput {
-    InTopic* input;
+    TopicReader* input;
     std::shared_ptr<const void> value;
   };
 
   void open() {
     const bool master = node_.options.clock == clock::ClockMode::master;
     barrier_ = master ? make_master_barrier(node_) : make_follower_barrier(node_);
-    heart_.emplace(node_.make_heart());
+    heartbeat_.emplace(node_.make_heartbeat_sender());
     v1::ClockReady ready;
     ready.service(node_.options.name);
     ready.incarnation(node_.options.incarnation);
     for (const TopicSpec& topic : node_.endpoints.clocked_inputs()) {
-      follower_.subscribe(topic.name, durability_of(topic.qos), topic.codec.key);
+      held_back_.subscribe(topic.name, durability_of(topic.qos), topic.codec.key);
       ready.subscriptions().push_back(topic.name);
     }
     barrier_->open(ready);
@@ -68,11 +68,11 @@ class SimLoop : public Loop {
   void turn() {
     NodeImpl& impl = node_;
     const clock::WallTime before = clock::wall_now();
-    Inbox::Batch batch = impl.inbox.take(std::min(heart_->next(), barrier_->next_turn(before)));
-    for (auto& arrival : batch.arrivals) impl.take_in(std::move(arrival));
+    Inbox::Batch batch = impl.inbox.take(std::min(heartbeat_->next(), barrier_->next_turn(before)));
+    for (auto& arrival : batch.arrivals) impl.receive(std::move(arrival));
     for (auto& result : batch.results) impl.work.finish(result.work, std::move(result.run));
     const clock::WallTime now = clock::wall_now();
-    heart_->beat(now);
+    heartbeat_->beat(now);
     impl.announce_turn();
     if (batch.stop && !barrier_->stop()) over_ = true;
     barrier_->turn(now);
@@ -83,7 +83,7 @@ class SimLoop : public Loop {
   void follow(const v1::ClockStep& step) {
     if (!acting_ && awaits_me(step)) {
       if (step.last()) return answer(step);
-      if (follower_.complete(step)) act(step);
+      if (held_back_.complete(step)) act(step);
     }
     if (acting_) {
       node_.work.run_finished();
@@ -110,7 +110,7 @@ class SimLoop : public Loop {
       for (const health::PeerChange& change : roster_.update(step, node_.options.name))
         node_.announce(change);
     }
-    for (const clock::Delivery& delivery : follower_.take(step)) {
+    for (const clock::Delivery& delivery : held_back_.take(step)) {
       NodeImpl::handle(*node_.endpoints.find_in(delivery.topic), delivery.value.get());
     }
     take_outside_input();
@@ -152,8 +152,8 @@ class SimLoop : public Loop {
 
   NodeImpl& node_;
   std::unique_ptr<Barrier> barrier_;
-  std::optional<health::Heart> heart_;
-  clock::Follower follower_;
+  std::optional<health::HeartbeatSender> heartbeat_;
+  clock::HoldBackQueue held_back_;
   RosterView roster_;
   std::vector<OutsideInput> outside_;
   std::optional<v1::ClockDone> answered_;

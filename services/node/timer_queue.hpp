@@ -20,7 +20,8 @@ class TimerQueue {
   void cancel(Id);
   std::optional<temporal::Time> earliest() const;
 
-  // Fires what is due at `now`. Timers that are added meanwhile wait for the next call, even if they are due.
+  /// Fires what is due at `now`. Timers that are added meanwhile wait for the next call, even if they are
+  /// due.
   void run_due(temporal::Time now);
 
  private:

@@ -5,31 +5,31 @@
 
 namespace roci::services::node {
 
-int matched_readers(const OutStream& stream) { return stream.matched_readers(); }
-std::uint64_t written(const OutStream& stream) { return stream.total(); }
+int matched_readers(const TopicWriter& stream) { return stream.matched_readers(); }
+std::uint64_t written(const TopicWriter& stream) { return stream.total(); }
 
 template <class T>
-OutStream& TypedEndpoints<T>::advertise(NodeImpl& node, const Topic<T>& topic) {
+TopicWriter& TypedEndpoints<T>::advertise(NodeImpl& node, const Topic<T>& topic) {
   return node.endpoints.out(spec_of(topic));
 }
 
 template <class T>
 void TypedEndpoints<T>::subscribe(NodeImpl& node, const Topic<T>& topic,
                                   std::function<void(const T&)> on_value) {
-  InTopic& input = node.subscribe(spec_of(topic));
+  TopicReader& input = node.subscribe(spec_of(topic));
   input.on_value.push_back(
       [on_value = std::move(on_value)](const void* value) { on_value(*static_cast<const T*>(value)); });
 }
 
 template <class T>
-bool TypedEndpoints<T>::write(OutStream& stream, T&& value) {
-  if constexpr (Headed<T>) stream.stamp(value.header());
+bool TypedEndpoints<T>::write(TopicWriter& stream, T&& value) {
+  if constexpr (HasHeader<T>) stream.stamp(value.header());
   if constexpr (OfRun<T>) value.run(stream.run().name());
   return stream.write(transport::serialize(value));
 }
 
 template <class T>
-bool TypedEndpoints<T>::dispose(OutStream& stream, const T& value) {
+bool TypedEndpoints<T>::dispose(TopicWriter& stream, const T& value) {
   return stream.dispose(transport::serialize(value));
 }
 

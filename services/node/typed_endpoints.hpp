@@ -11,24 +11,24 @@
 namespace roci::services::node {
 
 class NodeImpl;
-class OutStream;
+class TopicWriter;
 
 /// Defined and instantiated in typed_endpoints.cpp, so that users of this header compile no serialization.
 template <class T>
 struct TypedEndpoints {
-  static OutStream& advertise(NodeImpl&, const Topic<T>&);
+  static TopicWriter& advertise(NodeImpl&, const Topic<T>&);
   static void subscribe(NodeImpl&, const Topic<T>&, std::function<void(const T&)>);
-  static bool write(OutStream&, T&&);
-  static bool dispose(OutStream&, const T&);
+  static bool write(TopicWriter&, T&&);
+  static bool dispose(TopicWriter&, const T&);
 };
 
-int matched_readers(const OutStream&);
+int matched_readers(const TopicWriter&);
 
 /// How many samples the stream has written.
-std::uint64_t written(const OutStream&);
+std::uint64_t written(const TopicWriter&);
 
 template <class T>
-OutStream& advertise(NodeImpl& node, const Topic<T>& topic) {
+TopicWriter& advertise(NodeImpl& node, const Topic<T>& topic) {
   return TypedEndpoints<T>::advertise(node, topic);
 }
 
@@ -39,7 +39,7 @@ void subscribe(NodeImpl& node, const Topic<T>& topic,
 }
 
 template <class T>
-bool write(OutStream& stream, T value) {
+bool write(TopicWriter& stream, T value) {
   return TypedEndpoints<T>::write(stream, std::move(value));
 }
 

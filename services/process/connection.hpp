@@ -13,11 +13,12 @@
 namespace roci::services::process {
 
 struct ConnectionFlags {
-  std::optional<std::string> dds;                // --dds, ROCI_DDS, dds: in the network and mission files
-  std::optional<int> domain;                     // --domain, ROCI_DOMAIN, domain:
-  std::optional<std::string> address;            // --address, ROCI_ADDRESS, address:
-  std::optional<std::string> peers;              // --peers, ROCI_PEERS (separated by commas), peers: (a list)
-  std::optional<std::filesystem::path> network;  // --network, ROCI_NETWORK: the network file
+  std::optional<std::string> dds;      ///< --dds, ROCI_DDS, dds: in the network and mission files
+  std::optional<int> domain;           ///< --domain, ROCI_DOMAIN, domain:
+  std::optional<std::string> address;  ///< --address, ROCI_ADDRESS, address:
+  /// --peers, ROCI_PEERS (separated by commas), peers: (a list)
+  std::optional<std::string> peers;
+  std::optional<std::filesystem::path> network;  ///< --network, ROCI_NETWORK: the network file
 };
 
 struct Connection {
@@ -29,12 +30,12 @@ struct Connection {
 using Environment = std::function<std::optional<std::string>(const char* name)>;
 Environment process_environment();
 
-// `mission`: a mission folder, or empty. Throws mission::FileError for a bad file and std::invalid_argument
-// for a bad flag or variable.
+/// `mission` is a mission folder, or empty. Throws mission::FileError for a bad file and
+/// std::invalid_argument for a bad flag or variable.
 Connection resolve_connection(const ConnectionFlags&, const Environment&,
                               const std::filesystem::path& mission);
 
-// "a,b,c" to {"a", "b", "c"}; empty parts are left out.
+/// Turns "a,b,c" into {"a", "b", "c"}; empty parts are left out.
 std::vector<std::string> split_list(const std::string&);
 
 }  // namespace roci::services::process

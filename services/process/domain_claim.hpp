@@ -4,12 +4,12 @@
 
 namespace roci::services::process {
 
-// Holds a domain id from 1 to 100 until it is destroyed or the process ends, against every other DomainClaim
-// on this host (in this network namespace) and against participants that are there already. Children inherit
-// the claim over fork(), not over exec().
+/// Holds a domain id from 1 to 100 until it is destroyed or the process ends, against every other DomainClaim
+/// on this host (in this network namespace) and against participants that are there already. Children inherit
+/// the claim over fork(), not over exec().
 class DomainClaim {
  public:
-  // Throws TransportError when all are taken.
+  /// Throws TransportError when all are taken.
   DomainClaim();
   ~DomainClaim();
   DomainClaim(const DomainClaim&) = delete;

@@ -7,8 +7,8 @@
 
 namespace roci::services::process {
 
-// One more than at the last call with this folder and service; kept in <folder>/<service>.incarnation. Throws
-// std::runtime_error if the folder cannot be written.
+/// Returns one more than at the last call with this folder and service; the count is kept in
+/// <folder>/<service>.incarnation. Throws std::runtime_error if the folder cannot be written.
 std::uint32_t next_incarnation(const std::filesystem::path& folder, const std::string& service);
 
 }  // namespace roci::services::process

@@ -13,25 +13,25 @@ namespace roci::services::process {
 inline constexpr int kRunRecordFormat = 1;
 
 struct RunRecord {
-  std::int64_t pid = 0;  // of the launcher
+  std::int64_t pid = 0;  ///< The launcher's.
   int domain = 0;
   std::filesystem::path mission;
   std::string scenario;
-  std::string dds;  // as given to --dds
+  std::string dds;  ///< As given to --dds.
   std::string address;
   std::vector<std::string> peers;
   std::filesystem::path run_folder;
-  std::string clock;  // live or simulated
+  std::string clock;  ///< "live" or "simulated".
   std::int64_t started_unix_us = 0;
   std::string run{};  // identity; empty in records of before there were any
 
   bool operator==(const RunRecord&) const = default;
 };
 
-// $XDG_RUNTIME_DIR/rocinante, else /tmp/rocinante-<uid>; created for this user alone.
+/// Returns $XDG_RUNTIME_DIR/rocinante, else /tmp/rocinante-<uid>; created for this user alone.
 std::filesystem::path runtime_folder();
 
-// The record of a run, for as long as this object lives.
+/// Publishes the record of a run for as long as this object lives.
 class PublishedRun {
  public:
   PublishedRun(const std::filesystem::path& folder, const RunRecord&);
@@ -43,7 +43,7 @@ class PublishedRun {
   std::filesystem::path file_;
 };
 
-// The runs whose launcher lives, newest first. Records of dead ones are passed over.
+/// Returns the runs whose launcher lives, newest first. Records of dead ones are passed over.
 std::vector<RunRecord> find_runs(const std::filesystem::path& folder);
 
 /// Those records of a newer format whose launcher may live, in words with a remedy; find_runs() does not read

@@ -6,9 +6,9 @@
 #include <iostream>
 
 #include "core/mission/entry.hpp"
-#include "services/health/sign_of_life.hpp"
+#include "services/health/watchdog_notifier.hpp"
 #include "services/node.hpp"
-#include "services/process/end_within.hpp"
+#include "services/process/forced_exit.hpp"
 #include "services/process/incarnation.hpp"
 #include "services/transport/plug_ins.hpp"
 
@@ -43,9 +43,9 @@ int guarded(const std::string& name, const std::function<void()>& run) {
 void run_and_end(const std::string& name, const std::function<void()>& run) {
   try {
     run();
-    end_within(kEndLimit, kStopped, name + ": its work is done");
+    force_exit_after(kExitLimit, kStopped, name + ": its work is done");
   } catch (const std::exception& error) {
-    end_within(kEndLimit, code_for(error), name + ": " + error.what());
+    force_exit_after(kExitLimit, code_for(error), name + ": " + error.what());
     throw;
   }
 }
@@ -64,9 +64,9 @@ void run_service(const ServiceOptions& options, StopSignals& signals, MakeServic
   node::NodeOptions node_options = options.node;
   if (options.count_incarnation)
     node_options.incarnation = next_incarnation(options.run.run_folder, node_options.name);
-  health::SignOfLife sign(options.notify_socket);
+  health::WatchdogNotifier watchdog(options.notify_socket);
   Node node(node_options, connect(options.connection));
-  node.on_turn([&sign] { sign.give(); });
+  node.on_turn([&watchdog] { watchdog.notify(); });
   const auto service = make(node, options.run);
   signals.watch([&node] { node.stop(); });
   run_and_end(node_options.name, [&node] { node.run(); });

@@ -8,13 +8,13 @@ namespace roci::services::process {
 
 class StopSignals {
  public:
-  // Create it before any other thread: it blocks the signals for all threads that start later.
+  /// Create it before any other thread: it blocks the signals for all threads that start later.
   StopSignals();
   ~StopSignals();
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
-  // Calls `on_stop` for each signal from now on until this object ends.
+  /// Calls `on_stop` for each signal from now on until this object ends.
   void watch(std::function<void()> on_stop);
 
  private:

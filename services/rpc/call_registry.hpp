@@ -5,19 +5,19 @@
 #include <memory>
 #include <string>
 
-#include "services/rpc/call_server.hpp"
-#include "services/rpc/call_table.hpp"
+#include "services/rpc/pending_calls.hpp"
+#include "services/rpc/reply_cache.hpp"
 
 namespace roci::services::rpc {
 
 class CallRegistry {
  public:
-  std::shared_ptr<CallTable>& table(const std::string& procedure) { return tables_[procedure]; }
-  std::shared_ptr<CallServer>& server(const std::string& procedure) { return servers_[procedure]; }
+  std::shared_ptr<PendingCalls>& table(const std::string& procedure) { return tables_[procedure]; }
+  std::shared_ptr<ReplyCache>& server(const std::string& procedure) { return servers_[procedure]; }
 
  private:
-  std::map<std::string, std::shared_ptr<CallTable>> tables_;
-  std::map<std::string, std::shared_ptr<CallServer>> servers_;
+  std::map<std::string, std::shared_ptr<PendingCalls>> tables_;
+  std::map<std::string, std::shared_ptr<ReplyCache>> servers_;
 };
 
 }  // namespace roci::services::rpc

@@ -13,12 +13,12 @@
 namespace roci::services::transport {
 
 struct Loss {
-  double fraction = 0;  // of best-effort samples lost, 0 to 1
+  double fraction = 0;  ///< Share of the best-effort samples that are lost, 0 to 1.
   std::uint64_t seed = 1;
-  std::chrono::milliseconds delay{0};  // of the samples that arrive
+  std::chrono::milliseconds delay{0};  ///< Delay of the samples that arrive.
 };
 
-// "fraction:seed:delay_ms", e.g. "0.2:7:30" (environment variable ROCI_LOSS). Throws TransportError.
+/// Reads "fraction:seed:delay_ms", e.g. "0.2:7:30" (environment variable ROCI_LOSS). Throws TransportError.
 Loss parse_loss(std::string_view text);
 
 std::unique_ptr<Transport> make_lossy(std::unique_ptr<Transport>, const Loss&);

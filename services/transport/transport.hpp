@@ -18,18 +18,19 @@
 
 namespace roci::services::transport {
 
-// 4-byte encapsulation header + CDR, exactly as on the wire.
+/// A payload is a 4-byte encapsulation header and CDR, exactly as on the wire.
 using Payload = std::vector<std::uint8_t>;
 using Guid = std::array<std::uint8_t, 16>;
 
-// Type-erased description of a type. `serialized_key` appends the big-endian CDR of the key members (no
-// encapsulation) of a payload, which is a whole sample or, with key_only, a key-only payload; false: the
-// payload is malformed.
+/// Describes a type without naming it in C++. `serialized_key` appends the big-endian CDR of the key members
+/// (no encapsulation) of a payload, which is a whole sample or, with key_only, a key-only payload; it returns
+/// false if the payload is malformed.
 struct TypeDescription {
-  std::string name;  // "roci::v1::Goal": matching is by name alone, so a foreign type never matches
+  /// E.g. "roci::v1::Goal". Matching is by name alone, so that a foreign type never matches.
+  std::string name;
   bool keyed = false;
-  bool key_fits_hash =
-      false;  // the largest serialized key takes at most 16 bytes: the key hash is the key itself
+  /// The largest serialized key takes at most 16 bytes, so that the key hash is the key itself.
+  bool key_fits_hash = false;
   bool (*serialized_key)(std::span<const std::uint8_t> payload, bool key_only, Payload& out) = nullptr;
 };
 
@@ -39,11 +40,11 @@ struct EndpointDescription {
   QosSettings qos;
 };
 
+/// The payload of the last two, of keyed topics alone, holds at least the key (deserialize_key).
 enum class SampleKind {
   data,
-  disposed,    // keyed topics: the writer disposed the instance; payload holds at least the key
-               // (deserialize_key)
-  owner_lost,  // keyed topics: the instance has no live writer any more; payload as above
+  disposed,    ///< The writer disposed the instance.
+  no_writers,  ///< The instance has no live writer any more (DDS: NOT_ALIVE_NO_WRITERS).
 };
 
 struct Sample {
@@ -52,13 +53,13 @@ struct Sample {
   Guid writer{};
 };
 
-// Called from vendor threads: implementations only enqueue, they never write and never block.
+/// Vendor threads call these: implementations only enqueue, they never write and never block.
 struct ReaderEvents {
   std::function<void(Sample&&)> on_sample;
   std::function<void(int current_writers)> on_matched;
 };
 
-// A reliable writer that counts a reader reaches it: all that is written from then on arrives.
+/// A reliable writer reaches every reader that it counts: all that is written from then on arrives.
 struct WriterEvents {
   std::function<void(int current_readers)> on_matched;
 };
@@ -66,16 +67,16 @@ struct WriterEvents {
 class Writer {
  public:
   virtual ~Writer() = default;
-  // False: a reliable reader's history stood full for longer than max_blocking_ms, or the payload is
-  // malformed.
+  /// Returns false if a reliable reader's history stood full for longer than max_blocking_ms, or the payload
+  /// is malformed.
   virtual bool write(std::span<const std::uint8_t> payload) = 0;
-  // Disposes the instance whose key members the (whole) payload holds.
+  /// Disposes the instance whose key members the (whole) payload holds.
   virtual bool dispose(std::span<const std::uint8_t> payload) = 0;
   virtual Guid guid() const = 0;
   virtual int matched_readers() const = 0;
 };
 
-// Destroying a Reader (or a Writer) waits until no callback of it runs any more; never do it in a callback.
+/// Destroying a Reader (or a Writer) waits until no callback of it runs any more; never do it in a callback.
 class Reader {
  public:
   virtual ~Reader() = default;
@@ -84,11 +85,13 @@ class Reader {
 
 struct TransportOptions {
   int domain = 0;
-  std::string participant{};                       // shown by vendor tools
-  std::string address = "127.0.0.1";               // the one interface address that is used; never any other
-  std::vector<std::string> peers = {"127.0.0.1"};  // hosts that are asked for participants, unicast
-  std::string partition{};                         // empty: none
-  std::string vendor_xml{};  // path of a vendor's own XML, used instead of the defaults if not empty
+  std::string participant{};  ///< Vendor tools show it.
+  /// The one interface address that is used; never any other is.
+  std::string address = "127.0.0.1";
+  std::vector<std::string> peers = {"127.0.0.1"};  ///< These hosts are asked for participants, unicast.
+  std::string partition{};                         ///< Empty: there is none.
+  /// The path of a vendor's own XML, which is used instead of the defaults if not empty.
+  std::string vendor_xml{};
 };
 
 class TransportError : public std::runtime_error {
@@ -96,8 +99,8 @@ class TransportError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// One DDS participant. Its writers and readers are destroyed before it. A topic has one type in it; asking
-// for another is a TransportError, like everything that the vendor refuses.
+/// A transport is one DDS participant. Its writers and readers are destroyed before it. A topic has one type
+/// in it; asking for another is a TransportError, like everything that the vendor refuses.
 class Transport {
  public:
   virtual ~Transport() = default;
@@ -106,7 +109,7 @@ class Transport {
   virtual std::unique_ptr<Reader> create_reader(const EndpointDescription&, ReaderEvents) = 0;
 };
 
-// Each plug-in exports this under the name roci_create_transport. It throws TransportError.
+/// Each plug-in exports this under the name roci_create_transport. It throws TransportError.
 using CreateTransport = std::unique_ptr<Transport>(const TransportOptions&);
 inline constexpr char kCreateTransportSymbol[] = "roci_create_transport";
 

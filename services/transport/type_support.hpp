@@ -29,7 +29,7 @@ inline FastBuffer read_only_buffer(std::span<const std::uint8_t> bytes) {
   return {const_cast<char*>(reinterpret_cast<const char*>(bytes.data())), bytes.size()};
 }
 
-// Appends the CDR of the key members; `bound` is at least its size.
+/// Appends the CDR of the key members; `bound` is at least its size.
 template <class T>
 void append_key(const T& value, std::size_t bound, Cdr::Endianness order, Payload& out) {
   const std::size_t start = out.size();
@@ -40,7 +40,7 @@ void append_key(const T& value, std::size_t bound, Cdr::Endianness order, Payloa
   out.resize(start + cdr.getSerializedDataLength());
 }
 
-// Reads what is there, as far as it goes; false when the payload ended early or makes no sense.
+/// Reads what is there, as far as it goes; false when the payload ends early or makes no sense.
 template <class T>
 bool read_prefix(std::span<const std::uint8_t> payload, T& value, Cdr::Endianness& order) {
   try {
@@ -78,7 +78,7 @@ bool serialized_key(std::span<const std::uint8_t> payload, bool key_only, Payloa
 
 }  // namespace detail
 
-// `type_name`: the IDL name, e.g. "roci::v1::Goal". The struct's @key members must come first in it.
+/// `type_name` is the IDL name, e.g. "roci::v1::Goal". The struct's @key members must come first in it.
 template <class T>
 TypeDescription describe_type(std::string type_name) {
   TypeDescription description{std::move(type_name), T::isKeyDefined(),
@@ -98,15 +98,15 @@ Payload serialize(const T& value) {
   return payload;
 }
 
-// False: the payload is not a whole T; `value` then holds whatever came before the damage.
+/// Returns false if the payload is not a whole T; `value` then holds whatever came before the damage.
 template <class T>
 [[nodiscard]] bool deserialize(std::span<const std::uint8_t> payload, T& value) {
   auto order = eprosima::fastcdr::Cdr::DEFAULT_ENDIAN;
   return detail::read_prefix(payload, value, order);
 }
 
-// Fills in the key members from a whole or key-only payload (SampleKind::disposed, owner_lost); the other
-// members are unspecified. False: not even the key can be read.
+/// Fills in the key members from a whole or key-only payload (SampleKind::disposed, no_writers); the other
+/// members are unspecified. Returns false if not even the key can be read.
 template <class T>
 [[nodiscard]] bool deserialize_key(std::span<const std::uint8_t> payload, T& value) {
   Payload key;

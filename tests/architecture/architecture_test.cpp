@@ -42,6 +42,9 @@ TEST(ArchitectureTest, EachRuleCanBeBroken) {
   EXPECT_THAT(broken(file("planner_svc/temporal_pddl/search/a.cpp", "core/pddl/ast.hpp")),
               ElementsAre(HasSubstr("never sees PDDL text")));
   EXPECT_THAT(broken(file("core/temporal/common/a.cpp", "vector")), ElementsAre(HasSubstr("has a name")));
+  EXPECT_THAT(broken(file("services/node/a.cpp", "sqlite3.h")),
+              ElementsAre(HasSubstr("is linked by exec_svc alone")));
+  EXPECT_THAT(broken(file("arm_svc/a.cpp", "ompl/base/Planner.h")), IsEmpty());
   SourceFile source = file("exec_svc/a.cpp", "chrono");
   source.lines = {"const auto t = std::chrono::steady_clock::now();"};
   EXPECT_THAT(broken(source), ElementsAre(HasSubstr("asks the system for the time")));
@@ -49,6 +52,14 @@ TEST(ArchitectureTest, EachRuleCanBeBroken) {
   EXPECT_THAT(broken(source), ElementsAre(HasSubstr("missions are data")));
   source.lines.assign(601, "");
   EXPECT_THAT(broken(source), ElementsAre(HasSubstr("601 lines")));
+}
+
+TEST(ArchitectureTest, ACommentDoesNotTearItsDeclaration) {
+  SourceFile source = file("core/temporal/a.hpp", "vector");
+  source.lines = {"  std::vector<int> values;  ///< Of the longest name."};
+  EXPECT_THAT(broken_rules({source}), IsEmpty());
+  source.lines = {"  std::vector<int>", "      values;  ///< Of the longest name."};
+  EXPECT_THAT(broken_rules({source}), ElementsAre(HasSubstr("stands torn")));
 }
 
 SourceFile in_namespace(const std::string& path, const std::string& name) {

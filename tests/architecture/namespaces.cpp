@@ -55,6 +55,10 @@ std::vector<Block> top_level(const SourceFile& file) {
 
 }  // namespace
 
+bool not_yet_converted(const std::string& path) {
+  return kNotYetConverted.contains(path.substr(0, path.find('/')));
+}
+
 std::string namespace_of(const std::string& path) {
   const std::string folder = path.substr(0, path.find_last_of('/'));
   const auto top = kNamespaceOf.find(folder.substr(0, folder.find('/')));
@@ -74,7 +78,7 @@ std::vector<std::string> foreign_namespaces(const std::vector<SourceFile>& files
   std::vector<std::string> breaches;
   for (const SourceFile& file : files) {
     const std::string wanted = namespace_of(file.path);
-    if (wanted.empty() || kNotYetConverted.contains(file.path.substr(0, file.path.find('/')))) continue;
+    if (wanted.empty() || not_yet_converted(file.path)) continue;
     for (const Block& block : top_level(file)) {
       const bool own = block.name == wanted;
       const bool within = block.name.starts_with(wanted + "::") && !of_folders.contains(block.name);

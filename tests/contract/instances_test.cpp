@@ -97,10 +97,10 @@ TEST_P(Instances, OwnerLostForWhatTheLastWriterLeaves) {
   writer.reset();
   ASSERT_TRUE(inbox.wait_for_match(1));
   ASSERT_TRUE(inbox.wait_for_samples(6));
-  EXPECT_THAT(inbox.ended(transport::SampleKind::owner_lost), ElementsAre("ground/mine"));
+  EXPECT_THAT(inbox.ended(transport::SampleKind::no_writers), ElementsAre("ground/mine"));
   other.reset();
   ASSERT_TRUE(inbox.wait_for_samples(7));
-  EXPECT_THAT(inbox.ended(transport::SampleKind::owner_lost), ElementsAre("ground/mine", "ground/ours"));
+  EXPECT_THAT(inbox.ended(transport::SampleKind::no_writers), ElementsAre("ground/mine", "ground/ours"));
 }
 
 // Keys with a number beside the string: activity and attempt.

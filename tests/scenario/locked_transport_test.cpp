@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "services/clock/wall.hpp"
-#include "services/launch/signs_of_life.hpp"
+#include "services/launch/notify_socket.hpp"
 #include "services/launch/supervisor.hpp"
 
 namespace roci::scenario {
@@ -51,12 +51,12 @@ class LockedTransport : public testing::Test {
 
   const fs::path folder_ = fs::temp_directory_path() / ("roci_locked_" + std::to_string(::getpid()));
   const fs::path log_ = folder_ / "log";
-  services::launch::SignsOfLife signs_;
+  services::launch::NotifySocket signs_;
 };
 
 TEST_F(LockedTransport, EndsAllTheSameAndWithItsCode) {
   const auto child = start("end");
-  ASSERT_TRUE(turn_until([&] { return !signs_.take().empty(); })) << log();
+  ASSERT_TRUE(turn_until([&] { return !signs_.receive().empty(); })) << log();
   child->signal(SIGTERM);
   ASSERT_TRUE(turn_until([&] { return child->ending().has_value(); }));
   EXPECT_TRUE(child->ending()->exited);
@@ -81,8 +81,8 @@ TEST_F(LockedTransport, IsReplacedWhenItsLoopStandsStill) {
   supervisor.start(services::clock::wall_now());
   std::size_t signs_of_the_second = 0;
   EXPECT_TRUE(turn_until([&] {
-    const auto senders = signs_.take();
-    for (const pid_t sender : senders) supervisor.watchdog().sign(sender, services::clock::wall_now());
+    const auto senders = signs_.receive();
+    for (const pid_t sender : senders) supervisor.watchdog().kick(sender, services::clock::wall_now());
     supervisor.turn(services::clock::wall_now());
     if (!deaths.empty()) signs_of_the_second += senders.size();
     return signs_of_the_second > 12;  // longer than the first one lived

@@ -13,8 +13,8 @@ namespace roci::planner::temporal_pddl::improvement {
 struct PlanQuality {
   std::int64_t metric = 0;         ///< Task::metric in millionths; it is 0 where that is the time alone
   temporal::Duration makespan{0};  ///< the time of the last start or end of an action
-  temporal::Duration busy{
-      0};  ///< the sum of all durations: among equally short plans the one that does less is better
+  /// The sum of all durations: among equally short plans the one that does less is better.
+  temporal::Duration busy{0};
   std::size_t steps = 0;  ///< the number of snap actions
   auto operator<=>(const PlanQuality&) const = default;
 };

@@ -33,9 +33,8 @@ class StateLayout {
   StateLayout(std::vector<std::vector<FactId>> variables, const IdVector<FactId, FactId>& negation_of,
               std::size_t numbers);
 
-  std::size_t words() const {
-    return number_offset_ + numbers_;
-  }                                                         ///< the words of one state, its numbers included
+  /// The words of one state, its numbers included.
+  std::size_t words() const { return number_offset_ + numbers_; }
   std::size_t packed_bits() const { return packed_bits_; }  ///< Σ ⌈log2(facts + 1)⌉
   std::span<const Variable> variables() const { return variables_; }
   std::size_t facts() const { return places_.size(); }

@@ -21,14 +21,14 @@ struct DeleteListener {
 };
 using ListenerPtr = std::unique_ptr<dds_listener_t, DeleteListener>;
 
-// For writers and readers alike.
+/// For writers and readers alike.
 QosPtr endpoint_qos(const transport::QosSettings&);
 
-// `entity` if it is a handle; throws TransportError "Cyclone DDS refused <what>: <why>" if it is an error
-// code.
+/// `entity` if it is a handle; throws TransportError "Cyclone DDS refused <what>: <why>" if it is an error
+/// code.
 dds_entity_t checked(dds_entity_t entity, const std::string& what);
 
-// What the vendor's GUID looks like at our boundary.
+/// What the vendor's GUID looks like at our boundary.
 transport::Guid to_guid(const dds_guid_t&);
 
 }  // namespace roci::services::vendors::cyclonedds

@@ -62,7 +62,7 @@ void CycloneReader::take(const Serdata& data, const dds_sample_info_t& info, con
   if (!type_.type.keyed || info.instance_state == DDS_IST_ALIVE || more_of_instance_follow) return;
   if (auto key_payload = instances_.ended(data.instance())) {
     const bool disposed = info.instance_state == DDS_IST_NOT_ALIVE_DISPOSED;
-    events_.on_sample({disposed ? transport::SampleKind::disposed : transport::SampleKind::owner_lost,
+    events_.on_sample({disposed ? transport::SampleKind::disposed : transport::SampleKind::no_writers,
                        std::move(*key_payload), writer});
   }
 }

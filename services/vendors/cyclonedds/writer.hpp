@@ -10,14 +10,14 @@ namespace roci::services::vendors::cyclonedds {
 
 struct TopicHandle {
   dds_entity_t topic = 0;
-  const Sertype* type = nullptr;  // owned by the vendor as long as the topic lives
+  const Sertype* type = nullptr;  ///< owned by the vendor as long as the topic lives
 };
 
 class CycloneWriter : public transport::Writer {
  public:
   CycloneWriter(dds_entity_t publisher, const TopicHandle&, const transport::EndpointDescription&,
                 transport::WriterEvents);
-  // Waits a moment for what the readers have not acknowledged yet.
+  /// Waits a moment for what the readers have not acknowledged yet.
   ~CycloneWriter() override;
 
   bool write(std::span<const std::uint8_t> payload) override;

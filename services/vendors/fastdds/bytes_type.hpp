@@ -12,15 +12,15 @@ namespace roci::services::vendors::fastdds {
 
 using KeyHash = std::array<std::uint8_t, 16>;
 
-// What the vendor's `void* data` points to. A writer lends the bytes, a reader's sample owns them.
+/// What the vendor's `void* data` points to. A writer lends the bytes, a reader's sample owns them.
 struct Bytes {
   std::span<const std::uint8_t> view;
   transport::Payload owned;
-  std::optional<KeyHash> key_hash;  // if known already; the vendor asks for it up to three times per write
+  std::optional<KeyHash> key_hash;  ///< if known already; the vendor asks for it up to three times per write
 };
 
-// The key hash of a whole or key-only payload: the big-endian key, or MD5 of it where a key of the type may
-// be longer than the hash. Nothing if the payload is malformed.
+/// The key hash of a whole or key-only payload: the big-endian key, or MD5 of it where a key of the type may
+/// be longer than the hash. Nothing if the payload is malformed.
 std::optional<KeyHash> key_hash_of(const transport::TypeDescription&, std::span<const std::uint8_t> payload,
                                    bool force_md5);
 

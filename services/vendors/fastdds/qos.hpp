@@ -9,8 +9,8 @@
 
 namespace roci::services::vendors::fastdds {
 
-// UDP unicast on options.address alone. With vendor_xml: the default participant profile of that file
-// instead.
+/// UDP unicast on options.address alone. With vendor_xml: the default participant profile of that file
+/// instead.
 eprosima::fastdds::dds::DomainParticipantQos participant_qos(const transport::TransportOptions&);
 
 eprosima::fastrtps::Duration_t blocking_time(const transport::QosSettings&);

@@ -67,7 +67,7 @@ void FastReader::take_end(const dds::SampleInfo& info) {
   auto key_payload = instances_.ended(key_of(info.instance_handle));
   if (!key_payload || !events_.on_sample) return;
   const bool disposed = info.instance_state == dds::NOT_ALIVE_DISPOSED_INSTANCE_STATE;
-  events_.on_sample({disposed ? transport::SampleKind::disposed : transport::SampleKind::owner_lost,
+  events_.on_sample({disposed ? transport::SampleKind::disposed : transport::SampleKind::no_writers,
                      std::move(*key_payload), to_guid(info.sample_identity.writer_guid())});
 }
 
@@ -82,7 +82,7 @@ void FastReader::on_subscription_matched(dds::DataReader*, const dds::Subscripti
     const transport::Guid writer = to_guid(theirs);
     for (auto& key_payload : instances_.writer_left(writer)) {
       if (events_.on_sample)
-        events_.on_sample({transport::SampleKind::owner_lost, std::move(key_payload), writer});
+        events_.on_sample({transport::SampleKind::no_writers, std::move(key_payload), writer});
     }
   }
   if (events_.on_matched) events_.on_matched(status.current_count);

@@ -14,7 +14,7 @@ class FastWriter : public transport::Writer, private eprosima::fastdds::dds::Dat
  public:
   FastWriter(eprosima::fastdds::dds::Publisher&, eprosima::fastdds::dds::Topic&,
              const transport::EndpointDescription&, transport::WriterEvents);
-  // Waits a moment for what the readers have not acknowledged yet.
+  /// Waits a moment for what the readers have not acknowledged yet.
   ~FastWriter() override;
 
   bool write(std::span<const std::uint8_t> payload) override;

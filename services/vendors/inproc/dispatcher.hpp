@@ -19,7 +19,7 @@ class Dispatcher {
   Dispatcher();
 
   void post(Endpoint, std::function<void()> callback);
-  // Forgets the endpoint's callbacks and waits until none of them runs any more. Never from a callback.
+  /// Forgets the endpoint's callbacks and waits until none of them runs any more. Never from a callback.
   void remove(Endpoint);
 
  private:

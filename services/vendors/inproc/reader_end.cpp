@@ -104,7 +104,7 @@ void ReaderEnd::detach(const transport::Guid& writer) {
   const std::lock_guard lock(mutex_);
   if (closed_ || writers_.erase(writer) == 0) return;
   for (auto& key_payload : instances_.writer_left(writer)) {
-    transport::Sample lost{transport::SampleKind::owner_lost, std::move(key_payload), writer};
+    transport::Sample lost{transport::SampleKind::no_writers, std::move(key_payload), writer};
     enqueue(Arrived{std::move(lost), {}});
   }
   enqueue(Matched{static_cast<int>(writers_.size())});

@@ -18,7 +18,7 @@
 
 namespace roci::services::vendors::inproc {
 
-// Big-endian CDR of the key members; empty for types without key.
+/// Big-endian CDR of the key members; empty for types without key.
 using Key = InstanceTable::Key;
 
 class ReaderEnd : public std::enable_shared_from_this<ReaderEnd> {
@@ -29,16 +29,16 @@ class ReaderEnd : public std::enable_shared_from_this<ReaderEnd> {
   const transport::EndpointDescription& description() const { return description_; }
   int matched_writers() const;
 
-  // Books a place in the queue; false when a reliable keep-all queue stayed full for so long.
+  /// Books a place in the queue; false when a reliable keep-all queue stayed full for so long.
   bool reserve(std::chrono::milliseconds max_wait);
   void release();
-  // Delivers a sample; `reserved`: it takes a booked place.
+  /// Delivers a sample; `reserved`: it takes a booked place.
   void push(transport::Sample, const Key&, bool reserved);
 
   void attach(const transport::Guid& writer);
-  // Instances without any other writer are reported as owner_lost.
+  /// Instances without any other writer are reported as no_writers.
   void detach(const transport::Guid& writer);
-  // Returns when no callback runs any more; none follows.
+  /// Returns when no callback runs any more; none follows.
   void close();
 
  private:

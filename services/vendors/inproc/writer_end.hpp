@@ -27,10 +27,10 @@ class WriterEnd : public std::enable_shared_from_this<WriterEnd> {
   bool write(std::span<const std::uint8_t> payload);
   bool dispose(std::span<const std::uint8_t> payload);
 
-  // A reader that asked for it gets the history first.
+  /// A reader that asked for it gets the history first.
   void attach(const std::shared_ptr<ReaderEnd>&);
   void detach(const std::shared_ptr<ReaderEnd>&);
-  // Leaves all readers; returns when no callback runs any more.
+  /// Leaves all readers; returns when no callback runs any more.
   void close();
 
  private:

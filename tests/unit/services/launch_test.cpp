@@ -334,7 +334,7 @@ TEST_F(SupervisorTest, FiveDeathsInARowEndTheRun) {
   turn_until(supervisor, now, [&] { return supervisor.finished(); });
   ASSERT_TRUE(supervisor.failure());
   EXPECT_EQ(supervisor.failure()->service, "arm_svc");
-  EXPECT_THAT(supervisor.failure()->what, HasSubstr("ended with code 1, the 5th time in a row"));
+  EXPECT_THAT(supervisor.failure()->reason, HasSubstr("ended with code 1, the 5th time in a row"));
 }
 
 TEST_F(SupervisorTest, BadInputIsNotTriedAgain) {
@@ -370,7 +370,7 @@ TEST_F(SupervisorTest, AHungClockEndsTheRun) {
   for (; now < start + 59s; now += 1s) supervisor.turn(now);
   turn_until(supervisor, start + 61s, [&] { return supervisor.finished(); });
   ASSERT_TRUE(supervisor.failure());
-  EXPECT_THAT(supervisor.failure()->what, HasSubstr("hung: its loop has not turned"));
+  EXPECT_THAT(supervisor.failure()->reason, HasSubstr("hung: its loop has not turned"));
 }
 
 TEST_F(SupervisorTest, ATransportThatIsMissingFromTheStartEndsTheRun) {
@@ -387,10 +387,10 @@ TEST_F(SupervisorTest, AServiceWaitsAsLongAsItsNetworkIsOut) {
   script = {{"arm_svc", "exit 3"}, {"sim_svc", "exec tail -f /dev/null"}};
   auto supervisor = make({"arm_svc", "sim_svc"});
   supervisor.start(start);
-  supervisor.watchdog().sign(pids["arm_svc"], start);
+  supervisor.watchdog().kick(pids["arm_svc"], start);
   auto now = start;
   for (std::size_t death = 1; death <= 40; ++death, now += 2s) {
-    supervisor.watchdog().sign(pids["sim_svc"], now);
+    supervisor.watchdog().kick(pids["sim_svc"], now);
     turn_until(supervisor, now, [&] { return deaths.size() == death; });
   }
   EXPECT_THAT(deaths.back(), HasSubstr("as long as its network is out; starting it again"));
@@ -404,7 +404,7 @@ TEST_F(SupervisorTest, TheRunEndsWithItsClock) {
   supervisor.start(start);
   turn_until(supervisor, start, [&] { return supervisor.finished(); });
   ASSERT_TRUE(supervisor.failure());
-  EXPECT_THAT(supervisor.failure()->what, HasSubstr("it is the clock of the run"));
+  EXPECT_THAT(supervisor.failure()->reason, HasSubstr("it is the clock of the run"));
 }
 
 TEST_F(SupervisorTest, LiveServicesAreAskedToLeaveWhenTheRobotIsDone) {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "services/publisher.hpp"
-#include "services/rpc/call_server.hpp"
+#include "services/rpc/reply_cache.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
 namespace roci::services {
@@ -35,7 +35,7 @@ class SimCall : public testing::Test {
     newest = client.call(to_pose(pose), target, deadline, [this](const Result& result) {
       const auto ms = std::to_string(caller.now() / 1ms);
       results.push_back(ms + " " + to_string(result.status) + " " + result.reply.reason());
-      message = result.message;
+      message = result.reason;
     });
   }
   void run_until(temporal::Time end) {
@@ -181,9 +181,9 @@ TEST_F(SimCall, DropsRepliesToOthers) {
   EXPECT_EQ(other.statistics().foreign, 1U);
 }
 
-TEST(CallServer, RepeatsTheFirstAnswerToADuplicate) {
-  rpc::CallServer server;
-  const rpc::CallServer::Id id{{1}, 7};
+TEST(ReplyCache, RepeatsTheFirstAnswerToADuplicate) {
+  rpc::ReplyCache server;
+  const rpc::ReplyCache::Id id{{1}, 7};
   int sent = 0;
   EXPECT_TRUE(server.accept(id));
   EXPECT_FALSE(server.accept(id)) << "still being answered";
@@ -194,19 +194,19 @@ TEST(CallServer, RepeatsTheFirstAnswerToADuplicate) {
   EXPECT_TRUE(server.accept({{2}, 7})) << "another client";
 }
 
-TEST(CallServer, RemembersABoundedNumber) {
-  rpc::CallServer server;
-  for (std::int64_t i = 0; i <= static_cast<std::int64_t>(rpc::kRememberedAnswers); ++i)
+TEST(ReplyCache, RemembersABoundedNumber) {
+  rpc::ReplyCache server;
+  for (std::int64_t i = 0; i <= static_cast<std::int64_t>(rpc::kCachedReplies); ++i)
     EXPECT_TRUE(server.accept({{1}, i}));
   EXPECT_FALSE(server.accept({{1}, 1}));
   EXPECT_TRUE(server.accept({{1}, 0})) << "the oldest is forgotten";
 }
 
-TEST(CallServer, TellsOfACancelOnceWhetherItCameBeforeTheRequestOrAfter) {
-  rpc::CallServer server;
+TEST(ReplyCache, TellsOfACancelOnceWhetherItCameBeforeTheRequestOrAfter) {
+  rpc::ReplyCache server;
   int told = 0;
   const auto count = [&told] { ++told; };
-  const rpc::CallServer::Id late{{1}, 1}, early{{1}, 2}, answered{{1}, 3};
+  const rpc::ReplyCache::Id late{{1}, 1}, early{{1}, 2}, answered{{1}, 3};
   server.accept(late);
   server.on_cancel(late, count);
   EXPECT_EQ(told, 0);
@@ -246,7 +246,7 @@ class LiveCall : public testing::Test {
     make_client(*caller, topics::arm_motion)
         .call(to_pose("stow"), target, deadline, [this](const Result& result) {
           results.emplace_back(to_string(result.status));
-          message = result.message;
+          message = result.reason;
         });
   }
 

@@ -1,5 +1,5 @@
 // Nodes under the simulated clock, all on their own threads: what the pure parts (clock_master_test,
-// follower_test) promise, joined up.
+// hold_back_queue_test) promise, joined up.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

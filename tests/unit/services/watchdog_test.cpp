@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "services/health/sign_of_life.hpp"
-#include "services/launch/signs_of_life.hpp"
-#include "services/process/end_within.hpp"
+#include "services/health/watchdog_notifier.hpp"
+#include "services/launch/notify_socket.hpp"
+#include "services/process/forced_exit.hpp"
 
 namespace roci::services::launch {
 namespace {
@@ -31,8 +31,8 @@ class WatchdogTest : public testing::Test {
   std::vector<std::string> hung_until(clock::WallTime end, std::vector<pid_t> who) {
     std::vector<std::string> hung;
     for (; now <= end; now += 100ms) {
-      for (const pid_t pid : who) watchdog.sign(pid, now);
-      for (const auto& one : watchdog.check(now)) hung.push_back(one.service + " " + one.why);
+      for (const pid_t pid : who) watchdog.kick(pid, now);
+      for (const auto& one : watchdog.check(now)) hung.push_back(one.service + " " + one.reason);
     }
     return hung;
   }
@@ -101,40 +101,40 @@ TEST_F(WatchdogTest, NoLimitNoHang) {
   EXPECT_THAT(hung_until(start + 1h, {}), IsEmpty());
 }
 
-TEST(SignOfLife, ReachesTheSupervisorWithItsSender) {
-  SignsOfLife signs;
-  health::SignOfLife sign(signs.address());
-  EXPECT_THAT(signs.take(), IsEmpty());
-  sign.give();
-  sign.give();  // too soon
-  EXPECT_THAT(signs.take(), testing::ElementsAre(getpid()));
+TEST(WatchdogNotifier, ReachesTheSupervisorWithItsSender) {
+  NotifySocket signs;
+  health::WatchdogNotifier sign(signs.address());
+  EXPECT_THAT(signs.receive(), IsEmpty());
+  sign.notify();
+  sign.notify();  // too soon
+  EXPECT_THAT(signs.receive(), testing::ElementsAre(getpid()));
 }
 
-TEST(SignOfLife, NobodyNeedsToListen) {
-  health::SignOfLife("").give();
+TEST(WatchdogNotifier, NobodyNeedsToListen) {
+  health::WatchdogNotifier("").notify();
   std::string address;
   {
-    const SignsOfLife gone;
+    const NotifySocket gone;
     address = gone.address();
   }
-  EXPECT_THROW(health::SignOfLife{address}, std::system_error);
-  EXPECT_THROW(health::SignOfLife{"nonsense"}, std::invalid_argument);
-  EXPECT_THROW(health::SignOfLife{"/" + std::string(200, 'x')}, std::invalid_argument);
+  EXPECT_THROW(health::WatchdogNotifier{address}, std::system_error);
+  EXPECT_THROW(health::WatchdogNotifier{"nonsense"}, std::invalid_argument);
+  EXPECT_THROW(health::WatchdogNotifier{"/" + std::string(200, 'x')}, std::invalid_argument);
 }
 
-TEST(SignOfLife, ASupervisorThatDoesNotReadNeverBlocksAService) {
-  const SignsOfLife signs;
-  std::vector<std::unique_ptr<health::SignOfLife>> senders;
+TEST(WatchdogNotifier, ASupervisorThatDoesNotReadNeverBlocksAService) {
+  const NotifySocket signs;
+  std::vector<std::unique_ptr<health::WatchdogNotifier>> senders;
   for (int i = 0; i < 1000; ++i) {
-    senders.push_back(std::make_unique<health::SignOfLife>(signs.address()));
-    senders.back()->give();
+    senders.push_back(std::make_unique<health::WatchdogNotifier>(signs.address()));
+    senders.back()->notify();
   }
 }
 
 TEST(EndWithin, EndsAProcessThatHangs) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto hang = [] {
-    process::end_within(50ms, 7, "arm_svc: its work is done");
+    process::force_exit_after(50ms, 7, "arm_svc: its work is done");
     for (;;) pause();
   };
   EXPECT_EXIT(hang(), testing::ExitedWithCode(7),
@@ -144,7 +144,7 @@ TEST(EndWithin, EndsAProcessThatHangs) {
 TEST(EndWithin, LeavesOthersAlone) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto leave = [] {
-    process::end_within(1h, 7, "never said");
+    process::force_exit_after(1h, 7, "never said");
     std::exit(3);
   };
   EXPECT_EXIT(leave(), testing::ExitedWithCode(3), Not(HasSubstr("never said")));

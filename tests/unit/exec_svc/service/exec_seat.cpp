@@ -79,9 +79,9 @@ v1::Goal photo_goal(const std::string& id) {
 }
 
 ExecSeat::ExecSeat(const std::string& vendor, const std::string& vendor_of_others, int domain,
-                   const std::vector<GoalRecord>& journalled, fs::path mission)
+                   const std::vector<GoalRecord>& journalled, fs::path mission_folder)
     : folder_(made_folder(domain)),
-      mission_(std::move(mission)),
+      mission_(std::move(mission_folder)),
       vendor_(vendor),
       run_({"sim_svc", "planner_svc", "exec_svc"}, domain),
       robot_(waiting_master(run_, vendor_of_others)),

@@ -31,7 +31,7 @@ v1::PlanReply reply_to(RoadPlanning& planning, const v1::PlanRequest& request) {
     ADD_FAILURE() << planning.replies().size() << " replies";
     return {};
   }
-  EXPECT_EQ(planning.replies()[0].result.status, CallStatus::ok) << planning.replies()[0].result.message;
+  EXPECT_EQ(planning.replies()[0].result.status, CallStatus::ok) << planning.replies()[0].result.reason;
   return planning.replies()[0].result.reply;
 }
 

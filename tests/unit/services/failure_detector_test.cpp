@@ -1,4 +1,4 @@
-#include "services/health/peer_table.hpp"
+#include "services/health/failure_detector.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ v1::Heartbeat beat(std::uint32_t incarnation, v1::ServiceState state = v1::SERVI
   return message;
 }
 
-class PeerTableTest : public testing::Test {
+class FailureDetectorTest : public testing::Test {
  protected:
   std::vector<std::string> changes() {
     std::vector<std::string> texts;
@@ -27,11 +27,11 @@ class PeerTableTest : public testing::Test {
     }
     return texts;
   }
-  PeerTable peers{5s};
+  FailureDetector peers{5s};
   clock::WallTime start{1000s};
 };
 
-TEST_F(PeerTableTest, TheFirstHeartbeatMakesAPeer) {
+TEST_F(FailureDetectorTest, TheFirstHeartbeatMakesAPeer) {
   EXPECT_EQ(peers.state("arm_svc"), PeerState::never_seen);
   peers.heartbeat(beat(1), start);
   peers.heartbeat(beat(1), start + 1s);
@@ -39,7 +39,7 @@ TEST_F(PeerTableTest, TheFirstHeartbeatMakesAPeer) {
   EXPECT_EQ(peers.state("arm_svc"), PeerState::alive);
 }
 
-TEST_F(PeerTableTest, SilenceIsAHangAndANewHeartbeatItsEnd) {
+TEST_F(FailureDetectorTest, SilenceIsAHangAndANewHeartbeatItsEnd) {
   peers.heartbeat(beat(1), start);
   peers.check(start + 5s);
   EXPECT_THAT(changes(), ElementsAre("1 alive"));
@@ -50,7 +50,7 @@ TEST_F(PeerTableTest, SilenceIsAHangAndANewHeartbeatItsEnd) {
   EXPECT_THAT(changes(), ElementsAre("1 alive"));
 }
 
-TEST_F(PeerTableTest, OtherSignsOfLifeCount) {
+TEST_F(FailureDetectorTest, OtherSignsOfLifeCount) {
   peers.heartbeat(beat(2), start);
   peers.seen("arm_svc", 2, start + 4s);
   peers.seen("arm_svc", 1, start + 9s);  // of an older incarnation
@@ -60,27 +60,27 @@ TEST_F(PeerTableTest, OtherSignsOfLifeCount) {
   EXPECT_THAT(changes(), ElementsAre("2 hung"));
 }
 
-TEST_F(PeerTableTest, AKillIsNotALeave) {
+TEST_F(FailureDetectorTest, AKillIsNotALeave) {
   peers.heartbeat(beat(1), start);
-  peers.owner_lost("arm_svc");
-  peers.owner_lost("arm_svc");
+  peers.writer_lost("arm_svc");
+  peers.writer_lost("arm_svc");
   EXPECT_THAT(changes(), ElementsAre("1 alive", "1 killed"));
   peers.heartbeat(beat(2), start);
   peers.heartbeat(beat(2, v1::SERVICE_STOPPING), start);
   peers.heartbeat(beat(2, v1::SERVICE_STOPPING), start + 1s);
-  peers.owner_lost("arm_svc");
+  peers.writer_lost("arm_svc");
   EXPECT_THAT(changes(), ElementsAre("2 alive", "2 left"));
 }
 
-TEST_F(PeerTableTest, ANewIncarnationProvesTheDeathOfTheOld) {
+TEST_F(FailureDetectorTest, ANewIncarnationProvesTheDeathOfTheOld) {
   peers.heartbeat(beat(1), start);
   peers.heartbeat(beat(2), start + 1s);
   peers.heartbeat(beat(1), start + 1s);  // late
   EXPECT_THAT(changes(), ElementsAre("1 alive", "1 restarted", "2 alive"));
 }
 
-TEST_F(PeerTableTest, StrangersAreNobody) {
-  peers.owner_lost("unknown");
+TEST_F(FailureDetectorTest, StrangersAreNobody) {
+  peers.writer_lost("unknown");
   peers.seen("unknown", 1, start);
   peers.check(start + 100s);
   EXPECT_THAT(changes(), IsEmpty());

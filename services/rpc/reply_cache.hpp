@@ -1,5 +1,6 @@
-// One server of a procedure, without its types: knows which requests it has seen, their answers, and which of
-// them were cancelled, before they came or after.
+// One server of a procedure, without its types. It makes calls at-most-once (Birrell and Nelson, 1984): it
+// knows which requests it has seen, their answers, and which of them were cancelled, before they came or
+// after.
 #pragma once
 
 #include <array>
@@ -14,19 +15,20 @@
 
 namespace roci::services::rpc {
 
-inline constexpr std::size_t kRememberedAnswers = 256;
+inline constexpr std::size_t kCachedReplies = 256;
 
-class CallServer {
+class ReplyCache {
  public:
   using Id = std::pair<std::array<std::uint8_t, 16>, std::int64_t>;
   using SendAgain = std::function<void()>;
 
-  // True: handle this request. False: it is a duplicate; if it was answered, the answer went out again.
+  /// Returns true if this request is to be handled, false if it is a duplicate; if it was answered before,
+  /// the answer has gone out again.
   bool accept(const Id&);
   void answered(const Id&, SendAgain);
 
   void cancel(const Id&);
-  // Runs once, when this request is cancelled before its answer; at once if it already is.
+  /// `handler` runs once, when this request is cancelled before its answer; at once if it already is.
   void on_cancel(const Id&, std::function<void()> handler);
 
  private:
@@ -42,23 +44,23 @@ class CallServer {
   std::deque<Id> order_;  // oldest first; bounds known_
 };
 
-// The duty to answer one request, and the writer that does it.
+/// The duty to answer one request, and the writer that does it.
 class PendingReply {
  public:
   using Write = std::function<void(const void* reply)>;
 
-  PendingReply(std::shared_ptr<CallServer> server, const v1::SampleIdentity& request, Write write)
+  PendingReply(std::shared_ptr<ReplyCache> server, const v1::SampleIdentity& request, Write write)
       : server_(std::move(server)), request_(request), write_(std::move(write)) {}
 
   const v1::SampleIdentity& request() const { return request_; }
-  // The first answer is sent and remembered; others are ignored.
+  /// The first answer is sent and remembered; others are ignored.
   void answer(std::shared_ptr<const void> reply);
   void on_cancel(std::function<void()> handler);
 
  private:
-  CallServer::Id id() const { return {request_.writer_guid(), request_.sequence_number()}; }
+  ReplyCache::Id id() const { return {request_.writer_guid(), request_.sequence_number()}; }
 
-  std::shared_ptr<CallServer> server_;
+  std::shared_ptr<ReplyCache> server_;
   v1::SampleIdentity request_;
   Write write_;
   bool answered_ = false;

@@ -1,10 +1,10 @@
-#include "services/health/peer_table.hpp"
+#include "services/health/failure_detector.hpp"
 
 #include <utility>
 
 namespace roci::services::health {
 
-void PeerTable::heartbeat(const v1::Heartbeat& beat, clock::WallTime now) {
+void FailureDetector::heartbeat(const v1::Heartbeat& beat, clock::WallTime now) {
   Peer& peer = peers_[beat.service()];
   if (beat.incarnation() < peer.incarnation) return;
   if (beat.incarnation() > peer.incarnation && peer.alive) die(beat.service(), peer, "restarted");
@@ -19,32 +19,32 @@ void PeerTable::heartbeat(const v1::Heartbeat& beat, clock::WallTime now) {
   changes_.push_back({beat.service(), beat.incarnation(), true, ""});
 }
 
-void PeerTable::seen(const std::string& service, std::uint32_t incarnation, clock::WallTime now) {
+void FailureDetector::seen(const std::string& service, std::uint32_t incarnation, clock::WallTime now) {
   const auto found = peers_.find(service);
   if (found != peers_.end() && found->second.incarnation == incarnation) found->second.last_seen = now;
 }
 
-void PeerTable::owner_lost(const std::string& service) {
+void FailureDetector::writer_lost(const std::string& service) {
   const auto found = peers_.find(service);
   if (found == peers_.end() || !found->second.alive) return;
   die(service, found->second, "killed");
 }
 
-void PeerTable::check(clock::WallTime now) {
+void FailureDetector::check(clock::WallTime now) {
   for (auto& [service, peer] : peers_) {
     if (peer.alive && now - peer.last_seen > hang_limit_) die(service, peer, "hung");
   }
 }
 
-PeerState PeerTable::state(std::string_view service) const {
+PeerState FailureDetector::state(std::string_view service) const {
   const auto found = peers_.find(service);
   if (found == peers_.end()) return PeerState::never_seen;
   return found->second.alive ? PeerState::alive : PeerState::dead;
 }
 
-std::vector<PeerChange> PeerTable::take_changes() { return std::exchange(changes_, {}); }
+std::vector<PeerChange> FailureDetector::take_changes() { return std::exchange(changes_, {}); }
 
-void PeerTable::die(const std::string& service, Peer& peer, std::string cause) {
+void FailureDetector::die(const std::string& service, Peer& peer, std::string cause) {
   peer.alive = false;
   changes_.push_back({service, peer.incarnation, false, std::move(cause)});
 }

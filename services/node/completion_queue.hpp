@@ -1,4 +1,4 @@
-// Works that threads of a service have under way, and their results until the loop runs them.
+// The works that threads of a service have under way, and their results until the loop runs them.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@ namespace roci::services::node {
 
 enum class ResultOrder { as_begun, as_finished };
 
-class WorkTable {
+class CompletionQueue {
  public:
-  explicit WorkTable(ResultOrder order) : order_(order) {}
+  explicit CompletionQueue(ResultOrder order) : order_(order) {}
 
   std::uint64_t begin();
   void finish(std::uint64_t work, std::function<void()> run);
-  // Runs the results whose turn has come. Throws std::logic_error for the result of a work that was not
-  // begun.
+  /// Runs the results whose turn has come. Throws std::logic_error for the result of a work that was not
+  /// begun.
   void run_finished();
   bool outstanding() const { return !begun_.empty(); }
 

@@ -1,4 +1,4 @@
-// Calls of one client that are under way, without their types.
+// The calls of one client that are under way, without their types.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class NodeImpl;
 
 namespace roci::services::rpc {
 
-class CallTable {
+class PendingCalls {
  public:
   struct Call {
     std::string owner;
@@ -29,9 +29,9 @@ class CallTable {
 
   using SendCancel = std::function<void(const v1::SampleIdentity&, const std::string& owner)>;
 
-  // `reachable`: request and reply topic have both matched.
-  CallTable(node::NodeImpl&, transport::Guid client, std::string procedure, std::function<bool()> reachable,
-            SendCancel);
+  /// `reachable` tells whether the topics of request and reply have both matched.
+  PendingCalls(node::NodeImpl&, transport::Guid client, std::string procedure,
+               std::function<bool()> reachable, SendCancel);
 
   CallId start(Call, temporal::Duration deadline);
   void cancel(CallId);

@@ -1,4 +1,4 @@
-#include "services/launch/signs_of_life.hpp"
+#include "services/launch/notify_socket.hpp"
 
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -36,19 +36,19 @@ pid_t sender_of(msghdr& message) {
 
 }  // namespace
 
-SignsOfLife::SignsOfLife() : socket_(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
+NotifySocket::NotifySocket() : socket_(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
   const int on = 1;
   if (socket_ >= 0 && setsockopt(socket_, SOL_SOCKET, SO_PASSCRED, &on, sizeof on) == 0)
     address_ = bind_somewhere(socket_);
   if (!address_.empty()) return;
   const int error = errno;
   if (socket_ >= 0) close(socket_);
-  throw std::system_error(error, std::generic_category(), "cannot open a socket for signs of life");
+  throw std::system_error(error, std::generic_category(), "cannot open a socket for notifications");
 }
 
-SignsOfLife::~SignsOfLife() { close(socket_); }
+NotifySocket::~NotifySocket() { close(socket_); }
 
-std::vector<pid_t> SignsOfLife::take() {
+std::vector<pid_t> NotifySocket::receive() {
   std::vector<pid_t> senders;
   for (;;) {
     std::array<char, 256> text{};

@@ -1,19 +1,19 @@
-#include "services/node/work_table.hpp"
+#include "services/node/completion_queue.hpp"
 
 #include <stdexcept>
 #include <utility>
 
 namespace roci::services::node {
 
-std::uint64_t WorkTable::begin() { return *begun_.insert(next_++).first; }
+std::uint64_t CompletionQueue::begin() { return *begun_.insert(next_++).first; }
 
-void WorkTable::finish(std::uint64_t work, std::function<void()> run) {
+void CompletionQueue::finish(std::uint64_t work, std::function<void()> run) {
   if (!begun_.contains(work))
     throw std::logic_error("post_work_result: this work was never begun, or ended already");
   finished_.emplace(work, std::move(run));
 }
 
-void WorkTable::run_finished() {
+void CompletionQueue::run_finished() {
   while (!finished_.empty()) {
     const auto result = finished_.begin();
     if (order_ == ResultOrder::as_begun && result->first != *begun_.begin()) return;

@@ -1,4 +1,4 @@
-#include "core/temporal/bound_field.hpp"
+#include "core/temporal/lazy_shortest_paths.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -12,7 +12,7 @@ constexpr std::size_t kLongSearch = 128;
 
 /// Indices of the edges grouped by one of their ends: those of point p stand at [begin[p], begin[p + 1]).
 template <typename EndOf>
-void group(const std::vector<BoundField::Edge>& edges, std::size_t point_count, EndOf end_of,
+void group(const std::vector<LazyShortestPaths::Edge>& edges, std::size_t point_count, EndOf end_of,
            std::vector<std::uint32_t>& begin, std::vector<std::uint32_t>& grouped) {
   begin.assign(point_count + 1, 0);
   for (const auto& edge : edges) ++begin[end_of(edge) + 1];
@@ -38,7 +38,7 @@ auto pop(Heap& heap) {
 
 }  // namespace
 
-BoundField::BoundField(std::vector<Edge> edges, std::vector<Duration> potential)
+LazyShortestPaths::LazyShortestPaths(std::vector<Edge> edges, std::vector<Duration> potential)
     : edges_(std::move(edges)),
       first_potential_(std::move(potential)),
       fixed_(first_potential_.size(), 0),
@@ -54,12 +54,12 @@ BoundField::BoundField(std::vector<Edge> edges, std::vector<Duration> potential)
       edges_, potential_.size(), [](const Edge& e) { return e.head; }, in_begin_, in_);
 }
 
-Duration BoundField::value(TimePoint point) const {
+Duration LazyShortestPaths::value(TimePoint point) const {
   if (known_[point] == 0 && !search(point)) settle();
   return value_[point];
 }
 
-void BoundField::fix(TimePoint point, Duration value) {
+void LazyShortestPaths::fix(TimePoint point, Duration value) {
   changes_.clear();
   rebases_at_fix_ = rebases_;
   const bool was_known = known_[point] != 0;
@@ -83,7 +83,7 @@ void BoundField::fix(TimePoint point, Duration value) {
   lower_floor(floor);
 }
 
-void BoundField::undo_fix(TimePoint point) {
+void LazyShortestPaths::undo_fix(TimePoint point) {
   changes_.clear();
   changes_.push_back({point, value_[point]});
   fixed_[point] = known_[point] = 0;
@@ -93,7 +93,7 @@ void BoundField::undo_fix(TimePoint point) {
   settle();
 }
 
-void BoundField::reweigh(std::uint32_t index, Duration weight) {
+void LazyShortestPaths::reweigh(std::uint32_t index, Duration weight) {
   changes_.clear();
   Edge& edge = edges_[index];
   if (edge.weight == weight) return;
@@ -104,7 +104,7 @@ void BoundField::reweigh(std::uint32_t index, Duration weight) {
     lower_floor(std::min(floor_, value_[edge.tail] + weight - potential_[edge.head]));
 }
 
-void BoundField::cut_off(TimePoint point) {
+void LazyShortestPaths::cut_off(TimePoint point) {
   changes_.clear();
   forget(point);
   forget_heads(point);
@@ -113,7 +113,7 @@ void BoundField::cut_off(TimePoint point) {
 }
 
 /// Forgets the value of the point and all known ones that were computed through it.
-void BoundField::forget(TimePoint root) {
+void LazyShortestPaths::forget(TimePoint root) {
   std::vector<TimePoint> open{root};
   while (!open.empty()) {
     const TimePoint point = open.back();
@@ -128,13 +128,13 @@ void BoundField::forget(TimePoint root) {
   }
 }
 
-void BoundField::forget_heads(TimePoint point) {
+void LazyShortestPaths::forget_heads(TimePoint point) {
   for (std::uint32_t i = out_begin_[point]; i < out_begin_[point + 1]; ++i)
     if (bounded(edges_[out_[i]].weight)) forget(edges_[out_[i]].head);
 }
 
 /// Known values whose search ended early on the strength of a higher floor may now be smaller.
-void BoundField::lower_floor(Duration floor) {
+void LazyShortestPaths::lower_floor(Duration floor) {
   floor_ = floor;
   while (!unsure_.empty() && unsure_.front().first > floor_) {
     std::pop_heap(unsure_.begin(), unsure_.end());
@@ -145,7 +145,7 @@ void BoundField::lower_floor(Duration floor) {
 }
 
 /// Makes the value of one point known; false, and nothing changed, if that leads too far.
-bool BoundField::search(TimePoint target) const {
+bool LazyShortestPaths::search(TimePoint target) const {
   std::vector<Entry> heap;
   std::vector<TimePoint> touched{target};
   std::vector<TimePoint> expanded;
@@ -191,13 +191,13 @@ bool BoundField::search(TimePoint target) const {
   return true;
 }
 
-void BoundField::settle() const {
+void LazyShortestPaths::settle() const {
   compute_all();
   rebase();
 }
 
 /// Dijkstra forward from all known values.
-void BoundField::compute_all() const {
+void LazyShortestPaths::compute_all() const {
   std::vector<Entry> heap;
   const auto relax = [&](const Edge& edge) {
     ++work_;
@@ -223,7 +223,7 @@ void BoundField::compute_all() const {
 }
 
 /// Shortest distances are a potential of their own; where there are none the old one stands, raised.
-void BoundField::rebase() const {
+void LazyShortestPaths::rebase() const {
   Duration raise{0};
   for (const Edge& edge : edges_)
     if (bounded(edge.weight) && !bounded(value_[edge.tail]) && bounded(value_[edge.head]))

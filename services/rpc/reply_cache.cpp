@@ -1,12 +1,12 @@
-#include "services/rpc/call_server.hpp"
+#include "services/rpc/reply_cache.hpp"
 
 namespace roci::services::rpc {
 
-CallServer::Request& CallServer::entry(const Id& id) {
+ReplyCache::Request& ReplyCache::entry(const Id& id) {
   const auto [entry, fresh] = known_.try_emplace(id);
   if (fresh) {
     order_.push_back(id);
-    if (order_.size() > kRememberedAnswers) {
+    if (order_.size() > kCachedReplies) {
       known_.erase(order_.front());
       order_.pop_front();
     }
@@ -14,28 +14,28 @@ CallServer::Request& CallServer::entry(const Id& id) {
   return entry->second;
 }
 
-bool CallServer::accept(const Id& id) {
+bool ReplyCache::accept(const Id& id) {
   Request& request = entry(id);
   if (!std::exchange(request.seen, true)) return true;
   if (request.send_again) request.send_again();
   return false;
 }
 
-void CallServer::answered(const Id& id, SendAgain send_again) {
+void ReplyCache::answered(const Id& id, SendAgain send_again) {
   const auto found = known_.find(id);
   if (found == known_.end()) return;
   found->second.send_again = std::move(send_again);
   found->second.on_cancel = nullptr;
 }
 
-void CallServer::cancel(const Id& id) {
+void ReplyCache::cancel(const Id& id) {
   Request& request = entry(id);
   if (std::exchange(request.cancelled, true) || !request.on_cancel) return;
   const auto handler = std::exchange(request.on_cancel, nullptr);
   handler();
 }
 
-void CallServer::on_cancel(const Id& id, std::function<void()> handler) {
+void ReplyCache::on_cancel(const Id& id, std::function<void()> handler) {
   const auto found = known_.find(id);
   if (found == known_.end() || found->second.send_again) return;
   if (found->second.cancelled) {

@@ -1,4 +1,4 @@
-#include "services/clock/follower.hpp"
+#include "services/clock/hold_back_queue.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ v1::SampleHeader header(const std::string& sender, std::uint64_t seq, std::uint3
 std::shared_ptr<const void> value(const std::string& text) { return std::make_shared<std::string>(text); }
 
 // Values are strings "key=content".
-Follower::Key key_of(const void* sample) {
+HoldBackQueue::Key key_of(const void* sample) {
   const auto& text = *static_cast<const std::string*>(sample);
   const auto key = text.substr(0, text.find('='));
   return {key.begin(), key.end()};
@@ -60,17 +60,17 @@ std::vector<std::string> texts(const std::vector<Delivery>& deliveries) {
   return all;
 }
 
-class FollowerTest : public testing::Test {
+class HoldBackQueueTest : public testing::Test {
  protected:
-  FollowerTest() {
+  HoldBackQueueTest() {
     follower.subscribe("event", Durability::volatile_, key_of);
     follower.subscribe("state", Durability::transient_local, key_of);
   }
   void join() { follower.take(step_with({"a", "b"}, {})); }
-  Follower follower;
+  HoldBackQueue follower;
 };
 
-TEST_F(FollowerTest, IsCompleteWithExactlyTheAnnouncedSamples) {
+TEST_F(HoldBackQueueTest, IsCompleteWithExactlyTheAnnouncedSamples) {
   join();
   const auto step = step_with({"a"}, {{"event", "a", 2}});
   EXPECT_FALSE(follower.complete(step));
@@ -85,7 +85,7 @@ TEST_F(FollowerTest, IsCompleteWithExactlyTheAnnouncedSamples) {
   EXPECT_THAT(texts(follower.take(step_with({"a"}, {{"event", "a", 3}}))), ElementsAre("x=3"));
 }
 
-TEST_F(FollowerTest, DeliversOnceInOrderWhateverTheArrival) {
+TEST_F(HoldBackQueueTest, DeliversOnceInOrderWhateverTheArrival) {
   join();
   std::vector<std::tuple<std::string, std::string, std::uint64_t>> samples;
   for (const char* topic : {"event", "state"}) {
@@ -108,14 +108,14 @@ TEST_F(FollowerTest, DeliversOnceInOrderWhateverTheArrival) {
   EXPECT_THAT(follower.take(step), IsEmpty());
 }
 
-TEST_F(FollowerTest, DoesNotWaitForTopicsOfOthers) {
+TEST_F(HoldBackQueueTest, DoesNotWaitForTopicsOfOthers) {
   join();
   const auto step = step_with({"a"}, {{"unread", "a", 3}});
   EXPECT_TRUE(follower.complete(step));
   EXPECT_THAT(follower.take(step), IsEmpty());
 }
 
-TEST_F(FollowerTest, DoesNotWaitForTheDeadButDeliversWhatTheyLeft) {
+TEST_F(HoldBackQueueTest, DoesNotWaitForTheDeadButDeliversWhatTheyLeft) {
   join();
   follower.add("event", header("b", 1), value("b=1"));
   const auto step = step_with({"a"}, {{"event", "b", 2}});
@@ -123,7 +123,7 @@ TEST_F(FollowerTest, DoesNotWaitForTheDeadButDeliversWhatTheyLeft) {
   EXPECT_THAT(texts(follower.take(step)), ElementsAre("b=1"));
 }
 
-TEST_F(FollowerTest, TheUnfinishedMicroStepOfTheDeadIsNeverSeen) {
+TEST_F(HoldBackQueueTest, TheUnfinishedMicroStepOfTheDeadIsNeverSeen) {
   join();
   follower.add("event", header("b", 1), value("b=1"));
   follower.add("event", header("b", 2), value("b=2"));
@@ -131,7 +131,7 @@ TEST_F(FollowerTest, TheUnfinishedMicroStepOfTheDeadIsNeverSeen) {
   EXPECT_THAT(texts(follower.take(step_with({"a"}, {}))), IsEmpty());
 }
 
-TEST_F(FollowerTest, ALateJoinerGetsTheNewestOfEachKeyOfStateTopics) {
+TEST_F(HoldBackQueueTest, ALateJoinerGetsTheNewestOfEachKeyOfStateTopics) {
   // History as a late joiner's reader brings it: in order, older samples of a key may be gone.
   for (const auto& [seq, text] :
        std::vector<std::pair<int, std::string>>{{3, "k=3"}, {4, "m=4"}, {6, "k=6"}, {7, "n=7"}, {8, "k=8"}}) {
@@ -145,7 +145,7 @@ TEST_F(FollowerTest, ALateJoinerGetsTheNewestOfEachKeyOfStateTopics) {
               ElementsAre("k=8"));
 }
 
-TEST_F(FollowerTest, ALateJoinerWaitsForTheNewestAnnouncedState) {
+TEST_F(HoldBackQueueTest, ALateJoinerWaitsForTheNewestAnnouncedState) {
   const auto step = step_with({"a"}, {{"event", "a", 4}, {"state", "a", 7}});
   EXPECT_FALSE(follower.complete(step));
   follower.add("state", header("a", 5), value("k=5"));
@@ -154,7 +154,7 @@ TEST_F(FollowerTest, ALateJoinerWaitsForTheNewestAnnouncedState) {
   EXPECT_TRUE(follower.complete(step)) << "events from before it joined are not awaited";
 }
 
-TEST_F(FollowerTest, IncarnationsAreStreamsOfTheirOwn) {
+TEST_F(HoldBackQueueTest, IncarnationsAreStreamsOfTheirOwn) {
   join();
   follower.add("event", header("a", 1, 1), value("old"));
   follower.add("event", header("a", 1, 2), value("new"));

@@ -1,4 +1,4 @@
-#include "services/process/end_within.hpp"
+#include "services/process/forced_exit.hpp"
 
 #include <poll.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 namespace roci::services::process {
 
 // A thread of its own that takes no lock: nobody knows who holds which.
-void end_within(std::chrono::milliseconds limit, int code, std::string last_words) {
+void force_exit_after(std::chrono::milliseconds limit, int code, std::string last_words) {
   last_words += "; it did not end by itself, so it was ended\n";
   std::thread([limit, code, words = std::move(last_words)] {
     poll(nullptr, 0, static_cast<int>(limit.count()));

@@ -1,4 +1,5 @@
-// Which services are alive, from their heartbeats and from what the transport says of their writers. Wall
+// Tells which services are alive, from their heartbeats and from what the transport says of their writers: an
+// unreliable failure detector (Chandra and Toueg, 1996), which may suspect a service that is only slow. Wall
 // time.
 #pragma once
 
@@ -13,16 +14,17 @@
 
 namespace roci::services::health {
 
-class PeerTable {
+class FailureDetector {
  public:
-  explicit PeerTable(clock::WallDuration hang_limit) : hang_limit_(hang_limit) {}
+  explicit FailureDetector(clock::WallDuration hang_limit) : hang_limit_(hang_limit) {}
 
   void heartbeat(const v1::Heartbeat&, clock::WallTime now);
-  // A sign of life other than a heartbeat.
+  /// Something other than a heartbeat has shown that the service lives.
   void seen(const std::string& service, std::uint32_t incarnation, clock::WallTime now);
-  // The transport knows no living writer of this service's heartbeat any more.
-  void owner_lost(const std::string& service);
-  void check(clock::WallTime now);  // who is silent for too long
+  /// The transport no longer knows a living writer of this service's heartbeat.
+  void writer_lost(const std::string& service);
+  /// Declares dead whoever has been silent for longer than the limit.
+  void check(clock::WallTime now);
 
   PeerState state(std::string_view service) const;
   std::vector<PeerChange> take_changes();

@@ -1,4 +1,4 @@
-#include "services/rpc/call_table.hpp"
+#include "services/rpc/pending_calls.hpp"
 
 #include <utility>
 #include <vector>
@@ -13,22 +13,22 @@ constexpr temporal::Duration kLongestRepetition = std::chrono::seconds(4);
 
 }  // namespace
 
-CallTable::CallTable(node::NodeImpl& node, transport::Guid client, std::string procedure,
-                     std::function<bool()> reachable, SendCancel send_cancel)
+PendingCalls::PendingCalls(node::NodeImpl& node, transport::Guid client, std::string procedure,
+                           std::function<bool()> reachable, SendCancel send_cancel)
     : node_(node),
       client_(client),
       procedure_(std::move(procedure)),
       reachable_(std::move(reachable)),
       send_cancel_(std::move(send_cancel)) {}
 
-v1::SampleIdentity CallTable::identity(CallId number) const {
+v1::SampleIdentity PendingCalls::identity(CallId number) const {
   v1::SampleIdentity id;
   id.writer_guid(client_);
   id.sequence_number(number);
   return id;
 }
 
-CallId CallTable::start(Call call, temporal::Duration deadline) {
+CallId PendingCalls::start(Call call, temporal::Duration deadline) {
   if (pending_.size() >= kMaxPendingCalls) {
     node_.after(temporal::Duration(0), [finish = std::move(call.finish), name = procedure_] {
       finish(CallStatus::overloaded,
@@ -49,7 +49,7 @@ CallId CallTable::start(Call call, temporal::Duration deadline) {
 }
 
 // A live request may be lost on its way, and so may this: both are repeated until there is an answer.
-void CallTable::cancel(CallId number) {
+void PendingCalls::cancel(CallId number) {
   const auto found = pending_.find(number);
   if (found == pending_.end() || std::exchange(found->second.cancelled, true)) return;
   Pending& pending = found->second;
@@ -65,7 +65,7 @@ void CallTable::cancel(CallId number) {
   }
 }
 
-void CallTable::send(CallId number, Pending& pending) {
+void PendingCalls::send(CallId number, Pending& pending) {
   pending.sent = true;
   ++statistics_.sent;
   pending.call.send(identity(number));
@@ -73,24 +73,24 @@ void CallTable::send(CallId number, Pending& pending) {
   if (!node_.simulated()) await_repetition(number, pending);
 }
 
-void CallTable::await_repetition(CallId number, Pending& pending) {
+void PendingCalls::await_repetition(CallId number, Pending& pending) {
   pending.repetition = node_.after(pending.next_wait, [this, number] { repeat(number); });
   pending.next_wait = std::min(2 * pending.next_wait, kLongestRepetition);
 }
 
-void CallTable::repeat(CallId number) {
+void PendingCalls::repeat(CallId number) {
   const auto found = pending_.find(number);
   if (found != pending_.end()) send(number, found->second);
 }
 
-void CallTable::on_match() {
+void PendingCalls::on_match() {
   if (node_.simulated() || !reachable_()) return;
   for (auto& [number, pending] : pending_) {
     if (!pending.sent && !pending.cancelled) send(number, pending);
   }
 }
 
-void CallTable::check_owner(CallId number) {
+void PendingCalls::check_owner(CallId number) {
   const auto found = pending_.find(number);
   if (found == pending_.end()) return;
   const std::string& owner = found->second.call.owner;
@@ -101,7 +101,7 @@ void CallTable::check_owner(CallId number) {
   finish(found, CallStatus::no_owner, owner + " is not there to answer " + procedure_);
 }
 
-void CallTable::on_reply(const v1::ReplyHeader& header, const void* reply) {
+void PendingCalls::on_reply(const v1::ReplyHeader& header, const void* reply) {
   const v1::SampleIdentity& id = header.related_request_id();
   if (id.writer_guid() != client_) {
     ++statistics_.foreign;
@@ -119,7 +119,7 @@ void CallTable::on_reply(const v1::ReplyHeader& header, const void* reply) {
   }
 }
 
-void CallTable::on_peer_change(const health::PeerChange& change) {
+void PendingCalls::on_peer_change(const health::PeerChange& change) {
   if (change.alive) return;
   std::vector<std::int64_t> lost;
   for (const auto& [number, pending] : pending_) {
@@ -133,7 +133,7 @@ void CallTable::on_peer_change(const health::PeerChange& change) {
   }
 }
 
-void CallTable::expire(CallId number) {
+void PendingCalls::expire(CallId number) {
   const auto found = pending_.find(number);
   if (found == pending_.end()) return;
   const std::string& owner = found->second.call.owner;
@@ -148,7 +148,8 @@ void CallTable::expire(CallId number) {
   }
 }
 
-void CallTable::finish(Pendings::iterator found, CallStatus status, std::string message, const void* reply) {
+void PendingCalls::finish(Pendings::iterator found, CallStatus status, std::string message,
+                          const void* reply) {
   const Pending ended = std::move(pending_.extract(found).mapped());
   node_.timers.cancel(ended.deadline);
   node_.timers.cancel(ended.owner_check);

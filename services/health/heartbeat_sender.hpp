@@ -10,15 +10,17 @@
 
 namespace roci::services::health {
 
-class Heart {
+class HeartbeatSender {
  public:
   using Send = std::function<void(const v1::Heartbeat&)>;
 
   /// `identity`: who beats (service, incarnation, mission, robot, vendor); the rest is filled in here.
-  Heart(v1::Heartbeat identity, Send);
+  HeartbeatSender(v1::Heartbeat identity, Send);
 
-  void beat(clock::WallTime now);  // each turn of the loop; sends when it is time
-  void leave();                    // the last one, SERVICE_STOPPING
+  /// The loop calls it in each of its turns; it sends when it is time.
+  void beat(clock::WallTime now);
+  /// Sends the last heartbeat, SERVICE_STOPPING.
+  void leave();
   clock::WallTime next() const { return next_; }
 
  private:

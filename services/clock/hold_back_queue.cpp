@@ -1,4 +1,4 @@
-#include "services/clock/follower.hpp"
+#include "services/clock/hold_back_queue.hpp"
 
 #include <algorithm>
 #include <set>
@@ -19,29 +19,29 @@ bool in_roster(const v1::ClockStep& step, const v1::StreamCount& count) {
 
 }  // namespace
 
-void Follower::Stream::close_gaps() {
+void HoldBackQueue::Stream::close_gaps() {
   while (held.contains(received + 1)) ++received;
 }
 
-void Follower::subscribe(const std::string& topic, Durability durability, KeyOf key_of) {
+void HoldBackQueue::subscribe(const std::string& topic, Durability durability, KeyOf key_of) {
   inputs_.try_emplace(topic, Input{durability, std::move(key_of)});
 }
 
-void Follower::add(const std::string& topic, const v1::SampleHeader& header,
-                   std::shared_ptr<const void> value) {
+void HoldBackQueue::add(const std::string& topic, const v1::SampleHeader& header,
+                        std::shared_ptr<const void> value) {
   Stream& stream = streams_[{topic, header.sender(), header.incarnation()}];
   if (header.seq() <= stream.delivered) return;
   stream.held.emplace(header.seq(), std::move(value));
   stream.close_gaps();
 }
 
-bool Follower::awaited(const v1::ClockStep& step, const v1::StreamCount& count) const {
+bool HoldBackQueue::awaited(const v1::ClockStep& step, const v1::StreamCount& count) const {
   const auto input = inputs_.find(count.topic());
   if (input == inputs_.end() || !in_roster(step, count)) return false;
   return joined_ || input->second.durability == Durability::transient_local;
 }
 
-bool Follower::has_all(const v1::StreamCount& count) const {
+bool HoldBackQueue::has_all(const v1::StreamCount& count) const {
   const auto found = streams_.find(key_of(count));
   if (found == streams_.end()) return count.total() == 0;
   const Stream& stream = found->second;
@@ -50,12 +50,12 @@ bool Follower::has_all(const v1::StreamCount& count) const {
   return !stream.held.empty() && stream.held.rbegin()->first >= count.total();
 }
 
-bool Follower::complete(const v1::ClockStep& step) const {
+bool HoldBackQueue::complete(const v1::ClockStep& step) const {
   return std::ranges::all_of(
       step.totals(), [&](const v1::StreamCount& count) { return !awaited(step, count) || has_all(count); });
 }
 
-std::vector<std::string> Follower::missing(const v1::ClockStep& step) const {
+std::vector<std::string> HoldBackQueue::missing(const v1::ClockStep& step) const {
   std::vector<std::string> streams;
   for (const v1::StreamCount& count : step.totals()) {
     if (!awaited(step, count) || has_all(count)) continue;
@@ -67,7 +67,7 @@ std::vector<std::string> Follower::missing(const v1::ClockStep& step) const {
   return streams;
 }
 
-std::vector<Delivery> Follower::take(const v1::ClockStep& step) {
+std::vector<Delivery> HoldBackQueue::take(const v1::ClockStep& step) {
   std::vector<Delivery> deliveries;
   for (const v1::StreamCount& count : step.totals()) {
     if (!inputs_.contains(count.topic())) continue;
@@ -88,16 +88,16 @@ std::vector<Delivery> Follower::take(const v1::ClockStep& step) {
   return deliveries;
 }
 
-void Follower::deliver(const StreamKey& key, Stream& stream, std::uint64_t total,
-                       std::vector<Delivery>& deliveries) const {
+void HoldBackQueue::deliver(const StreamKey& key, Stream& stream, std::uint64_t total,
+                            std::vector<Delivery>& deliveries) const {
   const auto end = stream.held.upper_bound(total);
   for (auto sample = stream.held.begin(); sample != end; ++sample) {
     deliveries.push_back({key.topic, std::move(sample->second)});
   }
 }
 
-void Follower::deliver_history(const StreamKey& key, Stream& stream, std::uint64_t total,
-                               std::vector<Delivery>& deliveries) const {
+void HoldBackQueue::deliver_history(const StreamKey& key, Stream& stream, std::uint64_t total,
+                                    std::vector<Delivery>& deliveries) const {
   const Input& input = inputs_.at(key.topic);
   if (input.durability != Durability::transient_local) return;
   std::set<std::string> seen;

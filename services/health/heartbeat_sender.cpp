@@ -1,4 +1,4 @@
-#include "services/health/heart.hpp"
+#include "services/health/heartbeat_sender.hpp"
 
 #include <unistd.h>
 
@@ -27,21 +27,22 @@ std::uint32_t resident_kb() {
 
 }  // namespace
 
-Heart::Heart(v1::Heartbeat identity, Send send) : send_(std::move(send)), beat_(std::move(identity)) {
+HeartbeatSender::HeartbeatSender(v1::Heartbeat identity, Send send)
+    : send_(std::move(send)), beat_(std::move(identity)) {
   beat_.host(host_name());
   beat_.process_id(getpid());
 }
 
-void Heart::beat(clock::WallTime now) {
+void HeartbeatSender::beat(clock::WallTime now) {
   ++turns_;
   if (now < next_) return;
   next_ = now + clock::wall_seconds(kPeriodS);
   send(v1::SERVICE_RUNNING);
 }
 
-void Heart::leave() { send(v1::SERVICE_STOPPING); }
+void HeartbeatSender::leave() { send(v1::SERVICE_STOPPING); }
 
-void Heart::send(v1::ServiceState state) {
+void HeartbeatSender::send(v1::ServiceState state) {
   beat_.progress(turns_);
   beat_.state(state);
   beat_.resident_kb(resident_kb());

@@ -1,4 +1,4 @@
-#include "services/health/sign_of_life.hpp"
+#include "services/health/watchdog_notifier.hpp"
 
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -31,7 +31,7 @@ void connect_to(int socket, const std::string& address) {
 
 }  // namespace
 
-SignOfLife::SignOfLife(const std::string& address) {
+WatchdogNotifier::WatchdogNotifier(const std::string& address) {
   if (address.empty()) return;
   socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (socket_ < 0) throw std::system_error(errno, std::generic_category(), "socket");
@@ -43,11 +43,11 @@ SignOfLife::SignOfLife(const std::string& address) {
   }
 }
 
-SignOfLife::~SignOfLife() {
+WatchdogNotifier::~WatchdogNotifier() {
   if (socket_ >= 0) close(socket_);
 }
 
-void SignOfLife::give() {
+void WatchdogNotifier::notify() {
   const clock::WallTime now = clock::wall_now();
   if (socket_ < 0 || now < next_) return;
   next_ = now + clock::wall_seconds(kPeriodS);

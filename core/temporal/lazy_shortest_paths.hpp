@@ -16,7 +16,7 @@ namespace roci::temporal {
 /// soon as nothing farther away can be smaller: every value lies at or above floor + potential. A search that
 /// grows too long computes all values at once and takes them as the new potential, under which the searches
 /// after it are short again. So an event costs the values that somebody has asked for and that it may move.
-class BoundField {
+class LazyShortestPaths {
  public:
   struct Edge {
     TimePoint tail;
@@ -25,7 +25,7 @@ class BoundField {
   };
 
   /// potential: potential[head] <= potential[tail] + weight for every edge. All values start unbounded.
-  BoundField(std::vector<Edge> edges, std::vector<Duration> potential);
+  LazyShortestPaths(std::vector<Edge> edges, std::vector<Duration> potential);
 
   Duration value(TimePoint point) const;
   bool fixed(TimePoint point) const { return fixed_[point] != 0; }

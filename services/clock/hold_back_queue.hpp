@@ -1,4 +1,6 @@
-// What one participant of the simulated clock has received, and what of it a micro-step delivers. Pure.
+// The samples that one participant of the simulated clock has received, held back until a micro-step delivers
+// them in the order that all participants share (the hold-back queue of totally ordered multicast; Coulouris
+// et al., Distributed Systems, 2011, section 15.4). Pure.
 //
 // A stream is (topic, sender, incarnation); its samples are numbered without gaps from 1. A step announces
 // the total of every stream; the participant acts once it holds them all, and then sees each exactly once, in
@@ -33,24 +35,25 @@ struct Delivery {
 
 /// What a participant that joins late is given of a topic's past (the durability QoS of DDS).
 enum class Durability {
-  volatile_,        ///< Nothing.
-  transient_local,  ///< The newest sample of each key.
+  volatile_,        ///< It gets nothing.
+  transient_local,  ///< It gets the newest sample of each key.
 };
 
-class Follower {
+class HoldBackQueue {
  public:
   using Key = std::vector<std::uint8_t>;  ///< The serialized key of an instance.
   using KeyOf = std::function<Key(const void* value)>;
 
-  // `key_of` tells the instances of a topic apart.
+  /// `key_of` tells the instances of a topic apart.
   void subscribe(const std::string& topic, Durability, KeyOf key_of);
   void add(const std::string& topic, const v1::SampleHeader&, std::shared_ptr<const void> value);
 
-  // Whether all is there that the step announces. Senders that are not in its roster are not waited for.
+  /// True when all is there that the step announces. Senders that are not in its roster are not waited for.
   bool complete(const v1::ClockStep&) const;
-  // The streams that complete() misses, for people: "topic sender#incarnation 3/5".
+  /// Names the streams that complete() misses, for people: "topic sender#incarnation 3/5".
   std::vector<std::string> missing(const v1::ClockStep&) const;
-  // What the step delivers. Call it once for each micro-step in which this participant acts.
+  /// Removes and returns what the step delivers. Call it once for each micro-step in which this participant
+  /// acts.
   std::vector<Delivery> take(const v1::ClockStep&);
 
  private:
