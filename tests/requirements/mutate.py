@@ -23,6 +23,7 @@ import re
 import resource
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -30,7 +31,7 @@ from pathlib import Path
 
 from rows import MUTATIONS, ROOT, find_place, read_mutations
 
-TEST_SECONDS = 120  # a test that has not ended by then has failed
+TEST_SECONDS = 300  # as for CTest; a test that has not ended by then has failed
 MUTANT_BYTES = 6 << 30  # a mutant that asks for more memory has failed
 
 
@@ -70,15 +71,18 @@ class Build:
 
 
 def run(words, seconds, folder, limited=False, more=None):
-    """Exit code and output; a program that does not end in time ends as if it had failed."""
+    """Exit code and output; a program that does not end in time is ended, with all that it has started, as if it had failed."""
     def limit():
         resource.setrlimit(resource.RLIMIT_AS, (MUTANT_BYTES, MUTANT_BYTES))
+    process = subprocess.Popen(words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
+                               env={**os.environ, **(more or {})}, preexec_fn=limit if limited else None)
     try:
-        done = subprocess.run(words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=seconds,
-                              env={**os.environ, **(more or {})}, preexec_fn=limit if limited else None)
+        output = process.communicate(timeout=seconds)[0]
     except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
         return -1, f"not over after {seconds} s"
-    return done.returncode, done.stdout.decode(errors="replace")
+    return process.returncode, output.decode(errors="replace")
 
 
 class Mutant:
