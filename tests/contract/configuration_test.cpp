@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "services/transport/rtps_ports.hpp"
 #include "tests/contract/support/inbox.hpp"
 #include "tests/contract/support/pairing.hpp"
 #include "tests/contract/support/peers.hpp"

@@ -233,7 +233,7 @@ TEST_P(StandbyTest, TheFollowerLeadsWhenTheLeaderIsGoneAndTheOldOneStandsDown) {
   ASSERT_TRUE(wait([&] { return sent_ == 0; }));
   const auto stopped_at = services::clock::wall_now();
   ASSERT_TRUE([&] {  // the leader's loop stands still
-    while (!follower_->lead() && wall::now() < stopped_at + kLimit) follower_node_->spin_once(5ms);
+    while (!follower_->lead() && services::clock::wall_now() < stopped_at + kLimit) follower_node_->spin_once(5ms);
     return follower_->lead().has_value();
   }());
   EXPECT_EQ(follower_lease_->epoch(), 4U);
