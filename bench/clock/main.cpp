@@ -82,9 +82,9 @@ double run_in_threads(const Arguments& arguments) {
 
 double run_in_processes(const Arguments& arguments) {
   const auto self = std::filesystem::read_symlink("/proc/self/exe");
-  std::vector<std::unique_ptr<roci::launch::Child>> children;
+  std::vector<std::unique_ptr<roci::services::launch::Child>> children;
   for (std::size_t i = 1; i < kNames.size(); ++i) {
-    children.push_back(std::make_unique<roci::launch::Child>(
+    children.push_back(std::make_unique<roci::services::launch::Child>(
         self,
         std::vector<std::string>{"bench_clock", "--dds", arguments.dds, "--domain", std::to_string(arguments.domain),
                                  "--role", kNames[i]},
