@@ -24,6 +24,8 @@ std::string text(Random& random) {
 
 v1::Command random_command(Random& random) {
   v1::Command command;
+  command.commander(text(random));
+  command.epoch(random());
   command.activity(text(random));
   command.attempt(static_cast<std::uint32_t>(random()));
   command.header().sender(text(random));
@@ -59,16 +61,23 @@ v1::PlanReply random_plan(Random& random) {
   return reply;
 }
 
-// The key as RTPS hashes it, written by hand: string length with its zero, string, alignment to 4, number.
+// The key as RTPS hashes it, written by hand: string length with its zero, string, alignment to a number's own size, number.
 transport::Payload expected_key(const v1::Command& command) {
   transport::Payload key;
   const auto number = [&key](std::uint32_t value) {
     key.resize((key.size() + 3) / 4 * 4);
     for (int shift = 24; shift >= 0; shift -= 8) key.push_back(static_cast<std::uint8_t>(value >> shift));
   };
-  number(static_cast<std::uint32_t>(command.activity().size() + 1));
-  key.insert(key.end(), command.activity().begin(), command.activity().end());
-  key.push_back(0);
+  const auto string = [&](const std::string& text) {
+    number(static_cast<std::uint32_t>(text.size() + 1));
+    key.insert(key.end(), text.begin(), text.end());
+    key.push_back(0);
+  };
+  string(command.commander());
+  key.resize((key.size() + 7) / 8 * 8);
+  number(static_cast<std::uint32_t>(command.epoch() >> 32));
+  number(static_cast<std::uint32_t>(command.epoch()));
+  string(command.activity());
   number(command.attempt());
   return key;
 }
@@ -134,6 +143,8 @@ TEST(TypeSupport, AKeyOnlyPayloadGivesTheKeyMembers) {
     EXPECT_EQ(key, expected);
     v1::Command read;
     ASSERT_TRUE(transport::deserialize_key(payload, read));
+    EXPECT_EQ(read.commander(), command.commander());
+    EXPECT_EQ(read.epoch(), command.epoch());
     EXPECT_EQ(read.activity(), command.activity());
     EXPECT_EQ(read.attempt(), command.attempt());
     for (std::size_t size = 0; size < payload.size(); ++size) {
