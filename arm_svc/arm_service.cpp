@@ -77,7 +77,7 @@ class ArmService : public services::Service {
 }  // namespace
 
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
-  const mission::Entry mission = mission::Entry::load(settings.mission / "mission.yaml");
+  const mission::Entry mission = mission::Entry::load(settings.mission_file());
   const mission::Entry arm = mission.at("arm");
   arm.allow_only({"model", "poses"});
   const mission::Entry model = arm.at("model"), poses = arm.at("poses");

@@ -5,8 +5,8 @@
 
 namespace roci::arm {
 
-// Owner of module `arm` and of arm motions (README.md). Throws mission::FileError when the mission's arm
-// cannot be read.
+/// Makes the owner of module `arm` and of arm motions (README.md). Throws mission::FileError when the
+/// mission's arm cannot be read.
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings);
 
 }  // namespace roci::arm

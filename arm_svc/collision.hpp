@@ -13,18 +13,18 @@
 namespace roci::arm {
 
 struct CollisionRules {
-  std::optional<double> ground_z;  // level ground in the base frame, m; none: free space
-  double margin = 0.01;            // every surface is moved outwards by this, m
-  std::vector<std::pair<std::string, std::string>> may_touch;  // link pairs that are never tested
+  std::optional<double> ground_z;  ///< Level ground in the base frame, m; without it there is free space.
+  double margin = 0.01;            ///< Every surface is moved outwards by this, m.
+  std::vector<std::pair<std::string, std::string>> may_touch;  ///< These pairs of links are never tested.
 };
 
 struct Contact {
-  std::string first;   // link
-  std::string second;  // link, or "ground"
+  std::string first;   ///< A link.
+  std::string second;  ///< A link, or "ground".
 };
 
-// Tests bodies that are not joined by a joint (those that are may touch at it), and moving bodies against the
-// ground. Safe to use from several threads.
+/// Tests bodies that are not joined by a joint (those that are may touch at it), and moving bodies against
+/// the ground. Safe to use from several threads.
 class CollisionChecker {
  public:
   CollisionChecker(kinematics::Arm arm, CollisionRules rules);
@@ -32,11 +32,12 @@ class CollisionChecker {
   CollisionChecker(CollisionChecker&&) noexcept;
   CollisionChecker& operator=(CollisionChecker&&) noexcept;
 
-  // The first contact in a fixed order of pairs, with surfaces moved out by the margin.
+  /// Returns the first contact in a fixed order of pairs, with surfaces moved out by the margin.
   std::optional<Contact> contact(const kinematics::JointVector& q) const;
 
-  // No contact anywhere on the straight joint-space line between the two. Sampled so densely that no point of
-  // the arm moves more than twice the margin between samples: nothing can pass through unseen.
+  /// True if there is no contact anywhere on the straight joint-space line between the two. It is sampled so
+  /// densely that no point of the arm moves more than twice the margin between samples: nothing can pass
+  /// through unseen.
   bool line_is_free(const kinematics::JointVector& from, const kinematics::JointVector& to) const;
 
  private:

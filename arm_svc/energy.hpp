@@ -13,19 +13,19 @@
 namespace roci::arm {
 
 struct MotorModel {
-  Eigen::Vector3d gravity{0, 0, -3.71};  // m/s² in the base frame
-  double idle_w = 0;                     // electronics, all the time
-  double efficiency = 0.7;               // of gear and motor, 0 < efficiency <= 1
-  double full_effort_loss_w = 0;         // copper loss of a joint that exerts its effort limit
+  Eigen::Vector3d gravity{0, 0, -3.71};  ///< m/s² in the base frame
+  double idle_w = 0;                     ///< Of the electronics, all the time.
+  double efficiency = 0.7;               ///< Of gear and motor, 0 < efficiency <= 1.
+  double full_effort_loss_w = 0;         ///< The copper loss of a joint that exerts its effort limit.
 };
 
 struct EnergyUse {
   double energy_j = 0;
-  double peak_load = 0;  // largest |τ_j| / effort limit on the way; above 1 the motion is beyond the motors
+  double peak_load = 0;  ///< The largest |τ_j| / effort limit on the way; above 1 the motors fail.
   std::size_t peak_joint = 0;
 };
 
-// Integrated by the midpoint rule, at most `period_s` per step, phase by phase.
+/// Integrates by the midpoint rule, with steps of at most `period_s`, phase by phase.
 EnergyUse energy_of(const kinematics::Arm& arm, const Trajectory& trajectory, const MotorModel& motor,
                     double period_s = 0.05);
 

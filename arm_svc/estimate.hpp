@@ -24,11 +24,12 @@ struct Estimate {
   double energy_j = 0;
 };
 
-// What was computed for one model version, by the joint values at both ends; a model of another version
-// empties it.
+/// Keeps what was computed for one model version, by the joint values at both ends; a model of another
+/// version empties it.
 class EstimateCache {
  public:
-  // One estimate per pair, in order. A cancelled one is not kept, so that it is computed when asked again.
+  /// Returns one estimate per pair, in their order. A cancelled one is not kept, so that it is computed when
+  /// asked again.
   std::vector<Estimate> estimate(const MotionModel& model, std::span<const PlacePair> pairs,
                                  const std::function<bool()>& cancelled = {});
 

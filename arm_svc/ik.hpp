@@ -11,14 +11,14 @@
 
 namespace roci::arm {
 
-// An axis of the tool frame that shall point along a direction of the base frame; turning about it stays
-// free.
+/// An axis of the tool frame shall point along a direction of the base frame; turning about it stays free.
 struct Approach {
   Eigen::Vector3d tool_axis = Eigen::Vector3d::UnitX();
   Eigen::Vector3d direction = -Eigen::Vector3d::UnitZ();
 };
 
-// Where the tool frame shall be, in the base frame: a position, and at most one of approach and orientation.
+/// Says where the tool frame shall be in the base frame: a position, and at most one of approach and
+/// orientation.
 struct ToolTarget {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   std::optional<Approach> approach;
@@ -26,24 +26,24 @@ struct ToolTarget {
 };
 
 struct IkOptions {
-  double position_tolerance = 1e-5;  // m
-  double angle_tolerance = 1e-4;     // rad
+  double position_tolerance = 1e-5;  ///< m
+  double angle_tolerance = 1e-4;     ///< rad
   int starts = 48;
-  int iterations = 80;  // per start
+  int iterations = 80;  ///< Per start.
   std::uint64_t seed = 1;
-  std::size_t solutions = 1;  // stop after so many distinct ones
+  std::size_t solutions = 1;  ///< The search stops after so many distinct ones.
 };
 
 struct ToolError {
-  double position = 0;  // m
-  double angle = 0;     // rad; 0 where the target leaves orientation free
+  double position = 0;  ///< m
+  double angle = 0;     ///< rad; it is 0 where the target leaves orientation free.
 };
 
 ToolError tool_error(const kinematics::Arm& arm, const kinematics::JointVector& q, const ToolTarget& target);
 
-// Distinct solutions within the joint limits in the order found; empty: none from any start (not a proof).
-// The first starts are `first_start` (clamped to the limits) and the middle of the limits, the rest are
-// seeded samples.
+/// Returns distinct solutions within the joint limits in the order found. If there are none, no start led to
+/// one, which is no proof. The first starts are `first_start` (clamped to the limits) and the middle of the
+/// limits, the rest are seeded samples.
 std::vector<kinematics::JointVector> solve_ik(const kinematics::Arm& arm, const ToolTarget& target,
                                               const kinematics::JointVector& first_start,
                                               const IkOptions& options);

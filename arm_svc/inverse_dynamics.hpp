@@ -7,8 +7,8 @@
 
 namespace roci::arm {
 
-// What each joint must exert, N·m or N, for `state` under `gravity` (m/s² in the base frame), friction left
-// out.
+/// Returns what each joint must exert, N·m or N, for `state` under `gravity` (m/s² in the base frame),
+/// friction left out.
 kinematics::JointVector joint_efforts(const kinematics::Arm& arm, const JointState& state,
                                       const Eigen::Vector3d& gravity);
 

@@ -16,11 +16,11 @@ namespace roci::arm {
 
 enum class MotionStatus {
   found,
-  unknown_pose,  // no pose of that name in the mission's data
-  unreachable,   // joint values beyond the limits, or no joint values put the tool there
-  in_collision,  // the pose itself touches something
-  no_path,       // no way between the two within the search budget
-  overloaded,    // the motors would have to exert more than their effort limits
+  unknown_pose,  ///< The mission's data have no pose of that name.
+  unreachable,   ///< The joint values lie beyond the limits, or none put the tool there.
+  in_collision,  ///< The pose itself touches something.
+  no_path,       ///< The search budget shows no way between the two.
+  overloaded,    ///< The motors would have to exert more than their effort limits.
   cancelled,
 };
 
@@ -28,42 +28,43 @@ std::string_view name_of(MotionStatus status);
 
 struct Motion {
   MotionStatus status = MotionStatus::found;
-  std::string detail;     // which pose, link or joint; empty when found
-  Trajectory trajectory;  // no segments when from and to are the same place
+  std::string detail;     ///< It names the pose, link or joint; it is empty when found.
+  Trajectory trajectory;  ///< It has no segments when both ends are the same place.
   double duration_s = 0;
   double energy_j = 0;
 };
 
-// Where a motion starts or ends: a pose of the mission by name or, if joints are given, wherever they put the
-// arm.
+/// A motion starts or ends at a place: a pose of the mission by name or, if joints are given, wherever they
+/// put the arm.
 struct Place {
   std::string name;
   std::optional<kinematics::JointVector> joints = std::nullopt;
 };
 
-// A place as joint values, or why it has none.
+/// A place as joint values, or the reason why it has none.
 struct ResolvedPlace {
   std::string name;
-  MotionStatus status = MotionStatus::found;  // or unknown_pose, unreachable, in_collision
+  MotionStatus status = MotionStatus::found;  ///< Else unknown_pose, unreachable or in_collision.
   std::string detail;
   kinematics::JointVector joints;
 };
 
-// An immutable arm model. The same call gives the same answer, whatever was asked before.
+/// An arm model is immutable: the same call gives the same answer, whatever was asked before.
 class MotionModel {
  public:
-  // Resolves all poses. A pose given by tool position becomes the free solution that is quickest to reach
-  // from the first pose given by joint values (the middle of the limits if there is none).
+  /// Resolves all poses. A pose given by tool position becomes the free solution that is quickest to reach
+  /// from the first pose given by joint values (the middle of the limits if there is none).
   explicit MotionModel(ArmSetup setup);
 
-  // Joints off a limit by no more than sensor noise (0.01 rad or m) are clamped to it.
+  /// Joints off a limit by no more than sensor noise (0.01 rad or m) are clamped to it.
   ResolvedPlace resolve(const Place& place) const;
 
-  // `cancelled` is asked often; may be empty.
+  /// `cancelled` is asked often; it may be empty.
   Motion motion(const Place& from, const Place& to, const std::function<bool()>& cancelled = {}) const;
 
   const ArmSetup& setup() const { return setup_; }
-  const std::vector<ResolvedPlace>& poses() const { return poses_; }  // in the order of the setup
+  /// They come in the order of the setup.
+  const std::vector<ResolvedPlace>& poses() const { return poses_; }
   std::uint64_t version() const { return version_; }
 
  private:

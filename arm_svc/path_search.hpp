@@ -14,17 +14,17 @@
 
 namespace roci::arm {
 
-// Way-points joined by straight joint-space lines.
+/// A path is way-points joined by straight joint-space lines.
 using JointPath = std::vector<kinematics::JointVector>;
 
 enum class SearchFailure { budget_spent, cancelled };
 
 struct SearchBudget {
   unsigned iterations = 2000;
-  std::function<bool()> cancelled;  // asked often; may be empty
+  std::function<bool()> cancelled;  ///< It is asked often, and may be empty.
 };
 
-// `from` and `to` must be within the limits and free of contact. The straight line is tried first.
+/// `from` and `to` must be within the limits and free of contact. The straight line is tried first.
 std::variant<JointPath, SearchFailure> find_path(const kinematics::Arm& arm, const CollisionChecker& checker,
                                                  const kinematics::JointVector& from,
                                                  const kinematics::JointVector& to,

@@ -13,7 +13,7 @@
 
 namespace roci::arm {
 
-// A place of the arm that plans may name.
+/// Plans may name this place of the arm.
 struct NamedPose {
   std::string name;
   std::variant<kinematics::JointVector, ToolTarget> where;
@@ -21,14 +21,15 @@ struct NamedPose {
 
 struct ArmSetup {
   kinematics::Arm arm;
-  std::vector<NamedPose> poses;  // names are unique
+  std::vector<NamedPose> poses;  ///< Their names are unique.
   CollisionRules collision;
   MotorModel motor;
   unsigned search_iterations = 2000;
   int shortcut_trials = 60;
 };
 
-// Changes when any value changes that a motion or an estimate depends on: the arm's model version.
+/// Returns a number that changes when any value changes that a motion or an estimate depends on: the arm's
+/// model version.
 std::uint64_t model_version(const ArmSetup& setup);
 
 }  // namespace roci::arm

@@ -20,7 +20,7 @@
 
 namespace roci::arm {
 
-// Throws mission::FileError: file, line (and column in YAML), what is wrong and the remedy.
+/// Throws mission::FileError: file, line (and column in YAML), what is wrong and the remedy.
 ArmSetup load_setup(const std::filesystem::path& urdf, const std::filesystem::path& poses);
 
 }  // namespace roci::arm

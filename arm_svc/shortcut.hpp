@@ -9,7 +9,7 @@
 
 namespace roci::arm {
 
-// Never slower than `path`, same ends, free of contact if `path` is. `seed` chooses the trial points.
+/// Never slower than `path`, same ends, free of contact if `path` is. `seed` chooses the trial points.
 JointPath shortened(const kinematics::Arm& arm, const CollisionChecker& checker, JointPath path, int trials,
                     std::uint64_t seed);
 

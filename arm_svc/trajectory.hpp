@@ -10,11 +10,11 @@
 
 namespace roci::arm {
 
-// One straight part; progress s runs from 0 to 1.
+/// One straight part; progress s runs from 0 to 1.
 struct TrajectorySegment {
   kinematics::JointVector from;
   kinematics::JointVector to;
-  double acceleration = 0;  // of s, 1/s²: held for ramp_s, then its negative at the end
+  double acceleration = 0;  ///< of s, 1/s²: held for ramp_s, then its negative at the end
   double ramp_s = 0;
   double cruise_s = 0;
 
@@ -22,25 +22,25 @@ struct TrajectorySegment {
 };
 
 struct JointState {
-  kinematics::JointVector position;      // rad or m
-  kinematics::JointVector velocity;      // per s
-  kinematics::JointVector acceleration;  // per s²; at a change of phase that of the later phase
+  kinematics::JointVector position;      ///< rad or m
+  kinematics::JointVector velocity;      ///< per s
+  kinematics::JointVector acceleration;  ///< per s²; at a change of phase that of the later phase
 };
 
 struct Trajectory {
   std::vector<TrajectorySegment> segments;
 
   double duration_s() const;
-  // Needs at least one segment; times outside [0, duration] give the first or last state at rest.
+  /// Needs at least one segment; times outside [0, duration] give the first or last state at rest.
   JointState at(double time_s) const;
 };
 
 JointState state_in(const TrajectorySegment& segment, double time_s);
 
-// Parts of no length are left out; a path that goes nowhere gives no segments.
+/// Parts of no length are left out; a path that goes nowhere gives no segments.
 Trajectory time_path(const kinematics::Arm& arm, const JointPath& path);
 
-// Time that time_path() gives to the straight line between the two, s.
+/// Time that time_path() gives to the straight line between the two, s.
 double line_duration_s(const kinematics::Arm& arm, const kinematics::JointVector& from,
                        const kinematics::JointVector& to);
 
@@ -50,7 +50,7 @@ struct TrajectorySample {
   kinematics::JointVector velocity;
 };
 
-// Samples `period_s` apart, and at every segment's start and end.
+/// Samples `period_s` apart, and at every segment's start and end.
 std::vector<TrajectorySample> sampled(const Trajectory& trajectory, double period_s);
 
 }  // namespace roci::arm

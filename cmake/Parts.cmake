@@ -1,7 +1,7 @@
 # The catalogue: every part of the house is declared by one of these calls, with its sources by name.
 #
 #   roci_library(NAME core_pddl HELP "..." SOURCES a.cpp b.cpp DEPENDS core_x PRIVATE_DEPENDS yaml-cpp)
-#   roci_program(NAME roci-plan HELP "..." SOURCES main.cpp DEPENDS planner_core)      installed to bin/
+#   roci_program(NAME roci-plan HELP "..." SOURCES main.cpp DEPENDS planner_temporal_pddl)      installed to bin/
 #   roci_plugin (NAME roci_transport_inproc HELP "..." SOURCES ... DEPENDS ...)        installed to lib/rocinante/
 #   roci_test   (NAME unit_pddl SOURCES parser_test.cpp DEPENDS core_pddl [LABEL contract] [SERIAL])
 #

@@ -13,7 +13,12 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/static")
 
-option(ROCI_WERROR "Treat warnings as errors" OFF)
+# Continuous integration turns this on through its environment (.ci/run).
+set(werror OFF)
+if(DEFINED ENV{ROCI_WERROR})
+  set(werror "$ENV{ROCI_WERROR}")
+endif()
+option(ROCI_WERROR "Treat warnings as errors" ${werror})
 set(ROCI_SANITIZE "" CACHE STRING "Sanitizers, as for -fsanitize= (empty: none)")
 
 find_program(ROCI_CCACHE ccache)

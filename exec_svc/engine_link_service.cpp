@@ -7,21 +7,25 @@
 
 namespace roci::exec {
 
-EngineLink::EngineLink(services::Node& node, const MissionModel& mission,
-                       std::function<void(temporal::PlanDelta)> take, std::function<void(const Note&)> report)
-    : mission_(mission.name), receipts_(services::advertise(node, services::topics::plan_receipt)) {
+using reactor::Event;
+using reactor::PlanReceipt;
+using reactor::Severity;
+
+EngineLink::EngineLink(services::Node& node, std::function<void(temporal::PlanDelta)> take,
+                       std::function<void(const Event&)> report)
+    : executive_(node.options().name), receipts_(services::advertise(node, services::topics::plan_receipt)) {
   services::subscribe(
       node, services::topics::plan_delta,
       [take = std::move(take), report = std::move(report)](const v1::PlanDelta& delta) {
         try {
           take(services::wire::from_wire(delta));
         } catch (const services::wire::WireError& error) {
-          report({NoteLevel::warning, "plan.malformed",
+          report({Severity::warning, "plan.malformed",
                   "version " + std::to_string(delta.added().version()) + ": " + error.what()});
         }
       });
 }
 
-void EngineLink::tell(const PlanReceipt& receipt) { receipts_.write(wire::to_wire(receipt, mission_)); }
+void EngineLink::tell(const PlanReceipt& receipt) { receipts_.write(to_wire(receipt, executive_)); }
 
 }  // namespace roci::exec

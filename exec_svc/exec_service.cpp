@@ -15,13 +15,32 @@
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/journaled_reactor.hpp"
 #include "exec_svc/mission_report_service.hpp"
-#include "exec_svc/outbox_service.hpp"
-#include "exec_svc/standby/leading_service.hpp"
+#include "exec_svc/output_publisher_service.hpp"
+#include "exec_svc/standby/leader_service.hpp"
 #include "exec_svc/wire_service.hpp"
 #include "services/rpc.hpp"
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::exec {
+
+using journal::CrashPoints;
+using journal::Divergence;
+using journal::Durability;
+using journal::Journal;
+using journal::JournaledReactor;
+using journal::Recovery;
+using mission::MissionModel;
+using mission::read_mission;
+using reactor::Event;
+using reactor::PlanReply;
+using reactor::PlanRequest;
+using reactor::Reactor;
+using reactor::ReactorInputs;
+using reactor::ReactorOutputs;
+using reactor::Severity;
+using standby::LeaderService;
+using temporal::Verdict;
+
 namespace {
 
 namespace topics = services::topics;
@@ -29,7 +48,7 @@ using services::Node;
 
 // For known services to be heard of after a restart; of wall time, live.
 temporal::Duration reunion(const Node& node) {
-  const bool live = node.options().clock == services::ClockMode::live;
+  const bool live = node.options().clock == services::clock::ClockMode::live;
   return temporal::seconds(5 * (live ? node.options().live_scale : 1));
 }
 
@@ -44,26 +63,27 @@ CrashPoints crash_points(const Node& node) {
 class ExecService final : public services::Service {
  public:
   ExecService(Node& node, const services::RunSettings& settings, Journal& journal, std::uint64_t epoch,
-              LeadingService* leading, bool doubtful)
+              LeaderService* leading, bool doubtful)
       : node_(node),
         settings_(settings),
-        mission_(read_mission(settings.mission)),
+        mission_(read_mission(settings.mission_file())),
         journal_(journal),
         epoch_(epoch),
-        leading_(leading),
+        leader_(leading),
         reactor_(mission_, journal_, doubtful),
         crash_(crash_points(node)),
         planner_(node, topics::plan_request),
-        outbox_(node, mission_, epoch, crash_) {
+        publisher_(node, mission_, epoch, crash_) {
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
-    if (reactor_.reactor().follows_engine()) {
+    if (reactor_.reactor().plans_continuously()) {
       engine_.emplace(
-          node, mission_, [this](temporal::PlanDelta delta) { take(std::move(delta)); },
-          [this](const Note& note) { outbox_.report(note); });
+          node, [this](temporal::PlanDelta delta) { take(std::move(delta)); },
+          [this](const Event& event) { publisher_.report(event); });
     }
+    inputs_.epoch = epoch_;
     recover();
     services::subscribe(node, topics::goal, [this](const v1::Goal& goal) {
-      inputs_.goals.push_back(wire::from_wire(goal));
+      inputs_.goals.push_back(from_wire(goal));
       crash_.pass("after-goal");
       step_soon();
     });
@@ -74,15 +94,15 @@ class ExecService final : public services::Service {
       inputs_.models.push_back({offer.owner(), offer.model_version()});
       step_soon();
     });
-    node.on_peer_change([this](const services::PeerChange& change) { take(change); });
-    if (leading_ != nullptr && node.options().clock == services::ClockMode::live)
+    node.on_peer_change([this](const services::health::PeerChange& change) { take(change); });
+    if (leader_ != nullptr && node.options().clock == services::clock::ClockMode::live)
       node.on_turn([this] { tell_pair(); });
     step_soon();
   }
 
   // The one of a leader that stood down would replace its successor's.
   ~ExecService() override {
-    if (leading_ == nullptr || std::uncaught_exceptions() == 0) write_summary();
+    if (leader_ == nullptr || std::uncaught_exceptions() == 0) write_summary();
   }
 
  private:
@@ -94,28 +114,28 @@ class ExecService final : public services::Service {
     slowest_call_s_ = temporal::to_seconds(temporal::Duration(journal_.number("slowest_call_us", 0)));
     planner_peak_kb_ = static_cast<std::uint32_t>(journal_.number("planner_peak_kb", 0));
     const Reactor& reactor = reactor_.reactor();
-    outbox_.send_goals(reactor);
+    publisher_.send_goals(reactor);
     if (!recovery.resumed) return report_divergence(*recovery.divergence);
-    outbox_.send_plan(reactor);
+    publisher_.send_plan(reactor);
     if (engine_) engine_->tell(reactor.receipt());
-    for (const Note& note : recovery.last_notes) outbox_.report(note);
+    for (const Event& event : recovery.last_events) publisher_.report(event);
     missed_ = journal_.peers();
     node_.after(reunion(node_), [this] { give_up_missed(); });
   }
 
   void report_divergence(const Divergence& divergence) {
-    outbox_.report(
-        {NoteLevel::warning, "journal.diverged",
+    publisher_.report(
+        {Severity::warning, "journal.diverged",
          "the journal does not lead to the state before the restart, all is planned anew: expected " +
              divergence.expected + ", got " + divergence.got});
   }
 
   void tell_pair() {
-    outbox_.announce_epoch();
-    for (const Note& note : leading_->take_notes()) outbox_.report(note);
+    publisher_.announce_epoch();
+    for (const Event& event : leader_->take_events()) publisher_.report(event);
   }
 
-  void take(const services::PeerChange& change) {
+  void take(const services::health::PeerChange& change) {
     const auto known = missed_.extract(change.service);
     if (!change.alive) {
       journal_.remove_peer(change.service);
@@ -139,13 +159,13 @@ class ExecService final : public services::Service {
 
   void take(const v1::Observation& observation) {
     try {
-      inputs_.observations.push_back(wire::from_wire(observation));
+      inputs_.observations.push_back(from_wire(observation));
     } catch (const services::wire::WireError& error) {
-      outbox_.report(
-          {NoteLevel::warning, "observation.malformed", observation.timeline() + ": " + error.what()});
+      publisher_.report(
+          {Severity::warning, "observation.malformed", observation.timeline() + ": " + error.what()});
       return;
     }
-    seen_.push_back(wire::trace_line(observation));
+    seen_.push_back(trace_line(observation));
     step_soon();
   }
 
@@ -155,13 +175,13 @@ class ExecService final : public services::Service {
   }
 
   void take(const v1::CommandAck& ack) {
-    if (Outbox::answers_epoch(ack)) return;
-    if (ack.refused_epoch() != 0 && leading_ != nullptr) {
-      if (ack.refused_epoch() == epoch_) leading_->refused();
-      return;  // of an earlier leader
+    if (ack.commander() != node_.options().name || OutputPublisher::answers_epoch(ack)) return;
+    if (ack.refused_epoch() && leader_ != nullptr) {
+      if (ack.newest_epoch() > epoch_) leader_->refused();
+      return;  // else it was a command of an earlier leader
     }
-    inputs_.acks.push_back(wire::from_wire(ack));
-    seen_.push_back(wire::trace_line(ack));
+    inputs_.acks.push_back(from_wire(ack));
+    seen_.push_back(trace_line(ack));
     crash_.pass("after-ack");
     step_soon();
   }
@@ -182,13 +202,13 @@ class ExecService final : public services::Service {
     const Reactor& reactor = reactor_.reactor();
     auto send_all = [this, out, version = reactor.plan_version(), status = mission_status(reactor, mission_),
                      hash = reactor_.trace_sha256()] {
-      if (leading_ != nullptr) crash_.pass("after-copy");
+      if (leader_ != nullptr) crash_.pass("after-copy");
       send(out, version);
       crash_.pass("after-send");
-      if (outbox_.publish(status, hash) && !status.outcome().empty()) write_summary();
+      if (publisher_.publish(status, hash) && !status.outcome().empty()) write_summary();
     };
-    if (leading_ == nullptr) return send_all();
-    leading_->hold(std::move(send_all));
+    if (leader_ == nullptr) return send_all();
+    leader_->send_once_copied(std::move(send_all));
   }
 
   void wake_at(temporal::Time time) {
@@ -200,40 +220,39 @@ class ExecService final : public services::Service {
   }
 
   void send(const ReactorOutputs& out, std::uint32_t version) {
-    outbox_.send(out, version);
-    if (leading_ != nullptr)
-      for (const Note& note : leading_->take_notes()) outbox_.report(note);
+    publisher_.send(out, version);
+    if (leader_ != nullptr)
+      for (const Event& event : leader_->take_events()) publisher_.report(event);
     if (out.cancelled_call && call_.id == *out.cancelled_call) planner_.cancel(call_.sent);
     if (out.call) call_planner(*out.call);
     if (out.receipt) engine_->tell(*out.receipt);
   }
 
-  void call_planner(const PlanCall& call) {
+  void call_planner(const PlanRequest& call) {
     call_.id = call.id;
     call_.sent = planner_.call(
-        wire::to_wire(call, mission_), "planner_svc", mission_.planner.reply_timeout,
+        to_wire(call, mission_), "planner_svc", mission_.planner.reply_timeout,
         [this, id = call.id](const services::CallResult<v1::PlanReply>& result) { take(id, result); });
   }
 
   void take(std::uint64_t call, const services::CallResult<v1::PlanReply>& result) {
-    PlanAnswer answer;
-    answer.call = call;
-    answer.verdict =
-        result.status == services::CallStatus::cancelled ? PlanVerdict::cancelled : PlanVerdict::no_reply;
-    answer.reason = result.message;
-    if (result.status == services::CallStatus::ok) {
+    PlanReply reply;
+    reply.call = call;
+    reply.verdict = result.status == services::rpc::CallStatus::cancelled ? Verdict::cancelled : Verdict::no_reply;
+    reply.reason = result.reason;
+    if (result.status == services::rpc::CallStatus::ok) {
       slowest_call_s_ = std::max(slowest_call_s_, result.reply.statistics().wall_s());
       planner_peak_kb_ = std::max(planner_peak_kb_, result.reply.statistics().peak_rss_kb());
       journal_.set_number("slowest_call_us", temporal::seconds(slowest_call_s_).count());
       journal_.set_number("planner_peak_kb", planner_peak_kb_);
       try {
-        answer = wire::from_wire(call, result.reply);
+        reply = from_wire(call, result.reply);
       } catch (const services::wire::WireError& error) {
-        answer.verdict = PlanVerdict::crashed;
-        answer.reason = error.what();
+        reply.verdict = Verdict::crashed;
+        reply.reason = error.what();
       }
     }
-    inputs_.answer = std::move(answer);
+    inputs_.reply = std::move(reply);
     crash_.pass("after-answer");
     step_soon();
   }
@@ -249,7 +268,7 @@ class ExecService final : public services::Service {
   MissionModel mission_;
   Journal& journal_;
   std::uint64_t epoch_;
-  LeadingService* leading_;  // none: no other executive follows
+  LeaderService* leader_;  // none: no other executive follows
   JournaledReactor reactor_;
   CrashPoints crash_;
   ReactorInputs inputs_;
@@ -264,9 +283,9 @@ class ExecService final : public services::Service {
   services::Client<v1::PlanRequest, v1::PlanReply> planner_;
   struct {
     std::uint64_t id = 0;       // the reactor's
-    services::CallId sent = 0;  // the wire's
+    services::rpc::CallId sent = 0;  // the wire's
   } call_;                      // the last one
-  Outbox outbox_;
+  OutputPublisher publisher_;
 };
 
 // With a journal of its own.
@@ -274,7 +293,7 @@ class LoneExecutive final : public services::Service {
  public:
   LoneExecutive(Node& node, const services::RunSettings& settings)
       : journal_(settings.run_folder / "journal.sqlite",
-                 node.options().clock == services::ClockMode::live ? Durability::power : Durability::process),
+                 node.options().clock == services::clock::ClockMode::live ? Durability::power : Durability::process),
         executive_(node, settings, journal_, journal_.next_epoch(), nullptr, false) {}
 
  private:
@@ -289,7 +308,7 @@ std::unique_ptr<services::Service> make_service(Node& node, const services::RunS
 }
 
 std::unique_ptr<services::Service> make_executive(Node& node, const services::RunSettings& settings,
-                                                  Journal& journal, LeadingService& leading, bool doubtful) {
+                                                  Journal& journal, LeaderService& leading, bool doubtful) {
   return std::make_unique<ExecService>(node, settings, journal, leading.epoch(), &leading, doubtful);
 }
 

@@ -1,5 +1,5 @@
-// The reactor and executive as a process: goals, observations, acknowledgements and planner replies in;
-// commands, plans, statuses and events out; everything journalled before it is sent.
+/// The reactor and executive as a process: goals, observations, acknowledgements and planner replies in;
+/// commands, plans, statuses and events out; everything journalled before it is sent.
 #pragma once
 
 #include <memory>
@@ -8,14 +8,18 @@
 
 namespace roci::exec {
 
+namespace journal {
 class Journal;
-class LeadingService;
+}
+namespace standby {
+class LeaderService;
+}
 
-// Alone, with the journal of the run folder.
+/// Alone, with the journal of the run folder.
 std::unique_ptr<services::Service> make_service(services::Node&, const services::RunSettings&);
 
-// The leader of a pair; `doubtful` as in JournaledReactor.
-std::unique_ptr<services::Service> make_executive(services::Node&, const services::RunSettings&, Journal&,
-                                                  LeadingService&, bool doubtful);
+/// The leader of a pair; `doubtful` as in JournaledReactor.
+std::unique_ptr<services::Service> make_executive(services::Node&, const services::RunSettings&,
+                                                  journal::Journal&, standby::LeaderService&, bool doubtful);
 
 }  // namespace roci::exec

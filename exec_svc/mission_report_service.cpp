@@ -5,6 +5,11 @@
 
 namespace roci::exec {
 
+using mission::MissionModel;
+using mission::WindowModel;
+using reactor::Reactor;
+using reactor::ReactorCounts;
+
 v1::MissionStatus mission_status(const Reactor& reactor, const MissionModel& mission) {
   v1::MissionStatus status;
   const ReactorCounts counts = reactor.counts();
@@ -33,7 +38,8 @@ void write_summary(const services::RunSettings& settings, const MissionModel& mi
                    const RunFigures& figures) {
   const ReactorCounts counts = reactor.counts();
   const std::string outcome = reactor.outcome();
-  const nlohmann::json summary{{"mission", mission.name},
+  const nlohmann::json summary{{"format", services::kSummaryFormat},
+                               {"mission", mission.name},
                                {"scenario", settings.scenario},
                                {"seed", settings.seed},
                                {"result", outcome.empty() ? "failed" : outcome},
@@ -52,7 +58,7 @@ void write_summary(const services::RunSettings& settings, const MissionModel& mi
                                {"trace_sha256", figures.trace_sha256},
                                {"journal", figures.journal.lexically_relative(settings.run_folder).string()},
                                {"epoch", figures.epoch}};
-  std::ofstream(settings.run_folder / "summary.json") << summary.dump(2) << "\n";
+  std::ofstream(settings.run_folder / services::kSummaryFile) << summary.dump(2) << "\n";
 }
 
 }  // namespace roci::exec

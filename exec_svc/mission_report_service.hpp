@@ -1,4 +1,4 @@
-// What the ground hears of the mission as a whole, and the summary of a run.
+/// What the ground hears of the mission as a whole, and the summary of a run.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +10,10 @@
 
 namespace roci::exec {
 
-// Without the trace's hash.
-v1::MissionStatus mission_status(const Reactor& reactor, const MissionModel& mission);
+/// Without the trace's hash.
+v1::MissionStatus mission_status(const reactor::Reactor& reactor, const mission::MissionModel& mission);
 
-// Of the executive alone; the launcher adds the rest.
+/// Of the executive alone; the launcher adds the rest.
 struct RunFigures {
   double slowest_call_s = 0;
   double planner_peak_mb = 0;
@@ -22,7 +22,7 @@ struct RunFigures {
   std::filesystem::path journal;
   std::uint64_t epoch = 0;
 };
-void write_summary(const services::RunSettings& settings, const MissionModel& mission, const Reactor& reactor,
-                   const RunFigures& figures);
+void write_summary(const services::RunSettings& settings, const mission::MissionModel& mission,
+                   const reactor::Reactor& reactor, const RunFigures& figures);
 
 }  // namespace roci::exec

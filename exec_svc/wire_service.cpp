@@ -4,19 +4,38 @@
 
 #include "services/wire/plan_wire.hpp"
 
-namespace roci::exec::wire {
+namespace roci::exec {
+
+using executive::Command;
+using executive::CommandAck;
+using executive::CommandStage;
+using executive::Observation;
+using executive::StepStatus;
+using goals::GoalClass;
+using goals::GoalRecord;
+using goals::GoalRequest;
+using mission::MissionModel;
+using problem::ProblemObject;
+using reactor::Event;
+using reactor::PlannedAction;
+using reactor::PlanReceipt;
+using reactor::PlanReply;
+using reactor::PlanRequest;
+using reactor::Severity;
+using temporal::Verdict;
+
 GoalRequest from_wire(const v1::Goal& in) {
   GoalRequest out;
   out.key = {in.issuer(), in.id()};
   out.kind = in.goal_kind();
   for (const v1::Property& argument : in.arguments()) out.arguments[argument.name()] = argument.value();
   out.importance = static_cast<GoalClass>(std::min<std::uint32_t>(in.importance(), v1::GOAL_OPPORTUNISTIC));
-  out.utility = in.utility();
+  out.utility = in.utility().empty() ? 0.0 : in.utility().front();
   out.priority = in.priority();
   out.opens = temporal::Time(in.opens_us());
   out.closes = temporal::Time(in.closes_us());
   out.recalled = in.recalled();
-  out.said_in = {in.header().sender(), in.header().incarnation(), in.header().seq()};
+  out.sample = {in.header().sender(), in.header().incarnation(), in.header().seq()};
   return out;
 }
 
@@ -25,16 +44,16 @@ Observation from_wire(const v1::Observation& in) {
 }
 
 CommandAck from_wire(const v1::CommandAck& in) {
-  const auto stage = static_cast<CommandStage>(std::min<std::uint32_t>(in.stage(), v1::COMMAND_UNKNOWN));
-  return {in.activity(), in.attempt(), stage, in.code(), in.reason()};
+  const auto stage = static_cast<CommandStage>(std::min<std::uint32_t>(in.stage(), v1::STAGE_UNKNOWN));
+  return {in.activity(), in.attempt(), stage, in.code(), in.reason(), in.epoch()};
 }
 
-PlanAnswer from_wire(std::uint64_t call, const v1::PlanReply& in) {
-  PlanAnswer out;
+PlanReply from_wire(std::uint64_t call, const v1::PlanReply& in) {
+  PlanReply out;
   out.call = call;
-  out.verdict = static_cast<PlanVerdict>(std::min<std::uint32_t>(in.verdict_code(), v1::VERDICT_CRASHED));
+  out.verdict = static_cast<Verdict>(std::min<std::uint32_t>(in.verdict_code(), v1::VERDICT_NO_REPLY));
   out.reason = in.reason();
-  if (out.verdict == PlanVerdict::solved) out.plan = services::wire::from_wire(in.solution());
+  if (out.verdict == Verdict::solved) out.plan = services::wire::from_wire(in.solution());
   return out;
 }
 
@@ -50,7 +69,8 @@ v1::Goal to_wire(const GoalRequest& in) {
     out.arguments().push_back(std::move(argument));
   }
   out.importance(static_cast<v1::GoalClass>(in.importance));
-  out.utility(in.utility);
+  out.utility({in.utility});
+  out.preferred_us(-1);
   out.priority(in.priority);
   out.opens_us(in.opens.count());
   out.closes_us(in.closes.count());
@@ -58,8 +78,9 @@ v1::Goal to_wire(const GoalRequest& in) {
   return out;
 }
 
-v1::GoalStatus to_wire(const GoalRecord& in) {
+v1::GoalStatus to_wire(const GoalRecord& in, const std::string& executive) {
   v1::GoalStatus out;
+  out.executive(executive);
   out.issuer(in.request.key.issuer);
   out.id(in.request.key.id);
   out.answers().sender(in.answers.sender);
@@ -73,24 +94,30 @@ v1::GoalStatus to_wire(const GoalRecord& in) {
   return out;
 }
 
-v1::Command to_wire(const Command& in, std::uint32_t plan_version, std::uint64_t epoch) {
+v1::Command to_wire(const Command& in, const std::string& commander, std::uint32_t plan_version,
+                    std::uint64_t epoch) {
   v1::Command out;
+  out.commander(commander);
   out.activity(in.activity);
   out.attempt(in.attempt);
   out.action(static_cast<v1::CommandAction>(in.action));
   out.owner(in.owner);
+  out.robot(in.robot);
   out.subsystem(in.subsystem);
   out.command_name(in.command_name);
   for (const temporal::Property& argument : in.arguments)
     out.arguments().push_back(services::wire::to_wire(argument));
   out.plan_version(plan_version);
-  out.epoch(epoch);
+  out.epoch(in.epoch != 0 ? in.epoch : epoch);
+  out.sender_epoch(epoch);
   out.expected_us(in.expected.count());
+  out.latest_end_us(in.latest_end == temporal::no_bound ? -1 : in.latest_end.count());
   return out;
 }
 
-v1::StepStatus to_wire(const StepStatus& in, std::uint32_t plan_version) {
+v1::StepStatus to_wire(const StepStatus& in, const std::string& executive, std::uint32_t plan_version) {
   v1::StepStatus out;
+  out.executive(executive);
   out.activity(in.activity);
   out.plan_version(plan_version);
   out.attempt(in.attempt);
@@ -100,14 +127,15 @@ v1::StepStatus to_wire(const StepStatus& in, std::uint32_t plan_version) {
   out.latest_start_us(in.latest_start == temporal::no_bound ? -1 : in.latest_start.count());
   out.started_us(in.started ? in.started->count() : -1);
   out.ended_us(in.ended ? in.ended->count() : -1);
-  out.cause(in.cause);
+  out.cause(in.reason);
   return out;
 }
 
-v1::PlanRequest to_wire(const PlanCall& in, const MissionModel& mission) {
+v1::PlanRequest to_wire(const PlanRequest& in, const MissionModel& mission) {
   v1::PlanRequest out;
   out.engine(mission.planner.engine);
-  out.domain_text(mission.domain_text);
+  out.origin_us(in.origin.count());
+  out.model(mission.domain_text);
   out.problem_text(in.problem.text);
   for (const ProblemObject& object : in.problem.objects) {
     v1::PlanObject wire;
@@ -131,21 +159,22 @@ v1::PlanRequest to_wire(const PlanCall& in, const MissionModel& mission) {
   return out;
 }
 
-v1::PlanReceipt to_wire(const PlanReceipt& in, const std::string& mission) {
+v1::PlanReceipt to_wire(const PlanReceipt& in, const std::string& executive) {
   v1::PlanReceipt out;
-  out.mission(mission);
+  out.executive(executive);
   out.version(in.version);
   out.refused(in.refused);
-  out.reason(in.reason);
+  const bool both = !in.reason.empty() && !in.conflict.empty();
+  out.reason(in.reason + (both ? "; " : "") + in.conflict);
   out.open(in.open);
   return out;
 }
 
-v1::Event to_wire(const Note& in) {
+v1::Event to_wire(const Event& in) {
   v1::Event out;
-  out.severity_level(in.level == NoteLevel::info      ? v1::SEVERITY_INFO
-                     : in.level == NoteLevel::warning ? v1::SEVERITY_WARNING
-                                                      : v1::SEVERITY_ERROR);
+  out.severity_level(in.level == Severity::info      ? v1::SEVERITY_INFO
+                     : in.level == Severity::warning ? v1::SEVERITY_WARNING
+                                                     : v1::SEVERITY_ERROR);
   out.code(in.code);
   out.text(in.text);
   return out;
@@ -161,4 +190,4 @@ std::string trace_line(const v1::Observation& in) {
          " sampled " + std::to_string(in.sampled_us());
 }
 
-}  // namespace roci::exec::wire
+}  // namespace roci::exec

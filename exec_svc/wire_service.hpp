@@ -1,4 +1,4 @@
-// The reactor's inputs and outputs in their wire form.
+/// The reactor's inputs and outputs in their wire form.
 #pragma once
 
 #include "exec_svc/reactor/reactor.hpp"
@@ -8,24 +8,26 @@
 #include "roci_idl/plan.h"
 #include "roci_idl/planner.h"
 
-namespace roci::exec::wire {
+namespace roci::exec {
 
-GoalRequest from_wire(const v1::Goal&);
-Observation from_wire(const v1::Observation&);
-CommandAck from_wire(const v1::CommandAck&);
-PlanAnswer from_wire(std::uint64_t call, const v1::PlanReply&);
+goals::GoalRequest from_wire(const v1::Goal&);
+executive::Observation from_wire(const v1::Observation&);
+executive::CommandAck from_wire(const v1::CommandAck&);
+reactor::PlanReply from_wire(std::uint64_t call, const v1::PlanReply&);
 
-v1::Goal to_wire(const GoalRequest&);
-v1::GoalStatus to_wire(const GoalRecord&);
-v1::Command to_wire(const Command&, std::uint32_t plan_version, std::uint64_t epoch);
-v1::StepStatus to_wire(const StepStatus&, std::uint32_t plan_version);
-v1::PlanRequest to_wire(const PlanCall&, const MissionModel&);
-v1::PlanReceipt to_wire(const PlanReceipt&, const std::string& mission);
-v1::Event to_wire(const Note&);
+v1::Goal to_wire(const goals::GoalRequest&);
+v1::GoalStatus to_wire(const goals::GoalRecord&, const std::string& executive);
+/// `epoch`: of the commander now; the key's is that of issue, see Command::epoch.
+v1::Command to_wire(const executive::Command&, const std::string& commander, std::uint32_t plan_version,
+                    std::uint64_t epoch);
+v1::StepStatus to_wire(const executive::StepStatus&, const std::string& executive, std::uint32_t plan_version);
+v1::PlanRequest to_wire(const reactor::PlanRequest&, const mission::MissionModel&);
+v1::PlanReceipt to_wire(const reactor::PlanReceipt&, const std::string& executive);
+v1::Event to_wire(const reactor::Event&);
 
-// One line of the trace each, for what was seen; journal/decisions.hpp has those for what was decided.
-// Nothing in them depends on the machine.
+/// One line of the trace each, for what was seen; journal/decisions.hpp has those for what was decided.
+/// Nothing in them depends on the machine.
 std::string trace_line(const v1::CommandAck&);
 std::string trace_line(const v1::Observation&);
 
-}  // namespace roci::exec::wire
+}  // namespace roci::exec

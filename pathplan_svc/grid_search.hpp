@@ -7,13 +7,13 @@
 
 namespace roci::pathplan {
 
-// Which free cells hang together: the proof that one place cannot be reached from another. Moves go to the
-// eight neighbours, diagonally only where both cells beside the move are free, too.
+/// Tells which free cells hang together: the proof that one place cannot be reached from another. Moves go to
+/// the eight neighbours, diagonally only where both cells beside the move are free, too.
 class Regions {
  public:
   explicit Regions(const Costmap& map);
 
-  // Number of the region of a free cell, from 1; 0 for a blocked one.
+  /// Returns the number of the region of a free cell, from 1; 0 for a blocked one.
   std::uint32_t region(std::size_t index) const { return region_[index]; }
   std::size_t count() const { return count_; }
 
@@ -22,11 +22,11 @@ class Regions {
   std::size_t count_ = 0;
 };
 
-// Fastest drives over the grid from one cell to every cell of its region (Dijkstra), exact for moves between
-// the centres of neighbouring cells and without turns.
+/// The fastest drives over the grid from one cell to every cell of its region (Dijkstra), exact for moves
+/// between the centres of neighbouring cells and without turns.
 class SearchTree {
  public:
-  // Centres from the source to `target`, both included; empty if there is no way.
+  /// Returns the centres from the source to `target`, both included; none if there is no way.
   Polyline path_to(terrain::Cell target) const;
   bool reaches(terrain::Cell target) const { return move_[grid_.index(target)] != kNone; }
 
@@ -39,18 +39,18 @@ class SearchTree {
   std::vector<std::uint8_t> move_;  // number of the move that enters the cell
 };
 
-// Keeps the price of each move on the map; obstacles may be added to the map later, the ground stays.
+/// Keeps the price of each move on the map; obstacles may be added to the map later, the ground stays.
 class GridSearch {
  public:
   GridSearch(const Costmap& map, const DriveModel& drive);
 
-  // `map` is the one given at construction, with or without more obstacles. Equal costs are settled by the
-  // lower index of the cell, so the tree depends on the map and the source alone.
+  /// `map` is the one given at construction, with or without more obstacles. Equal costs are settled by the
+  /// lower index of the cell, so the tree depends on the map and the source alone.
   SearchTree from(const Costmap& map, terrain::Cell source) const;
 
  private:
-  std::vector<float>
-      half_move_;  // seconds, by cell and by the eight directions, from the centre to the border
+  // Seconds from the centre to the border, by cell and by the eight directions.
+  std::vector<float> half_move_;
 };
 
 }  // namespace roci::pathplan

@@ -12,38 +12,38 @@ namespace roci::pathplan {
 
 enum class PathStatus : std::uint8_t {
   found,
-  unreachable,    // proved: the ends lie in regions of free cells that do not meet
-  start_outside,  // of the map
+  unreachable,    ///< It is proved: the ends lie in regions of free cells that do not meet.
+  start_outside,  ///< The start lies outside the map.
   goal_outside,
-  start_blocked,  // PathOutcome::blocked_by says by what
+  start_blocked,  ///< PathOutcome::blocked_by says by what.
   goal_blocked,
 };
 
 const char* to_string(PathStatus status);
 
-// Way-points from start to goal (both included), at most PlannerSettings::waypoint_spacing apart, and what
-// the drive costs (segment.hpp). Empty and zero unless found.
+/// It holds way-points from start to goal (both included), at most PlannerSettings::waypoint_spacing apart,
+/// and what the drive costs (segment.hpp). Empty and zero unless found.
 struct PathOutcome {
   PathStatus status = PathStatus::found;
   CellState blocked_by = CellState::free;
   Polyline waypoints;
-  double length = 0;  // m
-  double time = 0;    // s
-  double energy = 0;  // J
+  double length = 0;  ///< m
+  double time = 0;    ///< s
+  double energy = 0;  ///< J
 };
 
 struct PlannerSettings {
   CorridorSettings corridor;
-  double waypoint_spacing = 4.0;  // m
-  double max_piece = 60.0;        // m, longest straight piece that shortcuts try
-  std::size_t max_corners = 60;   // of a path before shortcuts
+  double waypoint_spacing = 4.0;  ///< m
+  double max_piece = 60.0;        ///< Shortcuts try no longer straight piece, m.
+  std::size_t max_corners = 60;   ///< Of a path before shortcuts.
 };
 
-// Fast drives over a map that may gain obstacles. An answer depends on the map and the two ends alone, never
-// on earlier questions; answers and search trees are kept until the map changes. One thread at a time.
-//
-// A goal must be free. A start in the margin of an obstacle (one that was seen while the rover stood there)
-// is left by the shortest straight line to a free cell.
+/// Fast drives over a map that may gain obstacles. An answer depends on the map and the two ends alone, never
+/// on earlier questions; answers and search trees are kept until the map changes. One thread at a time.
+///
+/// A goal must be free. A start in the margin of an obstacle (one that was seen while the rover stood there)
+/// is left by the shortest straight line to a free cell.
 class PathPlanner {
  public:
   PathPlanner(const terrain::Site& site, const RoverLimits& limits, const DriveModel& drive,
@@ -52,7 +52,7 @@ class PathPlanner {
   const Costmap& map() const { return map_; }
   const DriveModel& drive() const { return drive_; }
 
-  // See Costmap::set_discs.
+  /// Does what Costmap::set_discs does.
   bool set_discs(const std::vector<Disc>& discs);
 
   PathOutcome path(terrain::Point from, terrain::Point to);

@@ -76,16 +76,16 @@ class PathplanService : public services::Service {
       return;
     }
     if (hazard.cleared()) {
-      hazards_.erase(hazard.id());
+      hazards_.erase({hazard.found_by(), hazard.id()});
     } else {
-      hazards_[hazard.id()] = disc;
+      hazards_[{hazard.found_by(), hazard.id()}] = disc;
     }
     update_map();
   }
 
   void update_map() {
     std::vector<Disc> discs = keep_out_;
-    for (const auto& [id, disc] : hazards_) discs.push_back(disc);
+    for (const auto& [key, disc] : hazards_) discs.push_back(disc);
     const std::size_t count = hazards_.size();
     worker_.compute(
         [this, discs = std::move(discs)](const std::stop_token&) {
@@ -121,7 +121,7 @@ class PathplanService : public services::Service {
 
   services::Node& node_;
   std::vector<Disc> keep_out_;
-  std::map<std::string, Disc> hazards_;
+  std::map<std::pair<std::string, std::string>, Disc> hazards_;  // by finder and id
   std::set<std::string> reported_;
   PathPlanner planner_;  // from the constructor's end on: the worker's alone
   services::Publisher<v1::FunctionOffer> offers_;
@@ -132,7 +132,7 @@ class PathplanService : public services::Service {
 }  // namespace
 
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
-  const mission::Entry mission = mission::Entry::load(settings.mission / "mission.yaml");
+  const mission::Entry mission = mission::Entry::load(settings.mission_file());
   const mission::Entry site = mission.at("site");
   const auto rover = mission.find("rover");
   return std::make_unique<PathplanService>(node, terrain::load_site(site.resolve(site.text())),

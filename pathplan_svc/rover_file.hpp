@@ -7,15 +7,15 @@
 
 namespace roci::pathplan {
 
-// What a mission says of its rover and of the ground it must not enter.
+/// A mission says this of its rover and of the ground it must not enter.
 struct Rover {
   RoverLimits limits;
   DriveModel drive;
   std::vector<Disc> keep_out;
 };
 
-// Reads the section `rover` of mission.yaml (README.md lists its keys; each is optional). Throws
-// mission::FileError with place and remedy.
+/// Reads the section `rover` of mission.yaml (README.md lists its keys; each is optional). Throws
+/// mission::FileError with place and remedy.
 Rover read_rover(const mission::Entry& section);
 
 }  // namespace roci::pathplan

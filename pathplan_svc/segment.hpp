@@ -8,36 +8,38 @@ namespace roci::pathplan {
 
 using Polyline = std::vector<terrain::Point>;
 
-// What a straight drive costs, without turns: the sum over the cells that it crosses, exact for ground that
-// is a plane in each cell.
+/// Says what a straight drive costs, without turns: the sum over the cells that it crosses, exact for ground
+/// that is a plane in each cell.
 struct SegmentCost {
-  bool free = true;   // no cell on the way is blocked
-  double length = 0;  // m, horizontal
-  double time = 0;    // s
-  double energy = 0;  // J
+  bool free = true;   ///< No cell on the way is blocked.
+  double length = 0;  ///< m, horizontal
+  double time = 0;    ///< s
+  double energy = 0;  ///< J
 };
 
-// Both ends must lie on the map.
+/// Both ends must lie on the map.
 SegmentCost measure(const Costmap& map, const DriveModel& drive, terrain::Point from, terrain::Point to);
 
-// The test alone, cheaper: stops at the first blocked cell.
+/// Makes the test alone, which is cheaper: it stops at the first blocked cell.
 bool is_free(const Costmap& map, terrain::Point from, terrain::Point to);
 
-// The state of greatest hindrance among the cells that the straight line crosses, in the order of CellState.
+/// Returns the state of greatest hindrance among the cells that the straight line crosses, in the order of
+/// CellState.
 CellState worst_state(const Costmap& map, terrain::Point from, terrain::Point to);
 
-// A drive along a polyline with turns on the spot at its corners. The heading at the start is not known: it
-// counts as a turn by a right angle, the mean over all headings. A polyline of a single point costs nothing.
+/// Measures a drive along a polyline with turns on the spot at its corners. The heading at the start is not
+/// known: it counts as a turn by a right angle, the mean over all headings. A polyline of a single point
+/// costs nothing.
 SegmentCost measure(const Costmap& map, const DriveModel& drive, const Polyline& path);
 
-// Radians, -pi … pi, from due east counter-clockwise.
+/// Returns radians, -pi … pi, from due east counter-clockwise.
 double heading(terrain::Point from, terrain::Point to);
-// Size of the turn between two headings, 0 … pi.
+/// Returns the size of the turn between two headings, 0 … pi.
 double turn_between(double heading_before, double heading_after);
-// The turn that stands for the unknown heading at the start, radians.
+/// The turn that stands for the unknown heading at the start, radians.
 inline constexpr double kFirstTurn = 1.5707963267948966;
 
-// The same line with intermediate points, so that neighbours are at most `spacing` metres apart.
+/// Returns the same line with intermediate points, so that neighbours are at most `spacing` metres apart.
 Polyline densify(const Polyline& path, double spacing);
 
 }  // namespace roci::pathplan

@@ -13,17 +13,17 @@ namespace roci::pathplan {
 
 inline constexpr const char* kModule = "pathplan";
 
-// What module `pathplan` offers on this version of the map: traverse_time [s] and traverse_energy [J] of
-// (from, to).
+/// Tells what module `pathplan` offers on this version of the map: traverse_time [s] and traverse_energy [J]
+/// of (from, to).
 v1::FunctionOffer function_offer(const std::string& owner, std::uint64_t map_version);
 
 struct FunctionAnswer {
   v1::FunctionReply reply;
-  std::map<std::string, std::string> unusable_places;  // object -> why no path can begin or end there
+  std::map<std::string, std::string> unusable_places;  ///< By object: why no path can begin or end there.
 };
 
-// Every tuple gets an outcome. An object is a place if it has properties x and y, finite numbers in metres. A
-// place off the map or inside an obstacle is unreachable. Once stopped, the rest is FUNCTION_FAILED.
+/// Every tuple gets an outcome. An object is a place if it has properties x and y, finite numbers in metres.
+/// A place off the map or inside an obstacle is unreachable. Once stopped, the rest is FUNCTION_FAILED.
 FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request,
                         const std::stop_token& stop);
 

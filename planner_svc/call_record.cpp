@@ -6,6 +6,9 @@
 
 namespace roci::planner {
 
+using temporal_pddl::adapter::PlanningAnswer;
+using temporal_pddl::adapter::PlanningCall;
+
 void CallRecords::keep(const PlanningCall& call, const PlanningAnswer& answer, double wall_s) {
   if (folder_.empty()) return;
   std::error_code ignored;

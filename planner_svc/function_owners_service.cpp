@@ -7,7 +7,7 @@
 
 namespace roci::planner {
 
-FunctionOwners::FunctionOwners(services::Node& node, services::Duration timeout)
+FunctionOwners::FunctionOwners(services::Node& node, temporal::Duration timeout)
     : node_(node), timeout_(timeout), client_(node, services::topics::function_call) {
   services::subscribe(node, services::topics::function_offer,
                       [this](const v1::FunctionOffer& offer) { offers_[offer.module_name()] = offer; });
@@ -23,11 +23,11 @@ void FunctionOwners::ask(const std::vector<FunctionCall>& calls, const std::vect
   const Provenance asked{offer.owner(), std::to_string(offer.model_version()), node_.now()};
   const std::uint64_t number = ++asked_;
   asking_ = number;
-  client_.call(wire::to_wire(calls, objects), offer.owner(), timeout_,
+  client_.call(to_wire(calls, objects), offer.owner(), timeout_,
                [this, calls, asked, number, done = std::move(done)](const auto& result) {
                  if (asking_ != number) return;
                  asking_.reset();
-                 done(wire::values_of(calls, asked, result));
+                 done(values_of(calls, asked, result));
                });
 }
 

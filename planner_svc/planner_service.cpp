@@ -12,8 +12,8 @@
 
 #include "planner_svc/call_record.hpp"
 #include "planner_svc/function_owners_service.hpp"
-#include "planner_svc/planning_call.hpp"
 #include "planner_svc/settings.hpp"
+#include "planner_svc/temporal_pddl/adapter/planning_call.hpp"
 #include "planner_svc/wire_service.hpp"
 #include "services/clock/wall.hpp"
 #include "services/publisher.hpp"
@@ -22,8 +22,11 @@
 namespace roci::planner {
 namespace {
 
-using services::Duration;
 using services::Node;
+using temporal::Duration;
+using temporal_pddl::adapter::answer_call;
+using temporal_pddl::adapter::PlanningAnswer;
+using temporal_pddl::adapter::PlanningCall;
 
 std::uint32_t peak_resident_kb() {
   rusage usage{};
@@ -37,7 +40,7 @@ class PlannerService final : public services::Service, private FunctionSource {
  public:
   PlannerService(Node& node, const services::RunSettings& settings)
       : node_(node),
-        settings_(read_settings(settings.mission)),
+        settings_(read_settings(settings.mission_file())),
         records_(settings.run_folder.empty() ? "" : settings.run_folder / "planner_calls"),
         events_(services::advertise(node, services::topics::event)),
         owners_(node, settings_.function_timeout) {
@@ -48,7 +51,7 @@ class PlannerService final : public services::Service, private FunctionSource {
                       responder.on_cancel([this, number] { cancel(number); });
                       start_next();
                     });
-    node.on_peer_change([this](const services::PeerChange& change) {
+    node.on_peer_change([this](const services::health::PeerChange& change) {
       if (!change.alive) abandon_calls_of(change.service);
     });
   }
@@ -82,14 +85,14 @@ class PlannerService final : public services::Service, private FunctionSource {
 
   // On the worker thread, until it returns.
   void run() {
-    PlanningCall call = wire::from_wire(job_->request);
-    const auto begun = services::wall::now();
+    PlanningCall call = from_wire(job_->request);
+    const auto begun = services::clock::wall_now();
     const Duration limit(job_->request.budget().wall_us());
     if (limit.count() > 0 && is_live())
-      call.out_of_time = [begun, limit] { return services::wall::now() - begun > limit; };
+      call.out_of_time = [begun, limit] { return services::clock::wall_now() - begun > limit; };
     call.cancelled = [this] { return cancelled_.load(std::memory_order_relaxed); };
     PlanningAnswer answer = answer_call(call, *this);
-    const double wall_s = std::chrono::duration<double>(services::wall::now() - begun).count();
+    const double wall_s = std::chrono::duration<double>(services::clock::wall_now() - begun).count();
     node_.post_work_result(work_, [this, call = std::move(call), answer = std::move(answer), wall_s] {
       finish(call, answer, wall_s);
     });
@@ -112,7 +115,7 @@ class PlannerService final : public services::Service, private FunctionSource {
 
   // From here on: on the loop.
 
-  bool is_live() const { return node_.options().clock == services::ClockMode::live; }
+  bool is_live() const { return node_.options().clock == services::clock::ClockMode::live; }
 
   // Nobody waits for these answers any more.
   void abandon_calls_of(const std::string& client) {
@@ -124,7 +127,7 @@ class PlannerService final : public services::Service, private FunctionSource {
   void cancel(std::uint64_t number) {
     const auto queued = std::ranges::find(queue_, number, &Job::number);
     if (queued != queue_.end()) {
-      queued->responder.reply(wire::cancelled_reply());
+      queued->responder.reply(cancelled_reply());
       queue_.erase(queued);
     } else if (job_ && job_->number == number) {
       cancel_job();
@@ -136,7 +139,7 @@ class PlannerService final : public services::Service, private FunctionSource {
     if (owners_.forget()) resume({});
     if (!answering_) return;
     node_.cancel(*answering_);
-    answer_job(wire::cancelled_reply());
+    answer_job(cancelled_reply());
   }
 
   void ask(const std::vector<FunctionCall>& calls) {
@@ -156,11 +159,11 @@ class PlannerService final : public services::Service, private FunctionSource {
   }
 
   void finish(const PlanningCall& call, const PlanningAnswer& answer, double wall_s) {
-    v1::PlanReply reply = wire::to_wire(answer);
+    v1::PlanReply reply = to_wire(answer);
     reply.statistics().wall_s(wall_s);
     reply.statistics().peak_rss_kb(peak_resident_kb());
     records_.keep(call, answer, wall_s);
-    if (answer.verdict != PlanningVerdict::solved && answer.verdict != PlanningVerdict::cancelled) {
+    if (answer.verdict != temporal::Verdict::solved && answer.verdict != temporal::Verdict::cancelled) {
       report(std::string("planning ended as ") + to_string(answer.verdict) + ": " + answer.reason);
     }
     answering_ =
@@ -170,7 +173,7 @@ class PlannerService final : public services::Service, private FunctionSource {
   // In simulation a call takes time by the stated model, so that nothing depends on the speed of this
   // machine.
   Duration simulated_time_of(const PlanningAnswer& answer) const {
-    if (is_live() || answer.verdict == PlanningVerdict::cancelled) return Duration{0};
+    if (is_live() || answer.verdict == temporal::Verdict::cancelled) return Duration{0};
     return temporal::seconds(settings_.simulated_base_s +
                              settings_.simulated_per_evaluation_s *
                                  static_cast<double>(answer.statistics.evaluated));

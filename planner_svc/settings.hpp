@@ -8,13 +8,13 @@
 namespace roci::planner {
 
 struct Settings {
-  temporal::Duration function_timeout = temporal::seconds(20);  // for one batch of values
-  // Mission time that a call takes under the simulated clock.
+  temporal::Duration function_timeout = temporal::seconds(20);  ///< for one batch of values
+  /// Mission time that a call takes under the simulated clock.
   double simulated_base_s = 0.5;
   double simulated_per_evaluation_s = 0.0005;
 };
 
-// `planner` in mission.yaml of the folder; defaults for what is not there. Throws as mission::Entry does.
+/// `planner` in mission.yaml of the folder; defaults for what is not there. Throws as mission::Entry does.
 Settings read_settings(const std::filesystem::path& mission);
 
 }  // namespace roci::planner

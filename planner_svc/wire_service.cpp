@@ -6,8 +6,11 @@
 
 #include "services/wire/plan_wire.hpp"
 
-namespace roci::planner::wire {
+namespace roci::planner {
 namespace {
+
+using temporal_pddl::adapter::PlanningAnswer;
+using temporal_pddl::adapter::PlanningCall;
 
 constexpr std::size_t kMostRemaining = 1000;
 constexpr temporal::Duration kLatest = std::chrono::seconds(1'000'000'000);  // as pddl::parse_plan
@@ -38,6 +41,7 @@ FunctionOutcome from_wire(v1::FunctionOutcome outcome, double number) {
       return FunctionOutcome::unknown_object;
     case v1::FUNCTION_WRONG_ARITY:
       return FunctionOutcome::wrong_arity;
+    case v1::FUNCTION_UNKNOWN:
     case v1::FUNCTION_UNKNOWN_FUNCTION:
     case v1::FUNCTION_FAILED:
       return FunctionOutcome::unavailable;
@@ -46,15 +50,16 @@ FunctionOutcome from_wire(v1::FunctionOutcome outcome, double number) {
 }
 
 // What the owner means by an outcome that has no name of its own here.
-std::string detail_of(v1::FunctionOutcome outcome) {
+std::string reason_of(v1::FunctionOutcome outcome) {
+  if (outcome == v1::FUNCTION_UNKNOWN) return "it found no value with the effort that it spends";
   if (outcome == v1::FUNCTION_UNKNOWN_FUNCTION) return "it does not know this function";
   if (outcome == v1::FUNCTION_FAILED) return "it failed to compute the value";
   return "";
 }
 
-FunctionOutcome outcome_of(services::CallStatus failure) {
-  if (failure == services::CallStatus::timeout) return FunctionOutcome::late;
-  if (failure == services::CallStatus::owner_lost) return FunctionOutcome::owner_lost;
+FunctionOutcome outcome_of(services::rpc::CallStatus failure) {
+  if (failure == services::rpc::CallStatus::timeout) return FunctionOutcome::late;
+  if (failure == services::rpc::CallStatus::owner_lost) return FunctionOutcome::owner_lost;
   return FunctionOutcome::unavailable;
 }
 
@@ -63,7 +68,7 @@ FunctionOutcome outcome_of(services::CallStatus failure) {
 PlanningCall from_wire(const v1::PlanRequest& in) {
   PlanningCall out;
   out.engine = in.engine();
-  out.domain_text = in.domain_text();
+  out.domain_text = in.model();
   out.problem_text = in.problem_text();
   out.remaining = from_wire(in.remaining());
   out.evaluations = in.budget().work();
@@ -117,8 +122,8 @@ v1::FunctionRequest to_wire(const std::vector<FunctionCall>& calls, std::vector<
 
 std::vector<FunctionValue> values_of(const std::vector<FunctionCall>& calls, const Provenance& asked,
                                      const services::CallResult<v1::FunctionReply>& result) {
-  if (result.status != services::CallStatus::ok)
-    return {calls.size(), FunctionValue{outcome_of(result.status), 0, asked, result.message}};
+  if (result.status != services::rpc::CallStatus::ok)
+    return {calls.size(), FunctionValue{outcome_of(result.status), 0, asked, result.reason}};
   const v1::FunctionReply& reply = result.reply;
   const bool whole = reply.results().size() == 1 && reply.results()[0].numbers().size() == calls.size() &&
                      reply.results()[0].outcomes().size() == calls.size();
@@ -132,9 +137,9 @@ std::vector<FunctionValue> values_of(const std::vector<FunctionCall>& calls, con
   for (std::size_t i = 0; i < calls.size(); ++i) {
     const double number = reply.results()[0].numbers()[i];
     const v1::FunctionOutcome outcome = reply.results()[0].outcomes()[i];
-    values.push_back({from_wire(outcome, number), number, provenance, detail_of(outcome)});
+    values.push_back({from_wire(outcome, number), number, provenance, reason_of(outcome)});
   }
   return values;
 }
 
-}  // namespace roci::planner::wire
+}  // namespace roci::planner

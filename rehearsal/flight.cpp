@@ -1,12 +1,15 @@
 #include "rehearsal/flight.hpp"
 
+#include <algorithm>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 
 #include "services/node.hpp"
-#include "services/transport.hpp"
+#include "services/transport/plug_ins.hpp"
 
 namespace roci::rehearsal {
 namespace {
@@ -16,19 +19,6 @@ struct Seat {
   std::unique_ptr<services::Node> node;
   std::unique_ptr<services::Service> service;
 };
-
-services::NodeOptions node_options(const std::string& name, double pace) {
-  services::NodeOptions options;
-  options.name = name;
-  options.vendor = "inproc";
-  options.clock = services::ClockMode::simulated;
-  if (name == members().back().name) {
-    options.clock = services::ClockMode::master;
-    options.master.pace = pace;
-    for (const Member& member : members()) options.master.roster.push_back(member.name);
-  }
-  return options;
-}
 
 // The first failure of a flight's threads; it stops them all.
 class FirstFailure {
@@ -48,16 +38,48 @@ class FirstFailure {
 
 }  // namespace
 
+std::vector<mission::ServiceEntry> crew_of(const std::filesystem::path& mission) {
+  std::vector<mission::ServiceEntry> crew = mission::load_service_list(mission).services;
+  std::ranges::stable_partition(crew, std::logical_not<>{}, &mission::ServiceEntry::clock_master);
+  if (crew.empty() || !crew.back().clock_master)
+    throw std::invalid_argument("no service of this mission has clock: master; a rehearsal needs one");
+  return crew;
+}
+
+services::node::NodeOptions node_options(const std::filesystem::path& mission,
+                                         const mission::ServiceEntry& entry, double pace) {
+  services::node::NodeOptions options;
+  options.name = entry.name;
+  options.mission = std::filesystem::absolute(mission).lexically_normal().filename().string();
+  options.run = options.mission;
+  options.robot = entry.robot;
+  options.vendor = "inproc";
+  options.clock = entry.clock_master ? services::clock::ClockMode::master : services::clock::ClockMode::simulated;
+  if (!entry.clock_master) return options;
+  options.master.pace = pace;
+  for (const mission::ServiceEntry& other : crew_of(mission)) options.master.roster.push_back(other.name);
+  return options;
+}
+
+services::MakeService* make_of(const mission::ServiceEntry& entry) {
+  const auto linked = std::ranges::find(programs(), entry.program, &Program::name);
+  if (linked != programs().end()) return linked->make;
+  throw std::invalid_argument("service " + entry.name + " is a program of its own, " + entry.program +
+                              ", that a rehearsal in one process cannot start; fly with roci-launch");
+}
+
 void fly(const FlightOptions& options) {
   std::vector<Seat> seats;
-  for (const Member& member : members()) {
-    services::TransportOptions transport;
+  for (const mission::ServiceEntry& entry : crew_of(options.run.mission)) {
+    services::transport::TransportOptions transport;
     transport.domain = options.domain;
-    transport.participant = member.name;
+    transport.participant = entry.name;
     Seat seat;
-    seat.node = std::make_unique<services::Node>(node_options(member.name, options.pace),
-                                                 services::open_transport("inproc", transport));
-    seat.service = member.make(*seat.node, options.run);
+    seat.node = std::make_unique<services::Node>(node_options(options.run.mission, entry, options.pace),
+                                                 services::transport::open_transport("inproc", transport));
+    services::RunSettings run = options.run;
+    run.settings = entry.settings;
+    seat.service = make_of(entry)(*seat.node, run);
     seats.push_back(std::move(seat));
   }
   FirstFailure failure;

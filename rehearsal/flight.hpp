@@ -5,27 +5,39 @@
 #include <string>
 #include <vector>
 
+#include "core/mission/service_list.hpp"
 #include "services/service.hpp"
 
 namespace roci::rehearsal {
 
-// A service by the name that it has as a process.
-struct Member {
+/// A program by the name that it has as a process.
+struct Program {
   std::string name;
   services::MakeService* make;
 };
 
-// Every service of a mission; the master of the clock (sim_svc) stands last.
-const std::vector<Member>& members();
+/// The programs that are linked here: those that a mission's list of services may name in a rehearsal.
+const std::vector<Program>& programs();
+
+/// The mission's services in the order in which a rehearsal makes them: the clock's master last.
+std::vector<mission::ServiceEntry> crew_of(const std::filesystem::path& mission);
+
+/// The node of one of them; `pace` as in FlightOptions.
+services::node::NodeOptions node_options(const std::filesystem::path& mission, const mission::ServiceEntry&,
+                                         double pace);
+
+/// Of a linked program. Throws std::invalid_argument for another.
+services::MakeService* make_of(const mission::ServiceEntry&);
 
 struct FlightOptions {
   services::RunSettings run;
-  int domain = 1;   // flights with different domains do not hear each other
-  double pace = 0;  // simulated seconds per wall second; 0: as fast as possible
+  int domain = 1;   ///< flights with different domains do not hear each other
+  double pace = 0;  ///< simulated seconds per wall second; 0: as fast as possible
 };
 
-// Returns when the master has ended the run; the summary stands in run_folder/summary.json. Throws what a
-// service threw while it was made (bad mission files) or while it ran.
+/// Flies the services that the mission names. Returns when the clock's master has ended the run; the summary
+/// stands in run_folder/summary.json. Throws std::invalid_argument for a mission that names a program which is
+/// not linked here or no clock master, and what a service threw while it was made or while it ran.
 void fly(const FlightOptions& options);
 
 }  // namespace roci::rehearsal

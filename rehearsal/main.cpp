@@ -9,7 +9,7 @@
 
 #include "rehearsal/flight.hpp"
 #include "services/clock/wall.hpp"
-#include "services/launch/mission_folder.hpp"
+#include "services/process/mission_folder.hpp"
 
 namespace {
 
@@ -40,14 +40,17 @@ nlohmann::json fly_once(const Arguments& arguments, std::uint64_t seed,
                         const std::filesystem::path& run_folder, int domain) {
   std::filesystem::create_directories(run_folder);
   FlightOptions options;
-  options.run = {roci::services::mission_folder(arguments.mission), arguments.scenario, seed, run_folder};
+  options.run.mission = roci::services::process::mission_folder(arguments.mission);
+  options.run.scenario = arguments.scenario;
+  options.run.seed = seed;
+  options.run.run_folder = run_folder;
   options.domain = domain;
   options.pace = arguments.speed == "max" ? 0 : std::stod(arguments.speed);
-  const auto begun = roci::services::wall::now();
+  const auto begun = roci::services::clock::wall_now();
   roci::rehearsal::fly(options);
   auto summary = summary_of(run_folder);
   summary["dds"] = "inproc";
-  summary["wall_s"] = std::chrono::duration<double>(roci::services::wall::now() - begun).count();
+  summary["wall_s"] = std::chrono::duration<double>(roci::services::clock::wall_now() - begun).count();
   return summary;
 }
 

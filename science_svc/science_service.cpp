@@ -35,7 +35,7 @@ class ScienceService final : public services::Service {
 
  private:
   void look(const v1::DataProduct& product) {
-    if (product.product_kind() != "image" || product.state() != v1::PRODUCT_STORED) return;
+    if (product.product_kind() != "image" || product.fate() != v1::PRODUCT_STORED) return;
     const auto find = detector_.look({product.id(), {product.x_m(), product.y_m()}}, node_.now());
     if (!find) return;
     v1::Goal goal;
@@ -44,7 +44,8 @@ class ScienceService final : public services::Service {
     goal.goal_kind(goal_kind_);
     goal.arguments({property("x", find->place.x), property("y", find->place.y)});
     goal.importance(v1::GOAL_OPPORTUNISTIC);
-    goal.utility(find->score);
+    goal.utility({find->score});
+    goal.preferred_us(-1);
     goals_.write(goal);
     v1::Event event;
     event.severity_level(v1::SEVERITY_INFO);
@@ -72,7 +73,7 @@ terrain::Grid map_of(const mission::Entry& site) {
 }  // namespace
 
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
-  const mission::Entry mission = mission::Entry::load(settings.mission / "mission.yaml");
+  const mission::Entry mission = mission::Entry::load(settings.mission_file());
   const mission::Entry scenario = mission::load_scenario(settings.mission, settings.scenario);
   return std::make_unique<ScienceService>(node, read_detector(mission, scenario), map_of(mission.at("site")),
                                           settings.seed);

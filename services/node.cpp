@@ -2,46 +2,43 @@
 
 #include <utility>
 
-#include "services/node/impl.hpp"
-#include "services/transport.hpp"
+#include "services/node/node_impl.hpp"
 
 namespace roci::services {
 
-Node::Node(NodeOptions options, std::unique_ptr<Transport> transport)
-    : impl_(std::make_unique<Impl>(*this, std::move(options), std::move(transport))) {
-  const ClockMode mode = impl_->options.clock;
-  const bool simulated = mode == ClockMode::simulated || mode == ClockMode::master;
-  impl_->loop = simulated ? make_sim_loop(*this) : make_live_loop(*this);
-}
+Node::Node(node::NodeOptions options, std::unique_ptr<transport::Transport> transport)
+    : impl_(std::make_unique<node::NodeImpl>(std::move(options), std::move(transport))) {}
 
 Node::~Node() = default;
 
-const NodeOptions& Node::options() const { return impl_->options; }
+const node::NodeOptions& Node::options() const { return impl_->options; }
 
-Time Node::now() const { return impl_->loop->now(); }
+temporal::Time Node::now() const { return impl_->now(); }
 
-Node::TimerId Node::at(Time due, std::function<void()> fire) { return after(due - now(), std::move(fire)); }
+Node::TimerId Node::at(temporal::Time due, std::function<void()> fire) {
+  return after(due - now(), std::move(fire));
+}
 
-Node::TimerId Node::after(Duration wait, std::function<void()> fire) {
-  return impl_->timers.add(impl_->loop->timer_now() + wait, std::move(fire));
+Node::TimerId Node::after(temporal::Duration wait, std::function<void()> fire) {
+  return impl_->after(wait, std::move(fire));
 }
 
 void Node::cancel(TimerId timer) { impl_->timers.cancel(timer); }
 
 void Node::on_turn(std::function<void()> handler) { impl_->on_turn.push_back(std::move(handler)); }
 
-void Node::on_peer_change(std::function<void(const PeerChange&)> handler) {
+void Node::on_peer_change(std::function<void(const health::PeerChange&)> handler) {
   impl_->on_peer_change.push_back(std::move(handler));
 }
 
 bool Node::peer_alive(std::string_view service) const {
-  return service == impl_->options.name || impl_->loop->peer(service) == PeerState::alive;
+  return impl_->peer(service) == health::PeerState::alive;
 }
 
 Node::WorkId Node::begin_work() { return impl_->work.begin(); }
 
 void Node::post_work_result(WorkId work, std::function<void()> run) {
-  impl_->inbox.push(WorkResult{work, std::move(run)});
+  impl_->inbox.push(node::WorkResult{work, std::move(run)});
 }
 
 void Node::stop() { impl_->inbox.stop(); }

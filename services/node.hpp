@@ -10,107 +10,66 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <stdexcept>
-#include <string>
 #include <string_view>
-#include <vector>
 
-#include "services/time.hpp"
+#include "core/temporal/duration.hpp"
+#include "services/health/peer.hpp"
+#include "services/node/node_options.hpp"
+#include "services/transport/transport.hpp"
 
 namespace roci::services {
 
-enum class ClockMode {
-  live,       // system clock, times `live_scale`
-  simulated,  // follows the ClockStep of the run's master
-  master,     // simulated, and this node is the master (sim_svc)
-  observer,   // takes part in no barrier: consoles; now() is the newest stamp seen, timers run in wall time
-};
+namespace node {
+class NodeImpl;
+}
 
-struct MasterOptions {
-  std::vector<std::string> roster;  // services that must be ready before time 0, this one included
-  double pace = 0;                  // simulated seconds per wall second; 0: as fast as possible
-  double hang_limit_s = 60;         // wall time after which a participant without progress counts as dead
-  double restart_hold_s = 0;  // wall time for which mission time stands still so that a killed one may return
-};
-
-struct NodeOptions {
-  std::string name;               // logical sender, e.g. "arm_svc"
-  std::uint32_t incarnation = 1;  // how often this service was started in this run, from 1
-  ClockMode clock = ClockMode::live;
-  double live_scale = 1;
-  std::int64_t epoch_unix_us = 0;  // live: mission time 0, the same for all services of a run
-  double live_hang_limit_s = 5;    // live: a service without a heartbeat for this long counts as hung
-  MasterOptions master;
-  std::string vendor = "fastdds";  // reported in the heartbeat
-};
-
-// What a roster change looks like to a service; delivered in mission-time order like a sample.
-struct PeerChange {
-  std::string service;
-  std::uint32_t incarnation = 0;
-  bool alive = false;
-  std::string cause;  // of a death: "killed", "hung", "left" or "restarted"
-};
-
-// Thrown by Node::run(): the clock's master died, it dropped this service, or it met a livelock.
-class ClockError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-// The master is gone, and with it the run.
-class ClockGone : public ClockError {
- public:
-  using ClockError::ClockError;
-};
-
-class Transport;
-
-// The untyped half that typed wrappers stand on; see publisher.hpp for Publisher<T> and subscribe<T>().
+/// The untyped half that typed wrappers stand on; see publisher.hpp for Publisher<T> and subscribe<T>().
 class Node {
  public:
-  Node(NodeOptions, std::unique_ptr<Transport>);
+  Node(node::NodeOptions, std::unique_ptr<transport::Transport>);
   ~Node();
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
 
-  const NodeOptions& options() const;
-  Time now() const;
+  const node::NodeOptions& options() const;
+  temporal::Time now() const;
 
   using TimerId = std::uint64_t;
-  TimerId at(Time, std::function<void()>);  // at a past time: in the next turn of the loop
-  TimerId after(Duration, std::function<void()>);
+  /// Fires at this mission time; at a past one in the next turn of the loop.
+  TimerId at(temporal::Time, std::function<void()>);
+  TimerId after(temporal::Duration, std::function<void()>);
   void cancel(TimerId);
 
-  // Called in each turn of the loop, before timers fire: four times a second at least, in wall time, also
-  // while the simulated clock stands still.
+  /// The handler is called in each turn of the loop, before timers fire: at least four times a second of wall
+  /// time, also while the simulated clock stands still.
   void on_turn(std::function<void()>);
 
-  void on_peer_change(std::function<void(const PeerChange&)>);
+  void on_peer_change(std::function<void(const health::PeerChange&)>);
   bool peer_alive(std::string_view service) const;
 
-  // Lets a worker thread hand a result to the loop. Under the simulated clock the loop does not answer its
-  // barrier between begin_work() and the end of the posted function, and results run in the order in which
-  // their works began, so that a worker's result has one place in mission time. post_work_result may be
-  // called from any thread.
+  /// These let a worker thread hand a result to the loop. Under the simulated clock the loop does not answer
+  /// its barrier between begin_work() and the end of the posted function, and results run in the order in
+  /// which their works began, so that a worker's result has one place in mission time. post_work_result may
+  /// be called from any thread.
   using WorkId = std::uint64_t;
   WorkId begin_work();
   void post_work_result(WorkId, std::function<void()>);
 
-  // The master ends the run for every participant; elsewhere only this node's loop. Any thread may call it.
+  /// Ends the run for every participant if this node is the master, else only its own loop. Any thread may
+  /// call it.
   void stop();
-  // Until stop() or the master's last step. Under the simulated clock all subscriptions are made before
-  // run(). Throws ClockError; an exception of a handler passes through.
+  /// Runs the loop until stop() or the master's last step. Under the simulated clock all subscriptions are
+  /// made before run(). Throws clock::ClockError; an exception of a handler passes through.
   void run();
-  // Live and observer nodes: handles what is pending, waits at most `wait` of wall time for something to
-  // handle.
+  /// On live and observer nodes, handles what is pending and waits at most `wait` of wall time for something
+  /// to handle. Throws std::logic_error under the simulated clock.
   void spin_once(std::chrono::milliseconds wait);
 
-  class Impl;
-  Impl& impl() { return *impl_; }
+  /// Only the typed halves use it (publisher.hpp, rpc.hpp).
+  node::NodeImpl& impl() { return *impl_; }
 
  private:
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<node::NodeImpl> impl_;
 };
 
 }  // namespace roci::services

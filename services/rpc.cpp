@@ -1,24 +1,23 @@
 #include "services/rpc.hpp"
 
 #include "services/node/codec.hpp"
-#include "services/node/impl.hpp"
+#include "services/node/node_impl.hpp"
 #include "services/publisher.hpp"
-#include "services/rpc/call_server.hpp"
-#include "services/rpc/call_table.hpp"
+#include "services/rpc/call_registry.hpp"
 
 namespace roci::services::detail {
 
-CallStatistics statistics(const CallTable& table) { return table.statistics(); }
+rpc::CallStatistics statistics(const rpc::PendingCalls& table) { return table.statistics(); }
 
-void cancel(CallTable& table, CallId call) { table.cancel(call); }
+void cancel(rpc::PendingCalls& table, rpc::CallId call) { table.cancel(call); }
 
-void on_cancel(PendingReply& pending, std::function<void()> handler) {
+void on_cancel(rpc::PendingReply& pending, std::function<void()> handler) {
   pending.on_cancel(std::move(handler));
 }
 
 namespace {
 
-CallTable::SendCancel cancels_of(Node& node, const char* procedure) {
+rpc::PendingCalls::SendCancel cancels_of(Node& node, const char* procedure) {
   return [publisher = advertise(node, topics::call_cancel), procedure](const v1::SampleIdentity& call,
                                                                        const std::string& owner) {
     v1::CallCancel cancel;
@@ -33,45 +32,45 @@ bool is_for(const Node& node, const v1::RequestHeader& header) {
   return header.instance_name().empty() || header.instance_name() == node.options().name;
 }
 
-CallServer::Id id_of(const v1::RequestHeader& header) {
+rpc::ReplyCache::Id id_of(const v1::RequestHeader& header) {
   return {header.request_id().writer_guid(), header.request_id().sequence_number()};
 }
 
 }  // namespace
 
 template <class Request, class Reply>
-std::shared_ptr<CallTable> Calls<Request, Reply>::client(Node& node,
-                                                         const topics::Procedure<Request, Reply>& procedure) {
-  auto& table = node.impl().calls[procedure.request.name];
+std::shared_ptr<rpc::PendingCalls> Calls<Request, Reply>::client(
+    Node& node, const topics::Procedure<Request, Reply>& procedure) {
+  auto& table = node.impl().attachment<rpc::CallRegistry>().table(procedure.request.name);
   if (table) return table;
-  const OutStream& requests = node.impl().endpoints.out(spec_of(procedure.request));
-  InTopic& replies = node.impl().subscribe(spec_of(procedure.reply));
-  table = std::make_shared<CallTable>(
-      node, requests.guid(), procedure.request.name,
+  const node::TopicWriter& requests = node.impl().endpoints.out(node::spec_of(procedure.request));
+  node::TopicReader& replies = node.impl().subscribe(node::spec_of(procedure.reply));
+  table = std::make_shared<rpc::PendingCalls>(
+      node.impl(), requests.guid(), procedure.request.name,
       [&requests, &replies] {
         return requests.matched_readers() > 0 && replies.reader->matched_writers() > 0;
       },
       cancels_of(node, procedure.request.name));
   subscribe(node, procedure.reply,
             [&calls = *table](const Reply& reply) { calls.on_reply(reply.reply(), &reply); });
-  node.on_peer_change([&calls = *table](const PeerChange& change) { calls.on_peer_change(change); });
+  node.on_peer_change([&calls = *table](const health::PeerChange& change) { calls.on_peer_change(change); });
   node.impl().on_match.push_back([&calls = *table] { calls.on_match(); });
   return table;
 }
 
 template <class Request, class Reply>
-CallId Calls<Request, Reply>::call(Node& node, const topics::Procedure<Request, Reply>& procedure,
-                                   CallTable& table, Request&& request, std::string&& owner,
-                                   Duration deadline, OnResult&& on_result) {
+rpc::CallId Calls<Request, Reply>::call(Node& node, const topics::Procedure<Request, Reply>& procedure,
+                                        rpc::PendingCalls& table, Request&& request, std::string&& owner,
+                                        temporal::Duration deadline, OnResult&& on_result) {
   request.request().instance_name(owner);
-  CallTable::Call call;
+  rpc::PendingCalls::Call call;
   call.owner = std::move(owner);
   call.send = [publisher = advertise(node, procedure.request),
                request = std::move(request)](const v1::SampleIdentity& id) mutable {
     request.request().request_id(id);
     return publisher.write(request);
   };
-  call.finish = [on_result = std::move(on_result)](CallStatus status, std::string message,
+  call.finish = [on_result = std::move(on_result)](rpc::CallStatus status, std::string message,
                                                    const void* reply) {
     CallResult<Reply> result{status, std::move(message), {}};
     if (reply != nullptr) result.reply = *static_cast<const Reply*>(reply);
@@ -83,17 +82,17 @@ CallId Calls<Request, Reply>::call(Node& node, const topics::Procedure<Request, 
 template <class Request, class Reply>
 void Calls<Request, Reply>::serve(Node& node, const topics::Procedure<Request, Reply>& procedure,
                                   Handler&& handler) {
-  auto& server = node.impl().servers[procedure.request.name];
+  auto& server = node.impl().attachment<rpc::CallRegistry>().server(procedure.request.name);
   if (server) throw std::logic_error(node.options().name + " serves " + procedure.request.name + " twice");
-  server = std::make_shared<CallServer>();
-  const PendingReply::Write write = [publisher = advertise(node, procedure.reply)](const void* reply) {
+  server = std::make_shared<rpc::ReplyCache>();
+  const rpc::PendingReply::Write write = [publisher = advertise(node, procedure.reply)](const void* reply) {
     publisher.write(*static_cast<const Reply*>(reply));
   };
   subscribe(node, procedure.request,
             [&node, server, write, handler = std::move(handler)](const Request& request) {
               const v1::RequestHeader& header = request.request();
               if (!is_for(node, header) || !server->accept(id_of(header))) return;
-              handler(request, std::make_shared<PendingReply>(server, header.request_id(), write));
+              handler(request, std::make_shared<rpc::PendingReply>(server, header.request_id(), write));
             });
   subscribe(node, topics::call_cancel,
             [&node, server, name = std::string(procedure.request.name)](const v1::CallCancel& cancel) {
@@ -103,14 +102,14 @@ void Calls<Request, Reply>::serve(Node& node, const topics::Procedure<Request, R
 }
 
 template <class Reply>
-void Answer<Reply>::reply(PendingReply& pending, Reply&& reply) {
+void Answer<Reply>::reply(rpc::PendingReply& pending, Reply&& reply) {
   reply.reply().related_request_id(pending.request());
   reply.reply().remote_ex(v1::REMOTE_EX_OK);
   pending.answer(std::make_shared<const Reply>(std::move(reply)));
 }
 
 template <class Reply>
-void Answer<Reply>::fail(PendingReply& pending, v1::RemoteException exception, std::string&& message) {
+void Answer<Reply>::fail(rpc::PendingReply& pending, v1::RemoteException exception, std::string&& message) {
   Reply reply;
   reply.reply().related_request_id(pending.request());
   reply.reply().remote_ex(exception);

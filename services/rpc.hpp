@@ -18,68 +18,50 @@
 #include <utility>
 
 #include "services/node.hpp"
+#include "services/rpc/call_status.hpp"
 #include "services/topics.hpp"
 
 namespace roci::services {
 
-enum class CallStatus {
-  ok,
-  timeout,       // no answer before the deadline
-  no_owner,      // the service that should answer is not there, or nobody serves the procedure
-  owner_lost,    // it died while the call was under way
-  remote_error,  // it answered with an exception
-  overloaded,    // kMaxPendingCalls of this procedure are under way already
-  cancelled,     // before it was sent to anybody
-};
-
-const char* to_string(CallStatus);
-
-inline constexpr std::size_t kMaxPendingCalls = 256;
-
-using CallId = std::int64_t;  // of one client's calls
+namespace rpc {
+class PendingCalls;
+class PendingReply;
+}  // namespace rpc
 
 template <class Reply>
 struct CallResult {
-  CallStatus status = CallStatus::timeout;
-  std::string message;  // for people, empty with CallStatus::ok
-  Reply reply;          // only with CallStatus::ok
+  rpc::CallStatus status = rpc::CallStatus::timeout;
+  std::string reason;  // for people, empty with CallStatus::ok
+  Reply reply;         // only with CallStatus::ok
 };
-
-struct CallStatistics {
-  std::uint64_t sent = 0;     // repetitions included
-  std::uint64_t late = 0;     // replies to calls that had ended
-  std::uint64_t foreign = 0;  // replies to calls of other clients
-};
-
-class CallTable;
-class PendingReply;
 
 namespace detail {
 
-// Defined and instantiated in rpc.cpp, so that users of this header compile no serialization.
+/// The members are defined and instantiated in rpc.cpp, so that users of this header compile no
+/// serialization.
 template <class Request, class Reply>
 struct Calls {
   using OnResult = std::function<void(const CallResult<Reply>&)>;
-  using Handler = std::function<void(const Request&, std::shared_ptr<PendingReply>)>;
-  static std::shared_ptr<CallTable> client(Node&, const topics::Procedure<Request, Reply>&);
-  static CallId call(Node&, const topics::Procedure<Request, Reply>&, CallTable&, Request&&,
-                     std::string&& owner, Duration deadline, OnResult&&);
+  using Handler = std::function<void(const Request&, std::shared_ptr<rpc::PendingReply>)>;
+  static std::shared_ptr<rpc::PendingCalls> client(Node&, const topics::Procedure<Request, Reply>&);
+  static rpc::CallId call(Node&, const topics::Procedure<Request, Reply>&, rpc::PendingCalls&, Request&&,
+                          std::string&& owner, temporal::Duration deadline, OnResult&&);
   static void serve(Node&, const topics::Procedure<Request, Reply>&, Handler&&);
 };
 
 template <class Reply>
 struct Answer {
-  static void reply(PendingReply&, Reply&&);
-  static void fail(PendingReply&, v1::RemoteException, std::string&& message);
+  static void reply(rpc::PendingReply&, Reply&&);
+  static void fail(rpc::PendingReply&, v1::RemoteException, std::string&& message);
 };
 
-CallStatistics statistics(const CallTable&);
-void cancel(CallTable&, CallId);
-void on_cancel(PendingReply&, std::function<void()> handler);
+rpc::CallStatistics statistics(const rpc::PendingCalls&);
+void cancel(rpc::PendingCalls&, rpc::CallId);
+void on_cancel(rpc::PendingReply&, std::function<void()> handler);
 
 }  // namespace detail
 
-// Copyable; lives no longer than its node.
+/// Calls one procedure of other services. It can be copied, and lives no longer than its node.
 template <class Request, class Reply>
 class Client {
  public:
@@ -87,21 +69,21 @@ class Client {
   Client(Node& node, const topics::Procedure<Request, Reply>& procedure)
       : node_(&node), procedure_(procedure), table_(detail::Calls<Request, Reply>::client(node, procedure)) {}
 
-  // `on_result` runs on the node's loop, never inside call(). `owner`: the service that should answer; empty:
-  // anybody. The request's header members are filled in here.
-  CallId call(Request request, std::string owner, Duration deadline,
-              std::function<void(const CallResult<Reply>&)> on_result) const {
+  /// `on_result` runs on the node's loop, never inside call(). `owner` is the service that should answer,
+  /// or empty for anybody. The request's header members are filled in here.
+  rpc::CallId call(Request request, std::string owner, temporal::Duration deadline,
+                   std::function<void(const CallResult<Reply>&)> on_result) const {
     return detail::Calls<Request, Reply>::call(*node_, procedure_, *table_, std::move(request),
                                                std::move(owner), deadline, std::move(on_result));
   }
-  // Nothing for a call that has ended.
-  void cancel(CallId call) const { detail::cancel(*table_, call); }
-  CallStatistics statistics() const { return detail::statistics(*table_); }
+  /// Does nothing for a call that has ended.
+  void cancel(rpc::CallId call) const { detail::cancel(*table_, call); }
+  rpc::CallStatistics statistics() const { return detail::statistics(*table_); }
 
  private:
   Node* node_ = nullptr;
   topics::Procedure<Request, Reply> procedure_{};
-  std::shared_ptr<CallTable> table_;
+  std::shared_ptr<rpc::PendingCalls> table_;
 };
 
 template <class Request, class Reply>
@@ -109,32 +91,32 @@ Client<Request, Reply> make_client(Node& node, const topics::Procedure<Request, 
   return {node, procedure};
 }
 
-// Answers later or at once, on the node's loop. Copyable; the first answer counts; dropping it without one
-// leaves the caller to its deadline.
+/// Answers one request, at once or later, on the node's loop. It can be copied; the first answer counts;
+/// whoever drops it without one leaves the caller to its deadline.
 template <class Reply>
 class Responder {
  public:
-  explicit Responder(std::shared_ptr<PendingReply> pending) : pending_(std::move(pending)) {}
+  explicit Responder(std::shared_ptr<rpc::PendingReply> pending) : pending_(std::move(pending)) {}
   void reply(Reply reply) const { detail::Answer<Reply>::reply(*pending_, std::move(reply)); }
   void fail(v1::RemoteException exception, std::string message) const {
     detail::Answer<Reply>::fail(*pending_, exception, std::move(message));
   }
-  // `handler` runs once, when the caller cancels before there is an answer; within this call if it already
-  // has. Who sets none answers in its own time.
+  /// `handler` runs once, when the caller cancels before there is an answer; within this call if it already
+  /// has. Who sets none answers in its own time.
   void on_cancel(std::function<void()> handler) const { detail::on_cancel(*pending_, std::move(handler)); }
 
  private:
-  std::shared_ptr<PendingReply> pending_;
+  std::shared_ptr<rpc::PendingReply> pending_;
 };
 
-// A duplicate request (same id) gets the first answer again and is not handled twice. A request that names
-// another owner is left to that one.
+/// A duplicate request (same id) gets the first answer again and is not handled twice. A request that names
+/// another owner is left to that one.
 template <class Request, class Reply>
 void serve(Node& node, const topics::Procedure<Request, Reply>& procedure,
            std::type_identity_t<std::function<void(const Request&, Responder<Reply>)>> handler) {
   detail::Calls<Request, Reply>::serve(
       node, procedure,
-      [handler = std::move(handler)](const Request& request, std::shared_ptr<PendingReply> pending) {
+      [handler = std::move(handler)](const Request& request, std::shared_ptr<rpc::PendingReply> pending) {
         handler(request, Responder<Reply>(std::move(pending)));
       });
 }

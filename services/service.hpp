@@ -1,10 +1,10 @@
 // A service: built on a node, alive until the node's loop ends. Each X_svc offers `make_service` in
-// x_service.hpp; its main() is service_main(argc, argv, "x_svc", make_service); rehearsal runs the same
-// functions in one process.
+// x_service.hpp; its main() is process::service_main(argc, argv, "x_svc", make_service); rehearsal runs the
+// same functions in one process.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -17,33 +17,28 @@ class Service {
   virtual ~Service() = default;
 };
 
-// What a run hands to each service. Files are read by the services themselves (core/mission/entry.hpp).
+/// A run hands this to each service. Files are read by the services themselves (core/mission/entry.hpp).
 struct RunSettings {
-  std::filesystem::path mission;     // folder with mission.yaml
-  std::string scenario = "nominal";  // scenarios/<name>.yaml in the mission folder
+  std::filesystem::path mission;     ///< The folder with mission.yaml.
+  std::string scenario = "nominal";  ///< It stands in scenarios/<name>.yaml of the mission folder.
   std::uint64_t seed = 1;
-  std::filesystem::path run_folder;  // journal, summary.json, logs of this run
-  std::string pair;  // "first", "second": of two processes that stand in for each other; empty: it is alone
+  std::filesystem::path run_folder{};  ///< It holds journal, summary.json and logs of this run.
+  /// "first" or "second" of two processes that stand in for each other; empty when the process is alone.
+  std::string pair{};
+  std::filesystem::path settings{};  ///< The mission file that this service reads; empty: mission.yaml.
+
+  std::filesystem::path mission_file() const { return settings.empty() ? mission / "mission.yaml" : settings; }
 };
 
 using MakeService = std::unique_ptr<Service>(Node&, const RunSettings&);
 
-// In the run folder: what sim_svc found when it compared the events with the scenario's list; optional.
+/// In this file of the run folder sim_svc tells how the events compare with the list of the scenario, if it
+/// has one.
 inline constexpr char kExpectedFile[] = "expected.json";
 
-// Reads the command line (`x_svc --help`), opens the transport, runs the service until it is stopped (SIGTERM
-// and SIGINT stop it cleanly). Returns a process exit code (docs/exit-codes.md); errors go to standard error
-// with their remedy.
-int service_main(int argc, char** argv, const std::string& name, MakeService* make);
-
-struct ServiceOptions;
-class StopSignals;
-
-// The same for a process that opens its nodes itself, one after the other.
-using RunProcess = void(const ServiceOptions&, StopSignals&);
-int service_main(int argc, char** argv, const std::string& name, RunProcess* run);
-
-// One node, one service, until it is stopped.
-void run_service(const ServiceOptions&, StopSignals&, MakeService* make);
+/// In the run folder: the outcome of a run, with `format`, the version of its schema (docs/formats.md). It
+/// rises when a key changes its meaning or goes; a summary without it is of version 1.
+inline constexpr char kSummaryFile[] = "summary.json";
+inline constexpr int kSummaryFormat = 1;
 
 }  // namespace roci::services

@@ -8,70 +8,67 @@
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
 #include "roci_idl/motion.h"
+#include "roci_idl/order.h"
 #include "roci_idl/plan.h"
 #include "roci_idl/planner.h"
 #include "roci_idl/rpc.h"
 #include "roci_idl/standby.h"
-#include "services/transport.hpp"
+#include "services/transport/qos.hpp"
 
 namespace roci::services {
-
-enum class Clocking { clocked, wall };
 
 template <class T>
 struct Topic {
   const char* name;
   const char* type_name;
-  Qos qos;
-  Clocking clocking;
+  transport::Qos qos;
+  transport::Clocking clocking;
 };
 
 namespace topics {
 
-using enum Clocking;
+using enum transport::Clocking;
+using transport::Qos;
 
-inline constexpr Topic<v1::ClockReady> clock_ready{"roci/clock/ready", "roci::v1::ClockReady", Qos::state,
-                                                   wall};
-inline constexpr Topic<v1::ClockStep> clock_step{"roci/clock/step", "roci::v1::ClockStep", Qos::state, wall};
-inline constexpr Topic<v1::ClockDone> clock_done{"roci/clock/done", "roci::v1::ClockDone", Qos::state, wall};
-inline constexpr Topic<v1::Heartbeat> heartbeat{"roci/heartbeat", "roci::v1::Heartbeat", Qos::state, wall};
+// clang-format off
 
-inline constexpr Topic<v1::ExecMember> exec_member{"roci/exec/member", "roci::v1::ExecMember", Qos::state,
-                                                   wall};
-inline constexpr Topic<v1::JournalParcel> exec_journal{"roci/exec/journal", "roci::v1::JournalParcel",
-                                                       Qos::request, wall};
+inline constexpr Topic<v1::ClockReady>    clock_ready   {"roci/clock/ready",      "roci::v1::ClockReady",    Qos::state, wall};
+inline constexpr Topic<v1::ClockStep>     clock_step    {"roci/clock/step",       "roci::v1::ClockStep",     Qos::state, wall};
+inline constexpr Topic<v1::ClockDone>     clock_done    {"roci/clock/done",       "roci::v1::ClockDone",     Qos::state, wall};
+inline constexpr Topic<v1::Heartbeat>     heartbeat     {"roci/heartbeat",        "roci::v1::Heartbeat",     Qos::state, wall};
+inline constexpr Topic<v1::TimeProbe>     time_probe    {"roci/clock/probe",      "roci::v1::TimeProbe",     Qos::stream, wall};
 
-inline constexpr Topic<v1::Event> event{"roci/event", "roci::v1::Event", Qos::event, clocked};
-inline constexpr Topic<v1::Goal> goal{"roci/goal", "roci::v1::Goal", Qos::state, clocked};
-inline constexpr Topic<v1::GoalStatus> goal_status{"roci/goal/status", "roci::v1::GoalStatus", Qos::state,
-                                                   clocked};
-inline constexpr Topic<v1::Command> command{"roci/command", "roci::v1::Command", Qos::request, clocked};
-inline constexpr Topic<v1::CommandAck> command_ack{"roci/command/ack", "roci::v1::CommandAck", Qos::state,
-                                                   clocked};
-inline constexpr Topic<v1::Observation> observation{"roci/observation", "roci::v1::Observation", Qos::state,
-                                                    clocked};
-inline constexpr Topic<v1::DataProduct> data_product{"roci/product", "roci::v1::DataProduct", Qos::state,
-                                                     clocked};
-inline constexpr Topic<v1::Hazard> hazard{"roci/hazard", "roci::v1::Hazard", Qos::state, clocked};
-inline constexpr Topic<v1::Plan> plan{"roci/plan", "roci::v1::Plan", Qos::state, clocked};
-inline constexpr Topic<v1::StepStatus> step_status{"roci/plan/step", "roci::v1::StepStatus", Qos::state,
-                                                   clocked};
-inline constexpr Topic<v1::MissionStatus> mission_status{"roci/mission", "roci::v1::MissionStatus",
-                                                         Qos::state, clocked};
-inline constexpr Topic<v1::FunctionOffer> function_offer{"roci/function/offer", "roci::v1::FunctionOffer",
-                                                         Qos::state, clocked};
+inline constexpr Topic<v1::LeaseMessage>  exec_member   {"roci/exec/member",      "roci::v1::LeaseMessage",  Qos::state, wall};
+inline constexpr Topic<v1::JournalChunk>  exec_journal  {"roci/exec/journal",     "roci::v1::JournalChunk",  Qos::request, wall};
 
-// With an engine that plans all the time.
-inline constexpr Topic<v1::PlanDelta> plan_delta{"roci/planner/delta", "roci::v1::PlanDelta", Qos::request,
-                                                 clocked};
-inline constexpr Topic<v1::PlanReceipt> plan_receipt{"roci/planner/receipt", "roci::v1::PlanReceipt",
-                                                     Qos::state, clocked};
+inline constexpr Topic<v1::Event>         event         {"roci/event",            "roci::v1::Event",         Qos::event, clocked};
+inline constexpr Topic<v1::Goal>          goal          {"roci/goal",             "roci::v1::Goal",          Qos::state, clocked};
+inline constexpr Topic<v1::GoalStatus>    goal_status   {"roci/goal/status",      "roci::v1::GoalStatus",    Qos::state, clocked};
+inline constexpr Topic<v1::Command>       command       {"roci/command",          "roci::v1::Command",       Qos::request, clocked};
+inline constexpr Topic<v1::CommandAck>    command_ack   {"roci/command/ack",      "roci::v1::CommandAck",    Qos::state, clocked};
+inline constexpr Topic<v1::Observation>   observation   {"roci/observation",      "roci::v1::Observation",   Qos::state, clocked};
+inline constexpr Topic<v1::DataProduct>   data_product  {"roci/product",          "roci::v1::DataProduct",   Qos::state, clocked};
+inline constexpr Topic<v1::Hazard>        hazard        {"roci/hazard",           "roci::v1::Hazard",        Qos::state, clocked};
+inline constexpr Topic<v1::Plan>          plan          {"roci/plan",             "roci::v1::Plan",          Qos::state, clocked};
+inline constexpr Topic<v1::StepStatus>    step_status   {"roci/plan/step",        "roci::v1::StepStatus",    Qos::state, clocked};
+inline constexpr Topic<v1::MissionStatus> mission_status{"roci/mission",          "roci::v1::MissionStatus", Qos::state, clocked};
+inline constexpr Topic<v1::FunctionOffer> function_offer{"roci/function/offer",   "roci::v1::FunctionOffer", Qos::state, clocked};
 
-// Of every procedure below.
-inline constexpr Topic<v1::CallCancel> call_cancel{"roci/call/cancel", "roci::v1::CallCancel", Qos::request,
-                                                   clocked};
+// Orders from the ground, and open decisions of the running plan with their answers.
+inline constexpr Topic<v1::Order>         order         {"roci/order",            "roci::v1::Order",         Qos::state, clocked};
+inline constexpr Topic<v1::OrderStatus>   order_status  {"roci/order/status",     "roci::v1::OrderStatus",   Qos::state, clocked};
+inline constexpr Topic<v1::Decision>      decision      {"roci/decision",         "roci::v1::Decision",      Qos::state, clocked};
+inline constexpr Topic<v1::DecisionAnswer>  decision_answer {"roci/decision/answer",  "roci::v1::DecisionAnswer",  Qos::state, clocked};
+inline constexpr Topic<v1::DecisionReceipt> decision_receipt{"roci/decision/receipt", "roci::v1::DecisionReceipt", Qos::state, clocked};
 
-// A remote procedure: a pair of topics with the DDS-RPC headers.
+// An engine that plans all the time uses these.
+inline constexpr Topic<v1::PlanDelta>     plan_delta    {"roci/planner/delta",    "roci::v1::PlanDelta",     Qos::request, clocked};
+inline constexpr Topic<v1::PlanReceipt>   plan_receipt  {"roci/planner/receipt",  "roci::v1::PlanReceipt",   Qos::state, clocked};
+
+// Every procedure below uses this.
+inline constexpr Topic<v1::CallCancel>    call_cancel   {"roci/call/cancel",      "roci::v1::CallCancel",    Qos::request, clocked};
+
+/// A remote procedure is a pair of topics with the DDS-RPC headers.
 template <class Request, class Reply>
 struct Procedure {
   Topic<Request> request;
@@ -90,6 +87,8 @@ inline constexpr Procedure<v1::PathRequest, v1::PathReply> path_request{
 inline constexpr Procedure<v1::ArmMotionRequest, v1::ArmMotionReply> arm_motion{
     {"roci/arm/request", "roci::v1::ArmMotionRequest", Qos::request, clocked},
     {"roci/arm/reply", "roci::v1::ArmMotionReply", Qos::request, clocked}};
+
+// clang-format on
 
 }  // namespace topics
 }  // namespace roci::services

@@ -1,19 +1,19 @@
 #pragma once
 #include <utility>
 
-#include "services/job_queue.hpp"
 #include "services/node.hpp"
+#include "services/node/job_queue.hpp"
 
 namespace roci::services {
 
-// Long computations beside the event loop: one thread, jobs in the order in which they were given; the
-// simulated clock waits for them. Make it the last member of a service: its thread ends before what the jobs
-// use.
+/// Runs long computations beside the event loop, on one thread, in the order in which they were given; the
+/// simulated clock waits for them. Make it the last member of a service: its thread ends before what the jobs
+/// use.
 class Worker {
  public:
   explicit Worker(Node& node) : node_(node) {}
 
-  // `work(stop_token)` runs on the thread, then `deliver(its result)` on the loop.
+  /// `work(stop_token)` runs on the thread, then `deliver(its result)` on the loop.
   template <class Work, class Deliver>
   void compute(Work work, Deliver deliver) {
     const auto id = node_.begin_work();
@@ -27,7 +27,7 @@ class Worker {
 
  private:
   Node& node_;
-  JobQueue jobs_;
+  node::JobQueue jobs_;
 };
 
 }  // namespace roci::services

@@ -6,18 +6,38 @@
 #include <optional>
 #include <utility>
 
+#include "services/owner/command_server.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
-#include "sim_svc/setup_file.hpp"
+#include "sim_svc/scenario/run_file.hpp"
 #include "sim_svc/wire_service.hpp"
 
 namespace roci::sim {
+
+using scenario::GoalStimulus;
+using scenario::HazardStimulus;
+using scenario::RecallStimulus;
+using scenario::RunSetup;
+using scenario::Scenario;
+using scenario::Stimulus;
+using temporal::Duration;
+using temporal::Time;
+using world::Answer;
+using world::Failure;
+using world::Image;
+using world::MotionWanted;
+using world::Observed;
+using world::PathWanted;
+using world::RockSeen;
+using world::TaskReport;
+using world::TaskStage;
+
 namespace {
 
 namespace topics = services::topics;
+namespace owner = services::owner;
 
-constexpr char kPathPlanner[] = "pathplan_svc";
-constexpr char kArmPlanner[] = "arm_svc";
+constexpr char kGround[] = "ground";  // who tells of hazards that the scenario states
 constexpr Duration kCallDeadline = std::chrono::seconds(30);
 constexpr Duration kFarewell = std::chrono::seconds(1);  // from the mission's outcome to the end of the run
 
@@ -26,7 +46,7 @@ struct Match : Cases... {
   using Cases::operator()...;
 };
 
-class SimService final : public services::Service {
+class SimService final : public services::Service, private owner::Driver {
  public:
   SimService(services::Node& node, RunSetup run, const services::RunSettings& settings)
       : node_(node),
@@ -36,16 +56,13 @@ class SimService final : public services::Service {
         world_(std::move(run.world), settings.seed),
         paths_(services::make_client(node, topics::path_request)),
         motions_(services::make_client(node, topics::arm_motion)),
-        acks_(services::advertise(node, topics::command_ack)),
+        commands_(node, *this),
         observations_(services::advertise(node, topics::observation)),
         products_(services::advertise(node, topics::data_product)),
         hazards_(services::advertise(node, topics::hazard)),
         goals_(services::advertise(node, topics::goal)),
         events_(services::advertise(node, topics::event)) {
-    services::subscribe(node, topics::command, [this](const v1::Command& command) {
-      if (command.owner() == node_.options().name)
-        tell(world_.command(node_.now(), wire::from_wire(command)));
-    });
+    commands_.leave_stops_to_driver();  // the world knows its components
     services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
       mission_over_ = !status.outcome().empty();
       end_if_over();
@@ -61,10 +78,21 @@ class SimService final : public services::Service {
   }
 
  private:
+  void catch_up() override { tell(world_.advance(node_.now())); }
+
+  void carry_out(const owner::Request& request) override {
+    tell(world_.begin(node_.now(), wire::order_of(request)));
+  }
+
+  void break_off(const owner::CommandKey& key, const owner::Word& why) override {
+    const TaskStage stage = why.stage == owner::Stage::failed ? TaskStage::failed : TaskStage::cancelled;
+    tell(world_.halt(node_.now(), wire::task_key(key), stage, {why.code, why.reason}));
+  }
+
   // Sends what the world says and wakes up again when it may say more.
-  void tell(const std::vector<Output>& outputs) {
-    for (const Output& output : outputs) {
-      std::visit(Match{[this](const Ack& ack) { acks_.write(wire::to_wire(ack, node_.options().name)); },
+  void tell(const world::Outputs& outputs) {
+    for (const world::Output& output : outputs) {
+      std::visit(Match{[this](const TaskReport& task) { report(task); },
                        [this](const Observed& observed) { observations_.write(wire::to_wire(observed)); },
                        [this](const Image& image) { products_.write(wire::to_wire(image)); },
                        [this](const RockSeen& rock) { warn_of(rock); },
@@ -82,35 +110,45 @@ class SimService final : public services::Service {
     });
   }
 
+  void report(const TaskReport& task) {
+    if (task.stage == TaskStage::repairing) {
+      commands_.repair(wire::command_key(task.key), task.reason);
+    } else {
+      commands_.say(wire::command_key(task.key), wire::word_of(task));
+    }
+  }
+
   void warn_of(const RockSeen& rock) {
-    hazards_.write(wire::to_wire(rock));
+    hazards_.write(wire::to_wire(rock, node_.options().name));
     announce(v1::SEVERITY_WARNING, "hazard.seen",
              "a rock that the map does not show lies on the way (" + rock.id + ")");
   }
 
   void ask(const PathWanted& path) {
-    paths_.call(wire::to_wire(path), kPathPlanner, kCallDeadline,
+    paths_.call(wire::to_wire(path), path.service, kCallDeadline,
                 [this, key = path.key](const services::CallResult<v1::PathReply>& result) {
                   const auto refused = refusal(result, "path");
-                  tell(refused ? world_.path_refused(node_.now(), key, *refused)
-                               : world_.path_found(node_.now(), key, wire::way_of(result.reply)));
+                  tell(world_.answer(node_.now(), key,
+                                     refused ? Answer(*refused) : Answer(wire::way_of(result.reply))));
                 });
   }
 
   void ask(const MotionWanted& motion) {
-    motions_.call(wire::to_wire(motion), kArmPlanner, kCallDeadline,
-                  [this, key = motion.key](const services::CallResult<v1::ArmMotionReply>& result) {
-                    const auto refused = refusal(result, "motion");
-                    tell(refused ? world_.motion_refused(node_.now(), key, *refused)
-                                 : world_.motion_found(node_.now(), key, wire::trajectory_of(result.reply)));
-                  });
+    motions_.call(
+        wire::to_wire(motion), motion.service, kCallDeadline,
+        [this, key = motion.key](const services::CallResult<v1::ArmMotionReply>& result) {
+          const auto refused = refusal(result, "motion");
+          tell(world_.answer(node_.now(), key,
+                             refused ? Answer(*refused) : Answer(wire::trajectory_of(result.reply))));
+        });
   }
 
   // Why a call gave nothing to follow: "no-path" when there is none, "path-call" when nobody said so.
   template <class Reply>
   static std::optional<Failure> refusal(const services::CallResult<Reply>& result, const std::string& what) {
-    if (result.status != services::CallStatus::ok) {
-      return Failure{what + "-call", std::string(services::to_string(result.status)) + ": " + result.message};
+    if (result.status != services::rpc::CallStatus::ok) {
+      return Failure{what + "-call",
+                     std::string(services::rpc::to_string(result.status)) + ": " + result.reason};
     }
     if (result.reply.outcome() != v1::MOTION_FOUND) return Failure{"no-" + what, result.reply.reason()};
     return std::nullopt;
@@ -118,20 +156,22 @@ class SimService final : public services::Service {
 
   void stimulate(const Stimulus& stimulus) {
     ++stimuli_done_;
-    std::visit(
-        Match{[this](const GoalStimulus& goal) {
-                uploaded_[{goal.issuer, goal.id}] = &goal;
-                goals_.write(wire::to_wire(goal, false));
-              },
-              [this](const RecallStimulus& recall) {
-                goals_.write(wire::to_wire(*uploaded_.at({recall.issuer, recall.id}), true));
-              },
-              [this](const HazardStimulus& hazard) {
-                const Rock& rock = hazard.rock;
-                hazards_.write(wire::to_wire(RockSeen{hazard.id, rock.x, rock.y, rock.radius, node_.now()}));
-              },
-              [this](const Disturbance& disturbance) { tell(world_.disturb(node_.now(), disturbance)); }},
-        stimulus.what);
+    std::visit(Match{[this](const GoalStimulus& goal) {
+                       uploaded_[{goal.issuer, goal.id}] = &goal;
+                       goals_.write(wire::to_wire(goal, false));
+                     },
+                     [this](const RecallStimulus& recall) {
+                       goals_.write(wire::to_wire(*uploaded_.at({recall.issuer, recall.id}), true));
+                     },
+                     [this](const HazardStimulus& hazard) {
+                       const world::Rock& rock = hazard.rock;
+                       hazards_.write(wire::to_wire(
+                           RockSeen{hazard.id, "", rock.x, rock.y, rock.radius, node_.now()}, kGround));
+                     },
+                     [this](const world::Disturbance& disturbance) {
+                       tell(world_.disturb(node_.now(), disturbance));
+                     }},
+               stimulus.what);
     end_if_over();
   }
 
@@ -162,8 +202,11 @@ class SimService final : public services::Service {
   // What was really done, for whoever asks after the run whether anything was done twice.
   void report_begun() const {
     nlohmann::json report = nlohmann::json::array();
-    for (const Begun& one : world_.begun()) {
+    for (const world::Begun& one : world_.begun()) {
       report.push_back({{"time_us", one.at.count()},
+                        {"robot", one.robot},
+                        {"component", one.component},
+                        {"commander", one.task.key.commander},
                         {"activity", one.task.key.activity},
                         {"attempt", one.task.key.attempt},
                         {"command", one.task.command},
@@ -185,11 +228,11 @@ class SimService final : public services::Service {
   services::Node& node_;
   const Scenario scenario_;
   const std::filesystem::path run_folder_;
-  EventOrder order_;
-  World world_;
+  scenario::EventOrder order_;
+  world::World world_;
   services::Client<v1::PathRequest, v1::PathReply> paths_;
   services::Client<v1::ArmMotionRequest, v1::ArmMotionReply> motions_;
-  services::Publisher<v1::CommandAck> acks_;
+  owner::CommandServer commands_;
   services::Publisher<v1::Observation> observations_;
   services::Publisher<v1::DataProduct> products_;
   services::Publisher<v1::Hazard> hazards_;
@@ -205,7 +248,8 @@ class SimService final : public services::Service {
 }  // namespace
 
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
-  return std::make_unique<SimService>(node, load_run(settings.mission, settings.scenario), settings);
+  return std::make_unique<SimService>(node, scenario::load_run(settings.mission_file(), settings.scenario),
+                                      settings);
 }
 
 }  // namespace roci::sim

@@ -5,44 +5,32 @@
 namespace roci::sim::wire {
 namespace {
 
-Action action_of(v1::CommandAction action) {
-  switch (action) {
-    case v1::COMMAND_CANCEL:
-      return Action::cancel;
-    case v1::COMMAND_QUERY:
-      return Action::query;
-    default:
-      return Action::execute;
-  }
-}
+namespace owner = services::owner;
 
-v1::CommandStage stage_of(Stage stage) {
+owner::Stage stage_of(world::TaskStage stage) {
   switch (stage) {
-    case Stage::accepted:
-      return v1::COMMAND_ACCEPTED;
-    case Stage::rejected:
-      return v1::COMMAND_REJECTED;
-    case Stage::completed:
-      return v1::COMMAND_COMPLETED;
-    case Stage::failed:
-      return v1::COMMAND_FAILED;
-    case Stage::cancelled:
-      return v1::COMMAND_CANCELLED;
-    case Stage::cancel_failed:
-      return v1::COMMAND_CANCEL_FAILED;
-    case Stage::unknown:
+    case world::TaskStage::rejected:
+      return owner::Stage::rejected;
+    case world::TaskStage::completed:
+      return owner::Stage::completed;
+    case world::TaskStage::failed:
+      return owner::Stage::failed;
+    case world::TaskStage::cancelled:
+      return owner::Stage::cancelled;
+    case world::TaskStage::accepted:
+    case world::TaskStage::repairing:
       break;
   }
-  return v1::COMMAND_UNKNOWN;
+  return owner::Stage::accepted;
 }
 
-v1::GoalClass class_of(Importance importance) {
+v1::GoalClass class_of(scenario::Importance importance) {
   switch (importance) {
-    case Importance::hard:
+    case scenario::Importance::hard:
       return v1::GOAL_HARD;
-    case Importance::optional:
+    case scenario::Importance::optional:
       return v1::GOAL_OPTIONAL;
-    case Importance::opportunistic:
+    case scenario::Importance::opportunistic:
       break;
   }
   return v1::GOAL_OPPORTUNISTIC;
@@ -50,45 +38,41 @@ v1::GoalClass class_of(Importance importance) {
 
 }  // namespace
 
-Request from_wire(const v1::Command& command) {
-  Request request;
-  request.key = {command.activity(), command.attempt()};
-  request.action = action_of(command.action());
-  request.component = command.subsystem();
-  request.command = command.command_name();
-  for (const v1::Property& argument : command.arguments()) {
-    request.arguments[argument.name()] = argument.value();
-  }
-  request.epoch = command.epoch();
-  return request;
+world::TaskKey task_key(const owner::CommandKey& key) {
+  return {key.activity, key.attempt, key.commander, key.issued_epoch};
 }
 
-std::vector<terrain::Point> way_of(const v1::PathReply& reply) {
-  std::vector<terrain::Point> way;
-  for (const v1::Pose2& waypoint : reply.waypoints()) way.push_back({waypoint.x_m(), waypoint.y_m()});
+owner::CommandKey command_key(const world::TaskKey& key) {
+  return {key.activity, key.attempt, key.commander, key.epoch};
+}
+
+world::Order order_of(const owner::Request& request) {
+  return {request.robot,
+          request.subsystem,
+          {task_key(request.key), request.command, request.arguments, request.latest_end}};
+}
+
+owner::Word word_of(const world::TaskReport& report) {
+  owner::Word word{stage_of(report.stage), report.code, report.reason, {}};
+  if (report.results)
+    word.results = {report.results->duration, report.results->energy_j, report.results->values};
+  return word;
+}
+
+world::Way way_of(const v1::PathReply& reply) {
+  world::Way way;
+  for (const v1::Pose2& waypoint : reply.waypoints()) way.points.push_back({waypoint.x_m(), waypoint.y_m()});
   return way;
 }
 
-std::vector<JointTarget> trajectory_of(const v1::ArmMotionReply& reply) {
-  std::vector<JointTarget> targets;
+world::Trajectory trajectory_of(const v1::ArmMotionReply& reply) {
+  world::Trajectory out;
   for (const v1::JointState& state : reply.trajectory())
-    targets.push_back({state.time_s(), state.positions()});
-  return targets;
-}
-
-v1::CommandAck to_wire(const Ack& ack, const std::string& owner) {
-  v1::CommandAck out;
-  out.activity(ack.key.activity);
-  out.attempt(ack.key.attempt);
-  out.stage(stage_of(ack.stage));
-  out.owner(owner);
-  out.code(ack.code);
-  out.reason(ack.reason);
-  out.refused_epoch(ack.refused_epoch);
+    out.targets.push_back({state.time_s(), state.positions()});
   return out;
 }
 
-v1::Observation to_wire(const Observed& observed) {
+v1::Observation to_wire(const world::Observed& observed) {
   v1::Observation out;
   out.timeline(observed.timeline);
   out.observed(services::wire::to_wire(observed.value));
@@ -96,21 +80,24 @@ v1::Observation to_wire(const Observed& observed) {
   return out;
 }
 
-v1::DataProduct to_wire(const Image& image) {
+v1::DataProduct to_wire(const world::Image& image) {
   v1::DataProduct out;
   out.id(image.id);
   out.product_kind("image");
   out.source(image.source);
   out.bytes(image.bytes);
-  out.state(image.sent ? v1::PRODUCT_SENT : v1::PRODUCT_STORED);
+  out.fate(image.sent ? v1::PRODUCT_SENT : v1::PRODUCT_STORED);
+  out.tier(v1::TIER_MANDATORY);
+  out.created_us(image.taken.count());
   out.x_m(image.taken_from.x);
   out.y_m(image.taken_from.y);
   out.preview(image.preview);
   return out;
 }
 
-v1::Hazard to_wire(const RockSeen& rock) {
+v1::Hazard to_wire(const world::RockSeen& rock, const std::string& finder) {
   v1::Hazard out;
+  out.found_by(finder);
   out.id(rock.id);
   out.x_m(rock.x);
   out.y_m(rock.y);
@@ -118,7 +105,7 @@ v1::Hazard to_wire(const RockSeen& rock) {
   return out;
 }
 
-v1::PathRequest to_wire(const PathWanted& path) {
+v1::PathRequest to_wire(const world::PathWanted& path) {
   v1::PathRequest out;
   out.origin().x_m(path.from.x);
   out.origin().y_m(path.from.y);
@@ -128,7 +115,7 @@ v1::PathRequest to_wire(const PathWanted& path) {
   return out;
 }
 
-v1::ArmMotionRequest to_wire(const MotionWanted& motion) {
+v1::ArmMotionRequest to_wire(const world::MotionWanted& motion) {
   v1::ArmMotionRequest out;
   out.from_pose(motion.from);
   out.from_positions(motion.joints);
@@ -136,7 +123,7 @@ v1::ArmMotionRequest to_wire(const MotionWanted& motion) {
   return out;
 }
 
-v1::Goal to_wire(const GoalStimulus& goal, bool recalled) {
+v1::Goal to_wire(const scenario::GoalStimulus& goal, bool recalled) {
   v1::Goal out;
   out.issuer(goal.issuer);
   out.id(goal.id);
@@ -148,7 +135,8 @@ v1::Goal to_wire(const GoalStimulus& goal, bool recalled) {
     out.arguments().push_back(argument);
   }
   out.importance(class_of(goal.importance));
-  out.utility(goal.utility);
+  out.utility({goal.utility});
+  out.preferred_us(-1);
   out.priority(goal.priority);
   out.opens_us(goal.opens.count());
   out.closes_us(goal.closes.count());

@@ -8,22 +8,26 @@
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
 #include "roci_idl/motion.h"
-#include "sim_svc/scenario.hpp"
-#include "sim_svc/world.hpp"
+#include "services/owner/command.hpp"
+#include "sim_svc/scenario/scenario.hpp"
+#include "sim_svc/world/world.hpp"
 
 namespace roci::sim::wire {
 
-Request from_wire(const v1::Command&);
-std::vector<terrain::Point> way_of(const v1::PathReply&);
-std::vector<JointTarget> trajectory_of(const v1::ArmMotionReply&);
+world::TaskKey task_key(const services::owner::CommandKey&);
+services::owner::CommandKey command_key(const world::TaskKey&);
+world::Order order_of(const services::owner::Request&);
+/// The owner's word on a task; a report of a repair is none (CommandServer::repair).
+services::owner::Word word_of(const world::TaskReport&);
+world::Way way_of(const v1::PathReply&);
+world::Trajectory trajectory_of(const v1::ArmMotionReply&);
 
-v1::CommandAck to_wire(const Ack&, const std::string& owner);
-v1::Observation to_wire(const Observed&);
-v1::DataProduct to_wire(const Image&);
-v1::Hazard to_wire(const RockSeen&);
-v1::PathRequest to_wire(const PathWanted&);
-v1::ArmMotionRequest to_wire(const MotionWanted&);
-v1::Goal to_wire(const GoalStimulus&, bool recalled);
+v1::Observation to_wire(const world::Observed&);
+v1::DataProduct to_wire(const world::Image&);
+v1::Hazard to_wire(const world::RockSeen&, const std::string& finder);
+v1::PathRequest to_wire(const world::PathWanted&);
+v1::ArmMotionRequest to_wire(const world::MotionWanted&);
+v1::Goal to_wire(const scenario::GoalStimulus&, bool recalled);
 v1::Event event(v1::Severity, const std::string& code, const std::string& text);
 
 }  // namespace roci::sim::wire

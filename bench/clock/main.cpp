@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "services/clock/wall.hpp"
-#include "services/domain_claim.hpp"
 #include "services/launch/child.hpp"
+#include "services/process/domain_claim.hpp"
 #include "services/publisher.hpp"
-#include "services/transport.hpp"
+#include "services/transport/plug_ins.hpp"
 
 namespace {
 
@@ -32,15 +32,15 @@ struct Arguments {
 };
 
 std::unique_ptr<Node> make_node(const Arguments& arguments, const std::string& name) {
-  NodeOptions options;
+  node::NodeOptions options;
   options.name = name;
-  options.clock = name == kNames.front() ? ClockMode::master : ClockMode::simulated;
+  options.clock = name == kNames.front() ? clock::ClockMode::master : clock::ClockMode::simulated;
   options.master.roster = kNames;
   options.vendor = arguments.dds;
-  TransportOptions transport;
+  transport::TransportOptions transport;
   transport.domain = arguments.domain;
   transport.participant = name;
-  return std::make_unique<Node>(options, open_transport(arguments.dds, transport));
+  return std::make_unique<Node>(options, transport::open_transport(arguments.dds, transport));
 }
 
 void follow(Node& node) {
@@ -52,15 +52,15 @@ void follow(Node& node) {
 }
 
 double run_master(Node& node, int rounds) {
-  wall::Instant begun;
-  wall::Instant ended;
+  clock::WallTime begun;
+  clock::WallTime ended;
   int round = 0;
   const auto questions = advertise(node, topics::event);
   subscribe(node, topics::observation, [](const roci::v1::Observation&) {});
   std::function<void()> tick = [&] {
-    if (round == 0) begun = wall::now();
+    if (round == 0) begun = clock::wall_now();
     if (++round > rounds) {
-      ended = wall::now();
+      ended = clock::wall_now();
       node.stop();
       return;
     }
@@ -82,9 +82,9 @@ double run_in_threads(const Arguments& arguments) {
 
 double run_in_processes(const Arguments& arguments) {
   const auto self = std::filesystem::read_symlink("/proc/self/exe");
-  std::vector<std::unique_ptr<roci::launch::Child>> children;
+  std::vector<std::unique_ptr<roci::services::launch::Child>> children;
   for (std::size_t i = 1; i < kNames.size(); ++i) {
-    children.push_back(std::make_unique<roci::launch::Child>(
+    children.push_back(std::make_unique<roci::services::launch::Child>(
         self,
         std::vector<std::string>{"bench_clock", "--dds", arguments.dds, "--domain", std::to_string(arguments.domain),
                                  "--role", kNames[i]},
@@ -94,7 +94,7 @@ double run_in_processes(const Arguments& arguments) {
 }
 
 int bench(Arguments arguments) {
-  const DomainClaim domain;
+  const process::DomainClaim domain;
   arguments.domain = domain.id();
   const bool threads = arguments.dds == "inproc";
   const double wall_s = threads ? run_in_threads(arguments) : run_in_processes(arguments);

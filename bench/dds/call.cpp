@@ -2,7 +2,7 @@
 
 #include "bench/dds/port.hpp"
 #include "services/rpc.hpp"
-#include "services/transport.hpp"
+#include "services/transport/plug_ins.hpp"
 
 namespace roci::bench {
 namespace {
@@ -10,12 +10,12 @@ namespace {
 using namespace std::chrono_literals;
 using services::topics::path_request;
 
-std::unique_ptr<services::Transport> open_transport(const std::string& vendor, int domain) {
-  return services::open_transport(vendor, {.domain = domain, .participant = "bench"});
+std::unique_ptr<services::transport::Transport> open_transport(const std::string& vendor, int domain) {
+  return services::transport::open_transport(vendor, {.domain = domain, .participant = "bench"});
 }
 
-services::NodeOptions node_options(const std::string& name) {
-  services::NodeOptions options;
+services::node::NodeOptions node_options(const std::string& name) {
+  services::node::NodeOptions options;
   options.name = name;
   return options;
 }
@@ -36,7 +36,7 @@ class CallingPort : public Port {
     bool answered = false;
     client_.call(request, "", 10s, [&](const services::CallResult<v1::PathReply>& result) {
       ended = true;
-      answered = result.status == services::CallStatus::ok;
+      answered = result.status == services::rpc::CallStatus::ok;
       if (answered) on_ball_({ball.sequence, result.reply.length_m(), 0});
     });
     while (!ended) node_.spin_once(100ms);

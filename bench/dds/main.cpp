@@ -19,7 +19,7 @@
 #include <thread>
 
 #include "bench/dds/port.hpp"
-#include "services/domain_claim.hpp"
+#include "services/process/domain_claim.hpp"
 #include "tests/contract/support/child_process.hpp"
 
 namespace roci::bench {
@@ -154,7 +154,7 @@ class Rally {
     while (mailbox_.take().sequence != sequence_) continue;
   }
 
-  services::DomainClaim domain_;
+  services::process::DomainClaim domain_;
   Mailbox mailbox_;
   ChildProcess server_;
   std::unique_ptr<Port> port_;

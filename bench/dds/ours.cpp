@@ -1,14 +1,14 @@
 #include "bench/dds/port.hpp"
 #include "roci_idl/function.h"
 #include "roci_idl/motion.h"
-#include "services/transport.hpp"
-#include "services/type_support.hpp"
+#include "services/transport/plug_ins.hpp"
+#include "services/transport/type_support.hpp"
 
 namespace roci::bench {
 namespace {
 
-using services::QosSettings;
-using services::Sample;
+using services::transport::QosSettings;
+using services::transport::Sample;
 
 constexpr std::size_t kTuples = 1000;
 
@@ -58,21 +58,21 @@ Ball decode(const v1::FunctionReply& reply) {
   return {reply.reply().related_request_id().sequence_number(), 0, 0};
 }
 
-std::unique_ptr<services::Transport> open_transport(const std::string& vendor, int domain) {
-  return services::open_transport(vendor, {.domain = domain, .participant = "bench"});
+std::unique_ptr<services::transport::Transport> open_transport(const std::string& vendor, int domain) {
+  return services::transport::open_transport(vendor, {.domain = domain, .participant = "bench"});
 }
 
 template <class Request, class Reply>
 class OurPort : public Port {
  public:
-  OurPort(const std::string& vendor, PortOptions options, const services::TypeDescription& request,
-          const services::TypeDescription& reply)
+  OurPort(const std::string& vendor, PortOptions options, const services::transport::TypeDescription& request,
+          const services::transport::TypeDescription& reply)
       : client_(options.side == Side::client),
         on_ball_(std::move(options.on_ball)),
         transport_(open_transport(vendor, options.domain)) {
     const QosSettings qos{.history_depth = 0, .max_samples = 4096};
-    const services::EndpointDescription requests{"roci/bench/request", request, qos};
-    const services::EndpointDescription replies{"roci/bench/reply", reply, qos};
+    const services::transport::EndpointDescription requests{"roci/bench/request", request, qos};
+    const services::transport::EndpointDescription replies{"roci/bench/reply", reply, qos};
     writer_ = transport_->create_writer(client_ ? requests : replies, {});
     reader_ = transport_->create_reader(client_ ? replies : requests,
                                         {[this](Sample&& sample) { take(sample); }, {}});
@@ -85,34 +85,36 @@ class OurPort : public Port {
   bool write(const Ball& ball) {
     T value;
     encode(ball, value);
-    return writer_->write(services::serialize(value));
+    return writer_->write(services::transport::serialize(value));
   }
   template <class T>
   void read(const Sample& sample) {
     T value;
-    if (services::deserialize(sample.payload, value)) on_ball_(decode(value));
+    if (services::transport::deserialize(sample.payload, value)) on_ball_(decode(value));
   }
   void take(const Sample& sample) { client_ ? read<Reply>(sample) : read<Request>(sample); }
 
   const bool client_;
   const std::function<void(const Ball&)> on_ball_;
-  std::unique_ptr<services::Transport> transport_;
-  std::unique_ptr<services::Writer> writer_;
-  std::unique_ptr<services::Reader> reader_;
+  std::unique_ptr<services::transport::Transport> transport_;
+  std::unique_ptr<services::transport::Writer> writer_;
+  std::unique_ptr<services::transport::Reader> reader_;
 };
 
 }  // namespace
 
 std::unique_ptr<Port> open_ours(const std::string& vendor, PortOptions options) {
   return std::make_unique<OurPort<v1::PathRequest, v1::PathReply>>(
-      vendor, std::move(options), services::describe_type<v1::PathRequest>("roci::v1::PathRequest"),
-      services::describe_type<v1::PathReply>("roci::v1::PathReply"));
+      vendor, std::move(options),
+      services::transport::describe_type<v1::PathRequest>("roci::v1::PathRequest"),
+      services::transport::describe_type<v1::PathReply>("roci::v1::PathReply"));
 }
 
 std::unique_ptr<Port> open_ours_with_tuples(const std::string& vendor, PortOptions options) {
   return std::make_unique<OurPort<v1::FunctionRequest, v1::FunctionReply>>(
-      vendor, std::move(options), services::describe_type<v1::FunctionRequest>("roci::v1::FunctionRequest"),
-      services::describe_type<v1::FunctionReply>("roci::v1::FunctionReply"));
+      vendor, std::move(options),
+      services::transport::describe_type<v1::FunctionRequest>("roci::v1::FunctionRequest"),
+      services::transport::describe_type<v1::FunctionReply>("roci::v1::FunctionReply"));
 }
 
 }  // namespace roci::bench

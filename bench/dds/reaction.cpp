@@ -10,7 +10,7 @@
 #include "exec_svc/exec_service.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
-#include "services/transport.hpp"
+#include "services/transport/plug_ins.hpp"
 #include "services/wire/plan_wire.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
@@ -24,11 +24,11 @@ namespace topics = services::topics;
 constexpr std::size_t kActivities = 8000;
 
 std::unique_ptr<services::Node> open_node(const std::string& name, const std::string& vendor, int domain) {
-  services::NodeOptions options;
+  services::node::NodeOptions options;
   options.name = name;
   options.vendor = vendor;
   return std::make_unique<services::Node>(
-      options, services::open_transport(vendor, {.domain = domain, .participant = name}));
+      options, services::transport::open_transport(vendor, {.domain = domain, .participant = name}));
 }
 
 // Images one after the other; each waits for the camera to be observed idle after the one before.
@@ -98,7 +98,8 @@ class RobotPort : public Port {
       responder.reply(reply);
     });
     services::subscribe(*robot_, topics::command, [this](const v1::Command& command) { take(command); });
-    for (const exec::Observation& seen : exec::testing::standing_robot()) observe(seen.timeline, seen.value);
+    for (const exec::executive::Observation& seen : exec::testing::standing_robot())
+      observe(seen.timeline, seen.value);
     v1::Goal goal;
     goal.issuer("bench");
     goal.id("1");
@@ -123,7 +124,7 @@ class RobotPort : public Port {
     if (turn == kNoTurn) return false;
     ball_ = ball;
     robot_->post_work_result(turn, [this] {
-      answer(v1::COMMAND_COMPLETED);
+      answer(v1::STAGE_COMPLETED);
       observe("rover.camera", temporal::state("idle"));
     });
     return true;
@@ -142,6 +143,8 @@ class RobotPort : public Port {
 
   void answer(v1::CommandStage stage) {
     v1::CommandAck out;
+    out.commander(running_.commander());
+    out.epoch(running_.epoch());
     out.activity(running_.activity());
     out.attempt(running_.attempt());
     out.stage(stage);
@@ -153,7 +156,7 @@ class RobotPort : public Port {
     if (command.command_name() != "image" || command.action() != v1::COMMAND_EXECUTE) return;
     running_ = command;
     observe("rover.camera", temporal::state("imaging"));
-    answer(v1::COMMAND_ACCEPTED);
+    answer(v1::STAGE_ACCEPTED);
     const bool answers_a_ball = ball_.sequence != 0;
     const Ball ball = ball_;
     turn_ = robot_->begin_work();

@@ -25,15 +25,16 @@ double processor_us() {
 }
 
 // The owner's answers to come, by time.
-using Answers = std::multimap<Time, exec::CommandAck>;
+using Answers = std::multimap<Time, exec::executive::CommandAck>;
 
-void obey(const exec::Outputs& outputs, Time now, std::mt19937_64& random, Answers& answers) {
-  for (const exec::Command& command : outputs.commands) {
+void obey(const exec::executive::Outputs& outputs, Time now, std::mt19937_64& random, Answers& answers) {
+  for (const exec::executive::Command& command : outputs.commands) {
     const Duration lasts = temporal::seconds(10) + Duration{static_cast<std::int64_t>(random() % 2'000'000)};
-    answers.emplace(
-        now, exec::CommandAck{command.activity, command.attempt, exec::CommandStage::accepted, "", ""});
-    answers.emplace(now + lasts, exec::CommandAck{command.activity, command.attempt,
-                                                  exec::CommandStage::completed, "", ""});
+    answers.emplace(now, exec::executive::CommandAck{command.activity, command.attempt,
+                                                     exec::executive::CommandStage::accepted, "", ""});
+    answers.emplace(now + lasts,
+                    exec::executive::CommandAck{command.activity, command.attempt,
+                                                exec::executive::CommandStage::completed, "", ""});
   }
 }
 
@@ -55,7 +56,7 @@ nlohmann::json figures(std::vector<double> us) {
 nlohmann::json measure(const std::string& shape, std::size_t size, std::size_t steps, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   temporal::FlexiblePlan plan = bench::plan_of(shape, size, random);
-  exec::Executive executive;
+  exec::executive::Executive executive;
   const double before = processor_us();
   if (const auto faults = executive.load(std::move(plan), Time{0}); !faults.empty())
     throw std::logic_error(shape + ": " + faults.front());
@@ -64,15 +65,15 @@ nlohmann::json measure(const std::string& shape, std::size_t size, std::size_t s
   std::vector<double> us;
   Time now{0};
   while (us.size() < steps) {
-    exec::Inputs inputs;
+    exec::executive::Inputs inputs;
     while (!answers.empty() && answers.begin()->first <= now)
       inputs.acks.push_back(std::move(answers.extract(answers.begin()).mapped()));
     const double begun = processor_us();
-    const exec::Outputs outputs = executive.step(now, inputs);
+    const exec::executive::Outputs outputs = executive.step(now, inputs);
     us.push_back(processor_us() - begun);
-    if (outputs.outcome.kind != exec::OutcomeKind::running) {
-      if (outputs.outcome.kind != exec::OutcomeKind::finished)
-        throw std::logic_error(shape + ": the plan broke: " + outputs.outcome.cause);
+    if (outputs.outcome.kind != exec::executive::OutcomeKind::running) {
+      if (outputs.outcome.kind != exec::executive::OutcomeKind::finished)
+        throw std::logic_error(shape + ": the plan broke: " + outputs.outcome.reason);
       break;
     }
     obey(outputs, now, random, answers);

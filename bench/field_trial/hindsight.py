@@ -17,8 +17,8 @@ from flights import MISSION_WORK, Flight, Programs, lay_out_mission, rehearse
 from scenarios import PREDICTED_WINDOWS, UPLOAD_S, Goal, Rock, Scenario
 
 MODEL_SPEED_M_S = 0.1  # mission.yaml: rover.speed_m_s
-TRUE_SPEED_M_S = 0.105  # simulation.drive.wheel_speed_m_s, before slip
-IDLE_W = 14  # simulation.power.idle_w
+TRUE_SPEED_M_S = 0.105  # wheel_speed_m_s of nav in simulation, before slip
+IDLE_W = 14  # power.idle_w in simulation
 Known = list[tuple[float, Goal]]  # with the time from which it is known
 LARGEST = 4  # optional and opportunistic goals of an instance that is enumerated
 

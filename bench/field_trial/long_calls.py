@@ -13,7 +13,7 @@ from flights import Call, Programs
 
 MOST = 60  # calls that are repeated
 LONG_S = 2.0  # R61
-IMPROVE = 400  # evaluations for better plans, as in planner_svc/planning_call.cpp
+IMPROVE = 400  # evaluations for better plans, as in planner_svc/temporal_pddl/adapter/planning_call.cpp
 
 
 @dataclass

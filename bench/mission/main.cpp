@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "services/clock/wall.hpp"
-#include "services/domain_claim.hpp"
 #include "services/launch/child.hpp"
 #include "services/launch/process_plan.hpp"
+#include "services/process/domain_claim.hpp"
 #include "services/publisher.hpp"
-#include "services/transport.hpp"
+#include "services/transport/plug_ins.hpp"
 
 namespace {
 
@@ -34,32 +34,32 @@ struct Arguments {
 };
 
 nlohmann::json fly(const Arguments& arguments, int seed, const fs::path& folder) {
-  const DomainClaim domain;
-  TransportOptions transport;
+  const process::DomainClaim domain;
+  transport::TransportOptions transport;
   transport.domain = domain.id();
   transport.participant = "bench";
-  NodeOptions options;
+  node::NodeOptions options;
   options.name = "bench";
-  options.clock = ClockMode::observer;
-  options.vendor = roci::launch::vendor_of(roci::launch::kConsole, arguments.dds);
-  Node node(options, open_transport(options.vendor, transport));
-  std::optional<wall::Instant> first_command;
+  options.clock = clock::ClockMode::observer;
+  options.vendor = roci::services::launch::console_vendor(arguments.dds);
+  Node node(options, transport::open_transport(options.vendor, transport));
+  std::optional<clock::WallTime> first_command;
   subscribe(node, topics::command, [&first_command](const roci::v1::Command&) {
-    if (!first_command) first_command = wall::now();
+    if (!first_command) first_command = clock::wall_now();
   });
 
   const auto program = fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "bin" / "roci-launch";
   const fs::path run_folder = folder / ("seed-" + std::to_string(seed));
-  const auto begun = wall::now();
-  roci::launch::Child launcher(
+  const auto begun = clock::wall_now();
+  roci::services::launch::Child launcher(
       program,
       {"roci-launch", arguments.mission, "--scenario", arguments.scenario, "--dds", arguments.dds, "--speed",
        arguments.speed, "--seed", std::to_string(seed), "--domain", std::to_string(domain.id()), "--headless",
        "--run-folder", run_folder.string()},
       folder / "launcher.log");
-  std::optional<roci::launch::Ending> ending;
+  std::optional<roci::services::launch::Ending> ending;
   while (!(ending = launcher.ending())) node.spin_once(2ms);
-  const std::chrono::duration<double> wall_s = wall::now() - begun;
+  const std::chrono::duration<double> wall_s = clock::wall_now() - begun;
 
   std::ifstream in(run_folder / "summary.json");
   const auto summary = nlohmann::json::parse(in, nullptr, false);

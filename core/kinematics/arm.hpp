@@ -15,71 +15,73 @@ namespace roci::kinematics {
 inline constexpr int kMinJoints = 4;
 inline constexpr int kMaxJoints = 7;
 
-// One value per joint, base first.
+/// It holds one value per joint, base first.
 using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxJoints, 1>;
 
 enum class JointType { revolute, prismatic };
 
 struct JointLimits {
-  double lower = 0;         // rad or m
-  double upper = 0;         // rad or m
-  double velocity = 0;      // rad/s or m/s, > 0
-  double acceleration = 0;  // rad/s² or m/s², > 0
-  double effort = 0;        // N·m or N, > 0
+  double lower = 0;         ///< rad or m
+  double upper = 0;         ///< rad or m
+  double velocity = 0;      ///< rad/s or m/s, > 0
+  double acceleration = 0;  ///< rad/s² or m/s², > 0
+  double effort = 0;        ///< N·m or N, > 0
 };
 
 struct Joint {
   std::string name;
   JointType type = JointType::revolute;
-  Eigen::Isometry3d origin =
-      Eigen::Isometry3d::Identity();                // joint frame at coordinate 0, in the previous body
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // unit vector in the joint frame
+  /// The joint frame at coordinate 0, in the previous body.
+  Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< A unit vector in the joint frame.
   JointLimits limits;
-  double friction = 0;  // Coulomb friction, N·m or N
-  double damping = 0;   // viscous friction, N·m·s/rad or N·s/m
+  double friction = 0;  ///< Coulomb friction, N·m or N
+  double damping = 0;   ///< viscous friction, N·m·s/rad or N·s/m
 };
 
 struct Sphere {
   double radius = 0;
 };
 
-// Points within `radius` of a segment of `length` on the z axis, centred on the origin.
+/// A capsule is all points within `radius` of a segment of `length` on the z axis, centred on the origin.
 struct Capsule {
   double radius = 0;
   double length = 0;
 };
 
 struct Box {
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();  // full edge lengths, centred on the origin
+  /// Full edge lengths in m; the box is centred on the origin.
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();
 };
 
 struct CollisionShape {
-  std::string link;                                        // URDF link that the shape came from
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  // in the body's frame
+  std::string link;                                        ///< The URDF link that the shape came from.
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< The shape's, in the body's frame.
   std::variant<Sphere, Capsule, Box> form;
 };
 
 struct MassProperties {
   double mass = 0;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   // centre of mass in the body's frame
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the centre of mass, axes of the body's frame
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< Centre of mass in the body's frame, m.
+  /// About the centre of mass, in the axes of the body's frame, kg·m².
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
 };
 
 struct Body {
-  std::string name;  // first URDF link of the body
+  std::string name;  ///< The first URDF link of the body.
   MassProperties mass;
   std::vector<CollisionShape> shapes;
 };
 
 struct Arm {
   std::string name;
-  std::vector<Joint> joints;                               // kMinJoints..kMaxJoints
-  std::vector<Body> bodies;                                // joints.size() + 1
-  Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();  // tip link in the last body's frame
+  std::vector<Joint> joints;                               ///< kMinJoints..kMaxJoints
+  std::vector<Body> bodies;                                ///< joints.size() + 1
+  Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();  ///< The tip link in the last body's frame.
 };
 
-// Coordinates within the position limits, up to `tolerance`; false too for a vector of another size or with a
-// NaN.
+/// True if the coordinates lie within the position limits, up to `tolerance`; false also for a vector of
+/// another size or with a NaN.
 bool within_limits(const Arm& arm, const JointVector& q, double tolerance = 0.0);
 
 JointVector clamp_to_limits(const Arm& arm, const JointVector& q);

@@ -8,21 +8,23 @@
 
 namespace roci::kinematics {
 
-// Rows 0..2: velocity of the tool's origin, m/s; rows 3..5: angular velocity, rad/s; both in the base frame.
+/// Rows 0..2 are the velocity of the tool's origin, m/s; rows 3..5 its angular velocity, rad/s; both in the
+/// base frame.
 using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, kMaxJoints>;
 
-// Pose of every body in the base frame, body 0 first. `q` has one value per joint; limits are not looked at.
+/// Returns the pose of every body in the base frame, body 0 first. `q` has one value per joint; limits are
+/// not looked at.
 std::vector<Eigen::Isometry3d> body_poses(const Arm& arm, const JointVector& q);
 
 Eigen::Isometry3d tool_pose(const Arm& arm, const JointVector& q);
 
-// Tool pose and geometric Jacobian from body poses that body_poses() gave.
+/// These take body poses that body_poses() gave.
 Eigen::Isometry3d tool_pose(const Arm& arm, const std::vector<Eigen::Isometry3d>& bodies);
 Jacobian tool_jacobian(const Arm& arm, const std::vector<Eigen::Isometry3d>& bodies);
 
-// For each joint, an upper bound in m of how far any point of the arm moves per unit of that joint's
-// coordinate, over all coordinates within the limits. A straight joint-space step dq moves no point further
-// than bound·|dq|.
+/// Returns for each joint an upper bound in m of how far any point of the arm moves per unit of that joint's
+/// coordinate, over all coordinates within the limits. A straight joint-space step dq moves no point further
+/// than bound·|dq|.
 JointVector displacement_bounds(const Arm& arm);
 
 }  // namespace roci::kinematics

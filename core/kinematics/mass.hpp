@@ -5,10 +5,10 @@
 
 namespace roci::kinematics {
 
-// `part`, given in a frame whose pose in the wanted frame is `pose`, expressed in the wanted frame.
+/// Expresses `part`, given in a frame whose pose in the wanted frame is `pose`, in the wanted frame.
 MassProperties moved(const MassProperties& part, const Eigen::Isometry3d& pose);
 
-// Two parts of the same frame as one (parallel-axis theorem). Massless parts add nothing.
+/// Joins two parts of the same frame into one (parallel-axis theorem). Massless parts add nothing.
 MassProperties joined(const MassProperties& a, const MassProperties& b);
 
 }  // namespace roci::kinematics

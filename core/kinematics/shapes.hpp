@@ -5,10 +5,10 @@
 
 namespace roci::kinematics {
 
-// Radius in m of the smallest sphere about the shape's own origin that contains it.
+/// Returns the radius in m of the smallest sphere about the shape's own origin that contains it.
 double bounding_radius(const CollisionShape& shape);
 
-// The shape with its surface moved outwards by `margin` m (a box grows by the margin on each side).
+/// Returns the shape with its surface moved outwards by `margin` m (a box grows by the margin on each side).
 CollisionShape inflated(const CollisionShape& shape, double margin);
 
 }  // namespace roci::kinematics

@@ -15,21 +15,22 @@
 namespace roci::kinematics {
 
 struct UrdfOptions {
-  std::string tip;               // link that is the tool frame
-  double time_to_speed_s = 0.5;  // joints without an acceleration limit reach their speed limit in this time
+  std::string tip;  ///< The link that is the tool frame.
+  /// Joints without an acceleration limit reach their speed limit in this time
+  double time_to_speed_s = 0.5;
 };
 
 struct UrdfError {
   std::string file;
-  int line = 0;         // 1-based; 0: the document as a whole
-  std::string element;  // "joint 'elbow'", "robot", ...
-  std::string message;  // what is wrong and how to mend it
+  int line = 0;         ///< Counted from 1; 0 stands for the document as a whole.
+  std::string element;  ///< E.g. "joint 'elbow'" or "robot".
+  std::string message;  ///< It says what is wrong and how to mend it.
 };
 
-// "file:line: element: message"
+/// Returns "file:line: element: message".
 std::string to_string(const UrdfError& error);
 
-// `file` names the source in errors only.
+/// Reads an arm, or says why there is none. `file` names the source in errors only.
 std::variant<Arm, UrdfError> parse_urdf(const std::string& text, const std::string& file,
                                         const UrdfOptions& options);
 

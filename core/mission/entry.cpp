@@ -31,12 +31,14 @@ Entry Entry::load(const std::filesystem::path& file) {
   auto path = std::make_shared<const std::filesystem::path>(file);
   try {
     YAML::Node root = YAML::LoadFile(file.string());
-    if (!root.IsMap()) throw FileError(file.string() + ":1:1: the file holds no 'key: value' pairs; see docs/missions.md");
+    if (!root.IsMap())
+      throw FileError(file.string() + ":1:1: the file holds no 'key: value' pairs; see docs/missions.md");
     return Entry(path, root);
   } catch (const YAML::BadFile&) {
     throw FileError(file.string() + ": cannot be read; check that the file exists");
   } catch (const YAML::Exception& error) {
-    throw FileError(place_of(file, error.mark) + ": not valid YAML (" + error.msg + "); mend the syntax there");
+    throw FileError(place_of(file, error.mark) + ": not valid YAML (" + error.msg +
+                    "); mend the syntax there");
   }
 }
 
@@ -62,11 +64,14 @@ std::vector<Entry> Entry::items() const {
 std::vector<std::pair<std::string, Entry>> Entry::fields() const {
   if (!node().IsMap()) fail("expected 'key: value' pairs");
   std::vector<std::pair<std::string, Entry>> out;
-  for (const auto& child : node()) out.emplace_back(Entry(file_, child.first).text(), Entry(file_, child.second));
+  for (const auto& child : node())
+    out.emplace_back(Entry(file_, child.first).text(), Entry(file_, child.second));
   return out;
 }
 
 bool Entry::is_mapping() const { return node().IsMap(); }
+
+bool Entry::is_sequence() const { return node().IsSequence(); }
 
 std::string Entry::text() const {
   if (!node().IsScalar()) fail("expected a single value");
@@ -76,14 +81,16 @@ std::string Entry::text() const {
 double Entry::number() const {
   double value = 0;
   if (!node().IsScalar() || !YAML::convert<double>::decode(node(), value) || !std::isfinite(value)) {
-    fail("expected a finite number" + (node().IsScalar() ? ", not '" + node().Scalar() + "'" : std::string()));
+    fail("expected a finite number" +
+         (node().IsScalar() ? ", not '" + node().Scalar() + "'" : std::string()));
   }
   return value;
 }
 
 std::int64_t Entry::integer() const {
   std::int64_t value = 0;
-  if (!node().IsScalar() || !YAML::convert<std::int64_t>::decode(node(), value)) fail("expected a whole number");
+  if (!node().IsScalar() || !YAML::convert<std::int64_t>::decode(node(), value))
+    fail("expected a whole number");
   return value;
 }
 
@@ -130,6 +137,8 @@ std::string Entry::place() const { return place_of(*file_, node().Mark()); }
 
 const std::filesystem::path& Entry::file() const { return *file_; }
 
-std::filesystem::path Entry::resolve(const std::string& relative) const { return file_->parent_path() / relative; }
+std::filesystem::path Entry::resolve(const std::string& relative) const {
+  return file_->parent_path() / relative;
+}
 
 }  // namespace roci::mission

@@ -18,27 +18,31 @@ class Node;
 
 namespace roci::mission {
 
-// what() reads "file:line:column: what is wrong; remedy".
+/// It says in what(): "file:line:column: what is wrong; remedy".
 class FileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// One value of a mission file with its place in it. Every accessor throws FileError when the value is not of the
-// kind asked for.
+/// One value of a mission file with its place in it. Every accessor throws FileError when the value is not of
+/// the kind asked for.
 class Entry {
  public:
-  // The root of a file. Throws FileError if it cannot be read, is not YAML, or is not a mapping.
+  /// Reads the root of a file. Throws FileError if it cannot be read, is not YAML, or is not a mapping.
   static Entry load(const std::filesystem::path& file);
 
-  Entry at(std::string_view key) const;  // a missing key is an error
+  /// Returns the value of a key of a mapping; throws FileError if it is missing.
+  Entry at(std::string_view key) const;
   std::optional<Entry> find(std::string_view key) const;
-  std::vector<Entry> items() const;                            // of a sequence
-  std::vector<std::pair<std::string, Entry>> fields() const;   // of a mapping, in file order
+  /// Returns the items of a sequence.
+  std::vector<Entry> items() const;
+  /// Returns the fields of a mapping, in the order of the file.
+  std::vector<std::pair<std::string, Entry>> fields() const;
   bool is_mapping() const;
+  bool is_sequence() const;
 
   std::string text() const;
-  double number() const;  // finite
+  double number() const;  ///< It is finite.
   std::int64_t integer() const;
   bool truth() const;
   std::vector<std::string> texts() const;
@@ -47,12 +51,13 @@ class Entry {
   double number_or(std::string_view key, double fallback) const;
   bool truth_or(std::string_view key, bool fallback) const;
 
-  // Rejects keys outside `known`, so that a misspelt key is an error and not a silent default.
+  /// Rejects keys outside `known`, so that a misspelt key is an error and not a silent default.
   void allow_only(std::initializer_list<std::string_view> known) const;
 
   [[noreturn]] void fail(const std::string& what) const;
-  std::string place() const;                  // "file:line:column"
-  const std::filesystem::path& file() const;  // to resolve names relative to the file's folder
+  std::string place() const;  ///< It reads "file:line:column".
+  const std::filesystem::path& file() const;
+  /// Resolves a name relative to the file's folder.
   std::filesystem::path resolve(const std::string& relative) const;
 
  private:

@@ -20,8 +20,14 @@ std::string scenarios_of(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Entry load_scenario(const std::filesystem::path& mission_folder, const std::string& name) {
-  const auto folder = mission_folder / "scenarios";
+std::filesystem::path mission_file(const std::filesystem::path& folder_or_file) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(folder_or_file, error) ? folder_or_file
+                                                                 : folder_or_file / "mission.yaml";
+}
+
+Entry load_scenario(const std::filesystem::path& folder_or_file, const std::string& name) {
+  const auto folder = mission_file(folder_or_file).parent_path() / "scenarios";
   const auto file = folder / (name + ".yaml");
   if (std::filesystem::exists(file)) return Entry::load(file);
   throw FileError(file.string() + ": there is no such scenario; choose one of: " + scenarios_of(folder));

@@ -17,7 +17,7 @@ namespace roci::pddl {
 
 // ---- Names, terms, types
 
-// A variable ("?x", with its question mark) or the name of an object.
+/// A variable ("?x", with its question mark) or the name of an object.
 struct Term {
   std::string name;
   SourceLocation where;
@@ -25,22 +25,22 @@ struct Term {
   bool is_variable() const { return !name.empty() && name.front() == '?'; }
 };
 
-// A variable, object or type with its type(s): several alternatives for `(either a b)`, {"object"} if
-// untyped.
+/// A variable, object or type with its type(s): several alternatives for `(either a b)`, {"object"} if
+/// untyped.
 struct TypedName {
   std::string name;
   std::vector<std::string> types = {"object"};
   SourceLocation where;
 };
 
-// A predicate, fluent or external function applied to terms.
+/// A predicate, fluent or external function applied to terms.
 struct Atom {
   std::string symbol;
   std::vector<Term> arguments;
   SourceLocation where;
 };
 
-// Declaration of a predicate, fluent or external function.
+/// Declaration of a predicate, fluent or external function.
 struct Signature {
   std::string name;
   std::vector<TypedName> parameters;
@@ -55,19 +55,19 @@ struct Number {
   double value = 0;
 };
 
-struct DurationVariable {};  // ?duration
-struct TotalTime {};         // total-time, in metrics
-struct ContinuousTime {};    // #t: parsed so that it can be refused by name (forbidden.hpp)
+struct DurationVariable {};  ///< ?duration
+struct TotalTime {};         ///< total-time, in metrics
+struct ContinuousTime {};    ///< #t: parsed so that it can be refused by name (forbidden.hpp)
 
 enum class ArithmeticOperator { add, subtract, multiply, divide };
 
-// One operand with subtract is the negative; add and multiply take two or more, the others two.
+/// One operand with subtract is the negative; add and multiply take two or more, the others two.
 struct Arithmetic {
   ArithmeticOperator op = ArithmeticOperator::add;
   std::vector<Expression> operands;
 };
 
-// An Atom is the value of a fluent, or of an external function if a module declares its symbol.
+/// An Atom is the value of a fluent, or of an external function if a module declares its symbol.
 struct Expression {
   std::variant<Number, Atom, DurationVariable, TotalTime, ContinuousTime, Arithmetic> node;
   SourceLocation where;
@@ -122,8 +122,8 @@ struct Condition {
   SourceLocation where;
 };
 
-// The conditions of a durative action, sorted by time (`forall` and `and` around `at start` and the like are
-// distributed by the parser). What is not asked is the empty And. A plain action has only at_start.
+/// The conditions of a durative action, sorted by time (`forall` and `and` around `at start` and the like are
+/// distributed by the parser). What is not asked is the empty And. A plain action has only at_start.
 struct TimedCondition {
   Condition at_start;
   Condition over_all;
@@ -147,9 +147,9 @@ struct Assignment {
   Expression value;
 };
 
-// A conditional effect. The condition may look at another time than the effect's own: the end effect of
-// `(when (at start (p)) (at end (q)))` has p in condition.at_start. `(at end (when (p) (q)))` has it in
-// condition.at_end, and a plain action in condition.at_start.
+/// A conditional effect. The condition may look at another time than the effect's own: the end effect of
+/// `(when (at start (p)) (at end (q)))` has p in condition.at_start. `(at end (when (p) (q)))` has it in
+/// condition.at_end, and a plain action in condition.at_start.
 struct When {
   TimedCondition condition;
   std::vector<Effect> effects;
@@ -160,7 +160,7 @@ struct ForallEffect {
   std::vector<Effect> effects;
 };
 
-// `and` in effects is dissolved into the vector that holds it.
+/// `and` in effects is dissolved into the vector that holds it.
 struct Effect {
   std::variant<Literal, Assignment, When, ForallEffect> node;
   SourceLocation where;
@@ -178,7 +178,7 @@ struct Action {
 
 enum class TimePoint { start, end };
 
-// ?duration OP bound, the bound being evaluated at the given point; OP is <=, = or >=.
+/// ?duration OP bound, the bound being evaluated at the given point; OP is <=, = or >=.
 struct DurationConstraint {
   ComparisonOperator op = ComparisonOperator::equal;
   Expression bound;
@@ -186,7 +186,7 @@ struct DurationConstraint {
   SourceLocation where;
 };
 
-// ⟨pre⊢, eff⊢, pre↔, pre⊣, eff⊣⟩ with bounds on the duration (R2); no constraint at all: any duration ≥ 0.
+/// ⟨pre⊢, eff⊢, pre↔, pre⊣, eff⊣⟩ with bounds on the duration (R2); no constraint at all: any duration ≥ 0.
 struct DurativeAction {
   std::string name;
   std::vector<TypedName> parameters;
@@ -194,12 +194,12 @@ struct DurativeAction {
   TimedCondition condition;
   std::vector<Effect> start_effects;
   std::vector<Effect> end_effects;
-  std::vector<Effect>
-      continuous_effects;  // `(increase (f) (* #t 2))`, outside of any `at`; see forbidden.hpp
+  /// `(increase (f) (* #t 2))`, outside of any `at`; see forbidden.hpp.
+  std::vector<Effect> continuous_effects;
   SourceLocation where;
 };
 
-// (:derived (head ?x - t …) body)
+/// (:derived (head ?x - t …) body)
 struct DerivedPredicate {
   Signature head;
   Condition body;
@@ -208,11 +208,11 @@ struct DerivedPredicate {
 // ---- Domain
 
 struct Requirement {
-  std::string keyword;  // with its colon: ":typing"
+  std::string keyword;  ///< with its colon: ":typing"
   SourceLocation where;
 };
 
-// External functions of one owner: objects to numbers, constant for a whole planning call.
+/// External functions of one owner: objects to numbers, constant for a whole planning call.
 struct Module {
   std::string name;
   std::vector<Signature> functions;
@@ -220,10 +220,10 @@ struct Module {
 };
 
 struct Domain {
-  std::string file;  // as given to the parser, for messages
+  std::string file;  ///< as given to the parser, for messages
   std::string name;
   std::vector<Requirement> requirements;
-  std::vector<TypedName> types;  // name and its supertype(s)
+  std::vector<TypedName> types;  ///< name and its supertype(s)
   std::vector<TypedName> constants;
   std::vector<Signature> predicates;
   std::vector<Signature> functions;
@@ -262,14 +262,14 @@ struct Metric {
 };
 
 struct Problem {
-  std::string file;  // as given to the parser, for messages
+  std::string file;  ///< as given to the parser, for messages
   std::string name;
   std::string domain_name;
   std::vector<Requirement> requirements;
   std::vector<TypedName> objects;
-  std::vector<Atom> facts;           // true at time 0; everything else is false
-  std::vector<Atom> false_facts;     // `(not (p))` in :init: says only what the closed world says anyway
-  std::vector<InitialValue> values;  // the last one of a fluent counts
+  std::vector<Atom> facts;           ///< true at time 0; everything else is false
+  std::vector<Atom> false_facts;     ///< `(not (p))` in :init: says only what the closed world says anyway
+  std::vector<InitialValue> values;  ///< the last one of a fluent counts
   std::vector<TimedLiteral> timed_literals;
   std::vector<TimedValue> timed_values;
   Condition goal;

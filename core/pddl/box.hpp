@@ -6,7 +6,7 @@
 
 namespace roci::pddl {
 
-// Owns one T on the heap; copies deeply. Never empty, except after it was moved from.
+/// Owns one T on the heap; copies deeply. Never empty, except after it was moved from.
 template <typename T>
 class Box {
  public:

@@ -12,12 +12,12 @@
 
 namespace roci::pddl {
 
-// All findings in textual order of their discovery; empty: fine.
+/// All findings in textual order of their discovery; empty: fine.
 std::vector<Diagnostic> check(const Domain& domain);
-// Takes a domain without findings.
+/// Takes a domain without findings.
 std::vector<Diagnostic> check(const Problem& problem, const Domain& domain);
 
-// Parse and check in one; throw the first finding as ParseError.
+/// Parse and check in one; throw the first finding as ParseError.
 Domain load_domain(std::string_view text, std::string_view file);
 Problem load_problem(std::string_view text, std::string_view file, const Domain& domain);
 

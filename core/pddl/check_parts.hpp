@@ -11,7 +11,7 @@
 
 namespace roci::pddl {
 
-// Collects what was found in one file.
+/// Collects what was found in one file.
 class Findings {
  public:
   explicit Findings(std::string file) : file_(std::move(file)) {}
@@ -26,14 +26,14 @@ class Findings {
   std::vector<Diagnostic> diagnostics_;
 };
 
-// Where an expression stands decides what it may mention.
+/// Where an expression stands decides what it may mention.
 struct ExpressionContext {
-  bool duration = false;         // ?duration
-  bool total_time = false;       // total-time
-  bool continuous_time = false;  // #t
+  bool duration = false;         ///< ?duration
+  bool total_time = false;       ///< total-time
+  bool continuous_time = false;  ///< #t
 };
 
-// Everything declared, by name. Points into the domain, which must outlive it.
+/// Everything declared, by name. Points into the domain, which must outlive it.
 class Symbols {
  public:
   explicit Symbols(const Domain& domain);
@@ -43,7 +43,7 @@ class Symbols {
   const Signature* find_predicate(const std::string& name) const;
   const Signature* find_fluent(const std::string& name) const;
   const Signature* find_external(const std::string& name) const;
-  // All types an object was declared with, in one or several declarations.
+  /// All types an object was declared with, in one or several declarations.
   const std::vector<std::string>* find_object_types(const std::string& name) const;
   bool is_derived(const std::string& name) const { return derived_.contains(name); }
   const TypeTree& types() const { return types_; }
@@ -57,19 +57,19 @@ class Symbols {
   TypeTree types_;
 };
 
-// Walks conditions, effects and expressions with the variables bound so far. `Symbols` and `Findings` must
-// outlive it.
+/// Walks conditions, effects and expressions with the variables bound so far. `Symbols` and `Findings` must
+/// outlive it.
 class FormulaChecker {
  public:
   FormulaChecker(const Symbols& symbols, Findings& findings) : symbols_(symbols), findings_(findings) {}
 
-  // Binds variables for the checks that follow, until unbind(variables.size()).
+  /// Binds variables for the checks that follow, until unbind(variables.size()).
   void bind(const std::vector<TypedName>& variables);
   void unbind(std::size_t count) { bound_.resize(bound_.size() - count); }
 
-  void check_fact(const Atom& atom);        // predicate, arity, arguments
-  void check_basic_fact(const Atom& atom);  // … and not derived: what effects and :init may set
-  void check_fluent(const Atom& atom);      // a fluent that may be assigned
+  void check_fact(const Atom& atom);        ///< predicate, arity, arguments
+  void check_basic_fact(const Atom& atom);  ///< … and not derived: what effects and :init may set
+  void check_fluent(const Atom& atom);      ///< a fluent that may be assigned
   void check_expression(const Expression& expression, ExpressionContext context);
   void check_condition(const Condition& condition);
   void check_timed(const TimedCondition& condition);
@@ -87,7 +87,7 @@ class FormulaChecker {
 
 void check_types(const std::vector<TypedName>& names, const Symbols& symbols, Findings& findings);
 
-// … and no variable stands twice.
+/// … and no variable stands twice.
 void check_variables(const std::vector<TypedName>& variables, const Symbols& symbols, Findings& findings);
 
 }  // namespace roci::pddl

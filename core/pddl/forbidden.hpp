@@ -7,13 +7,13 @@
 
 namespace roci::pddl {
 
-// One diagnostic, with the action's name, per numeric effect that is
-//  - continuous (`#t`),
-//  - not linear: a product or quotient of fluents that change (fluents that nothing changes and external
-//  functions
-//    count as constants), or
-//  - dependent on ?duration in an action whose duration no `=` fixes at its start.
-// Takes a domain and a problem without findings of check().
+/// One diagnostic, with the action's name, per numeric effect that is
+///  - continuous (`#t`),
+///  - not linear: a product or quotient of fluents that change (fluents that nothing changes and external
+///  functions
+///    count as constants), or
+///  - dependent on ?duration in an action whose duration no `=` fixes at its start.
+/// Takes a domain and a problem without findings of check().
 std::vector<Diagnostic> forbidden_effects(const Domain& domain, const Problem& problem);
 
 }  // namespace roci::pddl

@@ -11,14 +11,14 @@
 
 namespace roci::pddl {
 
-// The printed application, "(traverse_time a b)", to its value; nullopt: unreachable, that is, no action that
-// needs the value exists. What is not in the table is unknown.
+/// The printed application, "(traverse_time a b)", to its value; nullopt: unreachable, that is, no action
+/// that needs the value exists. What is not in the table is unknown.
 using FunctionTable = std::map<std::string, std::optional<double>, std::less<>>;
 
-// Throws ParseError: another form, or a tuple that stands twice with different values.
+/// Throws ParseError: another form, or a tuple that stands twice with different values.
 FunctionTable parse_function_table(std::string_view text, std::string_view file);
 
-// One tuple per line; parsed again, it is the same table to the last bit.
+/// One tuple per line; parsed again, it is the same table to the last bit.
 std::string print(const FunctionTable& table);
 
 }  // namespace roci::pddl

@@ -23,10 +23,10 @@ class Source {
   std::string file_;
 };
 
-// What follows the head of a list.
+/// What follows the head of a list.
 std::span<const Sexpr> rest(const Sexpr& list, std::size_t skip = 1);
 
-// ---- grammar_terms.cpp: names and lists of names; `what` names the thing in messages ("a predicate")
+/// ---- grammar_terms.cpp: names and lists of names; `what` names the thing in messages ("a predicate")
 std::string read_name(const Sexpr& s, std::string_view what, const Source& source);
 double read_number(const Sexpr& s, std::string_view what, const Source& source);
 const Sexpr& require_list(const Sexpr& s, std::string_view what, const Source& source);
@@ -34,22 +34,22 @@ std::vector<TypedName> read_typed_names(std::span<const Sexpr> items, std::strin
                                         const Source& source);
 std::vector<TypedName> read_variables(const Sexpr& list, const Source& source);
 Atom read_atom(const Sexpr& s, std::string_view what, const Source& source);
-// `(f a …)`, or the bare name of a function without parameters.
+/// `(f a …)`, or the bare name of a function without parameters.
 Atom read_function(const Sexpr& s, const Source& source);
 Signature read_signature(const Sexpr& s, std::string_view what, const Source& source);
-// A section that holds functions: `(f ?x - t) … [- number]`.
+/// A section that holds functions: `(f ?x - t) … [- number]`.
 std::vector<Signature> read_functions(std::span<const Sexpr> items, const Source& source);
 
-// ---- grammar_expressions.cpp
+/// ---- grammar_expressions.cpp
 Expression read_expression(const Sexpr& s, const Source& source);
 std::optional<ComparisonOperator> as_comparison(std::string_view word);
 
-// ---- grammar_conditions.cpp
+/// ---- grammar_conditions.cpp
 Condition read_condition(const Sexpr& s, const Source& source);
 TimedCondition read_timed_condition(const Sexpr& s, const Source& source);
 
-// ---- grammar_effects.cpp
-// Effects of one moment; the conditions of their `when` belong to the same moment.
+/// ---- grammar_effects.cpp
+/// Effects of one moment; the conditions of their `when` belong to the same moment.
 std::vector<Effect> read_effects(const Sexpr& s, TimePoint moment, const Source& source);
 
 struct DurativeEffects {
@@ -59,12 +59,12 @@ struct DurativeEffects {
 };
 DurativeEffects read_durative_effects(const Sexpr& s, const Source& source);
 
-// ---- grammar_actions.cpp
+/// ---- grammar_actions.cpp
 Action read_action(const Sexpr& s, const Source& source);
 DurativeAction read_durative_action(const Sexpr& s, const Source& source);
 
-// ---- Shared by domain and problem
-// Checks `(define (KIND NAME) …` and returns NAME.
+/// ---- Shared by domain and problem
+/// Checks `(define (KIND NAME) …` and returns NAME.
 std::string read_define(const Sexpr& s, std::string_view kind, const Source& source);
 std::vector<Requirement> read_requirements(const Sexpr& s, const Source& source);
 

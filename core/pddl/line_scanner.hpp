@@ -12,18 +12,18 @@ namespace roci::pddl {
 
 class LineScanner {
  public:
-  // `text` without its newline; from a ';' on it is a comment.
+  /// `text` without its newline; from a ';' on it is a comment.
   LineScanner(std::string_view text, std::string_view file, int line);
 
-  // Skip blanks, then look or take.
+  /// Skip blanks, then look or take.
   bool at_end();
   bool take(char c);
   void expect(char c, std::string_view remedy);
   void expect_end(std::string_view remedy);
-  // Up to the next blank, parenthesis, bracket or colon, lower-cased; may be empty.
+  /// Up to the next blank, parenthesis, bracket or colon, lower-cased; may be empty.
   std::string take_word();
   double expect_number(std::string_view what);
-  // `(name object …)` without variables.
+  /// `(name object …)` without variables.
   Atom expect_ground_atom(std::string_view what);
 
   SourceLocation here() const { return {line_, static_cast<int>(next_) + 1}; }
@@ -38,7 +38,7 @@ class LineScanner {
   std::size_t next_ = 0;
 };
 
-// Calls read(scanner) for each line that holds more than blanks and comment.
+/// Calls read(scanner) for each line that holds more than blanks and comment.
 void for_each_line(std::string_view text, std::string_view file,
                    const std::function<void(LineScanner&)>& read);
 

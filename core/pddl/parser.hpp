@@ -9,8 +9,8 @@
 
 namespace roci::pddl {
 
-// `file` is used in messages only. Throw ParseError at the first thing that is not PDDL; names, types and
-// arities are left to check.hpp.
+/// `file` is used in messages only. Throw ParseError at the first thing that is not PDDL; names, types and
+/// arities are left to check.hpp.
 Domain parse_domain(std::string_view text, std::string_view file);
 Problem parse_problem(std::string_view text, std::string_view file);
 

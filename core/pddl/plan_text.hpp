@@ -14,21 +14,21 @@
 
 namespace roci::pddl {
 
-// Same type as temporal::Duration.
+/// Same type as temporal::Duration.
 using Microseconds = std::chrono::duration<std::int64_t, std::micro>;
 
 struct PlanStep {
   Microseconds start{0};
-  Atom action;  // names of objects, no variables
+  Atom action;  ///< names of objects, no variables
   std::optional<Microseconds> duration;
   SourceLocation where;
 };
 
-// Rounds to whole microseconds. Throws ParseError: anything of another form, a negative time or duration, one
-// beyond 10^9 seconds. Names are not checked against a domain.
+/// Rounds to whole microseconds. Throws ParseError: anything of another form, a negative time or duration,
+/// one beyond 10^9 seconds. Names are not checked against a domain.
 std::vector<PlanStep> parse_plan(std::string_view text, std::string_view file);
 
-// Three decimals, or up to six where three would lose something; in the given order.
+/// Three decimals, or up to six where three would lose something; in the given order.
 std::string print_plan(const std::vector<PlanStep>& plan);
 std::string print_seconds(Microseconds time);
 

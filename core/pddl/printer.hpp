@@ -11,14 +11,14 @@ namespace roci::pddl {
 std::string print(const Domain& domain);
 std::string print(const Problem& problem);
 
-// Fragments, for messages and reports: on one line.
+/// Fragments, for messages and reports: on one line.
 std::string print(const Atom& atom);
 std::string print(const Literal& literal);
 std::string print(const Expression& expression);
 std::string print(const Condition& condition);
 std::string print(ComparisonOperator op);
 
-// The shortest decimal without exponent that reads back as exactly this number.
+/// The shortest decimal without exponent that reads back as exactly this number.
 std::string print_number(double value);
 
 }  // namespace roci::pddl

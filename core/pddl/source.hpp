@@ -6,7 +6,7 @@
 
 namespace roci::pddl {
 
-// 1-based line and column (counted in bytes). {0, 0}: made by a program, not read from a text.
+/// 1-based line and column (counted in bytes). {0, 0}: made by a program, not read from a text.
 struct SourceLocation {
   int line = 0;
   int column = 0;
@@ -14,7 +14,7 @@ struct SourceLocation {
   auto operator<=>(const SourceLocation&) const = default;
 };
 
-// One thing wrong with an input: where, what, and what to do about it.
+/// One thing wrong with an input: where, what, and what to do about it.
 struct Diagnostic {
   std::string file;
   SourceLocation where;
@@ -22,10 +22,10 @@ struct Diagnostic {
   std::string remedy;
 };
 
-// "file:line:column: error: message (remedy)"
+/// "file:line:column: error: message (remedy)"
 std::string to_string(const Diagnostic& diagnostic);
 
-// Thrown for any text that cannot be taken as what it claims to be; what() is to_string(diagnostic()).
+/// Thrown for any text that cannot be taken as what it claims to be; what() is to_string(diagnostic()).
 class ParseError : public std::runtime_error {
  public:
   explicit ParseError(Diagnostic diagnostic);

@@ -8,15 +8,15 @@
 
 namespace roci::pddl {
 
-// Evaluation may recurse once per layer.
+/// Evaluation may recurse once per layer.
 inline constexpr int kMaxLayers = 16;
 
 struct Strata {
-  // Derived predicate to its layer, from 0. A body depends negatively on lower layers only, positively on
-  // lower ones or its own.
+  /// Derived predicate to its layer, from 0. A body depends negatively on lower layers only, positively on
+  /// lower ones or its own.
   std::map<std::string, int> layer;
-  // A predicate that depends on its own negation, or needs more than kMaxLayers; then the layers mean
-  // nothing. Empty if there is none.
+  /// A predicate that depends on its own negation, or needs more than kMaxLayers; then the layers mean
+  /// nothing. Empty if there is none.
   std::string failed;
 };
 

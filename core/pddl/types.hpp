@@ -12,39 +12,39 @@
 
 namespace roci::pddl {
 
-// "object" is above every type. A type that is only named as a supertype exists too. Cycles are tolerated
-// here (their types are all above one another) and refused by check().
+/// "object" is above every type. A type that is only named as a supertype exists too. Cycles are tolerated
+/// here (their types are all above one another) and refused by check().
 class TypeTree {
  public:
   explicit TypeTree(const Domain& domain);
 
   bool knows(std::string_view type) const;
-  // The type itself, all above it, and "object"; empty for unknown types.
+  /// The type itself, all above it, and "object"; empty for unknown types.
   std::set<std::string> ancestors(std::string_view type) const;
-  // Is every `type` an `ancestor`? Reflexive; false for unknown types.
+  /// Is every `type` an `ancestor`? Reflexive; false for unknown types.
   bool is_a(std::string_view type, std::string_view ancestor) const;
-  // May a thing of one of the types `given` stand where one of the types `wanted` is asked for, whichever of
-  // `given` it has?
+  /// May a thing of one of the types `given` stand where one of the types `wanted` is asked for, whichever of
+  /// `given` it has?
   bool accepts(const std::vector<std::string>& wanted, const std::vector<std::string>& given) const;
 
  private:
   std::map<std::string, std::set<std::string, std::less<>>, std::less<>> ancestors_;
 };
 
-// Constants of the domain and objects of the problem, numbered from 0 in the order of their first declaration
-// (constants first). An object that is declared again has the types of all its declarations. Holds no
-// reference to domain or problem.
+/// Constants of the domain and objects of the problem, numbered from 0 in the order of their first
+/// declaration (constants first). An object that is declared again has the types of all its declarations.
+/// Holds no reference to domain or problem.
 class ObjectTable {
  public:
   ObjectTable(const Domain& domain, const Problem& problem);
 
   std::size_t size() const { return objects_.size(); }
   const TypedName& operator[](std::size_t object) const { return objects_[object]; }
-  // -1 if there is none of this name
+  /// -1 if there is none of this name
   int find(std::string_view name) const;
-  // Does the object have one of the types?
+  /// Does the object have one of the types?
   bool has_type(std::size_t object, const std::vector<std::string>& types) const;
-  // All objects of one of the types, ascending.
+  /// All objects of one of the types, ascending.
   std::vector<int> of_types(const std::vector<std::string>& types) const;
   const TypeTree& types() const { return types_; }
 

@@ -9,8 +9,8 @@
 namespace roci::temporal {
 namespace {
 
-std::vector<BoundField::Edge> edges_of(const std::vector<TemporalConstraint>& constraints) {
-  std::vector<BoundField::Edge> edges;
+std::vector<LazyShortestPaths::Edge> edges_of(const std::vector<TemporalConstraint>& constraints) {
+  std::vector<LazyShortestPaths::Edge> edges;
   edges.reserve(2 * constraints.size());
   for (const TemporalConstraint& c : constraints) {
     edges.push_back({c.from_point, c.to_point, c.upper});
@@ -19,8 +19,8 @@ std::vector<BoundField::Edge> edges_of(const std::vector<TemporalConstraint>& co
   return edges;
 }
 
-std::vector<BoundField::Edge> mirrored(std::vector<BoundField::Edge> edges) {
-  for (BoundField::Edge& edge : edges) std::swap(edge.tail, edge.head);
+std::vector<LazyShortestPaths::Edge> mirrored(std::vector<LazyShortestPaths::Edge> edges) {
+  for (LazyShortestPaths::Edge& edge : edges) std::swap(edge.tail, edge.head);
   return edges;
 }
 
@@ -43,8 +43,8 @@ ExecutionWindows::ExecutionWindows(std::size_t point_count,
                                    const std::vector<TemporalConstraint>& constraints, Time origin)
     : ExecutionWindows(edges_of(constraints), potential_of(point_count, constraints), origin) {}
 
-ExecutionWindows::ExecutionWindows(std::vector<BoundField::Edge> edges, std::vector<Duration> potential,
-                                   Time origin)
+ExecutionWindows::ExecutionWindows(std::vector<LazyShortestPaths::Edge> edges,
+                                   std::vector<Duration> potential, Time origin)
     : latest_(edges, potential), earliest_(mirrored(std::move(edges)), negated(std::move(potential))) {
   happen(origin_point, origin);
   settle();

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/temporal/bound_field.hpp"
 #include "core/temporal/flexible_plan.hpp"
+#include "core/temporal/lazy_shortest_paths.hpp"
 #include "core/temporal/stn.hpp"
 
 namespace roci::temporal {
@@ -13,7 +13,7 @@ namespace roci::temporal {
 /// them. An event replaces every constraint into its point by its real time, so an event that contradicts the
 /// network makes no inconsistency: it only moves the windows of others (a latest time may then lie in the
 /// past). Durations are contingent in just this sense. Times are mission times. A window is computed when it
-/// is asked for: cost per event as of BoundField.
+/// is asked for: cost per event as of LazyShortestPaths.
 class ExecutionWindows {
  public:
   /// The constraints must be consistent and bound every point from below by the origin, as all_constraints()
@@ -36,19 +36,19 @@ class ExecutionWindows {
 
   /// Windows that were known and that the last operation may have moved; `before` of earliest changes is
   /// negated.
-  const std::vector<BoundField::Change>& latest_changes() const { return latest_.changes(); }
-  const std::vector<BoundField::Change>& earliest_changes() const { return earliest_.changes(); }
+  const std::vector<LazyShortestPaths::Change>& latest_changes() const { return latest_.changes(); }
+  const std::vector<LazyShortestPaths::Change>& earliest_changes() const { return earliest_.changes(); }
 
-  /// As of BoundField.
+  /// As of LazyShortestPaths.
   std::uint64_t work() const { return latest_.work() + earliest_.work(); }
 
  private:
-  ExecutionWindows(std::vector<BoundField::Edge> edges, std::vector<Duration> potential, Time origin);
+  ExecutionWindows(std::vector<LazyShortestPaths::Edge> edges, std::vector<Duration> potential, Time origin);
 
   // Two edges per constraint: 2c is the upper bound, 2c + 1 the lower. The field of earliest times is the
   // mirror: reversed edges, negated values.
-  BoundField latest_;
-  BoundField earliest_;
+  LazyShortestPaths latest_;
+  LazyShortestPaths earliest_;
 };
 
 }  // namespace roci::temporal

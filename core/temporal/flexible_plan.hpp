@@ -8,6 +8,7 @@
 
 #include "core/temporal/condition.hpp"
 #include "core/temporal/duration.hpp"
+#include "core/temporal/rank_vector.hpp"
 #include "core/temporal/stn.hpp"
 #include "core/temporal/value.hpp"
 
@@ -39,14 +40,22 @@ struct Impact {
 
 /// What happens when an activity's latest start has passed.
 enum class LatenessPolicy {
-  replan,  ///< the plan is broken (Stellar, R49)
-  push,    ///< wait on, until wait_timeout; success only after the shortest duration has elapsed (MEXEC, R86,
-           ///< R98)
-  deadline,  ///< as replan, and it must end before the latest next change of its timeline (SanchoExpress,
-             ///< R144)
+  /// The plan is broken (Stellar, R49).
+  replan,
+  /// It waits on until wait_timeout, and succeeds only after the shortest duration has elapsed (MEXEC, R86,
+  /// R98).
+  push,
+  /// As replan; moreover it must end before the latest next change of its timeline (SanchoExpress, R144).
+  deadline,
 };
 
 enum class CommitState { planned, committed };
+
+/// What else fails with an activity that has failed for good.
+enum class FailureScope {
+  of_plan,      ///< the plan is broken
+  of_activity,  ///< nothing: it fails alone, what needs its effects fails or is skipped when its turn comes
+};
 
 enum class ActivityState { waiting, dispatched, running, succeeded, failed, skipped, cancelled };
 /// It has ended, or never will start.
@@ -61,19 +70,38 @@ struct Property {
   friend bool operator==(const Property&, const Property&) = default;
 };
 
+/// One command of a sequence; the members mean what they mean in PlanActivity.
+struct PlanCommand {
+  std::string owner;
+  std::string robot;
+  std::string subsystem;
+  std::string command_name;
+  std::vector<Property> arguments;
+  Duration answer_within = no_bound;
+  friend bool operator==(const PlanCommand&, const PlanCommand&) = default;
+};
+
 /// The executive sends (id, attempt) as a command's key: ids must not be used again in later plans for
 /// anything else.
 struct PlanActivity {
   std::string id;
-  std::string name;   ///< action or task name
-  std::string owner;  ///< service that executes the command; empty: no command, internal states only
+  std::string name;    ///< action or task name
+  std::string level;   ///< of the hierarchy, e.g. "mission" (R130); empty: plans without one
+  std::string parent;  ///< activity of the level above; empty: none
+  std::string owner;   ///< service that executes the command; empty: no command, internal states only
+  std::string robot;   ///< whose subsystem; empty: the owner's only one
   std::string subsystem;
   std::string command_name;
   std::vector<Property> arguments;
+  /// Longest time from sending the command to its first answer; no_bound: as the executive is set.
+  Duration answer_within = no_bound;
+  /// Commands that follow, each after the end of the one before (R67).
+  std::vector<PlanCommand> then;
   TimePoint start_point = 0;  ///< own points: no two activities share one, none is the origin
   TimePoint end_point = 0;
   Duration duration_lower{0};
   Duration duration_upper = no_bound;
+  Duration preferred_start = no_bound;  ///< from the origin (R67); no_bound: none
   Condition pre;
   Condition maintenance;
   Condition post;
@@ -84,10 +112,11 @@ struct PlanActivity {
   Condition skip_if;      ///< not empty and true at the start: skipped
   LatenessPolicy lateness = LatenessPolicy::replan;
   CommitState commit = CommitState::planned;
+  FailureScope failure = FailureScope::of_plan;
   std::string contingency;
-  std::string parent;
+  std::int32_t priority = 0;
   std::vector<std::string> goals_served;  ///< "issuer/id"
-  double utility = 0;
+  RankVector utility;
   friend bool operator==(const PlanActivity&, const PlanActivity&) = default;
 };
 
@@ -100,19 +129,45 @@ struct Token {
   friend bool operator==(const Token&, const Token&) = default;
 };
 
+/// Who resolves a decision at run time.
+enum class ResolverKind {
+  engine,  ///< the engine that made the plan
+  ground,
+  rule,  ///< the choices' own conditions: the first choice whose rule holds is taken
+};
+
 struct DecisionChoice {
   std::string name;
-  std::vector<std::string> activities;  ///< ids; those of the other choices are skipped
+  std::vector<std::string> activities{};  ///< ids; those of the other choices are skipped
+  Condition rule{};                       ///< of resolver `rule`; empty: always true
   friend bool operator==(const DecisionChoice&, const DecisionChoice&) = default;
 };
 
-/// An open choice that `resolver` makes at run time, before `decide_before` may happen (R131).
+/// An argument of an activity's command that an answer binds.
+struct ArgumentBinding {
+  std::string activity;
+  std::string argument;
+  friend bool operator==(const ArgumentBinding&, const ArgumentBinding&) = default;
+};
+
+/// An open choice that is made at run time, before `decide_before` may happen (R131): an answer picks one of
+/// the choices' activities, or binds a value to arguments of activities that have not started.
 struct DecisionPoint {
   std::string id;
-  std::string resolver;
-  std::vector<DecisionChoice> choices;
+  std::string resolver;  ///< service or issuer that is asked; empty: whoever is of the kind
+  std::vector<DecisionChoice> choices{};
   TimePoint decide_before = 0;
+  ResolverKind resolver_kind = ResolverKind::engine;
+  std::vector<ArgumentBinding> bindings{};
+  std::vector<std::string> admissible{};  ///< values that may be bound; empty: any
   friend bool operator==(const DecisionPoint&, const DecisionPoint&) = default;
+};
+
+/// How a function value stands to the true one.
+enum class FunctionAccuracy {
+  exact,
+  lower_bound,  ///< never above it: admissible
+  estimate,     ///< neither
 };
 
 /// Provenance of a value of an external function on which the plan stands.
@@ -123,6 +178,7 @@ struct FunctionValueUse {
   std::string owner;
   std::uint64_t model_version = 0;
   Time computed{0};
+  FunctionAccuracy accuracy = FunctionAccuracy::exact;
   friend bool operator==(const FunctionValueUse&, const FunctionValueUse&) = default;
 };
 

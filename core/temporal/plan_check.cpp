@@ -67,7 +67,10 @@ class PlanCheck {
     }
     check_bounds(where, activity.duration_lower, activity.duration_upper);
     if (activity.duration_lower < Duration{0}) fault(where, "its shortest duration is negative");
-    if (!activity.owner.empty() && activity.command_name.empty()) fault(where, "has an owner but no command");
+    check_commands(where, activity);
+    if (!activity.utility.finite()) fault(where, "its utility is not finite");
+    if (bounded(activity.preferred_start) && activity.preferred_start < Duration{0})
+      fault(where, "its preferred start lies before the origin");
     if (activity.wait_timeout < Duration{0}) fault(where, "its wait timeout is negative");
     if (activity.lateness == LatenessPolicy::push && !bounded(activity.wait_timeout))
       fault(where, "lateness push needs a wait timeout");
@@ -76,6 +79,19 @@ class PlanCheck {
     check_condition(where, "post", activity.post);
     check_condition(where, "skip_if", activity.skip_if);
     for (const Impact& impact : activity.impacts) check_impact(where, impact);
+  }
+
+  void check_commands(const std::string& where, const PlanActivity& activity) {
+    if (!activity.owner.empty() && activity.command_name.empty()) fault(where, "has an owner but no command");
+    if (activity.owner.empty() && !activity.then.empty())
+      fault(where, "has commands that follow, but no first one");
+    if (activity.answer_within <= Duration{0}) fault(where, "its command must be answered in no time");
+    for (const PlanCommand& command : activity.then) {
+      if (command.owner.empty() || command.command_name.empty())
+        fault(where, "a command that follows lacks its owner or its name");
+      if (command.answer_within <= Duration{0})
+        fault(where, "a command that follows must be answered in no time");
+    }
   }
 
   void check_impact(const std::string& where, const Impact& impact) {
@@ -99,8 +115,14 @@ class PlanCheck {
     const std::string where = "decision " + decision.id;
     if (decision.id.empty()) fault(where, "has no id");
     if (!decisions_.insert(decision.id).second) fault(where, "the id stands twice");
-    if (decision.resolver.empty()) fault(where, "names nobody who decides");
-    if (decision.choices.empty()) fault(where, "has no choices");
+    if (decision.choices.empty() && decision.bindings.empty())
+      fault(where, "has no choices, and no arguments that it binds");
+    if (!decision.choices.empty() && !decision.bindings.empty())
+      fault(where, "picks among choices and binds arguments; make two decisions of it");
+    if (decision.resolver_kind == ResolverKind::rule && decision.choices.empty())
+      fault(where, "a rule picks among choices; it binds no argument");
+    if (decision.resolver_kind == ResolverKind::rule && !decision.resolver.empty())
+      fault(where, "a rule is resolved by the plan itself, not by " + decision.resolver);
     check_point(where, "decide_before", decision.decide_before);
     if (decision.decide_before == origin_point) fault(where, "decide_before must not be the origin");
     std::unordered_set<std::string> names;
@@ -109,6 +131,12 @@ class PlanCheck {
       for (const std::string& id : choice.activities)
         if (!index_of_.contains(id))
           fault(where, "choice " + choice.name + " names no activity of the plan: " + id);
+      check_condition(where, "rule", choice.rule);
+    }
+    for (const ArgumentBinding& binding : decision.bindings) {
+      if (!index_of_.contains(binding.activity))
+        fault(where, "binds an argument of no activity of the plan: " + binding.activity);
+      if (binding.argument.empty()) fault(where, "binds an argument without a name");
     }
   }
 

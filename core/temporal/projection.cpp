@@ -132,6 +132,12 @@ class Sweep {
     return value_;
   }
 
+  // What was seen counts more than what was reckoned; what runs goes on from there.
+  void correct(const ObservedValue& seen) {
+    advance(seen.sampled);
+    value_ = seen.value;
+  }
+
  private:
   double number() const {
     const double* held = std::get_if<double>(&value_);
@@ -161,18 +167,47 @@ const char* to_string(ProjectionKind kind) {
   return "unknown";
 }
 
+namespace {
+
+using Changes = std::vector<ProjectedChange>;
+
+// Whether the observation shows what the event has done.
+bool shown_in(const Event& event, const ObservedValue& seen) {
+  return event.kind == ProjectionKind::executed && event.time <= seen.sampled;
+}
+
+void sweep(const std::vector<Event>& events, const FlexiblePlan& plan, const Value& initial,
+           const ObservedValue* seen, Changes& out) {
+  Sweep values(initial);
+  const auto correct = [&] {
+    values.correct(*seen);
+    out.push_back({seen->sampled, seen->value, ProjectionKind::executed, ""});
+    seen = nullptr;
+  };
+  for (const Event& event : events) {
+    if (seen != nullptr && !shown_in(event, *seen)) correct();
+    out.push_back({event.time, values.take(event), event.kind, plan.activities[event.activity].id});
+  }
+  if (seen != nullptr) correct();
+}
+
+}  // namespace
+
 std::map<std::string, std::vector<ProjectedChange>> project(const FlexiblePlan& plan,
                                                             const Progress& progress, Time now,
-                                                            const std::map<std::string, Value>& initial) {
-  std::map<std::string, std::vector<ProjectedChange>> out;
-  for (const auto& spans : {planned_spans(plan), real_spans(plan, progress, now)}) {
-    for (const auto& [timeline, events] : events_of(plan, spans)) {
-      const auto known = initial.find(timeline);
-      Sweep sweep(known == initial.end() ? Value{} : known->second);
-      for (const Event& event : events)
-        out[timeline].push_back(
-            {event.time, sweep.take(event), event.kind, plan.activities[event.activity].id});
-    }
+                                                            const std::map<std::string, Value>& initial,
+                                                            const ObservedValues& observed) {
+  std::map<std::string, Changes> out;
+  const auto value_at_start = [&](const std::string& timeline) {
+    const auto known = initial.find(timeline);
+    return known == initial.end() ? Value{} : known->second;
+  };
+  for (const auto& [timeline, events] : events_of(plan, planned_spans(plan)))
+    sweep(events, plan, value_at_start(timeline), nullptr, out[timeline]);
+  for (const auto& [timeline, events] : events_of(plan, real_spans(plan, progress, now))) {
+    const auto seen = observed.find(timeline);
+    sweep(events, plan, value_at_start(timeline), seen == observed.end() ? nullptr : &seen->second,
+          out[timeline]);
   }
   return out;
 }

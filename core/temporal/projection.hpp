@@ -26,6 +26,13 @@ enum class ProjectionKind {
 };
 const char* to_string(ProjectionKind kind);
 
+/// What was seen of a timeline: its value, as its owner sampled it.
+struct ObservedValue {
+  Time sampled{0};
+  Value value;
+};
+using ObservedValues = std::map<std::string, ObservedValue>;  ///< by timeline
+
 /// The timeline has `value` from `time` on; between two changes a number that is under a rate runs straight.
 struct ProjectedChange {
   Time time{0};
@@ -35,11 +42,16 @@ struct ProjectedChange {
 };
 
 /// By timeline: the planned changes, then the executed ones, then the projected ones, each in the order of
-/// time. A number starts with its value in `initial`, else with 0: it is then the change since the plan
-/// began. What failed, was skipped or cancelled has no effect at its end. Of activities that exclude each
-/// other (decision points) all that are not skipped count. The plan must have passed check().
+/// time. The projected values of a timeline that was observed start at that observation (R76): what was
+/// executed until it was sampled is in it, and stands among the executed changes without an activity; what
+/// runs on (a rate) or comes later acts on it. Other numbers start with their value in `initial`, else with
+/// 0: they are then the change since the plan began, as the planned numbers always are. What failed, was
+/// skipped or cancelled has no effect at its end. Of activities that exclude each other (decision points) all
+/// that are not skipped count. Only timelines that the plan changes are in the result. The plan must have
+/// passed check().
 std::map<std::string, std::vector<ProjectedChange>> project(const FlexiblePlan& plan,
                                                             const Progress& progress, Time now,
-                                                            const std::map<std::string, Value>& initial);
+                                                            const std::map<std::string, Value>& initial,
+                                                            const ObservedValues& observed = {});
 
 }  // namespace roci::temporal

@@ -4,7 +4,7 @@
 
 namespace roci::terrain {
 
-// Position in the map frame, metres: x east, y north.
+/// A position in the map frame in metres: x points east, y north.
 struct Point {
   double x = 0;
   double y = 0;
@@ -15,16 +15,16 @@ inline double distance(Point a, Point b) {
   return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
 }
 
-// Column counts east and row counts north, both from the south-west corner.
+/// The column counts east and row counts north, both from the south-west corner.
 struct Cell {
   int column = 0;
   int row = 0;
   bool operator==(const Cell&) const = default;
 };
 
-// Where the square cells of a map lie. `origin` is the south-west corner of cell (0, 0), in metres;
-// `resolution` is the side of a cell, in metres. Layers are stored by rows, index(cell) = row * columns +
-// column.
+/// Says where the square cells of a map lie. `origin` is the south-west corner of cell (0, 0), in metres;
+/// `resolution` is the side of a cell, in metres. Layers are stored by rows, index(cell) = row * columns +
+/// column.
 struct Grid {
   int columns = 0;
   int rows = 0;
@@ -40,14 +40,14 @@ struct Grid {
   }
 
   bool contains(Cell c) const { return c.column >= 0 && c.row >= 0 && c.column < columns && c.row < rows; }
-  // Exactly the points whose cell_of() lies on the map; false for NaN.
+  /// True exactly for the points whose cell_of() lies on the map; false for NaN.
   bool contains(Point p) const {
     const double column = std::floor((p.x - origin.x) / resolution);
     const double row = std::floor((p.y - origin.y) / resolution);
     return column >= 0 && row >= 0 && column < columns && row < rows;
   }
 
-  // For a point outside the map a cell outside the map; finite points within 2^31 cells only.
+  /// Gives a cell outside the map for a point outside it; the point must be finite and within 2^31 cells.
   Cell cell_of(Point p) const {
     return {static_cast<int>(std::floor((p.x - origin.x) / resolution)),
             static_cast<int>(std::floor((p.y - origin.y) / resolution))};

@@ -5,17 +5,17 @@
 
 namespace roci::terrain {
 
-// Reads a site from a map description of the map_server format (wiki.ros.org/map_server, "Map format") with
-// the keys image, resolution, origin, negate, occupied_thresh, free_thresh and optionally mode (trinary,
-// scale), extended by
-//
-//   rocks:     {max_height: 1.0}                      a black pixel is a rock of that height [m] (default 1
-//   m) elevation: {image: e.pgm, min: -4.0, max: 9.0}    pixel 0 lies at min, the largest value at max [m]
-//
-// Both images have the same size and cover the same cells; without `elevation` the site is flat at 0 m. With
-// mode scale, grey is a rock of that share of max_height; with mode trinary (the default) grey is unknown.
-// Cells are square: resolution is one number. Throws mission::FileError (description) or MapError (images):
-// file, line and column, what is wrong, and the remedy.
+/// Reads a site from a map description of the map_server format (wiki.ros.org/map_server, "Map format") with
+/// the keys image, resolution, origin, negate, occupied_thresh, free_thresh and optionally mode (trinary,
+/// scale), extended by
+///
+///   rocks:     {max_height: 1.0}                      a black pixel is a rock of that height (default 1) [m]
+///   elevation: {image: e.pgm, min: -4.0, max: 9.0}    pixel 0 lies at min, the largest value at max [m]
+///
+/// Both images have the same size and cover the same cells; without `elevation` the site is flat at 0 m. With
+/// mode scale, grey is a rock of that share of max_height; with mode trinary (the default) grey is unknown.
+/// Cells are square: resolution is one number. Throws mission::FileError (description) or MapError (images):
+/// file, line and column, what is wrong, and the remedy.
 Site load_site(const std::filesystem::path& description);
 
 }  // namespace roci::terrain

@@ -4,7 +4,18 @@
 
 #include "exec_svc/mission/template_text.hpp"
 
-namespace roci::exec {
+namespace roci::exec::beliefs {
+
+using mission::Component;
+using mission::fill_positions;
+using mission::fill_star;
+using mission::FluentSource;
+using mission::MissionModel;
+using mission::StateModel;
+using mission::TimelineFamily;
+using mission::WindowModel;
+using mission::words_of;
+
 namespace {
 
 // The model of the state that `value` is in, and that state's arguments; null for a value that is no known
@@ -115,7 +126,7 @@ std::vector<const Component*> Beliefs::active() const {
   return out;
 }
 
-std::vector<const Component*> Beliefs::unseen() const {
+std::vector<const Component*> Beliefs::unobserved() const {
   std::vector<const Component*> out;
   for (const Component& component : mission_->components) {
     if (value(component.timeline) == nullptr) out.push_back(&component);
@@ -123,4 +134,4 @@ std::vector<const Component*> Beliefs::unseen() const {
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::beliefs

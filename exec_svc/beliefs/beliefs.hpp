@@ -1,5 +1,5 @@
-// What is so, from observations alone (never from planned effects): the newest value of each timeline, and
-// the PDDL facts and fluents that the mission's metadata derives from them.
+/// What is so, from observations alone (never from planned effects): the newest value of each timeline, and
+/// the PDDL facts and fluents that the mission's metadata derives from them.
 #pragma once
 
 #include <map>
@@ -11,39 +11,39 @@
 #include "core/temporal/value.hpp"
 #include "exec_svc/mission/mission_model.hpp"
 
-namespace roci::exec {
+namespace roci::exec::beliefs {
 
 class Beliefs {
  public:
-  explicit Beliefs(const MissionModel& mission);
+  explicit Beliefs(const mission::MissionModel& mission);
 
   void observe(const std::string& timeline, temporal::Value value);
-  // Facts that hold for as long as a timeline has not been observed.
+  /// Facts that hold for as long as a timeline has not been observed.
   void assume(const std::string& timeline, std::vector<std::string> facts);
   const temporal::Value* value(const std::string& timeline) const;
   const std::map<std::string, temporal::Value>& values() const { return values_; }
   const std::map<std::string, std::vector<std::string>>& assumed() const { return assumed_; }
 
-  // Facts that observed states stand for, as text "(at place-1)", in a stable order.
+  /// Facts that observed states stand for, as text "(at place-1)", in a stable order.
   std::set<std::string> component_facts() const;
-  std::set<std::string> family_facts() const;  // the assumed ones among them
+  std::set<std::string> family_facts() const;  ///< the assumed ones among them
 
-  // The value of a condition's timeline: an observed timeline by its name, a fluent "(battery)", or a fact
-  // "(at place-1)", which is false when its predicate is observable and nothing observed stands for it.
-  // Nothing for a fact that no metadata speaks of.
+  /// The value of a condition's timeline: an observed timeline by its name, a fluent "(battery)", or a fact
+  /// "(at place-1)", which is false when its predicate is observable and nothing observed stands for it.
+  /// Nothing for a fact that no metadata speaks of.
   std::optional<temporal::Value> lookup(const std::string& name) const;
 
   bool holds(const std::vector<std::string>& facts) const;
 
-  // Components that are in an active state now, and those never observed yet.
-  std::vector<const Component*> active() const;
-  std::vector<const Component*> unseen() const;
+  /// Components that are in an active state now, and those never observed yet.
+  std::vector<const mission::Component*> active() const;
+  std::vector<const mission::Component*> unobserved() const;
 
  private:
-  const MissionModel* mission_;
+  const mission::MissionModel* mission_;
   std::map<std::string, temporal::Value> values_;
   std::map<std::string, std::vector<std::string>> assumed_;
   std::set<std::string> observable_predicates_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::beliefs

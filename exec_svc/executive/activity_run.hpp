@@ -1,4 +1,4 @@
-// How far one activity of the running plan has come.
+/// How far one activity of the running plan has come.
 #pragma once
 
 #include <cstdint>
@@ -7,38 +7,28 @@
 
 #include "exec_svc/executive/messages.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
-enum class Phase {
+enum class ActivityPhase {
   waiting,
-  sent,        ///< command sent, no answer yet
-  running,     ///< accepted, or without a command
-  settling,    ///< completed by its owner; shortest duration or post condition still to come
-  cancelling,  ///< cancel sent
-  recovering,  ///< its command has failed, its contingency runs
+  sent,         ///< command sent, no answer yet
+  running,      ///< accepted, or without a command
+  settling,     ///< completed by its owner; shortest duration or post condition still to come
+  cancelling,   ///< cancel sent
+  contingency,  ///< its command has failed, its contingency runs
   done,
 };
 
+/// What follows when a cancel has been answered.
 enum class AfterCancel { retry, fail, withdraw };
 
-/// A contingency under way.
-struct Recovering {
-  std::size_t command = 0;  ///< index of the one that runs; as many as there are: all are done
-  std::string command_id;
-  temporal::Time since{0};
-  temporal::Time command_since{0};
-  bool accepted = false;
-  std::string failure;  ///< of the activity
-};
-
 struct ActivityRun {
-  Phase phase = Phase::waiting;
+  ActivityPhase phase = ActivityPhase::waiting;
   temporal::ActivityState state = temporal::ActivityState::waiting;
-  std::uint32_t attempt = 0;  ///< part of the command's key: never reset
+  std::uint32_t attempt = 0;  ///< part of the command's key: it is never reset
+  std::uint64_t epoch = 0;    ///< of the executive when it issued this attempt: part of the key, too
+  std::uint32_t issued = 0;   ///< the newest attempt that was sent
   std::uint32_t retries_used = 0;
-  std::uint32_t contingencies_used = 0;
-  std::uint32_t contingency_commands = 0;  ///< part of their keys: never reset
-  Recovering recovering;
   std::optional<temporal::Time> started, ended;
   temporal::Time attempt_started{0};
   temporal::Time phase_since{0};
@@ -47,9 +37,9 @@ struct ActivityRun {
   bool overrun_noted = false;                ///< its longest duration has passed and no longer bounds its end
   AfterCancel after_cancel = AfterCancel::fail;
   bool asked = false;  ///< its owner was asked, after a restart, what became of it; not answered yet
-  std::string cause;
+  std::string reason;
 
-  bool active() const { return phase != Phase::waiting && phase != Phase::done; }
+  bool active() const { return phase != ActivityPhase::waiting && phase != ActivityPhase::done; }
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -1,4 +1,4 @@
-// Times to come of things whose time may still change.
+/// Times to come of things whose time may still change.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include "core/temporal/duration.hpp"
 #include "core/temporal/stn.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 /// A changed time is entered again; entries that no longer hold are dropped when they come up, or all at once
 /// when they would be the most. Ties by point.
@@ -47,4 +47,4 @@ class Agenda {
   std::vector<Entry> entries_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

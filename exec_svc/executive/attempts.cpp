@@ -1,88 +1,131 @@
-// How an attempt at an activity ends: success, failure, another attempt, cancel.
-#include "exec_svc/executive/plan_run.hpp"
+#include "exec_svc/executive/attempts.hpp"
 
-namespace roci::exec {
+#include <utility>
+
+namespace roci::exec::executive {
 
 using temporal::ActivityState;
 using temporal::Duration;
 using temporal::PlanActivity;
 using temporal::plus;
 using temporal::Time;
+using temporal::TimePoint;
 using temporal::Truth;
 
-void PlanRun::succeed(Index activity, Time now) {
-  const PlanActivity& planned = plan_.activities[activity];
+void Attempts::start(Index activity, Time now) {
+  const PlanActivity& planned = state_->plan.activities[activity];
+  ActivityRun& run = state_->runs[activity];
+  run.started = run.attempt_started = now;
+  run.maintenance_held = evaluate(planned.maintenance, state_->lookup()) == Truth::yes;
+  if (planned.owner.empty()) {
+    state_->enter(activity, ActivityPhase::running, now);
+    state_->store.begin(planned);
+    state_->change(activity, ActivityState::running, "");
+  } else {
+    ++run.attempt;
+    state_->enter(activity, ActivityPhase::sent, now);
+    state_->send(activity, CommandAction::execute);
+    state_->change(activity, ActivityState::dispatched, "");
+  }
+}
+
+void Attempts::succeed(Index activity, Time now) {
+  const PlanActivity& planned = state_->plan.activities[activity];
   if (!planned.owner.empty()) {
-    points_.happen(planned.end_point, now);
+    state_->points.happen(planned.end_point, now);
     ended_now_.push_back(activity);
   }
-  close(activity, now, ActivityState::succeeded, "");
+  state_->close(activity, now, ActivityState::succeeded, "");
 }
 
-void PlanRun::fail(Index activity, Time now, BreakReason reason, const std::string& cause,
-                   bool still_commanded) {
-  const bool may_recover = reason == BreakReason::activity_failed && contingency_of(activity) != nullptr;
-  if (may_recover && !still_commanded && begin_contingency(activity, now, cause)) return;
-  if (may_recover && still_commanded) {
-    cancel(activity, now, AfterCancel::fail, cause);
-    return;
-  }
-  break_plan(reason, plan_.activities[activity].id, cause, plan_.activities[activity].contingency);
+void Attempts::fail(Index activity, Time now, Breakage breakage, const std::string& reason,
+                    bool still_commanded) {
+  const PlanActivity& planned = state_->plan.activities[activity];
+  const bool may_recover =
+      breakage == Breakage::activity_failed && contingencies_->usable(activity) != nullptr;
+  if (may_recover && !still_commanded && contingencies_->begin(activity, now, reason)) return;
+  if (may_recover && still_commanded) return cancel(activity, now, AfterCancel::fail, reason);
+  state_->break_plan(breakage, planned.id, reason, planned.contingency);
   if (still_commanded) {
-    cancel(activity, now, AfterCancel::fail, cause);
+    cancel(activity, now, AfterCancel::fail, reason);
   } else {
-    close(activity, now, ActivityState::failed, cause);
+    state_->close(activity, now, ActivityState::failed, reason);
   }
 }
 
-void PlanRun::fail_or_retry(Index activity, Time now, const std::string& cause) {
-  if (!retry(activity, now, cause)) fail(activity, now, BreakReason::activity_failed, cause, false);
+void Attempts::fail_or_retry(Index activity, Time now, const std::string& reason) {
+  if (!retry(activity, now, reason)) fail(activity, now, Breakage::activity_failed, reason, false);
 }
 
 /// R99: the same activity again at once, if its preconditions still hold; its duration counts from now.
-bool PlanRun::retry(Index activity, Time now, const std::string& cause) {
-  const PlanActivity& planned = plan_.activities[activity];
-  ActivityRun& run = runs_[activity];
-  if (!starting() || run.retries_used >= planned.retries || now > deadline(activity)) return false;
-  const auto within = settings_.retry_within.find(planned.name);
-  if (within != settings_.retry_within.end() && now > plus(*run.started, within->second)) return false;
-  if (evaluate(planned.pre, lookup()) != Truth::yes) return false;
+bool Attempts::retry(Index activity, Time now, const std::string& reason) {
+  const PlanActivity& planned = state_->plan.activities[activity];
+  ActivityRun& run = state_->runs[activity];
+  if (!state_->starting() || run.retries_used >= planned.retries || now > deadlines_->end(activity))
+    return false;
+  const auto within = state_->settings.retry_within.find(planned.name);
+  if (within != state_->settings.retry_within.end() && now > plus(*run.started, within->second)) return false;
+  if (evaluate(planned.pre, state_->lookup()) != Truth::yes) return false;
   ++run.retries_used;
-  recover(Rung::retry, activity,
-          "retry " + std::to_string(run.retries_used) + " of " + std::to_string(planned.retries) +
-              " after: " + cause);
-  try_again(activity, now, "retry after: " + cause);
+  state_->report_recovery(RecoveryAction::retry, activity,
+                          "retry " + std::to_string(run.retries_used) + " of " +
+                              std::to_string(planned.retries) + " after: " + reason);
+  try_again(activity, now, "retry after: " + reason);
   return true;
 }
 
-void PlanRun::try_again(Index activity, Time now, const std::string& cause) {
-  ActivityRun& run = runs_[activity];
+void Attempts::try_again(Index activity, Time now, const std::string& reason) {
+  ActivityRun& run = state_->runs[activity];
   ++run.attempt;
   run.attempt_started = now;
   run.overrun_noted = false;
   const Duration spent = now - *run.started;
-  const temporal::Window duration = points_.duration(activity);
-  points_.set_duration(activity, plus(spent, duration.lower), plus(spent, duration.upper));
-  enter(activity, Phase::sent, now);
-  send(activity, CommandAction::execute);
-  change(activity, ActivityState::dispatched, cause);
+  const temporal::Window duration = state_->points.duration(activity);
+  state_->points.set_duration(activity, plus(spent, duration.lower), plus(spent, duration.upper));
+  state_->enter(activity, ActivityPhase::sent, now);
+  state_->send(activity, CommandAction::execute);
+  state_->change(activity, ActivityState::dispatched, reason);
 }
 
-void PlanRun::close(Index activity, Time now, ActivityState state, const std::string& cause) {
-  ActivityRun& run = runs_[activity];
-  if (run.started) run.ended = now;
-  if (plan_.activities[activity].owner.empty() && run.started)
-    store_.end(plan_.activities[activity], state == ActivityState::succeeded);
-  enter(activity, Phase::done, now);
-  change(activity, state, cause);
-}
-
-void PlanRun::cancel(Index activity, Time now, AfterCancel after, const std::string& cause) {
-  ActivityRun& run = runs_[activity];
-  enter(activity, Phase::cancelling, now);
+void Attempts::cancel(Index activity, Time now, AfterCancel after, const std::string& reason) {
+  ActivityRun& run = state_->runs[activity];
+  state_->enter(activity, ActivityPhase::cancelling, now);
   run.after_cancel = after;
-  send(activity, CommandAction::cancel);
-  change(activity, run.state, cause);
+  state_->send(activity, CommandAction::cancel);
+  state_->change(activity, run.state, reason);
 }
 
-}  // namespace roci::exec
+void Attempts::resume_after(const ContingencyEnd& end, Time now) {
+  const Index activity = end.activity;
+  const Contingency& contingency =
+      state_->settings.contingencies.at(state_->plan.activities[activity].contingency);
+  const std::string what = "contingency " + contingency.name;
+  const bool done = end.reason.empty();
+  if (done && contingency.retries && state_->starting() && now <= deadlines_->end(activity)) {
+    state_->report_recovery(RecoveryAction::contingency, activity,
+                            contingency.name + " is done, the activity is tried again");
+    try_again(activity, now, "tried again after " + what);
+    return;
+  }
+  contingencies_->exhaust(activity);
+  fail(activity, now, Breakage::activity_failed,
+       end.failure + "; " + what + (done ? " is done" : " did not help: " + end.reason), false);
+}
+
+void Attempts::check_order_of_ends() {
+  const PointDispatcher& points = state_->points;
+  for (const Index ended : std::exchange(ended_now_, {})) {
+    const PlanActivity& planned = state_->plan.activities[ended];
+    for (const TimePoint point : points.precedence().predecessors[planned.end_point]) {
+      const PointOwner& owner = points.owner(point);
+      if (owner.role != PointRole::observed_end || points.happened_at(point) || points.dropped(point))
+        continue;
+      if (state_->runs[owner.activity].phase == ActivityPhase::settling) continue;
+      state_->break_plan(Breakage::ordering_violated, planned.id,
+                         "it ended before " + state_->plan.activities[owner.activity].id + " had ended",
+                         planned.contingency);
+    }
+  }
+}
+
+}  // namespace roci::exec::executive

@@ -1,5 +1,5 @@
-// What is done about a failed activity before its plan is given up (R69, R70): commands from a template, sent
-// at once and without a planner.
+/// What is done about a failed activity before its plan is given up (R69, R70): commands from a template,
+/// sent at once and without a planner.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include "core/temporal/duration.hpp"
 #include "core/temporal/flexible_plan.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 struct ContingencyCommand {
   std::string owner;
@@ -22,10 +22,10 @@ struct ContingencyCommand {
 struct Contingency {
   std::string name;
   std::vector<ContingencyCommand> commands;  ///< one after the other
-  bool retries =
-      false;  ///< then the activity is tried again, if its preconditions hold; else the plan is broken
+  /// Then the activity is tried again, if its preconditions hold; else the plan is broken.
+  bool retries = false;
   std::uint32_t times = 1;                             ///< for one activity
   temporal::Duration within = temporal::seconds(300);  ///< for all of its commands
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -7,14 +7,15 @@
 #include "exec_svc/executive/plan_run.hpp"
 #include "exec_svc/executive/timeline_store.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 struct Executive::Impl {
   ExecutiveSettings settings;
   TimelineStore store;
-  std::optional<PlanRun> run;
+  std::unique_ptr<PlanRun> run;
   temporal::FlexiblePlan no_plan;
   temporal::Time now{0};
+  std::uint64_t epoch = 0;
   std::uint64_t ignored_acks = 0;
   std::uint64_t ignored_answers = 0;
 
@@ -36,8 +37,8 @@ std::vector<std::string> Executive::load(temporal::FlexiblePlan plan, temporal::
   std::vector<std::string> faults = check(plan);
   if (!faults.empty()) return faults;
   impl_->move_to(now);
-  std::optional<PlanRun> before = std::exchange(impl_->run, std::nullopt);
-  impl_->run.emplace(std::move(plan), impl_->settings, impl_->store);
+  const std::unique_ptr<PlanRun> before = std::move(impl_->run);
+  impl_->run = std::make_unique<PlanRun>(std::move(plan), impl_->settings, impl_->store, impl_->epoch);
   if (before) impl_->run->adopt(*before);
   return {};
 }
@@ -46,7 +47,9 @@ Outputs Executive::step(temporal::Time now, const Inputs& inputs) {
   impl_->move_to(now);
   for (const Observation& observation : inputs.observations)
     impl_->store.observe(observation.timeline, observation.value);
-  std::optional<PlanRun>& run = impl_->run;
+  PlanRun* run = impl_->run.get();
+  if (inputs.epoch != 0) impl_->epoch = inputs.epoch;
+  if (inputs.epoch != 0 && run) run->begin_epoch(inputs.epoch);
   for (const CommandAck& ack : inputs.acks)
     if (!run || !run->take_ack(ack, impl_->now)) ++impl_->ignored_acks;
   for (const DecisionAnswer& answer : inputs.answers)
@@ -110,4 +113,4 @@ std::optional<temporal::Value> Executive::value_of(const std::string& timeline) 
 std::uint64_t Executive::ignored_acks() const { return impl_->ignored_acks; }
 std::uint64_t Executive::ignored_answers() const { return impl_->ignored_answers; }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

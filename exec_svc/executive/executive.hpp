@@ -1,5 +1,5 @@
-// The executive: runs any FlexiblePlan on the plan's own temporal network. A functional core: no clock, no
-// I/O, the same inputs give the same outputs.
+/// The executive: runs any FlexiblePlan on the plan's own temporal network. A functional core: no clock, no
+/// I/O, the same inputs give the same outputs.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include "exec_svc/executive/contingency.hpp"
 #include "exec_svc/executive/messages.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 /// When an activity starts within its window (R144). Latest: at its upper bound, if it has one.
 enum class StartPolicy { earliest, latest };
@@ -22,17 +22,17 @@ struct ExecutiveSettings {
   temporal::Duration ack_timeout = temporal::seconds(5);  ///< command sent -> accepted, rejected or completed
   temporal::Duration cancel_timeout = temporal::seconds(5);  ///< cancel sent -> any answer
   temporal::Duration settle_time = temporal::seconds(2);     ///< for observations to follow a start or an end
-  temporal::Duration default_wait =
-      temporal::seconds(3600);  ///< for pre conditions, where nothing else bounds it
+  /// For pre conditions, where nothing else bounds it.
+  temporal::Duration default_wait = temporal::seconds(3600);
   temporal::Duration decision_timeout = temporal::seconds(600);  ///< where decide_before has no latest time
   double overrun_factor = 3.0;  ///< a command fails as hung after this many times its longest duration ...
   temporal::Duration overrun_grace = temporal::seconds(600);  ///< ... plus this
   StartPolicy start = StartPolicy::earliest;
-  bool only_committed =
-      false;  ///< what is not committed waits for a version of the plan that commits it (R78)
+  /// What is not committed waits for a version of the plan that commits it (R78).
+  bool only_committed = false;
   std::map<std::string, Contingency> contingencies{};  ///< by name, as PlanActivity::contingency names them
-  std::map<std::string, temporal::Duration>
-      retry_within{};  ///< after its start, by PlanActivity::name; else no bound
+  /// After its start, by PlanActivity::name; else no bound.
+  std::map<std::string, temporal::Duration> retry_within{};
 };
 
 /// Rules (docs in README.md): a start whose predecessors happened at t <= lb starts at lb, in (lb, ub] at
@@ -100,4 +100,4 @@ class Executive {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -1,4 +1,4 @@
-// What goes into the executive and what comes out of it: plain values, no DDS.
+/// What goes into the executive and what comes out of it: plain values, no DDS.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include "core/temporal/flexible_plan.hpp"
 #include "core/temporal/value.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 enum class CommandAction { execute, cancel, query };
 
@@ -29,6 +29,7 @@ struct CommandAck {
   CommandStage stage = CommandStage::accepted;
   std::string code;
   std::string reason;
+  std::uint64_t epoch = 0;  ///< in which the command was issued; 0: not told, any fits
 };
 
 struct DecisionAnswer {
@@ -42,6 +43,7 @@ struct Inputs {
   std::vector<CommandAck> acks{};
   std::vector<std::string> lost_owners{};  ///< services found dead, hung or cut off
   std::vector<DecisionAnswer> answers{};
+  std::uint64_t epoch = 0;  ///< of the executive from this step on; 0: as before
 };
 
 struct Command {
@@ -52,7 +54,10 @@ struct Command {
   std::string subsystem;
   std::string command_name;
   std::vector<temporal::Property> arguments;
-  temporal::Duration expected{0};  ///< shortest duration of the activity
+  temporal::Duration expected{0};                  ///< shortest duration of the activity
+  std::uint64_t epoch = 0;                         ///< in which the key was issued; 0: the commander's own
+  temporal::Time latest_end = temporal::no_bound;  ///< by which its step must have ended
+  std::string robot{};                             ///< whose subsystem; empty: the owner's only one
 };
 
 /// State of one activity; times are mission times.
@@ -65,7 +70,7 @@ struct StepStatus {
   temporal::Time latest_start = temporal::no_bound;
   std::optional<temporal::Time> started;
   std::optional<temporal::Time> ended;
-  std::string cause;  ///< why it is in this state, where that is not obvious
+  std::string reason;  ///< why it is in this state, where that is not obvious
 };
 
 struct DecisionRequest {
@@ -75,18 +80,18 @@ struct DecisionRequest {
   temporal::Time answer_before = temporal::no_bound;  ///< later answers are ignored
 };
 
-/// The rungs of the recovery ladder that need no planner, cheapest first.
-enum class Rung {
+/// What is done about a step that cannot start or fails, and needs no planner; cheapest first.
+enum class RecoveryAction {
   push,         ///< a start waits for its preconditions, until its wait timeout (R98)
   retry,        ///< the same command again (R99)
   contingency,  ///< commands of a template, then the same command again or a broken plan (R69, R70)
 };
 
-/// A rung was entered, or a contingency ended.
+/// A recovery action was taken, or a contingency ended.
 struct RecoveryStep {
-  Rung rung = Rung::push;
+  RecoveryAction action = RecoveryAction::push;
   std::string activity;
-  std::string cause;  ///< why, and what is done
+  std::string reason;  ///< why, and what is done
 };
 
 enum class OutcomeKind {
@@ -98,7 +103,7 @@ enum class OutcomeKind {
   cancelled,   ///< nothing of the plan runs any more, or its owner did not answer the cancel in time
 };
 
-enum class BreakReason {
+enum class Breakage {
   none,
   late_start,         ///< an activity's latest start has passed (R49)
   activity_failed,    ///< its command, a condition, a wait or its owner failed; the retries are used up
@@ -110,9 +115,9 @@ enum class BreakReason {
 
 struct Outcome {
   OutcomeKind kind = OutcomeKind::idle;
-  BreakReason reason = BreakReason::none;  ///< of broken
-  std::string activity;                    ///< that broke it; for decision_missing the decision
-  std::string cause;                       ///< in plain words
+  Breakage breakage = Breakage::none;  ///< of broken
+  std::string activity;                ///< that broke it; for decision_missing the decision
+  std::string reason;                  ///< in plain words
   std::string contingency;  ///< the one that the activity names; it has been used up, or is none of ours
 };
 
@@ -125,4 +130,4 @@ struct Outputs {
   std::optional<temporal::Time> next_wake{};  ///< step again then, if nothing happens before
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 using temporal::bounded;
 using temporal::Duration;
@@ -239,4 +239,4 @@ std::optional<Agenda::Entry> PointDispatcher::first_latest() {
   });
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -1,4 +1,4 @@
-// Decides which time points of a plan may happen now, by the plan's network alone.
+/// Decides which time points of a plan may happen now, by the plan's network alone.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include "exec_svc/executive/agenda.hpp"
 #include "exec_svc/executive/precedence.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 class PointDispatcher {
  public:
@@ -22,7 +22,7 @@ class PointDispatcher {
   temporal::Window window(temporal::TimePoint point) const { return windows_.window(point); }
   /// Makes window() cheap for every point.
   void settle() const { windows_.settle(); }
-  /// What the windows have cost so far, as of temporal::BoundField.
+  /// What the windows have cost so far, as of temporal::LazyShortestPaths.
   std::uint64_t work() const { return windows_.work(); }
   const PointOwner& owner(temporal::TimePoint point) const { return owners_[point]; }
   /// As planned.
@@ -101,9 +101,9 @@ class PointDispatcher {
   Precedence precedence_;
   temporal::ExecutionWindows windows_;
   std::vector<PointState> points_;
-  std::vector<temporal::TimePoint> ends_;  // by activity
+  std::vector<temporal::TimePoint> ends_;  ///< by activity
   std::set<temporal::TimePoint> ready_;
   Agenda earliest_, latest_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 using temporal::TimePoint;
 
@@ -140,4 +140,4 @@ Precedence precedence_of(const std::vector<temporal::TemporalConstraint>& constr
   return precedence;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

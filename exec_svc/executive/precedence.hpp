@@ -1,11 +1,11 @@
-// Which time points must have happened before which.
+/// Which time points must have happened before which.
 #pragma once
 
 #include <vector>
 
 #include "core/temporal/flexible_plan.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 /// What makes a time point happen.
 enum class PointRole : char {
@@ -37,4 +37,4 @@ struct Precedence {
 Precedence precedence_of(const std::vector<temporal::TemporalConstraint>& constraints,
                          const std::vector<PointOwner>& owners);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

@@ -1,6 +1,6 @@
 #include "exec_svc/executive/timeline_store.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 using temporal::Impact;
 using temporal::ImpactKind;
@@ -67,4 +67,4 @@ void TimelineStore::add(const std::string& timeline, double amount) {
   value = (number ? *number : 0.0) + amount;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

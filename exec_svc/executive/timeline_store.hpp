@@ -1,4 +1,4 @@
-// Values of timelines as conditions see them.
+/// Values of timelines as conditions see them.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 #include "core/temporal/flexible_plan.hpp"
 
-namespace roci::exec {
+namespace roci::exec::executive {
 
 /// External states are observed; internal states are what activities without a command make of them (R73). A
 /// timeline that was observed once is external for ever: planned impacts are never taken for the world.
@@ -40,8 +40,8 @@ class TimelineStore {
   void add(const std::string& timeline, double amount);
 
   std::unordered_map<std::string, temporal::Value> observed_, internal_;
-  std::map<std::string, std::vector<Lasting>> lasting_;  // by activity id
+  std::map<std::string, std::vector<Lasting>> lasting_;  ///< by activity id
   std::optional<temporal::Time> now_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::executive

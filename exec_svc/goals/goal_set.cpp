@@ -7,7 +7,14 @@
 
 #include "exec_svc/mission/template_text.hpp"
 
-namespace roci::exec {
+namespace roci::exec::goals {
+
+using mission::ArgumentKind;
+using mission::fill_names;
+using mission::GoalKind;
+using mission::ObjectModel;
+using mission::words_of;
+
 namespace {
 
 // Ids become parts of PDDL names.
@@ -38,13 +45,13 @@ std::map<std::string, std::string> template_values(const GoalRequest& goal) {
   return values;
 }
 
-bool same_wish(const GoalRequest& one, const GoalRequest& other) {
+bool same_request(const GoalRequest& one, const GoalRequest& other) {
   GoalRequest said_likewise = one;
-  said_likewise.said_in = other.said_in;
+  said_likewise.sample = other.sample;
   return said_likewise == other;
 }
 
-bool said_by_console(const GoalRequest& goal) { return goal.said_in.incarnation == 0; }
+bool from_console(const GoalRequest& goal) { return goal.sample.incarnation == 0; }
 
 bool is_final(GoalState state) { return state != GoalState::pending && state != GoalState::planned; }
 
@@ -128,7 +135,7 @@ bool GoalSet::names(const GoalRequest& request, const GoalRequest& other) const 
   });
 }
 
-std::vector<GoalRequest> GoalSet::in_order(std::vector<GoalRequest> requests) const {
+std::vector<GoalRequest> GoalSet::in_reference_order(std::vector<GoalRequest> requests) const {
   for (auto at = requests.begin(); at != requests.end(); ++at) {
     // The first from here on that names none of the others; in a circle of names the one that is there.
     const auto free = std::find_if(at, requests.end(), [&](const GoalRequest& one) {
@@ -143,40 +150,40 @@ std::vector<GoalRequest> GoalSet::in_order(std::vector<GoalRequest> requests) co
 GoalSet::Submission GoalSet::submit(const GoalRequest& request, temporal::Time now) {
   if (const auto found = records_.find(request.key); found != records_.end()) {
     GoalRecord& record = found->second;
-    if (request.said_in == record.answers && same_wish(record.request, request))
-      return {Taken::known, &record};
-    record.answers = request.said_in;
+    if (request.sample == record.answers && same_request(record.request, request))
+      return {Disposition::known, &record};
+    record.answers = request.sample;
     return {change(record, request, now), &record};
   }
   std::string fault = request.recalled ? "there is no such goal to recall" : fault_of(request, now);
   const bool good = fault.empty();
   GoalRecord& record = records_[request.key];
   record = {
-      request,        good ? GoalState::pending : GoalState::rejected, std::move(fault), next_arrival_++, 0,
-      request.said_in};
-  return {good ? Taken::accepted : Taken::rejected, &record};
+      request,       good ? GoalState::pending : GoalState::rejected, std::move(fault), next_arrival_++, 0,
+      request.sample};
+  return {good ? Disposition::accepted : Disposition::rejected, &record};
 }
 
-GoalSet::Taken GoalSet::change(GoalRecord& record, const GoalRequest& request, temporal::Time now) {
-  if (same_wish(record.request, request)) return Taken::repeated;
+GoalSet::Disposition GoalSet::change(GoalRecord& record, const GoalRequest& request, temporal::Time now) {
+  if (same_request(record.request, request)) return Disposition::repeated;
   if (request.recalled) {
     record.request.recalled = true;
-    if (is_final(record.state)) return Taken::repeated;
+    if (is_final(record.state)) return Disposition::repeated;
     record.state = GoalState::recalled;
     record.reason = "recalled by " + request.key.issuer;
-    return Taken::recalled;
+    return Disposition::recalled;
   }
   std::string fault = fault_of(request, now);
   if (record.state != GoalState::rejected && request.kind != record.request.kind)
     fault = "it is a " + record.request.kind + " and stays one; choose another id";
   if (!fault.empty()) {
     record.reason = "change refused: " + fault;
-    return record.state == GoalState::rejected ? Taken::rejected : Taken::refused;
+    return record.state == GoalState::rejected ? Disposition::rejected : Disposition::refused;
   }
   record.request = request;
   record.state = GoalState::pending;
   record.reason = "changed by " + request.key.issuer;
-  return Taken::accepted;
+  return Disposition::accepted;
 }
 
 void GoalSet::restore(const GoalRecord& record) {
@@ -239,4 +246,4 @@ std::optional<GoalKey> GoalSet::drop_candidate(const std::vector<GoalKey>& among
   return std::nullopt;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::goals

@@ -1,5 +1,5 @@
-// The goals of a mission: what was asked, by whom, in which order, and what became of each. Nothing is ever
-// removed.
+/// The goals of a mission: what was asked, by whom, in which order, and what became of each. Nothing is ever
+/// removed.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include "core/temporal/duration.hpp"
 #include "exec_svc/mission/mission_model.hpp"
 
-namespace roci::exec {
+namespace roci::exec::goals {
 
 enum class GoalClass { hard, optional, opportunistic };
 enum class GoalState { rejected, pending, planned, achieved, dropped, failed, recalled };
@@ -23,12 +23,12 @@ struct GoalKey {
   std::string text() const { return issuer + "/" + id; }
 };
 
-// Which of its sender's samples brought a request; numbered per sender and start of it.
-struct SampleName {
+/// Which of its sender's samples brought a request; numbered per sender and start of it.
+struct SampleId {
   std::string sender;
-  std::uint32_t incarnation = 0;  // 0: a console
+  std::uint32_t incarnation = 0;  ///< 0: a console
   std::uint64_t number = 0;
-  bool operator==(const SampleName&) const = default;
+  bool operator==(const SampleId&) const = default;
 };
 
 struct GoalRequest {
@@ -38,86 +38,86 @@ struct GoalRequest {
   GoalClass importance = GoalClass::hard;
   double utility = 0;
   std::int32_t priority = 0;
-  temporal::Time opens{0};   // 0: any time
-  temporal::Time closes{0};  // 0: never
+  temporal::Time opens{0};   ///< 0: any time
+  temporal::Time closes{0};  ///< 0: never
   bool recalled = false;
-  SampleName said_in;
+  SampleId sample;
   bool operator==(const GoalRequest&) const = default;
 };
 
-// Whoever says it, and however often.
-bool same_wish(const GoalRequest&, const GoalRequest&);
+/// Whoever says it, and however often.
+bool same_request(const GoalRequest&, const GoalRequest&);
 
-// By somebody who reads the answer; the services of a run, which pass on what its scenario says, do not.
-bool said_by_console(const GoalRequest&);
+/// By somebody who reads the answer; the services of a run, which pass on what its scenario says, do not.
+bool from_console(const GoalRequest&);
 
-// What the templates of the goal's kind are filled with: its arguments and its id.
+/// What the templates of the goal's kind are filled with: its arguments and its id.
 std::map<std::string, std::string> template_values(const GoalRequest& goal);
 
 struct GoalRecord {
   GoalRequest request;
   GoalState state = GoalState::pending;
   std::string reason;
-  std::uint64_t arrival = 0;  // rises with each goal
+  std::uint64_t arrival = 0;  ///< rises with each goal
   std::uint32_t plan_version = 0;
-  SampleName answers;  // the newest request of this key, also one that was refused or changed nothing
+  SampleId answers;  ///< the newest request of this key, also one that was refused or changed nothing
 };
 
 bool is_final(GoalState state);
 
 class GoalSet {
  public:
-  explicit GoalSet(const MissionModel& mission) : mission_(&mission) {}
+  explicit GoalSet(const mission::MissionModel& mission) : mission_(&mission) {}
 
-  // What became of a request.
-  enum class Taken {
-    known,     // this very sample: nothing is to be told
-    repeated,  // the same wish in a new sample, or a recall that is too late: it is answered, nothing else
-    refused,   // the goal stays as it was
+  /// What became of a request.
+  enum class Disposition {
+    known,     ///< this very sample: nothing is to be told
+    repeated,  ///< the same wish in a new sample, or a recall that is too late: it is answered, nothing else
+    refused,   ///< the goal stays as it was
     rejected,
     recalled,
     accepted,
   };
   struct Submission {
-    Taken taken;
+    Disposition taken;
     const GoalRecord* record;
   };
-  // Takes a request in: a new goal, a change, or a recall. A bad new one is stored as rejected, with a reason
-  // that names the remedy; a bad change leaves the goal as it was, with the reason.
+  /// Takes a request in: a new goal, a change, or a recall. A bad new one is stored as rejected, with a
+  /// reason that names the remedy; a bad change leaves the goal as it was, with the reason.
   Submission submit(const GoalRequest& request, temporal::Time now);
 
-  // These, but each after those of them that its arguments name: who joins a writer late hears goals of
-  // different keys in any order.
-  std::vector<GoalRequest> in_order(std::vector<GoalRequest> requests) const;
+  /// These, but each after those of them that its arguments name: who joins a writer late hears goals of
+  /// different keys in any order.
+  std::vector<GoalRequest> in_reference_order(std::vector<GoalRequest> requests) const;
 
-  // Puts a goal back as the journal has it.
+  /// Puts a goal back as the journal has it.
   void restore(const GoalRecord& record);
 
   void set_state(const GoalKey& key, GoalState state, std::string reason, std::uint32_t plan_version = 0);
 
-  // Goals not final yet, in order of arrival.
+  /// Goals not final yet, in order of arrival.
   std::vector<const GoalRecord*> open() const;
-  // Every goal whose objects exist: all but rejected ones. The robot may stand at the place of a goal that
-  // was given up.
+  /// Every goal whose objects exist: all but rejected ones. The robot may stand at the place of a goal that
+  /// was given up.
   std::vector<const GoalRecord*> present() const;
   std::vector<const GoalRecord*> all() const;
   const GoalRecord* find(const GoalKey& key) const;
 
-  // Which goal goes when not all fit: the newest opportunistic one, else the optional one of the lowest
-  // utility (the newest of equals), never a hard one (R52, R53; architecture, "Which goals go").
+  /// Which goal goes when not all fit: the newest opportunistic one, else the optional one of the lowest
+  /// utility (the newest of equals), never a hard one (R52, R53; architecture, "Which goals go").
   std::optional<GoalKey> drop_candidate() const;
-  // The same among these goals alone.
+  /// The same among these goals alone.
   std::optional<GoalKey> drop_candidate(const std::vector<GoalKey>& among) const;
 
  private:
-  Taken change(GoalRecord&, const GoalRequest&, temporal::Time now);
+  Disposition change(GoalRecord&, const GoalRequest&, temporal::Time now);
   std::string fault_of(const GoalRequest& request, temporal::Time now) const;
   bool names(const GoalRequest& request, const GoalRequest& other) const;
   std::string fault_of_reference(const GoalRequest& request, const std::string& argument) const;
 
-  const MissionModel* mission_;
+  const mission::MissionModel* mission_;
   std::map<GoalKey, GoalRecord> records_;
   std::uint64_t next_arrival_ = 1;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::goals

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
 CrashPoints::CrashPoints(std::string_view setting, std::uint32_t incarnation, std::function<void()> die)
     : die_(std::move(die)) {
@@ -31,4 +31,4 @@ void CrashPoints::pass(std::string_view point) {
   if (left_ > 0 && point == point_ && --left_ == 0) die_();
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -1,6 +1,6 @@
-// Where exec_svc dies on request, as by kill -9: ROCI_CRASH=POINT:N,POINT:N,… kills its first incarnation
-// when that passes the point for the Nth time, its second one likewise, and so on. For tests and bench/kill;
-// without the variable nothing happens.
+/// Where exec_svc dies on request, as by kill -9: ROCI_CRASH=POINT:N,POINT:N,… kills its first incarnation
+/// when that passes the point for the Nth time, its second one likewise, and so on. For tests and bench/kill;
+/// without the variable nothing happens.
 #pragma once
 
 #include <array>
@@ -9,24 +9,24 @@
 #include <string>
 #include <string_view>
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
-// In the order of one turn.
+/// In the order of one turn.
 inline constexpr std::array<std::string_view, 8> kCrashPoints{
-    "after-goal",          // a goal came in
-    "after-ack",           // the owner answered a command: it has been carried out, or is
-    "after-answer",        // the planner answered
-    "before-write-ahead",  // all inputs of a turn are there, nothing is journaled
-    "after-write-ahead",   // inputs and decisions are durable, nothing was sent
-    "after-copy",          // the follower has them too (exec_svc/standby), nothing was sent
-    "during-send",         // between two samples sent
-    "after-send",          // everything was sent, no effect seen
+    "after-goal",          ///< a goal came in
+    "after-ack",           ///< the owner answered a command: it has been carried out, or is
+    "after-answer",        ///< the planner answered
+    "before-write-ahead",  ///< all inputs of a turn are there, nothing is journaled
+    "after-write-ahead",   ///< inputs and decisions are durable, nothing was sent
+    "after-copy",          ///< the follower has them too (exec_svc/standby), nothing was sent
+    "during-send",         ///< between two samples sent
+    "after-send",          ///< everything was sent, no effect seen
 };
 
 class CrashPoints {
  public:
-  // `setting`: as above, or empty; `incarnation` from 1. Throws std::invalid_argument that lists the points.
-  // `die` does not return.
+  /// `setting`: as above, or empty; `incarnation` from 1. Throws std::invalid_argument that lists the points.
+  /// `die` does not return.
   CrashPoints(std::string_view setting, std::uint32_t incarnation, std::function<void()> die);
 
   void pass(std::string_view point);
@@ -37,4 +37,4 @@ class CrashPoints {
   std::function<void()> die_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -4,7 +4,9 @@
 #define SQLITE_ENABLE_PREUPDATE_HOOK
 #include <sqlite3.h>
 
-namespace roci::exec {
+#include "exec_svc/journal/format.hpp"
+
+namespace roci::exec::journal {
 namespace {
 
 // "position" is this copy's own; a batch changes the other tables.
@@ -76,6 +78,7 @@ Journal::Database::Database(const std::filesystem::path& file, Durability durabi
   try {
     execute("PRAGMA journal_mode=WAL;");
     execute(durability == Durability::power ? "PRAGMA synchronous=FULL;" : "PRAGMA synchronous=OFF;");
+    settle_format(handle);
     execute(kSchema);
     append_record =
         std::make_unique<Statement>(*this, "INSERT INTO record(time_us, kind, text) VALUES(?,?,?)");
@@ -155,4 +158,4 @@ void Journal::Database::set_position(const Position& position) {
       .run();
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -1,5 +1,5 @@
-// The SQLite file behind a journal: its tables, one open transaction at most, prepared statements, and what a
-// commit changed. Seen by the journal's own sources alone.
+/// The SQLite file behind a journal: its tables, one open transaction at most, prepared statements, and what
+/// a commit changed. Seen by the journal's own sources alone.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ struct sqlite3;
 struct sqlite3_stmt;
 struct sqlite3_session;
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
-// A prepared statement; bound values are copied.
+/// A prepared statement; bound values are copied.
 class Statement {
  public:
   Statement(const Journal::Database& database, const char* sql);
@@ -29,7 +29,7 @@ class Statement {
   Statement& bind(std::string_view text);
   Statement& bind_bytes(std::string_view bytes);
   Statement& bind(std::int64_t value);
-  bool row();  // false: there is none left; throws JournalError
+  bool row();  ///< false: there is none left; throws JournalError
   void run();
   std::string text(int column) const;
   std::int64_t number(int column) const;
@@ -56,15 +56,15 @@ struct Journal::Database {
 
   sqlite3* handle = nullptr;
   std::unique_ptr<Statement> append_record;
-  std::optional<std::uint64_t> epoch;  // commits are batches of it
-  std::vector<Batch> batches;          // not taken yet
+  std::optional<std::uint64_t> epoch;  ///< commits are batches of it
+  std::vector<Batch> batches;          ///< not taken yet
   bool open_transaction = false;
 
  private:
   void record_changes();
   void close();
 
-  sqlite3_session* session_ = nullptr;  // of the open transaction, if it becomes a batch
+  sqlite3_session* session_ = nullptr;  ///< of the open transaction, if it becomes a batch
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -2,7 +2,16 @@
 
 #include <sstream>
 
-namespace roci::exec {
+namespace roci::exec::journal {
+
+using executive::Command;
+using executive::StepStatus;
+using goals::GoalRecord;
+using reactor::Event;
+using reactor::PlannedAction;
+using reactor::PlanReceipt;
+using reactor::ReactorOutputs;
+
 namespace {
 
 std::string properties_text(const std::vector<temporal::Property>& properties) {
@@ -21,7 +30,7 @@ std::string line_of(const GoalRecord& goal) {
 std::string line_of(const StepStatus& step) {
   return step.activity + " " + std::to_string(static_cast<int>(step.state)) + " [" +
          std::to_string(step.earliest_start.count()) + "," + std::to_string(number(step.latest_start)) +
-         "] " + step.cause;
+         "] " + step.reason;
 }
 
 std::string line_of(const temporal::FlexiblePlan& plan) {
@@ -40,7 +49,8 @@ std::string line_of(const temporal::FlexiblePlan& plan) {
 
 std::string line_of(const PlanReceipt& receipt) {
   return "receipt " + std::to_string(receipt.version) + " refused " + std::to_string(receipt.refused) + " " +
-         receipt.reason + (receipt.open ? "" : " (no plan would be taken)");
+         receipt.reason + (receipt.conflict.empty() ? "" : " conflict: " + receipt.conflict) +
+         (receipt.open ? "" : " (no plan would be taken)");
 }
 
 std::string line_of(const Command& command) {
@@ -61,11 +71,11 @@ std::string line_of(const std::vector<PlannedAction>& remaining) {
 
 }  // namespace
 
-std::vector<Line> decisions(temporal::Time now, const ReactorOutputs& out) {
+std::vector<DecisionLine> decisions(temporal::Time now, const ReactorOutputs& out) {
   const std::string stamp = std::to_string(now.count()) + " ";
-  std::vector<Line> lines;
+  std::vector<DecisionLine> lines;
   for (const GoalRecord& goal : out.goal_changes) lines.push_back({"goal", line_of(goal)});
-  for (const Note& note : out.notes) lines.push_back({"event", note.code + " " + note.text});
+  for (const Event& event : out.events) lines.push_back({"event", event.code + " " + event.text});
   for (const StepStatus& step : out.steps) lines.push_back({"step", line_of(step)});
   if (out.adopted) lines.push_back({"trace", stamp + line_of(*out.adopted)});
   for (const Command& command : out.commands) lines.push_back({"trace", stamp + line_of(command)});
@@ -86,4 +96,4 @@ bool is_decision(std::string_view kind, std::string_view text) {
   return kind == "goal" || kind == "event" || kind == "step" || kind == "call";
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -1,5 +1,5 @@
-// What the reactor decided in one step, as lines of text: what the journal keeps for people and for the
-// trace, and what a replay is compared with.
+/// What the reactor decided in one step, as lines of text: what the journal keeps for people and for the
+/// trace, and what a replay is compared with.
 #pragma once
 
 #include <string>
@@ -9,19 +9,19 @@
 #include "core/temporal/duration.hpp"
 #include "exec_svc/reactor/reactor.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
-struct Line {
-  std::string kind;  // "goal", "event", "step", "trace" (plans and commands), "call"
+struct DecisionLine {
+  std::string kind;  ///< "goal", "event", "step", "trace" (plans and commands), "call"
   std::string text;
-  bool operator==(const Line&) const = default;
+  bool operator==(const DecisionLine&) const = default;
 };
 
-// In the order in which they are journaled and sent. Lines of kind "trace" begin with the mission time in
-// microseconds.
-std::vector<Line> decisions(temporal::Time now, const ReactorOutputs& out);
+/// In the order in which they are journaled and sent. Lines of kind "trace" begin with the mission time in
+/// microseconds.
+std::vector<DecisionLine> decisions(temporal::Time now, const reactor::ReactorOutputs& out);
 
-// Whether a record of the journal is such a line; the other records were seen or measured.
+/// Whether a record of the journal is such a line; the other records were seen or measured.
 bool is_decision(std::string_view kind, std::string_view text);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

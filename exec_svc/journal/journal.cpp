@@ -5,14 +5,22 @@
 
 #include "exec_svc/journal/database.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
+
+using goals::GoalClass;
+using goals::GoalKey;
+using goals::GoalRecord;
+using goals::GoalRequest;
+using goals::GoalState;
+using goals::SampleId;
+
 namespace {
 
-nlohmann::json to_json(const SampleName& sample) {
+nlohmann::json to_json(const SampleId& sample) {
   return {{"sender", sample.sender}, {"incarnation", sample.incarnation}, {"number", sample.number}};
 }
 
-SampleName sample_in(const nlohmann::json& json, const char* key) {
+SampleId sample_in(const nlohmann::json& json, const char* key) {
   const auto found = json.find(key);
   if (found == json.end()) return {};  // of an earlier version
   return {found->at("sender").get<std::string>(), found->at("incarnation").get<std::uint32_t>(),
@@ -29,7 +37,7 @@ std::string encode(const GoalRecord& record) {
                         {"opens", goal.opens.count()},
                         {"closes", goal.closes.count()},
                         {"recalled", goal.recalled},
-                        {"said_in", to_json(goal.said_in)},
+                        {"said_in", to_json(goal.sample)},
                         {"answers", to_json(record.answers)}}
       .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // rejected goals may hold anything
 }
@@ -51,7 +59,7 @@ void decode(GoalKey key, const std::string& text, GoalRecord& record) {
   goal.opens = temporal::Time(json.at("opens").get<std::int64_t>());
   goal.closes = temporal::Time(json.at("closes").get<std::int64_t>());
   goal.recalled = json.at("recalled").get<bool>();
-  goal.said_in = sample_in(json, "said_in");
+  goal.sample = sample_in(json, "said_in");
   record.answers = sample_in(json, "answers");
 }
 
@@ -167,4 +175,4 @@ std::int64_t Journal::number(std::string_view name, std::int64_t fallback) const
   return row.row() ? row.number(0) : fallback;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

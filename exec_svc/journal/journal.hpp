@@ -1,6 +1,6 @@
-// What must survive a crash of exec_svc, in one SQLite file (write-ahead log): the goals, the epoch, who was
-// there, and a record of all that came in, was planned, commanded, answered and observed. A goal is
-// acknowledged only after commit().
+/// What must survive a crash of exec_svc, in one SQLite file (write-ahead log): the goals, the epoch, who was
+/// there, and a record of all that came in, was planned, commanded, answered and observed. A goal is
+/// acknowledged only after commit().
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 #include "exec_svc/goals/goal_set.hpp"
 #include "exec_svc/journal/batch.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
 class JournalError : public std::runtime_error {
  public:
@@ -25,67 +25,67 @@ class JournalError : public std::runtime_error {
 };
 
 enum class Durability {
-  process,  // survives the death of the process; commits do not wait for the disk
-  power,    // survives the loss of power
+  process,  ///< survives the death of the process; commits do not wait for the disk
+  power,    ///< survives the loss of power
 };
 
 class Journal {
  public:
-  struct Database;  // database.hpp
+  struct Database;  ///< database.hpp
 
-  // Opens or creates the file. Throws JournalError naming the file when it is not a journal or cannot be
-  // written.
+  /// Opens or creates the file. Throws JournalError naming the file when it is not a journal or cannot be
+  /// written.
   Journal(const std::filesystem::path& file, Durability durability);
   ~Journal();
 
   const std::filesystem::path& file() const { return file_; }
 
-  // Entries since the last commit become durable together.
+  /// Entries since the last commit become durable together.
   void commit();
 
-  // Rises by one with each call: the epoch of this start of the executive.
+  /// Rises by one with each call: the epoch of this start of the executive.
   std::uint64_t next_epoch();
 
-  // For copies. From now on every commit that changes something is the next one of this epoch, and is kept
-  // for take_batches(): in order, those since the last call.
+  /// For copies. From now on every commit that changes something is the next one of this epoch, and is kept
+  /// for take_batches(): in order, those since the last call.
   void begin_epoch(std::uint64_t epoch);
   std::vector<Batch> take_batches();
-  bool empty() const;  // no goals, no records
-  // {0, 0} for a journal that no epoch of a pair has written to.
+  bool empty() const;  ///< no goals, no records
+  /// {0, 0} for a journal that no epoch of a pair has written to.
   Position position() const;
-  // Makes the same change here, in one commit. Throws JournalError when the batch does not fit or cannot be
-  // read; nothing has changed then.
+  /// Makes the same change here, in one commit. Throws JournalError when the batch does not fit or cannot be
+  /// read; nothing has changed then.
   void apply(const Batch& batch);
-  // The whole journal up to the last commit, position included, as the bytes of its file; and this journal
-  // from such bytes, what was in it is gone. Throws JournalError when they are not a journal; nothing has
-  // changed then.
-  std::string whole() const;
-  void become(std::string_view whole);
+  /// The whole journal up to the last commit, position included, as the bytes of its file; and this journal
+  /// from such bytes, what was in it is gone. Throws JournalError when they are not a journal; nothing has
+  /// changed then.
+  std::string serialized() const;
+  void replace_with(std::string_view serialized);
 
-  void put_goal(const GoalRecord& record);
-  std::vector<GoalRecord> goals() const;
+  void put_goal(const goals::GoalRecord& record);
+  std::vector<goals::GoalRecord> goals() const;
 
-  // The services that were there when the last turn was journaled, with their incarnations.
+  /// The services that were there when the last turn was journaled, with their incarnations.
   void put_peer(const std::string& service, std::uint32_t incarnation);
   void remove_peer(const std::string& service);
   std::map<std::string, std::uint32_t> peers() const;
 
-  // Text, kind: "trace" (plans, commands, acknowledgements and observations), "goal", "event", "step",
-  // "call".
+  /// Text, kind: "trace" (plans, commands, acknowledgements and observations), "goal", "event", "step",
+  /// "call".
   void append(temporal::Time time, std::string_view kind, std::string_view text);
-  // Bytes, kind: "input" (of one step of the reactor; its decisions follow), "anchor", "restored" (snapshots
-  // of the reactor). Returns the number of the record; numbers rise.
+  /// Bytes, kind: "input" (of one step of the reactor; its decisions follow), "anchor", "restored" (snapshots
+  /// of the reactor). Returns the number of the record; numbers rise.
   std::int64_t append_bytes(temporal::Time time, std::string_view kind, std::string_view bytes);
 
   using Visit = std::function<void(temporal::Time, std::string_view kind, std::string_view text)>;
-  // In order of writing; the second: from the record of this number on.
+  /// In order of writing; the second: from the record of this number on.
   void for_each(const Visit& visit) const { for_each_from(0, visit); }
   void for_each_from(std::int64_t number, const Visit& visit) const;
 
-  // Removes inputs and snapshots before this record: nobody can replay what was before it any more.
+  /// Removes inputs and snapshots before this record: nobody can replay what was before it any more.
   void forget_inputs_before(std::int64_t number);
 
-  // Empty when never set.
+  /// Empty when never set.
   void set_text(std::string_view name, std::string_view value);
   std::string text(std::string_view name) const;
   void set_number(std::string_view name, std::int64_t value);
@@ -97,4 +97,4 @@ class Journal {
   std::unique_ptr<Database> database_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

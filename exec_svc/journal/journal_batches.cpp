@@ -11,7 +11,7 @@
 
 #include "exec_svc/journal/database.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -91,7 +91,7 @@ void Journal::apply(const Batch& batch) {
   database_->execute("COMMIT");
 }
 
-std::string Journal::whole() const {
+std::string Journal::serialized() const {
   // Through a door of its own: what is not committed yet stays out.
   sqlite3* opened = nullptr;
   const int status = sqlite3_open_v2(file_.c_str(), &opened, SQLITE_OPEN_READONLY, nullptr);
@@ -103,7 +103,7 @@ std::string Journal::whole() const {
   return {reinterpret_cast<const char*>(bytes.get()), static_cast<std::size_t>(size)};
 }
 
-void Journal::become(std::string_view whole) {
+void Journal::replace_with(std::string_view whole) {
   if (whole.empty()) throw JournalError("what came is not a whole journal: it is empty");
   const fs::path arrived = fs::path(file_).concat(".arrived");
   remove_database(arrived);
@@ -120,4 +120,4 @@ void Journal::become(std::string_view whole) {
   database_ = std::make_unique<Database>(file_, durability_);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

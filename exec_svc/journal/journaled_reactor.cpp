@@ -2,13 +2,20 @@
 
 #include <algorithm>
 
-#include "exec_svc/archive/fields.hpp"
+#include "exec_svc/journal/format.hpp"
+#include "exec_svc/reactor/message_fields.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
+
+using archive::ArchiveError;
+using archive::to_bytes;
+using goals::GoalRecord;
+using mission::MissionModel;
+using reactor::Reactor;
+using reactor::ReactorInputs;
+using reactor::ReactorOutputs;
+
 namespace {
-
-// Of inputs and snapshots. Rises when fields.hpp or the reactor's snapshot change.
-constexpr std::int64_t kFormat = 5;
 
 // A replay of so many turns takes a moment, no more; an anchor is written then wherever the reactor rests.
 constexpr std::size_t kTurnsUntilAnchor = 500;
@@ -36,7 +43,7 @@ void JournaledReactor::recover(bool doubtful) {
     if (kind == "trace") trace_.add(text);
   });
   if (empty && journal_->goals().empty()) {
-    journal_->set_number("format", kFormat);
+    journal_->set_number("format", journal::kInputFormat);
     return;
   }
   recovery_.restarted = true;
@@ -60,8 +67,9 @@ bool JournaledReactor::replay() {
     return false;
   };
   const std::int64_t format = journal_->number("format", 0);
-  if (format != kFormat)
-    return fail("a journal of format " + std::to_string(kFormat), "format " + std::to_string(format));
+  if (format != journal::kInputFormat)
+    return fail("a journal of format " + std::to_string(journal::kInputFormat),
+                "format " + std::to_string(format));
   try {
     journal_->for_each_from(journal_->number("anchor", 0),
                             [&](temporal::Time time, std::string_view kind, std::string_view bytes) {
@@ -76,7 +84,7 @@ bool JournaledReactor::replay() {
   recovery_.turns = replay.turns();
   recovery_.divergence = replay.divergence();
   if (recovery_.divergence) return false;
-  recovery_.last_notes = replay.outputs().notes;
+  recovery_.last_events = replay.outputs().events;
   const auto replayed = reactor_->goals().all();
   const auto journaled = journal_->goals();
   const auto equal = [](const GoalRecord* a, const GoalRecord& b) { return same(*a, b); };
@@ -89,7 +97,7 @@ bool JournaledReactor::replay() {
 void JournaledReactor::begin_anew() {
   reactor_ = std::make_unique<Reactor>(*mission_);
   reactor_->restore(journal_->goals(), static_cast<std::uint32_t>(journal_->number("plan_version", 0)));
-  journal_->set_number("format", kFormat);
+  journal_->set_number("format", journal::kInputFormat);
   anchor(temporal::Time{0}, "restored");
 }
 
@@ -105,7 +113,7 @@ void JournaledReactor::write(temporal::Time now, const ReactorInputs& inputs,
                              const std::vector<std::string>& seen, const ReactorOutputs& out) {
   journal_->append_bytes(now, "input", to_bytes(inputs));
   for (const std::string& line : seen) trace(now, std::to_string(now.count()) + " " + line);
-  for (const Line& line : decisions(now, out)) {
+  for (const DecisionLine& line : decisions(now, out)) {
     if (line.kind == "trace") {
       trace(now, line.text);
     } else {
@@ -131,4 +139,4 @@ void JournaledReactor::anchor(temporal::Time now, std::string_view kind) {
   turns_since_anchor_ = 0;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

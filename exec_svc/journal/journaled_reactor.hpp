@@ -1,5 +1,5 @@
-// A reactor whose inputs and decisions stand in the journal before anything leaves it, so that whoever opens
-// the journal after a crash goes on exactly where it was.
+/// A reactor whose inputs and decisions stand in the journal before anything leaves it, so that whoever opens
+/// the journal after a crash goes on exactly where it was.
 #pragma once
 
 #include <cstddef>
@@ -14,48 +14,49 @@
 #include "exec_svc/journal/trace.hpp"
 #include "exec_svc/reactor/reactor.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
-// What was found in the journal.
+/// What was found in the journal.
 struct Recovery {
-  bool restarted = false;  // an earlier start left something
-  bool resumed = false;    // its state is back; else only its goals are, and all is planned anew
-  std::size_t turns = 0;   // replayed since the last anchor
-  std::optional<Divergence> divergence;  // why not resumed
-  std::vector<Note> last_notes;          // of the newest turn: perhaps nobody heard them
+  bool restarted = false;  ///< an earlier start left something
+  bool resumed = false;    ///< its state is back; else only its goals are, and all is planned anew
+  std::size_t turns = 0;   ///< replayed since the last anchor
+  std::optional<Divergence> divergence;     ///< why not resumed
+  std::vector<reactor::Event> last_events;  ///< of the newest turn: perhaps nobody heard them
 };
 
 class JournaledReactor {
  public:
-  // Both outlive this. Throws JournalError.
-  // `doubtful`: another executive may have gone on from this journal; its goals count, all else is planned
-  // anew, under numbers of plans that nobody used.
-  JournaledReactor(const MissionModel& mission, Journal& journal, bool doubtful = false);
+  /// Both outlive this. Throws JournalError.
+  /// `doubtful`: another executive may have gone on from this journal; its goals count, all else is planned
+  /// anew, under numbers of plans that nobody used.
+  JournaledReactor(const mission::MissionModel& mission, Journal& journal, bool doubtful = false);
 
-  // Steps the reactor; returns when inputs and decisions are durable. `seen`: lines of the trace for the
-  // inputs.
-  ReactorOutputs step(temporal::Time now, ReactorInputs inputs, const std::vector<std::string>& seen);
+  /// Steps the reactor; returns when inputs and decisions are durable. `seen`: lines of the trace for the
+  /// inputs.
+  reactor::ReactorOutputs step(temporal::Time now, reactor::ReactorInputs inputs,
+                               const std::vector<std::string>& seen);
 
   const Recovery& recovery() const { return recovery_; }
-  const Reactor& reactor() const { return *reactor_; }
+  const reactor::Reactor& reactor() const { return *reactor_; }
   std::string trace_sha256() const { return trace_.sha256(); }
 
  private:
   void recover(bool doubtful);
   bool replay();
   void begin_anew();
-  void write(temporal::Time now, const ReactorInputs& inputs, const std::vector<std::string>& seen,
-             const ReactorOutputs& out);
+  void write(temporal::Time now, const reactor::ReactorInputs& inputs, const std::vector<std::string>& seen,
+             const reactor::ReactorOutputs& out);
   void trace(temporal::Time now, const std::string& line);
   void anchor(temporal::Time now, std::string_view kind);
 
-  const MissionModel* mission_;
+  const mission::MissionModel* mission_;
   Journal* journal_;
-  std::unique_ptr<Reactor> reactor_;
+  std::unique_ptr<reactor::Reactor> reactor_;
   Trace trace_;
   Recovery recovery_;
   bool resume_due_ = false;
   std::size_t turns_since_anchor_ = 0;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -2,9 +2,14 @@
 
 #include <algorithm>
 
-#include "exec_svc/archive/fields.hpp"
+#include "exec_svc/reactor/message_fields.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
+
+using archive::ArchiveError;
+using archive::from_bytes;
+using reactor::ReactorInputs;
+
 namespace {
 
 // Of long texts (problems) the kind and the first line that differs.
@@ -25,7 +30,7 @@ void Replay::take(temporal::Time time, std::string_view kind, std::string_view b
   if (kind == "input") return turn(time, bytes);
   if (turns_ == 0 || !is_decision(kind, bytes))
     return;  // what came before the first inputs has no cause here
-  const Line journaled{std::string(kind), std::string(bytes)};
+  const DecisionLine journaled{std::string(kind), std::string(bytes)};
   if (matched_ < lines_.size() && lines_[matched_] == journaled) {
     ++matched_;
   } else {
@@ -60,4 +65,4 @@ void Replay::differ(std::string expected, std::string got) {
   divergence_ = Divergence{now_, std::move(expected), std::move(got)};
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -1,4 +1,4 @@
-// A journal's inputs through a reactor again, and whether it decides what it decided then.
+/// A journal's inputs through a reactor again, and whether it decides what it decided then.
 #pragma once
 
 #include <cstddef>
@@ -11,43 +11,43 @@
 #include "exec_svc/journal/decisions.hpp"
 #include "exec_svc/reactor/reactor.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
-// The first decision that came out differently.
+/// The first decision that came out differently.
 struct Divergence {
   temporal::Time time{0};
-  std::string expected;  // "kind text" as journaled; empty: nothing more was decided then
-  std::string got;       // empty: nothing more is decided now
+  std::string expected;  ///< "kind text" as journaled; empty: nothing more was decided then
+  std::string got;       ///< empty: nothing more is decided now
 };
 
 class Replay {
  public:
-  explicit Replay(Reactor& reactor) : reactor_(&reactor) {}
+  explicit Replay(reactor::Reactor& reactor) : reactor_(&reactor) {}
 
-  // One record of the journal after the other. After a divergence nothing more happens.
+  /// One record of the journal after the other. After a divergence nothing more happens.
   void take(temporal::Time time, std::string_view kind, std::string_view bytes);
-  // After the last record.
+  /// After the last record.
   void finish();
 
   const std::optional<Divergence>& divergence() const { return divergence_; }
   std::size_t turns() const { return turns_; }
   temporal::Time now() const { return now_; }
-  // Of the newest turn.
-  const ReactorOutputs& outputs() const { return outputs_; }
-  // The decision that equalled the newest journaled one.
-  const Line& matched() const { return lines_.at(matched_ - 1); }
+  /// Of the newest turn.
+  const reactor::ReactorOutputs& outputs() const { return outputs_; }
+  /// The decision that equalled the newest journaled one.
+  const DecisionLine& matched() const { return lines_.at(matched_ - 1); }
 
  private:
   void turn(temporal::Time time, std::string_view bytes);
   void differ(std::string expected, std::string got);
 
-  Reactor* reactor_;
-  ReactorOutputs outputs_;
-  std::vector<Line> lines_;  // decided now
-  std::size_t matched_ = 0;  // of them
+  reactor::Reactor* reactor_;
+  reactor::ReactorOutputs outputs_;
+  std::vector<DecisionLine> lines_;  ///< decided now
+  std::size_t matched_ = 0;          ///< of them
   std::size_t turns_ = 0;
   temporal::Time now_{0};
   std::optional<Divergence> divergence_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

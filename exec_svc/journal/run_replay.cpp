@@ -1,9 +1,14 @@
 #include "exec_svc/journal/run_replay.hpp"
 
-#include "exec_svc/archive/fields.hpp"
+#include "exec_svc/reactor/message_fields.hpp"
 #include "exec_svc/journal/trace.hpp"
 
-namespace roci::exec {
+namespace roci::exec::journal {
+
+using archive::from_bytes;
+using mission::MissionModel;
+using reactor::Reactor;
+using reactor::ReactorInputs;
 
 RunReplay replay_run(const Journal& journal, const MissionModel& mission) {
   RunReplay out;
@@ -34,4 +39,4 @@ RunReplay replay_run(const Journal& journal, const MissionModel& mission) {
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -5,7 +5,7 @@
 #include <array>
 #include <stdexcept>
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
 struct Trace::Digest {
   EVP_MD_CTX* context = EVP_MD_CTX_new();
@@ -40,4 +40,4 @@ std::string Trace::sha256() const {
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

@@ -1,23 +1,23 @@
-// The trace of a run: one line per plan, command, acknowledgement and observation, with its simulated time,
-// and the SHA-256 over all of them. Two runs are the same run when their traces are.
+/// The trace of a run: one line per plan, command, acknowledgement and observation, with its simulated time,
+/// and the SHA-256 over all of them. Two runs are the same run when their traces are.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <string_view>
 
-namespace roci::exec {
+namespace roci::exec::journal {
 
 class Trace {
  public:
   Trace();
   ~Trace();
   void add(std::string_view line);
-  std::string sha256() const;  // of the lines up to now, each ended by a line feed; 64 hexadecimal digits
+  std::string sha256() const;  ///< of the lines up to now, each ended by a line feed; 64 hexadecimal digits
 
  private:
   struct Digest;
   std::unique_ptr<Digest> digest_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::journal

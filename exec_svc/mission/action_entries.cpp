@@ -4,10 +4,15 @@
 #include <iterator>
 #include <utility>
 
-namespace roci::exec {
+namespace roci::exec::mission {
+
+using executive::Contingency;
+using executive::ContingencyCommand;
+using executive::StartPolicy;
+
 namespace {
 
-using mission::Entry;
+using roci::mission::Entry;
 
 // One of the words that may stand there.
 template <typename Meaning, std::size_t Count>
@@ -119,10 +124,10 @@ StartPolicy read_start(const Entry& entry) {
 }
 
 Replanning read_replanning(const Entry& entry) {
-  static constexpr std::pair<const char*, Replanning> ways[]{{"paused", Replanning::paused},
-                                                             {"situated", Replanning::situated},
+  static constexpr std::pair<const char*, Replanning> ways[]{{"paused", Replanning::stop_and_replan},
+                                                             {"situated", Replanning::background},
                                                              {"continuous", Replanning::continuous}};
   return read_word(entry, "way of replanning", ways);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::mission

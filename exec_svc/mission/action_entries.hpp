@@ -1,5 +1,5 @@
-// What mission.yaml says of commands: actions with their policies, contingencies, and the recovery ladder.
-// Every reader throws mission::FileError with the place and the remedy.
+/// What mission.yaml says of commands: actions with their policies, contingencies, and the recovery strategy.
+/// Every reader throws roci::mission::FileError with the place and the remedy.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,20 @@
 #include "core/mission/entry.hpp"
 #include "exec_svc/mission/mission_model.hpp"
 
-namespace roci::exec {
+namespace roci::exec::mission {
 
-Contingency read_contingency(const std::string& name, const mission::Entry& entry,
-                             const std::vector<Component>& components);
+executive::Contingency read_contingency(const std::string& name, const roci::mission::Entry& entry,
+                                        const std::vector<Component>& components);
 
-ActionBinding read_action(const mission::Entry& entry, const std::vector<Component>& components,
-                          const std::map<std::string, Contingency>& contingencies);
+ActionBinding read_action(const roci::mission::Entry& entry, const std::vector<Component>& components,
+                          const std::map<std::string, executive::Contingency>& contingencies);
 
-RecoveryStrategy read_strategy(const mission::Entry& entry);
-StartPolicy read_start(const mission::Entry& entry);
-Replanning read_replanning(const mission::Entry& entry);
+RecoveryStrategy read_strategy(const roci::mission::Entry& entry);
+executive::StartPolicy read_start(const roci::mission::Entry& entry);
+Replanning read_replanning(const roci::mission::Entry& entry);
 
-// A whole number from `least` to 1000000, or the fallback where the key is missing.
-std::uint32_t count_or(const mission::Entry& parent, const char* key, std::uint32_t fallback,
+/// A whole number from `least` to 1000000, or the fallback where the key is missing.
+std::uint32_t count_or(const roci::mission::Entry& parent, const char* key, std::uint32_t fallback,
                        std::uint32_t least);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::mission

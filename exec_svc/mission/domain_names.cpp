@@ -7,10 +7,10 @@
 #include "core/pddl/types.hpp"
 #include "exec_svc/mission/template_text.hpp"
 
-namespace roci::exec {
+namespace roci::exec::mission {
 namespace {
 
-using mission::Entry;
+using roci::mission::Entry;
 
 template <class Named>
 std::string names_of(const std::vector<Named>& all) {
@@ -111,7 +111,7 @@ pddl::Domain read_domain(const std::string& text, const std::string& file) {
   try {
     return pddl::load_domain(text, file);
   } catch (const pddl::ParseError& error) {
-    throw mission::FileError(error.what());
+    throw roci::mission::FileError(error.what());
   }
 }
 
@@ -126,4 +126,4 @@ void require_domain_names(const Entry& root, const pddl::Domain& domain) {
   check.goal_kinds(root);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::mission

@@ -1,6 +1,6 @@
-// A mission file speaks of its PDDL domain by name: actions, types, predicates, fluents. What it names must
-// stand there, so that a slip of the pen is found when the mission is read and not when the first plan is
-// wanted.
+/// A mission file speaks of its PDDL domain by name: actions, types, predicates, fluents. What it names must
+/// stand there, so that a slip of the pen is found when the mission is read and not when the first plan is
+/// wanted.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 #include "core/mission/entry.hpp"
 #include "core/pddl/ast.hpp"
 
-namespace roci::exec {
+namespace roci::exec::mission {
 
-// The domain that the text is. Throws mission::FileError with the place in `file` and the remedy.
+/// The domain that the text is. Throws roci::mission::FileError with the place in `file` and the remedy.
 pddl::Domain read_domain(const std::string& text, const std::string& file);
 
-// Throws mission::FileError at the first name in mission.yaml (`root`) that the domain does not know, or with
-// another number of arguments; and when an action of the domain has no command.
-void require_domain_names(const mission::Entry& root, const pddl::Domain& domain);
+/// Throws roci::mission::FileError at the first name in mission.yaml (`root`) that the domain does not know,
+/// or with another number of arguments; and when an action of the domain has no command.
+void require_domain_names(const roci::mission::Entry& root, const pddl::Domain& domain);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::mission

@@ -4,13 +4,14 @@
 #include <sstream>
 
 #include "core/mission/entry.hpp"
+#include "core/mission/scenario.hpp"
 #include "exec_svc/mission/action_entries.hpp"
 #include "exec_svc/mission/domain_names.hpp"
 
-namespace roci::exec {
+namespace roci::exec::mission {
 namespace {
 
-using mission::Entry;
+using roci::mission::Entry;
 using temporal::Duration;
 
 Duration seconds(const Entry& entry) { return temporal::seconds(entry.number()); }
@@ -200,7 +201,7 @@ ReactorSettings read_executive(const Entry& entry) {
 }  // namespace
 
 MissionModel read_mission(const std::filesystem::path& mission_folder) {
-  const Entry root = Entry::load(mission_folder / "mission.yaml");
+  const Entry root = Entry::load(roci::mission::mission_file(mission_folder));
   MissionModel out;
   out.name = root.at("name").text();
   out.domain_text = whole_file(root.at("domain"));
@@ -233,4 +234,4 @@ MissionModel read_mission(const std::filesystem::path& mission_folder) {
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::mission

@@ -1,6 +1,6 @@
-// A mission as the reactor sees it: metadata outside the PDDL that says how observations become facts, which
-// states are inactive, and what goals and actions mean (R43-R46). Read from mission.yaml; code never names a
-// mission.
+/// A mission as the reactor sees it: metadata outside the PDDL that says how observations become facts, which
+/// states are inactive, and what goals and actions mean (R43-R46). Read from mission.yaml; code never names a
+/// mission.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,18 @@
 #include "exec_svc/executive/contingency.hpp"
 #include "exec_svc/executive/executive.hpp"
 
-namespace roci::exec {
+namespace roci::exec::mission {
 
-// A state of a component. `facts` may hold ?1, ?2, …: the observed state's arguments; * is a family's object.
+/// A state of a component. `facts` may hold ?1, ?2, …: the observed state's arguments; * is a family's
+/// object.
 struct StateModel {
   std::string name;
   bool active = false;
   std::vector<std::string> facts;
 };
 
-// A subsystem; planning starts only when it is in an inactive state, reached by its fallback command (R43,
-// R44).
+/// A subsystem; planning starts only when it is in an inactive state, reached by its fallback command (R43,
+/// R44).
 struct Component {
   std::string name;
   std::string timeline;
@@ -34,56 +35,56 @@ struct Component {
   std::vector<StateModel> states;
 };
 
-// One timeline per object: `prefix` + the object's name. Its states persist and are all inactive.
+/// One timeline per object: `prefix` + the object's name. Its states persist and are all inactive.
 struct TimelineFamily {
   std::string prefix;
   std::vector<StateModel> states;
 };
 
 struct FluentSource {
-  std::string fluent;                   // "(battery)"
-  std::optional<std::string> timeline;  // its newest observed value, or else
+  std::string fluent;                   ///< "(battery)"
+  std::optional<std::string> timeline;  ///< its newest observed value, or else
   double value = 0;
-  std::optional<double> last;  // instead of the value, before a hard goal is given up
+  std::optional<double> last;  ///< instead of the value, before a hard goal is given up
 };
 
-// A fact that comes and goes by the clock, as predicted.
+/// A fact that comes and goes by the clock, as predicted.
 struct WindowModel {
   std::string fact;
-  std::string timeline;                                         // says whether it is open now
-  std::vector<std::pair<temporal::Time, temporal::Time>> open;  // in mission time, ascending, disjoint
+  std::string timeline;                                         ///< says whether it is open now
+  std::vector<std::pair<temporal::Time, temporal::Time>> open;  ///< in mission time, ascending, disjoint
 };
 
 struct PropertySource {
   std::string name;
-  std::string text;                     // a number, or {argument} in a goal kind
-  std::optional<std::string> timeline;  // its newest observed value instead
+  std::string text;                     ///< a number, or {argument} in a goal kind
+  std::optional<std::string> timeline;  ///< its newest observed value instead
 };
 
 struct ObjectModel {
   std::string name;
   std::string type;
-  bool dynamic = false;  // declared only while an observed state names it
+  bool dynamic = false;  ///< declared only while an observed state names it
   std::vector<PropertySource> properties;
 };
 
 enum class ArgumentKind { number, text, goal };
 
-// Templates with {id} and {argument}.
+/// Templates with {id} and {argument}.
 struct GoalKind {
   std::string name;
   std::string help;
   std::map<std::string, ArgumentKind> arguments;
   std::vector<ObjectModel> objects;
   std::vector<std::string> facts;
-  std::vector<std::pair<std::string, std::vector<std::string>>>
-      unobserved;           // timeline → facts that hold until it is seen
-  std::string window_fact;  // empty: the kind has no window
+  /// Timeline → facts that hold until it is seen.
+  std::vector<std::pair<std::string, std::vector<std::string>>> unobserved;
+  std::string window_fact;  ///< empty: the kind has no window
   std::vector<std::string> goal;
 };
 
-// What an action of the plan means as a command. Argument values may hold ?1, ?2.x (a property of that
-// object).
+/// What an action of the plan means as a command. Argument values may hold ?1, ?2.x (a property of that
+/// object).
 struct ActionBinding {
   std::string owner;
   std::string component;
@@ -92,50 +93,50 @@ struct ActionBinding {
   temporal::LatenessPolicy lateness = temporal::LatenessPolicy::replan;
   std::uint32_t retries = 0;
   temporal::Duration wait_timeout = temporal::no_bound;
-  temporal::Duration retry_within = temporal::no_bound;  // after its start
-  std::string contingency;                               // empty: none
+  temporal::Duration retry_within = temporal::no_bound;  ///< after its start
+  std::string contingency;                               ///< empty: none
 };
 
-// What is done when a plan breaks or a step fails (R102); the same plans, other rungs of the ladder.
+/// What is done when a plan breaks or a step fails (R102); the same plans, other recovery actions.
 enum class RecoveryStrategy {
-  cascade,     // push, retry, contingency, then replan, drop goals, and at last the ground
-  as_planned,  // "static": nothing; the open goals fail
-  ground,      // the robot is made safe and the ground asked at once
-  flexible,    // "fe": push, retry, contingency, then the ground
-  replan,      // replan at once, drop goals, then the ground
+  cascade,     ///< push, retry, contingency, then replan, drop goals, and at last the ground
+  as_planned,  ///< "static": nothing; the open goals fail
+  ground,      ///< the robot is made safe and the ground asked at once
+  flexible,    ///< "fe": push, retry, contingency, then the ground
+  replan,      ///< replan at once, drop goals, then the ground
 };
 
-// What goes on while the planner works.
+/// What goes on while the planner works. In mission.yaml: `paused`, `situated`, `continuous`.
 enum class Replanning {
-  paused,    // nothing: what runs is cancelled, all components fall back first (R43, R44)
-  situated,  // what runs: it is planned from the state that it will leave, and the plans change there
-  continuous,  // everything: the engine plans all the time and sends versions of its plan (R66)
+  stop_and_replan,  ///< nothing: what runs is cancelled, all components fall back first (R43, R44)
+  background,  ///< what runs: it is planned from the state that it will leave, and the plans change there
+  continuous,  ///< everything: the engine plans all the time and sends versions of its plan (R66)
 };
 
 struct PlannerSettings {
   std::string engine = "temporal_pddl";
-  std::uint64_t work = 0;  // evaluations; 0: no bound
+  std::uint64_t work = 0;  ///< evaluations; 0: no bound
   std::uint32_t memory_mb = 0;
   temporal::Duration wall{0};
-  temporal::Duration allowance = temporal::seconds(5);  // a plan's origin lies this long after the request
-  temporal::Duration reply_timeout =
-      temporal::seconds(120);  // mission time after which a call counts as lost
+  temporal::Duration allowance = temporal::seconds(5);  ///< a plan's origin lies this long after the request
+  /// Mission time after which a call counts as lost.
+  temporal::Duration reply_timeout = temporal::seconds(120);
 };
 
 struct ReactorSettings {
   temporal::Duration ack_timeout = temporal::seconds(5);
-  temporal::Duration fallback_timeout = temporal::seconds(60);  // for components to become inactive
+  temporal::Duration fallback_timeout = temporal::seconds(60);  ///< for components to become inactive
   std::uint32_t replan_limit = 50;
-  std::uint32_t call_retries = 5;  // planner calls that failed for want of a service
-  std::uint32_t failure_limit =
-      5;  // failed commands of one component in a row; then their goals are given up
-  temporal::Duration failure_pause = temporal::seconds(30);  // after the second of them; doubles with each
-  temporal::Duration failure_pause_max = temporal::seconds(600);  // but is never longer
-  bool keep_inputs = true;  // of the whole mission in the journal; false: since the last anchor
+  std::uint32_t call_retries = 5;  ///< planner calls that failed for want of a service
+  /// Failed commands of one component in a row; then their goals are given up.
+  std::uint32_t failure_limit = 5;
+  temporal::Duration failure_pause = temporal::seconds(30);  ///< after the second of them; doubles with each
+  temporal::Duration failure_pause_max = temporal::seconds(600);  ///< but is never longer
+  bool keep_inputs = true;  ///< of the whole mission in the journal; false: since the last anchor
   RecoveryStrategy recovery = RecoveryStrategy::cascade;
-  StartPolicy start = StartPolicy::earliest;
-  Replanning replanning = Replanning::paused;
-  temporal::Duration standby_term = temporal::seconds(2);  // wall time; see standby/lease.hpp
+  executive::StartPolicy start = executive::StartPolicy::earliest;
+  Replanning replanning = Replanning::stop_and_replan;
+  temporal::Duration standby_term = temporal::seconds(2);  ///< wall time; see standby/lease.hpp
 };
 
 struct MissionModel {
@@ -148,13 +149,13 @@ struct MissionModel {
   std::vector<FluentSource> fluents;
   std::vector<WindowModel> windows;
   std::map<std::string, ActionBinding> actions;
-  std::map<std::string, Contingency> contingencies;
+  std::map<std::string, executive::Contingency> contingencies;
   std::map<std::string, GoalKind> goal_kinds;
   PlannerSettings planner;
   ReactorSettings executive;
 };
 
-// Throws mission::FileError naming file, line, column and remedy.
+/// Throws roci::mission::FileError naming file, line, column and remedy.
 MissionModel read_mission(const std::filesystem::path& mission_folder);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::mission

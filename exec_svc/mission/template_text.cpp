@@ -1,6 +1,6 @@
 #include "exec_svc/mission/template_text.hpp"
 
-namespace roci::exec {
+namespace roci::exec::mission {
 
 std::string fill_positions(const std::string& text, const std::vector<std::string>& arguments) {
   std::string out;
@@ -59,4 +59,4 @@ std::vector<std::string> words_of(const std::string& fact) {
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::mission

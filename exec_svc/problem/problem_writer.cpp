@@ -8,7 +8,21 @@
 
 #include "exec_svc/mission/template_text.hpp"
 
-namespace roci::exec {
+namespace roci::exec::problem {
+
+using beliefs::Beliefs;
+using goals::GoalRecord;
+using goals::GoalRequest;
+using goals::GoalSet;
+using mission::fill_names;
+using mission::FluentSource;
+using mission::GoalKind;
+using mission::MissionModel;
+using mission::ObjectModel;
+using mission::PropertySource;
+using mission::WindowModel;
+using mission::words_of;
+
 namespace {
 
 using temporal::Time;
@@ -196,4 +210,4 @@ Problem write_problem(const MissionModel& mission, const Beliefs& beliefs, const
   return draft.finish(name);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::problem

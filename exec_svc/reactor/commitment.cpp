@@ -6,7 +6,10 @@
 
 #include "core/temporal/execution_windows.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
+
+using executive::StepStatus;
+
 namespace {
 
 using temporal::CommitState;
@@ -34,11 +37,11 @@ std::string change_of(const PlanActivity& activity, const StepStatus& step, cons
   const bool bound = (begun || activity.commit == CommitState::committed) && !is_over(step.state);
   const bool ended_badly = is_over(step.state) && step.state != temporal::ActivityState::succeeded;
   if (stands && ended_badly) return activity.id + " has ended without success and stands in it";
-  const std::string why = activity.id + (begun ? ", which has begun, " : ", which is committed, ");
-  if (bound && !stands) return why + "is missing";
+  const std::string what = activity.id + (begun ? ", which has begun, " : ", which is committed, ");
+  if (bound && !stands) return what + "is missing";
   if (stands && (bound || begun) && !same_but_for_commit(*found->second, activity))
-    return why + "has changed";
-  if (bound && found->second->commit != CommitState::committed) return why + "is no longer committed";
+    return what + "has changed";
+  if (bound && found->second->commit != CommitState::committed) return what + "is no longer committed";
   return "";
 }
 
@@ -67,7 +70,7 @@ std::string lateness_of(const std::vector<StepStatus>& steps, const temporal::Fl
 
 }  // namespace
 
-std::string breach_of_commitment(const temporal::FlexiblePlan& running, const std::vector<StepStatus>& steps,
+std::string commitment_violation(const temporal::FlexiblePlan& running, const std::vector<StepStatus>& steps,
                                  const temporal::FlexiblePlan& next, Time now) {
   const ById before = by_id(running);
   const ById after = by_id(next);
@@ -77,4 +80,4 @@ std::string breach_of_commitment(const temporal::FlexiblePlan& running, const st
   return lateness_of(steps, next, after, now);
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -5,7 +5,20 @@
 
 #include "exec_svc/mission/template_text.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
+
+using beliefs::Beliefs;
+using goals::GoalRecord;
+using goals::GoalSet;
+using mission::ActionBinding;
+using mission::fill_names;
+using mission::fill_positions;
+using mission::GoalKind;
+using mission::MissionModel;
+using mission::ObjectModel;
+using problem::Problem;
+using problem::ProblemObject;
+
 namespace {
 
 using temporal::Condition;
@@ -92,4 +105,4 @@ std::string bind_plan(temporal::FlexiblePlan& plan, std::uint32_t version, const
   return "";
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

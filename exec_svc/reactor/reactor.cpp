@@ -1,174 +1,176 @@
 #include "exec_svc/reactor/reactor.hpp"
 
 #include <algorithm>
+#include <utility>
 
-namespace roci::exec {
-namespace {
+#include "exec_svc/reactor/inputs.hpp"
+#include "exec_svc/reactor/message_fields.hpp"
+#include "exec_svc/reactor/replanning_policy.hpp"
 
+namespace roci::exec::reactor {
+
+using executive::Observation;
+using executive::OutcomeKind;
+using executive::StepStatus;
+using goals::GoalClass;
+using goals::GoalRecord;
+using goals::GoalSet;
+using goals::GoalState;
+using mission::MissionModel;
+using mission::Replanning;
 using temporal::Time;
 
-// Activities whose windows are told to the ground when these move: what a screen shows, and no work in the
-// size of the plan.
-constexpr std::size_t kToldAhead = 32;
+struct Reactor::Parts {
+  explicit Parts(const MissionModel& mission) : state(mission) {}
 
-const char* code_of(Rung rung) {
-  switch (rung) {
-    case Rung::push:
-      return "recovery.push";
-    case Rung::retry:
-      return "recovery.retry";
-    case Rung::contingency:
-      return "recovery.contingency";
+  MissionState state;
+  RunningPlan plan{state};
+  PlannerCall call{state};
+  Safing safing{state, plan};
+  PlanningCycle planning{state, plan, call, safing};
+  PlanRecovery recovery{state, plan, call, safing};
+  std::unique_ptr<ReplanningPolicy> policy = make_replanning_policy(
+      state.mission->executive.replanning, {state, plan, call, safing, planning, recovery});
+};
+
+Reactor::Reactor(const MissionModel& mission) : parts_(std::make_unique<Parts>(mission)) {}
+Reactor::~Reactor() = default;
+Reactor::Reactor(Reactor&&) noexcept = default;
+Reactor& Reactor::operator=(Reactor&&) noexcept = default;
+
+void Reactor::restore(const std::vector<GoalRecord>& goals, std::uint32_t last_plan_version) {
+  MissionState& state = parts_->state;
+  for (const GoalRecord& record : goals) {
+    state.goals.restore(record);
+    if (record.state != GoalState::rejected) assume_unobserved(state, record.request);
   }
-  return "recovery";
+  parts_->plan.restore_version(last_plan_version);
+  if (!state.goals.open().empty()) state.want_plan("restarted with open goals");
+}
+
+ReactorOutputs Reactor::step(Time now, const ReactorInputs& inputs) {
+  MissionState& state = parts_->state;
+  state.out = {};
+  for (const Observation& observation : inputs.observations)
+    state.beliefs.observe(observation.timeline, observation.value);
+  take_services(inputs);
+  parts_->call.note_models(inputs.models);
+  if (take_goals(state, now, inputs.goals)) parts_->planning.keep_reserves();
+  note_achieved(state);
+  parts_->plan.step(now, inputs);
+  parts_->recovery.note_successes();
+  if (inputs.restarted) resume(now);
+  parts_->policy->step(now, inputs);
+  finish_if_done();
+  return std::move(state.out);
+}
+
+void Reactor::take_services(const ReactorInputs& inputs) {
+  MissionState& state = parts_->state;
+  for (const PeerLoss& loss : inputs.losses)
+    state.report(Severity::warning, "service.lost", loss.service + " was lost: " + loss.reason);
+  for (const std::string& service : inputs.arrivals) {
+    state.report(Severity::info, "service.found", service + " is there");
+    if (state.phase == MissionPhase::safe && !state.goals.open().empty())
+      state.want_plan(service + " came back");
+    parts_->call.clear_failures();
+    parts_->call.wait_until(Time{0});
+    parts_->safing.expect_fallbacks_again();  // one that came back has not heard them
+  }
+}
+
+/// What was on its way to owners and planner is asked for again.
+void Reactor::resume(Time now) {
+  MissionState& state = parts_->state;
+  state.report(Severity::info, "executive.resumed",
+               std::string("goes on where it was: ") + to_string(state.phase) +
+                   (state.phase == MissionPhase::executing ? " " + parts_->plan.name() : ""));
+  parts_->plan.resume(now);
+  parts_->policy->resume(now);
+  parts_->safing.resume();
+}
+
+void Reactor::finish_if_done() {
+  MissionState& state = parts_->state;
+  const bool resting = state.phase == MissionPhase::idle || state.phase == MissionPhase::finished;
+  if (resting && !state.replan_wanted && state.goals.open().empty() && !state.goals.all().empty())
+    state.phase = MissionPhase::finished;
+}
+
+bool Reactor::at_rest() const {
+  const OutcomeKind kind = parts_->plan.outcome().kind;
+  return phase() != MissionPhase::executing &&
+         (kind == OutcomeKind::idle || kind == OutcomeKind::finished || kind == OutcomeKind::cancelled);
+}
+
+namespace {
+
+/// What each part keeps of itself, in one order for both ways.
+template <class Archive, class Parts>
+void part_fields(Archive& archive, Parts& parts) {
+  MissionState::fields(archive, parts.state);
+  RunningPlan::fields(archive, parts.plan);
+  PlannerCall::fields(archive, parts.call);
+  Safing::fields(archive, parts.safing);
+  PlanningCycle::fields(archive, parts.planning);
+  PlanRecovery::fields(archive, parts.recovery);
 }
 
 }  // namespace
 
-Reactor::Reactor(const MissionModel& mission)
-    : mission_(&mission),
-      beliefs_(mission),
-      goals_(mission),
-      executive_(executive_settings(mission)),
-      ladder_(ladder_of(mission.executive.recovery)),
-      failures_(mission.executive.failure_limit, mission.executive.failure_pause,
-                mission.executive.failure_pause_max) {}
+std::string Reactor::snapshot() const {
+  archive::Writer writer;
+  part_fields(writer, std::as_const(*parts_));
+  std::vector<GoalRecord> goals;
+  for (const GoalRecord* record : parts_->state.goals.all()) goals.push_back(*record);
+  writer(goals, parts_->state.beliefs.values(), parts_->state.beliefs.assumed(), parts_->plan.remaining());
+  parts_->policy->save(writer);
+  return writer.take();
+}
 
-void Reactor::restore(const std::vector<GoalRecord>& goals, std::uint32_t last_plan_version) {
-  for (const GoalRecord& record : goals) {
-    goals_.restore(record);
-    if (record.state != GoalState::rejected) assume_unobserved(record.request);
+void Reactor::restore(std::string_view snapshot) {
+  archive::Reader reader(snapshot);
+  part_fields(reader, *parts_);
+  std::vector<GoalRecord> goals;
+  std::map<std::string, temporal::Value> values;
+  std::map<std::string, std::vector<std::string>> assumed;
+  std::vector<PlannedAction> remaining;
+  reader(goals, values, assumed, remaining);
+  parts_->policy->restore(reader);
+  reader.finish();
+  MissionState& state = parts_->state;
+  for (const GoalRecord& record : goals) state.goals.restore(record);
+  std::vector<Observation> observed;
+  for (auto& [timeline, value] : values) {
+    state.beliefs.observe(timeline, value);
+    observed.push_back({timeline, value});
   }
-  plan_version_ = last_plan_version;
-  first_plan_ = last_plan_version == 0;
-  if (!goals_.open().empty()) want_plan("restarted with open goals");
+  parts_->plan.restore_observations(observed);
+  parts_->plan.keep_actions(std::move(remaining));
+  for (auto& [timeline, facts] : assumed) state.beliefs.assume(timeline, std::move(facts));
 }
 
-ReactorOutputs Reactor::step(Time now, const ReactorInputs& inputs) {
-  out_ = {};
-  for (const Observation& observation : inputs.observations)
-    beliefs_.observe(observation.timeline, observation.value);
-  take_peers(inputs);
-  take_models(inputs.models);
-  take_goals(now, inputs.goals);
-  note_achieved();
-  run_executive(now, inputs);
-  if (inputs.restarted) resume(now);
-  advance(now, inputs);
-  return std::move(out_);
-}
+const temporal::FlexiblePlan& Reactor::plan() const { return parts_->plan.executive().plan(); }
 
-void Reactor::note_achieved() {
-  for (const GoalRecord* record : goals_.open()) {
-    if (!beliefs_.holds(goal_facts(*mission_, record->request))) continue;
-    const GoalKey key = record->request.key;
-    change_goal(key, GoalState::achieved, "observed");
-    note(NoteLevel::info, "goal.achieved", "goal " + key.text() + " achieved");
-  }
-}
+std::vector<StepStatus> Reactor::steps() const { return parts_->plan.executive().steps(); }
 
-// The executive hears what happened in every phase, so that cancels are answered and observations kept.
-void Reactor::run_executive(Time now, const ReactorInputs& inputs) {
-  Inputs told;
-  told.observations = inputs.observations;
-  for (Observation& change : changed_conditions()) {
-    foresight_.observe(change.timeline, change.value);
-    told.observations.push_back(std::move(change));
-  }
-  told.acks = inputs.acks;
-  for (const PeerLoss& loss : inputs.losses) told.lost_owners.push_back(loss.service);
-  Outputs done = executive_.step(now, told);
-  for (const StepStatus& step : done.changes) {
-    foresight_.change(step.activity, step.state);
-    if (step.state != temporal::ActivityState::waiting) margins_.leave(step.activity);
-    if (step.state != temporal::ActivityState::succeeded) continue;
-    if (const auto* activity = executive_.activity(step.activity)) failures_.succeeded(activity->subsystem);
-  }
-  for (const RecoveryStep& recovery : done.recoveries)
-    note(NoteLevel::info, code_of(recovery.rung), recovery.activity + ": " + recovery.cause);
-  pass_on(std::move(done));
-  if (!out_.steps.empty() && phase_ == Phase::executing) tell_windows();
-}
+MissionPhase Reactor::phase() const { return parts_->state.phase; }
 
-void Reactor::pass_on(Outputs done) {
-  std::move(done.commands.begin(), done.commands.end(), std::back_inserter(out_.commands));
-  std::move(done.changes.begin(), done.changes.end(), std::back_inserter(out_.steps));
-  if (done.next_wake) wake_at(*done.next_wake);
-}
+std::uint32_t Reactor::plan_version() const { return parts_->plan.version(); }
 
-// Windows of what starts next, where real events have moved them.
-void Reactor::tell_windows() {
-  for (const StepStatus& step : executive_.upcoming(kToldAhead)) {
-    const auto [told, added] = told_starts_.try_emplace(step.activity, step.earliest_start);
-    if (!added && told->second == step.earliest_start) continue;
-    told->second = step.earliest_start;
-    out_.steps.push_back(step);
-  }
-}
+const GoalSet& Reactor::goals() const { return parts_->state.goals; }
 
-// Facts are derived from observations here, where the metadata is; the executive sees each as one more
-// timeline.
-std::vector<Observation> Reactor::changed_conditions() {
-  std::vector<Observation> out;
-  for (auto& [name, last] : condition_values_) {
-    auto value = beliefs_.lookup(name);
-    if (!value || *value == last) continue;
-    last = *value;
-    out.push_back({name, std::move(*value)});
-  }
-  return out;
-}
+bool Reactor::plans_continuously() const { return parts_->policy->receipt() != nullptr; }
 
-// A wish for a plan that comes up during a planner call cancels it and waits for its end: there is never more
-// than one call.
-void Reactor::advance(Time now, const ReactorInputs& inputs) {
-  if (follows_engine()) return follow_engine(now, inputs);
-  const bool answered = call_open_ && inputs.answer && inputs.answer->call == call_id_;
-  if (answered) {
-    call_open_ = false;
-    if (phase_ == Phase::planning && !wanted_) take_answer(now, *inputs.answer);
-    if (meanwhile_) meanwhile_->answer = *inputs.answer;
-  }
-  if (phase_ == Phase::executing) follow_plan(now);
-  if (meanwhile_) continue_meanwhile(now);
-  if (wanted_ && phase_ != Phase::pausing && (phase_ != Phase::planning || answered)) {
-    if (!may_go_on()) {
-      begin_pause(now);
-    } else if (!call_open_) {
-      begin_meanwhile(now);
-    }
-  }
-  if (phase_ == Phase::pausing) continue_pause(now);
-  cancel_stale_call();
-  finish_if_done();
-}
-
-void Reactor::finish_if_done() {
-  const bool resting = phase_ == Phase::idle || phase_ == Phase::finished;
-  if (resting && !wanted_ && goals_.open().empty() && !goals_.all().empty()) phase_ = Phase::finished;
-}
-
-void Reactor::want_plan(const std::string& why) {
-  wanted_ = true;
-  wanted_why_ = why;
-}
-
-void Reactor::change_goal(const GoalKey& key, GoalState state, const std::string& reason) {
-  goals_.set_state(key, state, reason);
-  out_.goal_changes.push_back(*goals_.find(key));
-}
-
-void Reactor::wake_at(Time time) {
-  if (!out_.wake || time < *out_.wake) out_.wake = time;
-}
-
-void Reactor::note(NoteLevel level, std::string code, std::string text) {
-  out_.notes.push_back({level, std::move(code), std::move(text)});
+const PlanReceipt& Reactor::receipt() const {
+  static const PlanReceipt kNone;
+  const PlanReceipt* receipt = parts_->policy->receipt();
+  return receipt == nullptr ? kNone : *receipt;
 }
 
 ReactorCounts Reactor::counts() const {
-  ReactorCounts counts = counts_;
-  for (const GoalRecord* record : goals_.all()) {
+  ReactorCounts counts = parts_->state.counts;
+  for (const GoalRecord* record : goals().all()) {
     if (record->state == GoalState::achieved) ++counts.achieved;
     if (record->state == GoalState::dropped) ++counts.dropped;
     if (record->state == GoalState::failed) ++counts.failed;
@@ -179,11 +181,11 @@ ReactorCounts Reactor::counts() const {
 }
 
 std::string Reactor::outcome() const {
-  if (phase_ == Phase::safe) return beliefs_.active().empty() ? "partial" : "failed";
-  if (phase_ != Phase::finished) return "";
-  auto asked = goals_.all();
+  if (phase() == MissionPhase::safe) return parts_->state.beliefs.active().empty() ? "partial" : "failed";
+  if (phase() != MissionPhase::finished) return "";
+  auto asked = goals().all();
   std::erase_if(asked, [](const GoalRecord* record) {
-    return record->state == GoalState::rejected && said_by_console(record->request);
+    return record->state == GoalState::rejected && from_console(record->request);
   });
   const bool every_hard_goal = std::all_of(asked.begin(), asked.end(), [](const GoalRecord* record) {
     return record->request.importance != GoalClass::hard || record->state == GoalState::achieved ||
@@ -192,4 +194,4 @@ std::string Reactor::outcome() const {
   return every_hard_goal && !asked.empty() ? "achieved" : "partial";
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -1,269 +1,61 @@
-// The task-planning reactor (Stellar, section 5): goals and observations in; planner calls, commands and
-// reports out. A functional core: the same inputs at the same times give the same outputs. It owns pause →
-// inactive → plan → execute, and decides which goal goes when not all fit.
+/// The task-planning reactor (Stellar, section 5): goals and observations in; planner calls, commands and
+/// reports out. A functional core: the same inputs at the same times give the same outputs. It decides when a
+/// plan is wanted, which goal leaves when not all fit, and when the robot is made safe.
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <optional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/temporal/flexible_plan.hpp"
-#include "core/temporal/plan_delta.hpp"
-#include "exec_svc/beliefs/beliefs.hpp"
-#include "exec_svc/executive/executive.hpp"
 #include "exec_svc/goals/goal_set.hpp"
-#include "exec_svc/problem/problem_writer.hpp"
-#include "exec_svc/reactor/failure_tally.hpp"
-#include "exec_svc/reactor/foresight.hpp"
-#include "exec_svc/reactor/ladder.hpp"
-#include "exec_svc/reactor/margins.hpp"
-#include "exec_svc/reactor/remaining_plan.hpp"
+#include "exec_svc/mission/mission_model.hpp"
+#include "exec_svc/reactor/messages.hpp"
 
-namespace roci::exec {
-
-struct PeerLoss {
-  std::string service;
-  std::string cause;
-};
-
-// A call to the planner; the answer comes back with the same id.
-struct PlanCall {
-  std::uint64_t id = 0;
-  std::string problem_name;
-  Problem problem;
-  temporal::Time origin{0};              // mission time of the problem's 0
-  std::vector<PlannedAction> remaining;  // of the plan before
-};
-
-// How a planner call ended. `no_reply` and `crashed` say nothing about the problem; they and
-// `function_unavailable` are tried again.
-enum class PlanVerdict {
-  solved,
-  unsolvable,
-  timeout,
-  out_of_memory,
-  unsupported,
-  function_unavailable,
-  cancelled,
-  invalid_input,
-  crashed,
-  no_reply
-};
-const char* to_string(PlanVerdict verdict);
-// Whether it says something about the goals (they do not fit), or only about the services.
-bool speaks_of_goals(PlanVerdict verdict);
-
-struct PlanAnswer {
-  std::uint64_t call = 0;
-  PlanVerdict verdict = PlanVerdict::no_reply;
-  std::string reason;
-  temporal::FlexiblePlan plan;  // with solved; activities not yet bound to owners
-};
-
-// The model behind an owner's functions: a map, an arm. Versions rise.
-struct ModelVersion {
-  std::string owner;
-  std::uint64_t version = 0;
-};
-
-// What the engine that plans all the time is told of its versions.
-struct PlanReceipt {
-  std::uint32_t version = 0;  // that is executed; 0: none, the next one is to come whole
-  std::uint32_t refused = 0;  // the last one, if it was not taken, for this reason
-  std::string reason;
-  bool open = false;  // a plan would be taken now
-  bool operator==(const PlanReceipt&) const = default;
-};
-
-struct ReactorInputs {
-  bool restarted = false;  // the executive was started anew and stands as before; its owners may not
-  std::vector<GoalRequest> goals;
-  std::vector<Observation> observations;
-  std::vector<CommandAck> acks;
-  std::vector<PeerLoss> losses;
-  std::vector<std::string> arrivals;  // services that came (back)
-  std::vector<ModelVersion> models;
-  std::optional<PlanAnswer> answer;
-  std::vector<temporal::PlanDelta> deltas;  // of an engine that plans all the time
-};
-
-enum class Phase { idle, pausing, planning, executing, safe, finished };
-const char* to_string(Phase phase);
-
-enum class NoteLevel { info, warning, error };
-
-// For operators: a stable code and plain words.
-struct Note {
-  NoteLevel level = NoteLevel::info;
-  std::string code;  // e.g. "goal.dropped"
-  std::string text;
-};
-
-struct ReactorOutputs {
-  std::vector<Command> commands;
-  std::vector<GoalRecord> goal_changes;
-  std::vector<StepStatus> steps;
-  std::vector<Note> notes;
-  std::optional<std::uint64_t> cancelled_call;  // its answer is wanted no more; it is still awaited
-  std::optional<PlanCall> call;
-  std::optional<temporal::FlexiblePlan> adopted;  // a plan that now runs
-  std::optional<PlanReceipt> receipt;
-  std::optional<temporal::Time> wake;  // call step() again then, if nothing comes before
-};
-
-struct ReactorCounts {
-  std::uint32_t planner_calls = 0;
-  std::uint32_t replans = 0;  // times it went back to planning after a first plan was adopted
-  std::uint32_t achieved = 0, dropped = 0, failed = 0, rejected = 0, open = 0;
-};
+namespace roci::exec::reactor {
 
 class Reactor {
  public:
-  explicit Reactor(const MissionModel& mission);
+  /// The mission outlives the reactor.
+  explicit Reactor(const mission::MissionModel& mission);
+  ~Reactor();
+  Reactor(Reactor&&) noexcept;
+  Reactor& operator=(Reactor&&) noexcept;
 
-  // Before the first step, after a restart: goals as the journal has them, the last plan version used.
-  void restore(const std::vector<GoalRecord>& goals, std::uint32_t last_plan_version);
+  /// Before the first step, after a restart: goals as the journal has them, the last plan version used.
+  void restore(const std::vector<goals::GoalRecord>& goals, std::uint32_t last_plan_version);
 
   ReactorOutputs step(temporal::Time now, const ReactorInputs& inputs);
 
-  // Nothing is commanded and no end of a command awaited: snapshot() is all there is to know.
+  /// Nothing is commanded and no end of a command awaited: snapshot() is all there is to know.
   bool at_rest() const;
   std::string snapshot() const;
-  // Before the first step: goes on as the reactor of which the snapshot was taken. Throws ArchiveError.
+  /// Before the first step: goes on as the reactor of which the snapshot was taken. Throws ArchiveError.
   void restore(std::string_view snapshot);
 
-  const temporal::FlexiblePlan& plan() const { return executive_.plan(); }
-  std::vector<StepStatus> steps() const { return executive_.steps(); }
+  const temporal::FlexiblePlan& plan() const;
+  std::vector<executive::StepStatus> steps() const;
 
-  Phase phase() const { return phase_; }
-  std::uint32_t plan_version() const { return plan_version_; }
+  MissionPhase phase() const;
+  std::uint32_t plan_version() const;
   ReactorCounts counts() const;
-  const GoalSet& goals() const { return goals_; }
-  bool follows_engine() const;  // that plans all the time
-  const PlanReceipt& receipt() const { return receipt_; }
-  // "achieved": every hard goal, and there was one (a console's goals that were rejected do not count:
-  // whoever sent them was told); "partial": some hard goal was not, robot safe; "failed": robot not safe;
-  // empty while open.
+  const goals::GoalSet& goals() const;
+  /// Whether its engine plans all the time; what that was told last (of nothing, if it does not).
+  bool plans_continuously() const;
+  const PlanReceipt& receipt() const;
+  /// "achieved": every hard goal, and there was one (a console's goals that were rejected do not count:
+  /// whoever sent them was told); "partial": some hard goal was not, robot safe; "failed": robot not safe;
+  /// empty while open.
   std::string outcome() const;
 
  private:
-  void take_goals(temporal::Time now, const std::vector<GoalRequest>& requests);
-  void take_peers(const ReactorInputs& inputs);
-  void assume_unobserved(const GoalRequest& goal);
-  void note_achieved();
-  void advance(temporal::Time now, const ReactorInputs& inputs);
+  struct Parts;  ///< on the heap: they know each other by address
+  void take_services(const ReactorInputs& inputs);
   void resume(temporal::Time now);
-  template <class Archive, class Self>
-  static void fields(Archive& archive, Self& self);
-  void take_models(const std::vector<ModelVersion>& models);
-  void follow_plan(temporal::Time now);
-  void look_ahead(temporal::Time now);
-  void break_plan(temporal::Time now, const std::string& why);
-  void count_failure(temporal::Time now, const Outcome& outcome);
-  void give_up(const std::vector<GoalKey>& goals, const std::string& why);
-  bool count_replan(temporal::Time now);
-  void begin_pause(temporal::Time now);
-  void continue_pause(temporal::Time now);
-  void send_fallbacks();
-  void begin_planning(temporal::Time now);
-  void call_planner(temporal::Time now, temporal::Time origin, const Forecast& forecast);
-  void cancel_stale_call();
-  bool is_end_of_cancelled_call(const PlanAnswer& answer) const;
-  bool count_as_outdated(const PlanAnswer& answer);
-  bool may_go_on() const;
-  void begin_meanwhile(temporal::Time now);
-  void ask_meanwhile(temporal::Time now);
-  void continue_meanwhile(temporal::Time now);
-  void keep_plan(temporal::Time now);
-  void change_plans(temporal::Time now);
-  std::vector<PlannedAction> remaining() const;
-  std::string surprise_of(const Forecast& forecast) const;
-  bool outdated(const PlanAnswer& answer) const;
-  void follow_engine(temporal::Time now, const ReactorInputs& inputs);
-  void take_delta(temporal::Time now, const temporal::PlanDelta& delta);
-  std::string fault_of(temporal::Time now, const temporal::PlanDelta& delta,
-                       temporal::FlexiblePlan& next) const;
-  void adopt_version(temporal::Time now, temporal::FlexiblePlan plan);
-  void note_planned(const temporal::FlexiblePlan& plan);
-  void follow_version(temporal::Time now);
-  void forget_ended_plan(temporal::Time now);
-  bool takes_plans() const;
-  void tell_receipt();
-  void begin_plan(temporal::Time now, temporal::FlexiblePlan plan);
-  void take_answer(temporal::Time now, const PlanAnswer& answer);
-  void adopt(temporal::Time now, const PlanAnswer& answer);
-  // False: no goal has gone, the next call is to leave out the soft ones.
-  bool give_way(const PlanAnswer& answer);
-  GoalKey newest_hard() const;
-  GoalSet hard_goals() const;
-  bool spend_reserves(const std::vector<GoalKey>& leaving, const std::string& why);
-  std::vector<GoalKey> goals_to_blame(const PlanAnswer& answer) const;
-  std::optional<GoalKey> soft_goal_to_leave(const PlanAnswer& answer) const;
-  std::vector<GoalKey> named_goals(const std::string& reason) const;
-  void try_again_later(temporal::Time now, const PlanAnswer& answer);
-  void run_executive(temporal::Time now, const ReactorInputs& inputs);
-  void pass_on(Outputs done);
-  void make_safe(temporal::Time now, const std::string& why);
   void finish_if_done();
-  void want_plan(const std::string& why);
-  void change_goal(const GoalKey& key, GoalState state, const std::string& reason);
-  void wake_at(temporal::Time time);
-  void note(NoteLevel level, std::string code, std::string text);
-  void tell_windows();
-  std::vector<Observation> changed_conditions();
 
-  // A planner call during which what runs goes on.
-  struct Meanwhile {
-    Forecast forecast;  // of the state that the running activities leave
-    std::optional<PlanAnswer> answer;
-    std::optional<temporal::Time> doubt_until;  // for that state to be observed
-  };
-
-  const MissionModel* mission_;
-  Beliefs beliefs_;
-  GoalSet goals_;
-  Executive executive_;
-  Ladder ladder_;
-  FailureTally failures_;
-  Margins margins_;      // of the running plan
-  Foresight foresight_;  // of the running plan
-  ReactorOutputs out_;
-
-  Phase phase_ = Phase::idle;
-  bool wanted_ = false;  // a plan is wanted, for the reason below
-  std::string wanted_why_;
-  bool first_plan_ = true;
-  std::uint32_t plan_version_ = 0;
-  std::uint64_t call_id_ = 0;
-  PlanCall call_;
-  bool call_open_ = false;       // made, not answered: there is never more than one
-  bool call_cancelled_ = false;  // the one made last
-  std::optional<Meanwhile> meanwhile_;
-  bool unfit_ = false;                  // the running plan must not go on
-  std::vector<PlannedAction> planned_;  // of the last plan; after a restart what remained of it
-  ReactorCounts counts_;
-  std::map<std::string, std::uint64_t> models_;  // newest version by owner
-  bool models_changed_ = false;                  // since the call
-  std::uint32_t outdated_calls_ = 0;             // in a row
-
-  PlanReceipt receipt_;
-  std::optional<PlanReceipt> told_receipt_;
-  temporal::Time mend_before_{0};   // a plan that broke, by another version
-  std::vector<std::string> ended_;  // activities of the engine's plan that ended last, sorted
-
-  temporal::Time pause_deadline_{0};
-  std::uint32_t fallback_round_ = 0;
-  bool fallbacks_sent_ = false;
-  std::uint32_t failed_calls_ = 0;
-  std::string suspicion_;  // why soft goals are left out of the call under way; empty: they are in it
-  Reserves reserves_ = Reserves::kept;                 // spent: for hard goals, until one fails or comes
-  temporal::Time not_before_{0};                       // next planner call
-  std::map<std::string, temporal::Time> told_starts_;  // earliest starts last reported
-  std::map<std::string, temporal::Value>
-      condition_values_;  // timelines of the plan's conditions, as last told to the executive
+  std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

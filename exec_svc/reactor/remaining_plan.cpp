@@ -5,7 +5,10 @@
 
 #include "core/temporal/schedule.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
+
+using executive::StepStatus;
+
 namespace {
 
 using temporal::ActivityState;
@@ -40,8 +43,8 @@ std::vector<PlannedAction> planned_actions(const temporal::FlexiblePlan& plan) {
   return out;
 }
 
-std::vector<PlannedAction> without_begun(std::vector<PlannedAction> planned,
-                                         const std::vector<StepStatus>& steps) {
+std::vector<PlannedAction> remaining_actions(std::vector<PlannedAction> planned,
+                                             const std::vector<StepStatus>& steps) {
   std::set<std::string_view> gone;
   for (const StepStatus& step : steps)
     if (begun(step.state)) gone.insert(step.activity);
@@ -49,4 +52,4 @@ std::vector<PlannedAction> without_begun(std::vector<PlannedAction> planned,
   return planned;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -1,5 +1,5 @@
-// What is left of a plan when a new one is asked for. The planner begins with it, so that little changes
-// where little has happened, and its first plan costs next to nothing.
+/// What is left of a plan when a new one is asked for. The planner begins with it, so that little changes
+/// where little has happened, and its first plan costs next to nothing.
 #pragma once
 
 #include <string>
@@ -8,23 +8,23 @@
 #include "core/temporal/flexible_plan.hpp"
 #include "exec_svc/executive/messages.hpp"
 
-namespace roci::exec {
+namespace roci::exec::reactor {
 
-// An action as the planner wrote it, before it was bound to a command.
+/// An action as the planner wrote it, before it was bound to a command.
 struct PlannedAction {
-  std::string activity;  // its id in the bound plan
+  std::string activity;  ///< its id in the bound plan
   std::string name;
   std::vector<std::string> arguments;
-  temporal::Duration start{0};  // from the plan's origin, in the schedule of earliest times
+  temporal::Duration start{0};  ///< from the plan's origin, in the schedule of earliest times
   temporal::Duration duration{0};
   friend bool operator==(const PlannedAction&, const PlannedAction&) = default;
 };
 
-// `plan`: as it came from the planner. No ids yet.
+/// `plan`: as it came from the planner. No ids yet.
 std::vector<PlannedAction> planned_actions(const temporal::FlexiblePlan& plan);
 
-// Without those that run, have done their work or were skipped; what no step tells of stays.
-std::vector<PlannedAction> without_begun(std::vector<PlannedAction> planned,
-                                         const std::vector<StepStatus>& steps);
+/// Without those that run, have done their work or were skipped; what no step tells of stays.
+std::vector<PlannedAction> remaining_actions(std::vector<PlannedAction> planned,
+                                             const std::vector<executive::StepStatus>& steps);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::reactor

@@ -9,12 +9,18 @@
 
 #include "core/mission/entry.hpp"
 #include "exec_svc/archive/archive.hpp"
+#include "exec_svc/journal/format.hpp"
 #include "exec_svc/journal/run_replay.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-using namespace roci::exec;
+using roci::exec::journal::Durability;
+using roci::exec::journal::Journal;
+using roci::exec::journal::JournalError;
+using roci::exec::journal::replay_run;
+using roci::exec::journal::RunReplay;
+using roci::exec::mission::read_mission;
 
 enum ExitCode { kSame = 0, kDiverged = 1, kBadUsage = 2, kNoJournal = 3 };
 
@@ -64,6 +70,13 @@ void print(const RunReplay& run) {
 
 int replay(const Options& options) {
   const Journal journal(journal_file(options.journal), Durability::process);
+  const std::int64_t format = journal.number("format", 0);
+  if (format == 0) throw JournalError(options.journal.string() + " holds no inputs of a run");
+  if (format != roci::exec::journal::kInputFormat)
+    throw JournalError(options.journal.string() + " holds inputs of format " + std::to_string(format) +
+                       ", this roci-replay repeats format " +
+                       std::to_string(roci::exec::journal::kInputFormat) +
+                       "; repeat the run with the version that flew it");
   const fs::path mission = options.mission.empty() ? fs::path(journal.text("mission")) : options.mission;
   if (mission.empty()) throw JournalError("the journal names no mission; give its folder with --mission");
   const RunReplay run = replay_run(journal, read_mission(mission));

@@ -2,46 +2,49 @@
 
 #include <utility>
 
-namespace roci::exec {
+namespace roci::exec::standby {
 
-JournalCopy::Taken JournalCopy::take(const Parcel& parcel, std::uint64_t epoch) {
-  if (parcel.checksum != checksum(parcel)) return Taken::corrupt;
-  if (parcel.leader < epoch) return Taken::old;
-  return parcel.parts == 0 ? take_batch(parcel) : take_part(parcel);
+using journal::JournalError;
+using journal::kForkedHistory;
+
+JournalCopy::Result JournalCopy::take(const Chunk& chunk, std::uint64_t epoch) {
+  if (chunk.checksum != checksum(chunk)) return Result::corrupt;
+  if (chunk.leader < epoch) return Result::old;
+  return chunk.parts == 0 ? take_batch(chunk) : take_part(chunk);
 }
 
-JournalCopy::Taken JournalCopy::take_batch(const Parcel& parcel) {
-  if (parcel.at.epoch == has_.epoch && parcel.at.sequence <= has_.sequence) return Taken::known;
-  if (parcel.after != has_) return Taken::gap;
+JournalCopy::Result JournalCopy::take_batch(const Chunk& chunk) {
+  if (chunk.at.epoch == has_.epoch && chunk.at.sequence <= has_.sequence) return Result::known;
+  if (chunk.after != has_) return Result::gap;
   try {
-    journal_->apply({parcel.after, parcel.at, parcel.bytes});
+    journal_->apply({chunk.after, chunk.at, chunk.bytes});
   } catch (const JournalError&) {
-    has_ = kOwnPast;
-    return Taken::corrupt;
+    has_ = kForkedHistory;
+    return Result::corrupt;
   }
-  has_ = parcel.at;
-  return Taken::batch;
+  has_ = chunk.at;
+  return Result::batch;
 }
 
-JournalCopy::Taken JournalCopy::take_part(const Parcel& parcel) {
-  if (has_ == parcel.at) return Taken::known;
-  if (parcel.part == 0 && (arrival_.at != parcel.at || arrival_.parts == 0)) {
-    arrival_ = {parcel.at, 0};
+JournalCopy::Result JournalCopy::take_part(const Chunk& chunk) {
+  if (has_ == chunk.at) return Result::known;
+  if (chunk.part == 0 && (arrival_.at != chunk.at || arrival_.parts == 0)) {
+    arrival_ = {chunk.at, 0};
     arriving_.clear();
   }
-  if (arrival_.at != parcel.at || parcel.part > arrival_.parts) return Taken::gap;
-  if (parcel.part < arrival_.parts) return Taken::known;
-  arriving_ += parcel.bytes;
-  if (++arrival_.parts < parcel.parts) return Taken::part;
+  if (arrival_.at != chunk.at || chunk.part > arrival_.parts) return Result::gap;
+  if (chunk.part < arrival_.parts) return Result::known;
+  arriving_ += chunk.bytes;
+  if (++arrival_.parts < chunk.parts) return Result::part;
   const std::string whole = std::exchange(arriving_, {});
   arrival_ = {};
   try {
-    journal_->become(whole);
+    journal_->replace_with(whole);
   } catch (const JournalError&) {
-    return Taken::corrupt;
+    return Result::corrupt;
   }
   has_ = journal_->position();
-  return Taken::whole;
+  return Result::whole;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-namespace roci::exec {
+namespace roci::exec::standby {
+
+using journal::Batch;
+using journal::Position;
+
 namespace {
 
 constexpr std::size_t kMostBatches = 4096;  // kept for a follower that comes back
@@ -18,11 +22,11 @@ JournalFeed::JournalFeed(std::uint64_t epoch, const Position& newest)
     : epoch_(epoch), newest_(newest), oldest_after_(newest) {}
 
 void JournalFeed::add(Batch batch) {
-  Parcel parcel{epoch_, batch.after, batch.at, 0, 0, 0, std::move(batch.changes)};
-  parcel.checksum = checksum(parcel);
-  newest_ = parcel.at;
-  kept_bytes_ += parcel.bytes.size();
-  kept_.push_back(std::move(parcel));
+  Chunk chunk{epoch_, batch.after, batch.at, 0, 0, 0, std::move(batch.changes)};
+  chunk.checksum = checksum(chunk);
+  newest_ = chunk.at;
+  kept_bytes_ += chunk.bytes.size();
+  kept_.push_back(std::move(chunk));
   while (kept_.size() > kMostBatches || (kept_bytes_ > kMostBytes && kept_.size() > 1)) {
     kept_bytes_ -= kept_.front().bytes.size();
     oldest_after_ = kept_.front().at;
@@ -30,7 +34,7 @@ void JournalFeed::add(Batch batch) {
   }
 }
 
-void JournalFeed::hear(const Position& has, const Arrival& arrival, Moment now) {
+void JournalFeed::hear(const Position& has, const TransferProgress& arrival, Moment now) {
   if (!heard_ || has != has_ || arrival != arrival_) moved_at_ = now;
   if (!heard_ || has < has_) sent_ = has.sequence;  // another start of it
   heard_ = true;
@@ -44,7 +48,7 @@ bool JournalFeed::keeps(const Position& has) const {
   return has.epoch == epoch_ && has.sequence > oldest_after_.sequence && has.sequence <= newest_.sequence;
 }
 
-std::vector<Parcel> JournalFeed::due(Moment now, const std::function<std::string()>& whole) {
+std::vector<Chunk> JournalFeed::due(Moment now, const std::function<std::string()>& whole) {
   if (!heard_ || has_ == newest_) return {};
   if (now - moved_at_ >= kAgainAfter) {
     moved_at_ = now;
@@ -57,9 +61,9 @@ std::vector<Parcel> JournalFeed::due(Moment now, const std::function<std::string
   return next_batches();
 }
 
-std::vector<Parcel> JournalFeed::next_batches() {
+std::vector<Chunk> JournalFeed::next_batches() {
   const std::uint64_t until = std::min(newest_.sequence, has_.sequence + kBatchesUnderWay);
-  std::vector<Parcel> out;
+  std::vector<Chunk> out;
   for (; sent_ < until; ++sent_) {
     const std::uint64_t index = sent_ - oldest_after_.sequence;  // of the batch after it
     out.push_back(kept_.at(index));
@@ -67,7 +71,7 @@ std::vector<Parcel> JournalFeed::next_batches() {
   return out;
 }
 
-std::vector<Parcel> JournalFeed::next_parts(const std::function<std::string()>& whole) {
+std::vector<Chunk> JournalFeed::next_parts(const std::function<std::string()>& whole) {
   if (parts_.empty() || has_ == parts_.front().at) {
     parts_ = split(epoch_, newest_, whole());
     sent_parts_ = 0;
@@ -75,9 +79,9 @@ std::vector<Parcel> JournalFeed::next_parts(const std::function<std::string()>& 
   const std::uint32_t arrived = arrival_.at == parts_.front().at ? arrival_.parts : 0;
   sent_parts_ = std::max(sent_parts_, arrived);
   const auto until = std::min(static_cast<std::uint32_t>(parts_.size()), arrived + kPartsUnderWay);
-  std::vector<Parcel> out;
+  std::vector<Chunk> out;
   for (; sent_parts_ < until; ++sent_parts_) out.push_back(parts_[sent_parts_]);
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

@@ -1,5 +1,5 @@
-// The leader's side of the journal's copy: which parcels the follower is to get next, from what it says that
-// it has. Sends again from there when nothing moves. Pure.
+/// The leader's side of the journal's copy: which chunks the follower is to get next, from what it says that
+/// it has. Sends again from there when nothing moves. Pure.
 #pragma once
 
 #include <chrono>
@@ -10,44 +10,44 @@
 #include <string>
 #include <vector>
 
-#include "exec_svc/standby/parcel.hpp"
+#include "exec_svc/standby/chunk.hpp"
 
-namespace roci::exec {
+namespace roci::exec::standby {
 
 class JournalFeed {
  public:
   using Moment = std::chrono::microseconds;
 
-  // `newest`: of the journal when the epoch begins.
-  JournalFeed(std::uint64_t epoch, const Position& newest);
+  /// `newest`: of the journal when the epoch begins.
+  JournalFeed(std::uint64_t epoch, const journal::Position& newest);
 
-  void add(Batch batch);
-  const Position& newest() const { return newest_; }
+  void add(journal::Batch batch);
+  const journal::Position& newest() const { return newest_; }
 
-  // What the follower says that it has, in its journal and of a whole one under way.
-  void hear(const Position& has, const Arrival& arrival, Moment now);
+  /// What the follower says that it has, in its journal and of a whole one under way.
+  void hear(const journal::Position& has, const TransferProgress& arrival, Moment now);
 
-  // What to send now, in order. `whole`: gives the whole journal as it is now, at newest().
-  std::vector<Parcel> due(Moment now, const std::function<std::string()>& whole);
+  /// What to send now, in order. `whole`: gives the whole journal as it is now, at newest().
+  std::vector<Chunk> due(Moment now, const std::function<std::string()>& whole);
 
  private:
-  bool keeps(const Position& has) const;
-  std::vector<Parcel> next_batches();
-  std::vector<Parcel> next_parts(const std::function<std::string()>& whole);
+  bool keeps(const journal::Position& has) const;
+  std::vector<Chunk> next_batches();
+  std::vector<Chunk> next_parts(const std::function<std::string()>& whole);
 
   std::uint64_t epoch_;
-  Position newest_;
-  Position oldest_after_;    // of the journal before the oldest batch kept
-  std::deque<Parcel> kept_;  // batches of this epoch, without gaps up to newest_
+  journal::Position newest_;
+  journal::Position oldest_after_;  ///< of the journal before the oldest batch kept
+  std::deque<Chunk> kept_;          ///< batches of this epoch, without gaps up to newest_
   std::size_t kept_bytes_ = 0;
 
   bool heard_ = false;
-  Position has_;
-  Arrival arrival_;
-  Moment moved_at_{0};         // the follower's, or the last time that all was sent again
-  std::uint64_t sent_ = 0;     // sequence up to which batches are under way
-  std::vector<Parcel> parts_;  // of the whole journal under way
+  journal::Position has_;
+  TransferProgress arrival_;
+  Moment moved_at_{0};        ///< the follower's, or the last time that all was sent again
+  std::uint64_t sent_ = 0;    ///< sequence up to which batches are under way
+  std::vector<Chunk> parts_;  ///< of the whole journal under way
   std::uint32_t sent_parts_ = 0;
 };
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-namespace roci::exec {
+namespace roci::exec::standby {
+
+using journal::Position;
+
 namespace {
 
 constexpr std::uint64_t kNear = 64;  // batches; so close a follower is waited for
@@ -21,37 +24,37 @@ std::string milliseconds_text(Moment time) {
 
 }  // namespace
 
-Lease::Lease(Member self, const LeaseSettings& settings, const Standing& standing, bool superseded,
+Lease::Lease(Member self, const LeaseSettings& settings, const PersistedTerm& persisted_term, bool superseded,
              Moment now)
     : self_(self),
       settings_(settings),
-      standing_(standing),
+      persisted_term_(persisted_term),
       spoke_at_(now - settings.renewal),
-      barred_(superseded),
+      takeover_forbidden_(superseded),
       leaderless_since_(now),
       started_(now) {}
 
-void Lease::hear(const Word& word, Moment now) {
-  if (word.member == self_) return;
-  other_ = Heard{word, now};
-  if (word.role != Role::leading) return note_epoch(word.epoch);
-  hear_leader(word.epoch, now);
-  if (role_ == Role::leading || word.epoch < standing_.epoch) return;
-  const auto since = said_since();
-  entitled_ = word.entitled && since;
-  barred_ = !word.entitled;
-  receipt_ = word.receipt;
+void Lease::hear(const LeaseMessage& message, Moment now) {
+  if (message.member == self_) return;
+  other_ = Heard{message, now};
+  if (message.role != Role::leading) return note_epoch(message.epoch);
+  hear_leader(message.epoch, now);
+  if (role_ == Role::leading || message.epoch < persisted_term_.epoch) return;
+  const auto since = sent_since();
+  entitled_ = message.entitled && since;
+  takeover_forbidden_ = !message.entitled;
+  receipt_ = message.receipt;
   entitled_since_ = since.value_or(now);
 }
 
 void Lease::hear_leader(std::uint64_t epoch, Moment now) {
   note_epoch(epoch);
-  if (role_ == Role::following && epoch == standing_.epoch) leaderless_since_ = now;
+  if (role_ == Role::following && epoch == persisted_term_.epoch) leaderless_since_ = now;
 }
 
 void Lease::note_epoch(std::uint64_t epoch) {
-  if (epoch <= standing_.epoch) return;
-  standing_ = {epoch, false};
+  if (epoch <= persisted_term_.epoch) return;
+  persisted_term_ = {epoch, false};
   entitled_ = false;
 }
 
@@ -61,69 +64,70 @@ Lease::Turn Lease::turn(const Position& newest, Moment now) {
   out.speak = out.speak || out.change != Change::none || now - spoke_at_ >= settings_.renewal;
   if (!out.speak) return out;
   spoke_at_ = now;
-  if (bond_ == Bond::paired) entitled_at_ = now;
+  if (replication_ == ReplicationState::paired) entitled_at_ = now;
   return out;
 }
 
 Lease::Turn Lease::follow(const Position& newest, Moment now) {
   if (const auto reason = reason_to_lead(newest, now)) return lead(*reason, now);
   const Moment waited = now - leaderless_since_;
-  if (barred_ || heard_lately(now) || waited < settings_.lonely) return {};
+  if (takeover_forbidden_ || heard_lately(now) || waited < settings_.solo_timeout) return {};
   Turn out = lead("it heard nobody for " + milliseconds_text(waited) + "", now);
   out.doubtful = true;
   return out;
 }
 
 std::optional<std::string> Lease::reason_to_lead(const Position& newest, Moment now) const {
-  const bool other_follows = heard_lately(now) && other_->word.role == Role::following;
+  const bool other_follows = heard_lately(now) && other_->message.role == Role::following;
   const auto is_new = [](std::uint64_t epoch, const Position& has) {
     return epoch == 0 && has == Position{};
   };
-  if (self_ == Member::first && other_follows && is_new(standing_.epoch, newest) &&
-      is_new(other_->word.epoch, other_->word.has))
+  if (self_ == Member::first && other_follows && is_new(persisted_term_.epoch, newest) &&
+      is_new(other_->message.epoch, other_->message.has))
     return "both are new";
   const Moment waited = now - leaderless_since_;
   if (waited < settings_.term) return std::nullopt;
   if (right_holds(newest, now))
-    return "the leader of epoch " + std::to_string(standing_.epoch) + " was not heard for " +
+    return "the leader of epoch " + std::to_string(persisted_term_.epoch) + " was not heard for " +
            milliseconds_text(waited);
-  if (standing_.alone) return "it led alone before";
+  if (persisted_term_.alone) return "it led alone before";
   if (other_follows) {
-    const auto since = said_since();
+    const auto since = sent_since();
     const bool open =
-        !other_->word.entitled && other_->word.searching && since && now - *since < settings_.term;
-    if (open && wins(other_->word, newest)) return "of both it has the longer journal";
+        !other_->message.entitled && other_->message.searching && since && now - *since < settings_.term;
+    if (open && wins(other_->message, newest)) return "of both it has the longer journal";
   }
   return std::nullopt;
 }
 
 bool Lease::right_holds(const Position& newest, Moment now) const {
-  return entitled_ && newest >= receipt_ && now - entitled_since_ < settings_.term + settings_.margin;
+  return entitled_ && newest >= receipt_ &&
+         now - entitled_since_ < settings_.term + settings_.takeover_window;
 }
 
-std::optional<Moment> Lease::said_since() const {
-  if (!other_ || other_->word.echo < started_ || other_->word.echo > other_->at) return std::nullopt;
-  return other_->word.echo;
+std::optional<Moment> Lease::sent_since() const {
+  if (!other_ || other_->message.echo < started_ || other_->message.echo > other_->at) return std::nullopt;
+  return other_->message.echo;
 }
 
-bool Lease::wins(const Word& other, const Position& newest) const {
+bool Lease::wins(const LeaseMessage& other, const Position& newest) const {
   return newest > other.has || (newest == other.has && self_ == Member::first);
 }
 
-Lease::Turn Lease::lead(std::string why, Moment now) {
+Lease::Turn Lease::lead(std::string reason, Moment now) {
   role_ = Role::leading;
-  own_epoch_ = next_epoch(self_, standing_.epoch);
-  standing_ = {own_epoch_, true};
-  bond_ = Bond::alone;
-  bond_since_ = now;
-  return {Change::lead, std::move(why), false, true};
+  own_epoch_ = next_epoch(self_, persisted_term_.epoch);
+  persisted_term_ = {own_epoch_, true};
+  replication_ = ReplicationState::alone;
+  replication_since_ = now;
+  return {Change::lead, std::move(reason), false, true};
 }
 
 Lease::Turn Lease::keep_leading(const Position& newest, Moment now) {
-  if (standing_.epoch > own_epoch_)
-    return {Change::stand_down, "epoch " + std::to_string(standing_.epoch) + " has a leader"};
+  if (persisted_term_.epoch > own_epoch_)
+    return {Change::stand_down, "epoch " + std::to_string(persisted_term_.epoch) + " has a leader"};
   if (refused_) {
-    standing_.alone = false;
+    persisted_term_.alone = false;
     return {Change::stand_down, "an owner obeys a later epoch"};
   }
   // Alone too: to others it was dead meanwhile, so it joins them anew.
@@ -132,96 +136,96 @@ Lease::Turn Lease::keep_leading(const Position& newest, Moment now) {
             "it stood still for " + milliseconds_text(now - spoke_at_) + ", longer than its lease"};
   }
   note_progress(newest, now);
-  return bind(newest, now);
+  return update_replication(newest, now);
 }
 
 void Lease::note_progress(const Position& newest, Moment now) {
   const bool behind = !other_has(newest);
-  const Position has = other_ ? other_->word.has : Position{};
+  const Position has = other_ ? other_->message.has : Position{};
   if (behind && (!behind_ || has != progress_)) behind_since_ = now;
   behind_ = behind;
   progress_ = has;
 }
 
-Lease::Turn Lease::bind(const Position& newest, Moment now) {
-  const bool stuck = !heard_lately(now) || (behind_ && now - behind_since_ > settings_.patience);
-  const auto become = [&](Bond bond) {
-    bond_ = bond;
-    bond_since_ = now;
+Lease::Turn Lease::update_replication(const Position& newest, Moment now) {
+  const bool stuck = !heard_lately(now) || (behind_ && now - behind_since_ > settings_.progress_timeout);
+  const auto become = [&](ReplicationState bond) {
+    replication_ = bond;
+    replication_since_ = now;
   };
   const auto pair = [&]() -> Turn {
-    become(Bond::paired);
-    standing_.alone = false;
+    become(ReplicationState::paired);
+    persisted_term_.alone = false;
     return {Change::paired, "the other has the whole journal", false, true};
   };
-  switch (bond_) {
-    case Bond::alone:
+  switch (replication_) {
+    case ReplicationState::alone:
       if (!stuck && other_is_near(newest)) {
-        become(Bond::joining);
+        become(ReplicationState::catching_up);
         joined_at_ = newest;
       }
       return {};
-    case Bond::joining:
-      if (stuck) become(Bond::alone);
+    case ReplicationState::catching_up:
+      if (stuck) become(ReplicationState::alone);
       if (!stuck && other_has(joined_at_)) return pair();
       return {};
-    case Bond::paired:
+    case ReplicationState::paired:
       if (!stuck) return {};
-      become(Bond::parting);
+      become(ReplicationState::revoking);
       return {Change::none, "", false, true};
-    case Bond::parting:
+    case ReplicationState::revoking:
       if (!stuck && !expired(now) && other_has(newest)) return pair();
-      if (now - entitled_at_ < settings_.term + settings_.margin) return {};
-      become(Bond::alone);
-      standing_.alone = true;
+      if (now - entitled_at_ < settings_.term + settings_.takeover_window) return {};
+      become(ReplicationState::alone);
+      persisted_term_.alone = true;
       return {Change::alone, "the other gave no receipt in time", false, true};
   }
   return {};
 }
 
 bool Lease::other_has(const Position& position) const {
-  if (!other_ || other_->word.role != Role::following) return false;
-  const Position& has = other_->word.has;
+  if (!other_ || other_->message.role != Role::following) return false;
+  const Position& has = other_->message.has;
   return has == position || (has.epoch == own_epoch_ && has.sequence >= position.sequence);
 }
 
 bool Lease::other_is_near(const Position& newest) const {
   if (other_has(newest)) return true;
-  const Position& has = other_->word.has;
-  return other_->word.role == Role::following && has.epoch == own_epoch_ &&
+  const Position& has = other_->message.has;
+  return other_->message.role == Role::following && has.epoch == own_epoch_ &&
          newest.sequence - has.sequence <= kNear;
 }
 
 bool Lease::may_send(const Position& decided, Moment now) const {
   if (role_ != Role::leading || superseded()) return false;
-  switch (bond_) {
-    case Bond::alone:
+  switch (replication_) {
+    case ReplicationState::alone:
       return true;
-    case Bond::joining:
+    case ReplicationState::catching_up:
       return other_has(decided);
-    case Bond::paired:
+    case ReplicationState::paired:
       return !expired(now) && other_has(decided);
-    case Bond::parting:
+    case ReplicationState::revoking:
       return false;
   }
   return false;
 }
 
-Word Lease::word(const Position& newest) const {
-  Word out;
+LeaseMessage Lease::message(const Position& newest) const {
+  LeaseMessage out;
   out.member = self_;
   out.role = role_;
-  out.epoch = role_ == Role::leading ? own_epoch_ : standing_.epoch;
+  out.epoch = role_ == Role::leading ? own_epoch_ : persisted_term_.epoch;
   out.has = newest;
-  out.entitled =
-      role_ == Role::leading ? bond_ == Bond::paired : right_holds(newest, spoke_at_) || standing_.alone;
+  out.entitled = role_ == Role::leading ? replication_ == ReplicationState::paired
+                                        : right_holds(newest, spoke_at_) || persisted_term_.alone;
   out.said = spoke_at_;
   if (other_) {
-    out.receipt = other_->word.has;
-    out.echo = other_->word.said;
+    out.receipt = other_->message.has;
+    out.echo = other_->message.said;
   }
   out.searching = role_ == Role::following && spoke_at_ - leaderless_since_ >= settings_.term;
   return out;
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

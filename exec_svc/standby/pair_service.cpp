@@ -7,25 +7,30 @@
 
 #include "exec_svc/exec_service.hpp"
 #include "exec_svc/mission/mission_model.hpp"
-#include "exec_svc/standby/following_service.hpp"
-#include "exec_svc/standby/leading_service.hpp"
+#include "exec_svc/standby/follower_service.hpp"
+#include "exec_svc/standby/leader_service.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
-#include "services/health/sign_of_life.hpp"
-#include "services/log.hpp"
+#include "services/health/watchdog_notifier.hpp"
+#include "services/log/log.hpp"
 #include "services/node.hpp"
-#include "services/service_options.hpp"
-#include "services/stop_signals.hpp"
-#include "services/transport.hpp"
+#include "services/process/service_options.hpp"
+#include "services/process/stop_signals.hpp"
+#include "services/transport/transport.hpp"
 
-namespace roci::exec {
+namespace roci::exec::standby {
+
+using journal::Durability;
+using journal::Journal;
+using mission::read_mission;
+
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kReconnectPause{500};
 
-Durability durability_for(const services::NodeOptions& node) {
-  return node.clock == services::ClockMode::live ? Durability::power : Durability::process;
+Durability durability_for(const services::node::NodeOptions& node) {
+  return node.clock == services::clock::ClockMode::live ? Durability::power : Durability::process;
 }
 
 fs::path folder_of(const services::RunSettings& run) {
@@ -35,7 +40,7 @@ fs::path folder_of(const services::RunSettings& run) {
 }
 
 // The node that is open now, for the thread that hears of signals.
-class Stop {
+class StopRequest {
  public:
   void ask() {
     const std::scoped_lock lock(mutex_);
@@ -66,59 +71,59 @@ class Stop {
 };
 
 // Within reach of signals for as long as it lives.
-class Reach {
+class InterruptibleNode {
  public:
-  Reach(Stop& stop, services::Node& node) : stop_(stop) { stop_.reach(&node); }
-  ~Reach() { stop_.reach(nullptr); }
-  Reach(const Reach&) = delete;
-  Reach& operator=(const Reach&) = delete;
+  InterruptibleNode(StopRequest& stop, services::Node& node) : stop_(stop) { stop_.reach(&node); }
+  ~InterruptibleNode() { stop_.reach(nullptr); }
+  InterruptibleNode(const InterruptibleNode&) = delete;
+  InterruptibleNode& operator=(const InterruptibleNode&) = delete;
 
  private:
-  Stop& stop_;
+  StopRequest& stop_;
 };
 
 class PairProcess {
  public:
-  PairProcess(const services::ServiceOptions& options, services::StopSignals& signals)
+  PairProcess(const services::process::ServiceOptions& options, services::process::StopSignals& signals)
       : options_(options),
-        sign_(options.notify_socket),
-        self_(wire::member_of(options.run.pair)),
-        lease_{read_mission(options.run.mission).executive.standby_term},
+        watchdog_(options.notify_socket),
+        self_(member_of(options.run.pair)),
+        lease_{read_mission(options.run.mission_file()).executive.standby_term},
         journal_(folder_of(options.run) / "journal.sqlite", durability_for(options.node)),
-        standing_(folder_of(options.run) / "standing", durability_for(options.node)) {
+        persisted_term_(folder_of(options.run) / "standing", durability_for(options.node)) {
     signals.watch([this] { stop_.ask(); });
   }
 
   void run() {
     for (bool superseded = false; !stop_.asked();) {
-      Lease lease(self_, lease_, standing_.read(), superseded, wire::moment());
+      Lease lease(self_, lease_, persisted_term_.read(), superseded, moment());
       const auto lead = follow(lease);
       if (!lead) return;
       log(*lead, lease);
       const auto end = this->lead(lease, *lead);
       if (!end) return;
       superseded = end->superseded;
-      services::log_warning("exec_svc (" + options_.run.pair + ") stands down: " + end->what());
+      services::log::warning("exec_svc (" + options_.run.pair + ") stands down: " + end->what());
     }
   }
 
  private:
   void log(const Lease::Turn& turn, const Lease& lease) const {
-    services::log_info("exec_svc (" + options_.run.pair + ") leads in epoch " +
-                       std::to_string(lease.epoch()) + ": " + turn.why);
+    services::log::info("exec_svc (" + options_.run.pair + ") leads in epoch " +
+                       std::to_string(lease.epoch()) + ": " + turn.reason);
   }
 
   // A member that was connected before waits for its network to come back; none: it was asked to stop.
-  std::unique_ptr<services::Transport> connect() {
+  std::unique_ptr<services::transport::Transport> connect() {
     for (bool told = false; !stop_.asked(); stop_.wait(kReconnectPause)) {
-      sign_.give();
+      watchdog_.notify();
       try {
-        auto transport = services::connect(options_.connection);
+        auto transport = services::process::connect(options_.connection);
         connected_before_ = true;
         return transport;
-      } catch (const services::TransportError& error) {
+      } catch (const services::transport::TransportError& error) {
         if (!connected_before_) throw;
-        if (!std::exchange(told, true)) services::log_warning(std::string("exec_svc waits: ") + error.what());
+        if (!std::exchange(told, true)) services::log::warning(std::string("exec_svc waits: ") + error.what());
       }
     }
     return nullptr;
@@ -128,55 +133,55 @@ class PairProcess {
   std::optional<Lease::Turn> follow(Lease& lease) {
     auto transport = connect();
     if (!transport) return std::nullopt;
-    services::NodeOptions options = options_.node;
+    services::node::NodeOptions options = options_.node;
     options.name += "." + options_.run.pair;
-    options.clock = services::ClockMode::observer;
+    options.clock = services::clock::ClockMode::observer;
     services::Node node(options, std::move(transport));
-    FollowingService following(node, lease, journal_, standing_);
-    node.on_turn([this] { sign_.give(); });
-    const Reach reach(stop_, node);
+    FollowerService following(node, lease, journal_, persisted_term_);
+    node.on_turn([this] { watchdog_.notify(); });
+    const InterruptibleNode reach(stop_, node);
     node.run();
     return following.run_is_over() || stop_.asked() ? std::nullopt : following.lead();
   }
 
   // Nothing: the run is over. Under the simulated clock the epoch is the incarnation, so the clock drops who
   // led before.
-  std::optional<StandDown> lead(Lease& lease, const Lease::Turn& why) {
+  std::optional<StandDown> lead(Lease& lease, const Lease::Turn& turn) {
     auto transport = connect();
     if (!transport) return std::nullopt;
-    services::NodeOptions options = options_.node;
+    services::node::NodeOptions options = options_.node;
     options.incarnation = static_cast<std::uint32_t>(lease.epoch());
     services::Node node(options, std::move(transport));
-    node.on_turn([this] { sign_.give(); });
+    node.on_turn([this] { watchdog_.notify(); });
     try {
-      LeadingService leading(node, lease, journal_, standing_);
-      const auto executive = make_executive(node, options_.run, journal_, leading, why.doubtful);
-      const Reach reach(stop_, node);
+      LeaderService leading(node, lease, journal_, persisted_term_);
+      const auto executive = make_executive(node, options_.run, journal_, leading, turn.doubtful);
+      const InterruptibleNode reach(stop_, node);
       node.run();
       return std::nullopt;
     } catch (const StandDown& end) {
       return end;
-    } catch (const services::ClockGone&) {
+    } catch (const services::clock::ClockGone&) {
       throw;
-    } catch (const services::ClockError& error) {
+    } catch (const services::clock::ClockError& error) {
       return StandDown(error.what(), true);
     }
   }
 
-  const services::ServiceOptions& options_;
-  services::SignOfLife sign_;
+  const services::process::ServiceOptions& options_;
+  services::health::WatchdogNotifier watchdog_;
   Member self_;
   LeaseSettings lease_;
   Journal journal_;
-  StandingFile standing_;
-  Stop stop_;
+  PersistedTermFile persisted_term_;
+  StopRequest stop_;
   bool connected_before_ = false;
 };
 
 }  // namespace
 
-void run_pair(const services::ServiceOptions& options, services::StopSignals& signals) {
+void run_pair(const services::process::ServiceOptions& options, services::process::StopSignals& signals) {
   PairProcess(options, signals).run();
 }
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

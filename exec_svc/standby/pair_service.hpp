@@ -1,11 +1,12 @@
-// The process of one member of a pair: follows, leads, follows again, until the run is over.
+/// The process of one member of a pair: follows, leads, follows again, until the run is over.
 #pragma once
 
-#include "services/service.hpp"
+#include "services/process/service_options.hpp"
+#include "services/process/stop_signals.hpp"
 
-namespace roci::exec {
+namespace roci::exec::standby {
 
-// RunSettings::pair says which member this is; both may have the same run folder.
-void run_pair(const services::ServiceOptions& options, services::StopSignals& signals);
+/// RunSettings::pair says which member this is; both may have the same run folder.
+void run_pair(const services::process::ServiceOptions& options, services::process::StopSignals& signals);
 
-}  // namespace roci::exec
+}  // namespace roci::exec::standby

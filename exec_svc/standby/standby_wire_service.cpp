@@ -6,7 +6,10 @@
 
 #include "services/clock/wall.hpp"
 
-namespace roci::exec::wire {
+namespace roci::exec::standby {
+
+using journal::Position;
+
 namespace {
 
 std::string host_name() {
@@ -25,23 +28,23 @@ Position from_wire(const v1::JournalPosition& position) { return {position.epoch
 
 }  // namespace
 
-Moment moment() { return std::chrono::duration_cast<Moment>(services::wall::now().time_since_epoch()); }
+Moment moment() { return std::chrono::duration_cast<Moment>(services::clock::wall_now().time_since_epoch()); }
 
 std::string name_of(Member member) { return member == Member::first ? "first" : "second"; }
 
 Member member_of(const std::string& name) { return name == "second" ? Member::second : Member::first; }
 
-v1::ExecMember to_wire(const Word& word, const Arrival& arrival) {
-  v1::ExecMember out;
-  out.member(name_of(word.member));
-  out.exec_role(word.role == Role::leading ? v1::EXEC_LEADING : v1::EXEC_FOLLOWING);
-  out.epoch(word.epoch);
-  out.has(to_wire(word.has));
-  out.receipt(to_wire(word.receipt));
-  out.entitled(word.entitled);
-  out.searching(word.searching);
-  out.said_us(word.said.count());
-  out.echo_us(word.echo.count());
+v1::LeaseMessage to_wire(const LeaseMessage& message, const TransferProgress& arrival) {
+  v1::LeaseMessage out;
+  out.member(name_of(message.member));
+  out.exec_role(message.role == Role::leading ? v1::EXEC_LEADING : v1::EXEC_FOLLOWING);
+  out.epoch(message.epoch);
+  out.has(to_wire(message.has));
+  out.receipt(to_wire(message.receipt));
+  out.entitled(message.entitled);
+  out.searching(message.searching);
+  out.said_us(message.said.count());
+  out.echo_us(message.echo.count());
   out.arriving(to_wire(arrival.at));
   out.arrived_parts(arrival.parts);
   out.host(host_name());
@@ -49,8 +52,8 @@ v1::ExecMember to_wire(const Word& word, const Arrival& arrival) {
   return out;
 }
 
-Word from_wire(const v1::ExecMember& in) {
-  Word out;
+LeaseMessage from_wire(const v1::LeaseMessage& in) {
+  LeaseMessage out;
   out.member = member_of(in.member());
   out.role = in.exec_role() == v1::EXEC_LEADING ? Role::leading : Role::following;
   out.epoch = in.epoch();
@@ -63,22 +66,24 @@ Word from_wire(const v1::ExecMember& in) {
   return out;
 }
 
-Arrival arrival_of(const v1::ExecMember& in) { return {from_wire(in.arriving()), in.arrived_parts()}; }
+TransferProgress arrival_of(const v1::LeaseMessage& in) {
+  return {from_wire(in.arriving()), in.arrived_parts()};
+}
 
-v1::JournalParcel to_wire(const Parcel& parcel) {
-  v1::JournalParcel out;
-  out.leader(parcel.leader);
-  out.after(to_wire(parcel.after));
-  out.reached(to_wire(parcel.at));
-  out.part(parcel.part);
-  out.parts(parcel.parts);
-  out.checksum(parcel.checksum);
-  out.changes().assign(parcel.bytes.begin(), parcel.bytes.end());
+v1::JournalChunk to_wire(const Chunk& chunk) {
+  v1::JournalChunk out;
+  out.leader(chunk.leader);
+  out.after(to_wire(chunk.after));
+  out.reached(to_wire(chunk.at));
+  out.part(chunk.part);
+  out.parts(chunk.parts);
+  out.checksum(chunk.checksum);
+  out.changes().assign(chunk.bytes.begin(), chunk.bytes.end());
   return out;
 }
 
-Parcel from_wire(const v1::JournalParcel& in) {
-  Parcel out;
+Chunk from_wire(const v1::JournalChunk& in) {
+  Chunk out;
   out.leader = in.leader();
   out.after = from_wire(in.after());
   out.at = from_wire(in.reached());
@@ -89,4 +94,4 @@ Parcel from_wire(const v1::JournalParcel& in) {
   return out;
 }
 
-}  // namespace roci::exec::wire
+}  // namespace roci::exec::standby

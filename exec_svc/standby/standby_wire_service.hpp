@@ -1,26 +1,26 @@
-// Words and parcels in their wire form, and the clock that they count on.
+/// Lease messages and chunks in their wire form, and the clock that they count on.
 #pragma once
 
 #include <stdexcept>
 #include <string>
 
+#include "exec_svc/standby/chunk.hpp"
 #include "exec_svc/standby/lease.hpp"
-#include "exec_svc/standby/parcel.hpp"
 #include "roci_idl/standby.h"
 
-namespace roci::exec::wire {
+namespace roci::exec::standby {
 
-// The steady clock of this host.
+/// The steady clock of this host.
 Moment moment();
 
-std::string name_of(Member member);  // "first", "second"
+std::string name_of(Member member);  ///< "first", "second"
 Member member_of(const std::string& name);
 
-v1::ExecMember to_wire(const Word& word, const Arrival& arrival);
-Word from_wire(const v1::ExecMember& member);
-Arrival arrival_of(const v1::ExecMember& member);
+v1::LeaseMessage to_wire(const LeaseMessage& message, const TransferProgress& arrival);
+LeaseMessage from_wire(const v1::LeaseMessage& member);
+TransferProgress arrival_of(const v1::LeaseMessage& member);
 
-v1::JournalParcel to_wire(const Parcel& parcel);
-Parcel from_wire(const v1::JournalParcel& parcel);
+v1::JournalChunk to_wire(const Chunk& chunk);
+Chunk from_wire(const v1::JournalChunk& chunk);
 
-}  // namespace roci::exec::wire
+}  // namespace roci::exec::standby

@@ -6,23 +6,25 @@
 #include <iostream>
 
 #include "ground_console/cli/verbs.hpp"
+#include "ground_console/cli/watch/watch.hpp"
 
 namespace {
 
-using namespace roci::console;
+namespace cli = roci::console::cli;
+namespace lib = roci::console::lib;
 
 struct Line {
-  roci::services::ConnectionFlags connection;
+  roci::services::process::ConnectionFlags connection;
   bool json = false;
   bool waits = false;  // for a mission to run
-  GoalArguments goal;
+  cli::GoalArguments goal;
   std::size_t count = 0;
   std::vector<std::string> timelines;
-  int (*verb)(Client&, const Line&) = nullptr;
+  int (*verb)(lib::Client&, const Line&) = nullptr;
 };
 
 CLI::App* add_verb(CLI::App& parent, Line& line, const char* name, const char* help,
-                   int (*verb)(Client&, const Line&)) {
+                   int (*verb)(lib::Client&, const Line&)) {
   CLI::App* command = parent.add_subcommand(name, help);
   command->add_flag("--json", line.json, "Print JSON");
   command->callback([&line, verb] { line.verb = verb; });
@@ -32,8 +34,9 @@ CLI::App* add_verb(CLI::App& parent, Line& line, const char* name, const char* h
 void add_goal_verbs(CLI::App& app, Line& line) {
   CLI::App* goal = app.add_subcommand("goal", "Ask for something, take it back, list what was asked");
   goal->require_subcommand(1);
-  CLI::App* add = add_verb(*goal, line, "add", "Send a goal and wait until it stands in the robot's journal",
-                           [](Client& client, const Line& l) { return add_goal(client, l.goal, l.json); });
+  CLI::App* add =
+      add_verb(*goal, line, "add", "Send a goal and wait until it stands in the robot's journal",
+               [](lib::Client& client, const Line& l) { return cli::add_goal(client, l.goal, l.json); });
   add->add_option("id", line.goal.id, "A name of your choice")->required();
   add->add_option("kind", line.goal.kind, "One of the mission's goal kinds, e.g. photo")->required();
   add->add_option("arguments", line.goal.arguments, "name=value …, e.g. x=110 y=60");
@@ -43,13 +46,14 @@ void add_goal_verbs(CLI::App& app, Line& line) {
   add->add_option("--opens", line.goal.opens_s, "Earliest mission time in seconds");
   add->add_option("--closes", line.goal.closes_s, "Latest mission time in seconds");
   add->add_option("--issuer", line.goal.issuer, "Who asks")->capture_default_str();
-  CLI::App* cancel = add_verb(*goal, line, "cancel", "Take a goal back", [](Client& client, const Line& l) {
-    return cancel_goal(client, l.goal.issuer, l.goal.id, l.json);
-  });
+  CLI::App* cancel =
+      add_verb(*goal, line, "cancel", "Take a goal back", [](lib::Client& client, const Line& l) {
+        return cli::cancel_goal(client, l.goal.issuer, l.goal.id, l.json);
+      });
   cancel->add_option("id", line.goal.id, "The goal's id")->required();
   cancel->add_option("--issuer", line.goal.issuer, "Who asked")->capture_default_str();
   add_verb(*goal, line, "list", "All goals with their states and reasons",
-           [](Client& client, const Line& l) { return list_goals(client, l.json); });
+           [](lib::Client& client, const Line& l) { return cli::list_goals(client, l.json); });
 }
 
 void tell_waiting() {
@@ -65,7 +69,7 @@ int become_replay(std::vector<std::string> arguments) {
   words.push_back(nullptr);
   execv(program.c_str(), words.data());
   std::cerr << "roci: cannot start " << program.string() << "; install it beside roci\n";
-  return kBadUsage;
+  return cli::kBadUsage;
 }
 
 }  // namespace
@@ -84,35 +88,36 @@ int main(int argc, char** argv) {
   app.add_option("--network", line.connection.network, "Network file of this host");
   add_goal_verbs(app, line);
   add_verb(app, line, "status", "Mission, goals, services, newest values",
-           [](Client& client, const Line& l) { return show_status(client, l.json); });
+           [](lib::Client& client, const Line& l) { return cli::show_status(client, l.json); });
   add_verb(app, line, "plan", "The running plan and the state of each activity",
-           [](Client& client, const Line& l) { return show_plan(client, l.json); });
-  CLI::App* timelines =
-      add_verb(app, line, "timelines", "Planned, executed and projected values of every timeline",
-               [](Client& client, const Line& l) { return show_timelines(client, l.timelines, l.json); });
+           [](lib::Client& client, const Line& l) { return cli::show_plan(client, l.json); });
+  CLI::App* timelines = add_verb(
+      app, line, "timelines", "Planned, executed and projected values of every timeline",
+      [](lib::Client& client, const Line& l) { return cli::show_timelines(client, l.timelines, l.json); });
   timelines->add_option("names", line.timelines, "These alone, e.g. rover.nav \"(battery)\"");
-  CLI::App* events =
-      add_verb(app, line, "events", "What happens, as it happens",
-               [](Client& client, const Line& l) { return follow_events(client, l.count, l.json); });
+  CLI::App* events = add_verb(
+      app, line, "events", "What happens, as it happens",
+      [](lib::Client& client, const Line& l) { return cli::follow_events(client, l.count, l.json); });
   events->add_option("--count", line.count, "End after so many events");
   CLI::App* watching =
       add_verb(app, line, "watch", "Live view of the mission in the terminal; waits for one to run",
-               [](Client& client, const Line& l) { return watch(client, l.json); });
+               [](lib::Client& client, const Line& l) { return cli::watch::watch(client, l.json); });
   watching->preparse_callback([&line](std::size_t) { line.waits = true; });
   app.add_subcommand("replay", "Repeat a run from its journal: roci replay JOURNAL (--help tells more)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kBadUsage;
+    return app.exit(error) == 0 ? cli::kDone : cli::kBadUsage;
   }
   try {
-    Client client(line.waits ? wait_for_run(line.connection, tell_waiting) : choose_run(line.connection));
+    lib::Client client(line.waits ? lib::wait_for_run(line.connection, tell_waiting)
+                                  : lib::choose_run(line.connection));
     return line.verb(client, line);
   } catch (const std::invalid_argument& error) {
     std::cerr << "roci: " << error.what() << "\n";
-    return kBadUsage;
+    return cli::kBadUsage;
   } catch (const std::exception& error) {
     std::cerr << "roci: " << error.what() << "\n";
-    return kNoMission;
+    return cli::kNoMission;
   }
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace roci::console {
+namespace roci::console::cli {
 
 using nlohmann::json;
 
@@ -26,8 +26,8 @@ json to_json(const v1::GoalStatus& status) {
   return {{"issuer", status.issuer()},
           {"id", status.id()},
           {"kind", status.goal_kind()},
-          {"class", name_of(status.importance())},
-          {"state", name_of(status.goal_state())},
+          {"class", lib::name_of(status.importance())},
+          {"state", lib::name_of(status.goal_state())},
           {"reason", status.reason()},
           {"plan_version", status.plan_version()}};
 }
@@ -35,24 +35,24 @@ json to_json(const v1::GoalStatus& status) {
 json to_json(const v1::Event& event) {
   return {{"time_s", static_cast<double>(event.header().stamp_us()) / 1e6},
           {"source", event.header().sender()},
-          {"severity", name_of(event.severity_level())},
+          {"severity", lib::name_of(event.severity_level())},
           {"code", event.code()},
           {"text", event.text()}};
 }
 
-json status_json(const MissionView& view) {
+json status_json(const lib::MissionView& view) {
   json out{{"time_s", static_cast<double>(view.now_us()) / 1e6},
            {"goals", json::array()},
            {"services", json::array()},
            {"timelines", json::object()}};
   if (const auto& mission = view.mission()) {
     out["mission"] = mission->mission();
-    out["phase"] = name_of(mission->phase());
+    out["phase"] = lib::name_of(mission->phase());
     out["plan_version"] = mission->plan_version();
     out["replans"] = mission->replans();
     out["outcome"] = mission->outcome();
   }
-  if (const v1::ExecMember* leader = view.leader()) {
+  if (const v1::LeaseMessage* leader = view.leader()) {
     const std::uint64_t behind =
         leader->has().commits() - std::min(leader->has().commits(), leader->receipt().commits());
     out["executive"] = {{"leader", leader->member()},
@@ -66,23 +66,23 @@ json status_json(const MissionView& view) {
   for (const auto& [name, heartbeat] : view.services()) {
     out["services"].push_back({{"name", name},
                                {"incarnation", heartbeat.incarnation()},
-                               {"state", name_of(heartbeat.state())},
+                               {"state", lib::name_of(heartbeat.state())},
                                {"dds", heartbeat.dds()},
                                {"progress", heartbeat.progress()},
                                {"resident_kb", heartbeat.resident_kb()}});
   }
   for (const auto& [name, observation] : view.timelines())
-    out["timelines"][name] = value_text(observation.observed());
+    out["timelines"][name] = lib::value_text(observation.observed());
   return out;
 }
 
-json plan_json(const MissionView& view) {
+json plan_json(const lib::MissionView& view) {
   if (!view.plan()) return nullptr;
   json out{{"version", view.plan()->version()}, {"activities", json::array()}};
   for (const v1::PlanActivity& activity : view.plan()->activities()) {
     json entry{{"id", activity.id()}, {"name", activity.name()}, {"goals", activity.goals_served()}};
     if (const v1::StepStatus* step = view.step(activity.id())) {
-      entry["state"] = name_of(step->state());
+      entry["state"] = lib::name_of(step->state());
       entry["started_us"] = step->started_us();
       entry["ended_us"] = step->ended_us();
       entry["earliest_start_us"] = step->earliest_start_us();
@@ -96,36 +96,37 @@ json plan_json(const MissionView& view) {
 
 std::string goal_line(const v1::GoalStatus& status) {
   return printable(padded(status.issuer() + "/" + status.id(), 24) + " " + padded(status.goal_kind(), 12) +
-                   " " + padded(name_of(status.importance()), 14) + " " +
-                   padded(name_of(status.goal_state()), 9) + " " + status.reason());
+                   " " + padded(lib::name_of(status.importance()), 14) + " " +
+                   padded(lib::name_of(status.goal_state()), 9) + " " + status.reason());
 }
 
 std::string event_line(const v1::Event& event) {
   const bool plain =
       event.severity_level() == v1::SEVERITY_INFO || event.severity_level() == v1::SEVERITY_DEBUG;
-  return printable(clock_text(event.header().stamp_us()) + "  " + padded(event.header().sender(), 13) +
-                   (plain ? "" : std::string(name_of(event.severity_level())) + ": ") + event.text());
+  return printable(lib::clock_text(event.header().stamp_us()) + "  " + padded(event.header().sender(), 13) +
+                   (plain ? "" : std::string(lib::name_of(event.severity_level())) + ": ") + event.text());
 }
 
-std::string status_text(const MissionView& view) {
+std::string status_text(const lib::MissionView& view) {
   std::string out;
   if (const auto& mission = view.mission()) {
-    out += mission->mission() + "  " + clock_text(view.now_us()) + "  " + name_of(mission->phase()) +
-           ", plan " + std::to_string(mission->plan_version()) + ", " + std::to_string(mission->replans()) +
-           " replans" + (mission->outcome().empty() ? "" : ", " + mission->outcome()) + "\n";
+    out += mission->mission() + "  " + lib::clock_text(view.now_us()) + "  " +
+           lib::name_of(mission->phase()) + ", plan " + std::to_string(mission->plan_version()) + ", " +
+           std::to_string(mission->replans()) + " replans" +
+           (mission->outcome().empty() ? "" : ", " + mission->outcome()) + "\n";
   } else {
     out += "no status from exec_svc\n";
   }
-  if (const v1::ExecMember* leader = view.leader()) out += "executive: " + pair_text(*leader) + "\n";
+  if (const v1::LeaseMessage* leader = view.leader()) out += "executive: " + lib::pair_text(*leader) + "\n";
   out += "\nGoals\n";
   for (const auto& [key, status] : view.goals()) out += "  " + goal_line(status) + "\n";
   out += "\nServices\n";
   for (const auto& [name, heartbeat] : view.services()) {
-    out += "  " + padded(name, 14) + padded(name_of(heartbeat.state()), 10) + padded(heartbeat.dds(), 12) +
-           "start " + std::to_string(heartbeat.incarnation()) + ", " +
+    out += "  " + padded(name, 14) + padded(lib::name_of(heartbeat.state()), 10) +
+           padded(heartbeat.dds(), 12) + "start " + std::to_string(heartbeat.incarnation()) + ", " +
            std::to_string(heartbeat.resident_kb() / 1024) + " MB\n";
   }
   return out;
 }
 
-}  // namespace roci::console
+}  // namespace roci::console::cli

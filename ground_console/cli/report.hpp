@@ -6,22 +6,22 @@
 
 #include "ground_console/lib/mission_view.hpp"
 
-namespace roci::console {
+namespace roci::console::cli {
 
 nlohmann::json to_json(const v1::GoalStatus& status);
 nlohmann::json to_json(const v1::Event& event);
-nlohmann::json status_json(const MissionView& view);
-nlohmann::json plan_json(const MissionView& view);
+nlohmann::json status_json(const lib::MissionView& view);
+nlohmann::json plan_json(const lib::MissionView& view);
 
-// One line of JSON, whatever bytes its texts hold.
+/// One line of JSON, whatever bytes its texts hold.
 std::string json_text(const nlohmann::json& json);
 
 std::string padded(std::string text, std::size_t width);
-// Control characters of others never reach the terminal: "?" stands for each.
+/// Control characters of others never reach the terminal: "?" stands for each.
 std::string printable(std::string text);
 
 std::string goal_line(const v1::GoalStatus& status);
 std::string event_line(const v1::Event& event);
-std::string status_text(const MissionView& view);
+std::string status_text(const lib::MissionView& view);
 
-}  // namespace roci::console
+}  // namespace roci::console::cli

@@ -6,10 +6,10 @@
 #include "ground_console/cli/report.hpp"
 #include "services/wire/plan_wire.hpp"
 
-namespace roci::console {
+namespace roci::console::cli {
 namespace {
 
-temporal::Progress progress_of(const MissionView& view) {
+temporal::Progress progress_of(const lib::MissionView& view) {
   temporal::Progress out;
   for (const v1::PlanActivity& activity : view.plan()->activities()) {
     const v1::StepStatus* step = view.step(activity.id());
@@ -23,22 +23,27 @@ temporal::Progress progress_of(const MissionView& view) {
   return out;
 }
 
+temporal::ObservedValues observed_of(const lib::MissionView& view) {
+  temporal::ObservedValues out;
+  for (const auto& [name, observation] : view.timelines())
+    out[name] = {temporal::Time(observation.sampled_us()), services::wire::from_wire(observation.observed())};
+  return out;
+}
+
 double seconds_of(temporal::Time time) { return temporal::to_seconds(time); }
 
 }  // namespace
 
-Timelines timelines_of(const MissionView& view, const std::vector<std::string>& names) {
+Timelines timelines_of(const lib::MissionView& view, const std::vector<std::string>& names) {
   Timelines out;
+  const temporal::ObservedValues observed = observed_of(view);
   if (view.plan()) {
     const temporal::FlexiblePlan plan = services::wire::from_wire(*view.plan());
     if (temporal::check(plan).empty())
-      out = temporal::project(plan, progress_of(view), temporal::Time(view.now_us()), {});
+      out = temporal::project(plan, progress_of(view), temporal::Time(view.now_us()), {}, observed);
   }
-  for (const auto& [name, observation] : view.timelines()) {
-    out[name].push_back({temporal::Time(observation.sampled_us()),
-                         services::wire::from_wire(observation.observed()),
-                         temporal::ProjectionKind::executed, ""});
-  }
+  for (const auto& [name, seen] : observed)
+    if (!out.contains(name)) out[name] = {{seen.sampled, seen.value, temporal::ProjectionKind::executed, ""}};
   if (!names.empty()) {
     std::erase_if(out, [&](const auto& timeline) {
       return std::find(names.begin(), names.end(), timeline.first) == names.end();
@@ -47,7 +52,7 @@ Timelines timelines_of(const MissionView& view, const std::vector<std::string>& 
   return out;
 }
 
-nlohmann::json timelines_json(const MissionView& view, const Timelines& timelines) {
+nlohmann::json timelines_json(const lib::MissionView& view, const Timelines& timelines) {
   nlohmann::json out{{"time_s", static_cast<double>(view.now_us()) / 1e6},
                      {"plan_version", view.plan() ? view.plan()->version() : 0},
                      {"timelines", nlohmann::json::object()}};
@@ -68,11 +73,12 @@ std::string timelines_text(const Timelines& timelines) {
   for (const auto& [name, changes] : timelines) {
     out += printable(name) + "\n";
     for (const temporal::ProjectedChange& change : changes) {
-      out += "  " + clock_text(change.time.count()) + "  " + padded(temporal::to_string(change.kind), 10) +
+      out += "  " + lib::clock_text(change.time.count()) + "  " +
+             padded(temporal::to_string(change.kind), 10) +
              printable(padded(temporal::to_text(change.value), 16) + " " + change.activity) + "\n";
     }
   }
   return out;
 }
 
-}  // namespace roci::console
+}  // namespace roci::console::cli

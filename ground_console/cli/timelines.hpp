@@ -8,17 +8,18 @@
 #include "core/temporal/projection.hpp"
 #include "ground_console/lib/mission_view.hpp"
 
-namespace roci::console {
+namespace roci::console::cli {
 
 using Timelines = std::map<std::string, std::vector<temporal::ProjectedChange>>;
 
-// Of the running plan and of what is observed (the newest value of each, as executed by nobody); with names:
-// of these alone. A number of the plan is its change since the plan began. Throws WireError for a plan that
-// no executive sends.
-Timelines timelines_of(const MissionView& view, const std::vector<std::string>& names);
+/// Of the running plan and of what is observed (the newest value of each, as executed by nobody); with names:
+/// of these alone. What is projected starts at the newest observation of its timeline (R76); a number that
+/// nobody observed, and every planned one, is its change since the plan began. Throws WireError for a plan
+/// that no executive sends.
+Timelines timelines_of(const lib::MissionView& view, const std::vector<std::string>& names);
 
-nlohmann::json timelines_json(const MissionView& view, const Timelines& timelines);
-// A block of lines for each timeline: time, value, kind, activity.
+nlohmann::json timelines_json(const lib::MissionView& view, const Timelines& timelines);
+/// A block of lines for each timeline: time, value, kind, activity.
 std::string timelines_text(const Timelines& timelines);
 
-}  // namespace roci::console
+}  // namespace roci::console::cli

@@ -7,7 +7,7 @@
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/timelines.hpp"
 
-namespace roci::console {
+namespace roci::console::cli {
 namespace {
 
 using nlohmann::json;
@@ -48,23 +48,24 @@ int report_goal(const std::optional<v1::GoalStatus>& status, bool as_json) {
 
 }  // namespace
 
-int add_goal(Client& client, const GoalArguments& arguments, bool as_json) {
+int add_goal(lib::Client& client, const GoalArguments& arguments, bool as_json) {
   v1::Goal goal;
   goal.issuer(arguments.issuer);
   goal.id(arguments.id);
   goal.goal_kind(arguments.kind);
   for (const std::string& argument : arguments.arguments) goal.arguments().push_back(property_of(argument));
   goal.importance(importance_of(arguments.importance));
-  goal.utility(arguments.utility);
+  goal.utility({arguments.utility});
+  goal.preferred_us(-1);
   goal.priority(arguments.priority);
   goal.opens_us(static_cast<std::int64_t>(arguments.opens_s * 1e6));
   goal.closes_us(static_cast<std::int64_t>(arguments.closes_s * 1e6));
   return report_goal(client.send_goal(goal, kAnswerLimit), as_json);
 }
 
-int cancel_goal(Client& client, const std::string& issuer, const std::string& id, bool as_json) {
+int cancel_goal(lib::Client& client, const std::string& issuer, const std::string& id, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
-  const MissionView::GoalKey key{issuer, id};
+  const lib::MissionView::GoalKey key{issuer, id};
   if (!client.wait([&] { return client.view().goals().contains(key); }, std::chrono::seconds(2))) {
     std::cerr << "roci: there is no goal " << issuer << "/" << id << "; see roci goal list\n";
     return kRefused;
@@ -77,7 +78,7 @@ int cancel_goal(Client& client, const std::string& issuer, const std::string& id
   return report_goal(client.send_goal(goal, kAnswerLimit), as_json);
 }
 
-int list_goals(Client& client, bool as_json) {
+int list_goals(lib::Client& client, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
   client.wait([] { return false; }, std::chrono::milliseconds(300));  // the other goals come right behind
   json list = json::array();
@@ -92,14 +93,14 @@ int list_goals(Client& client, bool as_json) {
   return kDone;
 }
 
-int show_status(Client& client, bool as_json) {
+int show_status(lib::Client& client, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
   client.wait([] { return false; }, std::chrono::milliseconds(300));
   std::cout << (as_json ? json_text(status_json(client.view())) + "\n" : status_text(client.view()));
   return kDone;
 }
 
-int show_plan(Client& client, bool as_json) {
+int show_plan(lib::Client& client, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
   client.wait([&] { return client.view().plan().has_value(); }, std::chrono::milliseconds(1000));
   client.wait([] { return false; }, std::chrono::milliseconds(300));
@@ -113,12 +114,12 @@ int show_plan(Client& client, bool as_json) {
   }
   for (const v1::PlanActivity& activity : client.view().plan()->activities()) {
     const v1::StepStatus* step = client.view().step(activity.id());
-    std::cout << activity.id() << "  " << (step == nullptr ? "waiting" : name_of(step->state())) << "\n";
+    std::cout << activity.id() << "  " << (step == nullptr ? "waiting" : lib::name_of(step->state())) << "\n";
   }
   return kDone;
 }
 
-int show_timelines(Client& client, const std::vector<std::string>& names, bool as_json) {
+int show_timelines(lib::Client& client, const std::vector<std::string>& names, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
   client.wait([&] { return client.view().plan().has_value(); }, std::chrono::milliseconds(1000));
   client.wait([] { return false; }, std::chrono::milliseconds(300));
@@ -133,7 +134,7 @@ int show_timelines(Client& client, const std::vector<std::string>& names, bool a
   return kDone;
 }
 
-int follow_events(Client& client, std::size_t count, bool as_json) {
+int follow_events(lib::Client& client, std::size_t count, bool as_json) {
   std::uint64_t printed = 0;
   const auto ended = [&] { return client.view().mission() && !client.view().mission()->outcome().empty(); };
   for (bool last = false; !last;) {
@@ -152,4 +153,4 @@ int follow_events(Client& client, std::size_t count, bool as_json) {
   return kDone;
 }
 
-}  // namespace roci::console
+}  // namespace roci::console::cli

@@ -9,7 +9,7 @@
 
 #include "ground_console/lib/client.hpp"
 
-namespace roci::console {
+namespace roci::console::cli {
 
 enum ExitCode { kDone = 0, kRefused = 1, kBadUsage = 2, kNoMission = 3 };
 
@@ -17,27 +17,25 @@ struct GoalArguments {
   std::string issuer = "ground";
   std::string id;
   std::string kind;
-  std::vector<std::string> arguments;  // "x=110"
+  std::vector<std::string> arguments;  ///< "x=110"
   std::string importance = "hard";
   double utility = 0;
   std::int32_t priority = 0;
-  double opens_s = 0;   // 0: any time
-  double closes_s = 0;  // 0: never
+  double opens_s = 0;   ///< 0: any time
+  double closes_s = 0;  ///< 0: never
 };
 
-// How long a verb waits for the mission's answer, in wall time.
+/// How long a verb waits for the mission's answer, in wall time.
 inline constexpr std::chrono::milliseconds kAnswerLimit{15000};
 
-int add_goal(Client& client, const GoalArguments& arguments, bool json);
-int cancel_goal(Client& client, const std::string& issuer, const std::string& id, bool json);
-int list_goals(Client& client, bool json);
-int show_status(Client& client, bool json);
-int show_plan(Client& client, bool json);
-// Planned, executed and projected values; `names`: of these timelines alone.
-int show_timelines(Client& client, const std::vector<std::string>& names, bool json);
-// Prints events as they come; `count`: ends after so many, 0: never, unless the mission ends.
-int follow_events(Client& client, std::size_t count, bool json);
-// The live view on a terminal, until the mission ends or Ctrl-C. With json: a line of status each second.
-int watch(Client& client, bool json);
+int add_goal(lib::Client& client, const GoalArguments& arguments, bool json);
+int cancel_goal(lib::Client& client, const std::string& issuer, const std::string& id, bool json);
+int list_goals(lib::Client& client, bool json);
+int show_status(lib::Client& client, bool json);
+int show_plan(lib::Client& client, bool json);
+/// Planned, executed and projected values; `names`: of these timelines alone.
+int show_timelines(lib::Client& client, const std::vector<std::string>& names, bool json);
+/// Prints events as they come; `count`: ends after so many, 0: never, unless the mission ends.
+int follow_events(lib::Client& client, std::size_t count, bool json);
 
-}  // namespace roci::console
+}  // namespace roci::console::cli

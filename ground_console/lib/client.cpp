@@ -8,45 +8,51 @@
 #include <utility>
 
 #include "services/clock/wall.hpp"
-#include "services/launch/run_record.hpp"
+#include "services/process/run_record.hpp"
 #include "services/topics.hpp"
+#include "services/transport/plug_ins.hpp"
 
-namespace roci::console {
+namespace roci::console::lib {
 namespace {
 
 namespace topics = services::topics;
 using std::chrono::milliseconds;
 
 // No other console ever has the same name, so that an answer is that of nobody else's goal.
-services::NodeOptions observer(const services::Connection& connection) {
-  services::NodeOptions options;
-  options.name = "roci-" + std::to_string(::getpid()) + "-" + std::to_string(services::wall::unix_us());
+services::node::NodeOptions observer(const services::process::Connection& connection) {
+  services::node::NodeOptions options;
+  options.name = "roci-" + std::to_string(::getpid()) + "-" + std::to_string(services::clock::unix_us());
   options.incarnation = 0;
-  options.clock = services::ClockMode::observer;
+  options.clock = services::clock::ClockMode::observer;
   options.vendor = connection.dds;
+  options.run = connection.run;
   return options;
 }
 
-std::string described(const services::RunRecord& run) {
+std::string described(const services::process::RunRecord& run) {
   return "  --domain " + std::to_string(run.domain) + "   " + run.mission.filename().string() + " (" +
          run.scenario + ", " + run.dds + ")";
 }
 
 }  // namespace
 
-services::Connection choose_run(const services::ConnectionFlags& flags) {
-  const auto environment = services::process_environment();
-  services::ConnectionFlags chosen = flags;
+services::process::Connection choose_run(const services::process::ConnectionFlags& flags) {
+  const auto environment = services::process::process_environment();
+  services::process::ConnectionFlags chosen = flags;
+  std::string run;
   if (!flags.domain && !flags.network && !environment("ROCI_DOMAIN") && !environment("ROCI_NETWORK")) {
-    const auto runs = services::find_runs(services::runtime_folder());
+    const auto runs = services::process::find_runs(services::process::runtime_folder());
+    const auto refused = services::process::refused_runs(services::process::runtime_folder());
+    if (runs.empty() && !refused.empty()) throw std::runtime_error("a mission runs, but " + refused.front());
     if (runs.empty())
       throw NoRun("no mission runs on this machine; start one with ./run, or name its --domain");
     if (runs.size() > 1) {
       std::string text = "several missions run on this machine; name one:";
-      for (const services::RunRecord& run : runs) text += "\n" + described(run);
+      for (const services::process::RunRecord& other : runs) text += "\n" + described(other);
       throw std::runtime_error(text);
     }
     chosen.domain = runs.front().domain;
+    run = runs.front().run;
     if (!chosen.dds) chosen.dds = runs.front().dds;
     if (!chosen.address) chosen.address = runs.front().address;
     if (!chosen.peers) {
@@ -55,13 +61,14 @@ services::Connection choose_run(const services::ConnectionFlags& flags) {
       chosen.peers = peers;
     }
   }
-  services::Connection connection = services::resolve_connection(chosen, environment, {});
+  services::process::Connection connection = services::process::resolve_connection(chosen, environment, {});
   if (connection.dds == "mixed") connection.dds = "cyclonedds";
+  connection.run = run;
   return connection;
 }
 
-services::Connection wait_for_run(const services::ConnectionFlags& flags,
-                                  const std::function<void()>& tell_waiting) {
+services::process::Connection wait_for_run(const services::process::ConnectionFlags& flags,
+                                           const std::function<void()>& tell_waiting) {
   for (bool told = false;; told = true) {
     try {
       return choose_run(flags);
@@ -72,8 +79,8 @@ services::Connection wait_for_run(const services::ConnectionFlags& flags,
   }
 }
 
-Client::Client(const services::Connection& connection)
-    : node_(observer(connection), services::open_transport(connection.dds, connection.transport)),
+Client::Client(const services::process::Connection& connection)
+    : node_(observer(connection), services::transport::open_transport(connection.dds, connection.transport)),
       goals_(services::advertise(node_, topics::goal)) {
   follow(topics::mission_status);
   follow(topics::goal);
@@ -94,9 +101,9 @@ void Client::follow(const services::Topic<T>& topic) {
 }
 
 bool Client::wait(const std::function<bool()>& done, milliseconds limit) {
-  const auto end = services::wall::now() + limit;
+  const auto end = services::clock::wall_now() + limit;
   while (!done()) {
-    if (services::wall::now() >= end) return false;
+    if (services::clock::wall_now() >= end) return false;
     node_.spin_once(milliseconds(50));
   }
   return true;
@@ -120,4 +127,4 @@ bool Client::wait_for_mission(milliseconds limit) {
   return wait([this] { return view_.mission().has_value(); }, limit);
 }
 
-}  // namespace roci::console
+}  // namespace roci::console::lib

@@ -9,39 +9,39 @@
 #include <stdexcept>
 
 #include "ground_console/lib/mission_view.hpp"
-#include "services/connection.hpp"
 #include "services/node.hpp"
+#include "services/process/connection.hpp"
 #include "services/publisher.hpp"
 
-namespace roci::console {
+namespace roci::console::lib {
 
 class NoRun : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// Where to join: what the command line and the environment say, else the one mission that runs on this
-// machine. Throws NoRun when there is none, std::runtime_error when several run, with the remedy.
-services::Connection choose_run(const services::ConnectionFlags& flags);
+/// Where to join: what the command line and the environment say, else the one mission that runs on this
+/// machine. Throws NoRun when there is none, std::runtime_error when several run, with the remedy.
+services::process::Connection choose_run(const services::process::ConnectionFlags& flags);
 
-// The same, but waits until a mission runs; calls `tell_waiting` once if it has to. Wall time.
-services::Connection wait_for_run(const services::ConnectionFlags& flags,
-                                  const std::function<void()>& tell_waiting);
+/// The same, but waits until a mission runs; calls `tell_waiting` once if it has to. Wall time.
+services::process::Connection wait_for_run(const services::process::ConnectionFlags& flags,
+                                           const std::function<void()>& tell_waiting);
 
 class Client {
  public:
-  explicit Client(const services::Connection& connection);
+  explicit Client(const services::process::Connection& connection);
 
   const MissionView& view() const { return view_; }
 
-  // Handles what comes until `done` or for at most `limit` of wall time; returns whether `done`.
+  /// Handles what comes until `done` or for at most `limit` of wall time; returns whether `done`.
   bool wait(const std::function<bool()>& done, std::chrono::milliseconds limit);
 
-  // Sends a goal and waits for exec_svc's answer to this very sample, which stands in its journal then;
-  // nothing if none came in time.
+  /// Sends a goal and waits for exec_svc's answer to this very sample, which stands in its journal then;
+  /// nothing if none came in time.
   std::optional<v1::GoalStatus> send_goal(const v1::Goal& goal, std::chrono::milliseconds limit);
 
-  // Waits until the mission's state has come down (late joiners get the newest of everything).
+  /// Waits until the mission's state has come down (late joiners get the newest of everything).
   bool wait_for_mission(std::chrono::milliseconds limit);
 
  private:
@@ -53,4 +53,4 @@ class Client {
   services::Publisher<v1::Goal> goals_;
 };
 
-}  // namespace roci::console
+}  // namespace roci::console::lib

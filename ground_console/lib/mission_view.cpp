@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <tuple>
 
-namespace roci::console {
+namespace roci::console::lib {
 namespace {
 
 // Senders number their samples; a restarted sender begins again with a higher incarnation.
@@ -99,7 +99,7 @@ void MissionView::take(const v1::Event& event) {
 
 void MissionView::take(const v1::Hazard& hazard) {
   note_time(hazard.header());
-  keep_newest(hazards_, hazard.id(), hazard);
+  keep_newest(hazards_, {hazard.found_by(), hazard.id()}, hazard);
 }
 
 void MissionView::take(const v1::Heartbeat& heartbeat) {
@@ -108,13 +108,13 @@ void MissionView::take(const v1::Heartbeat& heartbeat) {
   if (!added && age(heartbeat) >= age(entry->second)) entry->second = heartbeat;
 }
 
-void MissionView::take(const v1::ExecMember& member) {
-  v1::ExecMember& known = members_[member.member()];
+void MissionView::take(const v1::LeaseMessage& member) {
+  v1::LeaseMessage& known = members_[member.member()];
   if (member.epoch() >= known.epoch()) known = member;
 }
 
-const v1::ExecMember* MissionView::leader() const {
-  const v1::ExecMember* leader = nullptr;
+const v1::LeaseMessage* MissionView::leader() const {
+  const v1::LeaseMessage* leader = nullptr;
   for (const auto& [name, member] : members_) {
     if (member.exec_role() == v1::EXEC_LEADING && (leader == nullptr || member.epoch() > leader->epoch()))
       leader = &member;
@@ -181,7 +181,7 @@ std::string value_text(const v1::TimelineValue& value) {
   return out;
 }
 
-std::string pair_text(const v1::ExecMember& leader) {
+std::string pair_text(const v1::LeaseMessage& leader) {
   const std::string other = leader.member() == "first" ? "second" : "first";
   const std::uint64_t known = std::min(leader.has().commits(), leader.receipt().commits());
   return leader.member() + " leads (epoch " + std::to_string(leader.epoch()) + "), " + other +
@@ -198,4 +198,4 @@ std::string clock_text(std::int64_t time_us) {
   return buffer.data();
 }
 
-}  // namespace roci::console
+}  // namespace roci::console::lib

@@ -16,7 +16,7 @@
 #include "roci_idl/plan.h"
 #include "roci_idl/standby.h"
 
-namespace roci::console {
+namespace roci::console::lib {
 
 struct Place {
   double x_m = 0;
@@ -26,7 +26,7 @@ struct Place {
 
 class MissionView {
  public:
-  // Late or repeated samples never replace newer ones.
+  /// Late or repeated samples never replace newer ones.
   void take(const v1::MissionStatus& status);
   void take(const v1::Goal& goal);
   void take(const v1::GoalStatus& status);
@@ -37,28 +37,28 @@ class MissionView {
   void take(const v1::Event& event);
   void take(const v1::Hazard& hazard);
   void take(const v1::Heartbeat& heartbeat);
-  void take(const v1::ExecMember& member);
+  void take(const v1::LeaseMessage& member);
 
-  using GoalKey = std::pair<std::string, std::string>;  // issuer, id
+  using GoalKey = std::pair<std::string, std::string>;  ///< issuer, id
 
   const std::optional<v1::MissionStatus>& mission() const { return mission_; }
   const std::map<GoalKey, v1::GoalStatus>& goals() const { return goal_statuses_; }
-  const v1::Goal* goal(const GoalKey& key) const;                // as it was asked for; null if not seen
-  const std::optional<v1::Plan>& plan() const { return plan_; }  // of the highest version
+  const v1::Goal* goal(const GoalKey& key) const;                ///< as it was asked for; null if not seen
+  const std::optional<v1::Plan>& plan() const { return plan_; }  ///< of the highest version
   const v1::StepStatus* step(const std::string& activity) const;
   const v1::TimelineValue* timeline(const std::string& name) const;
   const std::map<std::string, v1::Observation>& timelines() const { return observations_; }
   const std::map<std::string, v1::DataProduct>& products() const { return products_; }
   const std::map<std::string, v1::Heartbeat>& services() const { return heartbeats_; }
-  // Of a pair of executives the one that leads in the latest epoch; null without a pair.
-  const v1::ExecMember* leader() const;
-  const std::map<std::string, v1::Hazard>& hazards() const { return hazards_; }
-  // Where each robot was, oldest first: a robot is whatever observes its `<name>.x` and `<name>.y`, in
-  // metres. Long ways are thinned out to at most kWay places.
+  /// Of a pair of executives the one that leads in the latest epoch; null without a pair.
+  const v1::LeaseMessage* leader() const;
+  const std::map<std::pair<std::string, std::string>, v1::Hazard>& hazards() const { return hazards_; }
+  /// Where each robot was, oldest first: a robot is whatever observes its `<name>.x` and `<name>.y`, in
+  /// metres. Long ways are thinned out to at most kWay places.
   const std::map<std::string, std::vector<Place>>& ways() const { return ways_; }
-  const std::deque<v1::Event>& events() const { return events_; }  // oldest first, at most kEvents
+  const std::deque<v1::Event>& events() const { return events_; }  ///< oldest first, at most kEvents
   std::uint64_t events_seen() const { return events_seen_; }
-  // Mission time of the newest sample seen, in microseconds.
+  /// Mission time of the newest sample seen, in microseconds.
   std::int64_t now_us() const { return now_us_; }
 
   static constexpr std::size_t kEvents = 1000;
@@ -76,8 +76,8 @@ class MissionView {
   std::map<std::string, v1::Observation> observations_;
   std::map<std::string, v1::DataProduct> products_;
   std::map<std::string, v1::Heartbeat> heartbeats_;
-  std::map<std::string, v1::ExecMember> members_;
-  std::map<std::string, v1::Hazard> hazards_;
+  std::map<std::string, v1::LeaseMessage> members_;
+  std::map<std::pair<std::string, std::string>, v1::Hazard> hazards_;  // by finder and id
   std::map<std::string, std::vector<Place>> ways_;
   std::deque<v1::Event> events_;
   std::uint64_t events_seen_ = 0;
@@ -92,9 +92,9 @@ const char* name_of(v1::Severity severity);
 const char* name_of(v1::ServiceState state);
 std::string value_text(const v1::TimelineValue& value);
 std::string value_text(double number);
-// Who of a pair leads, in which epoch, and how far the other is behind: "first leads (epoch 3), second stands
-// by, 0 commits behind".
-std::string pair_text(const v1::ExecMember& leader);
-std::string clock_text(std::int64_t time_us);  // "01:23:45"
+/// Who of a pair leads, in which epoch, and how far the other is behind: "first leads (epoch 3), second stands
+/// by, 0 commits behind".
+std::string pair_text(const v1::LeaseMessage& leader);
+std::string clock_text(std::int64_t time_us);  ///< "01:23:45"
 
-}  // namespace roci::console
+}  // namespace roci::console::lib

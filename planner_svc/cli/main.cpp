@@ -20,13 +20,21 @@
 
 #include "core/pddl/check.hpp"
 #include "planner_svc/cli/table_functions.hpp"
-#include "planner_svc/temporal_pddl/plan/plan_text.hpp"
+#include "planner_svc/temporal_pddl/extraction/plan_text.hpp"
 #include "planner_svc/temporal_pddl/planner.hpp"
 
+namespace roci::planner::cli {
 namespace {
 
-using namespace roci;
-namespace engine = planner::temporal_pddl;
+using temporal::Verdict;
+using temporal_pddl::Result;
+using temporal_pddl::call::Budget;
+using temporal_pddl::call::Monitor;
+using temporal_pddl::call::Options;
+using temporal_pddl::call::Statistics;
+using temporal_pddl::call::WindowExtraction;
+using temporal_pddl::extraction::Plan;
+using temporal_pddl::extraction::to_ipc;
 
 constexpr int kUsageError = 64;
 
@@ -44,24 +52,27 @@ struct Arguments {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-int exit_code(engine::Verdict verdict) {
+int exit_code(Verdict verdict) {
   switch (verdict) {
-    case engine::Verdict::solved:
+    case Verdict::solved:
       return 0;
-    case engine::Verdict::unsolvable:
+    case Verdict::unsolvable:
       return 1;
-    case engine::Verdict::invalid_input:
+    case Verdict::invalid_input:
       return 2;
-    case engine::Verdict::unsupported:
+    case Verdict::unsupported:
       return 3;
-    case engine::Verdict::timeout:
+    case Verdict::timeout:
       return 4;
-    case engine::Verdict::out_of_memory:
+    case Verdict::out_of_memory:
       return 5;
-    case engine::Verdict::function_unavailable:
+    case Verdict::function_unavailable:
       return 6;
-    case engine::Verdict::cancelled:
+    case Verdict::cancelled:
       return 7;
+    case Verdict::crashed:
+    case Verdict::no_reply:
+      break;  // the engine does not say these of itself
   }
   return kUsageError;
 }
@@ -81,13 +92,13 @@ void limit_memory(std::size_t megabytes) {
   setrlimit(RLIMIT_DATA, &limit);
 }
 
-double seconds(engine::Duration duration) { return std::chrono::duration<double>(duration).count(); }
+double seconds(temporal::Duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-nlohmann::json statistics_json(const engine::Result& result, double wall_s) {
+nlohmann::json statistics_json(const Result& result, double wall_s) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const engine::Statistics& statistics = result.statistics;
-  return {{"verdict", engine::to_string(result.verdict)},
+  const Statistics& statistics = result.statistics;
+  return {{"verdict", temporal::to_string(result.verdict)},
           {"reason", result.reason},
           {"makespan", result.plan ? nlohmann::json(seconds(result.plan->makespan)) : nlohmann::json()},
           {"metric", result.plan ? nlohmann::json(result.plan->metric) : nlohmann::json()},
@@ -99,7 +110,7 @@ nlohmann::json statistics_json(const engine::Result& result, double wall_s) {
           {"generated", statistics.generated},
           {"temporally_inconsistent", statistics.temporally_inconsistent},
           {"dominated", statistics.dominated},
-          {"hopeless", statistics.hopeless},
+          {"hopeless", statistics.dead_ends},
           {"bytes_per_state", statistics.bytes_per_state},
           {"from_remaining", statistics.from_remaining},
           {"engine_peak_bytes", statistics.peak_bytes},
@@ -109,7 +120,7 @@ nlohmann::json statistics_json(const engine::Result& result, double wall_s) {
           {"ground_actions", statistics.actions}};
 }
 
-nlohmann::json plan_json(const engine::Plan& plan) {
+nlohmann::json plan_json(const Plan& plan) {
   auto activities = nlohmann::json::array();
   for (const auto& activity : plan.activities) {
     const auto& start = plan.network.points[activity.start_point];
@@ -118,32 +129,32 @@ nlohmann::json plan_json(const engine::Plan& plan) {
                             {"start", seconds(activity.start)},
                             {"duration", seconds(activity.end - activity.start)},
                             {"earliest_start", seconds(start.earliest)}};
-    if (start.latest != engine::kUnbounded) entry["latest_start"] = seconds(start.latest);
+    if (start.latest != temporal::no_bound) entry["latest_start"] = seconds(start.latest);
     activities.push_back(std::move(entry));
   }
   return activities;
 }
 
-engine::Result plan(const Arguments& arguments, const std::function<bool()>& out_of_time) {
+Result plan(const Arguments& arguments, const std::function<bool()>& out_of_time) {
   const pddl::Domain domain = pddl::load_domain(read_file(arguments.domain), arguments.domain);
   const pddl::Problem problem = pddl::load_problem(read_file(arguments.problem), arguments.problem, domain);
-  std::unique_ptr<planner::FunctionSource> functions = std::make_unique<planner::NoFunctions>();
+  std::unique_ptr<FunctionSource> functions = std::make_unique<NoFunctions>();
   if (!arguments.functions.empty()) {
-    functions = std::make_unique<planner::TableFunctions>(
+    functions = std::make_unique<TableFunctions>(
         pddl::parse_function_table(read_file(arguments.functions), arguments.functions), arguments.functions);
   }
-  engine::Budget budget;
+  Budget budget;
   budget.out_of_time = out_of_time;
   if (arguments.megabytes > 0) budget.memory_bytes = arguments.megabytes << 20;
   if (arguments.evaluations > 0) budget.evaluations = arguments.evaluations;
-  engine::Monitor monitor;
+  Monitor monitor;
   monitor.cancelled = [] { return interrupted != 0; };
-  engine::Options options;
+  Options options;
   options.seed = arguments.seed;
   if (arguments.plain_search) {
     options.compression_safety = false;
     options.dominance = false;
-    options.windows = engine::WindowExtraction::none;
+    options.windows = WindowExtraction::none;
   }
   options.describe_activities = false;
   options.improvement_evaluations = arguments.improve;
@@ -152,7 +163,7 @@ engine::Result plan(const Arguments& arguments, const std::function<bool()>& out
   std::vector<pddl::PlanStep> remaining;
   if (!arguments.remaining.empty())
     remaining = pddl::parse_plan(read_file(arguments.remaining), arguments.remaining);
-  return engine::plan(domain, problem, *functions, budget, monitor, options, remaining);
+  return temporal_pddl::plan(domain, problem, *functions, budget, monitor, options, remaining);
 }
 
 int run(const Arguments& arguments) {
@@ -167,14 +178,14 @@ int run(const Arguments& arguments) {
     };
 
   if (arguments.megabytes > 0) limit_memory(arguments.megabytes);
-  engine::Result result;
+  Result result;
   try {
     result = plan(arguments, out_of_time);
   } catch (const pddl::ParseError& error) {
-    result.verdict = engine::Verdict::invalid_input;
+    result.verdict = Verdict::invalid_input;
     result.reason = error.what();
   } catch (const std::bad_alloc&) {
-    result.verdict = engine::Verdict::out_of_memory;
+    result.verdict = Verdict::out_of_memory;
     result.reason = "the model itself takes more than the memory limit";
   }
   const nlohmann::json statistics = statistics_json(result, elapsed());
@@ -187,15 +198,13 @@ int run(const Arguments& arguments) {
     if (result.plan) all["plan"] = plan_json(*result.plan);
     std::cout << all.dump(2) << '\n';
   } else if (result.plan) {
-    std::cout << engine::to_ipc(*result.plan);
+    std::cout << to_ipc(*result.plan);
   }
-  if (!result.plan) std::cerr << engine::to_string(result.verdict) << ": " << result.reason << '\n';
+  if (!result.plan) std::cerr << temporal::to_string(result.verdict) << ": " << result.reason << '\n';
   return exit_code(result.verdict);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_command_line(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("Plans: temporal PDDL domain and problem to a first plan; the exit code is the verdict");
   app.add_option("DOMAIN", arguments.domain)->required();
@@ -226,3 +235,8 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kUsageError;
   }
 }
+
+}  // namespace
+}  // namespace roci::planner::cli
+
+int main(int argc, char** argv) { return roci::planner::cli::run_command_line(argc, argv); }

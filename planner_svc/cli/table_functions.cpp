@@ -1,6 +1,6 @@
 #include "planner_svc/cli/table_functions.hpp"
 
-namespace roci::planner {
+namespace roci::planner::cli {
 
 std::vector<FunctionValue> TableFunctions::evaluate(std::span<const FunctionCall> calls,
                                                     const std::function<bool()>&) {
@@ -20,4 +20,4 @@ std::vector<FunctionValue> TableFunctions::evaluate(std::span<const FunctionCall
   return answers;
 }
 
-}  // namespace roci::planner
+}  // namespace roci::planner::cli

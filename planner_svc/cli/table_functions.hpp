@@ -6,9 +6,9 @@
 #include "core/pddl/function_table.hpp"
 #include "planner_svc/function_source.hpp"
 
-namespace roci::planner {
+namespace roci::planner::cli {
 
-// Tuples that are not in the table are unavailable. `owner` is given as who says so.
+/// Tuples that are not in the table are unavailable. `owner` is given as who says so.
 class TableFunctions final : public FunctionSource {
  public:
   TableFunctions(pddl::FunctionTable table, std::string owner)
@@ -22,4 +22,4 @@ class TableFunctions final : public FunctionSource {
   std::string owner_;
 };
 
-}  // namespace roci::planner
+}  // namespace roci::planner::cli

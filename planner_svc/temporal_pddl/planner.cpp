@@ -7,28 +7,42 @@
 
 #include "core/pddl/check.hpp"
 #include "core/pddl/forbidden.hpp"
-#include "planner_svc/temporal_pddl/dead_ends/avoids_dead_pairs.hpp"
-#include "planner_svc/temporal_pddl/dead_ends/within_resources.hpp"
+#include "planner_svc/temporal_pddl/call/planning_failure.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/mutex_dead_ends.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/resource_dead_ends.hpp"
+#include "planner_svc/temporal_pddl/extraction/plan_builder.hpp"
 #include "planner_svc/temporal_pddl/grounding/grounder.hpp"
-#include "planner_svc/temporal_pddl/grounding/refusal.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted/model_failure.hpp"
+#include "planner_svc/temporal_pddl/grounding/remaining_plan.hpp"
 #include "planner_svc/temporal_pddl/heuristics/ff.hpp"
 #include "planner_svc/temporal_pddl/heuristics/landmark_count.hpp"
-#include "planner_svc/temporal_pddl/improvement/fresh_starts.hpp"
 #include "planner_svc/temporal_pddl/improvement/improvement.hpp"
+#include "planner_svc/temporal_pddl/improvement/restarts.hpp"
 #include "planner_svc/temporal_pddl/improvement/warm_start.hpp"
-#include "planner_svc/temporal_pddl/plan/plan_builder.hpp"
-#include "planner_svc/temporal_pddl/search/search.hpp"
-#include "planner_svc/temporal_pddl/watch.hpp"
+#include "planner_svc/temporal_pddl/search/portfolio.hpp"
 
 namespace roci::planner::temporal_pddl {
+
+using call::Budget, call::Monitor, call::Options, call::PlanningFailure, call::SearchLimits, call::Statistics;
+using dead_ends::DeadEndDetectors, dead_ends::MutexDeadEnds, dead_ends::ResourceDeadEnds;
+using extraction::build_plan;
+using grounding::Grounding, grounding::ground, grounding::ground_remaining_plan;
+using grounding::lifted::ModelFailure;
+using heuristics::CostMeasure, heuristics::FfHeuristic, heuristics::Heuristic, heuristics::LandmarkCount;
+using improvement::Restarts, improvement::improve, improvement::warm_start;
+using search::Guide, search::PlanPrefix, search::SearchContext, search::SearchOutcome,
+    search::search_portfolio;
+using task::Task;
+using temporal::Verdict;
 
 namespace {
 
 void require_model(const pddl::Domain& domain, const pddl::Problem& problem) {
-  for (const auto& finding : pddl::check(domain)) throw Refusal(Verdict::invalid_input, finding);
-  for (const auto& finding : pddl::check(problem, domain)) throw Refusal(Verdict::invalid_input, finding);
+  for (const auto& finding : pddl::check(domain)) throw ModelFailure(Verdict::invalid_input, finding);
+  for (const auto& finding : pddl::check(problem, domain))
+    throw ModelFailure(Verdict::invalid_input, finding);
   for (const auto& finding : pddl::forbidden_effects(domain, problem))
-    throw Refusal(Verdict::unsupported, finding);
+    throw ModelFailure(Verdict::unsupported, finding);
 }
 
 void describe(const Task& task, Statistics& statistics) {
@@ -38,45 +52,49 @@ void describe(const Task& task, Statistics& statistics) {
   statistics.actions = task.actions.size();
 }
 
-PlanPrefix improved(const Task& task, PlanPrefix first, Heuristic& heuristic, FfHeuristic& ff,
-                    const Options& options, Watch& watch, Statistics& statistics) {
-  std::vector<Guide> guides{{heuristic, CostMeasure::duration}};
+PlanPrefix improved(const SearchContext& context, PlanPrefix first, const Guide& guide, FfHeuristic& ff) {
+  std::vector<Guide> guides{guide};
   std::optional<FfHeuristic> by_metric;
-  if (!task.metric.only_time()) {
-    by_metric.emplace(task, CostMeasure::metric);
-    guides.push_back({*by_metric, CostMeasure::metric});
+  DeadEndDetectors none;
+  if (!context.task.metric.only_time()) {
+    by_metric.emplace(context.task, CostMeasure::metric);
+    guides.push_back({*by_metric, none, CostMeasure::metric});
   }
-  FreshStarts fresh_starts(task, heuristic, ff, options, watch, statistics);
-  return improve(task, std::move(first), guides, fresh_starts, options, watch, statistics);
+  Restarts restarts(context, guide, ff);
+  return improve(std::move(first), guides, restarts, context);
 }
 
 void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
-           const Options& options, std::span<const pddl::PlanStep> remaining, Watch& watch, Result& result) {
+           const Options& options, std::span<const pddl::PlanStep> remaining, SearchLimits& limits,
+           Result& result) {
   require_model(domain, problem);
-  const Grounding grounding = ground(domain, problem, functions, options, watch, result.functions);
-  describe(grounding.task, result.statistics);
-  watch.hold(grounding.task.bytes());
-  FfHeuristic ff(grounding.task);
+  const Grounding grounding = ground(domain, problem, functions, options, limits, result.functions);
+  const Task& task = grounding.task;
+  describe(task, result.statistics);
+  limits.hold(task.bytes());
+  FfHeuristic ff(task);
   std::optional<LandmarkCount> landmarks;
-  if (options.landmarks) landmarks.emplace(grounding.task, ff, watch);
-  Heuristic& guidance = landmarks ? static_cast<Heuristic&>(*landmarks) : ff;
-  WithinResources within(grounding.task, guidance, options.resource_patience, watch);
-  AvoidsDeadPairs heuristic(grounding.task, within, options.pair_patience, watch);
+  if (options.landmarks) landmarks.emplace(task, ff, limits);
+  ResourceDeadEnds resources(task, options.resource_patience, limits);
+  MutexDeadEnds mutexes(task, options.pair_patience, limits);
+  DeadEndDetectors detectors;
+  detectors.add(resources);
+  detectors.add(mutexes);
+  const Guide guide{landmarks ? static_cast<Heuristic&>(*landmarks) : ff, detectors, CostMeasure::duration};
+  const SearchContext context{task, options, limits, result.statistics};
   SearchOutcome outcome;
-  outcome.plan = warm_start(grounding.task, remaining, {heuristic, CostMeasure::duration}, options, watch,
-                            result.statistics);
+  outcome.plan = warm_start(context, ground_remaining_plan(task, remaining), guide);
   result.statistics.from_remaining = outcome.plan.has_value();
-  if (!outcome.plan) outcome = search(grounding.task, heuristic, ff, options, watch, result.statistics);
+  if (!outcome.plan) outcome = search_portfolio(context, guide, ff);
   if (outcome.plan) {
-    watch.first_plan_found();
-    const PlanPrefix best =
-        improved(grounding.task, std::move(*outcome.plan), heuristic, ff, options, watch, result.statistics);
+    limits.first_plan_found();
+    const PlanPrefix best = improved(context, std::move(*outcome.plan), guide, ff);
     result.plan = build_plan(domain, grounding, best, options);
     result.verdict = Verdict::solved;
   } else {
     result.verdict = Verdict::unsolvable;
-    result.reason = ff.why_too_late();
-    if (result.reason.empty()) result.reason = within.why_too_little();
+    result.reason = ff.lateness_reason();
+    if (result.reason.empty()) result.reason = resources.shortage_reason();
     if (result.reason.empty()) result.reason = std::move(outcome.reason);
   }
 }
@@ -87,18 +105,21 @@ Result plan(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSo
             const Budget& budget, const Monitor& monitor, const Options& options,
             std::span<const pddl::PlanStep> remaining) {
   Result result;
-  Watch watch(budget, monitor);
+  SearchLimits limits(budget, monitor);
   try {
-    solve(domain, problem, functions, options, remaining, watch, result);
-  } catch (const Refusal& refusal) {
-    result.verdict = refusal.verdict();
-    result.reason = refusal.reason();
-    result.where = refusal.where();
+    solve(domain, problem, functions, options, remaining, limits, result);
+  } catch (const ModelFailure& failure) {
+    result.verdict = failure.verdict();
+    result.reason = failure.reason();
+    result.where = failure.where();
+  } catch (const PlanningFailure& failure) {
+    result.verdict = failure.verdict();
+    result.reason = failure.reason();
   } catch (const std::bad_alloc&) {
     result.verdict = Verdict::out_of_memory;
     result.reason = "the system has no more memory";
   }
-  result.statistics.peak_bytes = watch.peak_bytes();
+  result.statistics.peak_bytes = limits.peak_bytes();
   return result;
 }
 

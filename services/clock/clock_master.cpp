@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace roci::services {
+namespace roci::services::clock {
 
 ClockMaster::ClockMaster(std::string name, std::vector<std::string> roster, std::uint32_t micro_step_cap)
     : name_(std::move(name)), roster_(std::move(roster)), cap_(micro_step_cap) {}
@@ -31,11 +31,11 @@ void ClockMaster::done(const v1::ClockDone& done) {
       if (other.subscriptions.contains(count.topic())) other.input = true;
     }
   }
-  const bool answers = Time(done.time_us()) == time_ && done.micro_step() == micro_step_;
+  const bool answers = temporal::Time(done.time_us()) == time_ && done.micro_step() == micro_step_;
   if (member.owes && !answers) return;
   if (member.owes) {
     member.owes = false;
-    member.wish = done.wish_us() < 0 ? std::nullopt : std::optional(Time(done.wish_us()));
+    member.wish = done.wish_us() < 0 ? std::nullopt : std::optional(temporal::Time(done.wish_us()));
   } else {
     member.outside = true;  // sent again although nothing was asked: input from outside came in
   }
@@ -65,7 +65,7 @@ std::vector<std::string> ClockMaster::missing() const {
   return names;
 }
 
-std::vector<std::string> ClockMaster::owing() const {
+std::vector<std::string> ClockMaster::awaited() const {
   std::vector<std::string> names;
   for (const auto& [service, member] : members_) {
     if (member.owes) names.push_back(service);
@@ -74,9 +74,9 @@ std::vector<std::string> ClockMaster::owing() const {
 }
 
 std::optional<ClockMaster::Window> ClockMaster::window() const {
-  if (last_ || !owing().empty() || (!started_ && !missing().empty())) return std::nullopt;
+  if (last_ || !awaited().empty() || (!started_ && !missing().empty())) return std::nullopt;
   if (!started_ || roster_changed_ || !waiting_.empty()) return Window{time_, time_};
-  std::optional<Time> wish;
+  std::optional<temporal::Time> wish;
   bool outside = false;
   for (const auto& [service, member] : members_) {
     if (member.input) return Window{time_, time_};
@@ -84,7 +84,7 @@ std::optional<ClockMaster::Window> ClockMaster::window() const {
     if (member.wish) wish = wish ? std::min(*wish, *member.wish) : *member.wish;
   }
   if (wish && *wish <= time_) return Window{time_, time_};
-  if (outside) return Window{time_, wish.value_or(Time::max())};
+  if (outside) return Window{time_, wish.value_or(temporal::no_bound)};
   if (wish) return Window{*wish, *wish};
   return std::nullopt;
 }
@@ -110,11 +110,11 @@ void ClockMaster::forget_dead_streams() {
   announced_ = losses_.size();
 }
 
-bool ClockMaster::wants_to_act(const Member& member, Time time) const {
+bool ClockMaster::wants_to_act(const Member& member, temporal::Time time) const {
   return roster_changed_ || member.input || member.outside || (member.wish && *member.wish <= time);
 }
 
-void ClockMaster::begin_step(Time time) {
+void ClockMaster::begin_step(temporal::Time time) {
   micro_step_ = started_ && time == time_ ? micro_step_ + 1 : 0;
   time_ = time;
   revision_ = 0;
@@ -122,7 +122,7 @@ void ClockMaster::begin_step(Time time) {
   started_ = true;
 }
 
-v1::ClockStep ClockMaster::issue(Time time) {
+v1::ClockStep ClockMaster::issue(temporal::Time time) {
   begin_step(time);
   forget_dead_streams();
   admit();
@@ -141,7 +141,7 @@ v1::ClockStep ClockMaster::issue(Time time) {
 }
 
 std::optional<v1::ClockStep> ClockMaster::take_revision() {
-  if (!std::exchange(revise_, false) || owing().empty()) return std::nullopt;
+  if (!std::exchange(revise_, false) || awaited().empty()) return std::nullopt;
   ++revision_;
   return step();
 }
@@ -191,4 +191,4 @@ std::string ClockMaster::livelock() const {
   return text + "; look for services that answer each other without end, or timers that are set for now";
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::clock

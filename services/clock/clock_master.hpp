@@ -1,6 +1,9 @@
-// The master of the simulated clock as a pure state machine: who acts next, and when. Conservative
-// discrete-event simulation in barriered micro-steps (architecture, "Time"): at one time t the micro-steps k
-// = 0, 1, … follow until no service has undelivered input or a due wish; then t jumps to the earliest wish.
+// The master of the simulated clock as a pure state machine: it says who acts next, and when.
+//
+// This is conservative parallel discrete-event simulation with a barrier (Fujimoto, Parallel and Distributed
+// Simulation Systems, 2000, chapter 3). Time is superdense (Maler, Manna, Pnueli, 1992): at one time t the
+// micro-steps k = 0, 1, … follow until no service has undelivered input or a wish that is due; then t jumps
+// to the earliest wish.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "services/clock/follower.hpp"
-#include "services/node.hpp"
+#include "core/temporal/duration.hpp"
+#include "roci_idl/clock.h"
+#include "services/clock/clock_mode.hpp"
+#include "services/clock/hold_back_queue.hpp"
 
-namespace roci::services {
+namespace roci::services::clock {
 
 inline constexpr std::uint32_t kMicroStepCap = 10'000;
 
@@ -22,29 +27,33 @@ class ClockMaster {
   ClockMaster(std::string name, std::vector<std::string> roster,
               std::uint32_t micro_step_cap = kMicroStepCap);
 
-  // What the participants say. Stale messages (of older incarnations or steps) change nothing.
+  /// These take what the participants say. Messages of older incarnations or steps change nothing.
   void ready(const v1::ClockReady&);
   void done(const v1::ClockDone&);
   void lost(const std::string& service, std::uint32_t incarnation, const std::string& cause);
 
-  std::vector<std::string> missing() const;  // of the roster: not there yet, or lost
-  std::vector<std::string> owing() const;    // who must answer the open step
+  /// The services of the roster that are not there yet, or were lost.
+  std::vector<std::string> missing() const;
+  /// The services that must still answer the open step.
+  std::vector<std::string> awaited() const;
   bool member(const std::string& service) const { return members_.contains(service); }
-  Time time() const { return time_; }
+  temporal::Time time() const { return time_; }
 
-  // When the next step may be issued: exactly at `earliest`, or, if only input from outside asks for it,
-  // anywhere up to `latest`. Nothing while a step is open, the roster incomplete or nobody wants to act.
+  /// The next step may be issued exactly at `earliest` or, if only input from outside asks for it, anywhere
+  /// up to `latest`. There is no window while a step is open, the roster is incomplete or nobody wants to
+  /// act.
   struct Window {
-    Time earliest;
-    Time latest;
+    temporal::Time earliest;
+    temporal::Time latest;
   };
   std::optional<Window> window() const;
 
-  // The next step at a time in window(). Throws ClockError when a time has more micro-steps than the cap.
-  v1::ClockStep issue(Time);
-  // The open step again, after a death in it.
+  /// Issues the next step, at a time in window(). Throws ClockError when a time has more micro-steps than the
+  /// cap.
+  v1::ClockStep issue(temporal::Time);
+  /// Gives the open step again if a participant has died in it.
   std::optional<v1::ClockStep> take_revision();
-  // Ends the run; every member answers it.
+  /// Ends the run; every member answers it.
   v1::ClockStep issue_last();
 
  private:
@@ -54,13 +63,13 @@ class ClockMaster {
     bool input = false;    // samples that it has not been asked to deliver yet
     bool outside = false;  // it holds input from an observer
     bool owes = false;
-    std::optional<Time> wish;
+    std::optional<temporal::Time> wish;
   };
   void admit();
-  void begin_step(Time);
+  void begin_step(temporal::Time);
   v1::ClockStep step() const;
   void forget_dead_streams();
-  bool wants_to_act(const Member&, Time) const;
+  bool wants_to_act(const Member&, temporal::Time) const;
   std::string livelock() const;
 
   std::string name_;
@@ -77,9 +86,9 @@ class ClockMaster {
   bool roster_changed_ = false;
   bool revise_ = false;
   bool last_ = false;
-  Time time_{0};
+  temporal::Time time_{0};
   std::uint32_t micro_step_ = 0;
   std::uint32_t revision_ = 0;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::clock

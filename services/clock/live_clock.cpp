@@ -1,15 +1,15 @@
 #include "services/clock/live_clock.hpp"
 
-namespace roci::services {
+namespace roci::services::clock {
 
-Time LiveClock::now() const {
-  const std::int64_t since_epoch = wall::unix_us() - epoch_unix_us_;
-  if (scale_ == 1) return Time(since_epoch);
-  return Time(static_cast<std::int64_t>(static_cast<double>(since_epoch) * scale_));
+temporal::Time LiveClock::now() const {
+  const std::int64_t since_epoch = unix_us() - epoch_unix_us_;
+  if (scale_ == 1) return temporal::Time(since_epoch);
+  return temporal::Time(static_cast<std::int64_t>(static_cast<double>(since_epoch) * scale_));
 }
 
-wall::Clock::duration LiveClock::wall_for(Duration mission) const {
-  return wall::seconds(std::chrono::duration<double>(mission).count() / scale_);
+WallDuration LiveClock::wall_for(temporal::Duration mission) const {
+  return wall_seconds(std::chrono::duration<double>(mission).count() / scale_);
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::clock

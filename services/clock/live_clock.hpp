@@ -3,21 +3,21 @@
 
 #include <cstdint>
 
+#include "core/temporal/duration.hpp"
 #include "services/clock/wall.hpp"
-#include "services/time.hpp"
 
-namespace roci::services {
+namespace roci::services::clock {
 
 class LiveClock {
  public:
   LiveClock(std::int64_t epoch_unix_us, double scale) : epoch_unix_us_(epoch_unix_us), scale_(scale) {}
 
-  Time now() const;
-  wall::Clock::duration wall_for(Duration mission) const;
+  temporal::Time now() const;
+  WallDuration wall_for(temporal::Duration mission) const;
 
  private:
   std::int64_t epoch_unix_us_;
   double scale_;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::clock

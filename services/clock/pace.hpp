@@ -1,26 +1,26 @@
 // Keeps simulated time at most `rate` times as fast as wall time.
 #pragma once
 
+#include "core/temporal/duration.hpp"
 #include "services/clock/wall.hpp"
-#include "services/time.hpp"
 
-namespace roci::services {
+namespace roci::services::clock {
 
 class Pace {
  public:
-  // rate: simulated seconds per wall second; 0: no limit.
-  Pace(double rate, wall::Instant start) : rate_(rate), reached_at_(start) {}
+  /// `rate` is in simulated seconds per wall second; 0 means no limit.
+  Pace(double rate, WallTime start) : rate_(rate), reached_at_(start) {}
 
-  // When `time` may be reached at the earliest.
-  wall::Instant earliest(Time time) const;
-  // The mission time that fits `now`.
-  Time time_at(wall::Instant now) const;
-  void reached(Time time, wall::Instant now);
+  /// Returns when `time` may be reached at the earliest.
+  WallTime earliest(temporal::Time time) const;
+  /// Returns the mission time that fits `now`.
+  temporal::Time time_at(WallTime now) const;
+  void reached(temporal::Time time, WallTime now);
 
  private:
   double rate_;
-  Time time_{0};
-  wall::Instant reached_at_;
+  temporal::Time time_{0};
+  WallTime reached_at_;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::clock

@@ -6,24 +6,24 @@
 
 #include "services/clock/wall.hpp"
 
-namespace roci::services {
+namespace roci::services::clock {
 
 class RestartHold {
  public:
-  explicit RestartHold(wall::Clock::duration length) : length_(length) {}
+  explicit RestartHold(WallDuration length) : length_(length) {}
 
-  // `cause` as in PeerChange. Somebody is about to start a killed one again, or has and it is about to say
-  // that it is ready; one that left or hangs will not be back soon.
-  void lost(std::string_view cause, wall::Instant now) {
+  /// `cause` is that of PeerChange. Somebody is about to start a killed one again, or has and it is about to
+  /// say that it is ready; one that left or hangs will not be back soon.
+  void lost(std::string_view cause, WallTime now) {
     if (cause == "killed" || cause == "restarted") until_ = now + length_;
   }
 
-  // `complete`: every service of the roster is there, so nobody is waited for.
-  bool holds(bool complete, wall::Instant now) const { return !complete && now < until_; }
+  /// `complete` says that every service of the roster is there, so that nobody is waited for.
+  bool holds(bool complete, WallTime now) const { return !complete && now < until_; }
 
  private:
-  wall::Clock::duration length_;
-  wall::Instant until_;
+  WallDuration length_;
+  WallTime until_;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::clock

@@ -1,19 +1,23 @@
-// The only place that asks the system for the time. Everything else is told.
+// Wall time. Nothing else asks the system for the time; everything else is told.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 
-namespace roci::services::wall {
+namespace roci::services::clock {
 
-using Clock = std::chrono::steady_clock;
-using Instant = Clock::time_point;
+/// The clock is monotonic: it neither jumps nor stands still, and has no date.
+using WallClock = std::chrono::steady_clock;
+using WallTime = WallClock::time_point;
+using WallDuration = WallClock::duration;
 
-inline Instant now() { return Clock::now(); }
-std::int64_t unix_us();  // system clock, microseconds since 1970
+inline WallTime wall_now() { return WallClock::now(); }
 
-inline Clock::duration seconds(double s) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
+/// Reads the system clock: microseconds since 1970.
+std::int64_t unix_us();
+
+inline WallDuration wall_seconds(double s) {
+  return std::chrono::duration_cast<WallDuration>(std::chrono::duration<double>(s));
 }
 
-}  // namespace roci::services::wall
+}  // namespace roci::services::clock

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
 constexpr int kCannotRun = 127;
@@ -94,4 +94,4 @@ void Child::signal(int number) {
   if (!ending_) kill(pid_, number);
 }
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

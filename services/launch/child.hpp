@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-namespace roci::launch {
+namespace roci::services::launch {
 
 struct Ending {
-  bool exited = false;  // by itself, with `code`; otherwise by signal `code`
+  bool exited = false;  ///< It ended by itself, with `code`; otherwise the signal `code` ended it.
   int code = 0;
 };
 
@@ -19,16 +19,16 @@ std::string to_string(const Ending&);
 
 class Child {
  public:
-  // Runs `program` with `arguments` (the name first) in this process's environment and `more` of it
-  // ("NAME=value"); appends its output to `log`. Throws std::system_error. To be called on the main thread,
-  // with whose end the child dies.
+  /// Runs `program` with `arguments` (the name first) in this process's environment and `more` of it
+  /// ("NAME=value"); appends its output to `log`. Throws std::system_error. Call it on the main thread, with
+  /// whose end the child dies.
   Child(const std::filesystem::path& program, std::vector<std::string> arguments,
         const std::filesystem::path& log, const std::vector<std::string>& more = {});
-  ~Child();  // kills it if it still runs
+  ~Child();  ///< Kills the child if it still runs.
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  std::optional<Ending> ending();  // nothing while it runs
+  std::optional<Ending> ending();  ///< There is none while the child runs.
   void signal(int number);
   pid_t pid() const { return pid_; }
 
@@ -37,4 +37,4 @@ class Child {
   std::optional<Ending> ending_;
 };
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

@@ -9,18 +9,18 @@
 #include "services/launch/options.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/run.hpp"
-#include "services/service_options.hpp"
-#include "services/stop_signals.hpp"
-#include "services/transport.hpp"
+#include "services/process/service_options.hpp"
+#include "services/process/stop_signals.hpp"
 
 namespace {
 
-using namespace roci::launch;
+namespace launch = roci::services::launch;
+namespace process = roci::services::process;
 
 // All services in one process is another program: this one becomes it.
-int rehearse(const Options& options) {
+int rehearse(const launch::Options& options) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "roci-rehearse";
-  auto arguments = rehearsal_arguments(options);
+  auto arguments = launch::rehearsal_arguments(options);
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
@@ -28,16 +28,16 @@ int rehearse(const Options& options) {
   throw std::system_error(errno, std::generic_category(), "cannot start " + program.string());
 }
 
-int launch(int argc, char** argv) {
-  const Options options = parse_options(argc, argv, roci::services::process_environment());
+int start(int argc, char** argv) {
+  const launch::Options options = launch::parse_options(argc, argv, process::process_environment());
   if (options.connection.dds == "inproc") return rehearse(options);
-  roci::services::StopSignals signals;
+  process::StopSignals signals;
   std::atomic<int> stops{0};
   signals.watch([&stops] { ++stops; });
-  return fly(options, [&stops] { return stops.load(); });
+  return launch::fly(options, [&stops] { return stops.load(); });
 }
 
-int report(const std::exception& error, ExitCode code) {
+int report(const std::exception& error, launch::ExitCode code) {
   std::cerr << "roci-launch: " << error.what() << "\n";
   return code;
 }
@@ -46,15 +46,15 @@ int report(const std::exception& error, ExitCode code) {
 
 int main(int argc, char** argv) {
   try {
-    return launch(argc, argv);
-  } catch (const roci::services::CommandLineEnd& end) {
+    return start(argc, argv);
+  } catch (const process::CommandLineEnd& end) {
     (end.exit_code == 0 ? std::cout : std::cerr) << end.what();
     return end.exit_code;
   } catch (const roci::mission::FileError& error) {
-    return report(error, kBadInput);
+    return report(error, launch::kBadInput);
   } catch (const std::invalid_argument& error) {
-    return report(error, kBadInput);
+    return report(error, launch::kBadInput);
   } catch (const std::exception& error) {
-    return report(error, kServiceFailed);
+    return report(error, launch::kServiceFailed);
   }
 }

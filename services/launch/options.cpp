@@ -1,14 +1,17 @@
 #include "services/launch/options.hpp"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
-#include "services/launch/mission_folder.hpp"
-#include "services/service_options.hpp"
+#include "services/clock/wall.hpp"
+#include "services/process/mission_folder.hpp"
+#include "services/process/service_options.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
 std::optional<double> parse_speed(const std::string& text) {
@@ -27,23 +30,44 @@ std::optional<double> parse_speed(const std::string& text) {
   return speed;
 }
 
-std::vector<std::string> checked_services(const std::string& list, bool standby) {
-  auto names = services::split_list(list);
+constexpr std::string_view kStandbySuffix = ".standby";
+
+std::vector<std::string> checked_services(const std::string& list, const Options& options, bool processes) {
+  auto names = process::split_list(list);
   for (const std::string& name : names) {
-    if (standby && name == kStandby) continue;
-    if (std::ranges::find(kAllServices, name) != kAllServices.end()) continue;
-    std::string known;
-    for (const std::string& service : kAllServices) known += " " + service;
-    throw std::invalid_argument("unknown service " + name + "; there are:" + known);
+    bool standby = false;
+    const bool known = entry_of(options, name, &standby) != nullptr;
+    if (known && (!standby || (processes && options.standby))) continue;
+    std::string all;
+    for (const std::string& service : options.list.names()) all += " " + service;
+    throw std::invalid_argument("unknown service " + name + "; this mission has:" + all);
   }
-  return names.empty() ? kAllServices : names;
+  return names.empty() ? options.list.names() : names;
+}
+
+// A run that one launcher flies alone is like no other; hosts that share one are told its name, or take the mission's.
+std::string default_run(const Options& options) {
+  const std::string mission = options.mission.filename().string();
+  if (options.services.size() < options.list.services.size()) return mission;
+  return mission + "-" + std::to_string(clock::unix_us()) + "-" + std::to_string(getpid());
 }
 
 }  // namespace
 
-Options parse_options(int argc, const char* const* argv, const services::Environment& environment) {
+std::string standby_of(const std::string& service) { return service + std::string(kStandbySuffix); }
+
+const mission::ServiceEntry* entry_of(const Options& options, const std::string& process, bool* standby) {
+  const mission::ServiceEntry* entry = options.list.find(process);
+  const bool second = entry == nullptr && process.ends_with(kStandbySuffix);
+  if (second) entry = options.list.find(process.substr(0, process.size() - kStandbySuffix.size()));
+  if (second && entry != nullptr && !entry->paired) entry = nullptr;
+  if (standby != nullptr) *standby = second;
+  return entry;
+}
+
+Options parse_options(int argc, const char* const* argv, const services::process::Environment& environment) {
   Options options;
-  services::ConnectionFlags flags;
+  services::process::ConnectionFlags flags;
   std::string mission;
   std::string speed;
   std::string clock = "simulated";
@@ -61,7 +85,7 @@ Options parse_options(int argc, const char* const* argv, const services::Environ
   app.add_flag("--headless", options.headless, "No progress display");
   app.add_flag("--json", options.json, "The last line of standard output is the summary as JSON");
   app.add_flag("--standby", options.standby,
-               "A second exec_svc follows the first one and takes over from it");
+               "A second process follows each service that allows it (standby: true) and takes over from it");
   app.add_option("--watchdog", options.watchdog_s,
                  "Seconds of silence until a service counts as hung and is replaced; 0: never")
       ->check(CLI::NonNegativeNumber)
@@ -69,6 +93,9 @@ Options parse_options(int argc, const char* const* argv, const services::Environ
   app.add_option("--services", service_list,
                  "Services to start on this host, separated by commas (default: all)");
   app.add_option("--roster", roster, "Services of the whole run, on all hosts (default: all)");
+  app.add_option("--run", options.run,
+                 "Identity of the run, the same on all of its hosts (or ROCI_RUN; default: one of its own, or the "
+                 "mission's name where only some of its services start here)");
   app.add_option("--domain", flags.domain, "DDS domain id (default: a free one)");
   app.add_option("--address", flags.address, "The one interface address to use (default: loopback)");
   app.add_option("--peers", flags.peers, "Hosts of the run, separated by commas");
@@ -79,21 +106,30 @@ Options parse_options(int argc, const char* const* argv, const services::Environ
   } catch (const CLI::ParseError& error) {
     std::ostringstream text;
     const int code = app.exit(error, text, text);
-    throw services::CommandLineEnd(code == 0 ? 0 : 2, text.str());
+    throw services::process::CommandLineEnd(code == 0 ? 0 : 2, text.str());
   }
-  options.mission = services::mission_folder(mission);
+  options.mission = services::process::mission_folder(mission);
   options.live = clock == "live";
   options.speed = parse_speed(speed);
   if (options.live && options.speed == 0.0)
     throw std::invalid_argument("--speed max needs the simulated clock");
-  options.services = checked_services(service_list, options.standby);
-  if (options.standby && service_list.empty()) options.services.emplace_back(kStandby);
-  options.roster = checked_services(roster, false);
-  options.connection = services::resolve_connection(flags, environment, options.mission);
+  options.list = mission::load_service_list(options.mission);
+  if (!options.live && options.list.clock_master() == nullptr)
+    throw std::invalid_argument("no service of this mission has clock: master; fly it with --clock live");
+  options.services = checked_services(service_list, options, true);
+  options.roster = checked_services(roster, options, false);
+  if (options.standby && service_list.empty()) {
+    for (const mission::ServiceEntry& entry : options.list.services)
+      if (entry.paired) options.services.push_back(standby_of(entry.name));
+  }
+  if (options.standby && options.services.size() == options.roster.size() && service_list.empty())
+    throw std::invalid_argument("--standby: no service of this mission has standby: true");
+  if (options.run.empty()) options.run = environment("ROCI_RUN").value_or(default_run(options));
+  options.connection = services::process::resolve_connection(flags, environment, options.mission);
   if (options.standby && options.connection.dds == "inproc")
     throw std::invalid_argument("--standby needs processes: choose another transport than inproc");
   options.domain_given = options.connection.transport.domain != 0;
   return options;
 }
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

@@ -7,35 +7,37 @@
 #include <string>
 #include <vector>
 
-#include "services/connection.hpp"
+#include "core/mission/service_list.hpp"
+#include "services/process/connection.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 
 struct Options {
-  std::filesystem::path mission;  // folder
+  std::filesystem::path mission;  ///< A folder with mission.yaml.
+  mission::ServiceList list;      ///< Of the mission: who there is to start.
   std::string scenario = "nominal";
   std::uint64_t seed = 1;
   bool live = false;
-  std::optional<double> speed;  // mission seconds per second; 0: as fast as possible; nothing: not given
+  /// Mission seconds per second; 0 means as fast as possible.
+  std::optional<double> speed;
   bool headless = false;
   bool json = false;
-  bool standby = false;               // exec_svc is one of a pair
-  double watchdog_s = 10;             // of silence until a service counts as hung; 0: never
-  std::vector<std::string> services;  // started here
-  std::vector<std::string> roster;    // of the whole run
-  std::filesystem::path run_folder;   // empty: choose one
+  bool standby = false;               ///< Services that can be paired have a second process.
+  double watchdog_s = 10;             ///< Silence after which a service counts as hung; 0: never.
+  std::vector<std::string> services;  ///< Processes that are started here: services and their standbys.
+  std::vector<std::string> roster;    ///< The services of the whole run.
+  std::string run;                    ///< Identity of the run; every host's launcher has the same.
+  std::filesystem::path run_folder;   ///< If empty, the launcher chooses one.
   bool domain_given = false;
-  services::Connection connection;  // dds may be "mixed" or "inproc"
+  services::process::Connection connection;  ///< Its `dds` may be "mixed" or "inproc".
 };
 
-inline const std::vector<std::string> kAllServices{"arm_svc",     "exec_svc",    "pathplan_svc",
-                                                   "planner_svc", "science_svc", "sim_svc"};
-inline constexpr char kClockMaster[] = "sim_svc";
-// A second process of exec_svc, which stands by; it is no member of the roster of its own.
-inline constexpr char kExecutive[] = "exec_svc";
-inline constexpr char kStandby[] = "exec_svc.standby";
+/// The second process of a paired service; it is no member of the roster of its own.
+std::string standby_of(const std::string& service);
+/// The service that a process is one of; `standby` says whether it is the second one. Null: there is no such process.
+const mission::ServiceEntry* entry_of(const Options&, const std::string& process, bool* standby = nullptr);
 
-// Throws services::CommandLineEnd, std::invalid_argument, mission::FileError.
-Options parse_options(int argc, const char* const* argv, const services::Environment&);
+/// Throws process::CommandLineEnd, std::invalid_argument, mission::FileError.
+Options parse_options(int argc, const char* const* argv, const services::process::Environment&);
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

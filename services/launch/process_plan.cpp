@@ -2,9 +2,11 @@
 
 #include <sstream>
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
+constexpr char kFirstVendor[] = "fastdds";  // of a mixed run
+constexpr char kSecondVendor[] = "cyclonedds";
 constexpr double kDefaultPace = 60;
 constexpr double kRestartS = 10;  // more than the first pauses of RestartPolicy and a start take together
 
@@ -31,7 +33,7 @@ void add_clock(const Options& options, const std::string& service, std::int64_t 
     add("--clock", "live");
     add("--scale", to_text(options.speed.value_or(1)));
     add("--epoch", to_text(static_cast<double>(epoch_unix_us) / 1e6));
-  } else if (service == kClockMaster) {
+  } else if (entry_of(options, service)->clock_master) {
     add("--clock", "master");
     add("--roster", joined(options.roster));
     add("--pace", to_text(pace_of(options)));
@@ -45,20 +47,36 @@ void add_clock(const Options& options, const std::string& service, std::int64_t 
 
 double pace_of(const Options& options) { return options.speed.value_or(kDefaultPace); }
 
-std::string vendor_of(const std::string& program, const std::string& dds) {
+std::string vendor_of(const Options& options, const std::string& process) {
+  const std::string& dds = options.connection.dds;
   if (dds != "mixed") return dds;
-  const bool other = program == "planner_svc" || program == kConsole || program == kStandby;
-  return other ? "cyclonedds" : "fastdds";
+  bool standby = false;
+  const mission::ServiceEntry& entry = *entry_of(options, process, &standby);
+  const std::string vendor = entry.vendor.empty() ? kFirstVendor : entry.vendor;
+  if (!standby) return vendor;
+  return vendor == kFirstVendor ? kSecondVendor : kFirstVendor;
 }
 
-std::string program_of(const std::string& service) { return service == kStandby ? kExecutive : service; }
+std::string console_vendor(const std::string& dds) { return dds == "mixed" ? kSecondVendor : dds; }
+
+std::string program_of(const Options& options, const std::string& process) {
+  return entry_of(options, process)->program;
+}
 
 std::vector<std::string> service_arguments(const Options& options, const std::string& service,
                                            std::uint32_t incarnation, std::int64_t epoch_unix_us) {
   const auto& transport = options.connection.transport;
-  std::vector<std::string> arguments{program_of(service),
+  bool standby = false;
+  const mission::ServiceEntry& entry = *entry_of(options, service, &standby);
+  std::vector<std::string> arguments{entry.program,
+                                     "--name",
+                                     entry.name,
+                                     "--run",
+                                     options.run,
                                      "--mission",
                                      options.mission.string(),
+                                     "--settings",
+                                     entry.settings.string(),
                                      "--scenario",
                                      options.scenario,
                                      "--seed",
@@ -66,7 +84,7 @@ std::vector<std::string> service_arguments(const Options& options, const std::st
                                      "--run-folder",
                                      options.run_folder.string(),
                                      "--dds",
-                                     vendor_of(service, options.connection.dds),
+                                     vendor_of(options, service),
                                      "--domain",
                                      std::to_string(transport.domain),
                                      "--address",
@@ -76,10 +94,15 @@ std::vector<std::string> service_arguments(const Options& options, const std::st
                                      "--incarnation",
                                      std::to_string(incarnation)};
   add_clock(options, service, epoch_unix_us, arguments);
-  if (options.standby && (service == kExecutive || service == kStandby)) {
-    arguments.emplace_back("--pair");
-    arguments.emplace_back(service == kExecutive ? "first" : "second");
+  if (!entry.robot.empty()) {
+    arguments.emplace_back("--robot");
+    arguments.push_back(entry.robot);
   }
+  if (options.standby && entry.paired) {
+    arguments.emplace_back("--pair");
+    arguments.emplace_back(standby ? "second" : "first");
+  }
+  arguments.insert(arguments.end(), entry.arguments.begin(), entry.arguments.end());
   return arguments;
 }
 
@@ -96,4 +119,4 @@ std::vector<std::string> rehearsal_arguments(const Options& options) {
   return arguments;
 }
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

@@ -7,24 +7,24 @@
 
 #include "services/launch/options.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 
-// Of a whole run: "mixed" means the planner, the standby and the console on one vendor, the rest on the
-// other.
-std::string vendor_of(const std::string& program, const std::string& dds);
-inline constexpr char kConsole[] = "console";
+/// Of a process. "mixed": what the service's entry names, else the first vendor; a standby is on another than its service.
+std::string vendor_of(const Options&, const std::string& process);
+/// Of a console: in a mixed run on another vendor than most services.
+std::string console_vendor(const std::string& dds);
 
-// The program of a service, in the folder of this one.
-std::string program_of(const std::string& service);
+/// The program of a process: a name in the folder of this one, or a path.
+std::string program_of(const Options&, const std::string& process);
 
-// Arguments of one service, its program first. `epoch_unix_us`: mission time 0 of a live run.
+/// Returns the arguments of one service, its program first. `epoch_unix_us` is mission time 0 of a live run.
 std::vector<std::string> service_arguments(const Options&, const std::string& service,
                                            std::uint32_t incarnation, std::int64_t epoch_unix_us);
 
-// The same run in one process: arguments of roci-rehearse.
+/// Returns the arguments with which roci-rehearse flies the same run in one process.
 std::vector<std::string> rehearsal_arguments(const Options&);
 
-// Simulated seconds per second.
+/// Returns the simulated seconds per second of the run.
 double pace_of(const Options&);
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

@@ -6,7 +6,7 @@
 #include <array>
 #include <iostream>
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
 namespace topics = services::topics;
@@ -17,7 +17,7 @@ const char* phase_name(v1::MissionPhase phase) {
   return index < names.size() ? names[index] : "unknown";
 }
 
-std::string clock_text(services::Time time) {
+std::string clock_text(temporal::Time time) {
   const auto s = std::chrono::duration_cast<std::chrono::seconds>(time).count();
   return fmt::format("{:02}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
@@ -43,7 +43,7 @@ void Progress::take(const v1::Event& event) {
   last_event_ = event.code() + ": " + event.text();
   if (event.severity_level() != v1::SEVERITY_ERROR) return;
   std::cerr << (shown_ && terminal_ ? "\r\x1b[K" : "")
-            << clock_text(services::Time(event.header().stamp_us())) << "  " << last_event_ << std::endl;
+            << clock_text(temporal::Time(event.header().stamp_us())) << "  " << last_event_ << std::endl;
   drawn_.clear();
 }
 
@@ -77,4 +77,4 @@ void Progress::show() {
   drawn_ = std::move(text);
 }
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

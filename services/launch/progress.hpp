@@ -9,19 +9,19 @@
 #include "services/node.hpp"
 #include "services/publisher.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 
 class Progress {
  public:
-  // `shown`: on standard error, one line that is rewritten on a terminal, else a line for each change. Errors
-  // are always told, each on a line of its own.
+  /// `shown` asks for a line on standard error that is rewritten on a terminal, else for one line a change.
+  /// Errors are always told, each on a line of its own.
   Progress(services::Node&, bool shown);
-  ~Progress();  // ends the line
+  ~Progress();  ///< Ends the line.
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void show();  // draws what changed
-  // An event of the launcher itself, to all consoles and to the line.
+  void show();  ///< Draws what has changed.
+  /// Sends an event of the launcher itself to all consoles and to the line.
   void report(v1::Severity, const std::string& code, const std::string& text);
 
  private:
@@ -37,4 +37,4 @@ class Progress {
   std::string drawn_;
 };
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

@@ -4,25 +4,27 @@
 #include <chrono>
 #include <optional>
 
-namespace roci::launch {
+#include "services/clock/wall.hpp"
 
-// 0.2 s after the first death, twice as long after each further one in a row, at most 10 s; after the fifth,
-// never. A service that ran for `kHealthyAfter` starts a new row.
+namespace roci::services::launch {
+
+/// The pause is 0.2 s after the first death, twice as long after each further one in a row, at most 10 s;
+/// after the fifth there is no new start (exponential back-off). A service that ran for `kHealthyAfter`
+/// starts a new row.
 class RestartPolicy {
  public:
-  using Duration = std::chrono::duration<double>;
   static constexpr int kDeathsInARow = 5;
-  static constexpr Duration kFirstPause{0.2};
-  static constexpr Duration kLongestPause{10};
-  static constexpr Duration kHealthyAfter{30};
-  // Between the starts of a service whose network went out after it had run: for as long as it takes.
-  static constexpr Duration kNetworkPause{2};
+  static constexpr clock::WallDuration kFirstPause = std::chrono::milliseconds(200);
+  static constexpr clock::WallDuration kLongestPause = std::chrono::seconds(10);
+  static constexpr clock::WallDuration kHealthyAfter = std::chrono::seconds(30);
+  /// Passes between the starts of a service whose network went out after it had run, for as long as it takes.
+  static constexpr clock::WallDuration kNetworkPause = std::chrono::seconds(2);
 
-  // The pause until the next start; nothing: give up.
-  std::optional<Duration> died(Duration ran_for);
+  /// Returns the pause until the next start; without one the service is given up.
+  std::optional<clock::WallDuration> died(clock::WallDuration ran_for);
 
  private:
   int deaths_ = 0;
 };
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

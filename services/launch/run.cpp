@@ -10,27 +10,26 @@
 #include <utility>
 
 #include "services/clock/wall.hpp"
-#include "services/domain_claim.hpp"
-#include "services/end_within.hpp"
+#include "services/launch/notify_socket.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/progress.hpp"
-#include "services/launch/run_record.hpp"
-#include "services/launch/signs_of_life.hpp"
 #include "services/launch/summary.hpp"
 #include "services/launch/supervisor.hpp"
-#include "services/transport.hpp"
+#include "services/process/domain_claim.hpp"
+#include "services/process/forced_exit.hpp"
+#include "services/process/run_record.hpp"
+#include "services/transport/plug_ins.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
 namespace fs = std::filesystem;
-namespace wall = services::wall;
 
 constexpr std::chrono::milliseconds kTurn{20};
 constexpr std::size_t kShownLogLines = 8;
 
-fs::path path_of(const std::string& service) {
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / program_of(service);
+fs::path path_of(const Options& options, const std::string& process) {
+  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / program_of(options, process);
   if (access(program.c_str(), X_OK) == 0) return program;
   throw std::system_error(errno, std::generic_category(), "cannot start " + program.string());
 }
@@ -60,24 +59,25 @@ void refuse_used_folder(const Options& options) {
   }
 }
 
-services::NodeOptions observer_options(const std::string& vendor) {
-  services::NodeOptions options;
+services::node::NodeOptions observer_options(const std::string& vendor, const std::string& run) {
+  services::node::NodeOptions options;
   options.name = "launcher";
-  options.clock = services::ClockMode::observer;
+  options.run = run;
+  options.clock = services::clock::ClockMode::observer;
   options.vendor = vendor;
   return options;
 }
 
-services::RunRecord record_of(const Options& options, std::int64_t started_unix_us) {
+services::process::RunRecord record_of(const Options& options, std::int64_t started_unix_us) {
   const auto& transport = options.connection.transport;
   return {getpid(),         transport.domain,       options.mission,
           options.scenario, options.connection.dds, transport.address,
           transport.peers,  options.run_folder,     options.live ? "live" : "simulated",
-          started_unix_us};
+          started_unix_us,  options.run};
 }
 
 void print_failure(const RunFailure& failure, const fs::path& run_folder) {
-  std::cerr << "roci-launch: " << failure.service << " " << failure.what << "\n";
+  std::cerr << "roci-launch: " << failure.service << " " << failure.reason << "\n";
   const fs::path log = run_folder / (failure.service + ".log");
   std::ifstream in(log);
   std::vector<std::string> lines;
@@ -95,9 +95,9 @@ ExitCode exit_code(const std::optional<RunFailure>& failure, bool good) {
 }  // namespace
 
 ExitCode fly(Options options, const std::function<int()>& stop_asked) {
-  const auto begun = wall::now();
-  const std::int64_t started_unix_us = wall::unix_us();
-  std::optional<services::DomainClaim> claim;
+  const auto begun = clock::wall_now();
+  const std::int64_t started_unix_us = clock::unix_us();
+  std::optional<services::process::DomainClaim> claim;
   auto& transport = options.connection.transport;
   if (!options.domain_given) transport.domain = claim.emplace().id();
   if (options.run_folder.empty()) options.run_folder = choose_run_folder(options, started_unix_us);
@@ -105,50 +105,53 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   refuse_used_folder(options);
   fs::create_directories(options.run_folder);
 
-  const std::string vendor = vendor_of(kConsole, options.connection.dds);
+  const std::string vendor = console_vendor(options.connection.dds);
   transport.participant = "launcher";
-  services::Node node(observer_options(vendor), services::open_transport(vendor, transport));
+  services::Node node(observer_options(vendor, options.run), services::transport::open_transport(vendor, transport));
   Progress progress(node, !options.headless);
-  const services::PublishedRun published(services::runtime_folder(), record_of(options, started_unix_us));
+  const services::process::PublishedRun published(services::process::runtime_folder(),
+                                                  record_of(options, started_unix_us));
 
-  SignsOfLife signs;
+  NotifySocket notifications;
   Supervisor::Hooks hooks;
   hooks.start = [&](const std::string& service, std::uint32_t incarnation) {
-    return std::make_unique<Child>(path_of(service),
+    return std::make_unique<Child>(path_of(options, service),
                                    service_arguments(options, service, incarnation, started_unix_us),
                                    options.run_folder / (service + ".log"),
-                                   std::vector<std::string>{"NOTIFY_SOCKET=" + signs.address()});
+                                   std::vector<std::string>{"NOTIFY_SOCKET=" + notifications.address()});
   };
   hooks.on_death = [&](const std::string& service, const std::string& what) {
     progress.report(v1::SEVERITY_WARNING, "service.died", service + " " + what);
   };
-  Supervisor supervisor(options.services, kClockMaster, !options.live, Watchdog(options.watchdog_s),
+  const mission::ServiceEntry* master = options.list.clock_master();
+  Supervisor supervisor(options.services, master == nullptr ? "" : master->name, !options.live, Watchdog(options.watchdog_s),
                         std::move(hooks));
-  node.on_peer_change([&](const services::PeerChange& change) {
-    // The executive that leads a pair counts its epochs as incarnations, so it cannot be told which one this
-    // is.
-    if (options.standby && change.service == kExecutive) return;
-    supervisor.watchdog().heard(change, wall::now());
+  node.on_peer_change([&](const services::health::PeerChange& change) {
+    // Who leads a pair counts its epochs as incarnations, so it cannot be told which process this is.
+    const mission::ServiceEntry* entry = options.list.find(change.service);
+    if (options.standby && entry != nullptr && entry->paired) return;
+    supervisor.watchdog().heard(change, clock::wall_now());
   });
-  supervisor.start(wall::now());
+  supervisor.start(clock::wall_now());
   for (int stops = 0; !supervisor.finished();) {
     node.spin_once(kTurn);
     if (stop_asked() > stops) {
       ++stops;
-      supervisor.stop(wall::now());
+      supervisor.stop(clock::wall_now());
     }
-    for (const pid_t sender : signs.take()) supervisor.watchdog().sign(sender, wall::now());
-    supervisor.turn(wall::now());
+    for (const pid_t sender : notifications.receive()) supervisor.watchdog().kick(sender, clock::wall_now());
+    supervisor.turn(clock::wall_now());
     progress.show();
   }
 
   if (supervisor.failure()) print_failure(*supervisor.failure(), options.run_folder);
-  const Summary summary = complete_summary(
-      options, std::chrono::duration<double>(wall::now() - begun).count(), !supervisor.failure().has_value());
+  const Summary summary =
+      complete_summary(options, std::chrono::duration<double>(clock::wall_now() - begun).count(),
+                       !supervisor.failure().has_value());
   std::cout << (options.json ? summary.json + "\n" : summary.text) << std::flush;
   const ExitCode code = exit_code(supervisor.failure(), summary.good);
-  services::end_within(services::kEndLimit, code, "roci-launch: the run is over");
+  services::process::force_exit_after(services::process::kExitLimit, code, "roci-launch: the run is over");
   return code;
 }
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

@@ -5,13 +5,13 @@
 
 #include "services/launch/options.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 
-// docs/exit-codes.md, "Runs".
+/// docs/exit-codes.md lists these under "Runs".
 enum ExitCode { kAchieved = 0, kNotAchieved = 1, kBadInput = 2, kServiceFailed = 3 };
 
-// `stop_asked`: how often the user asked for the end so far. Prints the outcome. Throws
-// services::TransportError and std::system_error when the run cannot begin.
+/// `stop_asked` tells how often the user has asked for the end so far. Prints the outcome. Throws
+/// transport::TransportError and std::system_error when the run cannot begin.
 ExitCode fly(Options, const std::function<int()>& stop_asked);
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

@@ -5,35 +5,47 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "services/service.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
 using nlohmann::json;
 
 constexpr char kServed[] = "served";
 
-bool starts(const Options& options, const char* service) {
-  return std::ranges::find(options.services, service) != options.services.end();
+constexpr char kExecutive[] = "exec_svc";  // the program that counts goals
+
+bool starts(const Options& options, const std::string& process) {
+  return std::ranges::find(options.services, process) != options.services.end();
 }
 
 // No: they may well be counted on another host.
 bool must_count_goals(const Options& options) {
-  if (!starts(options, kExecutive)) return false;
-  return !options.standby || starts(options, kStandby);
+  return std::ranges::any_of(options.list.services, [&](const mission::ServiceEntry& entry) {
+    const bool here = entry.program == kExecutive && starts(options, entry.name);
+    return here && (!options.standby || starts(options, standby_of(entry.name)));
+  });
 }
 
 // What exec_svc wrote here, if it did.
 json read(const Options& options) {
-  std::ifstream in(options.run_folder / "summary.json");
+  std::ifstream in(options.run_folder / services::kSummaryFile);
   json summary = json::parse(in, nullptr, false);
-  return summary.is_object() ? summary : json::object();
+  if (!summary.is_object()) return json::object();
+  const int format = summary.value("format", 1);
+  if (format > services::kSummaryFormat)
+    throw std::runtime_error((options.run_folder / services::kSummaryFile).string() + " is of format " +
+                             std::to_string(format) + ", this launcher reads up to " +
+                             std::to_string(services::kSummaryFormat) + "; fly with programs of one version");
+  return summary;
 }
 
 void complete(json& summary, const Options& options, const char* result) {
-  const json fallback{{"mission", options.mission.filename().string()},
+  const json fallback{{"format", services::kSummaryFormat},
+                      {"mission", options.mission.filename().string()},
                       {"scenario", options.scenario},
                       {"seed", options.seed},
                       {"result", result},
@@ -95,10 +107,10 @@ Summary complete_summary(const Options& options, double wall_s, bool ended_well)
   complete(summary, options, ended_well && !counts_goals ? kServed : "failed");
   summary["dds"] = options.connection.dds;
   summary["wall_s"] = wall_s;
-  std::ofstream(options.run_folder / "summary.json") << summary.dump(2) << '\n';
+  std::ofstream(options.run_folder / services::kSummaryFile) << summary.dump(2) << '\n';
   const std::string result = summary.value("result", "");
   return {result == "achieved" || result == kServed, summary.dump(),
           counts_goals ? text_with_goals(summary, options) : text_without_goals(summary, options)};
 }
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

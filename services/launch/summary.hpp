@@ -5,17 +5,19 @@
 
 #include "services/launch/options.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 
 struct Summary {
-  bool good = false;  // every hard goal was achieved; without exec_svc here: the services ended well
-  std::string json;   // one line
-  std::string text;   // for people
+  /// Every hard goal was achieved; where exec_svc does not run, the services ended well.
+  bool good = false;
+  std::string json;  ///< One line.
+  std::string text;  ///< The same for people.
 };
 
-// Completes run_folder/summary.json and reads it. Where exec_svc flew here and left none, the result is
-// "failed". On a host without exec_svc, or with one of a pair that did not lead at the end, it is "served" when
-// its services `ended_well`: goals are counted where exec_svc leads.
+/// Completes run_folder/summary.json and reads it. Where exec_svc flew here and left none, the result is
+/// "failed". On a host without exec_svc, or with one of a pair that did not lead at the end, it is "served"
+/// when its services `ended_well`: goals are counted where exec_svc leads. Throws std::runtime_error for a
+/// summary of a newer format (services/service.hpp).
 Summary complete_summary(const Options&, double wall_s, bool ended_well);
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

@@ -4,9 +4,7 @@
 #include <csignal>
 #include <utility>
 
-namespace roci::launch {
-
-namespace wall = services::wall;
+namespace roci::services::launch {
 
 namespace {
 
@@ -24,19 +22,19 @@ Supervisor::Supervisor(const std::vector<std::string>& services, std::string mas
   for (const std::string& name : services) services_[name];
 }
 
-void Supervisor::start(wall::Instant now) {
+void Supervisor::start(clock::WallTime now) {
   for (auto& [name, service] : services_) launch(name, service, now);
 }
 
-void Supervisor::launch(const std::string& name, Service& service, wall::Instant now) {
+void Supervisor::launch(const std::string& name, Service& service, clock::WallTime now) {
   service.restart.reset();
   service.started = now;
-  service.hung_why.clear();
+  service.hung_reason.clear();
   service.child = hooks_.start(name, ++service.incarnation);
   watchdog_.started(name, service.incarnation, service.child->pid(), now);
 }
 
-void Supervisor::turn(wall::Instant now) {
+void Supervisor::turn(clock::WallTime now) {
   // The master first: its end explains those of the others.
   if (const auto master = services_.find(master_); master != services_.end()) look_after(*master, now);
   for (auto& entry : services_) look_after(entry, now);
@@ -45,16 +43,16 @@ void Supervisor::turn(wall::Instant now) {
 }
 
 // Its end is noticed and mended like any other. While the run ends, wind_up() has the last word.
-void Supervisor::kill_hung(wall::Instant now) {
+void Supervisor::kill_hung(clock::WallTime now) {
   for (Watchdog::Hung& hung : watchdog_.check(now)) {
     Service& service = services_.at(hung.service);
     if (terminate_at_ || !service.child) continue;
-    service.hung_why = std::move(hung.why);
+    service.hung_reason = std::move(hung.reason);
     service.child->signal(SIGKILL);
   }
 }
 
-void Supervisor::look_after(std::pair<const std::string, Service>& entry, wall::Instant now) {
+void Supervisor::look_after(std::pair<const std::string, Service>& entry, clock::WallTime now) {
   auto& [name, service] = entry;
   if (service.child) {
     if (const auto ending = service.child->ending()) {
@@ -69,15 +67,15 @@ void Supervisor::look_after(std::pair<const std::string, Service>& entry, wall::
 }
 
 void Supervisor::after_end(const std::string& name, Service& service, const Ending& ending,
-                           wall::Instant now) {
+                           clock::WallTime now) {
   const bool clean = ending.exited && ending.code == kServiceStopped;
   if (clean && name == master_ && !terminate_at_) {
     // The others were told by the clock; live ones must be asked.
-    terminate_at_ = master_is_clock_ ? now + wall::seconds(kLeaveS) : now;
+    terminate_at_ = master_is_clock_ ? now + clock::wall_seconds(kLeaveS) : now;
   }
   if (clean || terminate_at_) return;
   const std::string what =
-      to_string(ending) + (service.hung_why.empty() ? "" : " (" + service.hung_why + ")");
+      to_string(ending) + (service.hung_reason.empty() ? "" : " (" + service.hung_reason + ")");
   if (ending.exited && ending.code == kServiceClockGone)
     return fail(name, "lost the clock of the run", false, now);
   if (ending.exited && ending.code == kServiceBadInput) return fail(name, what, true, now);
@@ -88,7 +86,7 @@ void Supervisor::after_end(const std::string& name, Service& service, const Endi
   }
   if (name == master_ && master_is_clock_)
     return fail(name, what + "; it is the clock of the run", false, now);
-  const auto pause = service.policy.died(RestartPolicy::Duration(now - service.started));
+  const auto pause = service.policy.died(now - service.started);
   if (!pause) {
     return fail(name, what + ", the " + std::to_string(RestartPolicy::kDeathsInARow) + "th time in a row",
                 false, now);
@@ -97,32 +95,32 @@ void Supervisor::after_end(const std::string& name, Service& service, const Endi
 }
 
 void Supervisor::start_again(const std::string& name, Service& service, const std::string& what,
-                             RestartPolicy::Duration pause, wall::Instant now) {
-  service.restart = now + wall::seconds(pause.count());
+                             clock::WallDuration pause, clock::WallTime now) {
+  service.restart = now + pause;
   hooks_.on_death(name, what + "; starting it again");
 }
 
-void Supervisor::fail(const std::string& name, std::string what, bool bad_input, wall::Instant now) {
+void Supervisor::fail(const std::string& name, std::string what, bool bad_input, clock::WallTime now) {
   hooks_.on_death(name, what);
   failure_ = RunFailure{name, std::move(what), bad_input};
   terminate_at_ = now;
 }
 
-void Supervisor::stop(wall::Instant now) {
+void Supervisor::stop(clock::WallTime now) {
   if (terminate_at_ || !services_.contains(master_) || !services_[master_].child) {
     terminate_at_ = now;
     return;
   }
-  terminate_at_ = now + wall::seconds(kLeaveS);
+  terminate_at_ = now + clock::wall_seconds(kLeaveS);
   services_[master_].child->signal(SIGTERM);
 }
 
-void Supervisor::wind_up(wall::Instant now) {
+void Supervisor::wind_up(clock::WallTime now) {
   if (!terminate_at_) return;
   for (auto& [name, service] : services_) service.restart.reset();
   if (!kill_at_ && now >= *terminate_at_) {
     signal_all(SIGTERM);
-    kill_at_ = now + wall::seconds(kTerminateS);
+    kill_at_ = now + clock::wall_seconds(kTerminateS);
   }
   if (kill_at_ && now >= *kill_at_) signal_all(SIGKILL);
 }
@@ -138,4 +136,4 @@ bool Supervisor::finished() const {
                               [](const auto& entry) { return entry.second.child || entry.second.restart; });
 }
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

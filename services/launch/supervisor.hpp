@@ -15,9 +15,9 @@
 #include "services/launch/restart_policy.hpp"
 #include "services/launch/watchdog.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 
-// Exit codes of services (docs/exit-codes.md) that a new start does not mend.
+/// Exit codes of services (docs/exit-codes.md) that a new start does not mend.
 enum ServiceExit {
   kServiceStopped = 0,
   kServiceBadInput = 2,
@@ -25,11 +25,11 @@ enum ServiceExit {
   kServiceClockGone = 4
 };
 
-// Why a run cannot go on.
+/// Says why a run cannot go on.
 struct RunFailure {
   std::string service;
-  std::string what;
-  bool bad_input = false;  // of the user: mission file or command line
+  std::string reason;
+  bool bad_input = false;  ///< The user must mend the mission file or the command line.
 };
 
 class Supervisor {
@@ -38,16 +38,17 @@ class Supervisor {
     std::function<std::unique_ptr<Child>(const std::string& service, std::uint32_t incarnation)> start;
     std::function<void(const std::string& service, const std::string& what)> on_death;
   };
-  // `master`: with its clean end the run is over; if `master_is_clock`, with any end.
+  /// With the clean end of `master` the run is over; if `master_is_clock`, with any end of it.
   Supervisor(const std::vector<std::string>& services, std::string master, bool master_is_clock, Watchdog,
              Hooks);
 
-  void start(services::wall::Instant now);  // throws what Hooks::start throws
-  // Looks after ended and hung children, due restarts, and the end of the run.
-  void turn(services::wall::Instant now);
-  void stop(services::wall::Instant now);  // asks the run to end; a second time: less politely
+  void start(clock::WallTime now);  ///< Throws what Hooks::start throws.
+  /// Looks after ended and hung children, due restarts, and the end of the run.
+  void turn(clock::WallTime now);
+  /// Asks the run to end; the second time less politely.
+  void stop(clock::WallTime now);
 
-  // Is told of every sign of life, and of whom the launcher hears.
+  /// It must be told of every notification, and of whom the launcher hears.
   Watchdog& watchdog() { return watchdog_; }
 
   bool finished() const;
@@ -57,20 +58,20 @@ class Supervisor {
   struct Service {
     std::unique_ptr<Child> child;
     std::uint32_t incarnation = 0;
-    services::wall::Instant started;
-    std::optional<services::wall::Instant> restart;
+    clock::WallTime started;
+    std::optional<clock::WallTime> restart;
     RestartPolicy policy;
-    bool ran = false;      // any incarnation of it got as far as its loop
-    std::string hung_why;  // empty: it was not killed as hung
+    bool ran = false;         // any incarnation of it got as far as its loop
+    std::string hung_reason;  // empty: it was not killed as hung
   };
-  void launch(const std::string& name, Service&, services::wall::Instant now);
-  void look_after(std::pair<const std::string, Service>&, services::wall::Instant now);
-  void after_end(const std::string& name, Service&, const Ending&, services::wall::Instant now);
-  void start_again(const std::string& name, Service&, const std::string& what, RestartPolicy::Duration pause,
-                   services::wall::Instant now);
-  void kill_hung(services::wall::Instant now);
-  void fail(const std::string& name, std::string what, bool bad_input, services::wall::Instant now);
-  void wind_up(services::wall::Instant now);
+  void launch(const std::string& name, Service&, clock::WallTime now);
+  void look_after(std::pair<const std::string, Service>&, clock::WallTime now);
+  void after_end(const std::string& name, Service&, const Ending&, clock::WallTime now);
+  void start_again(const std::string& name, Service&, const std::string& what, clock::WallDuration pause,
+                   clock::WallTime now);
+  void kill_hung(clock::WallTime now);
+  void fail(const std::string& name, std::string what, bool bad_input, clock::WallTime now);
+  void wind_up(clock::WallTime now);
   void signal_all(int number);
 
   std::map<std::string, Service> services_;
@@ -80,8 +81,8 @@ class Supervisor {
   Hooks hooks_;
   std::optional<RunFailure> failure_;
   // The end of the run in three stages: services leave by themselves, then SIGTERM, then SIGKILL.
-  std::optional<services::wall::Instant> terminate_at_;
-  std::optional<services::wall::Instant> kill_at_;
+  std::optional<clock::WallTime> terminate_at_;
+  std::optional<clock::WallTime> kill_at_;
 };
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

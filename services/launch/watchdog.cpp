@@ -2,23 +2,22 @@
 
 #include <algorithm>
 
-namespace roci::launch {
-
-namespace wall = services::wall;
+namespace roci::services::launch {
 
 namespace {
 
-std::string seconds_text(wall::Clock::duration time) {
+std::string seconds_text(clock::WallDuration time) {
   return std::to_string(std::chrono::duration_cast<std::chrono::seconds>(time).count()) + " s";
 }
 
 }  // namespace
 
-void Watchdog::started(const std::string& service, std::uint32_t incarnation, pid_t pid, wall::Instant now) {
+void Watchdog::started(const std::string& service, std::uint32_t incarnation, pid_t pid,
+                       clock::WallTime now) {
   watched_[service] = {incarnation, pid, false, now, std::nullopt};
 }
 
-void Watchdog::sign(pid_t pid, wall::Instant now) {
+void Watchdog::kick(pid_t pid, clock::WallTime now) {
   const auto found =
       std::ranges::find_if(watched_, [pid](const auto& entry) { return entry.second.pid == pid; });
   if (found == watched_.end()) return;
@@ -26,7 +25,7 @@ void Watchdog::sign(pid_t pid, wall::Instant now) {
   found->second.ran = true;
 }
 
-void Watchdog::heard(const services::PeerChange& change, wall::Instant now) {
+void Watchdog::heard(const services::health::PeerChange& change, clock::WallTime now) {
   change.alive ? (void)heard_.insert(change.service) : (void)heard_.erase(change.service);
   const auto found = watched_.find(change.service);
   if (found == watched_.end() || found->second.incarnation != change.incarnation) return;
@@ -39,8 +38,8 @@ bool Watchdog::ran(const std::string& service) const {
   return found != watched_.end() && found->second.ran;
 }
 
-std::optional<std::string> Watchdog::why_hung(const Watched& watched, wall::Instant now) const {
-  const auto limit = watched.ran ? limit_ : std::max(limit_, wall::seconds(kStartLimitS));
+std::optional<std::string> Watchdog::reason_hung(const Watched& watched, clock::WallTime now) const {
+  const auto limit = watched.ran ? limit_ : std::max(limit_, clock::wall_seconds(kStartLimitS));
   if (now - watched.seen > limit) return "hung: its loop has not turned for " + seconds_text(limit);
   // Who hears nobody is cut off itself.
   if (watched.unheard && !heard_.empty() && now - *watched.unheard > limit_)
@@ -48,23 +47,23 @@ std::optional<std::string> Watchdog::why_hung(const Watched& watched, wall::Inst
   return std::nullopt;
 }
 
-void Watchdog::count_anew(wall::Instant now) {
+void Watchdog::count_anew(clock::WallTime now) {
   for (auto& [service, watched] : watched_) {
     watched.seen = now;
     if (watched.unheard) watched.unheard = now;
   }
 }
 
-std::vector<Watchdog::Hung> Watchdog::check(wall::Instant now) {
+std::vector<Watchdog::Hung> Watchdog::check(clock::WallTime now) {
   std::vector<Hung> hung;
-  if (limit_ == wall::Clock::duration::zero()) return hung;
+  if (limit_ == clock::WallDuration::zero()) return hung;
   if (last_check_ && now - *last_check_ > limit_ / 2) count_anew(now);
   last_check_ = now;
   for (const auto& [service, watched] : watched_) {
-    if (auto why = why_hung(watched, now)) hung.push_back({service, std::move(*why)});
+    if (auto why = reason_hung(watched, now)) hung.push_back({service, std::move(*why)});
   }
   for (const Hung& one : hung) watched_.erase(one.service);
   return hung;
 }
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

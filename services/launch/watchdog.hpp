@@ -1,8 +1,8 @@
 // Which services of a launcher are hung. Pure.
 //
-// Two signs are watched for each process: that its loop turns (health/sign_of_life.hpp), and that it is heard over
-// DDS. A service whose loop turns but whose DDS has locked up is dead to all others, and only a new process
-// mends it.
+// Two signs are watched for each process: that its loop turns (health/watchdog_notifier.hpp), and that it is
+// heard over DDS. A service whose loop turns but whose DDS has locked up is dead to all others, and only a
+// new process mends it.
 #pragma once
 
 #include <sys/types.h>
@@ -17,46 +17,47 @@
 #include "services/clock/wall.hpp"
 #include "services/node.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 
 class Watchdog {
  public:
-  // For reading files and journals, before the first turn of the loop.
+  /// A service has so long for reading files and journals, before the first turn of its loop.
   static constexpr double kStartLimitS = 60;
 
-  // `limit_s`: of silence; 0: nobody ever counts as hung.
-  explicit Watchdog(double limit_s) : limit_(services::wall::seconds(limit_s)) {}
+  /// `limit_s` bounds the silence of a service, in seconds; 0 means that nobody ever counts as hung.
+  explicit Watchdog(double limit_s) : limit_(clock::wall_seconds(limit_s)) {}
 
-  void started(const std::string& service, std::uint32_t incarnation, pid_t, services::wall::Instant now);
+  void started(const std::string& service, std::uint32_t incarnation, pid_t, clock::WallTime now);
   void ended(const std::string& service) { watched_.erase(service); }
-  void sign(pid_t, services::wall::Instant now);
-  // As the launcher's own node hears the services of all hosts.
-  void heard(const services::PeerChange&, services::wall::Instant now);
-  // Whether this one's loop has turned since it was started.
+  void kick(pid_t, clock::WallTime now);
+  /// Takes what the launcher's own node hears of the services of all hosts.
+  void heard(const services::health::PeerChange&, clock::WallTime now);
+  /// True once the service's loop has turned since it was started.
   bool ran(const std::string& service) const;
 
   struct Hung {
     std::string service;
-    std::string why;
+    std::string reason;
   };
-  // Each is named once. A launcher that stood still itself (stopped, swapped out) begins to count anew.
-  std::vector<Hung> check(services::wall::Instant now);
+  /// Returns who is hung; each is named once. A launcher that stood still itself (stopped, swapped out)
+  /// begins to count anew.
+  std::vector<Hung> check(clock::WallTime now);
 
  private:
   struct Watched {
     std::uint32_t incarnation = 0;
     pid_t pid = -1;
     bool ran = false;
-    services::wall::Instant seen;                    // the last sign, or the start
-    std::optional<services::wall::Instant> unheard;  // since when the transport has lost it
+    clock::WallTime seen;                    // the last sign, or the start
+    std::optional<clock::WallTime> unheard;  // since when the transport has lost it
   };
-  std::optional<std::string> why_hung(const Watched&, services::wall::Instant now) const;
-  void count_anew(services::wall::Instant now);
+  std::optional<std::string> reason_hung(const Watched&, clock::WallTime now) const;
+  void count_anew(clock::WallTime now);
 
-  services::wall::Clock::duration limit_;
+  clock::WallDuration limit_;
   std::map<std::string, Watched> watched_;
   std::set<std::string> heard_;  // alive, on any host
-  std::optional<services::wall::Instant> last_check_;
+  std::optional<clock::WallTime> last_check_;
 };
 
-}  // namespace roci::launch
+}  // namespace roci::services::launch

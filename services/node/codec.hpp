@@ -5,41 +5,57 @@
 #include <utility>
 
 #include "services/node/endpoints.hpp"
-#include "services/type_support.hpp"
+#include "services/topics.hpp"
+#include "services/transport/type_support.hpp"
 
-namespace roci::services {
+namespace roci::services::node {
 
 template <class T>
-concept Headed = requires(T value) {
+concept HasHeader = requires(T value) {
   { value.header() } -> std::same_as<v1::SampleHeader&>;
+};
+
+/// Types without a header that name their run.
+template <class T>
+concept OfRun = requires(T value, std::string run) {
+  { std::as_const(value).run() } -> std::same_as<const std::string&>;
+  value.run(run);
 };
 
 template <class T>
 std::shared_ptr<const void> decode_as(std::span<const std::uint8_t> payload) {
   auto value = std::make_shared<T>();
-  if (!deserialize(payload, *value)) return nullptr;
+  if (!transport::deserialize(payload, *value)) return nullptr;
   return value;
 }
 
 template <class T>
-Payload key_as(const void* value) {
-  Payload key;
-  if (T::isKeyDefined()) detail::serialized_key<T>(serialize(*static_cast<const T*>(value)), false, key);
+transport::Payload key_as(const void* value) {
+  transport::Payload key;
+  if (T::isKeyDefined())
+    transport::detail::serialized_key<T>(transport::serialize(*static_cast<const T*>(value)), false, key);
   return key;
 }
 
 template <class T>
 TopicSpec spec_of(const Topic<T>& topic) {
   Codec codec;
-  codec.type = describe_type<T>(topic.type_name);
+  codec.type = transport::describe_type<T>(topic.type_name);
   codec.decode = &decode_as<T>;
   codec.key = &key_as<T>;
-  if constexpr (Headed<T>) {
+  if constexpr (HasHeader<T>) {
     codec.header = [](const void* value) -> const v1::SampleHeader& {
       return static_cast<const T*>(value)->header();
+    };
+  }
+  if constexpr (OfRun<T>)
+    codec.run = [](const void* value) -> const std::string& { return static_cast<const T*>(value)->run(); };
+  if constexpr (HasHeader<T>) {
+    codec.run = [](const void* value) -> const std::string& {
+      return std::as_const(static_cast<const T*>(value)->header()).run();
     };
   }
   return {topic.name, topic.qos, topic.clocking, std::move(codec)};
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::node

@@ -3,10 +3,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "services/log.hpp"
-#include "services/qos.hpp"
+#include "services/log/log.hpp"
+#include "services/transport/qos.hpp"
 
-namespace roci::services {
+namespace roci::services::node {
 namespace {
 
 void check_same_type(const TopicSpec& known, const TopicSpec& wanted) {
@@ -15,42 +15,38 @@ void check_same_type(const TopicSpec& known, const TopicSpec& wanted) {
                          wanted.codec.type.name);
 }
 
-bool simulated(const Node& node) {
-  const ClockMode mode = node.options().clock;
-  return mode == ClockMode::simulated || mode == ClockMode::master;
-}
-
 }  // namespace
 
-OutStream::OutStream(Node& node, const TopicSpec& topic, Transport& transport,
-                     std::function<void()> on_matched)
-    : node_(node), topic_(topic) {
-  const EndpointDescription endpoint{topic.name, topic.codec.type,
-                                     writer_qos(topic.qos, topic.clocking, node.options().clock)};
+TopicWriter::TopicWriter(const NodeOptions& options, const RunIdentity& run, Now now, const TopicSpec& topic,
+                         transport::Transport& transport, std::function<void()> on_matched)
+    : options_(options), run_(run), now_(std::move(now)), topic_(topic) {
+  const transport::EndpointDescription endpoint{
+      topic.name, topic.codec.type, transport::writer_qos(topic.qos, topic.clocking, options.clock)};
   writer_ = transport.create_writer(endpoint, {[on_matched = std::move(on_matched)](int) { on_matched(); }});
 }
 
-void OutStream::stamp(v1::SampleHeader& header) const {
-  const NodeOptions& options = node_.options();
-  header.sender(options.name);
-  header.incarnation(options.clock == ClockMode::observer ? 0 : options.incarnation);
+void TopicWriter::stamp(v1::SampleHeader& header) const {
+  header.run(run_.name());
+  header.robot(options_.robot);
+  header.sender(options_.name);
+  header.incarnation(options_.clock == clock::ClockMode::observer ? 0 : options_.incarnation);
   header.seq(total_ + 1);
-  header.stamp_us(node_.now().count());
+  header.stamp_us(now_().count());
 }
 
-bool OutStream::within_limit(const Payload& payload) {
-  if (topic_.clocking == Clocking::wall || !simulated(node_)) return true;
-  Payload key;
-  const TypeDescription& type = topic_.codec.type;
+bool TopicWriter::within_limit(const transport::Payload& payload) {
+  if (topic_.clocking == transport::Clocking::wall || !clock::is_simulated(options_.clock)) return true;
+  transport::Payload key;
+  const transport::TypeDescription& type = topic_.codec.type;
   if (type.keyed && !type.serialized_key(payload, false, key)) return false;
-  return ++written_[std::string(key.begin(), key.end())] <= kMicroStepLimit;
+  return ++written_[std::string(key.begin(), key.end())] <= transport::kMicroStepLimit;
 }
 
-bool OutStream::write(const Payload& payload) {
+bool TopicWriter::write(const transport::Payload& payload) {
   if (!within_limit(payload)) {
-    log_error(node_.options().name + " wrote more than " + std::to_string(kMicroStepLimit) +
-              " samples of one instance of " + topic_.name +
-              " in one micro-step; this one is refused: spread them over mission time");
+    log::error(options_.name + " wrote more than " + std::to_string(transport::kMicroStepLimit) +
+               " samples of one instance of " + topic_.name +
+               " in one micro-step; this one is refused: spread them over mission time");
     return false;
   }
   if (!writer_->write(payload)) return false;
@@ -58,29 +54,32 @@ bool OutStream::write(const Payload& payload) {
   return true;
 }
 
-bool OutStream::dispose(const Payload& payload) { return writer_->dispose(payload); }
+bool TopicWriter::dispose(const transport::Payload& payload) { return writer_->dispose(payload); }
 
-Endpoints::Endpoints(Node& node, Transport& transport, Inbox& inbox)
-    : node_(node), transport_(transport), inbox_(inbox) {}
+Endpoints::Endpoints(const NodeOptions& options, const RunIdentity& run, TopicWriter::Now now,
+                     transport::Transport& transport, Inbox& inbox)
+    : options_(options), run_(run), now_(std::move(now)), transport_(transport), inbox_(inbox) {}
 
 Endpoints::~Endpoints() { in_.clear(); }  // no callback may find a writer gone
 
-OutStream& Endpoints::out(const TopicSpec& topic) {
+TopicWriter& Endpoints::out(const TopicSpec& topic) {
   auto& stream = out_[topic.name];
-  if (!stream) stream = std::make_unique<OutStream>(node_, topic, transport_, [this] { inbox_.matched(); });
+  if (!stream)
+    stream =
+        std::make_unique<TopicWriter>(options_, run_, now_, topic, transport_, [this] { inbox_.matched(); });
   check_same_type(stream->topic(), topic);
   return *stream;
 }
 
-InTopic& Endpoints::in(const TopicSpec& topic) {
+TopicReader& Endpoints::in(const TopicSpec& topic) {
   auto& input = in_[topic.name];
   if (!input) {
-    input = std::make_unique<InTopic>();
+    input = std::make_unique<TopicReader>();
     input->topic = topic;
-    const EndpointDescription endpoint{topic.name, topic.codec.type,
-                                       reader_qos(topic.qos, topic.clocking, node_.options().clock)};
-    ReaderEvents events;
-    events.on_sample = [this, target = input.get()](Sample&& sample) {
+    const transport::EndpointDescription endpoint{
+        topic.name, topic.codec.type, transport::reader_qos(topic.qos, topic.clocking, options_.clock)};
+    transport::ReaderEvents events;
+    events.on_sample = [this, target = input.get()](transport::Sample&& sample) {
       inbox_.push(Arrival{target, std::move(sample)});
     };
     events.on_matched = [this](int) { inbox_.matched(); };
@@ -90,7 +89,7 @@ InTopic& Endpoints::in(const TopicSpec& topic) {
   return *input;
 }
 
-InTopic* Endpoints::find_in(const std::string& topic) {
+TopicReader* Endpoints::find_in(const std::string& topic) {
   const auto found = in_.find(topic);
   return found == in_.end() ? nullptr : found->second.get();
 }
@@ -98,7 +97,7 @@ InTopic* Endpoints::find_in(const std::string& topic) {
 std::vector<TopicSpec> Endpoints::clocked_inputs() const {
   std::vector<TopicSpec> topics;
   for (const auto& [name, input] : in_) {
-    if (input->topic.clocking == Clocking::clocked) topics.push_back(input->topic);
+    if (input->topic.clocking == transport::Clocking::clocked) topics.push_back(input->topic);
   }
   return topics;
 }
@@ -107,12 +106,12 @@ std::vector<v1::StreamCount> Endpoints::take_growth() {
   std::vector<v1::StreamCount> growth;
   for (const auto& [name, stream] : out_) {
     std::uint64_t& reported = reported_[name];
-    if (stream->topic().clocking == Clocking::wall || stream->total() == reported) continue;
+    if (stream->topic().clocking == transport::Clocking::wall || stream->total() == reported) continue;
     reported = stream->total();
     v1::StreamCount count;
     count.topic(name);
-    count.sender(node_.options().name);
-    count.incarnation(node_.options().incarnation);
+    count.sender(options_.name);
+    count.incarnation(options_.incarnation);
     count.total(reported);
     growth.push_back(std::move(count));
   }
@@ -123,4 +122,4 @@ void Endpoints::begin_micro_step() {
   for (const auto& [name, stream] : out_) stream->begin_micro_step();
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::node

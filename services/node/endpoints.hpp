@@ -1,4 +1,4 @@
-// A node's topics without their types: what is written (OutStream) and what is read (InTopic).
+// A node's topics without their types: what is written (TopicWriter) and what is read (TopicReader).
 #pragma once
 
 #include <cstdint>
@@ -10,84 +10,98 @@
 #include <unordered_map>
 #include <vector>
 
-#include "services/node.hpp"
+#include "core/temporal/duration.hpp"
+#include "roci_idl/basic.h"
+#include "roci_idl/clock.h"
 #include "services/node/inbox.hpp"
-#include "services/topics.hpp"
+#include "services/node/node_options.hpp"
+#include "services/node/run_identity.hpp"
+#include "services/transport/transport.hpp"
 
-namespace roci::services {
+namespace roci::services::node {
 
-// What the loop must know of a type.
+/// The loop must know this of a type.
 struct Codec {
-  TypeDescription type;
-  std::shared_ptr<const void> (*decode)(std::span<const std::uint8_t>) = nullptr;  // null: malformed payload
-  const v1::SampleHeader& (*header)(const void* value) = nullptr;  // null for types without one
-  Payload (*key)(const void* value) = nullptr;                     // empty for types without a key
+  transport::TypeDescription type;
+  /// Null: malformed payload.
+  std::shared_ptr<const void> (*decode)(std::span<const std::uint8_t>) = nullptr;
+  const v1::SampleHeader& (*header)(const void* value) = nullptr;  ///< Null for types without one.
+  const std::string& (*run)(const void* value) = nullptr;          ///< null for types that name no run
+  transport::Payload (*key)(const void* value) = nullptr;          ///< Empty for types without a key.
 };
 
 struct TopicSpec {
   std::string name;
-  Qos qos = Qos::state;
-  Clocking clocking = Clocking::wall;
+  transport::Qos qos = transport::Qos::state;
+  transport::Clocking clocking = transport::Clocking::wall;
   Codec codec;
 };
 
-// All samples of one node on one topic.
-class OutStream {
+/// Writes all samples of one node on one topic.
+class TopicWriter {
  public:
-  OutStream(Node&, const TopicSpec&, Transport&, std::function<void()> on_matched);
+  using Now = std::function<temporal::Time()>;  ///< Mission time.
 
-  // Numbers the next sample; the number counts once write() has succeeded.
+  TopicWriter(const NodeOptions&, const RunIdentity&, Now, const TopicSpec&, transport::Transport&,
+              std::function<void()> on_matched);
+
+  /// Numbers the next sample; the number counts once write() has succeeded.
   void stamp(v1::SampleHeader&) const;
-  bool write(const Payload&);
-  bool dispose(const Payload&);
+  bool write(const transport::Payload&);
+  bool dispose(const transport::Payload&);
 
-  Guid guid() const { return writer_->guid(); }
+  const RunIdentity& run() const { return run_; }
+  transport::Guid guid() const { return writer_->guid(); }
   int matched_readers() const { return writer_->matched_readers(); }
   const TopicSpec& topic() const { return topic_; }
   std::uint64_t total() const { return total_; }
   void begin_micro_step() { written_.clear(); }
 
  private:
-  bool within_limit(const Payload&);
+  bool within_limit(const transport::Payload&);
 
-  Node& node_;
+  const NodeOptions& options_;
+  const RunIdentity& run_;
+  Now now_;
   TopicSpec topic_;
-  std::unique_ptr<Writer> writer_;
+  std::unique_ptr<transport::Writer> writer_;
   std::uint64_t total_ = 0;
   std::unordered_map<std::string, int> written_;  // samples of this micro-step by key
 };
 
-struct InTopic {
+struct TopicReader {
   TopicSpec topic;
   std::vector<std::function<void(const void* value)>> on_value;
-  std::vector<std::function<void(const Payload& key)>> on_owner_lost;
+  std::vector<std::function<void(const transport::Payload& key)>> on_no_writers;
   std::uint64_t malformed = 0;
-  std::unique_ptr<Reader> reader;
+  std::unique_ptr<transport::Reader> reader;
 };
 
 class Endpoints {
  public:
-  Endpoints(Node&, Transport&, Inbox&);
+  Endpoints(const NodeOptions&, const RunIdentity&, TopicWriter::Now, transport::Transport&, Inbox&);
   ~Endpoints();
 
-  // The node's one writer or reader of a topic. Throws std::logic_error if the topic is known with another
-  // type.
-  OutStream& out(const TopicSpec&);
-  InTopic& in(const TopicSpec&);
-  InTopic* find_in(const std::string& topic);
+  /// Return the node's one writer or reader of a topic. They throw std::logic_error if the topic is known
+  /// with another type.
+  TopicWriter& out(const TopicSpec&);
+  TopicReader& in(const TopicSpec&);
+  TopicReader* find_in(const std::string& topic);
 
-  std::vector<TopicSpec> clocked_inputs() const;  // by name
-  // Clocked streams with samples that this did not yet report.
+  std::vector<TopicSpec> clocked_inputs() const;  ///< They are sorted by name.
+  /// Returns the clocked streams with samples that it has not yet reported.
   std::vector<v1::StreamCount> take_growth();
   void begin_micro_step();
 
  private:
-  Node& node_;
-  Transport& transport_;
+  const NodeOptions& options_;
+  const RunIdentity& run_;
+  TopicWriter::Now now_;
+  transport::Transport& transport_;
   Inbox& inbox_;
-  std::map<std::string, std::unique_ptr<OutStream>> out_;
-  std::map<std::string, std::unique_ptr<InTopic>> in_;
+  std::map<std::string, std::unique_ptr<TopicWriter>> out_;
+  std::map<std::string, std::unique_ptr<TopicReader>> in_;
   std::map<std::string, std::uint64_t> reported_;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::node

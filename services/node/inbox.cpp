@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace roci::services {
+namespace roci::services::node {
 
 void Inbox::push(Arrival arrival) {
   const std::scoped_lock lock(mutex_);
@@ -32,7 +32,7 @@ void Inbox::stop() {
   filled_.notify_one();
 }
 
-Inbox::Batch Inbox::take(wall::Instant deadline) {
+Inbox::Batch Inbox::take(clock::WallTime deadline) {
   std::unique_lock lock(mutex_);
   filled_.wait_until(lock, deadline, [this] { return news_; });
   news_ = false;
@@ -41,4 +41,4 @@ Inbox::Batch Inbox::take(wall::Instant deadline) {
   return batch;
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::node

@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "services/clock/wall.hpp"
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 
-namespace roci::services {
+namespace roci::services::node {
 
-struct InTopic;
+struct TopicReader;
 
 struct Arrival {
-  InTopic* topic = nullptr;
-  Sample sample;
+  TopicReader* topic = nullptr;
+  transport::Sample sample;
 };
 
 struct WorkResult {
@@ -29,8 +29,8 @@ class Inbox {
   struct Batch {
     std::vector<Arrival> arrivals;
     std::vector<WorkResult> results;
-    bool matched = false;  // some endpoint's matches changed
-    bool stop = false;     // stays true once asked for
+    bool matched = false;  ///< Some endpoint's matches have changed.
+    bool stop = false;     ///< It stays true once asked for.
   };
 
   void push(Arrival);
@@ -38,8 +38,9 @@ class Inbox {
   void matched();
   void stop();
 
-  // All that has come. Waits for something until `deadline`, not at all if that has passed.
-  Batch take(wall::Instant deadline);
+  /// Removes and returns all that has come. Waits for something until `deadline`, not at all if that has
+  /// passed.
+  Batch take(clock::WallTime deadline);
 
  private:
   std::mutex mutex_;
@@ -48,4 +49,4 @@ class Inbox {
   bool news_ = false;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::node

@@ -3,53 +3,53 @@
 #include <optional>
 
 #include "services/clock/live_clock.hpp"
-#include "services/health/heart.hpp"
-#include "services/health/peer_table.hpp"
-#include "services/node/impl.hpp"
-#include "services/publisher.hpp"
-#include "services/type_support.hpp"
+#include "services/health/failure_detector.hpp"
+#include "services/health/heartbeat_sender.hpp"
+#include "services/node/node_impl.hpp"
+#include "services/node/typed_endpoints.hpp"
+#include "services/transport/type_support.hpp"
 
-namespace roci::services {
+namespace roci::services::node {
 namespace {
 
 constexpr double kLongestWaitS = 0.25;
 
 class LiveLoop : public Loop {
  public:
-  explicit LiveLoop(Node& node)
+  explicit LiveLoop(NodeImpl& node)
       : node_(node),
-        clock_(node.options().epoch_unix_us, node.options().live_scale),
-        observer_(node.options().clock == ClockMode::observer),
-        peers_(wall::seconds(node.options().live_hang_limit_s)) {}
+        clock_(node.options.epoch_unix_us, node.options.live_scale),
+        observer_(node.options.clock == clock::ClockMode::observer),
+        peers_(clock::wall_seconds(node.options.live_hang_limit_s)) {}
 
-  Time now() const override { return observer_ ? newest_stamp_ : clock_.now(); }
-  Time timer_now() const override { return clock_.now(); }
-  PeerState peer(std::string_view service) const override { return peers_.state(service); }
+  temporal::Time now() const override { return observer_ ? newest_stamp_ : clock_.now(); }
+  temporal::Time timer_now() const override { return clock_.now(); }
+  health::PeerState peer(std::string_view service) const override { return peers_.state(service); }
 
-  void take_clocked(InTopic& input, const v1::SampleHeader& header,
+  void take_clocked(TopicReader& input, const v1::SampleHeader& header,
                     std::shared_ptr<const void> value) override {
-    newest_stamp_ = std::max(newest_stamp_, Time(header.stamp_us()));
-    Node::Impl::handle(input, value.get());
+    newest_stamp_ = std::max(newest_stamp_, temporal::Time(header.stamp_us()));
+    NodeImpl::handle(input, value.get());
   }
 
   void run() override {
     while (!stopped_) spin_once(std::chrono::hours(1));
-    if (heart_) heart_->leave();
+    if (heartbeat_) heartbeat_->leave();
   }
 
   void spin_once(std::chrono::milliseconds wait) override {
     open();
-    auto& impl = node_.impl();
-    Inbox::Batch batch = impl.inbox.take(wake_up(wall::now() + wait));
+    NodeImpl& impl = node_;
+    Inbox::Batch batch = impl.inbox.take(wake_up(clock::wall_now() + wait));
     stopped_ = batch.stop;
     if (batch.matched) impl.announce_match();
-    for (auto& arrival : batch.arrivals) impl.take_in(std::move(arrival));
-    const wall::Instant now = wall::now();
-    if (heart_) heart_->beat(now);
+    for (auto& arrival : batch.arrivals) impl.receive(std::move(arrival));
+    const clock::WallTime now = clock::wall_now();
+    if (heartbeat_) heartbeat_->beat(now);
     impl.announce_turn();
     peers_.check(now);
-    for (const PeerChange& change : peers_.take_changes()) {
-      if (change.service != node_.options().name) impl.announce(change);
+    for (const health::PeerChange& change : peers_.take_changes()) {
+      if (change.service != node_.options.name) impl.announce(change);
     }
     for (auto& result : batch.results) impl.work.finish(result.work, std::move(result.run));
     impl.work.run_finished();
@@ -60,43 +60,44 @@ class LiveLoop : public Loop {
   void open() {
     if (opened_) return;
     opened_ = true;
-    if (!observer_) heart_.emplace(node_);
+    if (!observer_) heartbeat_.emplace(node_.make_heartbeat_sender());
     subscribe(node_, topics::heartbeat,
-              [this](const v1::Heartbeat& beat) { peers_.heartbeat(beat, wall::now()); });
-    node_.impl()
-        .endpoints.find_in(topics::heartbeat.name)
-        ->on_owner_lost.push_back([this](const Payload& key) {
+              [this](const v1::Heartbeat& beat) { peers_.heartbeat(beat, clock::wall_now()); });
+    node_.endpoints.find_in(topics::heartbeat.name)
+        ->on_no_writers.push_back([this](const transport::Payload& key) {
           v1::Heartbeat beat;
-          if (deserialize_key(key, beat)) peers_.owner_lost(beat.service());
+          if (transport::deserialize_key(key, beat) && beat.run() == node_.run.name())
+            peers_.writer_lost(beat.service());
         });
     if (observer_) {
       subscribe(node_, topics::clock_step, [this](const v1::ClockStep& step) {
-        newest_stamp_ = std::max(newest_stamp_, Time(step.time_us()));
+        newest_stamp_ = std::max(newest_stamp_, temporal::Time(step.time_us()));
       });
     }
   }
 
-  wall::Instant wake_up(wall::Instant latest) const {
-    latest = std::min(latest, wall::now() + wall::seconds(kLongestWaitS));
-    if (heart_) latest = std::min(latest, heart_->next());
-    if (const auto due = node_.impl().timers.earliest()) {
-      latest = std::min(latest, wall::now() + clock_.wall_for(std::max(*due - timer_now(), Duration(0))));
+  clock::WallTime wake_up(clock::WallTime latest) const {
+    latest = std::min(latest, clock::wall_now() + clock::wall_seconds(kLongestWaitS));
+    if (heartbeat_) latest = std::min(latest, heartbeat_->next());
+    if (const auto due = node_.timers.earliest()) {
+      latest = std::min(
+          latest, clock::wall_now() + clock_.wall_for(std::max(*due - timer_now(), temporal::Duration(0))));
     }
     return latest;
   }
 
-  Node& node_;
-  LiveClock clock_;
+  NodeImpl& node_;
+  clock::LiveClock clock_;
   bool observer_;
-  PeerTable peers_;
-  std::optional<Heart> heart_;
-  Time newest_stamp_{0};
+  health::FailureDetector peers_;
+  std::optional<health::HeartbeatSender> heartbeat_;
+  temporal::Time newest_stamp_{0};
   bool opened_ = false;
   bool stopped_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<Loop> make_live_loop(Node& node) { return std::make_unique<LiveLoop>(node); }
+std::unique_ptr<Loop> make_live_loop(NodeImpl& node) { return std::make_unique<LiveLoop>(node); }
 
-}  // namespace roci::services
+}  // namespace roci::services::node

@@ -6,29 +6,29 @@
 #include <memory>
 #include <string_view>
 
-#include "services/node.hpp"
-#include "services/topics.hpp"
+#include "core/temporal/duration.hpp"
+#include "roci_idl/basic.h"
+#include "services/health/peer.hpp"
 
-namespace roci::services {
+namespace roci::services::node {
 
-struct InTopic;
-
-enum class PeerState { never_seen, alive, dead };
+class NodeImpl;
+struct TopicReader;
 
 class Loop {
  public:
   virtual ~Loop() = default;
-  virtual Time now() const = 0;
+  virtual temporal::Time now() const = 0;
   virtual void run() = 0;
   virtual void spin_once(std::chrono::milliseconds wait) = 0;
-  virtual PeerState peer(std::string_view service) const = 0;
-  // A decoded sample of a clocked topic.
-  virtual void take_clocked(InTopic&, const v1::SampleHeader&, std::shared_ptr<const void>) = 0;
-  // The clock that timers count on: now(), but wall time for observers.
-  virtual Time timer_now() const { return now(); }
+  virtual health::PeerState peer(std::string_view service) const = 0;
+  /// Takes a decoded sample of a clocked topic.
+  virtual void take_clocked(TopicReader&, const v1::SampleHeader&, std::shared_ptr<const void>) = 0;
+  /// Reads the clock on which timers count: now(), but wall time for observers.
+  virtual temporal::Time timer_now() const { return now(); }
 };
 
-std::unique_ptr<Loop> make_live_loop(Node&);
-std::unique_ptr<Loop> make_sim_loop(Node&);
+std::unique_ptr<Loop> make_live_loop(NodeImpl&);
+std::unique_ptr<Loop> make_sim_loop(NodeImpl&);
 
-}  // namespace roci::services
+}  // namespace roci::services::node

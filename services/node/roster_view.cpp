@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace roci::services {
+namespace roci::services::node {
 namespace {
 
 std::string cause_of(const v1::ClockStep& step, const std::string& service, std::uint32_t incarnation) {
@@ -21,8 +21,8 @@ bool contains(const std::vector<v1::RosterEntry>& roster, std::string_view servi
   });
 }
 
-std::vector<PeerChange> RosterView::update(const v1::ClockStep& step, std::string_view self) {
-  std::vector<PeerChange> changes;
+std::vector<health::PeerChange> RosterView::update(const v1::ClockStep& step, std::string_view self) {
+  std::vector<health::PeerChange> changes;
   for (auto peer = alive_.begin(); peer != alive_.end();) {
     const auto& [service, incarnation] = *peer;
     if (contains(step.roster(), service, incarnation)) {
@@ -40,9 +40,9 @@ std::vector<PeerChange> RosterView::update(const v1::ClockStep& step, std::strin
   return changes;
 }
 
-PeerState RosterView::state(std::string_view service) const {
-  if (alive_.contains(service)) return PeerState::alive;
-  return known_ ? PeerState::dead : PeerState::never_seen;
+health::PeerState RosterView::state(std::string_view service) const {
+  if (alive_.contains(service)) return health::PeerState::alive;
+  return known_ ? health::PeerState::dead : health::PeerState::never_seen;
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::node

@@ -7,23 +7,22 @@
 #include <string_view>
 #include <vector>
 
-#include "services/node.hpp"
-#include "services/node/loop.hpp"
-#include "services/topics.hpp"
+#include "roci_idl/clock.h"
+#include "services/health/peer.hpp"
 
-namespace roci::services {
+namespace roci::services::node {
 
 bool contains(const std::vector<v1::RosterEntry>&, std::string_view service, std::uint32_t incarnation);
 
 class RosterView {
  public:
-  // What changed since the last step for a node of name `self`: deaths first, each by name.
-  std::vector<PeerChange> update(const v1::ClockStep&, std::string_view self);
-  PeerState state(std::string_view service) const;
+  /// Returns what has changed since the last step for a node of name `self`: deaths first, each by name.
+  std::vector<health::PeerChange> update(const v1::ClockStep&, std::string_view self);
+  health::PeerState state(std::string_view service) const;
 
  private:
   bool known_ = false;
   std::map<std::string, std::uint32_t, std::less<>> alive_;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::node

@@ -6,28 +6,32 @@
 #include <stdexcept>
 #include <utility>
 
-#include "services/clock/barrier.hpp"
-#include "services/clock/follower.hpp"
-#include "services/health/heart.hpp"
-#include "services/node/impl.hpp"
+#include "services/clock/hold_back_queue.hpp"
+#include "services/health/heartbeat_sender.hpp"
+#include "services/node/barrier.hpp"
+#include "services/node/node_impl.hpp"
 #include "services/node/roster_view.hpp"
 
-namespace roci::services {
+namespace roci::services::node {
 namespace {
+
+clock::Durability durability_of(transport::Qos qos) {
+  return qos == transport::Qos::state ? clock::Durability::transient_local : clock::Durability::volatile_;
+}
 
 class SimLoop : public Loop {
  public:
-  explicit SimLoop(Node& node) : node_(node) {}
+  explicit SimLoop(NodeImpl& node) : node_(node) {}
 
-  Time now() const override { return now_; }
-  PeerState peer(std::string_view service) const override { return roster_.state(service); }
+  temporal::Time now() const override { return now_; }
+  health::PeerState peer(std::string_view service) const override { return roster_.state(service); }
 
-  void take_clocked(InTopic& input, const v1::SampleHeader& header,
+  void take_clocked(TopicReader& input, const v1::SampleHeader& header,
                     std::shared_ptr<const void> value) override {
     if (header.incarnation() == 0) {
       outside_.push_back({&input, std::move(value)});
     } else {
-      follower_.add(input.topic.name, header, std::move(value));
+      held_back_.add(input.topic.name, header, std::move(value));
     }
   }
 
@@ -38,37 +42,37 @@ class SimLoop : public Loop {
   void run() override {
     open();
     while (!over_) turn();
-    heart_->leave();
+    heartbeat_->leave();
   }
 
  private:
   struct OutsideInput {
-    InTopic* input;
+    TopicReader* input;
     std::shared_ptr<const void> value;
   };
 
   void open() {
-    const bool master = node_.options().clock == ClockMode::master;
+    const bool master = node_.options.clock == clock::ClockMode::master;
     barrier_ = master ? make_master_barrier(node_) : make_follower_barrier(node_);
-    heart_.emplace(node_);
+    heartbeat_.emplace(node_.make_heartbeat_sender());
     v1::ClockReady ready;
-    ready.service(node_.options().name);
-    ready.incarnation(node_.options().incarnation);
-    for (const TopicSpec& topic : node_.impl().endpoints.clocked_inputs()) {
-      follower_.subscribe(topic.name, topic.qos, topic.codec.key);
+    ready.service(node_.options.name);
+    ready.incarnation(node_.options.incarnation);
+    for (const TopicSpec& topic : node_.endpoints.clocked_inputs()) {
+      held_back_.subscribe(topic.name, durability_of(topic.qos), topic.codec.key);
       ready.subscriptions().push_back(topic.name);
     }
     barrier_->open(ready);
   }
 
   void turn() {
-    auto& impl = node_.impl();
-    const wall::Instant before = wall::now();
-    Inbox::Batch batch = impl.inbox.take(std::min(heart_->next(), barrier_->next_turn(before)));
-    for (auto& arrival : batch.arrivals) impl.take_in(std::move(arrival));
+    NodeImpl& impl = node_;
+    const clock::WallTime before = clock::wall_now();
+    Inbox::Batch batch = impl.inbox.take(std::min(heartbeat_->next(), barrier_->next_turn(before)));
+    for (auto& arrival : batch.arrivals) impl.receive(std::move(arrival));
     for (auto& result : batch.results) impl.work.finish(result.work, std::move(result.run));
-    const wall::Instant now = wall::now();
-    heart_->beat(now);
+    const clock::WallTime now = clock::wall_now();
+    heartbeat_->beat(now);
     impl.announce_turn();
     if (batch.stop && !barrier_->stop()) over_ = true;
     barrier_->turn(now);
@@ -79,18 +83,18 @@ class SimLoop : public Loop {
   void follow(const v1::ClockStep& step) {
     if (!acting_ && awaits_me(step)) {
       if (step.last()) return answer(step);
-      if (follower_.complete(step)) act(step);
+      if (held_back_.complete(step)) act(step);
     }
     if (acting_) {
-      node_.impl().work.run_finished();
-      if (!node_.impl().work.outstanding()) answer(step);
+      node_.work.run_finished();
+      if (!node_.work.outstanding()) answer(step);
     } else if (!outside_.empty() && !awaits_me(step)) {
       ask_for_a_step();
     }
   }
 
   bool awaits_me(const v1::ClockStep& step) const {
-    const NodeOptions& me = node_.options();
+    const NodeOptions& me = node_.options;
     if (answered_ && answered_->time_us() == step.time_us() && answered_->micro_step() == step.micro_step())
       return false;
     return std::ranges::find(step.participants(), me.name) != step.participants().end() &&
@@ -99,39 +103,39 @@ class SimLoop : public Loop {
 
   void act(const v1::ClockStep& step) {
     acting_ = true;
-    now_ = Time(step.time_us());
+    now_ = temporal::Time(step.time_us());
     // A death in the middle of a micro-step shows in its revisions, but everybody surfaces it in the next
     // one.
     if (step.revision() == 0) {
-      for (const PeerChange& change : roster_.update(step, node_.options().name))
-        node_.impl().announce(change);
+      for (const health::PeerChange& change : roster_.update(step, node_.options.name))
+        node_.announce(change);
     }
-    for (const Delivery& delivery : follower_.take(step)) {
-      Node::Impl::handle(*node_.impl().endpoints.find_in(delivery.topic), delivery.value.get());
+    for (const clock::Delivery& delivery : held_back_.take(step)) {
+      NodeImpl::handle(*node_.endpoints.find_in(delivery.topic), delivery.value.get());
     }
     take_outside_input();
-    node_.impl().timers.run_due(now_);
+    node_.timers.run_due(now_);
   }
 
   void take_outside_input() {
     for (const OutsideInput& input : std::exchange(outside_, {})) {
       const bool stale =
-          !answered_ && input.input->topic.qos != Qos::state;  // said before this node took part
-      if (!stale) Node::Impl::handle(*input.input, input.value.get());
+          !answered_ && input.input->topic.qos != transport::Qos::state;  // said before this node took part
+      if (!stale) NodeImpl::handle(*input.input, input.value.get());
     }
   }
 
   void answer(const v1::ClockStep& step) {
-    const NodeOptions& me = node_.options();
+    const NodeOptions& me = node_.options;
     v1::ClockDone done;
     done.service(me.name);
     done.incarnation(me.incarnation);
     done.time_us(step.time_us());
     done.micro_step(step.micro_step());
-    done.sent(node_.impl().endpoints.take_growth());
-    const auto wish = node_.impl().timers.earliest();
+    done.sent(node_.endpoints.take_growth());
+    const auto wish = node_.timers.earliest();
     done.wish_us(wish ? std::max(*wish, now_).count() : -1);
-    node_.impl().endpoints.begin_micro_step();
+    node_.endpoints.begin_micro_step();
     acting_ = false;
     asked_ = false;
     answered_ = done;
@@ -146,14 +150,14 @@ class SimLoop : public Loop {
     barrier_->answer(again);
   }
 
-  Node& node_;
+  NodeImpl& node_;
   std::unique_ptr<Barrier> barrier_;
-  std::optional<Heart> heart_;
-  Follower follower_;
+  std::optional<health::HeartbeatSender> heartbeat_;
+  clock::HoldBackQueue held_back_;
   RosterView roster_;
   std::vector<OutsideInput> outside_;
   std::optional<v1::ClockDone> answered_;
-  Time now_{0};
+  temporal::Time now_{0};
   bool acting_ = false;
   bool asked_ = false;
   bool over_ = false;
@@ -161,6 +165,6 @@ class SimLoop : public Loop {
 
 }  // namespace
 
-std::unique_ptr<Loop> make_sim_loop(Node& node) { return std::make_unique<SimLoop>(node); }
+std::unique_ptr<Loop> make_sim_loop(NodeImpl& node) { return std::make_unique<SimLoop>(node); }
 
-}  // namespace roci::services
+}  // namespace roci::services::node

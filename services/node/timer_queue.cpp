@@ -1,8 +1,8 @@
 #include "services/node/timer_queue.hpp"
 
-namespace roci::services {
+namespace roci::services::node {
 
-TimerQueue::Id TimerQueue::add(Time due, std::function<void()> fire) {
+TimerQueue::Id TimerQueue::add(temporal::Time due, std::function<void()> fire) {
   const Id id = next_++;
   timers_.emplace(std::pair{due, id}, std::move(fire));
   due_.emplace(id, due);
@@ -16,12 +16,12 @@ void TimerQueue::cancel(Id id) {
   due_.erase(found);
 }
 
-std::optional<Time> TimerQueue::earliest() const {
+std::optional<temporal::Time> TimerQueue::earliest() const {
   if (timers_.empty()) return std::nullopt;
   return timers_.begin()->first.first;
 }
 
-void TimerQueue::run_due(Time now) {
+void TimerQueue::run_due(temporal::Time now) {
   const Id first_new = next_;
   auto timer = timers_.begin();
   while (timer != timers_.end() && timer->first.first <= now) {
@@ -36,4 +36,4 @@ void TimerQueue::run_due(Time now) {
   }
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::node

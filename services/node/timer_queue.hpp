@@ -8,25 +8,26 @@
 #include <unordered_map>
 #include <utility>
 
-#include "services/time.hpp"
+#include "core/temporal/duration.hpp"
 
-namespace roci::services {
+namespace roci::services::node {
 
 class TimerQueue {
  public:
   using Id = std::uint64_t;
 
-  Id add(Time due, std::function<void()> fire);
+  Id add(temporal::Time due, std::function<void()> fire);
   void cancel(Id);
-  std::optional<Time> earliest() const;
+  std::optional<temporal::Time> earliest() const;
 
-  // Fires what is due at `now`. Timers that are added meanwhile wait for the next call, even if they are due.
-  void run_due(Time now);
+  /// Fires what is due at `now`. Timers that are added meanwhile wait for the next call, even if they are
+  /// due.
+  void run_due(temporal::Time now);
 
  private:
-  std::map<std::pair<Time, Id>, std::function<void()>> timers_;
-  std::unordered_map<Id, Time> due_;
+  std::map<std::pair<temporal::Time, Id>, std::function<void()>> timers_;
+  std::unordered_map<Id, temporal::Time> due_;
   Id next_ = 1;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::node

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <utility>
 
-namespace roci::services {
+namespace roci::services::vendors {
 
-Payload key_only_payload(std::span<const std::uint8_t> serialized_key) {
-  Payload payload(4 + serialized_key.size());
+transport::Payload key_only_payload(std::span<const std::uint8_t> serialized_key) {
+  transport::Payload payload(4 + serialized_key.size());
   std::copy(serialized_key.begin(), serialized_key.end(), payload.begin() + 4);
   return payload;
 }
 
-bool InstanceTable::wrote(const Key& key, const Guid& writer) {
+bool InstanceTable::wrote(const Key& key, const transport::Guid& writer) {
   const auto found = alive_.find(key);
   if (found == alive_.end()) return false;
   auto& writers = found->second.writers;
@@ -19,18 +19,18 @@ bool InstanceTable::wrote(const Key& key, const Guid& writer) {
   return true;
 }
 
-void InstanceTable::introduce(const Key& key, const Guid& writer, Payload key_payload) {
+void InstanceTable::introduce(const Key& key, const transport::Guid& writer, transport::Payload key_payload) {
   alive_[key] = {std::move(key_payload), {writer}};
 }
 
-std::optional<Payload> InstanceTable::ended(const Key& key) {
+std::optional<transport::Payload> InstanceTable::ended(const Key& key) {
   auto node = alive_.extract(key);
   if (node.empty()) return std::nullopt;
   return std::move(node.mapped().key_payload);
 }
 
-std::vector<Payload> InstanceTable::writer_left(const Guid& writer) {
-  std::vector<Payload> orphans;
+std::vector<transport::Payload> InstanceTable::writer_left(const transport::Guid& writer) {
+  std::vector<transport::Payload> orphans;
   for (auto it = alive_.begin(); it != alive_.end();) {
     auto& instance = it->second;
     if (std::erase(instance.writers, writer) > 0 && instance.writers.empty()) {
@@ -43,4 +43,4 @@ std::vector<Payload> InstanceTable::writer_left(const Guid& writer) {
   return orphans;
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::vendors

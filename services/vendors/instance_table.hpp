@@ -8,35 +8,35 @@
 #include <unordered_map>
 #include <vector>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 
-namespace roci::services {
+namespace roci::services::vendors {
 
-// 4-byte big-endian encapsulation header and the serialized key.
-Payload key_only_payload(std::span<const std::uint8_t> serialized_key);
+/// 4-byte big-endian encapsulation header and the serialized key.
+transport::Payload key_only_payload(std::span<const std::uint8_t> serialized_key);
 
 class InstanceTable {
  public:
-  using Key = std::string;  // whatever identifies the instance at the vendor: its key or the hash of it
+  using Key = std::string;  ///< whatever identifies the instance at the vendor: its key or the hash of it
 
-  // Notes that `writer` wrote the instance. False: the instance is new and must be introduced.
-  bool wrote(const Key&, const Guid& writer);
-  void introduce(const Key&, const Guid& writer, Payload key_payload);
+  /// Notes that `writer` wrote the instance. False: the instance is new and must be introduced.
+  bool wrote(const Key&, const transport::Guid& writer);
+  void introduce(const Key&, const transport::Guid& writer, transport::Payload key_payload);
 
-  // The instance was disposed or lost its last writer: its key-only payload; nothing if it was not alive
-  // here.
-  std::optional<Payload> ended(const Key&);
+  /// The instance was disposed or lost its last writer: its key-only payload; nothing if it was not alive
+  /// here.
+  std::optional<transport::Payload> ended(const Key&);
 
-  // Key-only payloads of the instances that nobody writes any more, now that `writer` has gone.
-  std::vector<Payload> writer_left(const Guid& writer);
+  /// Key-only payloads of the instances that nobody writes any more, now that `writer` has gone.
+  std::vector<transport::Payload> writer_left(const transport::Guid& writer);
 
  private:
   struct Instance {
-    Payload key_payload;
-    std::vector<Guid> writers;
+    transport::Payload key_payload;
+    std::vector<transport::Guid> writers;
   };
 
   std::unordered_map<Key, Instance> alive_;
 };
 
-}  // namespace roci::services
+}  // namespace roci::services::vendors

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace roci::services {
+namespace roci::services::vendors {
 namespace {
 
 bool parse(const std::string& text, in_addr& address) {
@@ -34,7 +34,7 @@ bool is_on_running_interface(const in_addr& address) {
 
 bool is_loopback(const std::string& address) { return address.starts_with("127."); }
 
-std::vector<std::string> peers_of(const TransportOptions& options) {
+std::vector<std::string> peers_of(const transport::TransportOptions& options) {
   std::vector<std::string> peers{options.address};
   for (const auto& peer : options.peers) {
     const bool reachable = is_loopback(peer) == is_loopback(options.address);
@@ -43,19 +43,20 @@ std::vector<std::string> peers_of(const TransportOptions& options) {
   return peers;
 }
 
-void require_usable_addresses(const TransportOptions& options) {
+void require_usable_addresses(const transport::TransportOptions& options) {
   in_addr address;
   for (const auto& peer : options.peers) {
     if (!parse(peer, address))
-      throw TransportError("peer \"" + peer + "\" is no IPv4 address; correct --peers");
+      throw transport::TransportError("peer \"" + peer + "\" is no IPv4 address; correct --peers");
   }
   if (!parse(options.address, address)) {
-    throw TransportError("\"" + options.address + "\" is no IPv4 address; correct --address");
+    throw transport::TransportError("\"" + options.address + "\" is no IPv4 address; correct --address");
   }
   if (!is_on_running_interface(address)) {
-    throw TransportError("no running network interface of this host has the address " + options.address +
-                         "; bring it up, or give another with --address (see: ip -4 address)");
+    throw transport::TransportError("no running network interface of this host has the address " +
+                                    options.address +
+                                    "; bring it up, or give another with --address (see: ip -4 address)");
   }
 }
 
-}  // namespace roci::services
+}  // namespace roci::services::vendors

@@ -5,19 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 
-namespace roci::services {
+namespace roci::services::vendors {
 
-inline constexpr int kLeaseSeconds = 3;  // a killed participant is noticed after at most this time
+inline constexpr int kLeaseSeconds = 3;  ///< a killed participant is noticed after at most this time
 
 bool is_loopback(const std::string& address);
 
-// options.peers and options.address itself, each once. On a network the loopback default is left out.
-std::vector<std::string> peers_of(const TransportOptions&);
+/// options.peers and options.address itself, each once. On a network the loopback default is left out.
+std::vector<std::string> peers_of(const transport::TransportOptions&);
 
-// Throws TransportError when no running interface of this host has options.address, or it or a peer is no
-// IPv4 address.
-void require_usable_addresses(const TransportOptions&);
+/// Throws TransportError when no running interface of this host has options.address, or it or a peer is no
+/// IPv4 address.
+void require_usable_addresses(const transport::TransportOptions&);
 
-}  // namespace roci::services
+}  // namespace roci::services::vendors

@@ -22,23 +22,24 @@ struct OwnedFunction {
 
 struct FunctionResult {
   v1::FunctionOutcome outcome = v1::FUNCTION_FAILED;
-  double number = 0;  // with FUNCTION_VALUE, in the function's unit
+  double number = 0;  ///< With FUNCTION_VALUE, in the function's unit.
 };
 
-// Called with one of the owned functions and as many objects as it has parameters.
+/// It is called with one of the owned functions and as many objects as that has parameters.
 using Evaluator = std::function<FunctionResult(const OwnedFunction&, std::span<const v1::PlanObject* const>)>;
 
 v1::FunctionOffer function_offer(const std::string& module_name, const std::string& owner,
                                  std::uint64_t model_version, const std::vector<OwnedFunction>& functions);
 
-// Answers every tuple; unknown functions, wrong arities and indices beyond the request's objects are told as
-// such without asking `evaluate`. Once stopped, the rest is FUNCTION_FAILED.
+/// Answers every tuple; unknown functions, wrong arities and indices beyond the request's objects are told as
+/// such without asking `evaluate`. Once stopped, the rest is FUNCTION_FAILED.
 v1::FunctionReply answer_batches(const v1::FunctionRequest& request, std::uint64_t model_version,
                                  const std::vector<OwnedFunction>& functions, const Evaluator& evaluate,
                                  const std::stop_token& stop);
 
-const std::string* property(const v1::PlanObject& object,
-                            const std::string& name);  // null: has none of that name
+/// Returns the value of the property, or null if the object has none of that name.
+const std::string* property(const v1::PlanObject& object, const std::string& name);
+/// Returns the value of the property as a number if it is there and finite.
 std::optional<double> finite_property(const v1::PlanObject& object, const std::string& name);
 
 }  // namespace roci::services::wire

@@ -9,8 +9,12 @@ namespace {
 
 using temporal::Duration;
 
-std::int64_t bound_to_wire(Duration bound) { return bound == temporal::no_bound ? -1 : bound.count(); }
-Duration bound_from_wire(std::int64_t bound) { return bound < 0 ? temporal::no_bound : Duration(bound); }
+std::int64_t bound_to_wire(temporal::Duration bound) {
+  return bound == temporal::no_bound ? -1 : bound.count();
+}
+temporal::Duration bound_from_wire(std::int64_t bound) {
+  return bound < 0 ? temporal::no_bound : temporal::Duration(bound);
+}
 
 // Enumerations have the same order on both sides.
 template <class Wire, class Core>
@@ -35,35 +39,71 @@ std::vector<Out> each(const std::vector<In>& in, F&& translate) {
   return out;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : " ") + word;
+std::vector<v1::Property> properties_to_wire(const std::vector<temporal::Property>& in) {
+  return each<v1::Property>(in, [](const temporal::Property& p) { return to_wire(p); });
+}
+
+std::vector<temporal::Property> properties_from_wire(const std::vector<v1::Property>& in) {
+  return each<temporal::Property>(in, [](const v1::Property& p) {
+    return temporal::Property{p.name(), p.value()};
+  });
+}
+
+v1::PlanCommand command_to_wire(const temporal::PlanCommand& in) {
+  v1::PlanCommand out;
+  out.owner(in.owner);
+  out.robot(in.robot);
+  out.subsystem(in.subsystem);
+  out.command_name(in.command_name);
+  out.arguments(properties_to_wire(in.arguments));
+  out.answer_within_us(bound_to_wire(in.answer_within));
   return out;
 }
 
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> out;
-  std::string::size_type begin = 0;
-  while ((begin = text.find_first_not_of(' ', begin)) != std::string::npos) {
-    const auto end = std::min(text.find(' ', begin), text.size());
-    out.push_back(text.substr(begin, end - begin));
-    begin = end;
-  }
+temporal::PlanCommand command_from_wire(const v1::PlanCommand& in) {
+  return {in.owner(),
+          in.robot(),
+          in.subsystem(),
+          in.command_name(),
+          properties_from_wire(in.arguments()),
+          bound_from_wire(in.answer_within_us())};
+}
+
+// The first command stands in the activity itself, those that follow in a list.
+std::vector<v1::PlanCommand> commands_to_wire(const temporal::PlanActivity& in) {
+  std::vector<v1::PlanCommand> out;
+  if (in.owner.empty()) return out;
+  out.push_back(command_to_wire(temporal::PlanCommand{in.owner, in.robot, in.subsystem, in.command_name,
+                                                      in.arguments, in.answer_within}));
+  for (const temporal::PlanCommand& command : in.then) out.push_back(command_to_wire(command));
   return out;
+}
+
+void commands_from_wire(const std::vector<v1::PlanCommand>& in, temporal::PlanActivity& out) {
+  if (in.empty()) return;
+  temporal::PlanCommand first = command_from_wire(in.front());
+  out.owner = std::move(first.owner);
+  out.robot = std::move(first.robot);
+  out.subsystem = std::move(first.subsystem);
+  out.command_name = std::move(first.command_name);
+  out.arguments = std::move(first.arguments);
+  out.answer_within = first.answer_within;
+  for (std::size_t i = 1; i < in.size(); ++i) out.then.push_back(command_from_wire(in[i]));
 }
 
 v1::PlanActivity activity_to_wire(const temporal::PlanActivity& in) {
   v1::PlanActivity out;
   out.id(in.id);
   out.name(in.name);
-  out.owner(in.owner);
-  out.subsystem(in.subsystem);
-  out.command_name(in.command_name);
-  out.arguments(each<v1::Property>(in.arguments, [](const temporal::Property& p) { return to_wire(p); }));
+  out.level(in.level);
+  out.parent(in.parent);
+  if (in.owner.empty()) out.arguments(properties_to_wire(in.arguments));
+  out.commands(commands_to_wire(in));
   out.start_point(in.start_point);
   out.end_point(in.end_point);
   out.duration_lower_us(in.duration_lower.count());
   out.duration_upper_us(bound_to_wire(in.duration_upper));
+  out.preferred_start_us(bound_to_wire(in.preferred_start));
   out.pre(to_wire(in.pre));
   out.maintenance(to_wire(in.maintenance));
   out.post(to_wire(in.post));
@@ -81,10 +121,11 @@ v1::PlanActivity activity_to_wire(const temporal::PlanActivity& in) {
   out.skip_if(to_wire(in.skip_if));
   out.lateness(enum_to_wire<v1::LatenessPolicy>(in.lateness));
   out.commit(enum_to_wire<v1::CommitState>(in.commit));
+  out.failure(enum_to_wire<v1::FailureScope>(in.failure));
   out.contingency(in.contingency);
-  out.parent(in.parent);
+  out.priority(in.priority);
   out.goals_served(in.goals_served);
-  out.utility(in.utility);
+  out.utility(in.utility.scores());
   return out;
 }
 
@@ -92,16 +133,15 @@ temporal::PlanActivity activity_from_wire(const v1::PlanActivity& in) {
   temporal::PlanActivity out;
   out.id = in.id();
   out.name = in.name();
-  out.owner = in.owner();
-  out.subsystem = in.subsystem();
-  out.command_name = in.command_name();
-  out.arguments = each<temporal::Property>(in.arguments(), [](const v1::Property& p) {
-    return temporal::Property{p.name(), p.value()};
-  });
+  out.level = in.level();
+  out.parent = in.parent();
+  out.arguments = properties_from_wire(in.arguments());
+  commands_from_wire(in.commands(), out);
   out.start_point = in.start_point();
   out.end_point = in.end_point();
-  out.duration_lower = Duration(in.duration_lower_us());
+  out.duration_lower = temporal::Duration(in.duration_lower_us());
   out.duration_upper = bound_from_wire(in.duration_upper_us());
+  out.preferred_start = bound_from_wire(in.preferred_start_us());
   out.pre = from_wire(in.pre());
   out.maintenance = from_wire(in.maintenance());
   out.post = from_wire(in.post());
@@ -117,31 +157,50 @@ temporal::PlanActivity activity_from_wire(const v1::PlanActivity& in) {
   out.skip_if = from_wire(in.skip_if());
   out.lateness = enum_from_wire(in.lateness(), temporal::LatenessPolicy::deadline, "lateness policy");
   out.commit = enum_from_wire(in.commit(), temporal::CommitState::committed, "commit state");
+  out.failure = enum_from_wire(in.failure(), temporal::FailureScope::of_activity, "failure scope");
   out.contingency = in.contingency();
-  out.parent = in.parent();
+  out.priority = in.priority();
   out.goals_served = in.goals_served();
-  out.utility = in.utility();
+  out.utility = temporal::RankVector(in.utility());
   return out;
 }
 
 v1::DecisionPoint decision_to_wire(const temporal::DecisionPoint& in) {
   v1::DecisionPoint out;
   out.id(in.id);
+  out.resolver_kind(enum_to_wire<v1::ResolverKind>(in.resolver_kind));
   out.resolver(in.resolver);
-  out.choices(
-      each<std::string>(in.choices, [](const temporal::DecisionChoice& choice) { return choice.name; }));
-  out.activities(each<std::string>(
-      in.choices, [](const temporal::DecisionChoice& choice) { return joined(choice.activities); }));
+  out.choices(each<v1::DecisionChoice>(in.choices, [](const temporal::DecisionChoice& choice) {
+    v1::DecisionChoice wire;
+    wire.name(choice.name);
+    wire.activities(choice.activities);
+    wire.rule(to_wire(choice.rule));
+    return wire;
+  }));
+  out.bindings(each<v1::ArgumentBinding>(in.bindings, [](const temporal::ArgumentBinding& binding) {
+    v1::ArgumentBinding wire;
+    wire.activity(binding.activity);
+    wire.argument(binding.argument);
+    return wire;
+  }));
+  out.admissible(in.admissible);
   out.decide_before(in.decide_before);
   return out;
 }
 
 temporal::DecisionPoint decision_from_wire(const v1::DecisionPoint& in) {
-  if (in.choices().size() != in.activities().size())
-    throw WireError("decision " + in.id() + ": choices and activities differ in number");
-  temporal::DecisionPoint out{in.id(), in.resolver(), {}, in.decide_before()};
-  for (std::size_t i = 0; i < in.choices().size(); ++i)
-    out.choices.push_back({in.choices()[i], split(in.activities()[i])});
+  temporal::DecisionPoint out;
+  out.id = in.id();
+  out.resolver_kind = enum_from_wire(in.resolver_kind(), temporal::ResolverKind::rule, "resolver");
+  out.resolver = in.resolver();
+  out.choices = each<temporal::DecisionChoice>(in.choices(), [](const v1::DecisionChoice& choice) {
+    return temporal::DecisionChoice{choice.name(), choice.activities(), from_wire(choice.rule())};
+  });
+  out.bindings = each<temporal::ArgumentBinding>(in.bindings(), [](const v1::ArgumentBinding& binding) {
+    return temporal::ArgumentBinding{binding.activity(), binding.argument()};
+  });
+  out.admissible = in.admissible();
+  out.decide_before = in.decide_before();
   return out;
 }
 
@@ -171,7 +230,7 @@ v1::TemporalConstraint constraint_to_wire(const temporal::TemporalConstraint& in
 temporal::TemporalConstraint constraint_from_wire(const v1::TemporalConstraint& in) {
   return {in.from_point(), in.to_point(),
           enum_from_wire(in.kind(), temporal::ConstraintKind::window, "constraint kind"),
-          Duration(in.lower_us()), bound_from_wire(in.upper_us())};
+          temporal::Duration(in.lower_us()), bound_from_wire(in.upper_us())};
 }
 
 v1::FunctionValueUse use_to_wire(const temporal::FunctionValueUse& in) {
@@ -179,6 +238,7 @@ v1::FunctionValueUse use_to_wire(const temporal::FunctionValueUse& in) {
   out.function(in.function);
   out.arguments(in.arguments);
   out.number(in.number);
+  out.accuracy(enum_to_wire<v1::FunctionAccuracy>(in.accuracy));
   out.owner(in.owner);
   out.model_version(in.model_version);
   out.computed_us(in.computed.count());
@@ -260,7 +320,7 @@ temporal::FlexiblePlan from_wire(const v1::Plan& in) {
   out.id = in.id();
   out.version = in.version();
   out.engine = in.engine();
-  out.origin = Duration(in.origin_us());
+  out.origin = temporal::Duration(in.origin_us());
   out.point_count = in.point_count();
   out.activities = each<temporal::PlanActivity>(in.activities(), activity_from_wire);
   out.tokens = each<temporal::Token>(in.tokens(), token_from_wire);
@@ -268,9 +328,14 @@ temporal::FlexiblePlan from_wire(const v1::Plan& in) {
   out.constraints = each<temporal::TemporalConstraint>(in.constraints(), constraint_from_wire);
   out.function_values =
       each<temporal::FunctionValueUse>(in.function_values(), [](const v1::FunctionValueUse& use) {
-        return temporal::FunctionValueUse{use.function(),      use.arguments(),
-                                          use.number(),        use.owner(),
-                                          use.model_version(), temporal::Time(use.computed_us())};
+        return temporal::FunctionValueUse{
+            use.function(),
+            use.arguments(),
+            use.number(),
+            use.owner(),
+            use.model_version(),
+            temporal::Time(use.computed_us()),
+            enum_from_wire(use.accuracy(), temporal::FunctionAccuracy::estimate, "accuracy")};
       });
   return out;
 }

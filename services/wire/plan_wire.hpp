@@ -12,7 +12,7 @@
 
 namespace roci::services::wire {
 
-// A sample that no conforming sender sends, e.g. an enumerator out of range.
+/// It is thrown for a sample that no conforming sender sends, e.g. an enumerator out of range.
 class WireError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -26,7 +26,7 @@ v1::Property to_wire(const temporal::Property&);
 
 temporal::Value from_wire(const v1::TimelineValue&);
 temporal::Condition from_wire(const v1::Condition&);
-// Throws WireError; the plan's inner consistency is temporal::check()'s business.
+/// Throws WireError; the plan's inner consistency is temporal::check()'s business.
 temporal::FlexiblePlan from_wire(const v1::Plan&);
 temporal::PlanDelta from_wire(const v1::PlanDelta&);
 

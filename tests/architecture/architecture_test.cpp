@@ -36,11 +36,15 @@ TEST(ArchitectureTest, EachRuleCanBeBroken) {
   EXPECT_THAT(broken(file("arm_svc/arm_service.cpp", "roci_idl/goal.h")), IsEmpty());
   EXPECT_THAT(broken(file("exec_svc/exec_service.cpp", "fastdds/dds/domain/DomainParticipant.hpp")),
               ElementsAre(HasSubstr("vendor headers")));
-  EXPECT_THAT(broken(file("planner_svc/validate/a.cpp", "planner_svc/temporal_pddl/planner.hpp")),
-              ElementsAre(HasSubstr("the validator shares only core/pddl")));
+  EXPECT_THAT(
+      broken(file("planner_svc/temporal_pddl/validate/a.cpp", "planner_svc/temporal_pddl/planner.hpp")),
+      ElementsAre(HasSubstr("the validator shares only core/pddl")));
   EXPECT_THAT(broken(file("planner_svc/temporal_pddl/search/a.cpp", "core/pddl/ast.hpp")),
               ElementsAre(HasSubstr("never sees PDDL text")));
-  EXPECT_THAT(broken(file("core/common/a.cpp", "vector")), ElementsAre(HasSubstr("has a name")));
+  EXPECT_THAT(broken(file("core/temporal/common/a.cpp", "vector")), ElementsAre(HasSubstr("has a name")));
+  EXPECT_THAT(broken(file("services/node/a.cpp", "sqlite3.h")),
+              ElementsAre(HasSubstr("is linked by exec_svc alone")));
+  EXPECT_THAT(broken(file("arm_svc/a.cpp", "ompl/base/Planner.h")), IsEmpty());
   SourceFile source = file("exec_svc/a.cpp", "chrono");
   source.lines = {"const auto t = std::chrono::steady_clock::now();"};
   EXPECT_THAT(broken(source), ElementsAre(HasSubstr("asks the system for the time")));
@@ -48,6 +52,57 @@ TEST(ArchitectureTest, EachRuleCanBeBroken) {
   EXPECT_THAT(broken(source), ElementsAre(HasSubstr("missions are data")));
   source.lines.assign(601, "");
   EXPECT_THAT(broken(source), ElementsAre(HasSubstr("601 lines")));
+}
+
+TEST(ArchitectureTest, ACommentDoesNotTearItsDeclaration) {
+  SourceFile source = file("core/temporal/a.hpp", "vector");
+  source.lines = {"  std::vector<int> values;  ///< Of the longest name."};
+  EXPECT_THAT(broken_rules({source}), IsEmpty());
+  source.lines = {"  std::vector<int>", "      values;  ///< Of the longest name."};
+  EXPECT_THAT(broken_rules({source}), ElementsAre(HasSubstr("stands torn")));
+}
+
+SourceFile in_namespace(const std::string& path, const std::string& name) {
+  return {path, {}, {"namespace " + name + " {", "int f();", "}  // namespace " + name}};
+}
+
+TEST(ArchitectureTest, AFolderHasOneNamespace) {
+  const auto broken = [](const SourceFile& source) { return broken_rules({source}); };
+  EXPECT_THAT(broken(in_namespace("core/pddl/a.hpp", "roci::pddl")), IsEmpty());
+  EXPECT_THAT(broken(in_namespace("core/pddl/a.hpp", "roci::pddl::grammar")), IsEmpty());
+  EXPECT_THAT(broken(in_namespace("services/node.hpp", "roci::services")), IsEmpty());
+  EXPECT_THAT(broken(in_namespace("ground_console/cli/watch/a.cpp", "roci::console::cli::watch")), IsEmpty());
+  EXPECT_THAT(broken(in_namespace("services/clock/a.hpp", "roci::services")),
+              ElementsAre(HasSubstr("its folder's is roci::services::clock")));
+  EXPECT_THAT(broken(in_namespace("arm_svc/a.cpp", "roci::arms")),
+              ElementsAre(HasSubstr("its folder's is roci::arm")));
+  EXPECT_THAT(broken_rules({in_namespace("services/node.hpp", "roci::services::clock"),
+                            in_namespace("services/clock/a.hpp", "roci::services::clock")}),
+              ElementsAre(HasSubstr("services/node.hpp: opens namespace roci::services::clock")));
+}
+
+TEST(ArchitectureTest, ClassesOfOthersMayBeDeclared) {
+  SourceFile source = in_namespace("arm_svc/a.hpp", "roci::arm");
+  source.lines.insert(source.lines.begin(), {"namespace YAML {", "class Node;", "}"});
+  EXPECT_THAT(broken_rules({source}), IsEmpty());
+  source.lines[1] = "class Node {};";
+  EXPECT_THAT(broken_rules({source}), ElementsAre(HasSubstr("opens namespace YAML")));
+}
+
+TEST(ArchitectureTest, NobodyReachesAFloorAboveThroughAnyChain) {
+  EXPECT_THAT(broken_rules({file("services/rpc/a.cpp", "services/node/b.hpp"),
+                            file("services/node/b.hpp", "services/clock/c.hpp"),
+                            file("services/clock/c.hpp", "core/temporal/d.hpp"),
+                            file("core/temporal/d.hpp", "vector")}),
+              IsEmpty());
+  EXPECT_THAT(
+      broken_rules({file("services/clock/a.cpp", "services/node.hpp"), file("services/node.hpp", "vector")}),
+      ElementsAre(HasSubstr("services/clock/a.cpp: reaches services/node.hpp, a floor above it")));
+  EXPECT_THAT(broken_rules({file("services/node/a.cpp", "tests/b.hpp"),
+                            file("tests/b.hpp", "services/rpc/c.hpp"), file("services/rpc/c.hpp", "vector")}),
+              ElementsAre(HasSubstr("services/node/a.cpp -> tests/b.hpp -> services/rpc/c.hpp")));
+  EXPECT_THAT(broken_rules({file("services/attic/a.cpp", "vector")}),
+              ElementsAre(HasSubstr("stands on no floor")));
 }
 
 }  // namespace

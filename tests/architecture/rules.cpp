@@ -1,6 +1,9 @@
 #include <algorithm>
-#include <array>
+#include <iterator>
 
+#include "tests/architecture/floors.hpp"
+#include "tests/architecture/namespaces.hpp"
+#include "tests/architecture/planner_rules.hpp"
 #include "tests/architecture/source_tree.hpp"
 
 namespace roci::architecture {
@@ -61,24 +64,27 @@ void check_vendors(const SourceFile& file, Complaints& out) {
   }
 }
 
-void check_planner(const SourceFile& file, Complaints& out) {
+// Who may see a library: nobody else needs to link it.
+void check_libraries(const SourceFile& file, Complaints& out) {
+  struct Home {
+    std::string header;
+    std::vector<std::string> folders;
+  };
+  static const std::vector<Home> homes = {{"sqlite3", {"exec_svc"}},
+                                          {"openssl/", {"exec_svc"}},
+                                          {"yaml-cpp/", {"core/mission"}},
+                                          {"ompl/", {"pathplan_svc", "arm_svc"}},
+                                          {"fcl/", {"arm_svc"}},
+                                          {"urdf_", {"core/kinematics"}},
+                                          {"tinyxml2", {"core/kinematics"}},
+                                          {"spdlog/", {"services/log"}}};
   for (const std::string& include : file.includes) {
-    const bool validator_sees_engine = file.under("planner_svc/validate") &&
-                                       include.starts_with("planner_svc/") &&
-                                       !include.starts_with("planner_svc/validate/");
-    if (validator_sees_engine)
-      out.push_back(file.path + ": includes " + include + "; the validator shares only core/pddl");
-    const bool engine_sees_validator =
-        file.under("planner_svc/temporal_pddl") && include.starts_with("planner_svc/validate/");
-    if (engine_sees_validator)
-      out.push_back(file.path + ": includes " + include + "; engines never see the validator");
-    const bool search_sees_pddl = (file.under("planner_svc/temporal_pddl/search") ||
-                                   file.under("planner_svc/temporal_pddl/heuristics") ||
-                                   file.under("planner_svc/temporal_pddl/dead_ends") ||
-                                   file.under("planner_svc/temporal_pddl/constraints")) &&
-                                  include.starts_with("core/pddl/");
-    if (search_sees_pddl)
-      out.push_back(file.path + ": includes " + include + "; the search never sees PDDL text");
+    for (const Home& home : homes) {
+      const auto at_home = [&](const std::string& folder) { return file.under(folder); };
+      if (!include.starts_with(home.header) || std::ranges::any_of(home.folders, at_home)) continue;
+      out.push_back(file.path + ": includes " + include + "; that library is linked by " +
+                    home.folders.front() + " alone");
+    }
   }
 }
 
@@ -117,6 +123,20 @@ void check_size_and_names(const SourceFile& file, Complaints& out) {
   }
 }
 
+// Where the formatter had to break a line for the comment behind it, the comment belongs above.
+void check_torn_comments(const SourceFile& file, Complaints& out) {
+  if (not_yet_converted(file.path)) return;
+  for (const std::string& line : file.lines) {
+    const auto text = line.find_first_not_of(' ');
+    const bool continues = text != std::string::npos && text >= 6;
+    const bool after_body = text != std::string::npos && line.compare(text, 1, "}") == 0;
+    if ((continues || after_body) && line.find("///<") != std::string::npos) {
+      out.push_back(file.path + ": \"" + line.substr(text) +
+                    "\" stands torn; write the comment above the declaration");
+    }
+  }
+}
+
 void check_missions(const SourceFile& file, Complaints& out) {
   for (const std::string& line : file.lines) {
     for (const char* mission : {"\"planetary\"", "\"orbital\"", "\"europa\"", "\"faster\""}) {
@@ -133,12 +153,17 @@ std::vector<std::string> broken_rules(const std::vector<SourceFile>& files) {
   for (const SourceFile& file : files) {
     check_floors(file, out);
     check_vendors(file, out);
-    check_planner(file, out);
+    check_libraries(file, out);
     check_simulator(file, out);
     check_clock(file, out);
     check_size_and_names(file, out);
     check_missions(file, out);
+    check_torn_comments(file, out);
   }
+  std::ranges::copy(foreign_namespaces(files), std::back_inserter(out));
+  std::ranges::copy(upward_includes(files), std::back_inserter(out));
+  const Complaints planner = broken_planner_rules(files);
+  out.insert(out.end(), planner.begin(), planner.end());
   return out;
 }
 

@@ -3,7 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/domain_claim.hpp"
+#include "services/process/domain_claim.hpp"
+#include "services/transport/plug_ins.hpp"
 #include "tests/unit/planner_svc/service/road_planning.hpp"
 
 namespace roci::planner {
@@ -27,7 +28,7 @@ std::vector<std::string> answers_of(const RoadPlanning& planning) {
 }
 
 TEST_P(CallCancel, WhileItWaitsForValues) {
-  const services::DomainClaim domain;
+  const services::process::DomainClaim domain;
   RoadPlanning planning(GetParam().second, domain.id());
   planning.owner_answers([&planning](const v1::FunctionRequest& request, auto responder) {
     planning.owner().after(15s, [&planning, responder, request] {
@@ -43,7 +44,7 @@ TEST_P(CallCancel, WhileItWaitsForValues) {
 
 // By the model of how long a call takes, the planner is at work from 1 s to 1.5 s.
 TEST_P(CallCancel, WhileItIsAtWork) {
-  const services::DomainClaim domain;
+  const services::process::DomainClaim domain;
   RoadPlanning planning(GetParam().second, domain.id());
   planning.ask(1s, plan_request(kRoadDomain, road_problem()));
   planning.cancel(1200ms);
@@ -66,15 +67,15 @@ const std::string kEndlessProblem = R"((define (problem never) (:domain endless)
 )";
 
 TEST_P(CallCancel, WhileItSearchesLive) {
-  const services::DomainClaim domain;
+  const services::process::DomainClaim domain;
   const auto node = [&](const std::string& name, const std::string& vendor) {
-    services::NodeOptions options;
+    services::node::NodeOptions options;
     options.name = name;
     options.vendor = vendor;
-    services::TransportOptions transport;
+    services::transport::TransportOptions transport;
     transport.domain = domain.id();
     transport.participant = name;
-    return std::make_unique<services::Node>(options, services::open_transport(vendor, transport));
+    return std::make_unique<services::Node>(options, services::transport::open_transport(vendor, transport));
   };
   const auto client_node = node("client", GetParam().second.client);
   const auto planner_node = node("planner_svc", GetParam().second.planner);
@@ -95,7 +96,7 @@ TEST_P(CallCancel, WhileItSearchesLive) {
   };
   std::string solvable = kEndlessProblem;
   solvable.replace(solvable.find("(= (b) 1)"), 9, "(= (b) 2)");
-  const services::CallId endless = ask(kEndlessDomain, kEndlessProblem);
+  const services::rpc::CallId endless = ask(kEndlessDomain, kEndlessProblem);
   turn_until([&] { return client.statistics().sent > 1 || !verdicts.empty(); });
   ASSERT_THAT(verdicts, ElementsAre()) << "a quarter of a second has passed, it still searches";
   ask(kEndlessDomain, solvable);

@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "services/transport/rtps_ports.hpp"
 #include "tests/contract/support/inbox.hpp"
 #include "tests/contract/support/pairing.hpp"
 #include "tests/contract/support/peers.hpp"
@@ -37,23 +38,23 @@ class Configuration : public testing::TestWithParam<std::string> {
 
   // Two participants with these options hear each other; nobody in the domain listens for multicast, and the
   // first of them listens at the port that `port_base` leads to.
-  void expect_exchange(const TransportOptions& options, int port_base) {
-    const auto sender = open_transport(GetParam(), options);
-    const auto receiver = open_transport(GetParam(), options);
+  void expect_exchange(const transport::TransportOptions& options, int port_base) {
+    const auto sender = transport::open_transport(GetParam(), options);
+    const auto receiver = transport::open_transport(GetParam(), options);
     Inbox inbox;
     const auto writer = sender->create_writer(goal_endpoint(latched(1)), {});
     const auto reader = receiver->create_reader(goal_endpoint(latched(1)), inbox.reader_events());
     EXPECT_TRUE(writer->write(goal("photo", 1)));
     EXPECT_TRUE(inbox.wait_for_samples(1));
     const int moved = port_base - 7400;
-    EXPECT_EQ(anybody_at(first_participant_port(options.domain)), moved == 0);
-    EXPECT_EQ(anybody_at(first_participant_port(options.domain) + 100), moved == 100);
-    const int multicast_port = first_participant_port(options.domain) - 10;
+    EXPECT_EQ(anybody_at(transport::first_participant_port(options.domain)), moved == 0);
+    EXPECT_EQ(anybody_at(transport::first_participant_port(options.domain) + 100), moved == 100);
+    const int multicast_port = transport::first_participant_port(options.domain) - 10;
     EXPECT_FALSE(is_taken(multicast_port)) << "somebody listens for multicast";
     EXPECT_FALSE(is_taken(multicast_port + moved)) << "somebody listens for multicast";
   }
 
-  DomainClaim domain_;
+  process::DomainClaim domain_;
 };
 
 TEST_P(Configuration, OursIsUnicastOnLoopback) { expect_exchange({.domain = domain_.id()}, 7400); }

@@ -6,10 +6,10 @@
 #include <set>
 
 #include "ground_console/lib/client.hpp"
-#include "services/domain_claim.hpp"
+#include "services/process/domain_claim.hpp"
 #include "tests/unit/exec_svc/service/exec_seat.hpp"
 
-namespace roci::console {
+namespace roci::console::lib {
 namespace {
 
 using namespace std::chrono_literals;
@@ -25,8 +25,8 @@ struct Vendors {
 
 class ConsoleTest : public testing::TestWithParam<Vendors> {
  protected:
-  services::Connection connection() const {
-    services::Connection out;
+  services::process::Connection connection() const {
+    services::process::Connection out;
     out.dds = GetParam().console;
     out.transport.domain = domain_.id();
     out.transport.participant = "console";
@@ -35,7 +35,7 @@ class ConsoleTest : public testing::TestWithParam<Vendors> {
 
   static constexpr std::chrono::seconds kLimit{30};
 
-  services::DomainClaim domain_;
+  services::process::DomainClaim domain_;
   ExecSeat seat_{GetParam().executive, GetParam().executive, domain_.id()};
 };
 
@@ -66,7 +66,7 @@ TEST_P(ConsoleTest, ALateOneSeesTheStateOfTheMission) {
       kLimit));
   EXPECT_TRUE(late.wait(
       [&] {
-        const v1::TimelineValue* image = view.timeline("image.image-ridge");
+        const v1::TimelineValue* image = view.timeline("rover.image.image-ridge");
         return image != nullptr && value_text(*image) == "sent";
       },
       kLimit));
@@ -155,4 +155,4 @@ INSTANTIATE_TEST_SUITE_P(Transports, ConsoleTest,
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
-}  // namespace roci::console
+}  // namespace roci::console::lib

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "core/temporal/plan_delta.hpp"
-#include "services/domain_claim.hpp"
+#include "services/process/domain_claim.hpp"
 #include "services/wire/plan_wire.hpp"
 #include "tests/unit/exec_svc/service/exec_seat.hpp"
 
@@ -133,7 +133,7 @@ class ContinuousPlanning : public ::testing::TestWithParam<Vendors> {
     return out;
   }
 
-  services::DomainClaim domain_;
+  services::process::DomainClaim domain_;
   fs::path mission_ = continuous_mission(domain_.id());
   ExecSeat seat_{GetParam().executive, GetParam().others, domain_.id(), {}, mission_};
   ContinuousEngine engine_{seat_.robot()};

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "services/domain_claim.hpp"
+#include "services/process/domain_claim.hpp"
 #include "tests/unit/planner_svc/service/road_planning.hpp"
 
 namespace roci::planner {
@@ -21,13 +21,13 @@ class FunctionOutcomes : public ::testing::TestWithParam<std::pair<const char*, 
  protected:
   // Asked at 1 s for a way from a to c.
   void fly(bool offered = true, const std::function<void(RoadPlanning&)>& prepare = {}) {
-    const services::DomainClaim domain;
+    const services::process::DomainClaim domain;
     RoadPlanning planning(GetParam().second, domain.id(), offered);
     if (prepare) prepare(planning);
     planning.ask(1s, plan_request(kRoadDomain, road_problem()));
     planning.run_until(100s);
     ASSERT_EQ(planning.replies().size(), 1U) << "one answer, whatever happened";
-    ASSERT_EQ(planning.replies()[0].result.status, services::CallStatus::ok);
+    ASSERT_EQ(planning.replies()[0].result.status, services::rpc::CallStatus::ok);
     time = planning.replies()[0].time;
     reply = planning.replies()[0].result.reply;
   }
@@ -47,7 +47,7 @@ class FunctionOutcomes : public ::testing::TestWithParam<std::pair<const char*, 
     });
   }
 
-  void expect_refusal(const std::string& what, services::Time when, const std::string& tuple = "a c") {
+  void expect_refusal(const std::string& what, temporal::Time when, const std::string& tuple = "a c") {
     EXPECT_EQ(reply.verdict_code(), v1::VERDICT_FUNCTION_UNAVAILABLE);
     EXPECT_THAT(reply.reason(),
                 AllOf(HasSubstr("domain:5:"), HasSubstr("(travel_time " + tuple + ") of module roads: "),
@@ -57,7 +57,7 @@ class FunctionOutcomes : public ::testing::TestWithParam<std::pair<const char*, 
   }
 
   v1::PlanReply reply;
-  services::Time time{0};
+  temporal::Time time{0};
 };
 
 // Who, when, for which map.

@@ -96,7 +96,7 @@ TEST_P(History, BestEffortSamplesKeepTheirOrder) {
   int last = 0;
   for (const auto& sample : inbox.samples()) {
     v1::Goal value;
-    ASSERT_TRUE(deserialize(sample.payload, value));
+    ASSERT_TRUE(transport::deserialize(sample.payload, value));
     EXPECT_GT(value.priority(), last);
     last = value.priority();
   }

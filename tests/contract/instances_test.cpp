@@ -51,7 +51,7 @@ TEST_P(Instances, DisposeCarriesTheKeyAndClearsTheState) {
   ASSERT_TRUE(inbox.wait_for_samples(2));
   ASSERT_TRUE(writer->dispose(goal("photo", 99)));
   ASSERT_TRUE(inbox.wait_for_samples(3));
-  EXPECT_THAT(inbox.ended(SampleKind::disposed), ElementsAre("ground/photo"));
+  EXPECT_THAT(inbox.ended(transport::SampleKind::disposed), ElementsAre("ground/photo"));
 
   const auto late_reader = receiver->create_reader(goal_endpoint(latched(1)), late.reader_events());
   ASSERT_TRUE(late.wait_until([&late] { return !late.goals().empty(); }));
@@ -74,7 +74,7 @@ TEST_P(Instances, ADisposedInstanceLivesAgainWhenWritten) {
     ASSERT_TRUE(inbox.wait_for_samples(before + 2));
   }
   EXPECT_THAT(inbox.goals(), ElementsAre("photo=1", "photo=2", "photo=3"));
-  EXPECT_EQ(inbox.ended(SampleKind::disposed).size(), 3U);
+  EXPECT_EQ(inbox.ended(transport::SampleKind::disposed).size(), 3U);
 }
 
 TEST_P(Instances, OwnerLostForWhatTheLastWriterLeaves) {
@@ -97,10 +97,10 @@ TEST_P(Instances, OwnerLostForWhatTheLastWriterLeaves) {
   writer.reset();
   ASSERT_TRUE(inbox.wait_for_match(1));
   ASSERT_TRUE(inbox.wait_for_samples(6));
-  EXPECT_THAT(inbox.ended(SampleKind::owner_lost), ElementsAre("ground/mine"));
+  EXPECT_THAT(inbox.ended(transport::SampleKind::no_writers), ElementsAre("ground/mine"));
   other.reset();
   ASSERT_TRUE(inbox.wait_for_samples(7));
-  EXPECT_THAT(inbox.ended(SampleKind::owner_lost), ElementsAre("ground/mine", "ground/ours"));
+  EXPECT_THAT(inbox.ended(transport::SampleKind::no_writers), ElementsAre("ground/mine", "ground/ours"));
 }
 
 // Keys with a number beside the string: activity and attempt.
@@ -115,14 +115,14 @@ TEST_P(Instances, KeysOfSeveralMembers) {
   command.activity("drive-1");
   for (std::uint32_t attempt = 1; attempt <= 2; ++attempt) {
     command.attempt(attempt);
-    ASSERT_TRUE(writer->write(serialize(command)));
+    ASSERT_TRUE(writer->write(transport::serialize(command)));
   }
   ASSERT_TRUE(inbox.wait_for_samples(2));
-  ASSERT_TRUE(writer->dispose(serialize(command)));
+  ASSERT_TRUE(writer->dispose(transport::serialize(command)));
   ASSERT_TRUE(inbox.wait_for_samples(3));
   v1::Command key;
-  ASSERT_EQ(inbox.samples()[2].kind, SampleKind::disposed);
-  ASSERT_TRUE(deserialize_key(inbox.samples()[2].payload, key));
+  ASSERT_EQ(inbox.samples()[2].kind, transport::SampleKind::disposed);
+  ASSERT_TRUE(transport::deserialize_key(inbox.samples()[2].payload, key));
   EXPECT_EQ(key.activity(), "drive-1");
   EXPECT_EQ(key.attempt(), 2U);
 }

@@ -29,7 +29,7 @@ TEST_P(Isolation, AForeignTypeOnAKnownTopicDoesNotMatch) {
       foreign->create_writer(endpoint<v1::Hazard>("roci/goal", "roci::v1::Hazard", latched(1)), {});
   v1::Hazard hazard;
   hazard.id("rock");
-  ASSERT_TRUE(impostor->write(serialize(hazard)));
+  ASSERT_TRUE(impostor->write(transport::serialize(hazard)));
   // Discovery is in order: when the marker of the same participant is matched, the impostor was seen too.
   const auto marker_writer = foreign->create_writer(marker_description, {});
   ASSERT_TRUE(marker_writer->write(goal("marker", 1)));
@@ -45,7 +45,7 @@ TEST_P(Isolation, AForeignTypeOnAKnownTopicDoesNotMatch) {
 }
 
 TEST_P(Isolation, TwoDomainsDoNotHearEachOther) {
-  const DomainClaim second;
+  const process::DomainClaim second;
   const auto sender_1 = open_writing(), sender_2 = open_writing({.domain = second.id()});
   const auto receiver_1 = open_reading(), receiver_2 = open_reading({.domain = second.id()});
   Inbox inbox_1, inbox_2;
@@ -88,12 +88,12 @@ TEST_P(Isolation, ATwoMegabyteSampleArrivesWhole) {
   for (std::size_t i = 0; i < product.preview().size(); ++i) {
     product.preview()[i] = static_cast<std::uint8_t>((i * 2654435761U) >> 24);
   }
-  ASSERT_TRUE(writer->write(serialize(product)));
+  ASSERT_TRUE(writer->write(transport::serialize(product)));
   Inbox inbox;
   const auto reader = receiver->create_reader(description, inbox.reader_events());
   ASSERT_TRUE(inbox.wait_for_samples(1));
   v1::DataProduct received;
-  ASSERT_TRUE(deserialize(inbox.samples()[0].payload, received));
+  ASSERT_TRUE(transport::deserialize(inbox.samples()[0].payload, received));
   EXPECT_TRUE(received == product);
 }
 
@@ -108,7 +108,7 @@ TEST_P(Isolation, SamplesNameTheirWriter) {
   Inbox inbox;
   const auto reader = receiver->create_reader(goal_endpoint(latched(1)), inbox.reader_events());
   ASSERT_TRUE(inbox.wait_for_samples(2));
-  std::vector<Guid> writers;
+  std::vector<transport::Guid> writers;
   for (const auto& sample : inbox.samples()) writers.push_back(sample.writer);
   EXPECT_THAT(writers, UnorderedElementsAre(first->guid(), second->guid()));
 }
@@ -147,8 +147,8 @@ TEST_P(Isolation, FortyParticipantsFindEachOtherAndSoDoTheNext) {
     Inbox inbox;
     const auto receiver = open_reading();
     const auto reader = receiver->create_reader(goal_endpoint(latched(1)), inbox.reader_events());
-    std::vector<std::unique_ptr<Transport>> senders;
-    std::vector<std::unique_ptr<Writer>> writers;
+    std::vector<std::unique_ptr<transport::Transport>> senders;
+    std::vector<std::unique_ptr<transport::Writer>> writers;
     for (int i = 1; i < kCount; ++i) {
       senders.push_back(open_writing());
       writers.push_back(senders.back()->create_writer(goal_endpoint(latched(1)), {}));
@@ -163,7 +163,7 @@ TEST_P(Isolation, OneTopicHasOneTypeInAParticipant) {
   const auto transport = open_writing();
   const auto writer = transport->create_writer(goal_endpoint(latched(1)), {});
   const auto foreign = endpoint<v1::Hazard>("roci/goal", "roci::v1::Hazard", latched(1));
-  EXPECT_THROW(transport->create_writer(foreign, {}), TransportError);
+  EXPECT_THROW(transport->create_writer(foreign, {}), transport::TransportError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, Isolation, kEveryPairing, pairing_name);

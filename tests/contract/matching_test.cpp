@@ -30,7 +30,7 @@ class Matching : public PairingTest {
 constexpr int kBurst = 50;
 
 // A topic of its own for each round: a writer may still count the reader of the round before.
-EndpointDescription round_endpoint(int round, const QosSettings& qos) {
+transport::EndpointDescription round_endpoint(int round, const transport::QosSettings& qos) {
   return endpoint<v1::Goal>("roci/goal/" + std::to_string(round), "roci::v1::Goal", qos);
 }
 
@@ -39,8 +39,8 @@ TEST_P(Matching, WhatAWriterSendsAtOnceReachesTheReaderItCounts) {
   const auto receiver = open_reading();
   for (int round = 0; round < 20; ++round) {
     Inbox matches, inbox;
-    std::unique_ptr<Writer> writer;
-    std::unique_ptr<Reader> reader;
+    std::unique_ptr<transport::Writer> writer;
+    std::unique_ptr<transport::Reader> reader;
     const bool reader_first = round % 2 == 0;
     if (reader_first)
       reader = receiver->create_reader(round_endpoint(round, request()), inbox.reader_events());

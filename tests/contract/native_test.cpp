@@ -10,7 +10,7 @@ namespace {
 
 class Native : public testing::TestWithParam<Pairing> {
  protected:
-  DomainClaim domain_;
+  process::DomainClaim domain_;
 };
 
 TEST_P(Native, KeyedStateReachesALateJoiner) {

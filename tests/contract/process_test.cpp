@@ -25,7 +25,7 @@ TEST_P(Processes, AKilledWriterIsNoticedAndItsSuccessorHeard) {
   }
   ASSERT_TRUE(inbox.wait_for_match(0));
   ASSERT_TRUE(inbox.wait_for_samples(2));
-  EXPECT_THAT(inbox.ended(SampleKind::owner_lost), ElementsAre("ground/photo"));
+  EXPECT_THAT(inbox.ended(transport::SampleKind::no_writers), ElementsAre("ground/photo"));
 
   Peer successor(GetParam().writer, "goal-writer", domain_.id());
   successor.send("write ground photo 2");
@@ -82,7 +82,7 @@ TEST_P(Processes, ACleanExitIsNoticedAtOnce) {
   ASSERT_TRUE(inbox.wait_for_samples(1));
   ASSERT_EQ(peer.finish(), 0);
   EXPECT_TRUE(inbox.wait_until([&inbox] { return inbox.matched() == 0; }, std::chrono::seconds(2)));
-  EXPECT_THAT(inbox.ended(SampleKind::owner_lost), ElementsAre("ground/photo"));
+  EXPECT_THAT(inbox.ended(transport::SampleKind::no_writers), ElementsAre("ground/photo"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, Processes, kEveryNetworkPairing, pairing_name);

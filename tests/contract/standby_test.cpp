@@ -3,19 +3,33 @@
 
 #include <filesystem>
 
-#include "exec_svc/standby/following_service.hpp"
-#include "exec_svc/standby/leading_service.hpp"
+#include "exec_svc/standby/follower_service.hpp"
+#include "exec_svc/standby/leader_service.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
 #include "services/clock/wall.hpp"
-#include "services/domain_claim.hpp"
-#include "services/transport.hpp"
+#include "services/process/domain_claim.hpp"
+#include "services/transport/plug_ins.hpp"
 
 namespace roci::exec {
+
+using journal::Durability;
+using journal::Journal;
+using journal::Position;
+using standby::Chunk;
+using standby::FollowerService;
+using standby::LeaderService;
+using standby::Lease;
+using standby::LeaseSettings;
+using standby::Member;
+using standby::moment;
+using standby::PersistedTerm;
+using standby::PersistedTermFile;
+using standby::StandDown;
+
 namespace {
 
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
-namespace wall = services::wall;
 
 constexpr auto kLimit = 20s;
 
@@ -25,8 +39,8 @@ struct Vendors {
   const char* follower;
 };
 
-services::NodeOptions options_of(const std::string& name, services::ClockMode clock) {
-  services::NodeOptions options;
+services::node::NodeOptions options_of(const std::string& name, services::clock::ClockMode clock) {
+  services::node::NodeOptions options;
   options.name = name;
   options.clock = clock;
   return options;
@@ -54,37 +68,37 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
     fs::remove_all(folder_);
   }
 
-  std::unique_ptr<services::Transport> transport(const char* vendor) const {
-    services::TransportOptions options;
+  std::unique_ptr<services::transport::Transport> transport(const char* vendor) const {
+    services::transport::TransportOptions options;
     options.domain = domain_.id();
     options.participant = "test";
-    return services::open_transport(vendor, options);
+    return services::transport::open_transport(vendor, options);
   }
 
   // Leads at once: it was alone before.
   void start_leader() {
-    leader_lease_.emplace(Member::first, LeaseSettings{}, Standing{1, true}, false, -10s + wire::moment());
-    ASSERT_EQ(leader_lease_->turn(leader_journal_->position(), wire::moment()).change, Lease::Change::lead);
-    leader_node_.emplace(options_of("exec_svc", services::ClockMode::live), transport(GetParam().leader));
-    leading_.emplace(*leader_node_, *leader_lease_, *leader_journal_, leader_standing_);
+    leader_lease_.emplace(Member::first, LeaseSettings{}, PersistedTerm{1, true}, false, -10s + moment());
+    ASSERT_EQ(leader_lease_->turn(leader_journal_->position(), moment()).change, Lease::Change::lead);
+    leader_node_.emplace(options_of("exec_svc", services::clock::ClockMode::live), transport(GetParam().leader));
+    leader_.emplace(*leader_node_, *leader_lease_, *leader_journal_, leader_standing_);
   }
   void start_follower() {
-    follower_lease_.emplace(Member::second, LeaseSettings{}, Standing{}, false, wire::moment());
-    follower_node_.emplace(options_of("exec_svc.second", services::ClockMode::observer),
+    follower_lease_.emplace(Member::second, LeaseSettings{}, PersistedTerm{}, false, moment());
+    follower_node_.emplace(options_of("exec_svc.second", services::clock::ClockMode::observer),
                            transport(GetParam().follower));
-    following_.emplace(*follower_node_, *follower_lease_, *follower_journal_, follower_standing_);
+    follower_.emplace(*follower_node_, *follower_lease_, *follower_journal_, follower_standing_);
   }
   void stop_leader() {
-    leading_.reset();
+    leader_.reset();
     leader_node_.reset();
   }
   void stop_follower() {
-    following_.reset();
+    follower_.reset();
     follower_node_.reset();
   }
 
   bool wait(const std::function<bool()>& done) {
-    for (const auto limit = wall::now() + kLimit; wall::now() < limit;) {
+    for (const auto limit = services::clock::wall_now() + kLimit; services::clock::wall_now() < limit;) {
       if (leader_node_) leader_node_->spin_once(2ms);
       if (follower_node_) follower_node_->spin_once(2ms);
       if (done()) return true;
@@ -95,7 +109,8 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
     return wait([&] { return follower_journal_->position() == leader_journal_->position(); });
   }
   bool wait_for_pair() {
-    return wait([&] { return leader_lease_->word({}).entitled && follower_lease_->word(newest()).entitled; });
+    return wait(
+        [&] { return leader_lease_->message({}).entitled && follower_lease_->message(newest()).entitled; });
   }
   Position newest() const { return follower_journal_->position(); }
 
@@ -103,20 +118,20 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
     for (int i = from; i < to; ++i) {
       leader_journal_->append(temporal::seconds(i), "event", std::string(100, 'x') + std::to_string(i));
       leader_journal_->commit();
-      leading_->hold([this] { ++sent_; });
+      leader_->send_once_copied([this] { ++sent_; });
     }
   }
   void expect_copy() const { EXPECT_TRUE(everything(*follower_journal_) == everything(*leader_journal_)); }
 
-  services::DomainClaim domain_;
+  services::process::DomainClaim domain_;
   fs::path folder_ = fs::temp_directory_path() / ("roci_standby_" + std::to_string(domain_.id()));
   std::optional<Journal> leader_journal_, follower_journal_;
-  StandingFile leader_standing_{folder_ / "leader", Durability::process};
-  StandingFile follower_standing_{folder_ / "follower", Durability::process};
+  PersistedTermFile leader_standing_{folder_ / "leader", Durability::process};
+  PersistedTermFile follower_standing_{folder_ / "follower", Durability::process};
   std::optional<Lease> leader_lease_, follower_lease_;
   std::optional<services::Node> leader_node_, follower_node_;
-  std::optional<LeadingService> leading_;
-  std::optional<FollowingService> following_;
+  std::optional<LeaderService> leader_;
+  std::optional<FollowerService> follower_;
   int sent_ = 0;
 };
 
@@ -184,17 +199,17 @@ TEST_P(StandbyTest, StrayParcelsDoNoHarm) {
   write(0, 5);
   ASSERT_TRUE(wait_for_copy());
   const Position has = newest();
-  services::Node stranger(options_of("stranger", services::ClockMode::observer),
+  services::Node stranger(options_of("stranger", services::clock::ClockMode::observer),
                           transport(GetParam().leader));
-  const auto parcels = services::advertise(stranger, services::topics::exec_journal);
+  const auto chunks = services::advertise(stranger, services::topics::exec_journal);
   ASSERT_TRUE(wait([&] {
     stranger.spin_once(1ms);
-    return parcels.matched_readers() > 0;
+    return chunks.matched_readers() > 0;
   }));
   const auto stray = [&](std::uint64_t leader, Position after, Position at, bool sealed) {
-    Parcel parcel{leader, after, at, 0, 0, 0, "no changes"};
-    parcel.checksum = checksum(parcel) + (sealed ? 0 : 1);
-    parcels.write(wire::to_wire(parcel));
+    Chunk chunk{leader, after, at, 0, 0, 0, "no changes"};
+    chunk.checksum = checksum(chunk) + (sealed ? 0 : 1);
+    chunks.write(standby::to_wire(chunk));
   };
   const Position next{has.epoch, has.sequence + 1};
   stray(has.epoch, has, next, false);                                  // garbled
@@ -216,13 +231,13 @@ TEST_P(StandbyTest, TheFollowerLeadsWhenTheLeaderIsGoneAndTheOldOneStandsDown) {
   start_follower();
   ASSERT_TRUE(wait_for_pair());
   ASSERT_TRUE(wait([&] { return sent_ == 0; }));
-  const auto stopped_at = wall::now();
+  const auto stopped_at = services::clock::wall_now();
   ASSERT_TRUE([&] {  // the leader's loop stands still
-    while (!following_->lead() && wall::now() < stopped_at + kLimit) follower_node_->spin_once(5ms);
-    return following_->lead().has_value();
+    while (!follower_->lead() && services::clock::wall_now() < stopped_at + kLimit) follower_node_->spin_once(5ms);
+    return follower_->lead().has_value();
   }());
   EXPECT_EQ(follower_lease_->epoch(), 4U);
-  EXPECT_EQ(follower_standing_.read(), (Standing{4, true}));
+  EXPECT_EQ(follower_standing_.read(), (PersistedTerm{4, true}));
   EXPECT_THROW(write(0, 1), StandDown);
   EXPECT_EQ(sent_, 0);
 }

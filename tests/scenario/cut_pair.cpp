@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "services/domain_claim.hpp"
+#include "services/process/domain_claim.hpp"
 #include "tests/scenario/flight.hpp"
 
 namespace roci::scenario {
@@ -30,7 +30,7 @@ int achieved(std::map<std::string, Step>& steps) {
 void PrintTo(const Cut& cut, std::ostream* out) { *out << cut.where << " over " << cut.dds; }
 
 void expect_nothing_lost(const Cut& cut) {
-  const services::DomainClaim domain;
+  const services::process::DomainClaim domain;
   const Ended ended =
       run("timeout 280 " ROCI_SOURCE_DIR "/tests/scenario/cut_pair.sh " ROCI_BINARY_DIR
           "/bin " ROCI_SOURCE_DIR "/missions/planetary " +

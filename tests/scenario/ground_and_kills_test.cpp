@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "services/domain_claim.hpp"
+#include "services/process/domain_claim.hpp"
 #include "tests/scenario/flight.hpp"
 
 namespace roci::scenario {
@@ -13,7 +13,7 @@ namespace {
 class GroundAndKills : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(GroundAndKills, NothingIsLost) {
-  const services::DomainClaim domain;
+  const services::process::DomainClaim domain;
   const Ended ended =
       run("timeout 200 " ROCI_SOURCE_DIR "/tests/scenario/ground_and_kills.sh " ROCI_BINARY_DIR
           "/bin " ROCI_SOURCE_DIR "/missions/planetary " +
@@ -51,7 +51,7 @@ TEST_P(GroundAndKills, NothingIsLost) {
 // The robot's service dies while the executive waits for it to stop: a new one takes its place, and the
 // mission goes on with every goal. On the live clock, since the service is the simulated one.
 TEST_P(GroundAndKills, TheRobotsServiceDiesDuringThePause) {
-  const services::DomainClaim domain;
+  const services::process::DomainClaim domain;
   const Ended ended = run("timeout 200 " ROCI_SOURCE_DIR "/tests/scenario/kill_in_pause.sh " ROCI_BINARY_DIR
                           "/bin " ROCI_SOURCE_DIR "/missions/planetary " +
                           std::string(GetParam()) + " " + std::to_string(domain.id()));

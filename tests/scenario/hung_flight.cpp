@@ -5,14 +5,14 @@
 #include <set>
 #include <utility>
 
-#include "services/domain_claim.hpp"
+#include "services/process/domain_claim.hpp"
 #include "tests/scenario/flight.hpp"
 
 namespace roci::scenario {
 namespace {
 
 std::map<std::string, Step> fly_with(const Hang& hang) {
-  const services::DomainClaim domain;
+  const services::process::DomainClaim domain;
   const std::string quoted_sets =
       std::string(" '") + hang.returning + "' '" + hang.lost + "' '" + hang.killed + "' ";
   const Ended ended =

@@ -12,6 +12,8 @@ namespace {
 namespace fs = std::filesystem;
 namespace topics = services::topics;
 
+constexpr char kMission[] = ROCI_SOURCE_DIR "/missions/planetary";
+
 fs::path made_folder() {
   static int last = 0;
   const fs::path folder = fs::temp_directory_path() /
@@ -22,9 +24,10 @@ fs::path made_folder() {
 
 // The master of the clock stands first, the ground last.
 std::vector<std::string> roster() {
-  std::vector<std::string> out{rehearsal::members().back().name};
-  for (const rehearsal::Member& member : rehearsal::members())
-    if (member.name != out.front()) out.push_back(member.name);
+  const auto crew = rehearsal::crew_of(kMission);
+  std::vector<std::string> out{crew.back().name};
+  for (const mission::ServiceEntry& entry : crew)
+    if (entry.name != out.front()) out.push_back(entry.name);
   out.emplace_back("ground");
   return out;
 }
@@ -43,8 +46,8 @@ MissionInProcess::MissionInProcess(const std::map<std::string, std::string>& cha
   settings.mission = folder_ / "planetary";
   settings.run_folder = run_folder_;
   settings.seed = seed;
-  for (const rehearsal::Member& member : rehearsal::members())
-    services_.push_back(member.make(run_.add(member.name), settings));
+  for (const mission::ServiceEntry& entry : rehearsal::crew_of(kMission))
+    services_.push_back(rehearsal::make_of(entry)(run_.add(entry.name), settings));
   services::subscribe(ground_, topics::goal_status, [this](const v1::GoalStatus& status) {
     GoalFate& fate = goals_[status.id()];
     if (fate.states.empty() || fate.states.back() != status.goal_state())
@@ -77,7 +80,7 @@ std::string planetary_file(const std::string& name, const std::string& from, con
   return text;
 }
 
-void MissionInProcess::send(services::Time when, const v1::Goal& goal) {
+void MissionInProcess::send(temporal::Time when, const v1::Goal& goal) {
   ground_.at(when, [this, goal] { goals_out_.write(goal); });
 }
 
@@ -97,7 +100,8 @@ v1::Goal goal(const std::string& id, const std::string& kind,
     out.arguments().push_back(argument);
   }
   out.importance(importance);
-  out.utility(utility);
+  out.utility({utility});
+  out.preferred_us(-1);
   return out;
 }
 

@@ -25,7 +25,7 @@ class MissionInProcess {
   explicit MissionInProcess(const std::map<std::string, std::string>& changed = {}, std::uint64_t seed = 1);
   ~MissionInProcess();
 
-  void send(services::Time when, const v1::Goal& goal);
+  void send(temporal::Time when, const v1::Goal& goal);
   void run();
 
   const std::map<std::string, GoalFate>& goals() const { return goals_; }  // by id

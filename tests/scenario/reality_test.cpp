@@ -176,7 +176,7 @@ TEST(Reality, TheDomainIsTheSameInEveryCall) {
   ASSERT_GE(mission.calls().size(), 3U);
   std::set<std::string> problems;
   for (const v1::PlanRequest& call : mission.calls()) {
-    EXPECT_EQ(call.domain_text(), planetary_file("domain.pddl"));
+    EXPECT_EQ(call.model(), planetary_file("domain.pddl"));
     problems.insert(call.problem_text());
   }
   EXPECT_EQ(problems.size(), mission.calls().size());

@@ -49,7 +49,7 @@ Record fly_and_read(const std::string& dds, const std::string& crash) {
   out.result = last_line_as_json(ended.output).value("result", "");
   out.trace = last_line_as_json(ended.output).value("trace_sha256", "");
   out.replayed = last_line_as_json(run("roci replay --json " + folder.string()).output);
-  exec::Journal(folder / "journal.sqlite", exec::Durability::process)
+  exec::journal::Journal(folder / "journal.sqlite", exec::journal::Durability::process)
       .for_each([&](temporal::Time, std::string_view kind, std::string_view text) {
         if (kind == "event") out.events.emplace_back(text);
         if (kind != "trace") return;

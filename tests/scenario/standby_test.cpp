@@ -42,7 +42,7 @@ Record fly_and_read(const std::string& dds, const std::string& crash, const std:
   out.summary = last_line_as_json(ended.output);
   const fs::path journal = folder / out.summary.value("journal", "journal.sqlite");
   out.replayed = last_line_as_json(run("roci replay --json " + journal.string()).output);
-  exec::Journal(journal, exec::Durability::process)
+  exec::journal::Journal(journal, exec::journal::Durability::process)
       .for_each([&](temporal::Time, std::string_view kind, std::string_view text) {
         if (kind == "event") out.events.emplace_back(text);
         std::istringstream words{std::string(text)};

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roci::console {
+namespace roci::console::cli::watch {
 
 Span span_of(const v1::PlanActivity& activity, const v1::StepStatus* step, std::int64_t now) {
   if (step == nullptr) return {now, now};
@@ -13,7 +13,7 @@ Span span_of(const v1::PlanActivity& activity, const v1::StepStatus* step, std::
   return {from, std::max(from + activity.duration_lower_us(), begun ? now : from)};
 }
 
-Axis::Axis(const MissionView& view, const Rectangle& area)
+Axis::Axis(const lib::MissionView& view, const Rectangle& area)
     : first_(view.now_us()),
       last_(view.now_us()),
       column_(area.column + kLabel),
@@ -39,8 +39,8 @@ std::int64_t Axis::time_at(std::size_t column) const {
 }
 
 void Axis::draw_ends(std::size_t row, Canvas& canvas) const {
-  const std::string to = clock_text(last_);
-  canvas.put(row, column_, clock_text(first_), Style::dim);
+  const std::string to = lib::clock_text(last_);
+  canvas.put(row, column_, lib::clock_text(first_), Style::dim);
   canvas.put(row, column_ + width_ - std::min(width_, to.size()), to, Style::dim);
 }
 
@@ -51,4 +51,4 @@ void Axis::draw(std::size_t row, Span span, const char* glyph, Style style, Canv
   }
 }
 
-}  // namespace roci::console
+}  // namespace roci::console::cli::watch

@@ -6,29 +6,29 @@
 
 #include "ground_console/cli/watch/panels.hpp"
 
-namespace roci::console {
+namespace roci::console::cli::watch {
 
 struct Span {
   std::int64_t from;
   std::int64_t to;
 };
 
-// When an activity was, is, or is expected to be; `step` is null while nothing is known of it.
+/// When an activity was, is, or is expected to be; `step` is null while nothing is known of it.
 Span span_of(const v1::PlanActivity& activity, const v1::StepStatus* step, std::int64_t now);
 
-// From the first start to the last end of the view's plan, which must be there, to the right of the labels.
+/// From the first start to the last end of the view's plan, which must be there, to the right of the labels.
 class Axis {
  public:
-  static constexpr std::size_t kLabel = 36;  // columns
+  static constexpr std::size_t kLabel = 36;  ///< columns
   static constexpr std::size_t kLeast = kLabel + 24;
 
-  // `area` is at least kLeast wide.
-  Axis(const MissionView& view, const Rectangle& area);
+  /// `area` is at least kLeast wide.
+  Axis(const lib::MissionView& view, const Rectangle& area);
 
   std::size_t column() const { return column_; }
   std::size_t width() const { return width_; }
   std::size_t column_of(std::int64_t time) const;
-  std::int64_t time_at(std::size_t column) const;  // the latest that column_of() puts there
+  std::int64_t time_at(std::size_t column) const;  ///< the latest that column_of() puts there
 
   void draw_ends(std::size_t row, Canvas& canvas) const;
   void draw(std::size_t row, Span span, const char* glyph, Style style, Canvas& canvas) const;
@@ -40,4 +40,4 @@ class Axis {
   std::size_t width_;
 };
 
-}  // namespace roci::console
+}  // namespace roci::console::cli::watch

@@ -1,6 +1,6 @@
 #include "ground_console/cli/watch/canvas.hpp"
 
-namespace roci::console {
+namespace roci::console::cli::watch {
 namespace {
 
 bool continues(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
@@ -71,4 +71,4 @@ std::string Canvas::text(bool colours) const {
   return out;
 }
 
-}  // namespace roci::console
+}  // namespace roci::console::cli::watch

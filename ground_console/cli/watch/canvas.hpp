@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace roci::console {
+namespace roci::console::cli::watch {
 
 enum class Style { plain, dim, title, good, active, warning, bad };
 
@@ -17,12 +17,12 @@ class Canvas {
   std::size_t width() const { return width_; }
   std::size_t height() const { return width_ == 0 ? 0 : cells_.size() / width_; }
 
-  // Writes UTF-8 `text`, one column for each code point, from (row, column), control characters as "?"; what
-  // lies outside, or is longer than `limit` columns, is cut. Returns the column after it.
+  /// Writes UTF-8 `text`, one column for each code point, from (row, column), control characters as "?"; what
+  /// lies outside, or is longer than `limit` columns, is cut. Returns the column after it.
   std::size_t put(std::size_t row, std::size_t column, std::string_view text, Style style = Style::plain,
                   std::size_t limit = std::string_view::npos);
 
-  // A line for each row; trailing blanks are left out.
+  /// A line for each row; trailing blanks are left out.
   std::string plain() const { return text(false); }
   std::string coloured() const { return text(true); }
 
@@ -38,4 +38,4 @@ class Canvas {
   std::vector<Cell> cells_;
 };
 
-}  // namespace roci::console
+}  // namespace roci::console::cli::watch

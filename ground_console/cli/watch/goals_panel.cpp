@@ -1,6 +1,6 @@
 #include "ground_console/cli/watch/panels.hpp"
 
-namespace roci::console {
+namespace roci::console::cli::watch {
 namespace {
 
 struct Look {
@@ -28,14 +28,14 @@ Look look_of(v1::GoalState state) {
 
 std::string window_of(const v1::Goal* goal) {
   if (goal == nullptr || (goal->opens_us() == 0 && goal->closes_us() == 0)) return "";
-  if (goal->closes_us() == 0) return "from " + clock_text(goal->opens_us());
-  if (goal->opens_us() == 0) return "until " + clock_text(goal->closes_us());
-  return clock_text(goal->opens_us()) + "–" + clock_text(goal->closes_us());
+  if (goal->closes_us() == 0) return "from " + lib::clock_text(goal->opens_us());
+  if (goal->opens_us() == 0) return "until " + lib::clock_text(goal->closes_us());
+  return lib::clock_text(goal->opens_us()) + "–" + lib::clock_text(goal->closes_us());
 }
 
 }  // namespace
 
-void draw_goals(const MissionView& view, const Rectangle& area, Canvas& canvas) {
+void draw_goals(const lib::MissionView& view, const Rectangle& area, Canvas& canvas) {
   std::size_t row = area.row;
   canvas.put(row++, area.column, "Goals", Style::title);
   std::size_t number = 0;
@@ -51,15 +51,15 @@ void draw_goals(const MissionView& view, const Rectangle& area, Canvas& canvas) 
     canvas.put(row, area.column + 2, look.sign, look.style);
     canvas.put(row, area.column + 4, name, look.style, 17);
     canvas.put(row, area.column + 22, status.goal_kind(), Style::plain, 11);
-    canvas.put(row, area.column + 34, name_of(status.importance()));
-    std::string rest = name_of(status.goal_state());
+    canvas.put(row, area.column + 34, lib::name_of(status.importance()));
+    std::string rest = lib::name_of(status.goal_state());
     if (const std::string window = window_of(view.goal(key)); !window.empty()) rest += ", " + window;
     if (!status.reason().empty()) rest += ", " + status.reason();
     canvas.put(row++, area.column + 48, rest, look.style, area.width > 48 ? area.width - 48 : 0);
   }
 }
 
-void draw_events(const MissionView& view, const Rectangle& area, Canvas& canvas) {
+void draw_events(const lib::MissionView& view, const Rectangle& area, Canvas& canvas) {
   canvas.put(area.row, area.column, "Events", Style::title);
   const auto& events = view.events();
   const std::size_t room = area.height > 1 ? area.height - 1 : 0;
@@ -70,10 +70,10 @@ void draw_events(const MissionView& view, const Rectangle& area, Canvas& canvas)
                         : event.severity_level() == v1::SEVERITY_WARNING ? Style::warning
                                                                          : Style::plain;
     const std::size_t row = area.row + 1 + i;
-    canvas.put(row, area.column + 2, clock_text(event.header().stamp_us()), Style::dim);
+    canvas.put(row, area.column + 2, lib::clock_text(event.header().stamp_us()), Style::dim);
     canvas.put(row, area.column + 12, event.header().sender(), Style::dim);
     canvas.put(row, area.column + 26, event.text(), style);
   }
 }
 
-}  // namespace roci::console
+}  // namespace roci::console::cli::watch

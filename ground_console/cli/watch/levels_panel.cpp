@@ -5,7 +5,7 @@
 #include "ground_console/cli/watch/axis.hpp"
 #include "services/wire/plan_wire.hpp"
 
-namespace roci::console {
+namespace roci::console::cli::watch {
 namespace {
 
 using temporal::ProjectedChange;
@@ -31,7 +31,8 @@ void draw_level(const Level& level, std::int64_t now, const Axis& axis, std::siz
   }
   const double end = level.changes.empty() ? 0 : level.changes.back().second;
   const std::size_t label = axis.column() - Axis::kLabel;
-  canvas.put(row, label + 4, level.name + " " + value_text(value_at(level, now)) + " → " + value_text(end),
+  canvas.put(row, label + 4,
+             level.name + " " + lib::value_text(value_at(level, now)) + " → " + lib::value_text(end),
              Style::plain, Axis::kLabel - 5);
   for (std::size_t column = axis.column(); column < axis.column() + axis.width(); ++column) {
     const std::int64_t time = axis.time_at(column);
@@ -42,7 +43,7 @@ void draw_level(const Level& level, std::int64_t now, const Axis& axis, std::siz
 }
 
 // Of a plan that no executive sends: none.
-Timelines timelines_or_none(const MissionView& view) {
+Timelines timelines_or_none(const lib::MissionView& view) {
   try {
     return timelines_of(view, {});
   } catch (const services::wire::WireError&) {
@@ -52,7 +53,7 @@ Timelines timelines_or_none(const MissionView& view) {
 
 }  // namespace
 
-std::vector<Level> levels_of(const MissionView& view) {
+std::vector<Level> levels_of(const lib::MissionView& view) {
   std::vector<Level> out;
   for (const auto& [name, changes] : timelines_or_none(view)) {
     const bool of_the_plan = std::ranges::any_of(
@@ -69,7 +70,7 @@ std::vector<Level> levels_of(const MissionView& view) {
   return out;
 }
 
-void draw_levels(const MissionView& view, const std::vector<Level>& levels, const Rectangle& area,
+void draw_levels(const lib::MissionView& view, const std::vector<Level>& levels, const Rectangle& area,
                  Canvas& canvas) {
   if (!view.plan() || area.width < Axis::kLeast || area.height < levels.size() + 1) return;
   const Axis axis(view, area);
@@ -79,4 +80,4 @@ void draw_levels(const MissionView& view, const std::vector<Level>& levels, cons
   }
 }
 
-}  // namespace roci::console
+}  // namespace roci::console::cli::watch

@@ -5,7 +5,7 @@
 
 #include "ground_console/cli/watch/panels.hpp"
 
-namespace roci::console {
+namespace roci::console::cli::watch {
 namespace {
 
 std::optional<double> number_of(const v1::Goal& goal, const std::string& argument) {
@@ -20,16 +20,16 @@ std::optional<double> number_of(const v1::Goal& goal, const std::string& argumen
 }
 
 struct Mark {
-  Place place;
+  lib::Place place;
   std::string glyph;
   Style style;
 };
 
 // In the order of drawing: what comes later lies above.
-std::vector<Mark> marks_of(const MissionView& view) {
+std::vector<Mark> marks_of(const lib::MissionView& view) {
   std::vector<Mark> out;
   for (const auto& [robot, way] : view.ways()) {
-    for (const Place& place : way) out.push_back({place, "·", Style::dim});
+    for (const lib::Place& place : way) out.push_back({place, "·", Style::dim});
   }
   for (const auto& [id, hazard] : view.hazards()) {
     if (!hazard.cleared()) out.push_back({{hazard.x_m(), hazard.y_m()}, "×", Style::bad});
@@ -59,7 +59,7 @@ double round_length(double length) {
 
 }  // namespace
 
-void draw_map(const MissionView& view, const Rectangle& area, Canvas& canvas) {
+void draw_map(const lib::MissionView& view, const Rectangle& area, Canvas& canvas) {
   const std::vector<Mark> marks = marks_of(view);
   if (marks.empty() || area.width < 12 || area.height < 4) return;
   const auto [west, east] = std::ranges::minmax(marks, {}, [](const Mark& mark) { return mark.place.x_m; });
@@ -82,7 +82,7 @@ void draw_map(const MissionView& view, const Rectangle& area, Canvas& canvas) {
   column = canvas.put(area.row, column, "├", Style::dim);
   for (std::size_t i = 1; i < bar; ++i) column = canvas.put(area.row, column, "─", Style::dim);
   column = canvas.put(area.row, column, "┤ ", Style::dim);
-  canvas.put(area.row, column, value_text(bar_m) + " m   ▲ robot  × obstacle", Style::dim);
+  canvas.put(area.row, column, lib::value_text(bar_m) + " m   ▲ robot  × obstacle", Style::dim);
 }
 
-}  // namespace roci::console
+}  // namespace roci::console::cli::watch

@@ -10,38 +10,39 @@
 #include "ground_console/cli/watch/canvas.hpp"
 #include "ground_console/lib/mission_view.hpp"
 
-namespace roci::console {
+namespace roci::console::cli::watch {
 
 struct Rectangle {
   std::size_t row = 0, column = 0, width = 0, height = 0;
 };
 
-inline constexpr std::int64_t kNotYet = -1;  // StepStatus: not started, not ended
+inline constexpr std::int64_t kNotYet = -1;  ///< StepStatus: not started, not ended
 
-// Goals are lettered A, B, … in the order of the view, here and on the map.
-void draw_goals(const MissionView& view, const Rectangle& area, Canvas& canvas);
+/// Goals are lettered A, B, … in the order of the view, here and on the map.
+void draw_goals(const lib::MissionView& view, const Rectangle& area, Canvas& canvas);
 
-// Way, robot, goals' places and hazards; north is up, a column as wide as half a row is high. Draws nothing
-// while no place is known.
-void draw_map(const MissionView& view, const Rectangle& area, Canvas& canvas);
+/// Way, robot, goals' places and hazards; north is up, a column as wide as half a row is high. Draws nothing
+/// while no place is known.
+void draw_map(const lib::MissionView& view, const Rectangle& area, Canvas& canvas);
 
-// Windows and activities over time: done, running, planned, and a line for now.
-void draw_plan(const MissionView& view, const Rectangle& area, Canvas& canvas);
+/// Windows and activities over time: done, running, planned, and a line for now.
+void draw_plan(const lib::MissionView& view, const Rectangle& area, Canvas& canvas);
 
-// A number that the plan changes: what has come about, then what is still to come; 0 where the plan began.
+/// A number that the plan changes: what has come about, then what is still to come; 0 where the plan began.
 struct Level {
   std::string name;
-  std::vector<std::pair<std::int64_t, double>> changes;  // (mission time in us, value from then on), by time
+  /// (mission time in us, value from then on), by time
+  std::vector<std::pair<std::int64_t, double>> changes;
 };
-std::vector<Level> levels_of(const MissionView& view);
+std::vector<Level> levels_of(const lib::MissionView& view);
 
-// A curve for each, over the axis of the plan: bright until now, dim beyond. Draws all of them or nothing.
-void draw_levels(const MissionView& view, const std::vector<Level>& levels, const Rectangle& area,
+/// A curve for each, over the axis of the plan: bright until now, dim beyond. Draws all of them or nothing.
+void draw_levels(const lib::MissionView& view, const std::vector<Level>& levels, const Rectangle& area,
                  Canvas& canvas);
 
-void draw_events(const MissionView& view, const Rectangle& area, Canvas& canvas);
+void draw_events(const lib::MissionView& view, const Rectangle& area, Canvas& canvas);
 
-// Letter of the n-th goal.
+/// Letter of the n-th goal.
 inline char goal_letter(std::size_t n) { return static_cast<char>(n < 26 ? 'A' + n : '*'); }
 
-}  // namespace roci::console
+}  // namespace roci::console::cli::watch

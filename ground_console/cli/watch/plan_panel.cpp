@@ -2,7 +2,7 @@
 
 #include "ground_console/cli/watch/axis.hpp"
 
-namespace roci::console {
+namespace roci::console::cli::watch {
 namespace {
 
 struct Look {
@@ -38,7 +38,7 @@ std::string label_of(const v1::PlanActivity& activity) {
   return out;
 }
 
-void draw_windows(const MissionView& view, const Axis& axis, std::size_t row, Canvas& canvas) {
+void draw_windows(const lib::MissionView& view, const Axis& axis, std::size_t row, Canvas& canvas) {
   canvas.put(row, 4, "windows", Style::dim);
   for (const v1::PredictedWindow& window : view.mission()->windows()) {
     axis.draw(row, {window.opens_us(), window.closes_us()}, "▁", Style::active, canvas);
@@ -46,7 +46,7 @@ void draw_windows(const MissionView& view, const Axis& axis, std::size_t row, Ca
 }
 
 // The first activity to be shown when not all fit: the past scrolls out.
-std::size_t first_shown(const MissionView& view, std::size_t room) {
+std::size_t first_shown(const lib::MissionView& view, std::size_t room) {
   const auto& activities = view.plan()->activities();
   std::size_t first = 0;
   while (first + room < activities.size()) {
@@ -59,7 +59,7 @@ std::size_t first_shown(const MissionView& view, std::size_t room) {
 
 }  // namespace
 
-void draw_plan(const MissionView& view, const Rectangle& area, Canvas& canvas) {
+void draw_plan(const lib::MissionView& view, const Rectangle& area, Canvas& canvas) {
   if (!view.plan() || area.height < 3 || area.width < Axis::kLeast) return;
   const auto& activities = view.plan()->activities();
   const Axis axis(view, area);
@@ -83,4 +83,4 @@ void draw_plan(const MissionView& view, const Rectangle& area, Canvas& canvas) {
   }
 }
 
-}  // namespace roci::console
+}  // namespace roci::console::cli::watch

@@ -4,7 +4,7 @@
 
 #include "ground_console/cli/watch/panels.hpp"
 
-namespace roci::console {
+namespace roci::console::cli::watch {
 namespace {
 
 constexpr std::size_t kGoals = 96;  // columns; the map takes what is left beside them
@@ -12,15 +12,15 @@ constexpr std::size_t kMapRows = 12;
 constexpr std::size_t kEventRows = 9;
 constexpr std::size_t kLeastPlan = 8;  // rows; below that the plan takes those of the levels
 
-void draw_head(const MissionView& view, Canvas& canvas) {
+void draw_head(const lib::MissionView& view, Canvas& canvas) {
   if (!view.mission()) {
     canvas.put(0, 0, "waiting for exec_svc", Style::warning);
     return;
   }
   const v1::MissionStatus& mission = *view.mission();
   std::size_t column = canvas.put(0, 0, mission.mission(), Style::title) + 3;
-  column = canvas.put(0, column, clock_text(view.now_us()), Style::title) + 3;
-  column = canvas.put(0, column, name_of(mission.phase()),
+  column = canvas.put(0, column, lib::clock_text(view.now_us()), Style::title) + 3;
+  column = canvas.put(0, column, lib::name_of(mission.phase()),
                       mission.phase() == v1::PHASE_SAFE ? Style::bad : Style::active) +
            3;
   column = canvas.put(0, column,
@@ -32,12 +32,12 @@ void draw_head(const MissionView& view, Canvas& canvas) {
                         mission.outcome() == "achieved" ? Style::good : Style::bad) +
              3;
   }
-  if (const v1::ExecMember* leader = view.leader())
-    canvas.put(0, column, pair_text(*leader), leader->entitled() ? Style::dim : Style::warning);
+  if (const v1::LeaseMessage* leader = view.leader())
+    canvas.put(0, column, lib::pair_text(*leader), leader->entitled() ? Style::dim : Style::warning);
 }
 
 // States and levels as last observed, the subsystem's name without its owner's.
-void draw_robot(const MissionView& view, std::size_t row, Canvas& canvas) {
+void draw_robot(const lib::MissionView& view, std::size_t row, Canvas& canvas) {
   std::size_t column = canvas.put(row, 0, "Robot", Style::title) + 2;
   for (const auto& [name, observation] : view.timelines()) {
     const auto dot = name.find('.');
@@ -45,13 +45,13 @@ void draw_robot(const MissionView& view, std::size_t row, Canvas& canvas) {
     const bool robot = dot != std::string::npos && view.ways().contains(name.substr(0, dot));
     if (!robot || (observation.observed().kind() != v1::VALUE_STATE && !battery)) continue;
     column = canvas.put(row, column, name.substr(dot + 1) + " ", Style::dim);
-    column = canvas.put(row, column, value_text(observation.observed())) + 3;
+    column = canvas.put(row, column, lib::value_text(observation.observed())) + 3;
   }
 }
 
 }  // namespace
 
-Canvas watch_screen(const MissionView& view, std::size_t width, std::size_t height) {
+Canvas watch_screen(const lib::MissionView& view, std::size_t width, std::size_t height) {
   Canvas canvas(width, height);
   draw_head(view, canvas);
   const bool map_fits = width >= kGoals + 24;
@@ -80,4 +80,4 @@ Canvas watch_screen(const MissionView& view, std::size_t width, std::size_t heig
   return canvas;
 }
 
-}  // namespace roci::console
+}  // namespace roci::console::cli::watch

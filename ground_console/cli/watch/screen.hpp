@@ -5,8 +5,8 @@
 #include "ground_console/cli/watch/canvas.hpp"
 #include "ground_console/lib/mission_view.hpp"
 
-namespace roci::console {
+namespace roci::console::cli::watch {
 
-Canvas watch_screen(const MissionView& view, std::size_t width, std::size_t height);
+Canvas watch_screen(const lib::MissionView& view, std::size_t width, std::size_t height);
 
-}  // namespace roci::console
+}  // namespace roci::console::cli::watch

@@ -1,3 +1,5 @@
+#include "ground_console/cli/watch/watch.hpp"
+
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -10,7 +12,7 @@
 #include "ground_console/cli/verbs.hpp"
 #include "ground_console/cli/watch/screen.hpp"
 
-namespace roci::console {
+namespace roci::console::cli::watch {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -49,9 +51,9 @@ class Screen {
   }
 };
 
-bool over(const MissionView& view) { return view.mission() && !view.mission()->outcome().empty(); }
+bool over(const lib::MissionView& view) { return view.mission() && !view.mission()->outcome().empty(); }
 
-int watch_as_json(Client& client) {
+int watch_as_json(lib::Client& client) {
   while (!over(client.view()) && interrupted == 0) {
     client.wait([&] { return over(client.view()) || interrupted != 0; }, std::chrono::seconds(1));
     std::cout << json_text(status_json(client.view())) << std::endl;
@@ -61,7 +63,7 @@ int watch_as_json(Client& client) {
 
 }  // namespace
 
-int watch(Client& client, bool json) {
+int watch(lib::Client& client, bool json) {
   std::signal(SIGINT, [](int) { interrupted = 1; });
   if (json) return watch_as_json(client);
   const auto draw = [&] {
@@ -81,4 +83,4 @@ int watch(Client& client, bool json) {
   return kDone;
 }
 
-}  // namespace roci::console
+}  // namespace roci::console::cli::watch

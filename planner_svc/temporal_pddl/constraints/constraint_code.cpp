@@ -2,15 +2,18 @@
 
 #include <stdexcept>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::constraints {
+
+using temporal::Duration;
+using temporal::no_bound;
 
 namespace {
 
 enum Kind : std::uint32_t { after = 0, separated = 1, exact = 2, between = 3 };
 
 Kind kind_of(const StepConstraint& constraint, Duration epsilon) {
-  if (constraint.upper == kUnbounded && constraint.lower == Duration{0}) return after;
-  if (constraint.upper == kUnbounded && constraint.lower == epsilon) return separated;
+  if (constraint.upper == no_bound && constraint.lower == Duration{0}) return after;
+  if (constraint.upper == no_bound && constraint.lower == epsilon) return separated;
   return constraint.lower == constraint.upper ? exact : between;
 }
 
@@ -54,7 +57,7 @@ void decode(std::span<const std::uint8_t> code, Duration epsilon, const BoundTab
   for (std::size_t at = 0; at < code.size();) {
     std::uint32_t head = 0;
     for (std::uint32_t shift = 0; shift < 32; shift += 8) head |= std::uint32_t{code[at++]} << shift;
-    StepConstraint constraint{head >> 2 & 0x7fff, head >> 17, Duration{0}, kUnbounded};
+    StepConstraint constraint{head >> 2 & 0x7fff, head >> 17, Duration{0}, no_bound};
     switch (head & 3) {
       case after:
         break;
@@ -73,4 +76,4 @@ void decode(std::span<const std::uint8_t> code, Duration epsilon, const BoundTab
   }
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::constraints

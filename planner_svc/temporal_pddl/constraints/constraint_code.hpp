@@ -13,38 +13,38 @@
 #include <unordered_map>
 #include <vector>
 
-#include "planner_svc/temporal_pddl/plan/result.hpp"
+#include "core/temporal/duration.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::constraints {
 
-// Steps have 15-bit numbers, 0 … 32,766 (R30).
+/// A plan has at most so many steps, as their numbers have 15 bits: 0 … 32,766 (R30).
 inline constexpr std::size_t kMaxSteps = 32767;
 
 struct StepConstraint {
-  std::uint32_t from = 0;  // i
-  std::uint32_t to = 0;    // j
-  Duration lower{0};
-  Duration upper = kUnbounded;
+  std::uint32_t from = 0;  ///< i
+  std::uint32_t to = 0;    ///< j
+  temporal::Duration lower{0};
+  temporal::Duration upper = temporal::no_bound;
   bool operator==(const StepConstraint&) const = default;
 };
 
 class BoundTable {
  public:
-  std::uint32_t intern(Duration bound);
-  Duration operator[](std::uint32_t index) const { return bounds_[index]; }
+  std::uint32_t intern(temporal::Duration bound);
+  temporal::Duration operator[](std::uint32_t index) const { return bounds_[index]; }
   std::size_t size() const { return bounds_.size(); }
 
  private:
-  std::vector<Duration> bounds_;
+  std::vector<temporal::Duration> bounds_;
   std::unordered_map<std::int64_t, std::uint32_t> indices_;
 };
 
-// Appends the code. Throws std::length_error for a step number of kMaxSteps or more.
-void encode(const StepConstraint& constraint, Duration epsilon, BoundTable& bounds,
+/// Appends the code. Throws std::length_error for a step number of kMaxSteps or more.
+void encode(const StepConstraint& constraint, temporal::Duration epsilon, BoundTable& bounds,
             std::vector<std::uint8_t>& code);
 
-// Appends all constraints of a code. The code must come from encode() with the same table and ε.
-void decode(std::span<const std::uint8_t> code, Duration epsilon, const BoundTable& bounds,
+/// Appends all constraints of a code, which must come from encode() with the same table and ε.
+void decode(std::span<const std::uint8_t> code, temporal::Duration epsilon, const BoundTable& bounds,
             std::vector<StepConstraint>& constraints);
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::constraints

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::constraints {
+
+using task::ActionId, task::FactId, task::Snap, task::SnapId, task::SnapKind, task::Task, task::VariableId;
+using temporal::Duration, temporal::no_bound;
 
 Orderings::Orderings(const Task& task, Duration epsilon)
     : task_(task), epsilon_(epsilon), interests_(task.variables(), 0) {}
@@ -81,9 +84,9 @@ void Orderings::add(std::span<const SnapId> steps, SnapId next, std::span<const 
     }
     if (!separated && !after) continue;
     constraints.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(steps.size()),
-                           separated ? epsilon_ : Duration{0}, kUnbounded});
+                           separated ? epsilon_ : Duration{0}, no_bound});
   }
   for (const VariableId variable : marked_) interests_[variable] = 0;
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::constraints

@@ -1,4 +1,4 @@
-// A symmetric relation over small numbers as rows of bits.
+// A symmetric relation over small numbers, kept as rows of bits.
 #pragma once
 
 #include <bit>
@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::dead_ends {
 
 using BitWord = std::uint64_t;
 
-// A set of small numbers.
+/// A set of small numbers.
 class Bits {
  public:
   Bits() = default;
@@ -50,7 +50,7 @@ class PairMatrix {
     set_one(b, a);
   }
   std::span<const BitWord> row(std::size_t a) const { return {bits_.data() + a * words_, words_}; }
-  // Relates `a` to all of `others` that it is not related to yet, and calls visit(b) for each of these.
+  /// Relates `a` to all of `others` that it is not related to yet, and calls visit(b) for each of these.
   template <typename Visit>
   void add(std::size_t a, std::span<const BitWord> others, const Visit& visit) {
     for (std::size_t w = 0; w < words_; ++w) {
@@ -72,4 +72,4 @@ class PairMatrix {
   std::vector<BitWord> bits_;
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::dead_ends

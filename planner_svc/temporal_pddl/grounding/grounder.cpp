@@ -5,23 +5,37 @@
 #include <utility>
 
 #include "core/pddl/printer.hpp"
-#include "planner_svc/temporal_pddl/grounding/compression.hpp"
-#include "planner_svc/temporal_pddl/grounding/constant_functions.hpp"
-#include "planner_svc/temporal_pddl/grounding/envelopes.hpp"
-#include "planner_svc/temporal_pddl/grounding/instantiate.hpp"
-#include "planner_svc/temporal_pddl/grounding/lowering.hpp"
-#include "planner_svc/temporal_pddl/grounding/mentions.hpp"
-#include "planner_svc/temporal_pddl/grounding/mutex_groups.hpp"
-#include "planner_svc/temporal_pddl/grounding/prune.hpp"
-#include "planner_svc/temporal_pddl/grounding/reachability.hpp"
-#include "planner_svc/temporal_pddl/grounding/refusal.hpp"
-#include "planner_svc/temporal_pddl/grounding/relevance.hpp"
-#include "planner_svc/temporal_pddl/grounding/symbols.hpp"
-#include "planner_svc/temporal_pddl/grounding/task_builder.hpp"
-#include "planner_svc/temporal_pddl/grounding/timed_windows.hpp"
-#include "planner_svc/temporal_pddl/grounding/world.hpp"
+#include "planner_svc/temporal_pddl/call/planning_failure.hpp"
+#include "planner_svc/temporal_pddl/grounding/encoding/task_builder.hpp"
+#include "planner_svc/temporal_pddl/grounding/instantiation/instantiate.hpp"
+#include "planner_svc/temporal_pddl/grounding/invariants/compression_safety.hpp"
+#include "planner_svc/temporal_pddl/grounding/invariants/mutex_groups.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted/constant_functions.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted/lowering.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted/static_model.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted/symbols.hpp"
+#include "planner_svc/temporal_pddl/grounding/reachability/reachability.hpp"
+#include "planner_svc/temporal_pddl/grounding/simplification/envelopes.hpp"
+#include "planner_svc/temporal_pddl/grounding/simplification/read_sets.hpp"
+#include "planner_svc/temporal_pddl/grounding/simplification/relaxed_pruning.hpp"
+#include "planner_svc/temporal_pddl/grounding/simplification/relevance.hpp"
+#include "planner_svc/temporal_pddl/grounding/simplification/timed_windows.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::grounding {
+
+using call::Options, call::PlanningFailure, call::SearchLimits;
+using encoding::build_task;
+using instantiation::Disjunction, instantiation::GroundLiteral, instantiation::GroundModel,
+    instantiation::WindowMisfit, instantiation::instantiate;
+using invariants::Compression, invariants::find_compression, invariants::find_mutex_groups;
+using lifted::ConstantFunctions, lifted::FunctionUse, lifted::LiftedAction, lifted::StaticModel,
+    lifted::Symbols, lifted::lower_actions;
+using reachability::explore;
+using simplification::drop_irrelevant_effects, simplification::extract_timed_windows,
+    simplification::literal_index, simplification::prune, simplification::settle_read_sets,
+    simplification::split_envelopes_by_duration;
+using task::ObjectId, task::PredicateId, task::Task;
+using temporal::Duration, temporal::Verdict;
 
 namespace {
 
@@ -41,12 +55,12 @@ std::string seconds(Duration duration) {
 // that lacks least.
 std::string window_too_short(const GroundModel& model, const std::vector<bool>& reached,
                              const Symbols& symbols, const std::vector<LiftedAction>& actions) {
-  const TooLong* nearest = nullptr;
-  for (const TooLong& note : model.too_long) {
+  const WindowMisfit* nearest = nullptr;
+  for (const WindowMisfit& note : model.window_misfits) {
     const bool missed = std::ranges::any_of(note.adds, [&](std::uint32_t atom) {
       return !reached[literal_index({atom, false})];
     });
-    const auto lack = [](const TooLong& action) { return action.duration - action.window; };
+    const auto lack = [](const WindowMisfit& action) { return action.duration - action.window; };
     if (missed && (!nearest || lack(note) < lack(*nearest))) nearest = &note;
   }
   if (!nearest) return {};
@@ -69,7 +83,7 @@ void require_reachable_goal(const pddl::Problem& problem, const Disjunction& bef
     }
   }
   if (blocked.empty()) blocked = " " + pddl::print(problem.goal);
-  throw Refusal(
+  throw PlanningFailure(
       Verdict::unsolvable,
       "no sequence of actions reaches, even if nothing were ever deleted and numbers did not count:" +
           blocked + window_too_short(model, reached, symbols, actions));
@@ -78,27 +92,28 @@ void require_reachable_goal(const pddl::Problem& problem, const Disjunction& bef
 }  // namespace
 
 Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
-                 const Options& options, Watch& watch, std::vector<FunctionUse>& used) {
+                 const Options& options, SearchLimits& limits, std::vector<FunctionUse>& used) {
   Symbols symbols(domain, problem);
   const std::vector<LiftedAction> actions = lower_actions(domain, symbols);
   ConstantFunctions constants(problem, actions, symbols);
   constants.load_external(
-      functions, [&] { return watch.cancelled(); }, symbols, used);
-  const World world(problem, actions, symbols, constants);
+      functions, [&] { return limits.cancelled(); }, symbols, used);
+  const StaticModel static_model(problem, actions, symbols, constants);
 
-  GroundModel model = instantiate(domain, problem, actions, world, explore(actions, world, watch), watch);
+  GroundModel model =
+      instantiate(domain, problem, actions, static_model, explore(actions, static_model, limits), limits);
   extract_timed_windows(model, options.windows, options.epsilon);
-  tell_apart_envelopes(model, symbols);
+  split_envelopes_by_duration(model, symbols);
   const Disjunction goal = model.goal;
-  const std::vector<bool> reached = prune(model, watch);
+  const std::vector<bool> reached = prune(model, limits);
   require_reachable_goal(problem, goal, model, reached, symbols, actions);
-  settle_mentions(model);
+  settle_read_sets(model);
   drop_irrelevant_effects(model);
-  const auto groups = find_mutex_groups(model, reached, symbols.predicates(), actions.size(), watch);
+  const auto groups = find_mutex_groups(model, reached, symbols.predicates(), actions.size(), limits);
   std::vector<Compression> compression(model.actions.size());
-  if (options.compression_safety) compression = find_compression(model, groups, watch);
-  Task task = build_task(model, symbols, actions, groups, compression, watch);
+  if (options.compression_safety) compression = find_compression(model, groups, limits);
+  Task task = build_task(model, symbols, actions, groups, compression, limits);
   return {std::move(symbols), std::move(constants), std::move(task)};
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::grounding

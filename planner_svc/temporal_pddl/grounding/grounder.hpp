@@ -5,24 +5,25 @@
 
 #include "core/pddl/ast.hpp"
 #include "planner_svc/function_source.hpp"
-#include "planner_svc/temporal_pddl/grounding/constant_functions.hpp"
-#include "planner_svc/temporal_pddl/grounding/symbols.hpp"
-#include "planner_svc/temporal_pddl/options.hpp"
-#include "planner_svc/temporal_pddl/plan/result.hpp"
+#include "planner_svc/temporal_pddl/call/options.hpp"
+#include "planner_svc/temporal_pddl/call/search_limits.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted/constant_functions.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted/symbols.hpp"
 #include "planner_svc/temporal_pddl/task/task.hpp"
-#include "planner_svc/temporal_pddl/watch.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::grounding {
 
 struct Grounding {
-  Symbols symbols;
-  ConstantFunctions constants;
-  Task task;
+  lifted::Symbols symbols;
+  lifted::ConstantFunctions constants;
+  task::Task task;
 };
 
-// Throws Refusal: unsupported with the place in the model; unsolvable naming the goal that nothing can
-// reach; function_unavailable; and what Watch throws. `used` gets every external value, whatever happens.
+/// Grounds the model. Throws PlanningFailure: unsupported with the place in the model; unsolvable naming the
+/// goal that nothing can reach; function_unavailable; and what SearchLimits throws. `used` gets every
+/// external value, whatever happens.
 Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
-                 const Options& options, Watch& watch, std::vector<FunctionUse>& used);
+                 const call::Options& options, call::SearchLimits& limits,
+                 std::vector<lifted::FunctionUse>& used);
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::grounding

@@ -1,5 +1,5 @@
-// Propositions by the cost at which they are reached, cheapest first: a bucket for each small cost, a heap
-// for the few beyond.
+// A queue of propositions by the cost at which they are reached, the cheapest first: it has a bucket for
+// each small cost and a heap for the few beyond.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 #include "planner_svc/temporal_pddl/heuristics/relaxed_task.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::heuristics {
 
 class BucketQueue {
  public:
@@ -21,7 +21,7 @@ class BucketQueue {
   static constexpr Cost kMostCost = std::numeric_limits<Cost>::max() - 1;
 
   BucketQueue() : buckets_(kBuckets) {}
-  // cost: no less than that of the entry taken last.
+  /// Adds an entry whose cost is no less than that of the entry taken last.
   void push(Cost cost, PropositionId proposition) {
     ++size_;
     if (cost < kBuckets) {
@@ -33,7 +33,7 @@ class BucketQueue {
     std::ranges::push_heap(beyond_, std::greater{});
   }
   bool empty() const { return size_ == 0; }
-  // Of what is not empty. Among equally cheap ones the oldest.
+  /// Takes the cheapest entry of a queue that is not empty; among equally cheap ones the oldest.
   Entry pop() {
     --size_;
     while (at_ < kBuckets && taken_ == buckets_[at_].size()) {
@@ -46,7 +46,7 @@ class BucketQueue {
     beyond_.pop_back();
     return entry;
   }
-  // Empties it; costs may begin with 0 again.
+  /// Empties the queue; costs may begin with 0 again.
   void restart() {
     for (; at_ < kBuckets && at_ <= highest_; ++at_) buckets_[at_].clear();
     beyond_.clear();
@@ -65,4 +65,4 @@ class BucketQueue {
   std::size_t size_ = 0;
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::heuristics

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <functional>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::heuristics {
+
+using task::ActionId, task::FactId, task::Goal, task::Snap, task::SnapId, task::SnapKind, task::Task;
+using temporal::no_bound;
 
 namespace {
 
@@ -19,9 +22,9 @@ FfHeuristic::FfHeuristic(const Task& task, CostMeasure measure)
       supporters_(task, relaxed_, numbers_),
       plan_(task, relaxed_, numbers_, supporters_) {}
 
-void FfHeuristic::evaluate(const Situation& situation, Estimate& estimate) {
+void FfHeuristic::evaluate(const EvaluationContext& context, Estimate& estimate) {
   estimate = {};
-  const bool ends_reached = look_at(situation);
+  const bool ends_reached = look_at(context);
   const Goal* goal = cheapest_goal();
   if (!goal || !ends_reached) {
     estimate.dead_end = true;
@@ -31,14 +34,14 @@ void FfHeuristic::evaluate(const Situation& situation, Estimate& estimate) {
   plan_.need(*goal);
   for (const ActionId action : running_) plan_.include(task_.actions[action].end);
   plan_.complete();
-  collect(situation.timed_done, estimate);
+  collect(context.timed_done, estimate);
 }
 
-bool FfHeuristic::look_at(const Situation& situation) {
-  state_ = situation.state;
-  running_ = situation.running;
-  if (times()) earliest_.measure(situation);
-  supporters_.begin(situation, times());
+bool FfHeuristic::look_at(const EvaluationContext& context) {
+  state_ = context.state;
+  running_ = context.running;
+  if (times()) earliest_.measure(context);
+  supporters_.begin(context, times());
   return std::ranges::all_of(running_,
                              [&](ActionId action) { return supporters_.reaches(task_.actions[action].end); });
 }
@@ -79,15 +82,15 @@ void FfHeuristic::list_deepest_first(SnapId op, std::vector<SnapId>& ordered) {
     ordered.insert(ordered.end(), static_cast<std::size_t>(plan_.times(op)), op);
 }
 
-std::string FfHeuristic::why_too_late() {
+std::string FfHeuristic::lateness_reason() {
   if (!earliest_.matters()) return {};
   earliest_.measure({task_.initial_state, {}, 0, nullptr, {}, {}});
   std::string reason;
   for (const Goal& goal : task_.goals) {
     const auto never = std::ranges::find_if(
-        goal.facts, [&](FactId fact) { return earliest_.of(relaxed_.proposition(fact)) == kNever; });
+        goal.facts, [&](FactId fact) { return earliest_.of(relaxed_.proposition(fact)) == no_bound; });
     if (never == goal.facts.end()) return {};
-    const std::string why = earliest_.why_never(relaxed_.proposition(*never));
+    const std::string why = earliest_.lateness_reason(relaxed_.proposition(*never));
     if (why.empty()) return {};
     reason = name(task_, *never) + " cannot be reached in time: " + why;
   }
@@ -139,7 +142,7 @@ void FfHeuristic::collect(std::uint32_t timed_done, Estimate& estimate) const {
     const Snap& snap = task_.snaps[op];
     if (snap.kind == SnapKind::derivation) continue;
     estimate.cost += plan_.times(op) * relaxed_.cost(op);
-    estimate.steps += plan_.times(op) + kStepsOfAction * supporters_.prices().of_undoing(op);
+    estimate.steps += plan_.times(op) + kStepsOfAction * supporters_.operator_costs().threat_penalty(op);
     if (snap.kind == SnapKind::timed_literal) {
       waits_for_timed = true;
       continue;
@@ -150,4 +153,4 @@ void FfHeuristic::collect(std::uint32_t timed_done, Estimate& estimate) const {
   if (waits_for_timed) estimate.preferred.push_back(task_.timed_steps[timed_done].snap);
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::heuristics

@@ -9,31 +9,32 @@
 #include "planner_svc/temporal_pddl/heuristics/ff.hpp"
 #include "planner_svc/temporal_pddl/heuristics/landmarks.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::heuristics {
 
 class LandmarkCount final : public Heuristic {
  public:
-  // The landmarks of the task's initial state. Throws what Watch::poll() throws.
-  LandmarkCount(const Task& task, FfHeuristic& ff, const Watch& watch);
+  /// Finds the landmarks of the initial state of the task. Throws what SearchLimits::poll() throws.
+  LandmarkCount(const task::Task& task, FfHeuristic& ff, const call::SearchLimits& limits);
 
-  // The FF estimate, and in `landmarks` how many are not reached, or needed once more: goals, and what must
-  // hold right before one that is not reached. Preferred is also what reaches one that can be next.
-  void evaluate(const Situation& situation, Estimate& estimate) override;
+  /// Gives the FF estimate, and in `landmarks` how many are not reached, or needed once more: goals, and
+  /// what must hold right before one that is not reached. What reaches a landmark that can be next is
+  /// preferred too.
+  void evaluate(const EvaluationContext& context, Estimate& estimate) override;
 
   std::size_t bytes() const override { return ff_.bytes() + of_.bytes() + landmarks_.bytes(); }
 
-  const IdVector<LandmarkId, Landmark>& landmarks() const { return landmarks_; }
+  const task::IdVector<LandmarkId, Landmark>& landmarks() const { return landmarks_; }
 
  private:
   bool all_reached(const std::vector<LandmarkId>& landmarks) const;
-  bool holds(const Landmark& landmark, const Situation& situation) const;
-  void follow(const Situation& situation);
+  bool holds(const Landmark& landmark, const EvaluationContext& context) const;
+  void follow(const EvaluationContext& context);
 
-  const Task& task_;
+  const task::Task& task_;
   FfHeuristic& ff_;
-  IdVector<LandmarkId, Landmark> landmarks_;
-  FlatLists<LandmarkId> of_;  // by proposition
-  IdVector<LandmarkId, bool> reached_at_first_, reached_;
+  task::IdVector<LandmarkId, Landmark> landmarks_;
+  task::FlatLists<LandmarkId> of_;  // by proposition
+  task::IdVector<LandmarkId, bool> reached_at_first_, reached_;
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::heuristics

@@ -4,9 +4,13 @@
 #include <iterator>
 #include <map>
 
-#include "planner_svc/temporal_pddl/heuristics/landmark_orders.hpp"
+#include "planner_svc/temporal_pddl/heuristics/landmark_orderings.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::heuristics {
+
+using call::SearchLimits;
+using task::ActionId, task::FactId, task::FactName, task::Goal, task::IdVector, task::Snap, task::SnapId,
+    task::SnapKind, task::Task, task::TimedStep;
 
 namespace {
 
@@ -14,11 +18,11 @@ constexpr std::size_t kMostAlternatives = 4;
 
 class Finder {
  public:
-  Finder(const Task& task, const RelaxedTask& relaxed, std::size_t max_visits, const Watch& watch)
+  Finder(const Task& task, const RelaxedTask& relaxed, std::size_t max_visits, const SearchLimits& limits)
       : task_(task),
         relaxed_(relaxed),
         visits_left_(max_visits),
-        watch_(watch),
+        limits_(limits),
         reached_(relaxed.propositions(), false),
         initially_(relaxed.propositions(), false),
         supporters_(relaxed.propositions()),
@@ -160,7 +164,7 @@ class Finder {
   // supporters, then what of that has another supporter comes back. It counts as much as to explore
   // everything.
   void explore_without(std::span<const PropositionId> left_out) {
-    watch_.poll();
+    limits_.poll();
     restore();
     visits_left_ -= std::min(visits_, visits_left_);
     for (const PropositionId proposition : left_out) {
@@ -220,7 +224,7 @@ class Finder {
   }
 
   void order() {
-    LandmarkOrders orders(task_, relaxed_, found_);
+    LandmarkOrderings orders(task_, relaxed_, found_);
     for (std::size_t i = 0; i < found_.size(); ++i) {
       const LandmarkId before(i);
       const auto& reached = out_of_reach_[before];
@@ -245,7 +249,7 @@ class Finder {
   const Task& task_;
   const RelaxedTask& relaxed_;
   std::size_t visits_left_;
-  const Watch& watch_;
+  const SearchLimits& limits_;
   IdVector<LandmarkId, Landmark> found_;
   std::map<std::vector<PropositionId>, LandmarkId> known_;
   std::size_t closed_ = 0;
@@ -266,8 +270,8 @@ class Finder {
 
 IdVector<LandmarkId, Landmark> find_landmarks(const Task& task, const RelaxedTask& relaxed,
                                               std::span<const SnapId> relaxed_plan, std::size_t max_visits,
-                                              const Watch& watch) {
-  return Finder(task, relaxed, max_visits, watch).run(relaxed_plan);
+                                              const SearchLimits& limits) {
+  return Finder(task, relaxed, max_visits, limits).run(relaxed_plan);
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::heuristics

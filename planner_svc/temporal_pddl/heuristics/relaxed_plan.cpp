@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::heuristics {
+
+using task::Action, task::FactId, task::Goal, task::Snap, task::SnapId, task::SnapKind, task::StateView,
+    task::Task;
 
 namespace {
 
@@ -12,8 +15,8 @@ constexpr int kMostTurns = 4;                // of a comparison, where numbers h
 
 }  // namespace
 
-RelaxedPlan::RelaxedPlan(const Task& task, const RelaxedTask& relaxed, const RelaxedNumbers& numbers,
-                         Supporters& supporters)
+RelaxedPlan::RelaxedPlan(const Task& task, const RelaxedTask& relaxed, const NumericRelaxation& numbers,
+                         BestSupporters& supporters)
     : task_(task),
       relaxed_(relaxed),
       numbers_(numbers),
@@ -241,4 +244,4 @@ RelaxedPlan::Balance& RelaxedPlan::touch(ComparisonId comparison) {
   return balance;
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::heuristics

@@ -6,7 +6,10 @@
 
 #include "planner_svc/temporal_pddl/task/semantics.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::heuristics {
+
+using task::ActionId, task::FactId, task::NumbersView, task::NumericEffect, task::Semantics, task::Snap,
+    task::SnapId, task::SnapKind, task::Task;
 
 namespace {
 
@@ -75,4 +78,4 @@ RelaxedTask::RelaxedTask(const Task& task, CostMeasure measure)
   for (const auto& list : added_by) added_by_.push_back(list);
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::heuristics

@@ -3,19 +3,17 @@
 
 #include <span>
 
-#include "planner_svc/temporal_pddl/improvement/fresh_starts.hpp"
-#include "planner_svc/temporal_pddl/improvement/weighted_search.hpp"
-#include "planner_svc/temporal_pddl/options.hpp"
-#include "planner_svc/temporal_pddl/plan/result.hpp"
+#include "planner_svc/temporal_pddl/improvement/restarts.hpp"
+#include "planner_svc/temporal_pddl/improvement/weighted_a_star.hpp"
 #include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
-#include "planner_svc/temporal_pddl/watch.hpp"
+#include "planner_svc/temporal_pddl/search/search_context.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::improvement {
 
-// The given plan without useless actions, or a better one. The guides take turns, and fresh starts with them.
-// Options::improvement_evaluations bounds the work. A spent budget ends it with the best plan so far; throws
-// Refusal (cancelled) only.
-PlanPrefix improve(const Task& task, PlanPrefix first, std::span<const Guide> guides,
-                   FreshStarts& fresh_starts, const Options& options, Watch& watch, Statistics& statistics);
+/// Returns the given plan without useless actions, or a better one. The guides take turns, and restarts with
+/// them. Options::improvement_evaluations bounds the work. A spent budget ends it with the best plan so far;
+/// it throws PlanningFailure (cancelled) only.
+search::PlanPrefix improve(search::PlanPrefix first, std::span<const search::Guide> guides,
+                           Restarts& restarts, const search::SearchContext& context);
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::improvement

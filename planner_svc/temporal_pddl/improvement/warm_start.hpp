@@ -1,22 +1,19 @@
-// A first plan out of what remains of an earlier one: it is taken as far as it goes, and completed.
+// A warm start: a first plan out of what remains of an earlier one, which is taken as far as it goes, and
+// completed.
 #pragma once
 
 #include <optional>
 #include <span>
 
-#include "core/pddl/plan_text.hpp"
-#include "planner_svc/temporal_pddl/improvement/weighted_search.hpp"
-#include "planner_svc/temporal_pddl/options.hpp"
-#include "planner_svc/temporal_pddl/plan/result.hpp"
 #include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
-#include "planner_svc/temporal_pddl/watch.hpp"
+#include "planner_svc/temporal_pddl/search/search_context.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::improvement {
 
-// Of the remaining steps only their order in time counts; what the task does not know or cannot take is
-// passed over. None: within a hundred evaluations nothing complete came of it. Throws what Watch throws.
-std::optional<PlanPrefix> warm_start(const Task& task, std::span<const pddl::PlanStep> remaining,
-                                     const Guide& guide, const Options& options, Watch& watch,
-                                     Statistics& statistics);
+/// Returns a plan that begins with what can be taken of the remaining steps, in their order; or nothing if
+/// within a hundred evaluations nothing complete came of it. Throws what SearchLimits throws.
+std::optional<search::PlanPrefix> warm_start(const search::SearchContext& context,
+                                             std::span<const task::SnapId> remaining,
+                                             const search::Guide& guide);
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::improvement

@@ -2,10 +2,15 @@
 
 #include <algorithm>
 
-#include "planner_svc/temporal_pddl/grounding/refusal.hpp"
-#include "planner_svc/temporal_pddl/search/blockage.hpp"
+#include "planner_svc/temporal_pddl/call/planning_failure.hpp"
+#include "planner_svc/temporal_pddl/search/failure_diagnosis.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
+
+using call::PlanningFailure;
+using constraints::kMaxSteps;
+using task::ActionCompression;
+using temporal::Verdict;
 
 namespace {
 
@@ -14,25 +19,22 @@ constexpr int kCarefully = 4;  // of these, the first ones; the others in the or
 
 }  // namespace
 
-BestFirstSearch::BestFirstSearch(const Task& task, Heuristic& heuristic, const Options& options,
-                                 SearchStyle style, Watch& watch, Statistics& statistics)
-    : task_(task),
-      heuristic_(heuristic),
-      options_(options),
+BestFirstSearch::BestFirstSearch(const SearchContext& context, const Guide& guide, SearchStyle style)
+    : context_(context),
+      task_(context.task),
+      guide_(guide),
       follows_plans_(style.lookahead),
-      complete_(style.steps == ActionSteps::as_needed),
-      watch_(watch),
-      statistics_(statistics),
-      space_(task, options.epsilon, style.steps),
-      goal_(task, space_.check(), options.epsilon),
-      dominance_(task, space_.store(), space_.bounds(), space_.check(), options.epsilon,
+      complete_(style.steps == ActionCompression::where_safe),
+      space_(context.task, context.options.epsilon, style.steps),
+      goal_(context.task, space_.check(), context.options.epsilon),
+      dominance_(context.task, space_.store(), space_.bounds(), space_.check(), context.options.epsilon,
                  goal_.has_deadlines()),
-      dominate_(options.dominance && !goal_.has_openings()),
-      evaluation_(task),
-      open_({options.landmarks && dominate_, options.novelty && dominate_}),
-      novelty_(task),
-      lookahead_(task, space_),
-      random_(options.seed) {}
+      dominate_(context.options.dominance && !goal_.has_openings()),
+      evaluation_(context.task),
+      open_({context.options.landmarks && dominate_, context.options.novelty && dominate_}),
+      novelty_(context.task),
+      lookahead_(context.task, space_),
+      random_(context.options.seed) {}
 
 std::optional<SearchOutcome> BestFirstSearch::run(std::size_t evaluations, std::size_t bytes_elsewhere) {
   bytes_elsewhere_ = bytes_elsewhere;
@@ -45,21 +47,22 @@ std::optional<SearchOutcome> BestFirstSearch::run(std::size_t evaluations, std::
     const auto entry = open_.pop();
     if (!entry) {
       if (too_long_)
-        throw Refusal(Verdict::out_of_memory,
-                      "a plan may have at most 32767 steps, and none so short was found");
+        throw PlanningFailure(Verdict::out_of_memory,
+                              "a plan may have at most 32767 steps, and none so short was found");
       return failed();
     }
-    watch_.poll();
+    context_.limits.poll();
     if (prefix_.node != entry->parent) space_.restore(entry->parent, prefix_);
     const Rejection rejection = space_.build(prefix_, entry->snap, successor_);
-    if (rejection == Rejection::temporal) ++statistics_.temporally_inconsistent;
+    if (rejection == Rejection::temporal) ++context_.statistics.temporally_inconsistent;
     if (rejection != Rejection::none) continue;
-    if (heuristic_.hopeless(successor_.state, successor_.prefix.running_actions, space_.steps())) {
-      ++statistics_.hopeless;
+    if (guide_.detectors.prove_dead_end(successor_.state, successor_.prefix.running_actions,
+                                        space_.steps())) {
+      ++context_.statistics.dead_ends;
       continue;
     }
     if (dominate_ && dominance_.dominated(successor_)) {
-      ++statistics_.dominated;
+      ++context_.statistics.dominated;
       continue;
     }
     if (reach(entry->parent)) return found();
@@ -72,8 +75,8 @@ SearchOutcome BestFirstSearch::found() {
 }
 
 SearchOutcome BestFirstSearch::failed() const {
-  std::string reason = goal_.explain_failure(space_.store().size(), statistics_.hopeless > 0);
-  const std::string number = blocking_number(task_, space_.store());
+  std::string reason = goal_.failure_reason(space_.store().size(), context_.statistics.dead_ends > 0);
+  const std::string number = unmet_comparison(task_, space_.store());
   if (!number.empty()) reason += "; " + number;
   return {std::nullopt, {}, std::move(reason)};
 }
@@ -99,7 +102,8 @@ bool BestFirstSearch::reach(NodeId parent) {
 bool BestFirstSearch::look_ahead(bool careful) {
   if (!lookahead_.follow(successor_.prefix, estimate_.relaxed_plan, careful, ahead_)) return false;
   std::swap(successor_, ahead_);
-  return !heuristic_.hopeless(successor_.state, successor_.prefix.running_actions, space_.steps()) &&
+  return !guide_.detectors.prove_dead_end(successor_.state, successor_.prefix.running_actions,
+                                          space_.steps()) &&
          !(dominate_ && dominance_.dominated(successor_));
 }
 
@@ -113,17 +117,17 @@ bool BestFirstSearch::take_up() {
   if (dominate_) dominance_.insert(prefix.node, successor_.state, prefix);
   if (goal_.complete(successor_.state, prefix)) return true;
 
-  watch_.poll();
+  context_.limits.poll();
   ++evaluated_;
-  watch_.evaluations(++statistics_.evaluated);
-  evaluation_.evaluate(successor_, heuristic_, estimate_);
+  context_.limits.evaluations(++context_.statistics.evaluated);
+  evaluation_.evaluate(successor_, guide_, estimate_);
   if (!estimate_.dead_end) expand(prefix);
   account();
   return false;
 }
 
 void BestFirstSearch::expand(const PlanPrefix& prefix) {
-  ++statistics_.expanded;
+  ++context_.statistics.expanded;
   const Priority by_plan = this->by_plan();
   const Priority by_landmarks{estimate_.landmarks, estimate_.steps};
   const bool shorter = by_plan < best_plan_;
@@ -133,20 +137,20 @@ void BestFirstSearch::expand(const PlanPrefix& prefix) {
   if (shorter || fewer_landmarks) open_.boost();
   const auto applicable = space_.applicable(prefix);
   candidates_.assign(applicable.begin(), applicable.end());
-  if (options_.seed != 0) std::ranges::shuffle(candidates_, random_);
-  if (!options_.preferred_operators) estimate_.preferred.clear();
+  if (context_.options.seed != 0) std::ranges::shuffle(candidates_, random_);
+  if (!context_.options.preferred_operators) estimate_.preferred.clear();
   std::ranges::sort(estimate_.preferred);
   const std::int64_t news =
-      options_.novelty ? novelty_.see(successor_.state, prefix.running_actions, estimate_.steps) : 0;
+      context_.options.novelty ? novelty_.see(successor_.state, prefix.running_actions, estimate_.steps) : 0;
   open_.push({by_plan, by_landmarks, {-news, estimate_.steps}}, prefix.node, candidates_,
              estimate_.preferred);
-  statistics_.generated += candidates_.size();
+  context_.statistics.generated += candidates_.size();
 }
 
 void BestFirstSearch::account() {
-  statistics_.bytes_per_state = space_.store().mean_bytes_per_state();
-  watch_.memory(bytes() + bytes_elsewhere_ + heuristic_.bytes());
-  if (statistics_.expanded % 1024 == 0) watch_.progress(statistics_);
+  context_.statistics.bytes_per_state = space_.store().mean_bytes_per_state();
+  context_.limits.memory(bytes() + bytes_elsewhere_ + guide_.bytes());
+  if (context_.statistics.expanded % 1024 == 0) context_.limits.progress(context_.statistics);
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

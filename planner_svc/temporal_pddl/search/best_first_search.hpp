@@ -1,5 +1,5 @@
-// Greedy best-first search with deferred evaluation: a state is evaluated when it is taken up, its successors
-// wait with its estimate (Helmert 2006, section 6).
+// Greedy best-first search with deferred evaluation: a state is evaluated when it is taken up, and its
+// successors wait with its estimate (Helmert 2006, section 6).
 #pragma once
 
 #include <cstddef>
@@ -10,31 +10,27 @@
 #include <string>
 #include <vector>
 
-#include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
-#include "planner_svc/temporal_pddl/options.hpp"
-#include "planner_svc/temporal_pddl/plan/result.hpp"
 #include "planner_svc/temporal_pddl/search/dominance.hpp"
 #include "planner_svc/temporal_pddl/search/evaluation.hpp"
 #include "planner_svc/temporal_pddl/search/goal_test.hpp"
 #include "planner_svc/temporal_pddl/search/lookahead.hpp"
 #include "planner_svc/temporal_pddl/search/novelty.hpp"
 #include "planner_svc/temporal_pddl/search/open_list.hpp"
-#include "planner_svc/temporal_pddl/search/searcher.hpp"
+#include "planner_svc/temporal_pddl/search/resumable_search.hpp"
+#include "planner_svc/temporal_pddl/search/search_context.hpp"
 #include "planner_svc/temporal_pddl/search/state_space.hpp"
-#include "planner_svc/temporal_pddl/watch.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
 
 struct SearchStyle {
-  ActionSteps steps = ActionSteps::as_needed;
-  bool lookahead = false;  // relaxed plans are followed
+  task::ActionCompression steps = task::ActionCompression::where_safe;
+  bool lookahead = false;  ///< whether relaxed plans are followed
 };
 
-class BestFirstSearch final : public Searcher {
+class BestFirstSearch final : public ResumableSearch {
  public:
-  // Keeps `statistics` up to date all the time.
-  BestFirstSearch(const Task& task, Heuristic& heuristic, const Options& options, SearchStyle style,
-                  Watch& watch, Statistics& statistics);
+  /// Keeps `statistics` up to date all the time.
+  BestFirstSearch(const SearchContext& context, const Guide& guide, SearchStyle style);
 
   std::optional<SearchOutcome> run(std::size_t evaluations, std::size_t bytes_elsewhere) override;
   bool complete() const override { return complete_; }
@@ -52,13 +48,11 @@ class BestFirstSearch final : public Searcher {
   void expand(const PlanPrefix& prefix);
   void account();
 
-  const Task& task_;
-  Heuristic& heuristic_;
-  const Options& options_;
+  SearchContext context_;
+  const task::Task& task_;
+  Guide guide_;
   bool follows_plans_;
   bool complete_;
-  Watch& watch_;
-  Statistics& statistics_;
   StateSpace space_;
   GoalTest goal_;
   Dominance dominance_;
@@ -72,13 +66,13 @@ class BestFirstSearch final : public Searcher {
   PlanPrefix prefix_;  // of the entry's parent
   Successor successor_;
   Successor ahead_;
-  Estimate estimate_;
+  heuristics::Estimate estimate_;
   Priority best_plan_{std::numeric_limits<std::int64_t>::max(), 0};
   std::int64_t best_landmarks_ = std::numeric_limits<std::int64_t>::max();
-  std::vector<SnapId> candidates_;
+  std::vector<task::SnapId> candidates_;
   std::size_t evaluated_ = 0;
   std::size_t bytes_elsewhere_ = 0;
   bool too_long_ = false;
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

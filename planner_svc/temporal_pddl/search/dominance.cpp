@@ -6,11 +6,16 @@
 
 #include "planner_svc/temporal_pddl/search/hash_mix.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
+
+using constraints::BoundTable, constraints::LongestPathStn, constraints::kNoPath;
+using task::ActionId, task::NumberId, task::NumbersView, task::NumericDominance, task::SnapId, task::SnapKind,
+    task::StateView, task::Task, task::VariableId, task::Word;
+using temporal::Duration;
 
 namespace {
 
-Ticks plus(Ticks time, Ticks more) { return time == kNoPath ? kNoPath : time + more; }
+Duration plus(Duration time, Duration more) { return time == kNoPath ? kNoPath : time + more; }
 
 // Positions in prefix.running, ascending by action.
 std::vector<std::size_t> by_action(const PlanPrefix& prefix) {
@@ -35,7 +40,7 @@ Dominance::Dominance(const Task& task, const StateStore& store, const BoundTable
       epsilon_(epsilon),
       end_counts_(end_counts),
       absolute_(end_counts || task.has_absolute_times()),
-      preferences_(number_preferences(task, metric_counts)),
+      preferences_(numeric_dominance(task, metric_counts)),
       slots_(1024),
       position_(task.variables(), kAbsent) {}
 
@@ -57,10 +62,10 @@ bool Dominance::as_good(StateView stored, StateView fresh) const {
   for (std::size_t i = 0; i < preferences_.size(); ++i) {
     const NumberId number(i);
     if (stored[packed + i] == fresh[packed + i]) continue;
-    const Preference preference = preferences_[number];
-    const bool better = preference == Preference::none ||
-                        (preference == Preference::higher && a[number] >= b[number]) ||
-                        (preference == Preference::lower && a[number] <= b[number]);
+    const NumericDominance preference = preferences_[number];
+    const bool better = preference == NumericDominance::none ||
+                        (preference == NumericDominance::higher && a[number] >= b[number]) ||
+                        (preference == NumericDominance::lower && a[number] <= b[number]);
     if (!better) return false;
   }
   return true;
@@ -126,16 +131,16 @@ Dominance::Profile Dominance::profile(const PlanPrefix& prefix, bool stored) {
   Profile result;
   find_touched(prefix, result.touched);
   const auto order = by_action(prefix);
-  const auto add_source = [&](const std::vector<Ticks>& distances) {
-    result.freedoms.push_back(freedoms(prefix, distances, result.touched.size()));
+  const auto add_source = [&](const std::vector<Duration>& distances) {
+    result.releases.push_back(releases(prefix, distances, result.touched.size()));
     auto& starts = result.starts.emplace_back();
     for (const std::size_t i : order) starts.push_back(distances[prefix.running[i].step]);
     if (end_counts_) starts.push_back(distances.empty() ? kNoPath : std::ranges::max(distances));
   };
-  const Stn network = TemporalCheck::network(prefix);
+  const LongestPathStn network = TemporalCheck::network(prefix);
   for (const std::size_t i : order) add_source(*network.longest_from(prefix.running[i].step));
   if (absolute_) {
-    const std::vector<Ticks> earliest = *check_.earliest(prefix);
+    const std::vector<Duration> earliest = *check_.earliest(prefix);
     add_source(earliest);
     const auto windows = stored ? check_.chosen_windows(prefix, earliest) : check_.widest_windows(prefix);
     const auto latest = TemporalCheck::latest(prefix, windows);
@@ -145,19 +150,18 @@ Dominance::Profile Dominance::profile(const PlanPrefix& prefix, bool stored) {
   return result;
 }
 
-std::vector<Dominance::Freedom> Dominance::freedoms(const PlanPrefix& prefix,
-                                                    const std::vector<Ticks>& distances,
+std::vector<Dominance::Release> Dominance::releases(const PlanPrefix& prefix,
+                                                    const std::vector<Duration>& distances,
                                                     std::size_t touched) const {
-  std::vector<Freedom> result(touched);
-  const Ticks epsilon = epsilon_.count();
+  std::vector<Release> result(touched);
   for (std::size_t i = 0; i < prefix.steps.size(); ++i) {
     const SnapId step = prefix.steps[i];
-    const Ticks at = distances[i];
-    const auto raise = [](Ticks& time, Ticks to) { time = std::max(time, to); };
+    const Duration at = distances[i];
+    const auto raise = [](Duration& time, Duration to) { time = std::max(time, to); };
     for (const VariableId variable : task_.reads[step]) {
-      Freedom& freedom = result[position_[variable]];
-      raise(freedom.change, plus(at, epsilon));
-      raise(freedom.erase, plus(at, epsilon));
+      Release& release = result[position_[variable]];
+      raise(release.change, plus(at, epsilon_));
+      raise(release.erase, plus(at, epsilon_));
     }
     if (task_.snaps[step].kind == SnapKind::end) {
       for (const VariableId variable : task_.invariant_reads[task_.snaps[step].action]) {
@@ -165,10 +169,10 @@ std::vector<Dominance::Freedom> Dominance::freedoms(const PlanPrefix& prefix,
       }
     }
     for (const VariableId variable : task_.writes[step]) {
-      Freedom& freedom = result[position_[variable]];
-      raise(freedom.read, at);
-      raise(freedom.change, plus(at, epsilon));
-      raise(freedom.erase, plus(at, epsilon));
+      Release& release = result[position_[variable]];
+      raise(release.read, at);
+      raise(release.change, plus(at, epsilon_));
+      raise(release.erase, plus(at, epsilon_));
     }
   }
   return result;
@@ -187,9 +191,9 @@ bool Dominance::no_worse(const Profile& stored, const Profile& fresh) {
   bool result = true;
   for (std::size_t i = 0; i < stored.touched.size() && result; ++i) {
     const std::uint32_t j = position_[stored.touched[i]];
-    for (std::size_t source = 0; source < stored.freedoms.size() && result; ++source) {
-      const Freedom& a = stored.freedoms[source][i];
-      const Freedom b = j == kAbsent ? Freedom{} : fresh.freedoms[source][j];
+    for (std::size_t source = 0; source < stored.releases.size() && result; ++source) {
+      const Release& a = stored.releases[source][i];
+      const Release b = j == kAbsent ? Release{} : fresh.releases[source][j];
       result = a.read <= b.read && a.change <= b.change && a.erase <= b.erase;
     }
   }
@@ -197,4 +201,4 @@ bool Dominance::no_worse(const Profile& stored, const Profile& fresh) {
   return result;
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

@@ -20,22 +20,23 @@
 #include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
 #include "planner_svc/temporal_pddl/search/successor_builder.hpp"
 #include "planner_svc/temporal_pddl/search/temporal_check.hpp"
-#include "planner_svc/temporal_pddl/task/number_preferences.hpp"
+#include "planner_svc/temporal_pddl/task/numeric_dominance.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
 
 class Dominance {
  public:
-  // end_counts: the time of the last step matters, because plans have deadlines or shorter ones are wanted.
-  // metric_counts: so do the numbers of the metric.
-  Dominance(const Task& task, const StateStore& store, const BoundTable& bounds, TemporalCheck& check,
-            Duration epsilon, bool end_counts, bool metric_counts = false);
+  /// With `end_counts` the time of the last step matters, because plans have deadlines or shorter ones are
+  /// wanted; with `metric_counts` so do the numbers of the metric.
+  Dominance(const task::Task& task, const StateStore& store, const constraints::BoundTable& bounds,
+            TemporalCheck& check, temporal::Duration epsilon, bool end_counts, bool metric_counts = false);
 
-  // A state that is not stored yet; its prefix names its parent. The same plan as a stored one is dominated.
+  /// Returns whether a stored plan dominates that of a state which is not stored yet and whose prefix names
+  /// its parent. The same plan as a stored one is dominated.
   bool dominated(const Successor& successor);
-  void insert(NodeId node, StateView state, const PlanPrefix& prefix);
+  void insert(NodeId node, task::StateView state, const PlanPrefix& prefix);
 
-  // Forgets all plans.
+  /// Forgets all plans.
   void clear() {
     std::ranges::fill(slots_, Slot{});
     size_ = 0;
@@ -49,45 +50,46 @@ class Dominance {
     std::uint32_t hash = 0;
   };
   // How soon after a source a variable is free: longest paths in microseconds.
-  struct Freedom {
-    Ticks read = kNoPath;    // for conditions: after the last change
-    Ticks change = kNoPath;  // for adding: also after the last readers
-    Ticks erase = kNoPath;   // for other changes: also after the ends of invariants
+  struct Release {
+    temporal::Duration read = constraints::kNoPath;    // for conditions: after the last change
+    temporal::Duration change = constraints::kNoPath;  // for adding: also after the last readers
+    temporal::Duration erase = constraints::kNoPath;   // for other changes: also after the ends of invariants
   };
   // Sources are the origin, if it is one, and then the running starts, by action.
   struct Profile {
-    std::vector<VariableId> touched;
-    std::vector<std::vector<Freedom>> freedoms;  // by source, by position in touched
-    std::vector<std::vector<Ticks>>
-        starts;                 // by source: longest paths to the running starts (and the last step)
-    std::vector<Ticks> latest;  // of the running starts
+    std::vector<task::VariableId> touched;
+    std::vector<std::vector<Release>> releases;  // by source, by position in touched
+    // by source: longest paths to the running starts (and the last step)
+    std::vector<std::vector<temporal::Duration>> starts;
+    std::vector<temporal::Duration> latest;  // of the running starts
   };
   static constexpr std::size_t kMaxComparisons = 16;
   static constexpr std::uint32_t kAbsent = 0xffffffff;
 
-  std::uint32_t hash(StateView state, const PlanPrefix& prefix) const;
-  bool as_good(StateView stored, StateView fresh) const;
+  std::uint32_t hash(task::StateView state, const PlanPrefix& prefix) const;
+  bool as_good(task::StateView stored, task::StateView fresh) const;
   // A stored plan is taken with the windows in which its least schedule lies, a new one with all the time
   // between its windows: so the comparison errs on the safe side.
   Profile profile(const PlanPrefix& prefix, bool stored);
-  void find_touched(const PlanPrefix& prefix, std::vector<VariableId>& touched);
-  std::vector<Freedom> freedoms(const PlanPrefix& prefix, const std::vector<Ticks>& distances,
+  void find_touched(const PlanPrefix& prefix, std::vector<task::VariableId>& touched);
+  std::vector<Release> releases(const PlanPrefix& prefix, const std::vector<temporal::Duration>& distances,
                                 std::size_t touched) const;
   bool no_worse(const Profile& stored, const Profile& fresh);
   void place(Slot slot);
 
-  const Task& task_;
+  const task::Task& task_;
   const StateStore& store_;
-  const BoundTable& bounds_;
+  const constraints::BoundTable& bounds_;
   TemporalCheck& check_;
-  Duration epsilon_;
+  temporal::Duration epsilon_;
   bool end_counts_;
   bool absolute_;  // the origin is a source
-  IdVector<NumberId, Preference> preferences_;
+  task::IdVector<task::NumberId, task::NumericDominance> preferences_;
   std::vector<Slot> slots_;  // open addressing, a power of two; none: free
   std::size_t size_ = 0;
-  IdVector<VariableId, std::uint32_t> position_;  // in `touched` of the profile at hand, else kAbsent
+  // in `touched` of the profile at hand, else kAbsent
+  task::IdVector<task::VariableId, std::uint32_t> position_;
   PlanPrefix other_;
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

@@ -1,30 +1,34 @@
-// Asks a heuristic about a successor: puts together what it may look at.
+// Asks a guide about a successor: it puts together what a heuristic may look at.
 #pragma once
 
 #include <vector>
 
-#include "planner_svc/temporal_pddl/constraints/time_freedom.hpp"
+#include "planner_svc/temporal_pddl/constraints/release_times.hpp"
 #include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
+#include "planner_svc/temporal_pddl/search/search_context.hpp"
 #include "planner_svc/temporal_pddl/search/successor_builder.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
 
 class Evaluation {
  public:
-  explicit Evaluation(const Task& task) : absolute_(task.has_absolute_times()), freedom_(task) {}
+  explicit Evaluation(const task::Task& task) : absolute_(task.has_absolute_times()), release_times_(task) {}
 
-  void evaluate(const Successor& successor, Heuristic& heuristic, Estimate& estimate) {
-    heuristic.evaluate(situation(successor), estimate);
+  void evaluate(const Successor& successor, const Guide& guide, heuristics::Estimate& estimate) {
+    guide.detectors.note_evaluation();
+    guide.heuristic.evaluate(context_of(successor), estimate);
   }
-  // Valid until the next call, and as long as the successor stays as it is.
-  Situation situation(const Successor& successor) {
+  /// Returns what a heuristic may look at; it is valid until the next call, and as long as the successor
+  /// stays as it is.
+  heuristics::EvaluationContext context_of(const Successor& successor) {
     const PlanPrefix& prefix = successor.prefix;
-    Situation result{successor.state, prefix.running_actions, prefix.timed_done, nullptr, {}, prefix.steps};
+    heuristics::EvaluationContext result{
+        successor.state, prefix.running_actions, prefix.timed_done, nullptr, {}, prefix.steps};
     if (absolute_) {
-      freedom_.measure(prefix.steps, successor.times);
+      release_times_.measure(prefix.steps, successor.times);
       started_.clear();
       for (const Running& running : prefix.running) started_.push_back(successor.times[running.step]);
-      result.freedom = &freedom_;
+      result.release_times = &release_times_;
       result.started = started_;
     }
     return result;
@@ -32,8 +36,8 @@ class Evaluation {
 
  private:
   bool absolute_;  // else times tell a heuristic nothing
-  TimeFreedom freedom_;
-  std::vector<Ticks> started_;  // by running action
+  constraints::ReleaseTimes release_times_;
+  std::vector<temporal::Duration> started_;  // by running action
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

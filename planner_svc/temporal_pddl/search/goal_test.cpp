@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
+
+using task::FactId, task::Goal, task::NumericEffect, task::SnapId, task::SnapKind, task::StateView,
+    task::Task, task::Word;
+using temporal::Duration, temporal::no_bound;
 
 GoalTest::GoalTest(const Task& task, TemporalCheck& check, Duration epsilon)
     : task_(task),
@@ -39,21 +43,21 @@ void GoalTest::note_held(StateView state) {
   }
 }
 
-Ticks GoalTest::deadline(StateView state, std::uint32_t timed_done) const {
-  if (!has_deadlines_) return kNever;
+Duration GoalTest::deadline(StateView state, std::uint32_t timed_done) const {
+  if (!has_deadlines_) return no_bound;
   std::vector<Word> later(state.begin(), state.end());
   for (std::size_t i = timed_done; i < task_.timed_steps.size(); ++i) {
     semantics_.apply(task_.timed_steps[i].snap, 0, later);
-    if (!semantics_.goal_satisfied(later)) return (task_.timed_steps[i].time - epsilon_).count();
+    if (!semantics_.goal_satisfied(later)) return task_.timed_steps[i].time - epsilon_;
   }
-  return kNever;
+  return no_bound;
 }
 
-Ticks GoalTest::opening(std::uint32_t timed_done) const {
+Duration GoalTest::opening(std::uint32_t timed_done) const {
   for (std::size_t i = timed_done; i-- > 0;) {
-    if (opens_[i]) return task_.timed_steps[i].time.count();
+    if (opens_[i]) return task_.timed_steps[i].time;
   }
-  return 0;
+  return Duration{0};
 }
 
 // Any step may be the closing one; later ones are tried first.
@@ -71,15 +75,15 @@ bool GoalTest::complete(StateView state, PlanPrefix& prefix) {
   if (!prefix.running.empty() || !semantics_.goal_satisfied(state)) return false;
   prefix.deadline = deadline(state, prefix.timed_done);
   prefix.closing_time = opening(prefix.timed_done);
-  const bool fits = prefix.closing_time == 0 ? check_.earliest(prefix) != nullptr : close(prefix);
+  const bool fits = prefix.closing_time == Duration{0} ? check_.earliest(prefix) != nullptr : close(prefix);
   if (fits) return true;
-  prefix.deadline = kNever;
-  prefix.closing_time = 0;
+  prefix.deadline = no_bound;
+  prefix.closing_time = Duration{0};
   prefix.closing_step = 0;
   return false;
 }
 
-std::string GoalTest::explain_failure(std::size_t states, bool cut) const {
+std::string GoalTest::failure_reason(std::size_t states, bool cut) const {
   std::string never;
   for (std::size_t goal = 0; goal < task_.goals.size(); ++goal) {
     const auto& facts = task_.goals[goal].facts;
@@ -94,4 +98,4 @@ std::string GoalTest::explain_failure(std::size_t states, bool cut) const {
                                 : "never reached:" + never);
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

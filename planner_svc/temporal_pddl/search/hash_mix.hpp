@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
 
 constexpr std::uint64_t mix(std::uint64_t h) {
   h ^= h >> 33;
@@ -13,4 +13,4 @@ constexpr std::uint64_t mix(std::uint64_t h) {
   return h ^ h >> 33;
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

@@ -4,7 +4,10 @@
 
 #include "planner_svc/temporal_pddl/task/semantics.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
+
+using constraints::kMaxSteps;
+using task::Action, task::FactId, task::SnapId, task::SnapKind, task::StateView;
 
 bool Lookahead::follow(const PlanPrefix& from, std::span<const SnapId> relaxed_plan, bool careful,
                        Successor& last) {
@@ -85,4 +88,4 @@ bool Lookahead::take(SnapId snap, Successor& last) {
   return true;
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

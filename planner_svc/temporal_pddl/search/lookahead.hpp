@@ -1,4 +1,5 @@
-// Follows a state's relaxed plan as far as it goes (Vidal 2004): many steps for the price of one evaluation.
+// Lookahead (Vidal 2004): follows the relaxed plan of a state as far as it goes, and so takes many steps for
+// the cost of one evaluation.
 #pragma once
 
 #include <cstddef>
@@ -7,39 +8,40 @@
 
 #include "planner_svc/temporal_pddl/search/state_space.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
 
 class Lookahead {
  public:
-  Lookahead(const Task& task, StateSpace& space)
+  Lookahead(const task::Task& task, StateSpace& space)
       : task_(task), space_(space), uses_(task.fact_names.size(), 0) {}
 
-  // Takes from the plan `from`, whose node is stored, what of the relaxed plan can be taken, in its order and
-  // again as long as anything can; ends and timed literals only where no start can. Every state on the way is
-  // stored, and the last one in `last`. careful: what undoes a fact that holds and that another action still
-  // to be taken needs, and keeps, waits until nothing else can be taken; so whoever leaves a place has done
-  // what was to be done there. False: nothing can be taken.
-  bool follow(const PlanPrefix& from, std::span<const SnapId> relaxed_plan, bool careful, Successor& last);
+  /// Takes from the plan `from`, whose node is stored, what of the relaxed plan can be taken, in its order
+  /// and again as long as anything can; ends and timed literals come only where no start can. Every state on
+  /// the way is stored, and the last one is put in `last`. If `careful`, what undoes a fact that holds and
+  /// that another action still to be taken needs, and keeps, waits until nothing else can be taken; so
+  /// whoever leaves a place has done what was to be done there. Returns false if nothing can be taken.
+  bool follow(const PlanPrefix& from, std::span<const task::SnapId> relaxed_plan, bool careful,
+              Successor& last);
 
  private:
-  bool waits(SnapId snap) const;
+  bool waits(task::SnapId snap) const;
   bool take_starts(Successor& last);
   bool take_one_harmful_start(Successor& last);
   bool take_one_that_waits(Successor& last);
-  bool take_start(SnapId start, Successor& last);
-  bool take(SnapId snap, Successor& last);
-  const Action& action_of(SnapId start) const { return task_.actions[task_.snaps[start].action]; }
-  bool has_to_wait(SnapId start) const;
-  void count_uses(SnapId start, int by);
+  bool take_start(task::SnapId start, Successor& last);
+  bool take(task::SnapId snap, Successor& last);
+  const task::Action& action_of(task::SnapId start) const { return task_.actions[task_.snaps[start].action]; }
+  bool has_to_wait(task::SnapId start) const;
+  void count_uses(task::SnapId start, int by);
 
-  const Task& task_;
+  const task::Task& task_;
   StateSpace& space_;
   bool careful_ = true;
   PlanPrefix prefix_;  // so far
   Successor next_;
-  std::size_t failures_left_ = 0;         // steps tried in vain, each as costly as one taken
-  std::vector<SnapId> starts_, waiting_;  // still to be taken
-  IdVector<FactId, int> uses_;            // how many of starts_ need the fact and do not undo it
+  std::size_t failures_left_ = 0;               // steps tried in vain, each as costly as one taken
+  std::vector<task::SnapId> starts_, waiting_;  // still to be taken
+  task::IdVector<task::FactId, int> uses_;      // how many of starts_ need the fact and do not undo it
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

@@ -1,6 +1,9 @@
 #include "planner_svc/temporal_pddl/search/novelty.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
+
+using task::ActionId;
+using task::StateView;
 
 std::int64_t Novelty::see(StateView state, std::span<const ActionId> running, std::int64_t estimate) {
   std::int64_t news = 0;
@@ -18,4 +21,4 @@ std::int64_t Novelty::see(StateView state, std::span<const ActionId> running, st
   return news;
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

@@ -1,5 +1,5 @@
 // How new a state is: of how many of its facts no state with so low an estimate has been seen before (Katz,
-// Lipovetzky, Moshkovich and Tuisov 2017). Leads out of where an estimate does not fall any more.
+// Lipovetzky, Moshkovich and Tuisov 2017). Novelty leads out of where an estimate does not fall any more.
 #pragma once
 
 #include <cstdint>
@@ -8,25 +8,26 @@
 
 #include "planner_svc/temporal_pddl/task/task.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
 
 class Novelty {
  public:
-  explicit Novelty(const Task& task)
+  explicit Novelty(const task::Task& task)
       : task_(task),
         lowest_(task.fact_names.size(), kUnseen),
         lowest_running_(task.actions.size(), kUnseen) {}
 
-  // Of a state and the actions that run in it, which count as facts; from now on it has been seen.
-  std::int64_t see(StateView state, std::span<const ActionId> running, std::int64_t estimate);
+  /// Returns the novelty of a state and the actions that run in it, which count as facts; from now on it has
+  /// been seen.
+  std::int64_t see(task::StateView state, std::span<const task::ActionId> running, std::int64_t estimate);
   std::size_t bytes() const { return (lowest_.size() + lowest_running_.size()) * sizeof(std::int64_t); }
 
  private:
   static constexpr std::int64_t kUnseen = std::numeric_limits<std::int64_t>::max();
 
-  const Task& task_;
-  IdVector<FactId, std::int64_t> lowest_;  // estimate of a state with the fact
-  IdVector<ActionId, std::int64_t> lowest_running_;
+  const task::Task& task_;
+  task::IdVector<task::FactId, std::int64_t> lowest_;  // estimate of a state with the fact
+  task::IdVector<task::ActionId, std::int64_t> lowest_running_;
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

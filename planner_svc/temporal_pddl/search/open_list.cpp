@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
+
+using task::SnapId;
 
 namespace {
 
@@ -103,4 +105,4 @@ std::size_t OpenList::bytes() const {
   return result;
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

@@ -14,22 +14,23 @@
 #include "planner_svc/temporal_pddl/search/ranked_queue.hpp"
 #include "planner_svc/temporal_pddl/search/state_store.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
 
 struct OpenEntry {
   NodeId parent;
-  SnapId snap;
+  task::SnapId snap;
 };
 
-// What a state's successors wait by, one rank each.
+/// The ranks by which the successors of a state wait, one for each kind of queue.
 struct Ranks {
   Priority by_plan, by_landmarks, by_novelty;
 };
 
 class OpenList {
  public:
-  // Beside those by the plan's estimate. Without any, each successor waits in one queue: among the preferred
-  // or the others. Else it waits in a queue of each kind, and the preferred among all.
+  /// Which queues there are beside those by the estimate of the plan. Without any, each successor waits in
+  /// one queue, among the preferred or the others; else it waits in a queue of each kind, and the preferred
+  /// among all.
   struct Kinds {
     bool by_landmarks = false;
     bool by_novelty = false;
@@ -37,13 +38,13 @@ class OpenList {
 
   explicit OpenList(Kinds kinds);
 
-  // successors: of `parent`, of which none waits yet. preferred: sorted.
-  void push(const Ranks& ranks, NodeId parent, std::span<const SnapId> successors,
-            std::span<const SnapId> preferred);
-  // From the queue that was served least. Each entry comes once; where it waits in several queues, its turn
-  // in the others passes.
+  /// Adds the successors of `parent`, of which none waits yet; `preferred` is sorted.
+  void push(const Ranks& ranks, NodeId parent, std::span<const task::SnapId> successors,
+            std::span<const task::SnapId> preferred);
+  /// Takes an entry from the queue that was served least. Each entry comes once; where it waits in several
+  /// queues, its turn in the others passes.
   std::optional<OpenEntry> pop();
-  // The search has made progress: what is preferred is served first for a while.
+  /// Is told that the search has made progress: what is preferred is served first for a while.
   void boost();
 
   std::size_t bytes() const;
@@ -89,4 +90,4 @@ class OpenList {
   std::size_t list_bytes_ = 0;          // of all lists
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

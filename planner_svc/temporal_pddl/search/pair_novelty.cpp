@@ -5,7 +5,7 @@
 
 #include "planner_svc/temporal_pddl/search/hash_mix.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
 
 namespace {
 
@@ -43,4 +43,4 @@ int PairNovelty::see(std::span<const std::uint32_t> facts, std::span<const std::
   return fact_is_new ? 1 : pair_is_new ? 2 : kNothingNew;
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

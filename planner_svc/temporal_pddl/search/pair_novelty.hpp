@@ -10,18 +10,18 @@
 #include <span>
 #include <vector>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
 
 class PairNovelty {
  public:
   static constexpr int kNothingNew = 3;
 
-  // facts: how many there are. From 8 KiB for a few up to 8 MiB.
+  /// Takes from 8 KiB for a few facts up to 8 MiB.
   explicit PairNovelty(std::size_t facts);
 
-  // facts: of the state, in any numbering. fresh: those of them that a seen state of the same kind, from
-  // which it differs in nothing else, had not; or all, in the same order. 1: a fact is new; 2: only a pair;
-  // or kNothingNew. From now on it has been seen.
+  /// Returns 1 if a fact of the state is new, 2 if only a pair of them is, or kNothingNew; from now on the
+  /// state has been seen. Facts may be numbered in any way. `fresh` are those of them that a seen state of
+  /// the same kind, from which it differs in nothing else, had not; or all, in the same order.
   int see(std::span<const std::uint32_t> facts, std::span<const std::uint32_t> fresh, std::uint64_t kind);
   std::size_t bytes() const { return bits_.capacity() * sizeof(std::uint64_t); }
 
@@ -31,4 +31,4 @@ class PairNovelty {
   std::vector<std::uint64_t> bits_;  // a power of two
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

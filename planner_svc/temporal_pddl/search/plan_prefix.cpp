@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
+
+using constraints::BoundTable;
+using task::ActionId, task::SnapId, task::SnapKind, task::Task;
+using temporal::Duration, temporal::no_bound;
 
 void rebuild(const Task& task, const StateStore& store, const BoundTable& bounds, Duration epsilon,
              NodeId node, PlanPrefix& prefix) {
@@ -12,8 +16,8 @@ void rebuild(const Task& task, const StateStore& store, const BoundTable& bounds
   prefix.constraints.clear();
   prefix.running.clear();
   prefix.running_actions.clear();
-  prefix.deadline = kNever;
-  prefix.closing_time = 0;
+  prefix.deadline = no_bound;
+  prefix.closing_time = Duration{0};
   prefix.closing_step = 0;
   prefix.timed_done = 0;
   std::vector<NodeId> path;
@@ -54,4 +58,4 @@ void append_step(const Task& task, SnapId snap, NodeId before, PlanPrefix& prefi
   }
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

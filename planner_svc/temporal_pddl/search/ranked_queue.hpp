@@ -1,4 +1,5 @@
-// Items by rank, the best first; among equally good ones both the oldest and the youngest are at hand.
+// A queue of items by rank, the best first; among equally good ones both the oldest and the youngest are at
+// hand.
 #pragma once
 
 #include <compare>
@@ -7,17 +8,17 @@
 #include <map>
 #include <vector>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
 
-// Lower is better.
+/// A rank; lower is better.
 struct Priority {
   std::int64_t first = 0;
   std::int64_t second = 0;
   auto operator<=>(const Priority&) const = default;
 };
 
-// Item is a small plain value. One chain of items for each rank; their links lie in one vector and are used
-// again.
+/// Keeps one chain of items for each rank; their links lie in one vector and are used again. Item is a small
+/// plain value.
 template <typename Item>
 class RankedQueue {
  public:
@@ -29,7 +30,7 @@ class RankedQueue {
     chain.youngest = link;
   }
   bool empty() const { return chains_.empty(); }
-  // Of the best items. The queue must not be empty.
+  /// Returns one of the best items of a queue that is not empty.
   Item& oldest() { return links_[chains_.begin()->second.oldest].item; }
   Item& youngest() { return links_[chains_.begin()->second.youngest].item; }
   void drop_oldest() {
@@ -83,4 +84,4 @@ class RankedQueue {
   std::uint32_t unused_ = kNone;
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

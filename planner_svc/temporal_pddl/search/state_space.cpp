@@ -1,6 +1,10 @@
 #include "planner_svc/temporal_pddl/search/state_space.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
+
+using constraints::StepConstraint;
+using task::ActionId;
+using task::SnapId;
 
 std::span<const SnapId> StateSpace::applicable(const PlanPrefix& prefix) {
   candidates_.clear();
@@ -20,4 +24,4 @@ NodeId StateSpace::add(NodeId parent, Successor& successor) {
   return successor.prefix.node;
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

@@ -4,7 +4,11 @@
 #include <bit>
 #include <stdexcept>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
+
+using task::SnapId;
+using task::StateView;
+using task::Word;
 
 StateStore::StateStore(std::size_t words_per_state)
     : words_(words_per_state),
@@ -65,4 +69,4 @@ double StateStore::mean_bytes_per_state() const {
          static_cast<double>(code_bytes_) / static_cast<double>(size_);
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

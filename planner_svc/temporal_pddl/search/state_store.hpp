@@ -10,37 +10,38 @@
 #include "planner_svc/temporal_pddl/task/ids.hpp"
 #include "planner_svc/temporal_pddl/task/state_layout.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
 
-using NodeId = Id<struct NodeTag>;
+using NodeId = task::Id<struct NodeTag>;
 
-// How a state was reached: by a snap action, and, if it is compressed, the end of the same action at once.
+/// Tells how a state was reached: by a snap action, and, if it is compressed, the end of the same action at
+/// once.
 struct Transition {
-  SnapId snap;
+  task::SnapId snap;
   bool compressed = false;
 };
 
-// Nodes live in blocks, so that nothing is ever copied to a larger place and no memory is held in reserve for
-// more than one block.
+/// Stores nodes in blocks, so that nothing is ever copied to a larger place and no memory is held in reserve
+/// for more than one block.
 class StateStore {
  public:
   explicit StateStore(std::size_t words_per_state);
 
-  // `code`: the serialized constraints of the transition's steps. The first node is the root: its parent is
-  // none.
-  NodeId add(StateView state, NodeId parent, Transition transition, std::span<const std::uint8_t> code);
+  /// Adds a node; `code` holds the serialized constraints of the steps of the transition. The first node is
+  /// the root: its parent is none.
+  NodeId add(task::StateView state, NodeId parent, Transition transition, std::span<const std::uint8_t> code);
 
-  // Forgets all nodes; keeps memory of one block of each kind.
+  /// Forgets all nodes; keeps the memory of one block of each kind.
   void clear();
 
-  StateView state(NodeId node) const;
+  task::StateView state(NodeId node) const;
   NodeId parent(NodeId node) const { return head(node).parent; }
   Transition transition(NodeId node) const;
   std::span<const std::uint8_t> code(NodeId node) const;
 
   std::size_t size() const { return size_; }
-  std::size_t bytes() const;            // allocated
-  double mean_bytes_per_state() const;  // used
+  std::size_t bytes() const;            ///< allocated
+  double mean_bytes_per_state() const;  ///< used
 
  private:
   struct Head {
@@ -57,7 +58,7 @@ class StateStore {
     return heads_[node.index() / kHeadsPerBlock][node.index() % kHeadsPerBlock];
   }
   std::size_t states_per_block() const { return std::size_t{1} << block_shift_; }
-  Word* place(std::size_t index) const {
+  task::Word* place(std::size_t index) const {
     return states_[index >> block_shift_].get() + (index & (states_per_block() - 1)) * words_;
   }
 
@@ -67,8 +68,8 @@ class StateStore {
   std::size_t code_bytes_ = 0;
   std::size_t open_code_ = 0;  // bytes used of the last block
   std::vector<std::unique_ptr<Head[]>> heads_;
-  std::vector<std::unique_ptr<Word[]>> states_;
+  std::vector<std::unique_ptr<task::Word[]>> states_;
   std::vector<std::unique_ptr<std::uint8_t[]>> codes_;
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

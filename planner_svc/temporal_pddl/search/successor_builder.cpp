@@ -2,7 +2,12 @@
 
 #include <algorithm>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
+
+using constraints::StepConstraint;
+using task::Action, task::ActionCompression, task::ActionId, task::FactId, task::Snap, task::SnapId,
+    task::SnapKind, task::StateView;
+using temporal::Duration, temporal::no_bound;
 
 double SuccessorBuilder::seconds_of(const Running& running) const {
   const auto bounds = semantics_.duration(running.action, store_.state(running.before), std::nullopt);
@@ -39,7 +44,7 @@ Rejection SuccessorBuilder::build(const PlanPrefix& prefix, SnapId snap, Success
     successor.times.clear();
     return long_enough(successor) ? Rejection::none : Rejection::temporal;
   }
-  const std::vector<Ticks>* times = check_.earliest(successor.prefix);
+  const std::vector<Duration>* times = check_.earliest(successor.prefix);
   if (!times) return Rejection::temporal;
   successor.times = *times;
   return Rejection::none;
@@ -48,7 +53,7 @@ Rejection SuccessorBuilder::build(const PlanPrefix& prefix, SnapId snap, Success
 // Does the compressed action's longest duration suffice for what keeps its start and its end apart?
 bool SuccessorBuilder::long_enough(const Successor& successor) {
   const auto fresh = std::span(successor.prefix.constraints).last(successor.new_constraints);
-  Duration least{0}, most = kUnbounded;
+  Duration least{0}, most = no_bound;
   for (const StepConstraint& constraint : fresh) {
     if (constraint.from + 1 != constraint.to || constraint.to + 1 != successor.prefix.steps.size()) continue;
     least = std::max(least, constraint.lower);
@@ -103,7 +108,7 @@ bool SuccessorBuilder::ends_at_once(ActionId id, StateView before) const {
 bool SuccessorBuilder::start(ActionId id, NodeId before, Successor& successor) {
   const Action& action = task_.actions[id];
   const StateView state = store_.state(before);
-  const bool compressed = steps_ == ActionSteps::whole || ends_at_once(id, state);
+  const bool compressed = steps_ == ActionCompression::always || ends_at_once(id, state);
   const auto bounds = semantics_.duration(id, state, std::nullopt);
   if (!bounds || !take(action.start, bounds->seconds, successor)) return false;
   if (!compressed) return true;
@@ -127,4 +132,4 @@ bool SuccessorBuilder::running_invariants_hold(const Successor& successor) const
   });
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

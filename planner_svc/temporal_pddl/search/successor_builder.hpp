@@ -8,25 +8,26 @@
 #include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
 #include "planner_svc/temporal_pddl/search/state_store.hpp"
 #include "planner_svc/temporal_pddl/search/temporal_check.hpp"
-#include "planner_svc/temporal_pddl/task/action_steps.hpp"
+#include "planner_svc/temporal_pddl/task/action_compression.hpp"
 #include "planner_svc/temporal_pddl/task/semantics.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
 
 enum class Rejection { none, logical, temporal };
 
 struct Successor {
   Transition transition;
-  std::vector<Word> state;
-  PlanPrefix prefix;                // of the new state; its node is not set
-  std::vector<Ticks> times;         // of the prefix's steps, at the earliest, if build() has scheduled them
-  std::size_t new_constraints = 0;  // how many of prefix.constraints the transition added, at their end
+  std::vector<task::Word> state;
+  PlanPrefix prefix;  ///< is that of the new state; its node is not set
+  /// Holds the earliest times of the steps of the prefix, if build() has scheduled them.
+  std::vector<temporal::Duration> times;
+  std::size_t new_constraints = 0;  ///< how many of prefix.constraints the transition added, at their end
 };
 
 class SuccessorBuilder {
  public:
-  SuccessorBuilder(const Task& task, const StateStore& store, TemporalCheck& check, Duration epsilon,
-                   ActionSteps steps)
+  SuccessorBuilder(const task::Task& task, const StateStore& store, TemporalCheck& check,
+                   temporal::Duration epsilon, task::ActionCompression steps)
       : task_(task),
         store_(store),
         check_(check),
@@ -35,33 +36,34 @@ class SuccessorBuilder {
         semantics_(task),
         orderings_(task, epsilon) {}
 
-  // Is it worth a try? Conditions hold, and an end belongs to a running action (R11), a start does not, the
-  // timed literal is the next one.
-  bool applicable(const PlanPrefix& prefix, SnapId snap) const;
-  // The state after an applicable snap action: all invariants hold (R13) and the plan can be scheduled (R25).
-  // A compression safe action is ended at once (R14). If nothing runs before and after, and only the order of
-  // things matters, the new steps can be late enough for everything: then nothing is scheduled.
-  Rejection build(const PlanPrefix& prefix, SnapId snap, Successor& successor);
-  // As build(), but does not ask whether the plan can be scheduled. False: an invariant breaks, or no
-  // duration is possible.
-  bool extend(const PlanPrefix& prefix, SnapId snap, Successor& successor);
+  /// Returns whether the snap action is worth a try: its conditions hold, an end belongs to a running action
+  /// (R11), a start does not, and a timed literal is the next one.
+  bool applicable(const PlanPrefix& prefix, task::SnapId snap) const;
+  /// Builds the state after an applicable snap action: all invariants must hold (R13) and the plan must be
+  /// schedulable (R25). A compression safe action is ended at once (R14). If nothing runs before and after,
+  /// and only the order of things matters, the new steps can be late enough for everything, and nothing is
+  /// scheduled.
+  Rejection build(const PlanPrefix& prefix, task::SnapId snap, Successor& successor);
+  /// Does as build(), but does not ask whether the plan can be scheduled. Returns false if an invariant
+  /// breaks, or no duration is possible.
+  bool extend(const PlanPrefix& prefix, task::SnapId snap, Successor& successor);
 
  private:
-  bool take(SnapId snap, double seconds, Successor& successor);
-  bool ends_at_once(ActionId action, StateView before) const;
-  bool start(ActionId action, NodeId before, Successor& successor);
-  bool end(ActionId action, StateView before_start, Successor& successor);
+  bool take(task::SnapId snap, double seconds, Successor& successor);
+  bool ends_at_once(task::ActionId action, task::StateView before) const;
+  bool start(task::ActionId action, NodeId before, Successor& successor);
+  bool end(task::ActionId action, task::StateView before_start, Successor& successor);
   static bool long_enough(const Successor& successor);
   bool running_invariants_hold(const Successor& successor) const;
   double seconds_of(const Running& running) const;
 
-  const Task& task_;
+  const task::Task& task_;
   const StateStore& store_;
   TemporalCheck& check_;
-  ActionSteps steps_;
+  task::ActionCompression steps_;
   bool absolute_;
-  Semantics semantics_;
-  Orderings orderings_;
+  task::Semantics semantics_;
+  constraints::Orderings orderings_;
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

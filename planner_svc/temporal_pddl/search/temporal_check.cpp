@@ -2,16 +2,21 @@
 
 #include <algorithm>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::search {
+
+using constraints::LongestPathStn, constraints::StepConstraint, constraints::kNoPath;
+using task::Action, task::ActionId, task::FactId, task::IdVector, task::Snap, task::SnapId, task::SnapKind,
+    task::Task, task::TimeWindow;
+using temporal::Duration, temporal::no_bound;
 
 namespace {
 
 // Moves `time` into the first window that is not over; false if all are.
-bool fit(std::span<const TimeWindow> windows, Ticks& time, bool& changed) {
-  const TimeWindow* window = window_from(windows, Duration(time));
+bool fit(std::span<const TimeWindow> windows, Duration& time, bool& changed) {
+  const TimeWindow* window = window_from(windows, time);
   if (!window) return false;
-  if (window->open.count() > time) {
-    time = window->open.count();
+  if (window->open > time) {
+    time = window->open;
     changed = true;
   }
   return true;
@@ -32,26 +37,26 @@ TemporalCheck::TemporalCheck(const Task& task, Duration epsilon)
   }
 }
 
-void TemporalCheck::fill(const PlanPrefix& prefix, Stn& network) {
+void TemporalCheck::fill(const PlanPrefix& prefix, LongestPathStn& network) {
   network.reset(prefix.steps.size());
   for (const StepConstraint& constraint : prefix.constraints) {
-    network.require(constraint.from, constraint.to, constraint.lower.count());
-    if (constraint.upper != kUnbounded) {
-      network.require(constraint.to, constraint.from, -constraint.upper.count());
+    network.require(constraint.from, constraint.to, constraint.lower);
+    if (constraint.upper != no_bound) {
+      network.require(constraint.to, constraint.from, -constraint.upper);
     }
   }
 }
 
-Stn TemporalCheck::network(const PlanPrefix& prefix) {
-  Stn result;
+LongestPathStn TemporalCheck::network(const PlanPrefix& prefix) {
+  LongestPathStn result;
   fill(prefix, result);
   return result;
 }
 
-Ticks TemporalCheck::upper_bound(const PlanPrefix& prefix, std::size_t step) const {
+Duration TemporalCheck::upper_bound(const PlanPrefix& prefix, std::size_t step) const {
   const bool running = std::ranges::any_of(prefix.running, [&](const Running& r) { return r.step == step; });
-  const Ticks own = running ? bounds_.latest_running(prefix.steps[step], prefix.timed_done)
-                            : bounds_.latest(prefix.steps[step], prefix.timed_done);
+  const Duration own = running ? bounds_.latest_running(prefix.steps[step], prefix.timed_done)
+                               : bounds_.latest(prefix.steps[step], prefix.timed_done);
   return std::min(own, prefix.deadline);
 }
 
@@ -61,11 +66,11 @@ bool TemporalCheck::fit_windows(const PlanPrefix& prefix, bool& changed) {
     if (!windows.empty() && !fit(windows, times_[i], changed)) return false;
     const Snap& snap = task_.snaps[prefix.steps[i]];
     if (snap.kind != SnapKind::end || task_.span_windows[snap.action].empty()) continue;
-    Ticks& start = times_[prefix.start_of[i]];
-    const TimeWindow* window = window_from(task_.span_windows[snap.action], Duration(times_[i]));
+    Duration& start = times_[prefix.start_of[i]];
+    const TimeWindow* window = window_from(task_.span_windows[snap.action], times_[i]);
     if (!window) return false;
-    if (start < window->open.count()) {
-      start = window->open.count();
+    if (start < window->open) {
+      start = window->open;
       changed = true;
     }
   }
@@ -82,26 +87,27 @@ bool TemporalCheck::ends_after(ActionId action, ActionId other) const {
 void TemporalCheck::look_ahead(const PlanPrefix& prefix) {
   const std::size_t steps = prefix.steps.size();
   network_.extend(prefix.running.size());
-  times_.resize(network_.points(), 0);
+  times_.resize(network_.points(), Duration{0});
   for (std::size_t i = 0; i < prefix.running.size(); ++i) {
     const ActionId id = prefix.running[i].action;
     const Action& action = task_.actions[id];
-    network_.require(prefix.running[i].step, steps + i, action.min_duration.count());
-    if (action.max_duration != kUnbounded)
-      network_.require(steps + i, prefix.running[i].step, -action.max_duration.count());
+    network_.require(prefix.running[i].step, steps + i, action.min_duration);
+    if (action.max_duration != no_bound)
+      network_.require(steps + i, prefix.running[i].step, -action.max_duration);
     for (std::size_t j = 0; j < prefix.running.size(); ++j) {
-      if (i != j && ends_after(id, prefix.running[j].action)) network_.require(steps + j, steps + i, 0);
+      if (i != j && ends_after(id, prefix.running[j].action))
+        network_.require(steps + j, steps + i, Duration{0});
     }
     pending_.clear();
     if (takes_away_[id]) orderings_.add(prefix.steps, action.end, {}, pending_);
     for (const StepConstraint& constraint : pending_)
-      network_.require(constraint.from, steps + i, constraint.lower.count());
+      network_.require(constraint.from, steps + i, constraint.lower);
   }
 }
 
-const std::vector<Ticks>* TemporalCheck::earliest(const PlanPrefix& prefix) {
+const std::vector<Duration>* TemporalCheck::earliest(const PlanPrefix& prefix) {
   fill(prefix, network_);
-  times_.assign(prefix.steps.size(), 0);
+  times_.assign(prefix.steps.size(), Duration{0});
   if (!times_.empty()) times_[prefix.closing_step] = prefix.closing_time;
   if (!prefix.running.empty()) look_ahead(prefix);
   if (!schedule(prefix)) return nullptr;
@@ -124,7 +130,7 @@ bool TemporalCheck::schedule(const PlanPrefix& prefix) {
 }
 
 std::vector<TimeWindow> TemporalCheck::chosen_windows(const PlanPrefix& prefix,
-                                                      const std::vector<Ticks>& times) const {
+                                                      const std::vector<Duration>& times) const {
   std::vector<TimeWindow> result = widest_windows(prefix);
   const auto restrict = [](TimeWindow& window, const TimeWindow& to) {
     window.open = std::max(window.open, to.open);
@@ -132,15 +138,14 @@ std::vector<TimeWindow> TemporalCheck::chosen_windows(const PlanPrefix& prefix,
   };
   for (std::size_t i = 0; i < times.size(); ++i) {
     const SnapId step = prefix.steps[i];
-    if (!task_.windows[step].empty())
-      restrict(result[i], *window_from(task_.windows[step], Duration(times[i])));
+    if (!task_.windows[step].empty()) restrict(result[i], *window_from(task_.windows[step], times[i]));
     const Snap& snap = task_.snaps[step];
     if (snap.kind != SnapKind::end || task_.span_windows[snap.action].empty()) continue;
-    const TimeWindow& span = *window_from(task_.span_windows[snap.action], Duration(times[i]));
+    const TimeWindow& span = *window_from(task_.span_windows[snap.action], times[i]);
     restrict(result[i], span);
     restrict(result[prefix.start_of[i]], span);
   }
-  if (!result.empty()) restrict(result[prefix.closing_step], {Duration(prefix.closing_time), kUnbounded});
+  if (!result.empty()) restrict(result[prefix.closing_step], {prefix.closing_time, no_bound});
   return result;
 }
 
@@ -149,28 +154,29 @@ std::vector<TimeWindow> TemporalCheck::widest_windows(const PlanPrefix& prefix) 
   for (std::size_t i = 0; i < result.size(); ++i) {
     const auto windows = task_.windows[prefix.steps[i]];
     if (!windows.empty()) result[i] = {windows.front().open, windows.back().close};
-    const Ticks bound = upper_bound(prefix, i);
-    if (bound != kNever) result[i].close = std::min(result[i].close, Duration(bound));
+    const Duration bound = upper_bound(prefix, i);
+    if (bound != no_bound) result[i].close = std::min(result[i].close, bound);
   }
   return result;
 }
 
 // The latest times are the negated least solution of the mirrored network.
-std::vector<Ticks> TemporalCheck::latest(const PlanPrefix& prefix, const std::vector<TimeWindow>& windows) {
-  Stn mirrored(prefix.steps.size());
+std::vector<Duration> TemporalCheck::latest(const PlanPrefix& prefix,
+                                            const std::vector<TimeWindow>& windows) {
+  LongestPathStn mirrored(prefix.steps.size());
   for (auto constraint = prefix.constraints.rbegin(); constraint != prefix.constraints.rend(); ++constraint) {
-    mirrored.require(constraint->to, constraint->from, constraint->lower.count());
-    if (constraint->upper != kUnbounded) {
-      mirrored.require(constraint->from, constraint->to, -constraint->upper.count());
+    mirrored.require(constraint->to, constraint->from, constraint->lower);
+    if (constraint->upper != no_bound) {
+      mirrored.require(constraint->from, constraint->to, -constraint->upper);
     }
   }
-  std::vector<Ticks> times(prefix.steps.size(), kNoPath);
+  std::vector<Duration> times(prefix.steps.size(), kNoPath);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    if (windows[i].close != kUnbounded) times[i] = -windows[i].close.count();
+    if (windows[i].close != no_bound) times[i] = -windows[i].close;
   }
   mirrored.raise(times);
-  for (Ticks& time : times) time = time == kNoPath ? kNever : -time;
+  for (Duration& time : times) time = time == kNoPath ? no_bound : -time;
   return times;
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::search

@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <map>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::task {
 
-DerivedFacts::DerivedFacts(std::span<const FactRule> rules) {
+DerivedFacts::DerivedFacts(std::span<const DerivationRule> rules) {
   std::map<FactId, std::uint32_t> index;  // of heads_
   std::vector<int> layers;                // by head
-  for (const FactRule& rule : rules) {
+  for (const DerivationRule& rule : rules) {
     if (!index.emplace(rule.head, static_cast<std::uint32_t>(heads_.size())).second) continue;
     heads_.push_back(rule.head);
     layers.push_back(rule.layer);
   }
   std::vector<std::vector<std::uint32_t>> awaited_by(heads_.size());
   for (std::uint32_t i = 0; i < rules.size(); ++i) {
-    const FactRule& rule = rules[i];
+    const DerivationRule& rule = rules[i];
     std::vector<FactId> settled;
     std::uint32_t awaited = 0;
     for (const FactId condition : rule.conditions) {
@@ -71,4 +71,4 @@ void DerivedFacts::complete(const StateLayout& layout, const ExpressionPool& exp
   }
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::task

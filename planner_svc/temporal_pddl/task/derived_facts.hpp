@@ -10,9 +10,9 @@
 #include "planner_svc/temporal_pddl/task/numbers.hpp"
 #include "planner_svc/temporal_pddl/task/state_layout.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::task {
 
-struct FactRule {
+struct DerivationRule {
   FactId head;
   int layer = 0;
   std::vector<FactId> conditions;
@@ -22,11 +22,12 @@ struct FactRule {
 class DerivedFacts {
  public:
   DerivedFacts() = default;
-  // rules: by layer, ascending. A rule depends on the negation of facts of lower layers only.
-  explicit DerivedFacts(std::span<const FactRule> rules);
+  /// Takes the rules in ascending order of their layers. A rule may depend on the negation of facts of lower
+  /// layers only.
+  explicit DerivedFacts(std::span<const DerivationRule> rules);
 
   bool empty() const { return rules_.empty(); }
-  // Sets the derived facts of a state as all others demand.
+  /// Sets the derived facts of a state as all its other facts and numbers demand.
   void complete(const StateLayout& layout, const ExpressionPool& expressions, MutableState state) const;
   std::span<const NumericCondition> comparisons(std::size_t rule) const { return comparisons_[rule]; }
   std::size_t rules() const { return rules_.size(); }
@@ -45,4 +46,4 @@ class DerivedFacts {
   FlatLists<std::uint32_t> awaited_by_;      // by head: rules of its layer
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::task

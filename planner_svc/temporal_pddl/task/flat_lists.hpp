@@ -1,4 +1,4 @@
-// Many short lists in two vectors: no allocation and no pointer per list.
+// Many short lists in two vectors, without an allocation and a pointer per list (compressed rows).
 #pragma once
 
 #include <cstddef>
@@ -6,13 +6,13 @@
 #include <span>
 #include <vector>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::task {
 
-// Lists are appended in order and never change. T is a plain value.
+/// Holds lists that are appended in order and never change. T is a plain value.
 template <typename T>
 class FlatLists {
  public:
-  // Appends one list; its index is the number of lists before.
+  /// Appends one list; its index is the number of lists before it.
   void push_back(std::span<const T> list) {
     items_.insert(items_.end(), list.begin(), list.end());
     begins_.push_back(static_cast<std::uint32_t>(items_.size()));
@@ -37,4 +37,4 @@ class FlatLists {
   std::vector<std::uint32_t> begins_{0};  // and the end of the last
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::task

@@ -1,4 +1,5 @@
-// Strong integer ids: each kind of thing has its own index type, which indexes vectors and nothing else.
+// Strong integer ids: each kind of thing has an index type of its own, which indexes vectors and nothing
+// else.
 #pragma once
 
 #include <compare>
@@ -8,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::task {
 
 template <typename Tag>
 struct Id {
@@ -34,7 +35,7 @@ using SchemaId = Id<struct SchemaTag>;          // an action of the domain
 using ActionId = Id<struct ActionTag>;          // a ground action
 using SnapId = Id<struct SnapTag>;              // a start, end, instantaneous action or timed literal
 
-// A vector that only the right kind of id indexes.
+/// A vector that only the right kind of id can index.
 template <typename IdType, typename T>
 class IdVector {
  public:
@@ -51,7 +52,7 @@ class IdVector {
   void assign(std::size_t size, const T& value) { items_.assign(size, value); }
   std::size_t size() const { return items_.size(); }
   bool empty() const { return items_.empty(); }
-  // Allocated, without what the items own.
+  /// Returns the allocated bytes, without what the items own.
   std::size_t bytes() const { return items_.capacity() * sizeof(T) / (std::is_same_v<T, bool> ? 8 : 1); }
   auto begin() const { return items_.begin(); }
   auto end() const { return items_.end(); }
@@ -62,4 +63,4 @@ class IdVector {
   std::vector<T> items_;
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::task

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::task {
 
 LinearExpression sum(const LinearExpression& a, const LinearExpression& b) {
   LinearExpression result;
@@ -63,4 +63,4 @@ ExpressionId ExpressionPool::intern(const LinearExpression& expression) {
   return id;
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::task

@@ -11,10 +11,10 @@
 
 #include "planner_svc/temporal_pddl/task/ids.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::task {
 
-// Σ weight · value(variable) + duration_weight · ?duration + constant. Terms are sorted by variable, none is
-// 0.
+/// Is the sum Σ weight · value(variable) + duration_weight · ?duration + constant. Terms are sorted by
+/// variable, and none of their weights is 0.
 struct LinearExpression {
   struct Term {
     NumberId variable;
@@ -34,7 +34,7 @@ LinearExpression scaled(const LinearExpression& a, double factor);
 
 using Word = std::uint64_t;
 
-// The values of the numeric variables of one state, as they lie in it: one word each.
+/// Shows the values of the numeric variables of one state as they lie in it: one word each.
 class NumbersView {
  public:
   explicit NumbersView(std::span<const Word> words) : words_(words) {}
@@ -45,10 +45,11 @@ class NumbersView {
   std::span<const Word> words_;
 };
 
-// `duration` in seconds. NaN if a variable that it needs has no value yet.
+/// Returns the expression's value; `duration` is in seconds. The value is NaN if a variable that it needs
+/// has none yet.
 double evaluate(const LinearExpression& expression, NumbersView values, double duration);
 
-// expression ∘ 0
+/// How an expression is compared with 0.
 enum class Comparator : std::uint8_t { greater_equal, greater, equal };
 
 struct NumericCondition {
@@ -57,10 +58,11 @@ struct NumericCondition {
   auto operator<=>(const NumericCondition&) const = default;
 };
 
-// `difference` ∘ 0. equal allows for rounding by 1e-9; a NaN satisfies nothing.
+/// Returns whether the comparison of `difference` with 0 holds. `equal` allows for rounding by 1e-9; a NaN
+/// satisfies nothing.
 bool holds(Comparator comparator, double difference);
 
-// variable := expression, or variable += expression.
+/// Sets the variable to the expression, or adds the expression to it.
 struct NumericEffect {
   NumberId variable;
   bool assigns = false;
@@ -68,7 +70,7 @@ struct NumericEffect {
   auto operator<=>(const NumericEffect&) const = default;
 };
 
-// Each distinct expression once: actions of one schema mostly share theirs.
+/// Holds each distinct expression once, as actions of one schema mostly share theirs.
 class ExpressionPool {
  public:
   ExpressionId intern(const LinearExpression& expression);
@@ -80,4 +82,4 @@ class ExpressionPool {
   std::map<LinearExpression, ExpressionId> ids_;
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::task

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <vector>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::task {
+
+using temporal::Duration;
 
 bool Semantics::holds_all(std::span<const FactId> facts, StateView state) const {
   return std::ranges::all_of(facts, [&](FactId fact) { return task_.layout.holds(state, fact); });
@@ -48,19 +50,14 @@ std::optional<DurationBounds> Semantics::duration(ActionId id, StateView before_
   DurationBounds result{action.min_duration, action.max_duration, 0};
   std::optional<double> fixed;
   for (const DurationRule& rule : task_.duration_rules[id]) {
-    const bool at_end = rule.at == pddl::TimePoint::end;
-    if (at_end && !before_end) continue;
-    const double seconds =
-        evaluate(task_.expressions[rule.bound], task_.layout.numbers(at_end ? *before_end : before_start), 0);
+    if (rule.at_end && !before_end) continue;
+    const double seconds = evaluate(task_.expressions[rule.bound],
+                                    task_.layout.numbers(rule.at_end ? *before_end : before_start), 0);
     if (std::isnan(seconds) || std::abs(seconds) > 1e12) return std::nullopt;
     const Duration bound(std::llround(seconds * 1e6));
-    const bool from_below =
-        rule.op != pddl::ComparisonOperator::less_equal && rule.op != pddl::ComparisonOperator::less;
-    const bool from_above =
-        rule.op != pddl::ComparisonOperator::greater_equal && rule.op != pddl::ComparisonOperator::greater;
-    if (from_below) result.min = std::max(result.min, bound);
-    if (from_above) result.max = std::min(result.max, bound);
-    if (from_below && from_above) fixed = seconds;
+    if (rule.from_below) result.min = std::max(result.min, bound);
+    if (rule.from_above) result.max = std::min(result.max, bound);
+    if (rule.from_below && rule.from_above) fixed = seconds;
   }
   result.seconds = fixed.value_or(std::chrono::duration<double>(result.min).count());
   return result.min <= result.max ? std::optional(result) : std::nullopt;
@@ -85,4 +82,4 @@ bool undoes(const Task& task, const Action& action, FactId fact) {
          (contains(task.deletes[action.start]) && !contains(task.adds[action.start]));
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::task

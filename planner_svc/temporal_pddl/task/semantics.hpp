@@ -5,26 +5,26 @@
 
 #include "planner_svc/temporal_pddl/task/task.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::task {
 
 struct DurationBounds {
-  Duration min{0};
-  Duration max = kUnbounded;
-  double seconds = 0;  // exact ?duration where it is fixed, else the least one
+  temporal::Duration min{0};
+  temporal::Duration max = temporal::no_bound;
+  double seconds = 0;  ///< the exact ?duration where it is fixed, else the least one
 };
 
 class Semantics {
  public:
   explicit Semantics(const Task& task) : task_(task) {}
 
-  // pre⊢ or pre⊣. seconds: the value of ?duration.
+  /// Returns whether pre⊢ or pre⊣ holds; `seconds` is the value of ?duration.
   bool applicable(SnapId snap, StateView state, double seconds) const;
-  // pre↔
+  /// Returns whether pre↔ holds.
   bool invariants_hold(ActionId action, StateView state, double seconds) const;
-  // All effects at once, seen from the state before.
+  /// Applies all effects at once, as seen from the state before.
   void apply(SnapId snap, double seconds, MutableState state) const;
-  // None: no duration satisfies all bounds. A bound measured at the end needs the state before the end;
-  // without one it is left out.
+  /// Returns the bounds on the duration, or nothing if no duration satisfies all of them. A bound measured
+  /// at the end needs the state before the end; without one it is left out.
   std::optional<DurationBounds> duration(ActionId action, StateView before_start,
                                          std::optional<StateView> before_end) const;
   bool satisfied(const NumericCondition& condition, StateView state) const;
@@ -38,7 +38,7 @@ class Semantics {
   const Task& task_;
 };
 
-// Is the fact false after the action as a whole, whatever it was before?
+/// Returns whether the fact is false after the action as a whole, whatever it was before.
 bool undoes(const Task& task, const Action& action, FactId fact);
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::task

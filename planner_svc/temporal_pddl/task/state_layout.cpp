@@ -4,7 +4,7 @@
 #include <bit>
 #include <utility>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::task {
 
 namespace {
 
@@ -33,9 +33,12 @@ StateLayout::StateLayout(std::vector<std::vector<FactId>> variables,
     packed_bits_ += bits;
     while (first_open < used.size() && used[first_open] == kWordBits) ++first_open;
     for (std::size_t i = 0; i < variable.facts.size(); ++i) {
-      places_[variable.facts[i]] = Place{variable.word, static_cast<std::uint8_t>(variable.shift), false,
+      places_[variable.facts[i]] = Place{variable.word,
+                                         static_cast<std::uint8_t>(variable.shift),
+                                         false,
                                          static_cast<std::uint32_t>(i + 1),
-                                         static_cast<std::uint32_t>(variables_.size()), variable.mask};
+                                         static_cast<std::uint32_t>(variables_.size()),
+                                         variable.mask};
     }
     variables_.push_back(std::move(variable));
   }
@@ -62,4 +65,4 @@ void StateLayout::remove(MutableState state, FactId fact) const {
   state[place.word] &= ~(place.mask << place.shift);
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::task

@@ -13,7 +13,7 @@
 #include "planner_svc/temporal_pddl/task/ids.hpp"
 #include "planner_svc/temporal_pddl/task/numbers.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::task {
 
 using StateView = std::span<const Word>;
 using MutableState = std::span<Word>;
@@ -21,20 +21,21 @@ using MutableState = std::span<Word>;
 class StateLayout {
  public:
   struct Variable {
-    std::vector<FactId> facts;  // value v ≥ 1 stands for facts[v − 1]
+    std::vector<FactId> facts;  ///< the value v ≥ 1 stands for facts[v − 1]
     std::uint32_t word = 0;
     std::uint32_t shift = 0;
-    Word mask = 0;  // before shifting
+    Word mask = 0;  ///< the bits of the variable before they are shifted
   };
 
   StateLayout() = default;
-  // variables: every fact in exactly one of them, except those with negation_of[fact] set, which are the
-  // negations.
+  /// Lays out states: every fact stands in exactly one of the variables, except those with negation_of[fact]
+  /// set, which are the negations of others.
   StateLayout(std::vector<std::vector<FactId>> variables, const IdVector<FactId, FactId>& negation_of,
               std::size_t numbers);
 
-  std::size_t words() const { return number_offset_ + numbers_; }  // words of one state, numbers included
-  std::size_t packed_bits() const { return packed_bits_; }         // Σ ⌈log2(facts + 1)⌉
+  /// The words of one state, its numbers included.
+  std::size_t words() const { return number_offset_ + numbers_; }
+  std::size_t packed_bits() const { return packed_bits_; }  ///< Σ ⌈log2(facts + 1)⌉
   std::span<const Variable> variables() const { return variables_; }
   std::size_t facts() const { return places_.size(); }
   std::size_t bytes() const { return variables_.capacity() * sizeof(Variable) + places_.bytes(); }
@@ -48,14 +49,14 @@ class StateLayout {
     const Variable& v = variables_[variable];
     return static_cast<std::uint32_t>((state[v.word] >> v.shift) & v.mask);
   }
-  // add: makes the fact true, and with it false what shares its variable. Negations follow by themselves:
-  // adding or removing one does nothing.
+  /// add() makes the fact true, and with it false what shares its variable. Negations follow by themselves:
+  /// to add or remove one does nothing.
   void add(MutableState state, FactId fact) const;
   void remove(MutableState state, FactId fact) const;
 
-  // The variable that a fact, or the one that it negates, is a value of.
+  /// Returns the variable that a fact, or the one that it negates, is a value of.
   std::size_t variable_of(FactId fact) const { return places_[fact].variable; }
-  // Which of its values that is.
+  /// Returns which of its values that is.
   std::uint32_t value_of(FactId fact) const { return places_[fact].value; }
   bool is_negation(FactId fact) const { return places_[fact].negated; }
   std::span<const FactId> negations() const { return negations_; }
@@ -83,4 +84,4 @@ class StateLayout {
   std::size_t packed_bits_ = 0;
 };
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::task

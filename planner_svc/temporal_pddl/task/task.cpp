@@ -1,6 +1,6 @@
 #include "planner_svc/temporal_pddl/task/task.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::task {
 
 namespace {
 
@@ -49,4 +49,4 @@ bool Task::has_absolute_times() const {
   return false;
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::task

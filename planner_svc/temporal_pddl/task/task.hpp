@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pddl/ast.hpp"
-#include "planner_svc/temporal_pddl/plan/result.hpp"
+#include "core/temporal/duration.hpp"
 #include "planner_svc/temporal_pddl/task/derived_facts.hpp"
 #include "planner_svc/temporal_pddl/task/flat_lists.hpp"
 #include "planner_svc/temporal_pddl/task/ids.hpp"
@@ -18,9 +17,9 @@
 #include "planner_svc/temporal_pddl/task/state_layout.hpp"
 #include "planner_svc/temporal_pddl/task/time_windows.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::task {
 
-// What temporal constraints are about (v of R22, R23): a fact or a number.
+/// Names what temporal constraints are about (v of R22, R23): a fact or a number.
 using VariableId = Id<struct VariableTag>;
 
 enum class SnapKind : std::uint8_t {
@@ -28,35 +27,38 @@ enum class SnapKind : std::uint8_t {
   end,
   instant,
   timed_literal,
-  derivation,  // no step of a plan: how a derived fact or its negation comes to hold, for heuristics
+  /// Is no step of a plan; heuristics see by it how a derived fact or its negation comes to hold.
+  derivation,
 };
 
 struct Snap {
   SnapKind kind = SnapKind::start;
-  ActionId action;  // none for timed_literal and derivation
+  ActionId action;  ///< is none for timed_literal and derivation
 };
 
-// ?duration OP expression (in seconds), evaluated in the state before the start or before the end.
+/// Bounds ?duration (in seconds) by an expression that is evaluated in the state before the start or before
+/// the end.
 struct DurationRule {
-  pddl::ComparisonOperator op = pddl::ComparisonOperator::equal;
   ExpressionId bound;
-  pddl::TimePoint at = pddl::TimePoint::start;
+  bool from_below = true;  ///< ?duration ≥ bound
+  bool from_above = true;  ///< ?duration ≤ bound; with both, they are equal
+  bool at_end = false;
 };
 
 struct Action {
   SchemaId schema;
   SnapId start;
-  SnapId end;                // == start: a plain PDDL action
-  Duration min_duration{0};  // constant bounds; DurationRules may narrow them
-  Duration max_duration = kUnbounded;
-  bool compression_safe = false;  // see grounding/compression.hpp
+  SnapId end;                          ///< equals start for a plain PDDL action
+  temporal::Duration min_duration{0};  ///< the constant bounds, which duration rules may narrow
+  temporal::Duration max_duration = temporal::no_bound;
+  bool compression_safe = false;  ///< see grounding/invariants/compression_safety.hpp
 
   bool instantaneous() const { return start == end; }
 };
 
 struct TimedStep {
   SnapId snap;
-  Duration time{0};
+  temporal::Duration time{0};
 };
 
 struct Goal {
@@ -64,18 +66,18 @@ struct Goal {
   std::vector<NumericCondition> comparisons;
 };
 
-// What plans are judged by (:metric). The smaller the better; the duration in it is the plan's.
+/// What plans are judged by (:metric): the smaller it is the better; the duration in it is that of the plan.
 struct Metric {
-  LinearExpression expression{{}, 1, 0};  // over the numbers after the last step
-  bool maximized = false;                 // the problem wants the negation to be large
+  LinearExpression expression{{}, 1, 0};  ///< is evaluated over the numbers after the last step
+  bool maximized = false;                 ///< whether the problem wants the negation to be large
 
-  // The time of the last step and nothing else counts.
+  /// Returns whether nothing counts but the time of the last step.
   bool only_time() const { return expression.terms.empty() && expression.duration_weight > 0; }
 };
 
-// A ground atom, for names in reports.
+/// Names a ground atom or its negation in reports.
 struct FactName {
-  std::uint32_t atom = 0;  // index of Task::atom_arguments
+  std::uint32_t atom = 0;  ///< index of Task::atom_arguments
   PredicateId predicate;
   bool negated = false;
 };
@@ -85,32 +87,35 @@ struct Task {
   std::vector<std::string> objects, predicates, functions, schemas;
   IdVector<FactId, FactName> fact_names;
   FlatLists<ObjectId> atom_arguments;
-  FlatLists<ObjectId> action_arguments;  // by ActionId, the parameters of the schema
+  FlatLists<ObjectId> action_arguments;  ///< by ActionId, the parameters of the schema
   std::vector<std::string> number_names;
 
   // ---- Snap actions, by SnapId
   IdVector<SnapId, Snap> snaps;
-  FlatLists<FactId> conditions;              // pre⊢ or pre⊣
-  FlatLists<NumericCondition> comparisons;   // likewise
-  FlatLists<FactId> adds, deletes;           // deletes first, then adds
-  FlatLists<NumericEffect> numeric_effects;  // all evaluated in the state before
-  FlatLists<VariableId> reads, writes;       // for R22, R23
-  FlatLists<TimeWindow> windows;             // when it may happen (R33); none: any time
+  FlatLists<FactId> conditions;              ///< pre⊢ or pre⊣
+  FlatLists<NumericCondition> comparisons;   ///< likewise
+  FlatLists<FactId> adds, deletes;           ///< are applied deletes first, then adds
+  FlatLists<NumericEffect> numeric_effects;  ///< are all evaluated in the state before
+  FlatLists<VariableId> reads, writes;       ///< are what orderings go by (R22, R23)
+  FlatLists<TimeWindow> windows;  ///< when the snap action may happen (R33); an empty list allows any time
 
   // ---- Actions, by ActionId
   IdVector<ActionId, Action> actions;
-  FlatLists<FactId> invariants;  // pre↔
+  FlatLists<FactId> invariants;  ///< pre↔
   FlatLists<NumericCondition> numeric_invariants;
   FlatLists<VariableId> invariant_reads;
-  FlatLists<TimeWindow> span_windows;  // one of them must contain the whole action; none: any time
+  /// One of these must contain the whole action; an empty list allows any time.
+  FlatLists<TimeWindow> span_windows;
   FlatLists<DurationRule> duration_rules;
-  FlatLists<VariableId> derived_invariant_reads;  // what derived facts among the invariants hang on
-  FlatLists<FactId> absent_for_compression;  // must be false before the start; see Action::compression_safe
+  FlatLists<VariableId> derived_invariant_reads;  ///< what the derived facts among the invariants hang on
+  /// These facts must be false before the start; see Action::compression_safe.
+  FlatLists<FactId> absent_for_compression;
 
   // ---- The rest
-  std::vector<TimedStep> timed_steps;        // by time; those that windows replace are not among them
-  std::vector<Goal> goals;                   // alternatives
-  FlatLists<VariableId> derived_goal_reads;  // by goal: what derived facts in it hang on
+  /// Stand in order of time; those that windows replace are not among them.
+  std::vector<TimedStep> timed_steps;
+  std::vector<Goal> goals;                   ///< alternatives
+  FlatLists<VariableId> derived_goal_reads;  ///< what the derived facts in each goal hang on
   IdVector<FactId, bool> is_derived;
   DerivedFacts derived;
   Metric metric;
@@ -118,13 +123,14 @@ struct Task {
   StateLayout layout;
   std::vector<Word> initial_state;
 
-  // Does it matter when a plan happens, not only in which order? Else every plan may begin later as a whole.
+  /// Returns whether it matters when a plan happens, and not only in which order. Else every plan may begin
+  /// later as a whole.
   bool has_absolute_times() const;
 
-  // Of the same durative action; none: there is none.
+  /// Returns the other end of the same durative action, or none.
   SnapId other_end(SnapId snap) const;
 
-  // Allocated; what does not grow with the facts and actions is left out.
+  /// Returns the allocated bytes; what does not grow with the facts and actions is left out.
   std::size_t bytes() const;
 
   std::size_t variables() const { return fact_names.size() + number_names.size(); }
@@ -132,9 +138,9 @@ struct Task {
   VariableId variable(NumberId number) const { return VariableId(fact_names.size() + number.index()); }
 };
 
-// "(at rover w1)", "(not (open door))"
+/// Prints as "(at rover w1)" or "(not (open door))".
 std::string name(const Task& task, FactId fact);
-// "(drive rover w1 w2)"
+/// Prints as "(drive rover w1 w2)".
 std::string name(const Task& task, ActionId action);
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::task

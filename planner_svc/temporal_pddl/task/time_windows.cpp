@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::task {
+
+using temporal::Duration;
+using temporal::no_bound;
 
 TimeWindows intersection(std::span<const TimeWindow> a, std::span<const TimeWindow> b) {
   TimeWindows result;
@@ -21,7 +24,7 @@ TimeWindows shrunk(std::span<const TimeWindow> windows, Duration from_open, Dura
   TimeWindows result;
   for (TimeWindow window : windows) {
     if (window.open > Duration{0}) window.open += from_open;
-    if (window.close != kUnbounded) window.close -= from_close;
+    if (window.close != no_bound) window.close -= from_close;
     if (window.open <= window.close) result.push_back(window);
   }
   return result;
@@ -32,4 +35,4 @@ const TimeWindow* window_from(std::span<const TimeWindow> windows, Duration time
   return found == windows.end() ? nullptr : &*found;
 }
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::task

@@ -4,18 +4,18 @@
 #include <span>
 #include <vector>
 
-#include "planner_svc/temporal_pddl/plan/result.hpp"
+#include "core/temporal/duration.hpp"
 
-namespace roci::planner::temporal_pddl {
+namespace roci::planner::temporal_pddl::task {
 
-// Both ends belong to it.
+/// An interval of times; both of its ends belong to it.
 struct TimeWindow {
-  Duration open{0};
-  Duration close = kUnbounded;
+  temporal::Duration open{0};
+  temporal::Duration close = temporal::no_bound;
   bool operator==(const TimeWindow&) const = default;
 };
 
-// Ascending and disjoint.
+/// Intervals in ascending order that are disjoint.
 using TimeWindows = std::vector<TimeWindow>;
 
 inline TimeWindows any_time() { return {TimeWindow{}}; }
@@ -25,10 +25,12 @@ inline bool is_any_time(std::span<const TimeWindow> windows) {
 
 TimeWindows intersection(std::span<const TimeWindow> a, std::span<const TimeWindow> b);
 
-// Each window cut by `from_open` and `from_close` at its ends, where it has them; what is left of them.
-TimeWindows shrunk(std::span<const TimeWindow> windows, Duration from_open, Duration from_close);
+/// Cuts each window by `from_open` and `from_close` at its ends, where it has them, and returns what is
+/// left.
+TimeWindows shrunk(std::span<const TimeWindow> windows, temporal::Duration from_open,
+                   temporal::Duration from_close);
 
-// The first window that is not over at `time`; null if all are.
-const TimeWindow* window_from(std::span<const TimeWindow> windows, Duration time);
+/// Returns the first window that is not over at `time`, or null if all are.
+const TimeWindow* window_from(std::span<const TimeWindow> windows, temporal::Duration time);
 
-}  // namespace roci::planner::temporal_pddl
+}  // namespace roci::planner::temporal_pddl::task

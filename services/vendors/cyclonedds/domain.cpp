@@ -9,18 +9,18 @@ extern "C" {
 #include <map>
 #include <mutex>
 
-#include "services/domain_claim.hpp"
+#include "services/transport/rtps_ports.hpp"
 #include "services/vendors/peers.hpp"
 
-namespace roci::services::cyclonedds {
+namespace roci::services::vendors::cyclonedds {
 namespace {
 
 dds_entity_t create(int id, const std::string& config) {
   const dds_entity_t handle = dds_create_domain(static_cast<dds_domainid_t>(id), config.c_str());
   if (handle < 0) {
-    throw TransportError("Cyclone DDS cannot open domain " + std::to_string(id) + ": " +
-                         dds_strretcode(handle) +
-                         "; the domain id must be from 0 to 230, its configuration must be valid: " + config);
+    throw transport::TransportError(
+        "Cyclone DDS cannot open domain " + std::to_string(id) + ": " + dds_strretcode(handle) +
+        "; the domain id must be from 0 to 230, its configuration must be valid: " + config);
   }
   return handle;
 }
@@ -34,7 +34,7 @@ void log_to_standard_error(void*, const dds_log_data_t* entry) {
 
 }  // namespace
 
-std::string configuration(const TransportOptions& options) {
+std::string configuration(const transport::TransportOptions& options) {
   std::string peers;
   for (const auto& peer : peers_of(options)) peers += "<Peer address=\"" + peer + "\"/>";
   // One datagram per 64 kB sample is fastest on loopback; on a network it would be fragmented by IP.
@@ -44,8 +44,8 @@ std::string configuration(const TransportOptions& options) {
          options.address + "\" multicast=\"false\"/></Interfaces><AllowMulticast>false</AllowMulticast>" +
          message_size +
          "</General><Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
-         std::to_string(kMaxParticipantsPerHost - 1) + "</MaxAutoParticipantIndex><Peers>" + peers +
-         "</Peers><SPDPInterval>500ms</SPDPInterval><LeaseDuration>" + std::to_string(kLeaseSeconds) +
+         std::to_string(transport::kMaxParticipantsPerHost - 1) + "</MaxAutoParticipantIndex><Peers>" +
+         peers + "</Peers><SPDPInterval>500ms</SPDPInterval><LeaseDuration>" + std::to_string(kLeaseSeconds) +
          "s</LeaseDuration></Discovery><Internal><GenerateKeyhash>true</"
          "GenerateKeyhash></Internal>"
          "</Domain></CycloneDDS>";
@@ -55,18 +55,18 @@ Domain::Domain(int id, std::string config) : config_(std::move(config)), handle_
 
 Domain::~Domain() { dds_delete(handle_); }
 
-std::shared_ptr<Domain> join_domain(const TransportOptions& options) {
+std::shared_ptr<Domain> join_domain(const transport::TransportOptions& options) {
   static std::mutex mutex;
   static std::map<int, std::weak_ptr<Domain>> domains;
   if (options.vendor_xml.empty()) require_usable_addresses(options);
   if (!options.vendor_xml.empty() && !std::filesystem::exists(options.vendor_xml)) {
-    throw TransportError("Cyclone DDS configuration " + options.vendor_xml + " does not exist");
+    throw transport::TransportError("Cyclone DDS configuration " + options.vendor_xml + " does not exist");
   }
   const auto config = options.vendor_xml.empty() ? configuration(options) : options.vendor_xml;
   const std::lock_guard lock(mutex);
   auto domain = domains[options.domain].lock();
   if (domain && domain->config() != config) {
-    throw TransportError(
+    throw transport::TransportError(
         "domain " + std::to_string(options.domain) +
         " is open in this process with another address, other peers or another configuration; "
         "Cyclone DDS keeps one per domain and process");
@@ -76,4 +76,4 @@ std::shared_ptr<Domain> join_domain(const TransportOptions& options) {
   return domain;
 }
 
-}  // namespace roci::services::cyclonedds
+}  // namespace roci::services::vendors::cyclonedds

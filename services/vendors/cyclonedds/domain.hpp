@@ -8,16 +8,16 @@ extern "C" {
 #include <memory>
 #include <string>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 
-namespace roci::services::cyclonedds {
+namespace roci::services::vendors::cyclonedds {
 
-// The XML that our settings come to: UDP unicast on options.address alone.
-std::string configuration(const TransportOptions&);
+/// The XML that our settings come to: UDP unicast on options.address alone.
+std::string configuration(const transport::TransportOptions&);
 
 class Domain {
  public:
-  // `config`: XML or the path of a file with it.
+  /// `config`: XML or the path of a file with it.
   Domain(int id, std::string config);
   ~Domain();
   Domain(const Domain&) = delete;
@@ -30,8 +30,8 @@ class Domain {
   const dds_entity_t handle_;
 };
 
-// Shared by the participants of this process that are in the same domain; they must agree on its
-// configuration. Throws TransportError.
-std::shared_ptr<Domain> join_domain(const TransportOptions&);
+/// Shared by the participants of this process that are in the same domain; they must agree on its
+/// configuration. Throws TransportError.
+std::shared_ptr<Domain> join_domain(const transport::TransportOptions&);
 
-}  // namespace roci::services::cyclonedds
+}  // namespace roci::services::vendors::cyclonedds

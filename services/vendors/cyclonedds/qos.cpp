@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace roci::services::cyclonedds {
+namespace roci::services::vendors::cyclonedds {
 
-QosPtr endpoint_qos(const QosSettings& settings) {
+QosPtr endpoint_qos(const transport::QosSettings& settings) {
   QosPtr qos(dds_create_qos());
   const auto history = settings.history_depth > 0 ? DDS_HISTORY_KEEP_LAST : DDS_HISTORY_KEEP_ALL;
   const int depth = std::max(settings.history_depth, 1);
@@ -23,14 +23,15 @@ QosPtr endpoint_qos(const QosSettings& settings) {
 }
 
 dds_entity_t checked(dds_entity_t entity, const std::string& what) {
-  if (entity < 0) throw TransportError("Cyclone DDS refused " + what + ": " + dds_strretcode(entity));
+  if (entity < 0)
+    throw transport::TransportError("Cyclone DDS refused " + what + ": " + dds_strretcode(entity));
   return entity;
 }
 
-Guid to_guid(const dds_guid_t& theirs) {
-  Guid guid;
+transport::Guid to_guid(const dds_guid_t& theirs) {
+  transport::Guid guid;
   std::copy(std::begin(theirs.v), std::end(theirs.v), guid.begin());
   return guid;
 }
 
-}  // namespace roci::services::cyclonedds
+}  // namespace roci::services::vendors::cyclonedds

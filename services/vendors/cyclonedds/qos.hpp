@@ -7,9 +7,9 @@ extern "C" {
 
 #include <memory>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 
-namespace roci::services::cyclonedds {
+namespace roci::services::vendors::cyclonedds {
 
 struct DeleteQos {
   void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
@@ -21,14 +21,14 @@ struct DeleteListener {
 };
 using ListenerPtr = std::unique_ptr<dds_listener_t, DeleteListener>;
 
-// For writers and readers alike.
-QosPtr endpoint_qos(const QosSettings&);
+/// For writers and readers alike.
+QosPtr endpoint_qos(const transport::QosSettings&);
 
-// `entity` if it is a handle; throws TransportError "Cyclone DDS refused <what>: <why>" if it is an error
-// code.
+/// `entity` if it is a handle; throws TransportError "Cyclone DDS refused <what>: <why>" if it is an error
+/// code.
 dds_entity_t checked(dds_entity_t entity, const std::string& what);
 
-// What the vendor's GUID looks like at our boundary.
-Guid to_guid(const dds_guid_t&);
+/// What the vendor's GUID looks like at our boundary.
+transport::Guid to_guid(const dds_guid_t&);
 
-}  // namespace roci::services::cyclonedds
+}  // namespace roci::services::vendors::cyclonedds

@@ -7,10 +7,10 @@ extern "C" {
 #include "services/vendors/cyclonedds/session_start.h"
 }
 
-namespace roci::services::cyclonedds {
+namespace roci::services::vendors::cyclonedds {
 
 CycloneReader::CycloneReader(dds_entity_t subscriber, const TopicHandle& topic,
-                             const EndpointDescription& endpoint, ReaderEvents events)
+                             const transport::EndpointDescription& endpoint, transport::ReaderEvents events)
     : type_(*topic.type),
       reliable_volatile_(endpoint.qos.reliable && !endpoint.qos.transient_local),
       events_(std::move(events)) {
@@ -46,31 +46,32 @@ void CycloneReader::take_all(dds_entity_t reader) {
   } while (count == static_cast<dds_return_t>(kBatch));
 }
 
-void CycloneReader::take(const Serdata& data, const dds_sample_info_t& info, const Guid& writer) {
+void CycloneReader::take(const Serdata& data, const dds_sample_info_t& info, const transport::Guid& writer) {
   if (!events_.on_sample) return;
   const auto payload = data.payload();
   if (info.valid_data) {
     if (type_.type.keyed && !instances_.wrote(data.instance(), writer)) {
-      Payload key;
+      transport::Payload key;
       if (!type_.type.serialized_key(payload, false, key)) return;
       instances_.introduce(data.instance(), writer, key_only_payload(key));
     }
-    events_.on_sample({SampleKind::data, Payload(payload.begin(), payload.end()), writer});
+    events_.on_sample(
+        {transport::SampleKind::data, transport::Payload(payload.begin(), payload.end()), writer});
   }
   const bool more_of_instance_follow = info.sample_rank > 0;
   if (!type_.type.keyed || info.instance_state == DDS_IST_ALIVE || more_of_instance_follow) return;
   if (auto key_payload = instances_.ended(data.instance())) {
     const bool disposed = info.instance_state == DDS_IST_NOT_ALIVE_DISPOSED;
-    events_.on_sample(
-        {disposed ? SampleKind::disposed : SampleKind::owner_lost, std::move(*key_payload), writer});
+    events_.on_sample({disposed ? transport::SampleKind::disposed : transport::SampleKind::no_writers,
+                       std::move(*key_payload), writer});
   }
 }
 
-Guid CycloneReader::writer_of(dds_entity_t reader, dds_instance_handle_t publication) {
+transport::Guid CycloneReader::writer_of(dds_entity_t reader, dds_instance_handle_t publication) {
   if (const auto known = writers_.find(publication); known != writers_.end()) return known->second;
   auto* endpoint = dds_get_matched_publication_data(reader, publication);
   if (!endpoint) return {};
-  const Guid guid = to_guid(endpoint->key);
+  const transport::Guid guid = to_guid(endpoint->key);
   dds_builtintopic_free_endpoint(endpoint);
   return writers_[publication] = guid;
 }
@@ -87,7 +88,7 @@ void CycloneReader::look_up_early_matches() {
 }
 
 void CycloneReader::begin_with(dds_entity_t reader, dds_instance_handle_t publication) {
-  Guid writer;
+  transport::Guid writer;
   {
     const std::lock_guard lock(mutex_);
     writer = writer_of(reader, publication);
@@ -104,4 +105,4 @@ void CycloneReader::on_matched(dds_entity_t entity, dds_subscription_matched_sta
   if (reader.events_.on_matched) reader.events_.on_matched(reader.matched_);
 }
 
-}  // namespace roci::services::cyclonedds
+}  // namespace roci::services::vendors::cyclonedds

@@ -4,15 +4,16 @@
 #include <mutex>
 #include <unordered_map>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 #include "services/vendors/cyclonedds/writer.hpp"
 #include "services/vendors/instance_table.hpp"
 
-namespace roci::services::cyclonedds {
+namespace roci::services::vendors::cyclonedds {
 
-class CycloneReader : public Reader {
+class CycloneReader : public transport::Reader {
  public:
-  CycloneReader(dds_entity_t subscriber, const TopicHandle&, const EndpointDescription&, ReaderEvents);
+  CycloneReader(dds_entity_t subscriber, const TopicHandle&, const transport::EndpointDescription&,
+                transport::ReaderEvents);
   ~CycloneReader() override;
 
   int matched_writers() const override { return matched_; }
@@ -22,20 +23,20 @@ class CycloneReader : public Reader {
   static void on_matched(dds_entity_t, dds_subscription_matched_status_t, void* self);
 
   void take_all(dds_entity_t reader);
-  void take(const Serdata&, const dds_sample_info_t&, const Guid& writer);
-  Guid writer_of(dds_entity_t reader, dds_instance_handle_t publication);
+  void take(const Serdata&, const dds_sample_info_t&, const transport::Guid& writer);
+  transport::Guid writer_of(dds_entity_t reader, dds_instance_handle_t publication);
   void begin_with(dds_entity_t reader, dds_instance_handle_t publication);
   void look_up_early_matches();
 
   const Sertype& type_;
   const bool reliable_volatile_;
-  const ReaderEvents events_;
+  const transport::ReaderEvents events_;
   std::atomic<int> matched_ = 0;
   std::mutex mutex_;  // one callback at a time
   InstanceTable instances_;
-  std::unordered_map<dds_instance_handle_t, Guid>
+  std::unordered_map<dds_instance_handle_t, transport::Guid>
       writers_;  // all that ever matched: ends come after a writer left
   dds_entity_t reader_;
 };
 
-}  // namespace roci::services::cyclonedds
+}  // namespace roci::services::vendors::cyclonedds

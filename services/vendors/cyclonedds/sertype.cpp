@@ -11,7 +11,7 @@ extern "C" {
 #include <cstring>
 #include <memory>
 
-namespace roci::services::cyclonedds {
+namespace roci::services::vendors::cyclonedds {
 namespace {
 
 const Serdata& own(const ddsi_serdata* data) { return *static_cast<const Serdata*>(data); }
@@ -26,7 +26,7 @@ ddsi_keyhash_t md5_of(std::span<const std::uint8_t> bytes) {
   return hash;
 }
 
-ddsi_keyhash_t hash_of_key(const TypeDescription& type, std::span<const std::uint8_t> key) {
+ddsi_keyhash_t hash_of_key(const transport::TypeDescription& type, std::span<const std::uint8_t> key) {
   if (!type.key_fits_hash) return md5_of(key);
   ddsi_keyhash_t hash{};
   std::copy(key.begin(), key.end(), hash.value);
@@ -46,7 +46,7 @@ void set_key_hash(Serdata& data, const ddsi_keyhash_t& hash) {
 
 // The bytes must stand in `bytes` already.
 Serdata* finish(const Sertype& type, std::unique_ptr<Serdata> data) {
-  Payload key;
+  transport::Payload key;
   if (data->size < 4) return nullptr;
   if (type.type.keyed) {
     const bool key_only = data->kind == SDK_KEY;
@@ -132,7 +132,7 @@ void get_keyhash(const ddsi_serdata* data, ddsi_keyhash_t* out, bool force_md5) 
   const auto& sample = own(data);
   *out = sample.key_hash;
   if (!force_md5 || !sample.type || !own(sample.type).type.key_fits_hash) return;
-  Payload key;
+  transport::Payload key;
   if (own(sample.type).type.serialized_key(sample.payload(), true, key)) *out = md5_of(key);
 }
 
@@ -208,7 +208,7 @@ InstanceTable::Key Serdata::instance() const {
   return {reinterpret_cast<const char*>(key_hash.value), sizeof key_hash.value};
 }
 
-ddsi_sertype* make_sertype(const TypeDescription& description) {
+ddsi_sertype* make_sertype(const transport::TypeDescription& description) {
   auto type = std::make_unique<Sertype>();
   // Fast DDS readers depend on the key hash: a dispose without it would abort them.
   ddsi_sertype_init_flags(
@@ -226,4 +226,4 @@ Serdata* make_serdata(const Sertype& type, ddsi_serdata_kind kind, std::span<con
   return finish(type, std::move(data));
 }
 
-}  // namespace roci::services::cyclonedds
+}  // namespace roci::services::vendors::cyclonedds

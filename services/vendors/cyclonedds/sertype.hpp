@@ -11,30 +11,30 @@ extern "C" {
 
 #include <span>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 #include "services/vendors/instance_table.hpp"
 
-namespace roci::services::cyclonedds {
+namespace roci::services::vendors::cyclonedds {
 
 struct Sertype : ddsi_sertype {
-  TypeDescription type;
+  transport::TypeDescription type;
 };
 
-// One sample. Immutable and counted by Cyclone DDS, which shares it between writer history, readers and
-// network.
+/// One sample. Immutable and counted by Cyclone DDS, which shares it between writer history, readers and
+/// network.
 struct Serdata : ddsi_serdata {
-  Payload bytes;         // zero-padded to a multiple of 4, as the network code reads it
-  std::size_t size = 0;  // of the payload in `bytes`; 0: only the key hash is known
+  transport::Payload bytes;  ///< zero-padded to a multiple of 4, as the network code reads it
+  std::size_t size = 0;      ///< of the payload in `bytes`; 0: only the key hash is known
   ddsi_keyhash_t key_hash{};
 
   std::span<const std::uint8_t> payload() const { return {bytes.data(), size}; }
   InstanceTable::Key instance() const;
 };
 
-// The caller owns it until dds_create_topic_sertype takes it over.
-ddsi_sertype* make_sertype(const TypeDescription&);
+/// The caller owns it until dds_create_topic_sertype takes it over.
+ddsi_sertype* make_sertype(const transport::TypeDescription&);
 
-// A whole sample, or the key of one (SDK_KEY). Null if the payload is malformed.
+/// A whole sample, or the key of one (SDK_KEY). Null if the payload is malformed.
 Serdata* make_serdata(const Sertype&, ddsi_serdata_kind, std::span<const std::uint8_t> payload);
 
-}  // namespace roci::services::cyclonedds
+}  // namespace roci::services::vendors::cyclonedds

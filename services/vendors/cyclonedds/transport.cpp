@@ -1,5 +1,5 @@
 // The Cyclone DDS transport: one participant whose types are all Sertype.
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 
 #include <map>
 #include <mutex>
@@ -9,24 +9,24 @@
 #include "services/vendors/cyclonedds/reader.hpp"
 #include "services/vendors/cyclonedds/writer.hpp"
 
-namespace roci::services::cyclonedds {
+namespace roci::services::vendors::cyclonedds {
 namespace {
 
-QosPtr participant_qos(const TransportOptions& options) {
+QosPtr participant_qos(const transport::TransportOptions& options) {
   QosPtr qos(dds_create_qos());
   dds_qset_entity_name(qos.get(), options.participant.c_str());
   return qos;
 }
 
-QosPtr partition_qos(const TransportOptions& options) {
+QosPtr partition_qos(const transport::TransportOptions& options) {
   QosPtr qos(dds_create_qos());
   if (!options.partition.empty()) dds_qset_partition1(qos.get(), options.partition.c_str());
   return qos;
 }
 
-class CycloneTransport : public Transport {
+class CycloneTransport : public transport::Transport {
  public:
-  explicit CycloneTransport(const TransportOptions& options)
+  explicit CycloneTransport(const transport::TransportOptions& options)
       : domain_(join_domain(options)),
         participant_(checked(dds_create_participant(static_cast<dds_domainid_t>(options.domain),
                                                     participant_qos(options).get(), nullptr),
@@ -40,22 +40,25 @@ class CycloneTransport : public Transport {
 
   std::string_view vendor() const override { return "cyclonedds"; }
 
-  std::unique_ptr<Writer> create_writer(const EndpointDescription& endpoint, WriterEvents events) override {
+  std::unique_ptr<transport::Writer> create_writer(const transport::EndpointDescription& endpoint,
+                                                   transport::WriterEvents events) override {
     return std::make_unique<CycloneWriter>(publisher_, topic_of(endpoint), endpoint, std::move(events));
   }
 
-  std::unique_ptr<Reader> create_reader(const EndpointDescription& endpoint, ReaderEvents events) override {
+  std::unique_ptr<transport::Reader> create_reader(const transport::EndpointDescription& endpoint,
+                                                   transport::ReaderEvents events) override {
     return std::make_unique<CycloneReader>(subscriber_, topic_of(endpoint), endpoint, std::move(events));
   }
 
  private:
   // Topics live as long as the participant; both ends of a topic share it.
-  TopicHandle topic_of(const EndpointDescription& endpoint) {
+  TopicHandle topic_of(const transport::EndpointDescription& endpoint) {
     const std::lock_guard lock(mutex_);
     auto& topic = topics_[endpoint.topic];
     if (topic.type && topic.type->type.name != endpoint.type.name) {
-      throw TransportError("topic " + endpoint.topic + " has the type " + topic.type->type.name +
-                           " in this participant, so it cannot have " + endpoint.type.name + " too");
+      throw transport::TransportError("topic " + endpoint.topic + " has the type " + topic.type->type.name +
+                                      " in this participant, so it cannot have " + endpoint.type.name +
+                                      " too");
     }
     if (topic.type) return topic;
     ddsi_sertype* type = make_sertype(endpoint.type);
@@ -75,9 +78,9 @@ class CycloneTransport : public Transport {
 };
 
 }  // namespace
-}  // namespace roci::services::cyclonedds
+}  // namespace roci::services::vendors::cyclonedds
 
-extern "C" std::unique_ptr<roci::services::Transport> roci_create_transport(
-    const roci::services::TransportOptions& options) {
-  return std::make_unique<roci::services::cyclonedds::CycloneTransport>(options);
+extern "C" std::unique_ptr<roci::services::transport::Transport> roci_create_transport(
+    const roci::services::transport::TransportOptions& options) {
+  return std::make_unique<roci::services::vendors::cyclonedds::CycloneTransport>(options);
 }

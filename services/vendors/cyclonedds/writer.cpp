@@ -4,10 +4,10 @@ extern "C" {
 #include <dds/ddsi/q_protocol.h>
 }
 
-namespace roci::services::cyclonedds {
+namespace roci::services::vendors::cyclonedds {
 
 CycloneWriter::CycloneWriter(dds_entity_t publisher, const TopicHandle& topic,
-                             const EndpointDescription& endpoint, WriterEvents events)
+                             const transport::EndpointDescription& endpoint, transport::WriterEvents events)
     : type_(*topic.type), reliable_(endpoint.qos.reliable), events_(std::move(events)) {
   const ListenerPtr listener(dds_create_listener(this));
   dds_lset_publication_matched(listener.get(), &CycloneWriter::on_matched);
@@ -43,4 +43,4 @@ void CycloneWriter::on_matched(dds_entity_t, dds_publication_matched_status_t st
   if (writer.events_.on_matched) writer.events_.on_matched(writer.matched_);
 }
 
-}  // namespace roci::services::cyclonedds
+}  // namespace roci::services::vendors::cyclonedds

@@ -2,26 +2,27 @@
 
 #include <atomic>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 #include "services/vendors/cyclonedds/qos.hpp"
 #include "services/vendors/cyclonedds/sertype.hpp"
 
-namespace roci::services::cyclonedds {
+namespace roci::services::vendors::cyclonedds {
 
 struct TopicHandle {
   dds_entity_t topic = 0;
-  const Sertype* type = nullptr;  // owned by the vendor as long as the topic lives
+  const Sertype* type = nullptr;  ///< owned by the vendor as long as the topic lives
 };
 
-class CycloneWriter : public Writer {
+class CycloneWriter : public transport::Writer {
  public:
-  CycloneWriter(dds_entity_t publisher, const TopicHandle&, const EndpointDescription&, WriterEvents);
-  // Waits a moment for what the readers have not acknowledged yet.
+  CycloneWriter(dds_entity_t publisher, const TopicHandle&, const transport::EndpointDescription&,
+                transport::WriterEvents);
+  /// Waits a moment for what the readers have not acknowledged yet.
   ~CycloneWriter() override;
 
   bool write(std::span<const std::uint8_t> payload) override;
   bool dispose(std::span<const std::uint8_t> payload) override;
-  Guid guid() const override { return guid_; }
+  transport::Guid guid() const override { return guid_; }
   int matched_readers() const override { return matched_; }
 
  private:
@@ -29,10 +30,10 @@ class CycloneWriter : public Writer {
 
   const Sertype& type_;
   const bool reliable_;
-  const WriterEvents events_;
+  const transport::WriterEvents events_;
   std::atomic<int> matched_ = 0;
   dds_entity_t writer_;
-  Guid guid_{};
+  transport::Guid guid_{};
 };
 
-}  // namespace roci::services::cyclonedds
+}  // namespace roci::services::vendors::cyclonedds

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace roci::services::fastdds {
+namespace roci::services::vendors::fastdds {
 
 using eprosima::fastrtps::rtps::InstanceHandle_t;
 using eprosima::fastrtps::rtps::SerializedPayload_t;
@@ -14,9 +14,9 @@ constexpr std::uint32_t kInitialSize = 512;
 
 }  // namespace
 
-std::optional<KeyHash> key_hash_of(const TypeDescription& type, std::span<const std::uint8_t> payload,
-                                   bool force_md5) {
-  Payload key;
+std::optional<KeyHash> key_hash_of(const transport::TypeDescription& type,
+                                   std::span<const std::uint8_t> payload, bool force_md5) {
+  transport::Payload key;
   if (!type.serialized_key(payload, true, key)) return std::nullopt;
   KeyHash hash{};
   if (type.key_fits_hash && !force_md5) {
@@ -31,7 +31,7 @@ std::optional<KeyHash> key_hash_of(const TypeDescription& type, std::span<const 
   return hash;
 }
 
-BytesType::BytesType(const TypeDescription& type) : type_(type) {
+BytesType::BytesType(const transport::TypeDescription& type) : type_(type) {
   setName(type.name.c_str());
   m_typeSize = kInitialSize;
   m_isGetKeyDefined = type.keyed;
@@ -73,4 +73,4 @@ bool BytesType::getKey(void* data, InstanceHandle_t* handle, bool force_md5) {
   return true;
 }
 
-}  // namespace roci::services::fastdds
+}  // namespace roci::services::vendors::fastdds

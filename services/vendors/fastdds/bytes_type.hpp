@@ -6,27 +6,27 @@
 #include <optional>
 #include <span>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 
-namespace roci::services::fastdds {
+namespace roci::services::vendors::fastdds {
 
 using KeyHash = std::array<std::uint8_t, 16>;
 
-// What the vendor's `void* data` points to. A writer lends the bytes, a reader's sample owns them.
+/// What the vendor's `void* data` points to. A writer lends the bytes, a reader's sample owns them.
 struct Bytes {
   std::span<const std::uint8_t> view;
-  Payload owned;
-  std::optional<KeyHash> key_hash;  // if known already; the vendor asks for it up to three times per write
+  transport::Payload owned;
+  std::optional<KeyHash> key_hash;  ///< if known already; the vendor asks for it up to three times per write
 };
 
-// The key hash of a whole or key-only payload: the big-endian key, or MD5 of it where a key of the type may
-// be longer than the hash. Nothing if the payload is malformed.
-std::optional<KeyHash> key_hash_of(const TypeDescription&, std::span<const std::uint8_t> payload,
+/// The key hash of a whole or key-only payload: the big-endian key, or MD5 of it where a key of the type may
+/// be longer than the hash. Nothing if the payload is malformed.
+std::optional<KeyHash> key_hash_of(const transport::TypeDescription&, std::span<const std::uint8_t> payload,
                                    bool force_md5);
 
 class BytesType : public eprosima::fastdds::dds::TopicDataType {
  public:
-  explicit BytesType(const TypeDescription&);
+  explicit BytesType(const transport::TypeDescription&);
 
   bool serialize(void* data, eprosima::fastrtps::rtps::SerializedPayload_t*) override;
   bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t*, void* data) override;
@@ -36,7 +36,7 @@ class BytesType : public eprosima::fastdds::dds::TopicDataType {
   bool getKey(void* data, eprosima::fastrtps::rtps::InstanceHandle_t*, bool force_md5) override;
 
  private:
-  const TypeDescription type_;
+  const transport::TypeDescription type_;
 };
 
-}  // namespace roci::services::fastdds
+}  // namespace roci::services::vendors::fastdds

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
-#include "services/domain_claim.hpp"
+#include "services/transport/rtps_ports.hpp"
 #include "services/vendors/peers.hpp"
 
-namespace roci::services::fastdds {
+namespace roci::services::vendors::fastdds {
 
 namespace dds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
@@ -34,8 +34,8 @@ dds::DomainParticipantQos profile_of(const std::string& xml) {
   auto* factory = dds::DomainParticipantFactory::get_instance();
   factory->load_profiles();
   if (factory->load_XML_profiles_file(xml) != ReturnCode_t::RETCODE_OK) {
-    throw TransportError("Fast DDS cannot use the profiles in " + xml +
-                         "; see its messages on standard error");
+    throw transport::TransportError("Fast DDS cannot use the profiles in " + xml +
+                                    "; see its messages on standard error");
   }
   factory->set_default_participant_qos(dds::PARTICIPANT_QOS_DEFAULT);
   dds::DomainParticipantQos qos;
@@ -43,7 +43,7 @@ dds::DomainParticipantQos profile_of(const std::string& xml) {
   return qos;
 }
 
-void set_history(const QosSettings& settings, dds::HistoryQosPolicy& history,
+void set_history(const transport::QosSettings& settings, dds::HistoryQosPolicy& history,
                  dds::ResourceLimitsQosPolicy& limits) {
   history.kind = settings.history_depth > 0 ? dds::KEEP_LAST_HISTORY_QOS : dds::KEEP_ALL_HISTORY_QOS;
   if (settings.history_depth > 0) history.depth = settings.history_depth;
@@ -55,7 +55,7 @@ void set_history(const QosSettings& settings, dds::HistoryQosPolicy& history,
 
 }  // namespace
 
-dds::DomainParticipantQos participant_qos(const TransportOptions& options) {
+dds::DomainParticipantQos participant_qos(const transport::TransportOptions& options) {
   auto qos = options.vendor_xml.empty() ? dds::DomainParticipantQos() : profile_of(options.vendor_xml);
   qos.name(options.participant.c_str());
   if (!options.vendor_xml.empty()) return qos;
@@ -64,7 +64,7 @@ dds::DomainParticipantQos participant_qos(const TransportOptions& options) {
   udp->interfaceWhiteList = {options.address};
   udp->sendBufferSize = kSocketBuffer;
   udp->receiveBufferSize = kSocketBuffer;
-  udp->maxInitialPeersRange = kMaxParticipantsPerHost;
+  udp->maxInitialPeersRange = transport::kMaxParticipantsPerHost;
   qos.transport().use_builtin_transports = false;
   qos.transport().user_transports = {udp};
 
@@ -77,19 +77,19 @@ dds::DomainParticipantQos participant_qos(const TransportOptions& options) {
   // Naming unicast locators keeps Fast DDS from adding the multicast one. It goes on from these ports to the
   // first that are free; left to itself it would count on with each participant that this process ever had,
   // out of sight of peers.
-  const int first_port = first_participant_port(options.domain);
+  const int first_port = transport::first_participant_port(options.domain);
   wire.builtin.metatrafficUnicastLocatorList.push_back(udp_locator(options.address, first_port));
   wire.default_unicast_locator_list.push_back(udp_locator(options.address, first_port + 1));
   for (const auto& peer : peers_of(options)) wire.builtin.initialPeersList.push_back(udp_locator(peer));
   return qos;
 }
 
-Duration_t blocking_time(const QosSettings& settings) {
+Duration_t blocking_time(const transport::QosSettings& settings) {
   return {settings.max_blocking_ms / 1000,
           static_cast<std::uint32_t>(settings.max_blocking_ms % 1000 * kMillisecond)};
 }
 
-dds::DataWriterQos writer_qos(const QosSettings& settings) {
+dds::DataWriterQos writer_qos(const transport::QosSettings& settings) {
   dds::DataWriterQos qos;
   qos.reliability().kind =
       settings.reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
@@ -107,7 +107,7 @@ dds::DataWriterQos writer_qos(const QosSettings& settings) {
   return qos;
 }
 
-dds::DataReaderQos reader_qos(const QosSettings& settings) {
+dds::DataReaderQos reader_qos(const transport::QosSettings& settings) {
   dds::DataReaderQos qos;
   qos.reliability().kind =
       settings.reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
@@ -121,4 +121,4 @@ dds::DataReaderQos reader_qos(const QosSettings& settings) {
   return qos;
 }
 
-}  // namespace roci::services::fastdds
+}  // namespace roci::services::vendors::fastdds

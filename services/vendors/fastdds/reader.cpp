@@ -5,7 +5,7 @@
 #include "services/vendors/fastdds/guid.hpp"
 #include "services/vendors/fastdds/qos.hpp"
 
-namespace roci::services::fastdds {
+namespace roci::services::vendors::fastdds {
 
 namespace dds = eprosima::fastdds::dds;
 
@@ -19,15 +19,15 @@ InstanceTable::Key key_of(const dds::InstanceHandle_t& handle) {
 
 }  // namespace
 
-FastReader::FastReader(dds::Subscriber& subscriber, dds::Topic& topic, const EndpointDescription& endpoint,
-                       ReaderEvents events)
+FastReader::FastReader(dds::Subscriber& subscriber, dds::Topic& topic,
+                       const transport::EndpointDescription& endpoint, transport::ReaderEvents events)
     : subscriber_(subscriber),
       type_(endpoint.type),
       events_(std::move(events)),
       reader_(subscriber.create_datareader(&topic, reader_qos(endpoint.qos), this,
                                            dds::StatusMask::data_available()
                                                << dds::StatusMask::subscription_matched())) {
-  if (!reader_) throw TransportError("Fast DDS refused a reader on " + endpoint.topic);
+  if (!reader_) throw transport::TransportError("Fast DDS refused a reader on " + endpoint.topic);
 }
 
 FastReader::~FastReader() {
@@ -51,24 +51,24 @@ void FastReader::on_data_available(dds::DataReader* reader) {
 }
 
 void FastReader::take_value(Bytes&& bytes, const dds::SampleInfo& info) {
-  const Guid writer = to_guid(info.sample_identity.writer_guid());
+  const transport::Guid writer = to_guid(info.sample_identity.writer_guid());
   if (type_.keyed) {
     const auto key = key_of(info.instance_handle);
     if (!instances_.wrote(key, writer)) {
-      Payload serialized;
+      transport::Payload serialized;
       if (!type_.serialized_key(bytes.owned, false, serialized)) return;
       instances_.introduce(key, writer, key_only_payload(serialized));
     }
   }
-  if (events_.on_sample) events_.on_sample({SampleKind::data, std::move(bytes.owned), writer});
+  if (events_.on_sample) events_.on_sample({transport::SampleKind::data, std::move(bytes.owned), writer});
 }
 
 void FastReader::take_end(const dds::SampleInfo& info) {
   auto key_payload = instances_.ended(key_of(info.instance_handle));
   if (!key_payload || !events_.on_sample) return;
   const bool disposed = info.instance_state == dds::NOT_ALIVE_DISPOSED_INSTANCE_STATE;
-  events_.on_sample({disposed ? SampleKind::disposed : SampleKind::owner_lost, std::move(*key_payload),
-                     to_guid(info.sample_identity.writer_guid())});
+  events_.on_sample({disposed ? transport::SampleKind::disposed : transport::SampleKind::no_writers,
+                     std::move(*key_payload), to_guid(info.sample_identity.writer_guid())});
 }
 
 void FastReader::on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) {
@@ -79,12 +79,13 @@ void FastReader::on_subscription_matched(dds::DataReader*, const dds::Subscripti
     // Fast DDS marks the instances of a writer that left, but reports no sample for it.
     eprosima::fastrtps::rtps::GUID_t theirs;
     eprosima::fastrtps::rtps::iHandle2GUID(theirs, status.last_publication_handle);
-    const Guid writer = to_guid(theirs);
+    const transport::Guid writer = to_guid(theirs);
     for (auto& key_payload : instances_.writer_left(writer)) {
-      if (events_.on_sample) events_.on_sample({SampleKind::owner_lost, std::move(key_payload), writer});
+      if (events_.on_sample)
+        events_.on_sample({transport::SampleKind::no_writers, std::move(key_payload), writer});
     }
   }
   if (events_.on_matched) events_.on_matched(status.current_count);
 }
 
-}  // namespace roci::services::fastdds
+}  // namespace roci::services::vendors::fastdds

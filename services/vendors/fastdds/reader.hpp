@@ -7,16 +7,16 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <mutex>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 #include "services/vendors/fastdds/bytes_type.hpp"
 #include "services/vendors/instance_table.hpp"
 
-namespace roci::services::fastdds {
+namespace roci::services::vendors::fastdds {
 
-class FastReader : public Reader, private eprosima::fastdds::dds::DataReaderListener {
+class FastReader : public transport::Reader, private eprosima::fastdds::dds::DataReaderListener {
  public:
-  FastReader(eprosima::fastdds::dds::Subscriber&, eprosima::fastdds::dds::Topic&, const EndpointDescription&,
-             ReaderEvents);
+  FastReader(eprosima::fastdds::dds::Subscriber&, eprosima::fastdds::dds::Topic&,
+             const transport::EndpointDescription&, transport::ReaderEvents);
   ~FastReader() override;
 
   int matched_writers() const override { return matched_; }
@@ -30,8 +30,8 @@ class FastReader : public Reader, private eprosima::fastdds::dds::DataReaderList
   void take_end(const eprosima::fastdds::dds::SampleInfo&);
 
   eprosima::fastdds::dds::Subscriber& subscriber_;
-  const TypeDescription type_;
-  const ReaderEvents events_;
+  const transport::TypeDescription type_;
+  const transport::ReaderEvents events_;
   std::atomic<int> matched_ = 0;
   std::mutex mutex_;  // one callback at a time
   bool closed_ = false;
@@ -39,4 +39,4 @@ class FastReader : public Reader, private eprosima::fastdds::dds::DataReaderList
   eprosima::fastdds::dds::DataReader* reader_;
 };
 
-}  // namespace roci::services::fastdds
+}  // namespace roci::services::vendors::fastdds

@@ -1,5 +1,5 @@
 // The Fast DDS transport: one DomainParticipant whose types are all BytesType.
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
@@ -14,7 +14,7 @@
 #include "services/vendors/fastdds/writer.hpp"
 #include "services/vendors/peers.hpp"
 
-namespace roci::services::fastdds {
+namespace roci::services::vendors::fastdds {
 
 namespace dds = eprosima::fastdds::dds;
 
@@ -28,23 +28,23 @@ void switch_intraprocess_delivery_off() {
   eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
 }
 
-dds::PartitionQosPolicy partition_of(const TransportOptions& options) {
+dds::PartitionQosPolicy partition_of(const transport::TransportOptions& options) {
   dds::PartitionQosPolicy partition;
   if (!options.partition.empty()) partition.push_back(options.partition.c_str());
   return partition;
 }
 
-class FastTransport : public Transport {
+class FastTransport : public transport::Transport {
  public:
-  explicit FastTransport(const TransportOptions& options) {
+  explicit FastTransport(const transport::TransportOptions& options) {
     if (options.vendor_xml.empty()) require_usable_addresses(options);
     switch_intraprocess_delivery_off();
     auto* factory = dds::DomainParticipantFactory::get_instance();
     participant_ =
         factory->create_participant(static_cast<std::uint32_t>(options.domain), participant_qos(options));
     if (!participant_) {
-      throw TransportError("Fast DDS cannot join domain " + std::to_string(options.domain) +
-                           "; the domain id must be from 0 to 232, its UDP ports must be free");
+      throw transport::TransportError("Fast DDS cannot join domain " + std::to_string(options.domain) +
+                                      "; the domain id must be from 0 to 232, its UDP ports must be free");
     }
     dds::PublisherQos publisher_qos;
     publisher_qos.partition() = partition_of(options);
@@ -61,29 +61,32 @@ class FastTransport : public Transport {
 
   std::string_view vendor() const override { return "fastdds"; }
 
-  std::unique_ptr<Writer> create_writer(const EndpointDescription& endpoint, WriterEvents events) override {
+  std::unique_ptr<transport::Writer> create_writer(const transport::EndpointDescription& endpoint,
+                                                   transport::WriterEvents events) override {
     return std::make_unique<FastWriter>(*publisher_, topic_of(endpoint), endpoint, std::move(events));
   }
 
-  std::unique_ptr<Reader> create_reader(const EndpointDescription& endpoint, ReaderEvents events) override {
+  std::unique_ptr<transport::Reader> create_reader(const transport::EndpointDescription& endpoint,
+                                                   transport::ReaderEvents events) override {
     return std::make_unique<FastReader>(*subscriber_, topic_of(endpoint), endpoint, std::move(events));
   }
 
  private:
   // Topics live as long as the participant; both ends of a topic share it.
-  dds::Topic& topic_of(const EndpointDescription& endpoint) {
+  dds::Topic& topic_of(const transport::EndpointDescription& endpoint) {
     const std::lock_guard lock(mutex_);
     auto& topic = topics_[endpoint.topic];
     if (topic && topic->get_type_name() != endpoint.type.name) {
-      throw TransportError("topic " + endpoint.topic + " has the type " + topic->get_type_name() +
-                           " in this participant, so it cannot have " + endpoint.type.name + " too");
+      throw transport::TransportError("topic " + endpoint.topic + " has the type " + topic->get_type_name() +
+                                      " in this participant, so it cannot have " + endpoint.type.name +
+                                      " too");
     }
     if (topic) return *topic;
     if (!participant_->find_type(endpoint.type.name)) {
       dds::TypeSupport(new BytesType(endpoint.type)).register_type(participant_);
     }
     topic = participant_->create_topic(endpoint.topic, endpoint.type.name, dds::TOPIC_QOS_DEFAULT);
-    if (!topic) throw TransportError("Fast DDS refused the topic " + endpoint.topic);
+    if (!topic) throw transport::TransportError("Fast DDS refused the topic " + endpoint.topic);
     return *topic;
   }
 
@@ -95,9 +98,9 @@ class FastTransport : public Transport {
 };
 
 }  // namespace
-}  // namespace roci::services::fastdds
+}  // namespace roci::services::vendors::fastdds
 
-extern "C" std::unique_ptr<roci::services::Transport> roci_create_transport(
-    const roci::services::TransportOptions& options) {
-  return std::make_unique<roci::services::fastdds::FastTransport>(options);
+extern "C" std::unique_ptr<roci::services::transport::Transport> roci_create_transport(
+    const roci::services::transport::TransportOptions& options) {
+  return std::make_unique<roci::services::vendors::fastdds::FastTransport>(options);
 }

@@ -4,20 +4,20 @@
 #include "services/vendors/fastdds/guid.hpp"
 #include "services/vendors/fastdds/qos.hpp"
 
-namespace roci::services::fastdds {
+namespace roci::services::vendors::fastdds {
 
 namespace dds = eprosima::fastdds::dds;
 using eprosima::fastrtps::Duration_t;
 
-FastWriter::FastWriter(dds::Publisher& publisher, dds::Topic& topic, const EndpointDescription& endpoint,
-                       WriterEvents events)
+FastWriter::FastWriter(dds::Publisher& publisher, dds::Topic& topic,
+                       const transport::EndpointDescription& endpoint, transport::WriterEvents events)
     : publisher_(publisher),
       type_(endpoint.type),
       qos_(endpoint.qos),
       events_(std::move(events)),
       writer_(publisher.create_datawriter(&topic, writer_qos(endpoint.qos), this,
                                           dds::StatusMask::publication_matched())) {
-  if (!writer_) throw TransportError("Fast DDS refused a writer on " + endpoint.topic);
+  if (!writer_) throw transport::TransportError("Fast DDS refused a writer on " + endpoint.topic);
 }
 
 FastWriter::~FastWriter() {
@@ -51,11 +51,11 @@ bool FastWriter::has_space() {
   return false;
 }
 
-Guid FastWriter::guid() const { return to_guid(writer_->guid()); }
+transport::Guid FastWriter::guid() const { return to_guid(writer_->guid()); }
 
 void FastWriter::on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) {
   matched_ = status.current_count;
   if (events_.on_matched) events_.on_matched(status.current_count);
 }
 
-}  // namespace roci::services::fastdds
+}  // namespace roci::services::vendors::fastdds

@@ -6,20 +6,20 @@
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 
-namespace roci::services::fastdds {
+namespace roci::services::vendors::fastdds {
 
-class FastWriter : public Writer, private eprosima::fastdds::dds::DataWriterListener {
+class FastWriter : public transport::Writer, private eprosima::fastdds::dds::DataWriterListener {
  public:
-  FastWriter(eprosima::fastdds::dds::Publisher&, eprosima::fastdds::dds::Topic&, const EndpointDescription&,
-             WriterEvents);
-  // Waits a moment for what the readers have not acknowledged yet.
+  FastWriter(eprosima::fastdds::dds::Publisher&, eprosima::fastdds::dds::Topic&,
+             const transport::EndpointDescription&, transport::WriterEvents);
+  /// Waits a moment for what the readers have not acknowledged yet.
   ~FastWriter() override;
 
   bool write(std::span<const std::uint8_t> payload) override;
   bool dispose(std::span<const std::uint8_t> payload) override;
-  Guid guid() const override;
+  transport::Guid guid() const override;
   int matched_readers() const override { return matched_; }
 
  private:
@@ -28,12 +28,12 @@ class FastWriter : public Writer, private eprosima::fastdds::dds::DataWriterList
                               const eprosima::fastdds::dds::PublicationMatchedStatus&) override;
 
   eprosima::fastdds::dds::Publisher& publisher_;
-  const TypeDescription type_;
-  const QosSettings qos_;
-  const WriterEvents events_;
+  const transport::TypeDescription type_;
+  const transport::QosSettings qos_;
+  const transport::WriterEvents events_;
   std::atomic<int> matched_ = 0;
   std::atomic<int> unconfirmed_ = 0;  // samples written since all were known to be acknowledged
   eprosima::fastdds::dds::DataWriter* writer_;
 };
 
-}  // namespace roci::services::fastdds
+}  // namespace roci::services::vendors::fastdds

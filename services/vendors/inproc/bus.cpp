@@ -2,11 +2,11 @@
 
 #include <map>
 
-namespace roci::services::inproc {
+namespace roci::services::vendors::inproc {
 namespace {
 
 // Topic and type by name, and a reader asks for no more than the writer offers.
-bool match(const EndpointDescription& writer, const EndpointDescription& reader) {
+bool match(const transport::EndpointDescription& writer, const transport::EndpointDescription& reader) {
   return writer.topic == reader.topic && writer.type.name == reader.type.name &&
          writer.type.keyed == reader.type.keyed && writer.qos.reliable >= reader.qos.reliable &&
          writer.qos.transient_local >= reader.qos.transient_local;
@@ -65,4 +65,4 @@ std::shared_ptr<Bus> bus_of_domain(int domain) {
   return bus;
 }
 
-}  // namespace roci::services::inproc
+}  // namespace roci::services::vendors::inproc

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 #include "services/vendors/inproc/reader_end.hpp"
 #include "services/vendors/inproc/writer_end.hpp"
 
-namespace roci::services::inproc {
+namespace roci::services::vendors::inproc {
 
 class Bus {
  public:
@@ -20,7 +20,7 @@ class Bus {
   void remove(const std::shared_ptr<WriterEnd>&);
   void remove(const std::shared_ptr<ReaderEnd>&);
 
-  // Unique in this process, from 1.
+  /// Unique in this process, from 1.
   std::uint64_t next_id();
 
  private:
@@ -36,7 +36,7 @@ class Bus {
   std::vector<Entry<ReaderEnd>> readers_;
 };
 
-// The bus of a domain lives as long as one of its participants holds it.
+/// The bus of a domain lives as long as one of its participants holds it.
 std::shared_ptr<Bus> bus_of_domain(int domain);
 
-}  // namespace roci::services::inproc
+}  // namespace roci::services::vendors::inproc

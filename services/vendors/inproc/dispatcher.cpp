@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace roci::services::inproc {
+namespace roci::services::vendors::inproc {
 
 Dispatcher::Dispatcher() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
@@ -33,4 +33,4 @@ void Dispatcher::work(const std::stop_token& stop) {
   }
 }
 
-}  // namespace roci::services::inproc
+}  // namespace roci::services::vendors::inproc

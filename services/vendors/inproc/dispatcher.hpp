@@ -10,7 +10,7 @@
 #include <stop_token>
 #include <thread>
 
-namespace roci::services::inproc {
+namespace roci::services::vendors::inproc {
 
 class Dispatcher {
  public:
@@ -19,7 +19,7 @@ class Dispatcher {
   Dispatcher();
 
   void post(Endpoint, std::function<void()> callback);
-  // Forgets the endpoint's callbacks and waits until none of them runs any more. Never from a callback.
+  /// Forgets the endpoint's callbacks and waits until none of them runs any more. Never from a callback.
   void remove(Endpoint);
 
  private:
@@ -37,4 +37,4 @@ class Dispatcher {
   std::jthread thread_;
 };
 
-}  // namespace roci::services::inproc
+}  // namespace roci::services::vendors::inproc

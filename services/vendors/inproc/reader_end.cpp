@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-namespace roci::services::inproc {
-ReaderEnd::ReaderEnd(EndpointDescription description, ReaderEvents events,
+namespace roci::services::vendors::inproc {
+ReaderEnd::ReaderEnd(transport::EndpointDescription description, transport::ReaderEvents events,
                      std::shared_ptr<Dispatcher> dispatcher, Dispatcher::Endpoint id)
     : description_(std::move(description)),
       events_(std::move(events)),
@@ -34,18 +34,18 @@ void ReaderEnd::release() {
   space_.notify_one();
 }
 
-void ReaderEnd::push(Sample sample, const Key& key, bool reserved) {
+void ReaderEnd::push(transport::Sample sample, const Key& key, bool reserved) {
   const std::lock_guard lock(mutex_);
   if (reserved) --samples_;
   if (closed_ || !follow_instance(sample, key)) return;
-  if (sample.kind == SampleKind::data) drop_oldest_beyond_depth(key);
+  if (sample.kind == transport::SampleKind::data) drop_oldest_beyond_depth(key);
   enqueue(Arrived{std::move(sample), key});
 }
 
 // False: the reader has nothing to learn from the sample (it disposes an instance that is not alive here).
-bool ReaderEnd::follow_instance(Sample& sample, const Key& key) {
+bool ReaderEnd::follow_instance(transport::Sample& sample, const Key& key) {
   if (!description_.type.keyed) return true;
-  if (sample.kind == SampleKind::data) {
+  if (sample.kind == transport::SampleKind::data) {
     if (instances_.wrote(key, sample.writer)) return true;
     const std::span bytes(reinterpret_cast<const std::uint8_t*>(key.data()), key.size());
     instances_.introduce(key, sample.writer, key_only_payload(bytes));
@@ -61,7 +61,7 @@ void ReaderEnd::drop_oldest_beyond_depth(const Key& key) {
   if (depth == 0 || waiting_[key] < depth) return;
   const auto oldest = std::find_if(queue_.begin(), queue_.end(), [&key](const Item& item) {
     const auto* arrived = std::get_if<Arrived>(&item);
-    return arrived && arrived->sample.kind == SampleKind::data && arrived->key == key;
+    return arrived && arrived->sample.kind == transport::SampleKind::data && arrived->key == key;
   });
   queue_.erase(oldest);
   --samples_;
@@ -71,7 +71,7 @@ void ReaderEnd::drop_oldest_beyond_depth(const Key& key) {
 void ReaderEnd::enqueue(Item item) {
   if (const auto* arrived = std::get_if<Arrived>(&item)) {
     ++samples_;
-    if (arrived->sample.kind == SampleKind::data) ++waiting_[arrived->key];
+    if (arrived->sample.kind == transport::SampleKind::data) ++waiting_[arrived->key];
   }
   queue_.push_back(std::move(item));
   dispatcher_->post(id_, [self = shared_from_this()] { self->deliver_next(); });
@@ -85,7 +85,7 @@ void ReaderEnd::deliver_next() {
   auto* arrived = std::get_if<Arrived>(&item);
   if (arrived) {
     --samples_;
-    if (arrived->sample.kind == SampleKind::data && --waiting_[arrived->key] == 0)
+    if (arrived->sample.kind == transport::SampleKind::data && --waiting_[arrived->key] == 0)
       waiting_.erase(arrived->key);
     space_.notify_one();
   }
@@ -94,17 +94,17 @@ void ReaderEnd::deliver_next() {
   if (!arrived && events_.on_matched) events_.on_matched(std::get<Matched>(item).writers);
 }
 
-void ReaderEnd::attach(const Guid& writer) {
+void ReaderEnd::attach(const transport::Guid& writer) {
   const std::lock_guard lock(mutex_);
   writers_.insert(writer);
   enqueue(Matched{static_cast<int>(writers_.size())});
 }
 
-void ReaderEnd::detach(const Guid& writer) {
+void ReaderEnd::detach(const transport::Guid& writer) {
   const std::lock_guard lock(mutex_);
   if (closed_ || writers_.erase(writer) == 0) return;
   for (auto& key_payload : instances_.writer_left(writer)) {
-    Sample lost{SampleKind::owner_lost, std::move(key_payload), writer};
+    transport::Sample lost{transport::SampleKind::no_writers, std::move(key_payload), writer};
     enqueue(Arrived{std::move(lost), {}});
   }
   enqueue(Matched{static_cast<int>(writers_.size())});
@@ -120,4 +120,4 @@ void ReaderEnd::close() {
   dispatcher_->remove(id_);
 }
 
-}  // namespace roci::services::inproc
+}  // namespace roci::services::vendors::inproc

@@ -12,37 +12,38 @@
 #include <unordered_map>
 #include <variant>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 #include "services/vendors/inproc/dispatcher.hpp"
 #include "services/vendors/instance_table.hpp"
 
-namespace roci::services::inproc {
+namespace roci::services::vendors::inproc {
 
-// Big-endian CDR of the key members; empty for types without key.
+/// Big-endian CDR of the key members; empty for types without key.
 using Key = InstanceTable::Key;
 
 class ReaderEnd : public std::enable_shared_from_this<ReaderEnd> {
  public:
-  ReaderEnd(EndpointDescription, ReaderEvents, std::shared_ptr<Dispatcher>, Dispatcher::Endpoint);
+  ReaderEnd(transport::EndpointDescription, transport::ReaderEvents, std::shared_ptr<Dispatcher>,
+            Dispatcher::Endpoint);
 
-  const EndpointDescription& description() const { return description_; }
+  const transport::EndpointDescription& description() const { return description_; }
   int matched_writers() const;
 
-  // Books a place in the queue; false when a reliable keep-all queue stayed full for so long.
+  /// Books a place in the queue; false when a reliable keep-all queue stayed full for so long.
   bool reserve(std::chrono::milliseconds max_wait);
   void release();
-  // Delivers a sample; `reserved`: it takes a booked place.
-  void push(Sample, const Key&, bool reserved);
+  /// Delivers a sample; `reserved`: it takes a booked place.
+  void push(transport::Sample, const Key&, bool reserved);
 
-  void attach(const Guid& writer);
-  // Instances without any other writer are reported as owner_lost.
-  void detach(const Guid& writer);
-  // Returns when no callback runs any more; none follows.
+  void attach(const transport::Guid& writer);
+  /// Instances without any other writer are reported as no_writers.
+  void detach(const transport::Guid& writer);
+  /// Returns when no callback runs any more; none follows.
   void close();
 
  private:
   struct Arrived {
-    Sample sample;
+    transport::Sample sample;
     Key key;
   };
   struct Matched {
@@ -51,24 +52,24 @@ class ReaderEnd : public std::enable_shared_from_this<ReaderEnd> {
   using Item = std::variant<Arrived, Matched>;
 
   bool limited() const;
-  bool follow_instance(Sample&, const Key&);
+  bool follow_instance(transport::Sample&, const Key&);
   void drop_oldest_beyond_depth(const Key&);
   void enqueue(Item);
   void deliver_next();
 
-  const EndpointDescription description_;
-  const ReaderEvents events_;
+  const transport::EndpointDescription description_;
+  const transport::ReaderEvents events_;
   const std::shared_ptr<Dispatcher> dispatcher_;
   const Dispatcher::Endpoint id_;
 
   mutable std::mutex mutex_;
   std::condition_variable space_;
   bool closed_ = false;
-  std::set<Guid> writers_;
+  std::set<transport::Guid> writers_;
   std::deque<Item> queue_;
   int samples_ = 0;                       // in queue_, and booked
   std::unordered_map<Key, int> waiting_;  // samples in queue_ per instance, for keep last
   InstanceTable instances_;
 };
 
-}  // namespace roci::services::inproc
+}  // namespace roci::services::vendors::inproc

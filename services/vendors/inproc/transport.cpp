@@ -1,29 +1,29 @@
 // The inproc transport: participants of one process, on any threads, that meet by domain id. No network.
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 
 #include <map>
 #include <mutex>
 
 #include "services/vendors/inproc/bus.hpp"
 
-namespace roci::services::inproc {
+namespace roci::services::vendors::inproc {
 namespace {
 
-Guid guid_of(int domain, std::uint64_t id) {
-  Guid guid{};
+transport::Guid guid_of(int domain, std::uint64_t id) {
+  transport::Guid guid{};
   for (std::size_t i = 0; i < 4; ++i) guid[i] = static_cast<std::uint8_t>(domain >> (24 - 8 * i));
   for (std::size_t i = 0; i < 8; ++i) guid[8 + i] = static_cast<std::uint8_t>(id >> (56 - 8 * i));
   return guid;
 }
 
-class InprocWriter : public Writer {
+class InprocWriter : public transport::Writer {
  public:
   InprocWriter(std::shared_ptr<Bus> bus, std::shared_ptr<WriterEnd> end)
       : bus_(std::move(bus)), end_(std::move(end)) {}
   ~InprocWriter() override { bus_->remove(end_); }
   bool write(std::span<const std::uint8_t> payload) override { return end_->write(payload); }
   bool dispose(std::span<const std::uint8_t> payload) override { return end_->dispose(payload); }
-  Guid guid() const override { return end_->guid(); }
+  transport::Guid guid() const override { return end_->guid(); }
   int matched_readers() const override { return end_->matched_readers(); }
 
  private:
@@ -31,7 +31,7 @@ class InprocWriter : public Writer {
   std::shared_ptr<WriterEnd> end_;
 };
 
-class InprocReader : public Reader {
+class InprocReader : public transport::Reader {
  public:
   InprocReader(std::shared_ptr<Bus> bus, std::shared_ptr<ReaderEnd> end)
       : bus_(std::move(bus)), end_(std::move(end)) {}
@@ -43,15 +43,15 @@ class InprocReader : public Reader {
   std::shared_ptr<ReaderEnd> end_;
 };
 
-class InprocTransport : public Transport {
+class InprocTransport : public transport::Transport {
  public:
-  explicit InprocTransport(const TransportOptions& options)
+  explicit InprocTransport(const transport::TransportOptions& options)
       : domain_(options.domain), partition_(options.partition), bus_(bus_of_domain(options.domain)) {}
 
   std::string_view vendor() const override { return "inproc"; }
 
-  std::unique_ptr<Writer> create_writer(const EndpointDescription& description,
-                                        WriterEvents events) override {
+  std::unique_ptr<transport::Writer> create_writer(const transport::EndpointDescription& description,
+                                                   transport::WriterEvents events) override {
     check_type(description);
     const auto id = bus_->next_id();
     auto end =
@@ -61,8 +61,8 @@ class InprocTransport : public Transport {
     return writer;
   }
 
-  std::unique_ptr<Reader> create_reader(const EndpointDescription& description,
-                                        ReaderEvents events) override {
+  std::unique_ptr<transport::Reader> create_reader(const transport::EndpointDescription& description,
+                                                   transport::ReaderEvents events) override {
     check_type(description);
     auto end = std::make_shared<ReaderEnd>(description, std::move(events), dispatcher_, bus_->next_id());
     auto reader = std::make_unique<InprocReader>(bus_, end);
@@ -71,12 +71,13 @@ class InprocTransport : public Transport {
   }
 
  private:
-  void check_type(const EndpointDescription& description) {
+  void check_type(const transport::EndpointDescription& description) {
     const std::lock_guard lock(mutex_);
     const auto& name = types_.try_emplace(description.topic, description.type.name).first->second;
     if (name != description.type.name) {
-      throw TransportError("topic " + description.topic + " has the type " + name +
-                           " in this participant, so it cannot have " + description.type.name + " too");
+      throw transport::TransportError("topic " + description.topic + " has the type " + name +
+                                      " in this participant, so it cannot have " + description.type.name +
+                                      " too");
     }
   }
 
@@ -89,9 +90,9 @@ class InprocTransport : public Transport {
 };
 
 }  // namespace
-}  // namespace roci::services::inproc
+}  // namespace roci::services::vendors::inproc
 
-extern "C" std::unique_ptr<roci::services::Transport> roci_create_transport(
-    const roci::services::TransportOptions& options) {
-  return std::make_unique<roci::services::inproc::InprocTransport>(options);
+extern "C" std::unique_ptr<roci::services::transport::Transport> roci_create_transport(
+    const roci::services::transport::TransportOptions& options) {
+  return std::make_unique<roci::services::vendors::inproc::InprocTransport>(options);
 }

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-namespace roci::services::inproc {
+namespace roci::services::vendors::inproc {
 
-WriterEnd::WriterEnd(EndpointDescription description, WriterEvents events,
-                     std::shared_ptr<Dispatcher> dispatcher, Dispatcher::Endpoint id, const Guid& guid)
+WriterEnd::WriterEnd(transport::EndpointDescription description, transport::WriterEvents events,
+                     std::shared_ptr<Dispatcher> dispatcher, Dispatcher::Endpoint id,
+                     const transport::Guid& guid)
     : description_(std::move(description)),
       events_(std::move(events)),
       dispatcher_(std::move(dispatcher)),
@@ -20,7 +21,7 @@ int WriterEnd::matched_readers() const {
 
 bool WriterEnd::key_of(std::span<const std::uint8_t> payload, Key& key) const {
   if (!description_.type.keyed) return true;
-  Payload bytes;
+  transport::Payload bytes;
   if (!description_.type.serialized_key(payload, false, bytes)) return false;
   key.assign(bytes.begin(), bytes.end());
   return true;
@@ -30,7 +31,7 @@ bool WriterEnd::write(std::span<const std::uint8_t> payload) {
   Key key;
   if (!key_of(payload, key)) return false;
   const std::lock_guard lock(mutex_);
-  if (!send(SampleKind::data, payload, key)) return false;
+  if (!send(transport::SampleKind::data, payload, key)) return false;
   if (description_.qos.transient_local) keep(key, payload);
   return true;
 }
@@ -39,13 +40,13 @@ bool WriterEnd::dispose(std::span<const std::uint8_t> payload) {
   Key key;
   if (!key_of(payload, key)) return false;
   const std::lock_guard lock(mutex_);
-  if (!send(SampleKind::disposed, payload, key)) return false;
+  if (!send(transport::SampleKind::disposed, payload, key)) return false;
   forget(key);
   return true;
 }
 
 // To all readers or, when one of them has no place in time, to none.
-bool WriterEnd::send(SampleKind kind, std::span<const std::uint8_t> payload, const Key& key) {
+bool WriterEnd::send(transport::SampleKind kind, std::span<const std::uint8_t> payload, const Key& key) {
   const std::chrono::milliseconds wait(description_.qos.reliable ? description_.qos.max_blocking_ms : 0);
   for (std::size_t i = 0; i < readers_.size(); ++i) {
     if (readers_[i]->reserve(wait)) continue;
@@ -53,12 +54,12 @@ bool WriterEnd::send(SampleKind kind, std::span<const std::uint8_t> payload, con
     return false;
   }
   for (auto& reader : readers_)
-    reader->push({kind, Payload(payload.begin(), payload.end()), guid_}, key, true);
+    reader->push({kind, transport::Payload(payload.begin(), payload.end()), guid_}, key, true);
   return true;
 }
 
 void WriterEnd::keep(const Key& key, std::span<const std::uint8_t> payload) {
-  history_.push_back({key, Payload(payload.begin(), payload.end())});
+  history_.push_back({key, transport::Payload(payload.begin(), payload.end())});
   auto& kept = kept_of_instance_[key];
   kept.push_back(std::prev(history_.end()));
   const int depth = description_.qos.history_depth;
@@ -80,7 +81,8 @@ void WriterEnd::attach(const std::shared_ptr<ReaderEnd>& reader) {
   readers_.push_back(reader);
   reader->attach(guid_);
   if (reader->description().qos.transient_local) {
-    for (const auto& kept : history_) reader->push({SampleKind::data, kept.payload, guid_}, kept.key, false);
+    for (const auto& kept : history_)
+      reader->push({transport::SampleKind::data, kept.payload, guid_}, kept.key, false);
   }
   report_matched();
 }
@@ -106,4 +108,4 @@ void WriterEnd::report_matched() {
   });
 }
 
-}  // namespace roci::services::inproc
+}  // namespace roci::services::vendors::inproc

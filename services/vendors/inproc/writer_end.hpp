@@ -9,48 +9,48 @@
 #include <unordered_map>
 #include <vector>
 
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 #include "services/vendors/inproc/dispatcher.hpp"
 #include "services/vendors/inproc/reader_end.hpp"
 
-namespace roci::services::inproc {
+namespace roci::services::vendors::inproc {
 
 class WriterEnd : public std::enable_shared_from_this<WriterEnd> {
  public:
-  WriterEnd(EndpointDescription, WriterEvents, std::shared_ptr<Dispatcher>, Dispatcher::Endpoint,
-            const Guid&);
+  WriterEnd(transport::EndpointDescription, transport::WriterEvents, std::shared_ptr<Dispatcher>,
+            Dispatcher::Endpoint, const transport::Guid&);
 
-  const EndpointDescription& description() const { return description_; }
-  const Guid& guid() const { return guid_; }
+  const transport::EndpointDescription& description() const { return description_; }
+  const transport::Guid& guid() const { return guid_; }
   int matched_readers() const;
 
   bool write(std::span<const std::uint8_t> payload);
   bool dispose(std::span<const std::uint8_t> payload);
 
-  // A reader that asked for it gets the history first.
+  /// A reader that asked for it gets the history first.
   void attach(const std::shared_ptr<ReaderEnd>&);
   void detach(const std::shared_ptr<ReaderEnd>&);
-  // Leaves all readers; returns when no callback runs any more.
+  /// Leaves all readers; returns when no callback runs any more.
   void close();
 
  private:
   struct Kept {
     Key key;
-    Payload payload;
+    transport::Payload payload;
   };
   using History = std::list<Kept>;  // oldest first
 
   bool key_of(std::span<const std::uint8_t> payload, Key&) const;
-  bool send(SampleKind, std::span<const std::uint8_t> payload, const Key&);
+  bool send(transport::SampleKind, std::span<const std::uint8_t> payload, const Key&);
   void keep(const Key&, std::span<const std::uint8_t> payload);
   void forget(const Key&);
   void report_matched();
 
-  const EndpointDescription description_;
-  const WriterEvents events_;
+  const transport::EndpointDescription description_;
+  const transport::WriterEvents events_;
   const std::shared_ptr<Dispatcher> dispatcher_;
   const Dispatcher::Endpoint id_;
-  const Guid guid_;
+  const transport::Guid guid_;
 
   mutable std::mutex mutex_;
   std::vector<std::shared_ptr<ReaderEnd>> readers_;
@@ -58,4 +58,4 @@ class WriterEnd : public std::enable_shared_from_this<WriterEnd> {
   std::unordered_map<Key, std::list<History::iterator>> kept_of_instance_;
 };
 
-}  // namespace roci::services::inproc
+}  // namespace roci::services::vendors::inproc

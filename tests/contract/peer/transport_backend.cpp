@@ -1,8 +1,8 @@
 // The peer on services/transport.hpp: what a process of ours does.
 #include "roci_idl/goal.h"
 #include "roci_idl/motion.h"
-#include "services/transport.hpp"
-#include "services/type_support.hpp"
+#include "services/transport/plug_ins.hpp"
+#include "services/transport/type_support.hpp"
 #include "tests/contract/peer/backend.hpp"
 #include "tests/contract/support/profiles.hpp"
 
@@ -10,22 +10,22 @@ namespace roci::contract_peer {
 namespace {
 
 namespace contract = services::contract;
-using services::Sample;
-using services::SampleKind;
+using services::transport::Sample;
+using services::transport::SampleKind;
 
-services::TransportOptions options_of(const Settings& settings) {
+services::transport::TransportOptions options_of(const Settings& settings) {
   return {.domain = settings.domain,
           .participant = "peer",
           .address = settings.address,
           .peers = {settings.peer}};
 }
 
-services::EndpointDescription requests() {
+services::transport::EndpointDescription requests() {
   return contract::endpoint<v1::PathRequest>("roci/path/request", "roci::v1::PathRequest",
                                              contract::request());
 }
 
-services::EndpointDescription replies() {
+services::transport::EndpointDescription replies() {
   return contract::endpoint<v1::PathReply>("roci/path/reply", "roci::v1::PathReply", contract::request());
 }
 
@@ -33,7 +33,7 @@ class TransportBackend : public Backend {
  public:
   TransportBackend(const Settings& settings, Handlers handlers)
       : handlers_(std::move(handlers)),
-        transport_(services::open_transport(settings.vendor, options_of(settings))) {}
+        transport_(services::transport::open_transport(settings.vendor, options_of(settings))) {}
 
   void open_goal_writer() override {
     writer_ = transport_->create_writer(contract::goal_endpoint(contract::latched(1)), {handlers_.matched});
@@ -64,7 +64,7 @@ class TransportBackend : public Backend {
     request.request().request_id().sequence_number(call.sequence);
     request.goal_pose().x_m(call.x_m);
     request.goal_pose().y_m(call.y_m);
-    return writer_->write(services::serialize(request));
+    return writer_->write(services::transport::serialize(request));
   }
 
   bool answer(const Answer& answer) override {
@@ -75,38 +75,39 @@ class TransportBackend : public Backend {
     reply.reply().remote_message(answer.message);
     reply.length_m(answer.length_m);
     reply.waypoints().resize(answer.waypoints);
-    return writer_->write(services::serialize(reply));
+    return writer_->write(services::transport::serialize(reply));
   }
 
  private:
   void take_goal(const Sample& sample) {
     v1::Goal goal;
-    if (sample.kind == SampleKind::data && services::deserialize(sample.payload, goal)) {
+    if (sample.kind == SampleKind::data && services::transport::deserialize(sample.payload, goal)) {
       handlers_.goal({goal.issuer(), goal.id(), goal.priority()});
-    } else if (sample.kind != SampleKind::data && services::deserialize_key(sample.payload, goal)) {
+    } else if (sample.kind != SampleKind::data &&
+               services::transport::deserialize_key(sample.payload, goal)) {
       handlers_.goal_ended(sample.kind == SampleKind::disposed ? "disposed" : "lost",
                            {goal.issuer(), goal.id()});
     }
   }
   void take_call(const Sample& sample) {
     v1::PathRequest request;
-    if (!services::deserialize(sample.payload, request)) return;
+    if (!services::transport::deserialize(sample.payload, request)) return;
     const auto& id = request.request().request_id();
     handlers_.call(
         {id.writer_guid(), id.sequence_number(), request.goal_pose().x_m(), request.goal_pose().y_m()});
   }
   void take_answer(const Sample& sample) {
     v1::PathReply reply;
-    if (!services::deserialize(sample.payload, reply)) return;
+    if (!services::transport::deserialize(sample.payload, reply)) return;
     const auto& id = reply.reply().related_request_id();
     handlers_.answer({id.writer_guid(), id.sequence_number(), static_cast<int>(reply.reply().remote_ex()),
                       reply.reply().remote_message(), reply.length_m(), reply.waypoints().size()});
   }
 
   Handlers handlers_;
-  std::unique_ptr<services::Transport> transport_;
-  std::unique_ptr<services::Writer> writer_;
-  std::unique_ptr<services::Reader> reader_;
+  std::unique_ptr<services::transport::Transport> transport_;
+  std::unique_ptr<services::transport::Writer> writer_;
+  std::unique_ptr<services::transport::Reader> reader_;
 };
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "tests/contract/support/inbox.hpp"
 
 #include "roci_idl/goal.h"
-#include "services/type_support.hpp"
+#include "services/transport/type_support.hpp"
 
 namespace roci::services::contract {
 
-ReaderEvents Inbox::reader_events() {
-  return {[this](Sample&& sample) {
+transport::ReaderEvents Inbox::reader_events() {
+  return {[this](transport::Sample&& sample) {
             const std::lock_guard lock(mutex_);
             samples_.push_back(std::move(sample));
             changed_.notify_all();
@@ -14,7 +14,7 @@ ReaderEvents Inbox::reader_events() {
           writer_events().on_matched};
 }
 
-WriterEvents Inbox::writer_events() {
+transport::WriterEvents Inbox::writer_events() {
   return {[this](int count) {
     const std::lock_guard lock(mutex_);
     matched_ = count;
@@ -35,7 +35,7 @@ bool Inbox::wait_for_samples(std::size_t count) {
   return wait_until([this, count] { return samples_.size() >= count; });
 }
 
-std::vector<Sample> Inbox::samples() const {
+std::vector<transport::Sample> Inbox::samples() const {
   const std::lock_guard lock(mutex_);
   return samples_;
 }
@@ -49,20 +49,21 @@ std::vector<std::string> Inbox::goals() const {
   std::vector<std::string> goals;
   for (const auto& sample : samples()) {
     v1::Goal value;
-    if (sample.kind != SampleKind::data) continue;
-    goals.push_back(deserialize(sample.payload, value) ? value.id() + "=" + std::to_string(value.priority())
-                                                       : "undecodable");
+    if (sample.kind != transport::SampleKind::data) continue;
+    goals.push_back(transport::deserialize(sample.payload, value)
+                        ? value.id() + "=" + std::to_string(value.priority())
+                        : "undecodable");
   }
   return goals;
 }
 
-std::vector<std::string> Inbox::ended(SampleKind kind) const {
+std::vector<std::string> Inbox::ended(transport::SampleKind kind) const {
   std::vector<std::string> keys;
   for (const auto& sample : samples()) {
     v1::Goal value;
     if (sample.kind != kind) continue;
-    keys.push_back(deserialize_key(sample.payload, value) ? value.issuer() + "/" + value.id()
-                                                          : "undecodable");
+    keys.push_back(transport::deserialize_key(sample.payload, value) ? value.issuer() + "/" + value.id()
+                                                                     : "undecodable");
   }
   return keys;
 }

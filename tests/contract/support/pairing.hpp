@@ -7,8 +7,8 @@
 #include <ostream>
 #include <string>
 
-#include "services/domain_claim.hpp"
-#include "services/transport.hpp"
+#include "services/process/domain_claim.hpp"
+#include "services/transport/plug_ins.hpp"
 
 namespace roci::services::contract {
 
@@ -35,19 +35,20 @@ inline std::string pairing_name(const testing::TestParamInfo<Pairing>& info) { r
 // Two participants in this process: one that writes, one that reads, in a domain of their own.
 class PairingTest : public testing::TestWithParam<Pairing> {
  protected:
-  std::unique_ptr<Transport> open(const std::string& vendor, TransportOptions options = {}) {
+  std::unique_ptr<transport::Transport> open(const std::string& vendor,
+                                             transport::TransportOptions options = {}) {
     if (options.domain == 0) options.domain = domain_.id();
     options.participant = "contract";
-    return open_transport(vendor, options);
+    return transport::open_transport(vendor, options);
   }
-  std::unique_ptr<Transport> open_writing(const TransportOptions& options = {}) {
+  std::unique_ptr<transport::Transport> open_writing(const transport::TransportOptions& options = {}) {
     return open(GetParam().writer, options);
   }
-  std::unique_ptr<Transport> open_reading(const TransportOptions& options = {}) {
+  std::unique_ptr<transport::Transport> open_reading(const transport::TransportOptions& options = {}) {
     return open(GetParam().reader, options);
   }
 
-  DomainClaim domain_;
+  process::DomainClaim domain_;
 };
 
 }  // namespace roci::services::contract

@@ -2,29 +2,30 @@
 #pragma once
 
 #include "roci_idl/goal.h"
-#include "services/type_support.hpp"
+#include "services/transport/type_support.hpp"
 
 namespace roci::services::contract {
 
-inline QosSettings latched(int depth) { return {.transient_local = true, .history_depth = depth}; }
-inline QosSettings request() { return {.history_depth = 0, .max_samples = 4096}; }
-inline QosSettings stream() { return {.reliable = false, .history_depth = 5}; }
+inline transport::QosSettings latched(int depth) { return {.transient_local = true, .history_depth = depth}; }
+inline transport::QosSettings request() { return {.history_depth = 0, .max_samples = 4096}; }
+inline transport::QosSettings stream() { return {.reliable = false, .history_depth = 5}; }
 
 template <class T>
-EndpointDescription endpoint(const std::string& topic, const char* type_name, const QosSettings& qos) {
-  return {topic, describe_type<T>(type_name), qos};
+transport::EndpointDescription endpoint(const std::string& topic, const char* type_name,
+                                        const transport::QosSettings& qos) {
+  return {topic, transport::describe_type<T>(type_name), qos};
 }
 
-inline EndpointDescription goal_endpoint(const QosSettings& qos) {
+inline transport::EndpointDescription goal_endpoint(const transport::QosSettings& qos) {
   return endpoint<v1::Goal>("roci/goal", "roci::v1::Goal", qos);
 }
 
-inline Payload goal(const std::string& id, int priority, const std::string& issuer = "ground") {
+inline transport::Payload goal(const std::string& id, int priority, const std::string& issuer = "ground") {
   v1::Goal value;
   value.issuer(issuer);
   value.id(id);
   value.priority(priority);
-  return serialize(value);
+  return transport::serialize(value);
 }
 
 }  // namespace roci::services::contract

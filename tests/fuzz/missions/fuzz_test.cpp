@@ -17,8 +17,8 @@
 #include "exec_svc/mission/mission_model.hpp"
 #include "pathplan_svc/rover_file.hpp"
 #include "science_svc/detector_file.hpp"
-#include "services/connection.hpp"
-#include "sim_svc/setup_file.hpp"
+#include "services/process/connection.hpp"
+#include "sim_svc/scenario/run_file.hpp"
 #include "tests/fuzz/missions/mutate.hpp"
 #include "tests/fuzz/rounds.hpp"
 
@@ -43,8 +43,8 @@ struct Reader {
 };
 
 const std::vector<Reader> kReaders{
-    {"exec_svc", [](const fs::path& folder) { exec::read_mission(folder); }},
-    {"sim_svc", [](const fs::path& folder) { sim::load_run(folder, "opportunistic"); }},
+    {"exec_svc", [](const fs::path& folder) { exec::mission::read_mission(folder); }},
+    {"sim_svc", [](const fs::path& folder) { sim::scenario::load_run(folder, "opportunistic"); }},
     {"arm_svc",
      [](const fs::path& folder) { arm::load_setup(folder / "arm/arm.urdf", folder / "arm/poses.yaml"); }},
     {"pathplan_svc",
@@ -60,9 +60,9 @@ const std::vector<Reader> kReaders{
     {"site", [](const fs::path& folder) { terrain::load_site(folder / "site/site.yaml"); }},
     {"connection",
      [](const fs::path& folder) {
-       services::ConnectionFlags flags;
+       services::process::ConnectionFlags flags;
        flags.network = folder / "network.yaml";
-       services::resolve_connection(
+       services::process::resolve_connection(
            flags, [](const char*) { return std::nullopt; }, folder);
      }},
 };

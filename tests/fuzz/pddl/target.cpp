@@ -6,9 +6,11 @@
 #include "core/pddl/forbidden.hpp"
 #include "core/pddl/parser.hpp"
 #include "core/pddl/printer.hpp"
-#include "planner_svc/validate/validator.hpp"
+#include "planner_svc/temporal_pddl/validate/validator.hpp"
 
 namespace roci::fuzz {
+
+namespace validate = planner::temporal_pddl::validate;
 
 namespace {
 

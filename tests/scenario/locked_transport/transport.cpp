@@ -1,6 +1,6 @@
 // A transport that hears nobody and locks up as ROCI_LOCKED says: "write" (a write of the second second never
 // returns) or "end" (its destructor never does).
-#include "services/transport.hpp"
+#include "services/transport/transport.hpp"
 
 #include <unistd.h>
 
@@ -21,37 +21,37 @@ bool locks_in(const char* what) {
   for (;;) pause();
 }
 
-class LockedWriter : public services::Writer {
+class LockedWriter : public services::transport::Writer {
  public:
   bool write(std::span<const std::uint8_t>) override {
     if (locks_in("write") && ++writes_ > kGoodWrites) lock_up();
     return true;
   }
   bool dispose(std::span<const std::uint8_t>) override { return true; }
-  services::Guid guid() const override { return {}; }
+  services::transport::Guid guid() const override { return {}; }
   int matched_readers() const override { return 0; }
 
  private:
   int writes_ = 0;
 };
 
-class LockedReader : public services::Reader {
+class LockedReader : public services::transport::Reader {
  public:
   int matched_writers() const override { return 0; }
 };
 
-class LockedTransport : public services::Transport {
+class LockedTransport : public services::transport::Transport {
  public:
   ~LockedTransport() override {
     if (locks_in("end")) lock_up();
   }
   std::string_view vendor() const override { return "locked"; }
-  std::unique_ptr<services::Writer> create_writer(const services::EndpointDescription&,
-                                                  services::WriterEvents) override {
+  std::unique_ptr<services::transport::Writer> create_writer(const services::transport::EndpointDescription&,
+                                                             services::transport::WriterEvents) override {
     return std::make_unique<LockedWriter>();
   }
-  std::unique_ptr<services::Reader> create_reader(const services::EndpointDescription&,
-                                                  services::ReaderEvents) override {
+  std::unique_ptr<services::transport::Reader> create_reader(const services::transport::EndpointDescription&,
+                                                             services::transport::ReaderEvents) override {
     return std::make_unique<LockedReader>();
   }
 };
@@ -59,7 +59,7 @@ class LockedTransport : public services::Transport {
 }  // namespace
 }  // namespace roci::scenario
 
-extern "C" std::unique_ptr<roci::services::Transport> roci_create_transport(
-    const roci::services::TransportOptions&) {
+extern "C" std::unique_ptr<roci::services::transport::Transport> roci_create_transport(
+    const roci::services::transport::TransportOptions&) {
   return std::make_unique<roci::scenario::LockedTransport>();
 }

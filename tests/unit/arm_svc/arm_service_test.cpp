@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using services::CallResult;
-using services::CallStatus;
+using services::rpc::CallStatus;
 using testing::ElementsAre;
 using testing::HasSubstr;
 namespace topics = services::topics;
@@ -70,7 +70,7 @@ class ArmService : public testing::Test {
     });
   }
 
-  void run(services::Duration end) {
+  void run(temporal::Duration end) {
     master_.after(end, [this] { master_.stop(); });
     run_.run();
   }
@@ -83,10 +83,10 @@ class ArmService : public testing::Test {
     });
   }
 
-  void ask_for_motion(services::Duration when, const v1::ArmMotionRequest& request) {
+  void ask_for_motion(temporal::Duration when, const v1::ArmMotionRequest& request) {
     master_.after(when, [this, request] {
       motions_.call(request, "arm_svc", 1s, [this](const CallResult<v1::ArmMotionReply>& result) {
-        ASSERT_EQ(result.status, CallStatus::ok) << result.message;
+        ASSERT_EQ(result.status, CallStatus::ok) << result.reason;
         motion_replies_.push_back(result.reply);
       });
     });
@@ -133,7 +133,7 @@ TEST_F(ArmService, EveryTupleHasItsOwnOutcome) {
   run(2s);
 
   ASSERT_EQ(function_results_.size(), 2U);
-  ASSERT_EQ(function_results_[0].status, CallStatus::ok) << function_results_[0].message;
+  ASSERT_EQ(function_results_[0].status, CallStatus::ok) << function_results_[0].reason;
   const v1::FunctionReply& reply = function_results_[0].reply;
   EXPECT_EQ(reply.owner(), "arm_svc");
   EXPECT_EQ(reply.model_version(), offers_.at(0).model_version());

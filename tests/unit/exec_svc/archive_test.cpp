@@ -4,11 +4,22 @@
 #include <limits>
 #include <random>
 
-#include "exec_svc/archive/fields.hpp"
+#include "exec_svc/reactor/message_fields.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec {
+
+using archive::ArchiveError;
+using archive::from_bytes;
+using archive::to_bytes;
+using executive::CommandStage;
+using goals::GoalClass;
+using goals::GoalRequest;
+using reactor::PlanReply;
+using reactor::ReactorInputs;
+using temporal::Verdict;
+
 namespace {
 
 using temporal::Time;
@@ -24,13 +35,13 @@ ReactorInputs rich_inputs() {
   in.losses = {{"sim_svc", "killed"}};
   in.arrivals = {"arm_svc"};
   in.models = {{"arm_svc", std::numeric_limits<std::uint64_t>::max()}};
-  in.answer = PlanAnswer{7, PlanVerdict::solved, "", testing::images({"a", "b"})};
-  temporal::PlanActivity& activity = in.answer->plan.activities[0];
+  in.reply = PlanReply{7, Verdict::solved, "", testing::images({"a", "b"})};
+  temporal::PlanActivity& activity = in.reply->plan.activities[0];
   activity.pre = temporal::compare("battery", temporal::ConditionOp::ge, 12.5);
   activity.impacts = {{"battery", temporal::ImpactKind::rate, temporal::ImpactWhen::during, -3.0}};
-  in.answer->plan.decisions = {{"d", "ground", {{"one", {"a"}}, {"two", {}}}, 3}};
-  in.answer->plan.tokens = {{"nav", temporal::state("idle"), 1, 2}};
-  in.answer->plan.function_values = {{"f", {"x"}, 1e300, "o", 3, Time(9)}};
+  in.reply->plan.decisions = {{"d", "ground", {{"one", {"a"}}, {"two", {}}}, 3}};
+  in.reply->plan.tokens = {{"nav", temporal::state("idle"), 1, 2}};
+  in.reply->plan.function_values = {{"f", {"x"}, 1e300, "o", 3, Time(9)}};
   return in;
 }
 
@@ -41,7 +52,7 @@ TEST(Archive, GivesBackExactlyWhatItTook) {
   EXPECT_EQ(to_bytes(out), bytes);
   EXPECT_EQ(out.goals, in.goals);
   EXPECT_EQ(out.observations[0].value, in.observations[0].value);
-  EXPECT_EQ(out.answer->plan, in.answer->plan);
+  EXPECT_EQ(out.reply->plan, in.reply->plan);
   EXPECT_EQ(out.models[0].version, in.models[0].version);
   EXPECT_EQ(out.acks[0].attempt, in.acks[0].attempt);
 }

@@ -6,6 +6,9 @@
 #include <stdexcept>
 
 namespace roci::exec {
+
+using journal::CrashPoints;
+
 namespace {
 
 int deaths(const char* setting, std::uint32_t incarnation = 1) {

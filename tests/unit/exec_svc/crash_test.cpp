@@ -7,6 +7,12 @@
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using goals::GoalClass;
+using goals::GoalRequest;
+using goals::GoalState;
+using mission::Replanning;
+
 namespace {
 
 // Three plans and more: a goal comes in flight, one is recalled, a command fails.
@@ -30,7 +36,7 @@ void expect_nothing_doubled(const Flight& flight) {
 struct Case {
   Moment moment;
   bool compact = false;
-  Replanning replanning = Replanning::paused;
+  Replanning replanning = Replanning::stop_and_replan;
 };
 
 class CrashTest : public ::testing::TestWithParam<Case> {
@@ -89,7 +95,7 @@ TEST_P(CrashTest, AgainAndAgainLosesNothing) {
 std::string name_of(const ::testing::TestParamInfo<Case>& test) {
   constexpr const char* names[] = {"before_write_ahead", "after_write_ahead", "during_send", "after_send"};
   return names[static_cast<int>(test.param.moment)] + std::string(test.param.compact ? "_compacted" : "") +
-         (test.param.replanning == Replanning::situated ? "_situated" : "");
+         (test.param.replanning == Replanning::background ? "_situated" : "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Moments, CrashTest,
@@ -97,9 +103,9 @@ INSTANTIATE_TEST_SUITE_P(Moments, CrashTest,
                                            Case{Moment::during_send}, Case{Moment::after_send},
                                            Case{Moment::after_write_ahead, true},
                                            Case{Moment::after_send, true},
-                                           Case{Moment::before_write_ahead, false, Replanning::situated},
-                                           Case{Moment::after_write_ahead, true, Replanning::situated},
-                                           Case{Moment::after_send, false, Replanning::situated}),
+                                           Case{Moment::before_write_ahead, false, Replanning::background},
+                                           Case{Moment::after_write_ahead, true, Replanning::background},
+                                           Case{Moment::after_send, false, Replanning::background}),
                          name_of);
 
 }  // namespace

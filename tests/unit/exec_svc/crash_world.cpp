@@ -8,6 +8,20 @@
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using executive::Command;
+using executive::CommandAck;
+using executive::CommandAction;
+using executive::CommandStage;
+using executive::Observation;
+using goals::GoalRecord;
+using goals::GoalRequest;
+using journal::Durability;
+using journal::JournaledReactor;
+using reactor::PlanReply;
+using reactor::ReactorOutputs;
+using temporal::Verdict;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -77,32 +91,30 @@ void CrashWorld::deliver(const ReactorOutputs& out) {
   if (!out.call) return;
   later(kPlanning, [this, id = out.call->id, caller = incarnation_] {
     if (caller != incarnation_) return;
-    PlanAnswer answer;
-    answer.call = id;
-    answer.verdict = PlanVerdict::solved;
+    PlanReply reply;
+    reply.call = id;
+    reply.verdict = Verdict::solved;
     std::vector<std::string> ids;
     for (const GoalRecord* goal : executive_->reactor().goals().open()) ids.push_back(goal->request.key.id);
-    answer.plan = images(ids);
-    pending_.answer = std::move(answer);
+    reply.plan = images(ids);
+    pending_.reply = std::move(reply);
   });
 }
 
 void CrashWorld::obey(const Command& command) {
-  const sim::ActivityKey key{command.activity, command.attempt};
-  const auto repeat = [&](const sim::Ack& word) {
-    tell(command, static_cast<CommandStage>(word.stage), word.code);
-  };
-  if (command.action == CommandAction::query) return repeat(ledger_.answer(key, now_));
-  if (command.action == CommandAction::cancel) {
-    if (!imaging_ || imaging_->activity != command.activity)
-      return tell(command, ledger_.answer(key, now_).stage == sim::Stage::unknown
-                               ? CommandStage::unknown
-                               : CommandStage::cancel_failed);
+  using services::owner::Reception;
+  const services::owner::CommandKey key{command.activity, command.attempt};
+  const auto action = static_cast<services::owner::Action>(command.action);
+  const Reception reception = ledger_.receive({key, action}, now_);
+  if (reception.ack) {
+    const services::owner::Word& word = reception.ack->word;
+    return tell(command, static_cast<CommandStage>(word.stage), word.code);
+  }
+  if (reception.order == Reception::Order::break_off) {
     imaging_.reset();
     observe("rover.camera", state("idle"));
     return tell(command, CommandStage::cancelled);
   }
-  if (const auto word = ledger_.take(key, 1, now_)) return repeat(*word);
   ++flight_.carried_out[{command.activity, command.attempt}];
   if (command.command_name == "image") return take_image(command);
   if (imaging_) tell(*std::exchange(imaging_, std::nullopt), CommandStage::cancelled);
@@ -122,16 +134,16 @@ void CrashWorld::take_image(const Command& command) {
     imaging_.reset();
     observe("rover.camera", state("idle"));
     const bool works = broken_.erase(image) == 0;
-    if (works) observe("image." + image, state("sent"));
+    if (works) observe("rover.image." + image, state("sent"));
     tell(command, works ? CommandStage::completed : CommandStage::failed, works ? "" : "shutter");
   });
 }
 
 void CrashWorld::tell(const Command& command, CommandStage stage, const std::string& code) {
-  const sim::ActivityKey key{command.activity, command.attempt};
+  const services::owner::CommandKey key{command.activity, command.attempt};
   const CommandAck ack{command.activity, command.attempt, stage, code, ""};
   if (stage != CommandStage::unknown && stage != CommandStage::cancel_failed)
-    ledger_.note({key, static_cast<sim::Stage>(stage), code, "", now_});
+    ledger_.say(key, {static_cast<services::owner::Stage>(stage), code, ""}, now_);
   acks_[key] = ack;
   pending_.acks.push_back(ack);
 }

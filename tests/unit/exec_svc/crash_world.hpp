@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "exec_svc/journal/journaled_reactor.hpp"
-#include "sim_svc/command_ledger.hpp"
+#include "services/owner/command_ledger.hpp"
 
 namespace roci::exec::testing {
 
@@ -31,11 +31,11 @@ struct CrashPlan {
   Moment moment = Moment::after_send;
   temporal::Duration away{0};  // until it is back; the robot goes on meanwhile
   bool compact = false;        // the journal forgets inputs before the newest anchor
-  Replanning replanning = Replanning::paused;
+  mission::Replanning replanning = mission::Replanning::stop_and_replan;
 };
 
 struct Flight {
-  std::map<std::string, GoalState> goals;
+  std::map<std::string, goals::GoalState> goals;
   std::map<std::string, int> images;                                 // how often each was begun
   std::map<std::pair<std::string, std::uint32_t>, int> carried_out;  // commands by key
   std::uint32_t plan_version = 0;
@@ -50,7 +50,7 @@ class CrashWorld {
   explicit CrashWorld(const CrashPlan& crash);
   ~CrashWorld();
 
-  void send(double at_s, const GoalRequest& goal);
+  void send(double at_s, const goals::GoalRequest& goal);
   void break_shutter_once(const std::string& image) { broken_.insert(image); }
   Flight fly(double until_s);
   const std::filesystem::path& file() const { return file_; }
@@ -59,31 +59,31 @@ class CrashWorld {
   struct Dead {};
   void start();
   void turn();
-  void deliver(const ReactorOutputs& out);
-  void obey(const Command& command);
-  void take_image(const Command& command);
-  void tell(const Command& command, CommandStage stage, const std::string& code = "");
+  void deliver(const reactor::ReactorOutputs& out);
+  void obey(const executive::Command& command);
+  void take_image(const executive::Command& command);
+  void tell(const executive::Command& command, executive::CommandStage stage, const std::string& code = "");
   void observe(const std::string& timeline, const temporal::Value& value);
   void later(temporal::Duration delay, std::function<void()> what);
 
   std::filesystem::path file_;
   CrashPlan crash_;
-  MissionModel mission_;
-  std::optional<Journal> journal_;
-  std::unique_ptr<JournaledReactor> executive_;
+  mission::MissionModel mission_;
+  std::optional<journal::Journal> journal_;
+  std::unique_ptr<journal::JournaledReactor> executive_;
   int incarnation_ = 0;
 
   temporal::Time now_{0};
   std::multimap<temporal::Time, std::function<void()>> events_;
   std::optional<temporal::Time> wake_;
-  ReactorInputs pending_;
+  reactor::ReactorInputs pending_;
   // For who joins later: the newest of each key.
-  std::map<std::string, Observation> observations_;
-  std::map<sim::ActivityKey, CommandAck> acks_;
-  std::map<GoalKey, GoalRequest> goals_;
+  std::map<std::string, executive::Observation> observations_;
+  std::map<services::owner::CommandKey, executive::CommandAck> acks_;
+  std::map<goals::GoalKey, goals::GoalRequest> goals_;
 
-  sim::CommandLedger ledger_;
-  std::optional<Command> imaging_;
+  services::owner::CommandLedger ledger_;
+  std::optional<executive::Command> imaging_;
   std::set<std::string> broken_;
   Flight flight_;
 };

@@ -8,6 +8,14 @@
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec {
+
+using goals::GoalClass;
+using goals::GoalRecord;
+using goals::GoalRequest;
+using goals::GoalSet;
+using goals::GoalState;
+using mission::MissionModel;
+
 namespace {
 
 using temporal::seconds;
@@ -18,9 +26,9 @@ class GoalSetTest : public ::testing::Test {
  protected:
   std::string fault(const GoalRequest& goal) {
     const auto [taken, record] = goals.submit(goal, seconds(100));
-    return taken == GoalSet::Taken::known      ? "nothing changed"
-           : taken == GoalSet::Taken::rejected ? record->reason
-                                               : "accepted";
+    return taken == GoalSet::Disposition::known      ? "nothing changed"
+           : taken == GoalSet::Disposition::rejected ? record->reason
+                                                     : "accepted";
   }
   MissionModel mission = testing::planetary();
   GoalSet goals{mission};
@@ -35,23 +43,23 @@ TEST_F(GoalSetTest, AcceptsAndRepeatsNothing) {
 TEST_F(GoalSetTest, EachSampleIsAnsweredOnce) {
   GoalRequest goal = photo("a");
   const auto say = [&](std::uint64_t number) {
-    goal.said_in = {"roci-7", 0, number};
+    goal.sample = {"roci-7", 0, number};
     const auto [taken, record] = goals.submit(goal, seconds(100));
-    EXPECT_EQ(record->answers, goal.said_in);
+    EXPECT_EQ(record->answers, goal.sample);
     return taken;
   };
-  using Taken = GoalSet::Taken;
-  EXPECT_EQ(say(1), Taken::accepted);
-  EXPECT_EQ(say(1), Taken::known);
-  EXPECT_EQ(say(2), Taken::repeated);
+  using Disposition = GoalSet::Disposition;
+  EXPECT_EQ(say(1), Disposition::accepted);
+  EXPECT_EQ(say(1), Disposition::known);
+  EXPECT_EQ(say(2), Disposition::repeated);
   goal.arguments["x"] = "far";
-  EXPECT_EQ(say(3), Taken::refused);
+  EXPECT_EQ(say(3), Disposition::refused);
   goal.arguments["x"] = "50";
-  EXPECT_EQ(say(4), Taken::accepted);
+  EXPECT_EQ(say(4), Disposition::accepted);
   goals.set_state(goal.key, GoalState::achieved, "observed");
   EXPECT_EQ(goals.find(goal.key)->answers.number, 4U);
   goal.recalled = true;
-  EXPECT_EQ(say(5), Taken::repeated) << "too late";
+  EXPECT_EQ(say(5), Disposition::repeated) << "too late";
   EXPECT_EQ(goals.find(goal.key)->state, GoalState::achieved);
 }
 
@@ -158,7 +166,7 @@ TEST_F(GoalSetTest, AGoalComesAfterTheOnesThatItNames) {
   depot.arguments["sample"] = "soil";
   const auto order = [this](const std::vector<GoalRequest>& requests) {
     std::string out;
-    for (const GoalRequest& one : goals.in_order(requests)) out += one.key.id + " ";
+    for (const GoalRequest& one : goals.in_reference_order(requests)) out += one.key.id + " ";
     return out;
   };
   EXPECT_EQ(order({depot, photo("ridge"), photo("soil")}), "ridge soil depot ");

@@ -12,6 +12,15 @@
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec {
+
+using goals::GoalClass;
+using goals::GoalRecord;
+using goals::GoalState;
+using journal::Durability;
+using journal::Journal;
+using journal::JournalError;
+using journal::Trace;
+
 namespace {
 
 using temporal::seconds;
@@ -40,7 +49,7 @@ TEST_F(JournalTest, GoalsComeBackAsTheyWere) {
   record.reason = "it's 100 % \"full\"";
   record.arrival = 7;
   record.plan_version = 3;
-  record.request.said_in = {"roci-7", 0, 1};
+  record.request.sample = {"roci-7", 0, 1};
   record.answers = {"roci-8", 2, 1ULL << 40};
   {
     Journal journal(file, Durability::power);

@@ -12,6 +12,10 @@
 #include "core/mission/entry.hpp"
 
 namespace roci::exec {
+
+using mission::MissionModel;
+using mission::read_mission;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -61,7 +65,7 @@ TEST_P(MissionSlip, IsToldWithPlaceAndRemedy) {
   try {
     read_mission(folder_);
     FAIL() << "read without an error";
-  } catch (const mission::FileError& error) {
+  } catch (const roci::mission::FileError& error) {
     EXPECT_THAT(error.what(), HasSubstr(slip.error));
     EXPECT_THAT(error.what(), ::testing::ContainsRegex("[^:]+/[a-z]+\\.(yaml|pddl):[0-9]+:[0-9]+: "));
   }

@@ -10,9 +10,11 @@
 
 namespace roci::exec::testing {
 
-inline MissionModel planetary() { return read_mission(std::string(ROCI_SOURCE_DIR) + "/missions/planetary"); }
+inline mission::MissionModel planetary() {
+  return mission::read_mission(std::string(ROCI_SOURCE_DIR) + "/missions/planetary");
+}
 
-inline std::vector<Observation> standing_robot() {
+inline std::vector<executive::Observation> standing_robot() {
   using temporal::state;
   return {{"rover.nav", state("idle-at", {"here"})},
           {"rover.arm", state("idle-pose", {"stow"})},
@@ -25,14 +27,15 @@ inline std::vector<Observation> standing_robot() {
           {"comm.window", false}};
 }
 
-inline Beliefs standing_beliefs(const MissionModel& mission) {
-  Beliefs beliefs(mission);
+inline beliefs::Beliefs standing_beliefs(const mission::MissionModel& mission) {
+  beliefs::Beliefs beliefs(mission);
   for (const auto& [timeline, value] : standing_robot()) beliefs.observe(timeline, value);
   return beliefs;
 }
 
-inline GoalRequest photo(const std::string& id, GoalClass importance = GoalClass::hard, double utility = 0) {
-  GoalRequest goal;
+inline goals::GoalRequest photo(const std::string& id, goals::GoalClass importance = goals::GoalClass::hard,
+                                double utility = 0) {
+  goals::GoalRequest goal;
   goal.key = {"ground", id};
   goal.kind = "photo";
   goal.arguments = {{"x", "110"}, {"y", "60"}};

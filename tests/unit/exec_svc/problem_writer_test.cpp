@@ -9,6 +9,16 @@
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec {
+
+using beliefs::Beliefs;
+using goals::GoalRequest;
+using goals::GoalSet;
+using goals::GoalState;
+using mission::MissionModel;
+using problem::Problem;
+using problem::write_problem;
+using problem::ProblemObject;
+
 namespace {
 
 using temporal::seconds;
@@ -111,7 +121,7 @@ TEST_F(ProblemWriterTest, AssumedFactsOfGoalsGivenUpGoWithThem) {
   GoalRequest pick = photo("soil");
   pick.kind = "pick_sample";
   submit(pick);
-  beliefs.assume("sample.sample-soil", {"(sample-at sample-soil place-soil)"});
+  beliefs.assume("rover.sample.sample-soil", {"(sample-at sample-soil place-soil)"});
   goals.set_state({"ground", "soil"}, GoalState::recalled, "given up");
   EXPECT_THAT(write().text, Not(HasSubstr("soil")));
 }
@@ -120,9 +130,9 @@ TEST_F(ProblemWriterTest, AssumedFactsEndWithTheFirstObservation) {
   GoalRequest pick = photo("soil");
   pick.kind = "pick_sample";
   submit(pick);
-  beliefs.assume("sample.sample-soil", {"(sample-at sample-soil place-soil)"});
+  beliefs.assume("rover.sample.sample-soil", {"(sample-at sample-soil place-soil)"});
   EXPECT_THAT(write().text, HasSubstr("(sample-at sample-soil place-soil)"));
-  beliefs.observe("sample.sample-soil", temporal::state("held"));
+  beliefs.observe("rover.sample.sample-soil", temporal::state("held"));
   EXPECT_THAT(write().text, Not(HasSubstr("(sample-at")));
   EXPECT_THAT(write().text, HasSubstr("(picked sample-soil)"));
 }

@@ -4,6 +4,28 @@
 
 namespace roci::exec::testing {
 
+using executive::Command;
+using executive::CommandAction;
+using executive::CommandStage;
+using executive::Observation;
+using executive::StartPolicy;
+using executive::StepStatus;
+using goals::GoalClass;
+using goals::GoalRecord;
+using goals::GoalRequest;
+using goals::GoalState;
+using mission::ActionBinding;
+using mission::MissionModel;
+using mission::RecoveryStrategy;
+using mission::Replanning;
+using reactor::Event;
+using reactor::MissionPhase;
+using reactor::PlanReply;
+using reactor::PlanRequest;
+using reactor::ReactorInputs;
+using reactor::ReactorOutputs;
+using temporal::Verdict;
+
 using temporal::seconds;
 using temporal::state;
 using temporal::Time;
@@ -16,7 +38,7 @@ MissionModel random_mission(std::mt19937_64& random) {
   mission.executive.recovery = static_cast<RecoveryStrategy>(random() % 8 < 5 ? 0 : random() % 5);
   mission.executive.replan_limit = 30;
   mission.executive.start = random() % 8 == 0 ? StartPolicy::latest : StartPolicy::earliest;
-  if (random() % 2 == 0) mission.executive.replanning = Replanning::situated;
+  if (random() % 2 == 0) mission.executive.replanning = Replanning::background;
   ActionBinding& image = mission.actions["take-image"];
   image.retries = static_cast<std::uint32_t>(random() % 3);
   image.lateness = static_cast<temporal::LatenessPolicy>(random() % 3);
@@ -54,7 +76,7 @@ void RandomWorld::run() {
   for (const Observation& observation : standing_robot()) pending_.observations.push_back(observation);
   let_pass(now_ + seconds(20'000));
   for (const GoalRecord* goal : reactor_.goals().open()) {
-    EXPECT_EQ(reactor_.phase(), Phase::safe) << goal->request.key.text() << " is open in a calm world";
+    EXPECT_EQ(reactor_.phase(), MissionPhase::safe) << goal->request.key.text() << " is open in a calm world";
     pending_.goals.push_back(goal->request);
     pending_.goals.back().recalled = true;
   }
@@ -128,7 +150,7 @@ void RandomWorld::let_pass(Time until) {
       if (job.ends <= now_) ended.push_back(activity);
     for (const std::string& activity : ended) end_job(activity);
     if (!answers_.empty() && answers_.begin()->first <= now_)
-      pending_.answer = std::move(answers_.extract(answers_.begin()).mapped());
+      pending_.reply = std::move(answers_.extract(answers_.begin()).mapped());
   }
   now_ = std::max(now_, until);
   steps_at_this_time_ = 0;
@@ -136,7 +158,7 @@ void RandomWorld::let_pass(Time until) {
 
 void RandomWorld::step() {
   ASSERT_LT(++steps_at_this_time_, 200) << "it does not come to rest";
-  if (pending_.answer) --outstanding_calls_;
+  if (pending_.reply) --outstanding_calls_;
   const ReactorInputs inputs = std::exchange(pending_, {});
   for (const GoalRequest& goal : inputs.goals) final_.erase(goal.key);  // what is asked again may begin again
   const ReactorOutputs out = reactor_.step(now_, inputs);
@@ -146,7 +168,7 @@ void RandomWorld::step() {
 
 void RandomWorld::take(const ReactorOutputs& out) {
   wake_ = out.wake;
-  for (const Note& note : out.notes) ++events[note.code];
+  for (const Event& event : out.events) ++events[event.code];
   if (out.call) {
     ++outstanding_calls_;
     answers_.emplace(now_ + time_up_to(wild_ ? 100 : 5), answer_of(*out.call));
@@ -155,38 +177,38 @@ void RandomWorld::take(const ReactorOutputs& out) {
     if (!dead_) obey(command);
 }
 
-PlanAnswer RandomWorld::answer_of(const PlanCall& call) {
-  PlanAnswer answer;
-  answer.call = call.id;
-  answer.verdict = PlanVerdict::solved;
-  if (wild_ && one_in(4)) answer.verdict = static_cast<PlanVerdict>(random_() % 10);
-  if (answer.verdict != PlanVerdict::solved) return answer;
+PlanReply RandomWorld::answer_of(const PlanRequest& call) {
+  PlanReply reply;
+  reply.call = call.id;
+  reply.verdict = Verdict::solved;
+  if (wild_ && one_in(4)) reply.verdict = static_cast<Verdict>(random_() % 10);
+  if (reply.verdict != Verdict::solved) return reply;
   for (const GoalRecord* goal : reactor_.goals().open()) {
     temporal::PlanActivity activity;
     activity.id = "a" + goal->request.key.id;
     activity.name = wild_ && one_in(60) ? "dance" : "take-image";
     activity.arguments = {{"1", "image-" + goal->request.key.id}, {"2", "place-" + goal->request.key.id}};
-    activity.start_point = answer.plan.point_count++;
-    activity.end_point = answer.plan.point_count++;
+    activity.start_point = reply.plan.point_count++;
+    activity.end_point = reply.plan.point_count++;
     activity.duration_lower = activity.duration_upper = seconds(40);
     if (one_in(3)) activity.pre = temporal::compare("(camera-idle)", temporal::ConditionOp::eq, true);
     activity.impacts = {
         {"(camera-idle)", temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, !wild_ || !one_in(10)},
         {"(battery)", temporal::ImpactKind::delta, temporal::ImpactWhen::at_start, -600.0}};
-    if (!answer.plan.activities.empty()) {
-      answer.plan.constraints.push_back({answer.plan.activities.back().end_point, activity.start_point,
-                                         temporal::ConstraintKind::ordering, seconds(0.001),
-                                         temporal::no_bound});
+    if (!reply.plan.activities.empty()) {
+      reply.plan.constraints.push_back({reply.plan.activities.back().end_point, activity.start_point,
+                                        temporal::ConstraintKind::ordering, seconds(0.001),
+                                        temporal::no_bound});
     }
-    answer.plan.activities.push_back(std::move(activity));
+    reply.plan.activities.push_back(std::move(activity));
   }
-  if (one_in(3) && !answer.plan.activities.empty()) {
+  if (one_in(3) && !reply.plan.activities.empty()) {
     const double latest =
-        45.0 * static_cast<double>(answer.plan.activities.size()) + (wild_ && one_in(3) ? -20 : 60);
-    answer.plan.constraints.push_back({temporal::origin_point, answer.plan.activities.back().start_point,
-                                       temporal::ConstraintKind::window, seconds(0), seconds(latest)});
+        45.0 * static_cast<double>(reply.plan.activities.size()) + (wild_ && one_in(3) ? -20 : 60);
+    reply.plan.constraints.push_back({temporal::origin_point, reply.plan.activities.back().start_point,
+                                      temporal::ConstraintKind::window, seconds(0), seconds(latest)});
   }
-  return answer;
+  return reply;
 }
 
 void RandomWorld::obey(const Command& command) {
@@ -221,7 +243,7 @@ void RandomWorld::end_job(const std::string& activity) {
   const bool works = !wild_ || !one_in(5);
   observe("rover.camera", state("idle"));
   if (works && !job.command.arguments.empty())
-    observe("image." + job.command.arguments.front().value, state("sent"));
+    observe("rover.image." + job.command.arguments.front().value, state("sent"));
   acknowledge(job.command, works ? CommandStage::completed : CommandStage::failed);
 }
 
@@ -242,15 +264,15 @@ void RandomWorld::check(const ReactorOutputs& out) {
     ASSERT_TRUE(executed_.emplace(command.activity, command.attempt).second)
         << command.activity << " was commanded twice under one key";
     if (command.activity.starts_with("fallback.")) continue;
-    ASSERT_EQ(reactor_.phase() == Phase::executing || reactor_.phase() == Phase::pausing ||
-                  reactor_.phase() == Phase::idle,
+    ASSERT_EQ(reactor_.phase() == MissionPhase::executing || reactor_.phase() == MissionPhase::pausing ||
+                  reactor_.phase() == MissionPhase::idle,
               true)
         << command.activity << " commanded while " << to_string(reactor_.phase());
     ASSERT_TRUE(command.activity.starts_with(live)) << command.activity << " without a live plan";
   }
   for (const StepStatus& step : out.steps) {
     if (step.state == temporal::ActivityState::failed || step.state == temporal::ActivityState::skipped) {
-      ASSERT_FALSE(step.cause.empty()) << step.activity << " ended without a cause";
+      ASSERT_FALSE(step.reason.empty()) << step.activity << " ended without a cause";
     }
   }
   for (const GoalRecord* goal : reactor_.goals().all()) {
@@ -266,7 +288,7 @@ void RandomWorld::check(const ReactorOutputs& out) {
       final_[goal->request.key] = goal->state;
     }
   }
-  if (reactor_.phase() == Phase::executing) check_steps();
+  if (reactor_.phase() == MissionPhase::executing) check_steps();
 }
 
 /// The steps of one component never overlap in time.

@@ -32,36 +32,36 @@ class RandomWorld {
   void send_goal();
   void step();
   void let_pass(temporal::Time until);
-  void take(const ReactorOutputs& out);
-  void obey(const Command& command);
-  void execute(const Command& command);
+  void take(const reactor::ReactorOutputs& out);
+  void obey(const executive::Command& command);
+  void execute(const executive::Command& command);
   void end_job(const std::string& activity);
-  PlanAnswer answer_of(const PlanCall& call);
-  void acknowledge(const Command& command, CommandStage stage);
+  reactor::PlanReply answer_of(const reactor::PlanRequest& call);
+  void acknowledge(const executive::Command& command, executive::CommandStage stage);
   void observe(const std::string& timeline, temporal::Value value);
-  void check(const ReactorOutputs& out);
+  void check(const reactor::ReactorOutputs& out);
   void check_steps();
 
   using Key = std::pair<std::string, std::uint32_t>;
   struct Job {
-    Command command;
+    executive::Command command;
     temporal::Time ends{0};
   };
 
   std::mt19937_64 random_;
-  MissionModel mission_;
-  Reactor reactor_;
+  mission::MissionModel mission_;
+  reactor::Reactor reactor_;
   temporal::Time now_{0};
-  ReactorInputs pending_;
+  reactor::ReactorInputs pending_;
   std::map<std::string, Job> jobs_;
-  std::multimap<temporal::Time, PlanAnswer> answers_;
+  std::multimap<temporal::Time, reactor::PlanReply> answers_;
   std::optional<temporal::Time> wake_;
   bool wild_ = true;  ///< rules fire; else everybody does what is asked
   bool dead_ = false;
   int outstanding_calls_ = 0;
   int steps_at_this_time_ = 0;
   std::set<Key> executed_;
-  std::map<GoalKey, GoalState> final_;
+  std::map<goals::GoalKey, goals::GoalState> final_;
 };
 
 }  // namespace roci::exec::testing

@@ -3,6 +3,21 @@
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using executive::Command;
+using executive::CommandStage;
+using goals::GoalClass;
+using goals::GoalRequest;
+using goals::GoalState;
+using mission::Component;
+using mission::StateModel;
+using mission::TimelineFamily;
+using reactor::MissionPhase;
+using reactor::PlanReply;
+using reactor::PlanRequest;
+using reactor::ReactorInputs;
+using temporal::Verdict;
+
 namespace {
 
 using ::testing::Contains;
@@ -65,16 +80,16 @@ INSTANTIATE_TEST_SUITE_P(
 // The robot dies while it is paused: nothing answers the cancel, nothing confirms the fallback.
 TEST_F(ReactorTest, AnOwnerLostDuringThePauseMakesTheRobotSafeAndItsReturnResumes) {
   run(20, robot_and({photo("a")}));
-  ASSERT_EQ(reactor.phase(), Phase::executing);
+  ASSERT_EQ(reactor.phase(), MissionPhase::executing);
   robot_is_dead = true;
   robot_events.clear();
   ReactorInputs lost;
   lost.goals = {photo("b", GoalClass::opportunistic)};
   lost.losses = {{"sim_svc", "killed"}};
   run(70, std::move(lost));
-  EXPECT_EQ(reactor.phase(), Phase::pausing);
+  EXPECT_EQ(reactor.phase(), MissionPhase::pausing);
   run(200, {});
-  EXPECT_EQ(reactor.phase(), Phase::safe);
+  EXPECT_EQ(reactor.phase(), MissionPhase::safe);
   EXPECT_EQ(reactor.outcome(), "failed") << "nobody knows that the camera has stopped";
   EXPECT_THAT(reasons["a"], HasSubstr("camera did not become inactive in time"));
   EXPECT_THAT(trace, Not(Contains("goal.dropped")));
@@ -105,14 +120,14 @@ TEST_F(ReactorTest, AnOwnerThatComesBackWithinThePauseHearsTheFallbackAgain) {
   back.arrivals = {"sim_svc"};
   run(61, std::move(back));
   EXPECT_EQ(stops(), 2);
-  EXPECT_EQ(reactor.phase(), Phase::pausing);
+  EXPECT_EQ(reactor.phase(), MissionPhase::pausing);
 }
 
 // As the mission says: a longest pause of 120 s, and eight failures in a row.
 TEST_F(ReactorTest, AComponentThatKeepsFailingGetsTimeThenItsGoalsGoAlone) {
   camera_works = false;
   std::vector<double> calls;
-  planner = [&](const PlanCall& call) {
+  planner = [&](const PlanRequest& call) {
     calls.push_back(temporal::to_seconds(now));
     return image_every_goal(call);
   };
@@ -135,8 +150,8 @@ TEST_F(ReactorTest, AComponentThatKeepsFailingGetsTimeThenItsGoalsGoAlone) {
 
 TEST_F(ReactorTest, ACommandThatItsOwnerDoesNotKnowCostsItsGoalAtOnceAndNoOther) {
   const Planner all = planner;
-  planner = [&, all](const PlanCall& call) {
-    PlanAnswer out = all(call);
+  planner = [&, all](const PlanRequest& call) {
+    PlanReply out = all(call);
     if (out.plan.activities.front().arguments.front().value == "image-a") {
       other_events.emplace(now + seconds(6), [this] {
         pending.acks.push_back({"p1.1-take-image", 1, CommandStage::rejected, "unknown-command", "no such"});
@@ -194,8 +209,8 @@ TEST_F(ReactorTest, GoalsThatArriveDuringAPauseAreInThePlanThatFollows) {
 }
 
 TEST_F(ReactorTest, EnergyThatIsGoneBreaksThePlanAtOnce) {
-  planner = [this](const PlanCall& call) {
-    PlanAnswer out = image_every_goal(call);
+  planner = [this](const PlanRequest& call) {
+    PlanReply out = image_every_goal(call);
     for (temporal::PlanActivity& activity : out.plan.activities) {
       activity.pre = temporal::compare("(battery)", temporal::ConditionOp::ge, 300000.0);
       activity.impacts = {
@@ -203,10 +218,10 @@ TEST_F(ReactorTest, EnergyThatIsGoneBreaksThePlanAtOnce) {
     }
     const bool fits =
         std::get<double>(battery) >= 100000.0 + 200000.0 * static_cast<double>(out.plan.activities.size());
-    return fits ? out : answer(PlanVerdict::unsolvable, "too little energy");
+    return fits ? out : reply(Verdict::unsolvable, "too little energy");
   };
   run(20, robot_and({photo("a"), photo("b", GoalClass::optional, 1), photo("c", GoalClass::optional, 2)}));
-  ASSERT_EQ(reactor.phase(), Phase::executing);
+  ASSERT_EQ(reactor.phase(), MissionPhase::executing);
   trace.clear();
   battery = 450000.0;
   ReactorInputs loss;
@@ -220,7 +235,7 @@ TEST_F(ReactorTest, EnergyThatIsGoneBreaksThePlanAtOnce) {
 TEST_F(ReactorTest, AGoalThatArrivesDuringAPlannerCallGetsAPlanOfItsOwnAfterwards) {
   planning_time = seconds(30);
   run(10, robot_and({photo("a")}));
-  ASSERT_EQ(reactor.phase(), Phase::planning);
+  ASSERT_EQ(reactor.phase(), MissionPhase::planning);
   ReactorInputs more;
   more.goals = {photo("b")};
   run(20, std::move(more));
@@ -257,7 +272,7 @@ TEST_F(ReactorTest, AGoalThatArrivesEndsTheStaleCallAndOneMoreFollowsAtOnce) {
   run(11, std::move(more));
   EXPECT_THAT(trace, ElementsAre("goal.accepted", "plan.outdated", "cancel call", "plan.wanted", "call"));
   run(41, {});
-  EXPECT_EQ(reactor.phase(), Phase::executing)
+  EXPECT_EQ(reactor.phase(), MissionPhase::executing)
       << "30 s after the goal came, not 30 s after the stale call's end";
 }
 
@@ -266,7 +281,7 @@ TEST_F(ReactorTest, ACallThatNobodyNeedsAnyMoreIsCancelled) {
   run(10, robot_and({photo("a")}));
   trace.clear();
   ReactorInputs seen;
-  seen.observations = {{"image.image-a", state("sent")}};
+  seen.observations = {{"rover.image.image-a", state("sent")}};
   run(11, std::move(seen));
   EXPECT_THAT(trace, ElementsAre("goal.achieved", "plan.outdated", "cancel call"));
   EXPECT_EQ(reactor.outcome(), "achieved");
@@ -275,9 +290,9 @@ TEST_F(ReactorTest, ACallThatNobodyNeedsAnyMoreIsCancelled) {
 // The verdict on a problem with the recalled goal says nothing about the one without it.
 TEST_F(ReactorTest, AGoalRecalledDuringAPlannerCallTakesNoOtherWithIt) {
   planning_time = seconds(30);
-  planner = [this](const PlanCall& call) {
+  planner = [this](const PlanRequest& call) {
     return call.problem.text.find("image-walled") != std::string::npos
-               ? answer(PlanVerdict::unsolvable, "goals do not fit")
+               ? reply(Verdict::unsolvable, "goals do not fit")
                : image_every_goal(call);
   };
   run(10, robot_and({photo("walled"), photo("soft", GoalClass::opportunistic)}));
@@ -297,7 +312,7 @@ TEST_F(ReactorTest, TheLastGoalRecalledDuringAPlannerCallEndsTheMission) {
   recall.goals = {photo("a")};
   recall.goals[0].recalled = true;
   run(1000, std::move(recall));
-  EXPECT_EQ(reactor.phase(), Phase::finished);
+  EXPECT_EQ(reactor.phase(), MissionPhase::finished);
   EXPECT_TRUE(commands.empty());
 }
 
@@ -341,8 +356,8 @@ class MapChangeTest : public ReactorTest {
       newest = version;
     });
   }
-  PlanAnswer plan_on_version(const PlanCall& call, std::uint64_t version) {
-    PlanAnswer out = image_every_goal(call);
+  PlanReply plan_on_version(const PlanRequest& call, std::uint64_t version) {
+    PlanReply out = image_every_goal(call);
     out.plan.function_values = {{"traverse_time", {"here", "place-a"}, 100, "pathplan_svc", version}};
     return out;
   }
@@ -350,7 +365,7 @@ class MapChangeTest : public ReactorTest {
 };
 
 TEST_F(MapChangeTest, EachChangeDuringACallEndsItAndTheNextOneFollowsAtOnce) {
-  planner = [&](const PlanCall& call) { return plan_on_version(call, newest); };
+  planner = [&](const PlanRequest& call) { return plan_on_version(call, newest); };
   change_map_at(10, 2);
   change_map_at(20, 3);
   run(49, {});
@@ -364,7 +379,7 @@ TEST_F(MapChangeTest, EachChangeDuringACallEndsItAndTheNextOneFollowsAtOnce) {
 // A cancel that comes too late: what counts is what the plan stands on.
 TEST_F(MapChangeTest, APlanOnTheNewestMapIsTakenEvenIfTheMapChangedDuringTheCall) {
   planner_hears_cancels = false;
-  planner = [&](const PlanCall& call) { return plan_on_version(call, newest); };
+  planner = [&](const PlanRequest& call) { return plan_on_version(call, newest); };
   change_map_at(10, 2);
   run(1000, {});
   EXPECT_EQ(std::count(trace.begin(), trace.end(), "call"), 1);
@@ -372,7 +387,7 @@ TEST_F(MapChangeTest, APlanOnTheNewestMapIsTakenEvenIfTheMapChangedDuringTheCall
 
 TEST_F(MapChangeTest, APlanOnAnOldMapIsNotTaken) {
   planner_hears_cancels = false;
-  planner = [&, first = true](const PlanCall& call) mutable {
+  planner = [&, first = true](const PlanRequest& call) mutable {
     return plan_on_version(call, std::exchange(first, false) ? 1 : newest);
   };
   change_map_at(10, 2);
@@ -384,9 +399,8 @@ TEST_F(MapChangeTest, APlanOnAnOldMapIsNotTaken) {
 
 TEST_F(MapChangeTest, NoGoalGoesByAVerdictOnAnOldMap) {
   planner_hears_cancels = false;
-  planner = [&, first = true](const PlanCall& call) mutable {
-    return std::exchange(first, false) ? answer(PlanVerdict::unsolvable, "no way")
-                                       : plan_on_version(call, newest);
+  planner = [&, first = true](const PlanRequest& call) mutable {
+    return std::exchange(first, false) ? reply(Verdict::unsolvable, "no way") : plan_on_version(call, newest);
   };
   change_map_at(10, 2);
   run(1000, {});
@@ -395,11 +409,11 @@ TEST_F(MapChangeTest, NoGoalGoesByAVerdictOnAnOldMap) {
 }
 
 TEST_F(MapChangeTest, AVerdictOnAMapThatChangedBeforeTheCallCounts) {
-  planner = [&](const PlanCall& call) { return plan_on_version(call, newest); };
+  planner = [&](const PlanRequest& call) { return plan_on_version(call, newest); };
   change_map_at(50, 2);
   run(60, {});
-  planner = [&](const PlanCall& call) {
-    return reactor.goals().open().size() > 2 ? answer(PlanVerdict::unsolvable, "no way")
+  planner = [&](const PlanRequest& call) {
+    return reactor.goals().open().size() > 2 ? reply(Verdict::unsolvable, "no way")
                                              : plan_on_version(call, newest);
   };
   ReactorInputs more;
@@ -412,7 +426,7 @@ TEST_F(MapChangeTest, AVerdictOnAMapThatChangedBeforeTheCallCounts) {
 TEST_F(MapChangeTest, AMapThatNeverRestsDoesNotStopTheMission) {
   for (const bool hears : {true, false}) {
     planner_hears_cancels = hears;
-    planner = [&](const PlanCall& call) { return plan_on_version(call, newest - 1); };
+    planner = [&](const PlanRequest& call) { return plan_on_version(call, newest - 1); };
     const double begin = temporal::to_seconds(now);
     for (int i = 1; i < 100; ++i) change_map_at(begin + 20.0 * i, newest + static_cast<std::uint64_t>(i));
     trace.clear();
@@ -425,10 +439,10 @@ TEST_F(MapChangeTest, AMapThatNeverRestsDoesNotStopTheMission) {
 }
 
 TEST_F(ReactorTest, AmongNamedGoalsASoftOneGoesFirst) {
-  planner = [this](const PlanCall& call) {
+  planner = [this](const PlanRequest& call) {
     return reactor.goals().open().size() > 2
-               ? answer(PlanVerdict::unsolvable,
-                        "never reached: (sent image-hard) (sent image-one) (sent image-two)")
+               ? reply(Verdict::unsolvable,
+                       "never reached: (sent image-hard) (sent image-one) (sent image-two)")
                : image_every_goal(call);
   };
   run(1000, robot_and({photo("hard"), photo("other", GoalClass::opportunistic),

@@ -39,24 +39,24 @@ inline temporal::FlexiblePlan images(const std::vector<std::string>& ids) {
   return plan;
 }
 
-inline bool is_empty(const ReactorInputs& inputs) {
+inline bool is_empty(const reactor::ReactorInputs& inputs) {
   return inputs.goals.empty() && inputs.observations.empty() && inputs.acks.empty() &&
-         inputs.losses.empty() && inputs.arrivals.empty() && inputs.models.empty() && !inputs.answer &&
+         inputs.losses.empty() && inputs.arrivals.empty() && inputs.models.empty() && !inputs.reply &&
          inputs.deltas.empty();
 }
 
 class ReactorTest : public ::testing::Test {
  protected:
   // The answer to a planner call; by default a plan with an image of every goal in the problem.
-  using Planner = std::function<PlanAnswer(const PlanCall&)>;
+  using Planner = std::function<reactor::PlanReply(const reactor::PlanRequest&)>;
   using Events = std::multimap<Time, std::function<void()>>;
 
   // With these inputs now; the clock then stands at `until_s`.
-  void run(double until_s, ReactorInputs inputs) {
+  void run(double until_s, reactor::ReactorInputs inputs) {
     pending = std::move(inputs);
     for (int turns = 0; turns < 10000; ++turns) {
-      const ReactorInputs now_inputs = std::exchange(pending, {});
-      const ReactorOutputs out = reactor.step(now, now_inputs);
+      const reactor::ReactorInputs now_inputs = std::exchange(pending, {});
+      const reactor::ReactorOutputs out = reactor.step(now, now_inputs);
       take(out);
       if (!is_empty(pending)) continue;
       Time next = seconds(until_s);
@@ -76,16 +76,16 @@ class ReactorTest : public ::testing::Test {
     now = seconds(until_s);
   }
 
-  void take(const ReactorOutputs& out) {
-    for (const Note& note : out.notes) trace.push_back(note.code);
-    for (const GoalRecord& goal : out.goal_changes) reasons[goal.request.key.id] = goal.reason;
+  void take(const reactor::ReactorOutputs& out) {
+    for (const reactor::Event& event : out.events) trace.push_back(event.code);
+    for (const goals::GoalRecord& goal : out.goal_changes) reasons[goal.request.key.id] = goal.reason;
     if (out.cancelled_call) {
       trace.push_back("cancel call");
       if (planner_hears_cancels) {
         EXPECT_TRUE(std::exchange(planner_is_busy, false)) << "nothing to cancel";
         other_events.erase(planned);
-        pending.answer = answer(PlanVerdict::cancelled);
-        pending.answer->call = *out.cancelled_call;
+        pending.reply = reply(temporal::Verdict::cancelled);
+        pending.reply->call = *out.cancelled_call;
       }
     }
     if (out.call) {
@@ -93,75 +93,75 @@ class ReactorTest : public ::testing::Test {
       EXPECT_FALSE(std::exchange(planner_is_busy, true)) << "two planner calls at a time";
       planned = other_events.emplace(now + planning_time, [this, call = *out.call] {
         planner_is_busy = false;
-        pending.answer = planner(call);
-        pending.answer->call = call.id;
+        pending.reply = planner(call);
+        pending.reply->call = call.id;
       });
     }
-    for (const Command& command : out.commands) obey(command);
+    for (const executive::Command& command : out.commands) obey(command);
   }
 
-  virtual void obey(const Command& command) {
+  virtual void obey(const executive::Command& command) {
     commands.push_back(command);
     if (robot_is_dead) return;
-    if (command.action == CommandAction::cancel) {
+    if (command.action == executive::CommandAction::cancel) {
       trace.push_back("cancel");
       robot_events.clear();
-      pending.acks.push_back({command.activity, command.attempt, CommandStage::cancelled, "", ""});
+      pending.acks.push_back({command.activity, command.attempt, executive::CommandStage::cancelled, "", ""});
       pending.observations.push_back({"rover.camera", state("idle")});
       return;
     }
     trace.push_back(command.command_name);
-    pending.acks.push_back({command.activity, command.attempt, CommandStage::accepted, "", ""});
+    pending.acks.push_back({command.activity, command.attempt, executive::CommandStage::accepted, "", ""});
     if (command.command_name != "image") return;
     pending.observations.push_back({"rover.camera", state("imaging")});
     const std::string image = command.arguments.front().value;
     robot_events.emplace(now + camera_time, [this, command, image] {
       pending.observations.push_back({"rover.camera", state("idle")});
-      if (camera_works) pending.observations.push_back({"image." + image, state("sent")});
-      const auto stage = camera_works ? CommandStage::completed : CommandStage::failed;
+      if (camera_works) pending.observations.push_back({"rover.image." + image, state("sent")});
+      const auto stage = camera_works ? executive::CommandStage::completed : executive::CommandStage::failed;
       pending.acks.push_back({command.activity, command.attempt, stage, "", "shutter"});
     });
   }
 
-  ReactorInputs robot_and(std::vector<GoalRequest> goals) {
-    ReactorInputs inputs;
+  reactor::ReactorInputs robot_and(std::vector<goals::GoalRequest> goals) {
+    reactor::ReactorInputs inputs;
     inputs.observations = standing_robot();
     inputs.goals = std::move(goals);
     return inputs;
   }
 
-  static PlanAnswer answer(PlanVerdict verdict, std::string reason = "") {
-    PlanAnswer out;
+  static reactor::PlanReply reply(temporal::Verdict verdict, std::string reason = "") {
+    reactor::PlanReply out;
     out.verdict = verdict;
     out.reason = std::move(reason);
     return out;
   }
 
-  PlanAnswer image_every_goal(const PlanCall& call) {
-    PlanAnswer out = answer(PlanVerdict::solved);
+  reactor::PlanReply image_every_goal(const reactor::PlanRequest& call) {
+    reactor::PlanReply out = reply(temporal::Verdict::solved);
     std::vector<std::string> ids;
-    for (const GoalRecord* goal : reactor.goals().open()) ids.push_back(goal->request.key.id);
+    for (const goals::GoalRecord* goal : reactor.goals().open()) ids.push_back(goal->request.key.id);
     EXPECT_THAT(call.problem.text, ::testing::HasSubstr("(:goal"));
     out.plan = images(ids);
     return out;
   }
 
-  MissionModel mission = planetary();
-  Reactor reactor{mission};
+  mission::MissionModel mission = planetary();
+  reactor::Reactor reactor{mission};
   Time now{0};
   Time planning_time{0};
   Time camera_time = seconds(40);
   bool camera_works = true;
   temporal::Value battery = 900000.0;
-  Planner planner = [this](const PlanCall& call) { return image_every_goal(call); };
-  ReactorInputs pending;
+  Planner planner = [this](const reactor::PlanRequest& call) { return image_every_goal(call); };
+  reactor::ReactorInputs pending;
   Events robot_events;  // a cancel clears them
   Events other_events;
   bool planner_is_busy = false;
   bool planner_hears_cancels = true;
   Events::iterator planned;    // of the call under way
   bool robot_is_dead = false;  // hears no command
-  std::vector<Command> commands;
+  std::vector<executive::Command> commands;
   std::vector<std::string> trace;
   std::map<std::string, std::string> reasons;
 };

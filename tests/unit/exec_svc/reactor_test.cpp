@@ -2,6 +2,15 @@
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using goals::GoalClass;
+using goals::GoalRequest;
+using goals::GoalState;
+using reactor::MissionPhase;
+using reactor::PlanRequest;
+using reactor::ReactorInputs;
+using temporal::Verdict;
+
 namespace {
 
 using ::testing::Contains;
@@ -24,7 +33,7 @@ TEST_F(ReactorTest, ARejectedHardGoalIsNotAchievedUnlessAConsoleSentIt) {
   EXPECT_EQ(reactor.outcome(), "achieved");
   EXPECT_EQ(reactor.counts().rejected, 1U);
   bad.key.id = "worse";
-  bad.said_in = {"sim_svc", 1, 7};
+  bad.sample = {"sim_svc", 1, 7};
   run(2000, robot_and({bad}));
   EXPECT_EQ(reactor.outcome(), "partial");
 }
@@ -42,7 +51,7 @@ TEST_F(ReactorTest, WaitsForTheFirstObservationOfEveryComponent) {
 
 TEST_F(ReactorTest, AGoalInFlightPausesFallsBackPlansAndResumes) {
   run(20, robot_and({photo("a")}));
-  ASSERT_EQ(reactor.phase(), Phase::executing);
+  ASSERT_EQ(reactor.phase(), MissionPhase::executing);
   trace.clear();
   ReactorInputs more;
   more.goals = {photo("b", GoalClass::opportunistic)};
@@ -53,8 +62,8 @@ TEST_F(ReactorTest, AGoalInFlightPausesFallsBackPlansAndResumes) {
 }
 
 TEST_F(ReactorTest, WhenNotAllFitTheNewestOpportunisticGoesFirst) {
-  planner = [this](const PlanCall& call) {
-    return reactor.goals().open().size() > 1 ? answer(PlanVerdict::unsolvable, "too much")
+  planner = [this](const PlanRequest& call) {
+    return reactor.goals().open().size() > 1 ? reply(Verdict::unsolvable, "too much")
                                              : image_every_goal(call);
   };
   run(1000, robot_and({photo("hard"), photo("first", GoalClass::opportunistic),
@@ -66,17 +75,17 @@ TEST_F(ReactorTest, WhenNotAllFitTheNewestOpportunisticGoesFirst) {
 }
 
 TEST_F(ReactorTest, ASpentBudgetDropsTooAndIsReportedAsWhatItIs) {
-  planner = [this](const PlanCall& call) {
-    return reactor.goals().open().size() > 1 ? answer(PlanVerdict::timeout) : image_every_goal(call);
+  planner = [this](const PlanRequest& call) {
+    return reactor.goals().open().size() > 1 ? reply(Verdict::timeout) : image_every_goal(call);
   };
   run(1000, robot_and({photo("hard"), photo("soft", GoalClass::optional, 1)}));
   EXPECT_EQ(reasons["soft"], "timeout");
 }
 
 TEST_F(ReactorTest, AHardGoalThatThePlannerNamesFailsAndTheRestGoesOn) {
-  planner = [this](const PlanCall& call) {
+  planner = [this](const PlanRequest& call) {
     return call.problem.text.find("(sent image-walled)\n  ") != std::string::npos
-               ? answer(PlanVerdict::unsolvable, "goal (sent image-walled) can never be reached")
+               ? reply(Verdict::unsolvable, "goal (sent image-walled) can never be reached")
                : image_every_goal(call);
   };
   run(1000, robot_and({photo("walled"), photo("free")}));
@@ -86,9 +95,9 @@ TEST_F(ReactorTest, AHardGoalThatThePlannerNamesFailsAndTheRestGoesOn) {
 }
 
 TEST_F(ReactorTest, WhatThePlannerProvesOutOfReachTakesNothingElseWithIt) {
-  planner = [this](const PlanCall& call) {
+  planner = [this](const PlanRequest& call) {
     return call.problem.text.find("(sent image-walled)\n  ") != std::string::npos
-               ? answer(PlanVerdict::unsolvable, "goal (sent image-walled) can never be reached")
+               ? reply(Verdict::unsolvable, "goal (sent image-walled) can never be reached")
                : image_every_goal(call);
   };
   run(1000, robot_and({photo("free", GoalClass::opportunistic), photo("walled", GoalClass::optional, 9),
@@ -101,10 +110,9 @@ TEST_F(ReactorTest, WhatThePlannerProvesOutOfReachTakesNothingElseWithIt) {
 
 // A search under the demands of all goals says nothing of one alone: without the soft ones the planner tells.
 TEST_F(ReactorTest, AHardGoalThatFitsWithoutTheSoftOnesStays) {
-  planner = [this](const PlanCall& call) {
+  planner = [this](const PlanRequest& call) {
     const bool soft = call.problem.text.find("(sent image-late)\n  ") != std::string::npos;
-    return soft ? answer(PlanVerdict::unsolvable, "never reached: (sent image-hard)")
-                : image_every_goal(call);
+    return soft ? reply(Verdict::unsolvable, "never reached: (sent image-hard)") : image_every_goal(call);
   };
   run(1000, robot_and({photo("hard"), photo("soft", GoalClass::optional, 9),
                        photo("late", GoalClass::opportunistic)}));
@@ -115,10 +123,9 @@ TEST_F(ReactorTest, AHardGoalThatFitsWithoutTheSoftOnesStays) {
 }
 
 TEST_F(ReactorTest, AHardGoalOutOfReachTakesNoSoftOneWithIt) {
-  planner = [this](const PlanCall& call) {
+  planner = [this](const PlanRequest& call) {
     const bool hard = call.problem.text.find("(sent image-walled)\n  ") != std::string::npos;
-    return hard ? answer(PlanVerdict::unsolvable, "never reached: (sent image-walled)")
-                : image_every_goal(call);
+    return hard ? reply(Verdict::unsolvable, "never reached: (sent image-walled)") : image_every_goal(call);
   };
   run(1000, robot_and({photo("walled"), photo("soft", GoalClass::opportunistic)}));
   EXPECT_EQ(reactor.goals().find({"ground", "walled"})->state, GoalState::failed);
@@ -128,10 +135,10 @@ TEST_F(ReactorTest, AHardGoalOutOfReachTakesNoSoftOneWithIt) {
 // What is kept back is for hard goals: spent before one is given up, and kept again when another goal comes.
 TEST_F(ReactorTest, ReservesAreSpentBeforeAHardGoalIsGivenUp) {
   std::vector<std::string> asked;
-  planner = [&](const PlanCall& call) {
+  planner = [&](const PlanRequest& call) {
     const bool kept = call.problem.text.find("(= (reserve) 20000.000000)") != std::string::npos;
     asked.push_back(kept ? "kept" : "spent");
-    if (kept) return answer(PlanVerdict::unsolvable, "never reached: (sent image-hard)");
+    if (kept) return reply(Verdict::unsolvable, "never reached: (sent image-hard)");
     return image_every_goal(call);
   };
   run(20, robot_and({photo("hard")}));
@@ -141,10 +148,10 @@ TEST_F(ReactorTest, ReservesAreSpentBeforeAHardGoalIsGivenUp) {
   ReactorInputs more;
   more.goals = {photo("far")};
   asked.clear();
-  planner = [&](const PlanCall& call) {
+  planner = [&](const PlanRequest& call) {
     asked.push_back(call.problem.text.find("(= (reserve) 5000.000000)") != std::string::npos ? "spent"
                                                                                              : "kept");
-    return answer(PlanVerdict::unsolvable, "never reached: (sent image-far)");
+    return reply(Verdict::unsolvable, "never reached: (sent image-far)");
   };
   run(30, std::move(more));
   ASSERT_GE(asked.size(), 3U);
@@ -176,8 +183,8 @@ TEST_F(ReactorTest, ABrokenPlanIsReplannedUntilTheLimitThenTheRobotIsSafe) {
 
 TEST_F(ReactorTest, AMissingPlannerIsAskedAgainLaterAndAComingBackAtOnce) {
   bool there = false;
-  planner = [&](const PlanCall& call) {
-    return there ? image_every_goal(call) : answer(PlanVerdict::no_reply, "no planner_svc");
+  planner = [&](const PlanRequest& call) {
+    return there ? image_every_goal(call) : reply(Verdict::no_reply, "no planner_svc");
   };
   run(25, robot_and({photo("a")}));
   EXPECT_THAT(trace, Contains("plan.retry"));
@@ -195,7 +202,7 @@ TEST_F(ReactorTest, RecallOfTheOnlyGoalStopsTheRobot) {
   inputs.goals = {recall};
   run(1000, std::move(inputs));
   EXPECT_THAT(trace, Contains("cancel"));
-  EXPECT_EQ(reactor.phase(), Phase::finished);
+  EXPECT_EQ(reactor.phase(), MissionPhase::finished);
   EXPECT_EQ(reactor.counts().achieved, 0U);
 }
 
@@ -208,11 +215,11 @@ TEST_F(ReactorTest, ARejectedGoalDoesNotSpoilTheMission) {
 }
 
 TEST_F(ReactorTest, AnAnswerToAStaleCallIsIgnored) {
-  planner = [this](const PlanCall& call) { return image_every_goal(call); };
+  planner = [this](const PlanRequest& call) { return image_every_goal(call); };
   run(1000, robot_and({photo("a")}));
   ReactorInputs stale;
-  stale.answer = answer(PlanVerdict::unsolvable);
-  stale.answer->call = 999;
+  stale.reply = reply(Verdict::unsolvable);
+  stale.reply->call = 999;
   run(1100, std::move(stale));
   EXPECT_EQ(reactor.outcome(), "achieved");
 }

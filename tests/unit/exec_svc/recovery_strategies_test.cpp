@@ -1,8 +1,17 @@
 // R102: one failure, four strategies and their cascade; the same plans come from the same generator.
-#include "exec_svc/reactor/ladder.hpp"
+#include "exec_svc/reactor/recovery_policy.hpp"
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using executive::Command;
+using executive::CommandAction;
+using executive::CommandStage;
+using goals::GoalState;
+using mission::RecoveryStrategy;
+using reactor::Reactor;
+using reactor::ReactorInputs;
+
 namespace {
 
 using ::testing::Contains;
@@ -75,9 +84,9 @@ TEST_F(Strategies, GroundIsAskedAtOnceAndItsNextGoalBringsAPlan) {
   EXPECT_EQ(trace.back(), "robot.safe");
   EXPECT_EQ(reactor.counts().planner_calls, 1U);
   EXPECT_THAT(reasons["a"], HasSubstr("waiting for the ground"));
-  ReactorInputs answer;
-  answer.goals = {photo("b")};
-  run(6000, std::move(answer));
+  ReactorInputs reply;
+  reply.goals = {photo("b")};
+  run(6000, std::move(reply));
   EXPECT_EQ(reactor.outcome(), "achieved");
   EXPECT_EQ(reactor.counts().achieved, 2U);
 }

@@ -4,6 +4,19 @@
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using executive::StepStatus;
+using mission::Replanning;
+using reactor::planned_actions;
+using reactor::PlannedAction;
+using reactor::PlanReply;
+using reactor::PlanRequest;
+using reactor::Reactor;
+using reactor::ReactorInputs;
+using reactor::ReactorOutputs;
+using reactor::remaining_actions;
+using temporal::Verdict;
+
 namespace {
 
 using temporal::ActivityState;
@@ -42,14 +55,15 @@ TEST(RemainingPlan, WhatRunsOrHasDoneItsWorkIsLeftOut) {
     steps.push_back(std::move(step));
   }
   planned.push_back({"untold", "act-untold", {}, {}, {}});
-  EXPECT_THAT(text_of(without_begun(planned, steps)), ElementsAre("act-0", "act-4", "act-6", "act-untold"));
-  EXPECT_EQ(without_begun(planned, {}), planned);
+  EXPECT_THAT(text_of(remaining_actions(planned, steps)),
+              ElementsAre("act-0", "act-4", "act-6", "act-untold"));
+  EXPECT_EQ(remaining_actions(planned, {}), planned);
 }
 
 class Replanning : public ReactorTest {
  protected:
   Replanning() {
-    planner = [this](const PlanCall& call) {
+    planner = [this](const PlanRequest& call) {
       remaining.push_back(text_of(call.remaining));
       return image_every_goal(call);
     };
@@ -79,9 +93,9 @@ TEST_F(Replanning, WhatWasCancelledIsStillToBeDone) {
 
 TEST_F(Replanning, ACallThatIsMadeAgainBeginsLikewise) {
   const Planner solves = planner;
-  planner = [&, calls = 0](const PlanCall& call) mutable {
-    PlanAnswer out = solves(call);
-    if (++calls > 1 && calls < 4) out = answer(PlanVerdict::crashed, "no luck");
+  planner = [&, calls = 0](const PlanRequest& call) mutable {
+    PlanReply out = solves(call);
+    if (++calls > 1 && calls < 4) out = reply(Verdict::crashed, "no luck");
     return out;
   };
   other_events.emplace(seconds(60), [this] { pending.goals.push_back(photo("3")); });
@@ -94,9 +108,9 @@ TEST_F(Replanning, ACallThatIsMadeAgainBeginsLikewise) {
 // The snapshot has no plan in it, and still the call after it begins with what was left.
 TEST_F(Replanning, AfterARestartToo) {
   const Planner solves = planner;
-  planner = [&](const PlanCall& call) {
-    PlanAnswer out = solves(call);
-    return remaining.size() == 1 ? out : answer(PlanVerdict::crashed, "no luck");
+  planner = [&](const PlanRequest& call) {
+    PlanReply out = solves(call);
+    return remaining.size() == 1 ? out : reply(Verdict::crashed, "no luck");
   };
   fly_with_a_goal_at(60);
   ASSERT_EQ(remaining.size(), 2U);

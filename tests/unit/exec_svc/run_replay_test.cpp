@@ -9,6 +9,12 @@
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using journal::Durability;
+using journal::Journal;
+using journal::RunReplay;
+using mission::MissionModel;
+
 namespace {
 
 using ::testing::StartsWith;

@@ -94,8 +94,8 @@ v1::Observation number(const std::string& timeline, double value, double s) {
   return out;
 }
 
-MissionView flying_mission() {
-  MissionView view;
+lib::MissionView flying_mission() {
+  lib::MissionView view;
   v1::MissionStatus status;
   status.header(sent("exec_svc", 1, 300));
   status.mission("planetary");

@@ -20,6 +20,6 @@ v1::StepStatus step(const std::string& activity, v1::ActivityState state, std::u
                     double started_s, double ended_s);
 
 // The mission at 300 s: the drive is over, the image is being taken.
-MissionView flying_mission();
+lib::MissionView flying_mission();
 
 }  // namespace roci::console::testing

@@ -16,7 +16,7 @@ namespace {
 using namespace testing;
 
 TEST(MissionViewTest, IsEmptyAtFirst) {
-  const MissionView view;
+  const lib::MissionView view;
   EXPECT_FALSE(view.mission());
   EXPECT_FALSE(view.plan());
   EXPECT_TRUE(view.goals().empty());
@@ -27,7 +27,7 @@ TEST(MissionViewTest, IsEmptyAtFirst) {
 }
 
 TEST(MissionViewTest, KeepsTheNewestOfEachKey) {
-  MissionView view = flying_mission();
+  lib::MissionView view = flying_mission();
   view.take(goal_status("ridge", v1::GOAL_ACHIEVED, 7));
   EXPECT_EQ(view.goals().at({"ground", "ridge"}).goal_state(), v1::GOAL_ACHIEVED);
   EXPECT_EQ(view.goals().at({"ground", "far"}).goal_state(), v1::GOAL_REJECTED);
@@ -35,7 +35,7 @@ TEST(MissionViewTest, KeepsTheNewestOfEachKey) {
 }
 
 TEST(MissionViewTest, ARestartedSenderCountsAnew) {
-  MissionView view;
+  lib::MissionView view;
   view.take(goal_status("ridge", v1::GOAL_PENDING, 900));
   v1::GoalStatus again = goal_status("ridge", v1::GOAL_PLANNED, 1);
   again.header(sent("exec_svc", 1, 11, 2));
@@ -45,7 +45,7 @@ TEST(MissionViewTest, ARestartedSenderCountsAnew) {
 }
 
 TEST(MissionViewTest, AnOlderPlanNeverReplacesANewerOne) {
-  MissionView view = flying_mission();
+  lib::MissionView view = flying_mission();
   v1::Plan old;
   old.version(1);
   view.take(old);
@@ -53,7 +53,7 @@ TEST(MissionViewTest, AnOlderPlanNeverReplacesANewerOne) {
 }
 
 TEST(MissionViewTest, AHeartbeatOfAnEarlierLifeIsNoNews) {
-  MissionView view;
+  lib::MissionView view;
   v1::Heartbeat beat;
   beat.service("arm_svc");
   beat.incarnation(2);
@@ -66,40 +66,40 @@ TEST(MissionViewTest, AHeartbeatOfAnEarlierLifeIsNoNews) {
 }
 
 TEST(MissionViewTest, KeepsABoundedNumberOfEventsAndCountsThemAll) {
-  MissionView view;
-  for (std::size_t i = 0; i < MissionView::kEvents + 5; ++i) view.take(event(std::to_string(i), 1));
-  EXPECT_EQ(view.events().size(), MissionView::kEvents);
+  lib::MissionView view;
+  for (std::size_t i = 0; i < lib::MissionView::kEvents + 5; ++i) view.take(event(std::to_string(i), 1));
+  EXPECT_EQ(view.events().size(), lib::MissionView::kEvents);
   EXPECT_EQ(view.events().front().text(), "5");
-  EXPECT_EQ(view.events_seen(), MissionView::kEvents + 5);
+  EXPECT_EQ(view.events_seen(), lib::MissionView::kEvents + 5);
 }
 
 // Any order, any repetition: the same view of everything that has a key.
 TEST(MissionViewTest, TheOrderOfArrivalDoesNotMatter) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     std::mt19937_64 random(seed);
-    std::vector<std::function<void(MissionView&)>> messages;
+    std::vector<std::function<void(lib::MissionView&)>> messages;
     for (std::uint64_t seq = 1; seq <= 4; ++seq) {
       for (const char* id : {"a", "b"}) {
         const auto state = static_cast<v1::GoalState>(random() % 7);
-        messages.emplace_back([=](MissionView& view) { view.take(goal_status(id, state, seq)); });
+        messages.emplace_back([=](lib::MissionView& view) { view.take(goal_status(id, state, seq)); });
         messages.emplace_back(
-            [=](MissionView& view) { view.take(observation(id, std::to_string(seq), seq)); });
-        messages.emplace_back([=](MissionView& view) {
+            [=](lib::MissionView& view) { view.take(observation(id, std::to_string(seq), seq)); });
+        messages.emplace_back([=](lib::MissionView& view) {
           view.take(step(id, v1::ACTIVITY_RUNNING, seq, 0, static_cast<double>(seq), -1));
         });
       }
-      messages.emplace_back([=](MissionView& view) {
+      messages.emplace_back([=](lib::MissionView& view) {
         v1::Plan plan;
         plan.version(static_cast<std::uint32_t>(seq));
         view.take(plan);
       });
     }
-    MissionView in_order;
+    lib::MissionView in_order;
     for (const auto& message : messages) message(in_order);
     for (std::size_t i = 0, count = messages.size(); i < count / 2; ++i)
       messages.push_back(messages[random() % count]);
     std::ranges::shuffle(messages, random);
-    MissionView shuffled;
+    lib::MissionView shuffled;
     for (const auto& message : messages) message(shuffled);
     EXPECT_EQ(shuffled.goals(), in_order.goals()) << "seed " << seed;
     EXPECT_EQ(shuffled.timelines(), in_order.timelines()) << "seed " << seed;
@@ -110,7 +110,7 @@ TEST(MissionViewTest, TheOrderOfArrivalDoesNotMatter) {
 }
 
 TEST(Ways, JoinCoordinatesOfTheSameTime) {
-  MissionView view;
+  lib::MissionView view;
   view.take(number("rover.x", 1, 10));
   view.take(number("rover.y", 2, 10));
   view.take(number("rover.y", 5, 20));
@@ -118,42 +118,42 @@ TEST(Ways, JoinCoordinatesOfTheSameTime) {
   view.take(number("rover.x", 9, 30));  // its y is still to come
   view.take(number("mast.x", 7, 30));   // has no y
   ASSERT_EQ(view.ways().size(), 1U);
-  EXPECT_THAT(view.ways().at("rover"), ::testing::ElementsAre(Place{1, 2}, Place{1, 5}));
+  EXPECT_THAT(view.ways().at("rover"), ::testing::ElementsAre(lib::Place{1, 2}, lib::Place{1, 5}));
 }
 
 TEST(Ways, LongOnesAreThinnedOut) {
-  MissionView view;
+  lib::MissionView view;
   for (int i = 1; i <= 10'000; ++i) {
     view.take(number("rover.x", i, i));
     view.take(number("rover.y", 0, i));
   }
   const auto& way = view.ways().at("rover");
-  EXPECT_LE(way.size(), MissionView::kWay);
-  EXPECT_EQ(way.front(), (Place{1, 0}));
+  EXPECT_LE(way.size(), lib::MissionView::kWay);
+  EXPECT_EQ(way.front(), (lib::Place{1, 0}));
   EXPECT_NEAR(way.back().x_m, 10'000, 0);
-  EXPECT_TRUE(std::ranges::is_sorted(way, {}, &Place::x_m));
+  EXPECT_TRUE(std::ranges::is_sorted(way, {}, &lib::Place::x_m));
 }
 
 TEST(ValueText, IsWhatPeopleRead) {
   v1::TimelineValue value;
-  EXPECT_EQ(value_text(value), "none");
+  EXPECT_EQ(lib::value_text(value), "none");
   value.kind(v1::VALUE_BOOLEAN);
   value.truth(true);
-  EXPECT_EQ(value_text(value), "true");
+  EXPECT_EQ(lib::value_text(value), "true");
   value.kind(v1::VALUE_NUMBER);
   value.number(12.5);
-  EXPECT_EQ(value_text(value), "12.5");
+  EXPECT_EQ(lib::value_text(value), "12.5");
   value.kind(v1::VALUE_STATE);
   value.state("going-to");
   value.arguments({"ridge"});
-  EXPECT_EQ(value_text(value), "going-to ridge");
-  EXPECT_EQ(clock_text(3'723'999'999), "01:02:03");
+  EXPECT_EQ(lib::value_text(value), "going-to ridge");
+  EXPECT_EQ(lib::clock_text(3'723'999'999), "01:02:03");
 }
 
 TEST(Names, OfValuesFromANewerVersionAreUnknown) {
-  EXPECT_STREQ(name_of(static_cast<v1::GoalState>(77)), "unknown");
-  EXPECT_STREQ(name_of(static_cast<v1::MissionPhase>(77)), "unknown");
-  EXPECT_STREQ(name_of(v1::PHASE_SAFE), "safe");
+  EXPECT_STREQ(lib::name_of(static_cast<v1::GoalState>(77)), "unknown");
+  EXPECT_STREQ(lib::name_of(static_cast<v1::MissionPhase>(77)), "unknown");
+  EXPECT_STREQ(lib::name_of(v1::PHASE_SAFE), "safe");
 }
 
 }  // namespace

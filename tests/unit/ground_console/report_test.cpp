@@ -17,12 +17,12 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 TEST(Json, OfTheStatusHasEveryPart) {
-  MissionView view = flying_mission();
+  lib::MissionView view = flying_mission();
   v1::Heartbeat beat;
   beat.service("arm_svc");
   beat.state(v1::SERVICE_RUNNING);
   view.take(beat);
-  const json status = json::parse(json_text(status_json(view)));
+  const json status = json::parse(cli::json_text(cli::status_json(view)));
   EXPECT_EQ(status["mission"], "planetary");
   EXPECT_EQ(status["phase"], "executing");
   EXPECT_EQ(status["time_s"], 300);
@@ -36,28 +36,29 @@ TEST(Json, OfTheStatusHasEveryPart) {
 }
 
 TEST(Json, OfThePlanHasItsActivitiesAndTheirStates) {
-  const json plan = json::parse(json_text(plan_json(flying_mission())));
+  const json plan = json::parse(cli::json_text(cli::plan_json(flying_mission())));
   EXPECT_EQ(plan["version"], 2);
   ASSERT_EQ(plan["activities"].size(), 2U);
   EXPECT_EQ(plan["activities"][0]["state"], "succeeded");
   EXPECT_EQ(plan["activities"][0]["ended_us"], 290'000'000);
   EXPECT_EQ(plan["activities"][1]["ended_us"], -1);
-  EXPECT_EQ(json_text(plan_json(MissionView())), "null");
+  EXPECT_EQ(cli::json_text(cli::plan_json(lib::MissionView())), "null");
 }
 
 TEST(Json, ParsesWhateverBytesCameDown) {
   const v1::GoalStatus status = goal_status("\xff", v1::GOAL_REJECTED, 1, "unknown kind '\xc3\x28\"\n'");
-  EXPECT_EQ(json::parse(json_text(to_json(status)))["state"], "rejected");
-  EXPECT_EQ(json::parse(json_text(to_json(event("\xff", 1))))["severity"], "info");
-  EXPECT_THAT(json_text(to_json(status)), Not(HasSubstr("\n")));
+  EXPECT_EQ(json::parse(cli::json_text(cli::to_json(status)))["state"], "rejected");
+  EXPECT_EQ(json::parse(cli::json_text(cli::to_json(event("\xff", 1))))["severity"], "info");
+  EXPECT_THAT(cli::json_text(cli::to_json(status)), Not(HasSubstr("\n")));
 }
 
 TEST(Lines, NameWhatMatters) {
-  EXPECT_THAT(goal_line(goal_status("far", v1::GOAL_REJECTED, 1, "outside the map")),
+  EXPECT_THAT(cli::goal_line(goal_status("far", v1::GOAL_REJECTED, 1, "outside the map")),
               ::testing::ContainsRegex("ground/far +photo +hard +rejected +outside the map"));
-  EXPECT_EQ(event_line(event("plan 1 is broken", 90, v1::SEVERITY_WARNING)),
+  EXPECT_EQ(cli::event_line(event("plan 1 is broken", 90, v1::SEVERITY_WARNING)),
             "00:01:30  exec_svc     warning: plan 1 is broken");
-  EXPECT_THAT(status_text(flying_mission()), HasSubstr("planetary  00:05:00  executing, plan 2, 1 replans"));
+  EXPECT_THAT(cli::status_text(flying_mission()),
+              HasSubstr("planetary  00:05:00  executing, plan 2, 1 replans"));
 }
 
 }  // namespace

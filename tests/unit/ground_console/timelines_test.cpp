@@ -20,8 +20,8 @@ using ::testing::Pair;
 
 // The image of flying_mission() as a plan that can be executed: it takes 40 s, runs since 295 s, and now is
 // 300 s.
-MissionView with_an_image_under_way() {
-  MissionView view = flying_mission();
+lib::MissionView with_an_image_under_way() {
+  lib::MissionView view = flying_mission();
   v1::Plan plan;
   plan.version(3);
   plan.id("planetary");
@@ -50,31 +50,31 @@ MissionView with_an_image_under_way() {
 }
 
 TEST(Timelines, TellWhatWasPlannedAndWhatIsStillToCome) {
-  EXPECT_EQ(timelines_text(timelines_of(with_an_image_under_way(), {"(have-image a)"})),
+  EXPECT_EQ(cli::timelines_text(cli::timelines_of(with_an_image_under_way(), {"(have-image a)"})),
             "(have-image a)\n"
             "  00:04:50  planned   true             2.a2\n"
             "  00:05:35  projected true             2.a2\n");
 }
 
 TEST(Timelines, ThatAreNumbersOfThePlanAreItsLevels) {
-  const std::vector<Level> levels = levels_of(with_an_image_under_way());
+  const std::vector<cli::watch::Level> levels = cli::watch::levels_of(with_an_image_under_way());
   ASSERT_EQ(levels.size(), 1U);
   EXPECT_EQ(levels[0].name, "(battery)");
   EXPECT_THAT(levels[0].changes, ElementsAre(Pair(295'000'000, -40.0)));
-  EXPECT_THAT(levels_of(MissionView()), IsEmpty());
+  EXPECT_THAT(cli::watch::levels_of(lib::MissionView()), IsEmpty());
 }
 
 TEST(Timelines, OfObservationsHaveTheNewestValueAsExecuted) {
-  const auto timelines = timelines_of(with_an_image_under_way(), {});
+  const auto timelines = cli::timelines_of(with_an_image_under_way(), {});
   ASSERT_TRUE(timelines.contains("rover.nav"));
   ASSERT_EQ(timelines.at("rover.nav").size(), 1U);
   EXPECT_EQ(timelines.at("rover.nav")[0].kind, temporal::ProjectionKind::executed);
-  EXPECT_THAT(timelines_text(timelines), HasSubstr("rover.camera\n"));
+  EXPECT_THAT(cli::timelines_text(timelines), HasSubstr("rover.camera\n"));
 }
 
 TEST(Timelines, AreAListOfChangesInJson) {
-  const MissionView view = with_an_image_under_way();
-  const auto json = timelines_json(view, timelines_of(view, {"(have-image a)"}));
+  const lib::MissionView view = with_an_image_under_way();
+  const auto json = cli::timelines_json(view, cli::timelines_of(view, {"(have-image a)"}));
   EXPECT_EQ(json["plan_version"], 3);
   EXPECT_EQ(json["timelines"]["(have-image a)"][1]["kind"], "projected");
   EXPECT_EQ(json["timelines"]["(have-image a)"][1]["time_s"], 335);
@@ -82,8 +82,8 @@ TEST(Timelines, AreAListOfChangesInJson) {
 }
 
 TEST(Timelines, ThatNobodyKnowsAreNone) {
-  EXPECT_THAT(timelines_of(with_an_image_under_way(), {"nothing"}), IsEmpty());
-  EXPECT_THAT(timelines_of(MissionView(), {}), IsEmpty());
+  EXPECT_THAT(cli::timelines_of(with_an_image_under_way(), {"nothing"}), IsEmpty());
+  EXPECT_THAT(cli::timelines_of(lib::MissionView(), {}), IsEmpty());
 }
 
 }  // namespace

@@ -64,14 +64,14 @@ Events
 )";
 
 TEST(WatchScreen, ShowsAMissionInFlight) {
-  EXPECT_EQ(watch_screen(flying_mission(), 130, 32).plain(), kFrame);
+  EXPECT_EQ(cli::watch::watch_screen(flying_mission(), 130, 32).plain(), kFrame);
 }
 
 TEST(WatchScreen, DrawsTheNumbersOfThePlanAsCurves) {
-  const std::vector<Level> levels{{"(battery)", {{200'000'000, -500}, {335'000'000, -2000}}},
-                                  {"(memory)", {{335'000'000, 4}}}};
-  Canvas canvas(36 + 24, 3);
-  draw_levels(flying_mission(), levels, {0, 0, 60, 3}, canvas);
+  const std::vector<cli::watch::Level> levels{{"(battery)", {{200'000'000, -500}, {335'000'000, -2000}}},
+                                              {"(memory)", {{335'000'000, 4}}}};
+  cli::watch::Canvas canvas(36 + 24, 3);
+  cli::watch::draw_levels(flying_mission(), levels, {0, 0, 60, 3}, canvas);
   EXPECT_THAT(lines_of(canvas.plain()),
               ::testing::ElementsAre("Levels, as changes since the plan began",
                                      "    (battery) -500 → -2000          █████████▆▆▆▆▆▆▆▆▆▆▆▆▆▆▁",
@@ -79,24 +79,25 @@ TEST(WatchScreen, DrawsTheNumbersOfThePlanAsCurves) {
 }
 
 TEST(WatchScreen, LeavesCurvesOutThatDoNotFit) {
-  Canvas canvas(60, 3);
-  draw_levels(flying_mission(), {{"(battery)", {{0, 1}}}}, {0, 0, 60, 1}, canvas);
+  cli::watch::Canvas canvas(60, 3);
+  cli::watch::draw_levels(flying_mission(), {{"(battery)", {{0, 1}}}}, {0, 0, 60, 1}, canvas);
   EXPECT_THAT(canvas.plain(), Not(HasSubstr("battery")));
 }
 
 TEST(WatchScreen, LeavesTheMapOutWhereItDoesNotFit) {
-  EXPECT_THAT(watch_screen(flying_mission(), 130, 32).plain(), HasSubstr("▲"));
-  EXPECT_THAT(watch_screen(flying_mission(), 80, 26).plain(), Not(HasSubstr("▲")));
+  EXPECT_THAT(cli::watch::watch_screen(flying_mission(), 130, 32).plain(), HasSubstr("▲"));
+  EXPECT_THAT(cli::watch::watch_screen(flying_mission(), 80, 26).plain(), Not(HasSubstr("▲")));
 }
 
 TEST(WatchScreen, WaitsForAMission) {
-  EXPECT_EQ(lines_of(watch_screen(MissionView(), 80, 24).plain()).at(0), "waiting for exec_svc");
+  EXPECT_EQ(lines_of(cli::watch::watch_screen(lib::MissionView(), 80, 24).plain()).at(0),
+            "waiting for exec_svc");
 }
 
 TEST(WatchScreen, NeverLeavesTheTerminal) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 500; ++i) {
-    MissionView view = flying_mission();
+    lib::MissionView view = flying_mission();
     for (std::uint64_t extra = random() % 40; extra > 0; --extra) {
       view.take(
           goal_status("goal" + std::to_string(extra), v1::GOAL_PENDING, 1, std::string(random() % 200, 'x')));
@@ -104,17 +105,17 @@ TEST(WatchScreen, NeverLeavesTheTerminal) {
     }
     const std::size_t width = 1 + random() % 150;
     const std::size_t height = 1 + random() % 60;
-    const auto lines = lines_of(watch_screen(view, width, height).plain());
+    const auto lines = lines_of(cli::watch::watch_screen(view, width, height).plain());
     EXPECT_LE(lines.size(), height);
     for (const std::string& line : lines) EXPECT_LE(columns_of(line), width);
   }
 }
 
 TEST(WatchScreen, TakesNoControlCharactersFromOutside) {
-  MissionView view = flying_mission();
+  lib::MissionView view = flying_mission();
   view.take(goal_status("evil", v1::GOAL_REJECTED, 9, "kind '\x1b[2J\nno\x7f\xc2\x9b\xff'"));
   view.take(event("a\rb\x1b]0;c\a", 5));
-  const std::string screen = watch_screen(view, 200, 40).plain();
+  const std::string screen = cli::watch::watch_screen(view, 200, 40).plain();
   EXPECT_THAT(screen, HasSubstr("'?[2J?no?"
                                 "?"
                                 "?'"));
@@ -123,7 +124,7 @@ TEST(WatchScreen, TakesNoControlCharactersFromOutside) {
 }
 
 TEST(WatchScreen, ColoursChangeNothingElse) {
-  const Canvas canvas = watch_screen(flying_mission(), 130, 32);
+  const cli::watch::Canvas canvas = cli::watch::watch_screen(flying_mission(), 130, 32);
   std::string bare;
   const std::string coloured = canvas.coloured();
   for (std::size_t i = 0; i < coloured.size(); ++i) {

@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using services::CallResult;
-using services::CallStatus;
+using services::rpc::CallStatus;
 using testing::ElementsAre;
 namespace topics = services::topics;
 
@@ -77,15 +77,15 @@ class PathplanService : public testing::Test {
   }
 
   // Runs until `end` of mission time.
-  void run(services::Duration end) {
+  void run(temporal::Duration end) {
     master_.after(end, [this] { master_.stop(); });
     run_.run();
   }
 
-  void ask_for_path(services::Duration when, const v1::PathRequest& request) {
+  void ask_for_path(temporal::Duration when, const v1::PathRequest& request) {
     master_.after(when, [this, request] {
       paths_.call(request, "pathplan_svc", 1s, [this](const CallResult<v1::PathReply>& result) {
-        ASSERT_EQ(result.status, CallStatus::ok) << result.message;
+        ASSERT_EQ(result.status, CallStatus::ok) << result.reason;
         path_replies_.push_back(result.reply);
       });
     });
@@ -137,7 +137,7 @@ TEST_F(PathplanService, EveryTupleHasItsOwnOutcome) {
   run(2s);
 
   ASSERT_EQ(function_results_.size(), 2U);
-  ASSERT_EQ(function_results_[0].status, CallStatus::ok) << function_results_[0].message;
+  ASSERT_EQ(function_results_[0].status, CallStatus::ok) << function_results_[0].reason;
   const v1::FunctionReply& reply = function_results_[0].reply;
   EXPECT_EQ(reply.owner(), "pathplan_svc");
   EXPECT_EQ(reply.model_version(), 1U);

@@ -55,7 +55,7 @@ class ScienceService : public testing::Test {
     v1::DataProduct out;
     out.id(id);
     out.product_kind("image");
-    out.state(v1::PRODUCT_STORED);
+    out.fate(v1::PRODUCT_STORED);
     out.x_m(x);
     out.y_m(y);
     return out;
@@ -80,7 +80,7 @@ TEST_F(ScienceService, RaisesAnOpportunisticGoalNearTheImage) {
 
 TEST_F(ScienceService, LooksAtStoredImagesOnly) {
   v1::DataProduct sent = image("one", 50, 60);
-  sent.state(v1::PRODUCT_SENT);
+  sent.fate(v1::PRODUCT_SENT);
   v1::DataProduct spectrum = image("two", 100, 60);
   spectrum.product_kind("spectrum");
   EXPECT_TRUE(goals_of({sent, spectrum}).empty());

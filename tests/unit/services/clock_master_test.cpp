@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace roci::services {
+namespace roci::services::clock {
 namespace {
 
 using namespace std::chrono_literals;
@@ -145,9 +145,9 @@ TEST_F(ClockMasterTest, ADeathInAStepReissuesItWithoutTheDead) {
   const auto step = first_step();
   master.done(done("a", step));
   master.done(done("c", step));
-  EXPECT_THAT(master.owing(), ElementsAre("b"));
+  EXPECT_THAT(master.awaited(), ElementsAre("b"));
   master.lost("b", 1, "killed");
-  EXPECT_TRUE(master.owing().empty());
+  EXPECT_TRUE(master.awaited().empty());
   EXPECT_FALSE(master.take_revision()) << "nobody is left to tell";
   const auto next = master.issue(0s);
   EXPECT_THAT(next.participants(), ElementsAre("a", "c")) << "a death is news for all";
@@ -166,7 +166,7 @@ TEST_F(ClockMasterTest, ARevisionIsTheSameMicroStepForThoseWhoStillOwe) {
   EXPECT_EQ(revision->revision(), 1U);
   EXPECT_THAT(names(revision->roster()), ElementsAre("a#1", "c#1"));
   EXPECT_FALSE(master.take_revision());
-  EXPECT_THAT(master.owing(), ElementsAre("c"));
+  EXPECT_THAT(master.awaited(), ElementsAre("c"));
 }
 
 // A newcomer may be waiting for the state that the dead one never gets across.
@@ -178,7 +178,7 @@ TEST_F(ClockMasterTest, ADeathAfterTheAnswerRevisesTheStepToo) {
   const auto revision = master.take_revision();
   ASSERT_TRUE(revision);
   EXPECT_THAT(names(revision->roster()), ElementsAre("a#1", "c#1"));
-  EXPECT_THAT(master.owing(), ElementsAre("c"));
+  EXPECT_THAT(master.awaited(), ElementsAre("c"));
 }
 
 TEST_F(ClockMasterTest, ARestartedServiceIsAdmittedAtTheNextBoundary) {
@@ -200,13 +200,13 @@ TEST_F(ClockMasterTest, IgnoresTheDeadAndTheStale) {
   master.ready(ready("b", 2));
   const auto next = master.issue(0s);
   master.done(done("b", next, 0, {count("t", "b", 7)}, 1));
-  EXPECT_THAT(master.owing(), ElementsAre("a", "b", "c")) << "incarnation 1 of b is gone";
+  EXPECT_THAT(master.awaited(), ElementsAre("a", "b", "c")) << "incarnation 1 of b is gone";
   master.done(done("a", step));
-  EXPECT_THAT(master.owing(), ElementsAre("a", "b", "c")) << "that answered an older micro-step";
+  EXPECT_THAT(master.awaited(), ElementsAre("a", "b", "c")) << "that answered an older micro-step";
   master.lost("b", 1, "killed");
   EXPECT_THAT(names(next.roster()), ElementsAre("a#1", "b#2", "c#1"));
   master.ready(ready("b", 2));
-  EXPECT_THAT(master.owing(), ElementsAre("a", "b", "c"));
+  EXPECT_THAT(master.awaited(), ElementsAre("a", "b", "c"));
 }
 
 TEST_F(ClockMasterTest, ForgetsStreamsOfTheDeadOnceAllHaveActed) {
@@ -247,9 +247,9 @@ TEST_F(ClockMasterTest, TheLastStepIsForAll) {
   EXPECT_TRUE(last.last());
   EXPECT_THAT(last.participants(), ElementsAre("a", "b", "c"));
   for (const char* service : {"a", "b", "c"}) master.done(done(service, last, 1));
-  EXPECT_THAT(master.owing(), IsEmpty());
+  EXPECT_THAT(master.awaited(), IsEmpty());
   EXPECT_FALSE(master.window());
 }
 
 }  // namespace
-}  // namespace roci::services
+}  // namespace roci::services::clock

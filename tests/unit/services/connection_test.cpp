@@ -1,4 +1,4 @@
-#include "services/connection.hpp"
+#include "services/process/connection.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <map>
 
 #include "core/mission/entry.hpp"
-#include "services/incarnation.hpp"
+#include "services/process/incarnation.hpp"
 
-namespace roci::services {
+namespace roci::services::process {
 namespace {
 
 using testing::ElementsAre;
@@ -112,4 +112,4 @@ TEST(SplitList, LeavesOutEmptyParts) {
 }
 
 }  // namespace
-}  // namespace roci::services
+}  // namespace roci::services::process

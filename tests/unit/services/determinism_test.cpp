@@ -2,7 +2,7 @@
 // do.
 #include <gtest/gtest.h>
 
-#include "services/domain_claim.hpp"
+#include "services/process/domain_claim.hpp"
 #include "tests/unit/services/sim_run.hpp"
 #include "tests/unit/services/toy_run.hpp"
 
@@ -27,7 +27,7 @@ TEST(Determinism, AnotherSeedAnotherTrace) { EXPECT_NE(toy_run(2, kInproc, next_
 class NetworkDeterminism : public testing::TestWithParam<std::vector<std::string>> {};
 
 TEST_P(NetworkDeterminism, SameTraceAsInOneProcess) {
-  const DomainClaim domain;
+  const process::DomainClaim domain;
   EXPECT_EQ(toy_run(1, GetParam(), domain.id()), reference());
 }
 

@@ -38,7 +38,7 @@ class OdometerService : public services::Service {
     request.goal_pose().x_m(hazard.x_m());
     request.goal_pose().y_m(hazard.y_m());
     paths_.call(request, "pathplan_svc", 5s, [this](const services::CallResult<v1::PathReply>& result) {
-      if (result.status == services::CallStatus::ok) distance_m_ += result.reply.length_m();
+      if (result.status == services::rpc::CallStatus::ok) distance_m_ += result.reply.length_m();
     });
   }
 

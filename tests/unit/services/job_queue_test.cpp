@@ -1,4 +1,4 @@
-#include "services/job_queue.hpp"
+#include "services/node/job_queue.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace roci::services {
+namespace roci::services::node {
 namespace {
 
 TEST(JobQueue, RunsJobsInTheirOrder) {
@@ -39,4 +39,4 @@ TEST(JobQueue, DestructionStopsTheRunningJobAndDropsTheRest) {
 }
 
 }  // namespace
-}  // namespace roci::services
+}  // namespace roci::services::node

@@ -4,17 +4,18 @@
 
 #include <csignal>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
-#include "services/launch/mission_folder.hpp"
 #include "services/launch/options.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/restart_policy.hpp"
-#include "services/launch/run_record.hpp"
 #include "services/launch/summary.hpp"
 #include "services/launch/supervisor.hpp"
-#include "services/service_options.hpp"
+#include "services/process/mission_folder.hpp"
+#include "services/process/run_record.hpp"
+#include "services/process/service_options.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
 using namespace std::chrono_literals;
@@ -30,7 +31,14 @@ class LaunchTest : public testing::Test {
  protected:
   LaunchTest() {
     fs::create_directories(folder);
-    std::ofstream(folder / "mission.yaml") << "name: test\n";
+    std::ofstream(folder / "mission.yaml") << "name: test\n"
+                                              "robots: [rover]\n"
+                                              "services:\n"
+                                              "  - {name: arm_svc, robot: rover}\n"
+                                              "  - {name: exec_svc, standby: true}\n"
+                                              "  - {name: planner_svc, vendor: cyclonedds}\n"
+                                              "  - {name: sim_svc, clock: master}\n"
+                                              "  - {name: second.arm, program: arm_svc, arguments: [--seed, 12]}\n";
   }
   ~LaunchTest() override { fs::remove_all(folder); }
 
@@ -46,19 +54,20 @@ class LaunchTest : public testing::Test {
                                    testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
-TEST_F(LaunchTest, MixedPutsThePlannerAndTheConsoleOnTheOtherVendor) {
+TEST_F(LaunchTest, MixedPutsWhoNamesItAndTheConsoleOnTheOtherVendor) {
   const Options options = parse({"--dds", "mixed"});
   EXPECT_THAT(service_arguments(options, "planner_svc", 1, 0), Contains("cyclonedds"));
   EXPECT_THAT(service_arguments(options, "exec_svc", 1, 0), Contains("fastdds"));
-  EXPECT_EQ(vendor_of(kConsole, "mixed"), "cyclonedds");
-  EXPECT_EQ(vendor_of(kConsole, "fastdds"), "fastdds");
+  EXPECT_EQ(console_vendor("mixed"), "cyclonedds");
+  EXPECT_EQ(console_vendor("fastdds"), "fastdds");
+  EXPECT_THAT(service_arguments(parse({"--dds", "fastdds"}), "planner_svc", 1, 0), Not(Contains("cyclonedds")));
 }
 
 TEST_F(LaunchTest, OnlyTheMasterKnowsRosterAndPace) {
   const Options options = parse({"--speed", "max"});
   EXPECT_THAT(
       service_arguments(options, "sim_svc", 3, 0),
-      IsSupersetOf({"master", "--roster", "arm_svc,exec_svc,pathplan_svc,planner_svc,science_svc,sim_svc",
+      IsSupersetOf({"master", "--roster", "arm_svc,exec_svc,planner_svc,sim_svc,second.arm",
                     "--pace", "0", "--incarnation", "3"}));
   EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Contains("simulated"));
   EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Not(Contains("--roster")));
@@ -66,16 +75,39 @@ TEST_F(LaunchTest, OnlyTheMasterKnowsRosterAndPace) {
 
 TEST_F(LaunchTest, AStandbyIsASecondExecutiveAndNoMemberOfTheRoster) {
   const Options options = parse({"--standby", "--dds", "mixed"});
-  EXPECT_THAT(options.services, Contains(kStandby));
-  EXPECT_THAT(options.roster, Not(Contains(kStandby)));
-  EXPECT_THAT(service_arguments(options, kExecutive, 1, 0), IsSupersetOf({"exec_svc", "--pair", "first"}));
-  EXPECT_THAT(service_arguments(options, kStandby, 1, 0),
+  EXPECT_THAT(options.services, Contains("exec_svc.standby"));
+  EXPECT_THAT(options.roster, Not(Contains("exec_svc.standby")));
+  EXPECT_THAT(service_arguments(options, "exec_svc", 1, 0), IsSupersetOf({"exec_svc", "--pair", "first"}));
+  EXPECT_THAT(service_arguments(options, "exec_svc.standby", 1, 0),
               IsSupersetOf({"exec_svc", "--pair", "second", "cyclonedds"}));
   EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Not(Contains("--pair")));
-  EXPECT_THAT(service_arguments(parse({}), kExecutive, 1, 0), Not(Contains("--pair")));
-  EXPECT_THAT(parse({"--standby", "--services", "exec_svc.standby"}).services, ElementsAre(kStandby));
+  EXPECT_THAT(service_arguments(parse({}), "exec_svc", 1, 0), Not(Contains("--pair")));
+  EXPECT_THAT(parse({"--standby", "--services", "exec_svc.standby"}).services, ElementsAre("exec_svc.standby"));
   EXPECT_THROW(parse({"--services", "exec_svc.standby"}), std::invalid_argument);
   EXPECT_THROW(parse({"--standby", "--dds", "inproc"}), std::invalid_argument);
+}
+
+TEST_F(LaunchTest, TheMissionSaysWhichServicesThereAre) {
+  const Options options = parse({});
+  EXPECT_THAT(options.services, ElementsAre("arm_svc", "exec_svc", "planner_svc", "sim_svc", "second.arm"));
+  EXPECT_THAT(service_arguments(options, "second.arm", 1, 0),
+              IsSupersetOf({"arm_svc", "--name", "second.arm", "--seed", "12"}));
+  EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), IsSupersetOf({"--robot", "rover"}));
+  EXPECT_THAT(service_arguments(options, "sim_svc", 1, 0), Not(Contains("--robot")));
+  std::ofstream(folder / "mission.yaml") << "name: test\nservices:\n  - {name: exec_svc}\n";
+  EXPECT_THROW(parse({}), std::invalid_argument) << "nobody drives the simulated clock";
+  EXPECT_THAT(parse({"--clock", "live"}).services, ElementsAre("exec_svc"));
+  EXPECT_THROW(parse({"--clock", "live", "--standby"}), std::invalid_argument) << "nobody may be paired";
+  std::ofstream(folder / "mission.yaml") << "name: test\n";
+  EXPECT_THROW(parse({}), mission::FileError);
+}
+
+TEST_F(LaunchTest, ARunHasAnIdentityThatItsHostsShare) {
+  EXPECT_NE(parse({}).run, parse({}).run) << "flown by one launcher it is like no other";
+  EXPECT_EQ(parse({"--services", "arm_svc"}).run, parse({"--services", "sim_svc,exec_svc"}).run);
+  const Options named = parse({"--run", "sol-12"});
+  EXPECT_EQ(named.run, "sol-12");
+  EXPECT_THAT(service_arguments(named, "arm_svc", 1, 0), IsSupersetOf({"--run", "sol-12"}));
 }
 
 TEST_F(LaunchTest, LiveServicesShareAnEpoch) {
@@ -87,32 +119,37 @@ TEST_F(LaunchTest, LiveServicesShareAnEpoch) {
 TEST_F(LaunchTest, ServiceArgumentsAreThoseThatServicesRead) {
   Options options = parse({"--dds", "cyclonedds", "--seed", "9", "--domain", "7", "--speed", "2.5"});
   options.run_folder = "/run";
-  for (const std::string& service : kAllServices) {
+  for (const mission::ServiceEntry& entry : options.list.services) {
+    const std::string& service = entry.name;
+    if (!entry.arguments.empty()) continue;  // they are its program's own
     const auto arguments = service_arguments(options, service, 2, 0);
     std::vector<const char*> pointers;
     for (const auto& argument : arguments) pointers.push_back(argument.c_str());
-    const auto read = services::parse_service_options(static_cast<int>(pointers.size()), pointers.data(),
-                                                      service, [](const char*) { return std::nullopt; });
+    const auto read = process::parse_service_options(static_cast<int>(pointers.size()), pointers.data(),
+                                                     service, [](const char*) { return std::nullopt; });
     EXPECT_EQ(read.node.name, service);
     EXPECT_EQ(read.node.incarnation, 2U);
     EXPECT_EQ(read.run.seed, 9U);
     EXPECT_EQ(read.run.mission, options.mission);
     EXPECT_EQ(read.connection.dds, "cyclonedds");
     EXPECT_EQ(read.connection.transport.domain, 7);
-    const bool master = service == kClockMaster;
-    EXPECT_EQ(read.node.clock, master ? services::ClockMode::master : services::ClockMode::simulated);
+    EXPECT_EQ(read.node.run, options.run);
+    EXPECT_EQ(read.node.robot, entry.robot);
+    EXPECT_EQ(read.run.mission_file(), entry.settings);
+    const bool master = entry.clock_master;
+    EXPECT_EQ(read.node.clock, master ? clock::ClockMode::master : clock::ClockMode::simulated);
     EXPECT_EQ(read.node.master.pace, master ? 2.5 : 0);
   }
 }
 
 TEST_F(LaunchTest, MistakesOnTheCommandLineAreExplained) {
-  EXPECT_THROW(parse({"--clock", "lunar"}), services::CommandLineEnd);
+  EXPECT_THROW(parse({"--clock", "lunar"}), process::CommandLineEnd);
   EXPECT_THROW(parse({"--speed", "fast"}), std::invalid_argument);
   EXPECT_THROW(parse({"--speed", "-1"}), std::invalid_argument);
   EXPECT_THROW(parse({"--speed", "max", "--clock", "live"}), std::invalid_argument);
   EXPECT_THROW(parse({"--services", "leg_svc"}), std::invalid_argument);
   try {
-    services::mission_folder("no-such-mission");
+    process::mission_folder("no-such-mission");
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), HasSubstr("no mission \"no-such-mission\": give a folder with a mission.yaml"));
@@ -153,7 +190,7 @@ TEST_F(LaunchTest, AHostWithOneOfAPairServesIfTheOtherLedAtTheEnd) {
   fs::remove(folder / "summary.json");
   EXPECT_FALSE(complete_summary(options, 1, false).good);
   fs::remove(folder / "summary.json");
-  options.services.emplace_back(kStandby);
+  options.services.emplace_back("exec_svc.standby");
   EXPECT_FALSE(complete_summary(options, 1, true).good) << "one of the two leads";
   std::ofstream(folder / "summary.json") << R"({"result": "achieved", "goals": {"achieved": 3}, "sim_s": 7})";
   options.services.pop_back();
@@ -161,35 +198,78 @@ TEST_F(LaunchTest, AHostWithOneOfAPairServesIfTheOtherLedAtTheEnd) {
 }
 
 TEST_F(LaunchTest, RunningMissionsAreFound) {
-  services::RunRecord run;
+  process::RunRecord run;
   run.pid = getpid();
   run.domain = 5;
   run.mission = "/missions/x";
   run.peers = {"127.0.0.1"};
-  services::RunRecord dead = run;
+  process::RunRecord dead = run;
   dead.pid = 1 << 30;  // beyond the largest process id
   {
-    const services::PublishedRun published(folder, run);
-    const services::PublishedRun of_the_dead(folder, dead);
+    const process::PublishedRun published(folder, run);
+    const process::PublishedRun of_the_dead(folder, dead);
     std::ofstream(folder / "run-7.json") << "{ half a rec";
-    EXPECT_THAT(services::find_runs(folder), ElementsAre(run));
+    EXPECT_THAT(process::find_runs(folder), ElementsAre(run));
   }
-  EXPECT_TRUE(services::find_runs(folder).empty());
+  EXPECT_TRUE(process::find_runs(folder).empty());
+}
+
+TEST_F(LaunchTest, ARecordStatesItsFormatAndOneThatDoesNotIsOfTheFirst) {
+  process::RunRecord run;
+  run.pid = getpid();
+  const process::PublishedRun published(folder, run);
+  std::ifstream written(folder / ("run-" + std::to_string(getpid()) + ".json"));
+  EXPECT_EQ(nlohmann::json::parse(written).at("format"), process::kRunRecordFormat);
+  std::ifstream golden(ROCI_SOURCE_DIR
+                       "/tests/unit/services/golden/run-record-1.json");  // baseline-05 wrote it
+  auto record = nlohmann::json::parse(golden);
+  ASSERT_FALSE(record.contains("format"));
+  record["pid"] = getpid();
+  std::ofstream(folder / "run-1.json") << record;
+  const auto runs = process::find_runs(folder);
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0].scenario, "nominal");
+  EXPECT_EQ(runs[0].domain, record["domain"]);
+}
+
+TEST_F(LaunchTest, ARecordOfANewerFormatIsRefusedInWords) {
+  std::ofstream(folder / "run-1.json") << R"({"format": 2, "pid": )" << getpid() << "}";
+  std::ofstream(folder / "run-2.json") << R"({"format": 2, "pid": 1073741824})";
+  EXPECT_TRUE(process::find_runs(folder).empty());
+  EXPECT_THAT(process::refused_runs(folder),
+              ElementsAre(testing::AllOf(HasSubstr("run-1.json is of format 2"), HasSubstr("reads up to 1"),
+                                         HasSubstr("use the programs"))));
+}
+
+TEST_F(LaunchTest, ASummaryStatesItsFormatAndANewerOneIsRefused) {
+  Options options = parse({"--services", "exec_svc", "--dds", "fastdds"});
+  options.run_folder = folder;
+  EXPECT_THAT(complete_summary(options, 1, true).json, HasSubstr(R"("format":1)"));
+  fs::remove(folder / "summary.json");
+  fs::copy_file(ROCI_SOURCE_DIR "/tests/unit/services/golden/summary-1.json", folder / "summary.json");
+  EXPECT_THAT(complete_summary(options, 1, true).text, HasSubstr("3 achieved"));
+  std::ofstream(folder / "summary.json") << R"({"format": 2, "result": "achieved"})";
+  try {
+    complete_summary(options, 1, true);
+    ADD_FAILURE() << "it was read";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(),
+                testing::AllOf(HasSubstr("summary.json is of format 2"), HasSubstr("one version")));
+  }
 }
 
 TEST(RestartPolicy, WaitsLongerEachTimeAndGivesUp) {
   RestartPolicy policy;
-  EXPECT_DOUBLE_EQ(policy.died(0s)->count(), 0.2);
-  EXPECT_DOUBLE_EQ(policy.died(1s)->count(), 0.4);
-  EXPECT_DOUBLE_EQ(policy.died(1s)->count(), 0.8);
-  EXPECT_DOUBLE_EQ(policy.died(1s)->count(), 1.6);
+  EXPECT_EQ(*policy.died(0s), 200ms);
+  EXPECT_EQ(*policy.died(1s), 400ms);
+  EXPECT_EQ(*policy.died(1s), 800ms);
+  EXPECT_EQ(*policy.died(1s), 1600ms);
   EXPECT_FALSE(policy.died(1s));
 }
 
 TEST(RestartPolicy, ALongLifeStartsANewRow) {
   RestartPolicy policy;
-  for (int i = 0; i < 100; ++i)
-    EXPECT_DOUBLE_EQ(policy.died(i % 2 == 0 ? 60s : 1s)->count(), i % 2 == 0 ? 0.2 : 0.4);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(*policy.died(i % 2 == 0 ? 60s : 1s), i % 2 == 0 ? 200ms : 400ms);
 }
 
 // Services are shell commands here; time is what the test says.
@@ -209,12 +289,11 @@ class SupervisorTest : public LaunchTest {
     };
     return {names, "sim_svc", master_is_clock, Watchdog(10), std::move(hooks)};
   }
-  static void turn_until(Supervisor& supervisor, services::wall::Instant now,
-                         const std::function<bool()>& done) {
+  static void turn_until(Supervisor& supervisor, clock::WallTime now, const std::function<bool()>& done) {
     while (!done()) supervisor.turn(now);
   }
 
-  services::wall::Instant start{1000s};
+  clock::WallTime start{1000s};
   std::map<std::string, std::string> script;
   std::vector<std::string> starts;
   std::vector<std::string> deaths;
@@ -255,7 +334,7 @@ TEST_F(SupervisorTest, FiveDeathsInARowEndTheRun) {
   turn_until(supervisor, now, [&] { return supervisor.finished(); });
   ASSERT_TRUE(supervisor.failure());
   EXPECT_EQ(supervisor.failure()->service, "arm_svc");
-  EXPECT_THAT(supervisor.failure()->what, HasSubstr("ended with code 1, the 5th time in a row"));
+  EXPECT_THAT(supervisor.failure()->reason, HasSubstr("ended with code 1, the 5th time in a row"));
 }
 
 TEST_F(SupervisorTest, BadInputIsNotTriedAgain) {
@@ -291,7 +370,7 @@ TEST_F(SupervisorTest, AHungClockEndsTheRun) {
   for (; now < start + 59s; now += 1s) supervisor.turn(now);
   turn_until(supervisor, start + 61s, [&] { return supervisor.finished(); });
   ASSERT_TRUE(supervisor.failure());
-  EXPECT_THAT(supervisor.failure()->what, HasSubstr("hung: its loop has not turned"));
+  EXPECT_THAT(supervisor.failure()->reason, HasSubstr("hung: its loop has not turned"));
 }
 
 TEST_F(SupervisorTest, ATransportThatIsMissingFromTheStartEndsTheRun) {
@@ -308,10 +387,10 @@ TEST_F(SupervisorTest, AServiceWaitsAsLongAsItsNetworkIsOut) {
   script = {{"arm_svc", "exit 3"}, {"sim_svc", "exec tail -f /dev/null"}};
   auto supervisor = make({"arm_svc", "sim_svc"});
   supervisor.start(start);
-  supervisor.watchdog().sign(pids["arm_svc"], start);
+  supervisor.watchdog().kick(pids["arm_svc"], start);
   auto now = start;
   for (std::size_t death = 1; death <= 40; ++death, now += 2s) {
-    supervisor.watchdog().sign(pids["sim_svc"], now);
+    supervisor.watchdog().kick(pids["sim_svc"], now);
     turn_until(supervisor, now, [&] { return deaths.size() == death; });
   }
   EXPECT_THAT(deaths.back(), HasSubstr("as long as its network is out; starting it again"));
@@ -325,7 +404,7 @@ TEST_F(SupervisorTest, TheRunEndsWithItsClock) {
   supervisor.start(start);
   turn_until(supervisor, start, [&] { return supervisor.finished(); });
   ASSERT_TRUE(supervisor.failure());
-  EXPECT_THAT(supervisor.failure()->what, HasSubstr("it is the clock of the run"));
+  EXPECT_THAT(supervisor.failure()->reason, HasSubstr("it is the clock of the run"));
 }
 
 TEST_F(SupervisorTest, LiveServicesAreAskedToLeaveWhenTheRobotIsDone) {
@@ -351,4 +430,4 @@ TEST_F(SupervisorTest, WhoDoesNotLeaveIsKilledInTheEnd) {
 }
 
 }  // namespace
-}  // namespace roci::launch
+}  // namespace roci::services::launch

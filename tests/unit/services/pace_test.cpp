@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-namespace roci::services {
+namespace roci::services::clock {
 namespace {
 
 using namespace std::chrono_literals;
 
-const wall::Instant kStart{1000s};
+const WallTime kStart{1000s};
 
 TEST(Pace, HoldsTimeBackToItsRate) {
   Pace pace(60, kStart);
@@ -39,4 +39,4 @@ TEST(Pace, ZeroIsNoLimit) {
 }
 
 }  // namespace
-}  // namespace roci::services
+}  // namespace roci::services::clock

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-namespace roci::services {
+namespace roci::services::clock {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr wall::Instant kDeath{1000s};
+constexpr WallTime kDeath{1000s};
 
 TEST(RestartHold, HoldsFromADeathUntilTheDeadOneIsThereAgainOrTheTimeIsOver) {
   RestartHold hold(10s);
@@ -35,4 +35,4 @@ TEST(RestartHold, WhoLeavesOrHangsIsNotWaitedFor) {
 }
 
 }  // namespace
-}  // namespace roci::services
+}  // namespace roci::services::clock

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "services/publisher.hpp"
-#include "services/rpc/call_server.hpp"
+#include "services/rpc/reply_cache.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
 namespace roci::services {
@@ -31,14 +31,14 @@ v1::ArmMotionReply because(const std::string& reason) {
 // caller is the clock's master; owner serves; both under the simulated clock.
 class SimCall : public testing::Test {
  protected:
-  void call(const std::string& target, Duration deadline, const std::string& pose = "stow") {
+  void call(const std::string& target, temporal::Duration deadline, const std::string& pose = "stow") {
     newest = client.call(to_pose(pose), target, deadline, [this](const Result& result) {
       const auto ms = std::to_string(caller.now() / 1ms);
       results.push_back(ms + " " + to_string(result.status) + " " + result.reply.reason());
-      message = result.message;
+      message = result.reason;
     });
   }
-  void run_until(Time end) {
+  void run_until(temporal::Time end) {
     caller.at(end, [this] { caller.stop(); });
     run.run();
   }
@@ -47,7 +47,7 @@ class SimCall : public testing::Test {
   Node& caller = run.add("caller");
   Node& owner = run.add("owner");
   Client<v1::ArmMotionRequest, v1::ArmMotionReply> client = make_client(caller, topics::arm_motion);
-  CallId newest = 0;
+  rpc::CallId newest = 0;
   std::vector<std::string> results;
   std::string message;
 };
@@ -115,11 +115,11 @@ TEST_F(SimCall, BringsTheRemoteError) {
 
 TEST_F(SimCall, RefusesMoreThanTheTableHolds) {
   caller.at(5ms, [this] {
-    for (std::size_t i = 0; i <= kMaxPendingCalls; ++i) call("owner", 20ms, std::to_string(i));
+    for (std::size_t i = 0; i <= rpc::kMaxPendingCalls; ++i) call("owner", 20ms, std::to_string(i));
     EXPECT_TRUE(results.empty()) << "never inside call()";
   });
   run_until(50ms);
-  ASSERT_EQ(results.size(), kMaxPendingCalls + 1);
+  ASSERT_EQ(results.size(), rpc::kMaxPendingCalls + 1);
   EXPECT_EQ(results.front(), "5 overloaded ");
   EXPECT_EQ(results.back(), "25 timeout ");
 }
@@ -181,9 +181,9 @@ TEST_F(SimCall, DropsRepliesToOthers) {
   EXPECT_EQ(other.statistics().foreign, 1U);
 }
 
-TEST(CallServer, RepeatsTheFirstAnswerToADuplicate) {
-  CallServer server;
-  const CallServer::Id id{{1}, 7};
+TEST(ReplyCache, RepeatsTheFirstAnswerToADuplicate) {
+  rpc::ReplyCache server;
+  const rpc::ReplyCache::Id id{{1}, 7};
   int sent = 0;
   EXPECT_TRUE(server.accept(id));
   EXPECT_FALSE(server.accept(id)) << "still being answered";
@@ -194,19 +194,19 @@ TEST(CallServer, RepeatsTheFirstAnswerToADuplicate) {
   EXPECT_TRUE(server.accept({{2}, 7})) << "another client";
 }
 
-TEST(CallServer, RemembersABoundedNumber) {
-  CallServer server;
-  for (std::int64_t i = 0; i <= static_cast<std::int64_t>(kRememberedAnswers); ++i)
+TEST(ReplyCache, RemembersABoundedNumber) {
+  rpc::ReplyCache server;
+  for (std::int64_t i = 0; i <= static_cast<std::int64_t>(rpc::kCachedReplies); ++i)
     EXPECT_TRUE(server.accept({{1}, i}));
   EXPECT_FALSE(server.accept({{1}, 1}));
   EXPECT_TRUE(server.accept({{1}, 0})) << "the oldest is forgotten";
 }
 
-TEST(CallServer, TellsOfACancelOnceWhetherItCameBeforeTheRequestOrAfter) {
-  CallServer server;
+TEST(ReplyCache, TellsOfACancelOnceWhetherItCameBeforeTheRequestOrAfter) {
+  rpc::ReplyCache server;
   int told = 0;
   const auto count = [&told] { ++told; };
-  const CallServer::Id late{{1}, 1}, early{{1}, 2}, answered{{1}, 3};
+  const rpc::ReplyCache::Id late{{1}, 1}, early{{1}, 2}, answered{{1}, 3};
   server.accept(late);
   server.on_cancel(late, count);
   EXPECT_EQ(told, 0);
@@ -228,12 +228,12 @@ TEST(CallServer, TellsOfACancelOnceWhetherItCameBeforeTheRequestOrAfter) {
 class LiveCall : public testing::Test {
  protected:
   std::unique_ptr<Node> make(const std::string& name) {
-    NodeOptions options;
+    node::NodeOptions options;
     options.name = name;
     options.live_scale = 100;
-    TransportOptions transport;
+    transport::TransportOptions transport;
     transport.domain = domain_;
-    return std::make_unique<Node>(options, open_transport("inproc", transport));
+    return std::make_unique<Node>(options, transport::open_transport("inproc", transport));
   }
   void turn_until(const std::function<bool()>& done) {
     while (!done()) {
@@ -242,11 +242,11 @@ class LiveCall : public testing::Test {
       }
     }
   }
-  void call(const std::string& target, Duration deadline) {
+  void call(const std::string& target, temporal::Duration deadline) {
     make_client(*caller, topics::arm_motion)
         .call(to_pose("stow"), target, deadline, [this](const Result& result) {
           results.emplace_back(to_string(result.status));
-          message = result.message;
+          message = result.reason;
         });
   }
 

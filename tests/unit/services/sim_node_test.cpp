@@ -1,12 +1,12 @@
 // Nodes under the simulated clock, all on their own threads: what the pure parts (clock_master_test,
-// follower_test) promise, joined up.
+// hold_back_queue_test) promise, joined up.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <future>
 
 #include "services/publisher.hpp"
-#include "services/qos.hpp"
+#include "services/transport/qos.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
 namespace roci::services {
@@ -38,7 +38,7 @@ std::string at(const Node& node, const std::string& what) {
 std::shared_ptr<std::vector<std::string>> record(Node& node) {
   auto log = std::make_shared<std::vector<std::string>>();
   subscribe(node, topics::event, [&node, log](const v1::Event& e) { log->push_back(at(node, e.text())); });
-  node.on_peer_change([&node, log](const PeerChange& change) {
+  node.on_peer_change([&node, log](const health::PeerChange& change) {
     log->push_back(at(node, change.service + "#" + std::to_string(change.incarnation) +
                                 (change.alive ? " alive" : " dead: " + change.cause)));
   });
@@ -137,7 +137,7 @@ TEST(SimNode, ARestartedServiceGetsTheNewestStateAndNoOldRequest) {
     first.stop();
   });
   std::vector<std::string> seen_by_b;
-  a.on_peer_change([&](const PeerChange& change) {
+  a.on_peer_change([&](const health::PeerChange& change) {
     if (change.alive && change.incarnation == 2) a.after(1ms, [&a] { a.stop(); });
     if (change.alive) return;
     Node& second = run.add("b", 2);
@@ -180,9 +180,9 @@ TEST(SimNode, InputOfObserversWakesAnIdleReceiver) {
   });
   subscribe(a, topics::event, [&](const v1::Event&) { a.stop(); });
 
-  NodeOptions options;
+  node::NodeOptions options;
   options.name = "console";
-  options.clock = ClockMode::observer;
+  options.clock = clock::ClockMode::observer;
   Node console(options, run.transport());
   std::vector<std::string> answers;
   subscribe(console, topics::event, [&](const v1::Event& e) { answers.push_back(e.text()); });
@@ -216,7 +216,7 @@ TEST(SimNode, ALivelockEndsTheRunWithAnError) {
   try {
     run.run();
     FAIL() << "the run ended without an error";
-  } catch (const ClockError& error) {
+  } catch (const clock::ClockError& error) {
     EXPECT_THAT(error.what(), HasSubstr("livelock"));
   }
 }
@@ -229,7 +229,7 @@ TEST(SimNode, TooManySamplesOfOneInstanceAreRefused) {
   std::vector<std::string> seen;
   subscribe(run.add("b"), topics::event, [&](const v1::Event& e) { seen.push_back(e.text()); });
   a.at(1ms, [&] {
-    for (int i = 0; i < kMicroStepLimit; ++i) {
+    for (int i = 0; i < transport::kMicroStepLimit; ++i) {
       EXPECT_TRUE(events.write(event(std::to_string(i))));
       EXPECT_TRUE(observations.write(observation("t" + std::to_string(i), i)))
           << "each is an instance of its own";
@@ -239,7 +239,7 @@ TEST(SimNode, TooManySamplesOfOneInstanceAreRefused) {
   a.at(2ms, [&] { EXPECT_TRUE(events.write(event("next micro-step"))); });
   a.at(3ms, [&a] { a.stop(); });
   run.run();
-  ASSERT_EQ(seen.size(), static_cast<std::size_t>(kMicroStepLimit) + 1);
+  ASSERT_EQ(seen.size(), static_cast<std::size_t>(transport::kMicroStepLimit) + 1);
   EXPECT_EQ(seen.back(), "next micro-step");
 }
 
@@ -258,7 +258,7 @@ TEST(SimNode, AnExceptionOfTheMasterEndsTheOthersToo) {
   Node& a = run.add("a");
   run.add("b");
   a.at(1ms, [] { throw Crash{}; });
-  EXPECT_THROW(run.run(), ClockGone);
+  EXPECT_THROW(run.run(), clock::ClockGone);
 }
 
 }  // namespace

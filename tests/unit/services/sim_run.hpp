@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "services/node.hpp"
-#include "services/transport.hpp"
+#include "services/transport/plug_ins.hpp"
 
 namespace roci::services {
 
@@ -40,10 +40,10 @@ class SimRun {
 
   // The first service of the roster is the master.
   Node& add(const std::string& name, std::uint32_t incarnation = 1, const std::string& vendor = "inproc") {
-    NodeOptions options;
+    node::NodeOptions options;
     options.name = name;
     options.incarnation = incarnation;
-    options.clock = name == roster_.front() ? ClockMode::master : ClockMode::simulated;
+    options.clock = name == roster_.front() ? clock::ClockMode::master : clock::ClockMode::simulated;
     options.master = master;
     options.master.roster = roster_;
     options.vendor = vendor;
@@ -64,11 +64,11 @@ class SimRun {
     throw std::out_of_range(name);
   }
 
-  std::unique_ptr<Transport> transport(const std::string& vendor = "inproc") const {
-    TransportOptions options;
+  std::unique_ptr<transport::Transport> transport(const std::string& vendor = "inproc") const {
+    transport::TransportOptions options;
     options.domain = domain_;
     options.participant = "test";
-    return open_transport(vendor, options);
+    return transport::open_transport(vendor, options);
   }
 
   // Starts the nodes that were added since the last start.
@@ -112,7 +112,7 @@ class SimRun {
     }
   }
 
-  MasterOptions master;
+  node::MasterOptions master;
 
  private:
   struct Member {

@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 const std::vector<std::string> kRoster{"alpha", "beta", "delta", "gamma"};
-constexpr Time kEnd = 3s;
+constexpr temporal::Time kEnd = 3s;
 
 class Toy {
  public:
@@ -36,9 +36,9 @@ class Toy {
       saw("request", request.header(), request.to_pose());
       v1::ArmMotionReply reply;
       reply.reason(request.to_pose() + " by " + node_.options().name);
-      node_.after(Duration(pick(3) * 500), [responder, reply] { responder.reply(reply); });
+      node_.after(temporal::Duration(pick(3) * 500), [responder, reply] { responder.reply(reply); });
     });
-    node.on_peer_change([this](const PeerChange& change) { note("peer " + change.service); });
+    node.on_peer_change([this](const health::PeerChange& change) { note("peer " + change.service); });
     for (int i = 0; i < 3; ++i) set_timer();
     write_something();
   }
@@ -60,7 +60,7 @@ class Toy {
 
   void set_timer() {
     // Few distinct times, so that many services act at the same one.
-    node_.after(Duration(1'000 * (1 + pick(200))), [this, id = ++timers_] {
+    node_.after(temporal::Duration(1'000 * (1 + pick(200))), [this, id = ++timers_] {
       note("timer " + std::to_string(id));
       write_something();
       if (node_.now() < kEnd) set_timer();
@@ -98,9 +98,10 @@ class Toy {
     v1::ArmMotionRequest request;
     request.to_pose(text);
     const std::string owner = kRoster[static_cast<std::size_t>(pick(4))];
-    arm_.call(request, owner, Duration(1'000), [this, text](const CallResult<v1::ArmMotionReply>& result) {
-      note("result " + text + " " + to_string(result.status) + " " + result.reply.reason());
-    });
+    arm_.call(request, owner, temporal::Duration(1'000),
+              [this, text](const CallResult<v1::ArmMotionReply>& result) {
+                note("result " + text + " " + to_string(result.status) + " " + result.reply.reason());
+              });
   }
 
   Node& node_;

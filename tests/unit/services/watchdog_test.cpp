@@ -5,15 +5,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "services/end_within.hpp"
-#include "services/health/sign_of_life.hpp"
-#include "services/launch/signs_of_life.hpp"
+#include "services/health/watchdog_notifier.hpp"
+#include "services/launch/notify_socket.hpp"
+#include "services/process/forced_exit.hpp"
 
-namespace roci::launch {
+namespace roci::services::launch {
 namespace {
 
 using namespace std::chrono_literals;
-using services::PeerChange;
+using health::PeerChange;
 using testing::Each;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -28,17 +28,17 @@ class WatchdogTest : public testing::Test {
     watchdog.heard({"sim_svc", 1, true, ""}, start);
   }
   // Turns of the launcher until `end`, with a sign of life of `who` in each.
-  std::vector<std::string> hung_until(services::wall::Instant end, std::vector<pid_t> who) {
+  std::vector<std::string> hung_until(clock::WallTime end, std::vector<pid_t> who) {
     std::vector<std::string> hung;
     for (; now <= end; now += 100ms) {
-      for (const pid_t pid : who) watchdog.sign(pid, now);
-      for (const auto& one : watchdog.check(now)) hung.push_back(one.service + " " + one.why);
+      for (const pid_t pid : who) watchdog.kick(pid, now);
+      for (const auto& one : watchdog.check(now)) hung.push_back(one.service + " " + one.reason);
     }
     return hung;
   }
 
-  const services::wall::Instant start{1000s};
-  services::wall::Instant now = start;
+  const clock::WallTime start{1000s};
+  clock::WallTime now = start;
   Watchdog watchdog{10};
 };
 
@@ -101,40 +101,40 @@ TEST_F(WatchdogTest, NoLimitNoHang) {
   EXPECT_THAT(hung_until(start + 1h, {}), IsEmpty());
 }
 
-TEST(SignOfLife, ReachesTheSupervisorWithItsSender) {
-  SignsOfLife signs;
-  services::SignOfLife sign(signs.address());
-  EXPECT_THAT(signs.take(), IsEmpty());
-  sign.give();
-  sign.give();  // too soon
-  EXPECT_THAT(signs.take(), testing::ElementsAre(getpid()));
+TEST(WatchdogNotifier, ReachesTheSupervisorWithItsSender) {
+  NotifySocket signs;
+  health::WatchdogNotifier sign(signs.address());
+  EXPECT_THAT(signs.receive(), IsEmpty());
+  sign.notify();
+  sign.notify();  // too soon
+  EXPECT_THAT(signs.receive(), testing::ElementsAre(getpid()));
 }
 
-TEST(SignOfLife, NobodyNeedsToListen) {
-  services::SignOfLife("").give();
+TEST(WatchdogNotifier, NobodyNeedsToListen) {
+  health::WatchdogNotifier("").notify();
   std::string address;
   {
-    const SignsOfLife gone;
+    const NotifySocket gone;
     address = gone.address();
   }
-  EXPECT_THROW(services::SignOfLife{address}, std::system_error);
-  EXPECT_THROW(services::SignOfLife{"nonsense"}, std::invalid_argument);
-  EXPECT_THROW(services::SignOfLife{"/" + std::string(200, 'x')}, std::invalid_argument);
+  EXPECT_THROW(health::WatchdogNotifier{address}, std::system_error);
+  EXPECT_THROW(health::WatchdogNotifier{"nonsense"}, std::invalid_argument);
+  EXPECT_THROW(health::WatchdogNotifier{"/" + std::string(200, 'x')}, std::invalid_argument);
 }
 
-TEST(SignOfLife, ASupervisorThatDoesNotReadNeverBlocksAService) {
-  const SignsOfLife signs;
-  std::vector<std::unique_ptr<services::SignOfLife>> senders;
+TEST(WatchdogNotifier, ASupervisorThatDoesNotReadNeverBlocksAService) {
+  const NotifySocket signs;
+  std::vector<std::unique_ptr<health::WatchdogNotifier>> senders;
   for (int i = 0; i < 1000; ++i) {
-    senders.push_back(std::make_unique<services::SignOfLife>(signs.address()));
-    senders.back()->give();
+    senders.push_back(std::make_unique<health::WatchdogNotifier>(signs.address()));
+    senders.back()->notify();
   }
 }
 
 TEST(EndWithin, EndsAProcessThatHangs) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto hang = [] {
-    services::end_within(50ms, 7, "arm_svc: its work is done");
+    process::force_exit_after(50ms, 7, "arm_svc: its work is done");
     for (;;) pause();
   };
   EXPECT_EXIT(hang(), testing::ExitedWithCode(7),
@@ -144,11 +144,11 @@ TEST(EndWithin, EndsAProcessThatHangs) {
 TEST(EndWithin, LeavesOthersAlone) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto leave = [] {
-    services::end_within(1h, 7, "never said");
+    process::force_exit_after(1h, 7, "never said");
     std::exit(3);
   };
   EXPECT_EXIT(leave(), testing::ExitedWithCode(3), Not(HasSubstr("never said")));
 }
 
 }  // namespace
-}  // namespace roci::launch
+}  // namespace roci::services::launch

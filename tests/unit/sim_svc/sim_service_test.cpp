@@ -28,7 +28,9 @@ class SimService : public testing::Test {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     folder_ = std::filesystem::path(testing::TempDir()) / (std::string("roci_sim_") + test->name());
     std::filesystem::create_directories(folder_ / "scenarios");
-    write("mission.yaml", "site: site.yaml\narm: {poses: poses.yaml}\n");
+    write("mission.yaml",
+          "site: site.yaml\narm: {poses: poses.yaml}\nsimulation:\n  robots:\n    - name: rover\n"
+          "      power: {}\n      components: [{name: nav, type: drive}, {name: arm, type: arm}]\n");
     write("poses.yaml", "poses:\n  stow: {joints: [0, 1]}\n  sampling: {position: [1, 0, 0]}\n");
     write("site.yaml",
           "image: rocks.pgm\nresolution: 100\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
@@ -49,12 +51,12 @@ class SimService : public testing::Test {
     std::vector<v1::Goal> goals;
     std::vector<v1::Hazard> hazards;
     std::vector<std::string> observations;  // "us timeline = value"
-    services::Time end{};
+    temporal::Time end{};
   };
 
   // Flies with these commands, each at its time; `outcome_at`: when the executive says that the mission is
   // over.
-  Heard fly(const std::map<services::Duration, v1::Command>& commands, services::Duration outcome_at = 0s,
+  Heard fly(const std::map<temporal::Duration, v1::Command>& commands, temporal::Duration outcome_at = 0s,
             std::uint64_t seed = 1) {
     services::SimRun run({"sim_svc", "exec_svc", "pathplan_svc", "arm_svc"});
     services::RunSettings settings;
@@ -128,6 +130,8 @@ class SimService : public testing::Test {
     out.subsystem(component);
     out.command_name(name);
     out.epoch(1);
+    out.sender_epoch(1);
+    out.latest_end_us(-1);
     for (const auto& [key, value] : arguments) {
       v1::Property property;
       property.name(key);
@@ -152,7 +156,7 @@ class SimService : public testing::Test {
 
 TEST_F(SimService, ADriveGoesByThePathPlannersWay) {
   const Heard heard = fly({{5s, drive("d", "40")}}, 400s);
-  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_COMPLETED));
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_COMPLETED));
   EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.nav = going-to there")));
   EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.nav = idle-at there")));
   EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.x = 40.0")));
@@ -160,13 +164,13 @@ TEST_F(SimService, ADriveGoesByThePathPlannersWay) {
 
 TEST_F(SimService, AnArmMoveTracksTheArmPlannersTrajectory) {
   const Heard heard = fly({{5s, command("m", "arm", "move", {{"from", "stow"}, {"to", "sampling"}})}}, 100s);
-  EXPECT_THAT(stages(heard, "m"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_COMPLETED));
+  EXPECT_THAT(stages(heard, "m"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_COMPLETED));
   EXPECT_THAT(heard.observations, testing::Contains(HasSubstr("rover.arm = idle-pose sampling")));
 }
 
 TEST_F(SimService, AnUnreachablePlaceFailsTheDriveWithThePlannersReason) {
   const Heard heard = fly({{5s, drive("d", "190")}}, 100s);
-  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_FAILED));
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_FAILED));
   EXPECT_EQ(heard.acks.back().code(), "no-path");
   EXPECT_EQ(heard.acks.back().reason(), "too far for this test");
 }
@@ -175,6 +179,42 @@ TEST_F(SimService, CommandsOfOtherOwnersAreLeftAlone) {
   v1::Command other = drive("d", "40");
   other.owner("arm_svc");
   EXPECT_TRUE(fly({{5s, other}}, 10s).acks.empty());
+}
+
+TEST_F(SimService, ARobotThatIsDataAloneFliesWithoutSiteAndArm) {
+  write("mission.yaml",
+        "simulation:\n  robots:\n    - name: station\n      components:\n"
+        "        - {name: door, type: task, state: shut, commands: {open: {duration_s: 20, during: moving, "
+        "then: open}}}\n");
+  write("scenarios/nominal.yaml", "duration_s: 2000\n");
+  const Heard heard = fly({{5s, command("o", "door", "open", {})}, {6s, drive("d", "40")}}, 100s);
+  EXPECT_THAT(stages(heard, "o"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_COMPLETED));
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::STAGE_REJECTED));
+  EXPECT_THAT(heard.observations, ElementsAre("0 station.door = shut", "5000000 station.door = moving",
+                                              "25000000 station.door = open"));
+}
+
+TEST_F(SimService, TwoRobotsAreToldApartByTheCommandsRobot) {
+  write("mission.yaml",
+        "simulation:\n  robots:\n"
+        "    - {name: one, components: [{name: door, type: task, commands: {open: {duration_s: 20, power_w: "
+        "5}}}]}\n"
+        "    - {name: two, components: [{name: door, type: task, commands: {open: {duration_s: 30, power_w: "
+        "5}}}]}\n");
+  write("scenarios/nominal.yaml", "duration_s: 2000\n");
+  v1::Command first = command("a", "door", "open", {});
+  first.robot("one");
+  v1::Command second = command("b", "door", "open", {});
+  second.robot("two");
+  const Heard heard = fly({{5s, first}, {6s, second}, {7s, command("c", "door", "open", {})}}, 100s);
+  EXPECT_THAT(heard.observations,
+              ElementsAre("0 one.door = idle", "0 two.door = idle", "5000000 one.door = open",
+                          "6000000 two.door = open", "25000000 one.door = idle", "36000000 two.door = idle"));
+  EXPECT_THAT(stages(heard, "c"), ElementsAre(v1::STAGE_REJECTED));
+  const v1::CommandAck& last = heard.acks.back();
+  EXPECT_EQ(last.activity(), "b");
+  EXPECT_EQ(last.outcome().duration_us(), 30'000'000);
+  EXPECT_NEAR(last.outcome().energy_j(), 150, 1e-6);
 }
 
 TEST_F(SimService, UploadsAndRecallsTheScenariosGoals) {
@@ -196,7 +236,7 @@ TEST_F(SimService, UploadsAndRecallsTheScenariosGoals) {
 TEST_F(SimService, AHiddenRockOnTheWayIsAHazard) {
   scenario("world: {rocks: [{x: 35, y: 20, radius: 1}]}\n");
   const Heard heard = fly({{5s, drive("d", "60")}}, 300s);
-  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::COMMAND_ACCEPTED, v1::COMMAND_FAILED));
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_FAILED));
   ASSERT_EQ(heard.hazards.size(), 1u);
   EXPECT_EQ(heard.hazards[0].x_m(), 35);
   EXPECT_EQ(heard.hazards[0].radius_m(), 1);
@@ -223,7 +263,7 @@ TEST_F(SimService, ReportsWhetherTheEventsCameAsExpected) {
 TEST_F(SimService, EndsAtTheLatestWhenTheTimeIsUp) { EXPECT_EQ(fly({}).end, 2000s); }
 
 TEST_F(SimService, TheSameSeedIsTheSameRun) {
-  const std::map<services::Duration, v1::Command> commands{{5s, drive("d", "40")}};
+  const std::map<temporal::Duration, v1::Command> commands{{5s, drive("d", "40")}};
   const Heard first = fly(commands, 400s, 3);
   EXPECT_EQ(first.observations, fly(commands, 400s, 3).observations);
   EXPECT_NE(first.observations, fly(commands, 400s, 4).observations);

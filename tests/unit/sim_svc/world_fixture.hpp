@@ -1,12 +1,19 @@
 // Small worlds for the tests of sim_svc, and what their outputs say.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "sim_svc/world.hpp"
+#include "services/owner/command_ledger.hpp"
+#include "sim_svc/components/arm.hpp"
+#include "sim_svc/components/camera.hpp"
+#include "sim_svc/components/drive.hpp"
+#include "sim_svc/components/gripper.hpp"
+#include "sim_svc/components/radio.hpp"
+#include "sim_svc/world/world.hpp"
 
 namespace roci::sim {
 
@@ -15,37 +22,77 @@ std::shared_ptr<const terrain::Site> flat_site();
 /// 120 x 120 m rising towards the east by `grade`.
 std::shared_ptr<const terrain::Site> ramp_site(double grade);
 
-/// At (20, 20), heading east, arm stowed, 500 kJ, no noise from the sun, window open in [1000, 2000) s.
-WorldSetup flat_setup();
+/// A component that make_shared-like `Part` is, with these settings.
+template <class Part, class Settings>
+world::ComponentSetup part(const std::string& name, const std::string& type, Settings settings) {
+  return {name, type, [settings](world::RandomStream noise) {
+            return std::make_unique<Part>(settings, std::move(noise));
+          }};
+}
 
-Request execute(const std::string& activity, const std::string& component, const std::string& command,
-                std::map<std::string, std::string> arguments = {}, std::uint64_t epoch = 1);
-Request drive_to(const std::string& activity, const std::string& place, double x, double y);
+/// A rover whose settings a test may change before it builds it.
+struct Rover {
+  std::string name = "rover";
+  components::DriveSettings drive;
+  components::ArmSettings arm{{}, "arm_svc", "stow", "arm-here", "stow", {0, 0, 0, 0, 0}};
+  components::CameraSettings camera;
+  components::GripperSettings gripper;
+  components::RadioSettings radio;
+  world::PowerParameters power;
+  world::Pose start{20, 20, 0};
+  double battery_j = 500000;
 
-std::optional<Ack> last_ack(const std::vector<Output>&, const std::string& activity);
-std::optional<Value> last_value(const std::vector<Output>&, const std::string& timeline);
-double last_number(const std::vector<Output>&, const std::string& timeline);
-void append(std::vector<Output>& to, std::vector<Output> more);
+  world::RobotSetup build() const;
+};
 
-/// A world with everything it ever said.
+/// The rover at (20, 20), heading east, arm stowed, 500 kJ, no sun, window open in [1000, 2000) s.
+struct FlatSetup {
+  Rover robot;
+  world::Ground ground{flat_site(), {}};
+
+  world::WorldSetup build() const;
+};
+inline FlatSetup flat_setup() { return {}; }
+
+services::owner::Request execute(const std::string& activity, const std::string& component,
+                                 const std::string& command,
+                                 std::map<std::string, std::string> arguments = {}, std::uint64_t epoch = 1);
+services::owner::Request drive_to(const std::string& activity, const std::string& place, double x, double y);
+
+std::optional<temporal::Value> last_value(const world::Outputs&, const std::string& timeline);
+double last_number(const world::Outputs&, const std::string& timeline);
+void append(world::Outputs& to, world::Outputs more);
+
+/// A world with everything it ever said, and an owner's ledger before it.
 struct Flight {
-  explicit Flight(WorldSetup setup, std::uint64_t seed = 1);
+  explicit Flight(const FlatSetup& setup, std::uint64_t seed = 1) : Flight(setup.build(), seed) {}
+  explicit Flight(world::WorldSetup setup, std::uint64_t seed = 1);
 
-  void advance(Time);
-  void command(Time, const Request&);
+  void advance(temporal::Time);
+  void command(temporal::Time, const services::owner::Request&);
+  void answer(temporal::Time, const std::string& activity, const world::Answer&);
+  void disturb(temporal::Time, const world::Disturbance&);
   /// Commands a drive and answers its wish for a path with a straight line.
-  void drive(Time, const std::string& activity, const std::string& place, double x, double y);
+  void drive(temporal::Time, const std::string& activity, const std::string& place, double x, double y,
+             const std::string& robot = "");
   /// Commands a motion and answers with a straight joint trajectory of `duration_s`.
-  void move_arm(Time, const std::string& activity, const std::string& from, const std::string& to,
+  void move_arm(temporal::Time, const std::string& activity, const std::string& from, const std::string& to,
                 std::vector<double> target, double duration_s);
-  Stage stage(const std::string& activity) const;
-  std::string code(const std::string& activity) const;
-  Time time_of(const std::string& activity) const;
-  State state(const std::string& timeline) const;
 
-  World world;
+  std::optional<services::owner::Ack> last_ack(const std::string& activity) const;
+  services::owner::Stage stage(const std::string& activity) const;
+  std::string code(const std::string& activity) const;
+  temporal::Time time_of(const std::string& activity) const;
+  temporal::State state(const std::string& timeline) const;
+
+  world::World world;
+  services::owner::CommandLedger ledger;
   std::vector<double> joints = {0, 0, 0, 0, 0};
-  std::vector<Output> said;
+  world::Outputs said;
+  std::vector<services::owner::Ack> acks;
+
+ private:
+  void hear(world::Outputs);
 };
 
 }  // namespace roci::sim

@@ -170,8 +170,8 @@ TEST(ExecutionWindowsProperty, ReportsEveryKnownWindowThatMoved) {
       std::vector<Window> before(network.size);
       for (TimePoint q = 0; q < network.size; ++q) before[q] = windows.window(q);
       windows.happen(p, Time{static_cast<int>(random() % 200)});
-      const auto told = [](const std::vector<BoundField::Change>& changes, TimePoint point, Duration value) {
-        return std::any_of(changes.begin(), changes.end(), [&](const BoundField::Change& change) {
+      const auto told = [](const std::vector<LazyShortestPaths::Change>& changes, TimePoint point, Duration value) {
+        return std::any_of(changes.begin(), changes.end(), [&](const LazyShortestPaths::Change& change) {
           return change.point == point && change.before == value;
         });
       };

@@ -97,10 +97,29 @@ TEST(PlanCheck, NamesFaultsOfDecisions) {
     return faults_after([&](FlexiblePlan& plan) { plan.decisions = {decision}; });
   };
   EXPECT_THAT(with([](auto&) {}), IsEmpty());
-  EXPECT_THAT(with([](auto& d) { d.resolver = ""; }), ElementsAre(HasSubstr("nobody who decides")));
+  EXPECT_THAT(with([](auto& d) { d.resolver = ""; }), IsEmpty()) << "anybody of the kind may decide";
+  EXPECT_THAT(with([](auto& d) { d.resolver_kind = ResolverKind::rule; }),
+              ElementsAre(HasSubstr("by the plan itself")));
+  EXPECT_THAT(with([](auto& d) {
+                d.resolver_kind = ResolverKind::rule;
+                d.resolver = "";
+                d.choices[0].rule.nodes = {{ConditionOp::all_of, 3}};
+              }),
+              ElementsAre(HasSubstr("rule")));
   EXPECT_THAT(with([](auto& d) { d.choices.clear(); }), ElementsAre(HasSubstr("no choices")));
   EXPECT_THAT(with([](auto& d) { d.choices[1].name = "left"; }), ElementsAre(HasSubstr("left stands twice")));
   EXPECT_THAT(with([](auto& d) { d.choices[1].activities = {"c"}; }), ElementsAre(HasSubstr("no activity")));
+  const auto binding = [](auto& d) {
+    d.choices.clear();
+    d.bindings = {{"a", "to"}};
+  };
+  EXPECT_THAT(with(binding), IsEmpty());
+  EXPECT_THAT(with([](auto& d) { d.bindings = {{"a", "to"}}; }), ElementsAre(HasSubstr("make two")));
+  EXPECT_THAT(with([&](auto& d) {
+                binding(d);
+                d.bindings[0].activity = "nowhere";
+              }),
+              ElementsAre(HasSubstr("no activity of the plan: nowhere")));
   EXPECT_THAT(with([](auto& d) { d.decide_before = 0; }), ElementsAre(HasSubstr("origin")));
 }
 
@@ -108,7 +127,7 @@ TEST(PlanCheck, ListsAllFaultsAtOnce) {
   EXPECT_EQ(faults_after([](auto& p) {
               p.activities[0].wait_timeout = seconds(-1);
               p.tokens = {{"", {}, 1, 2}};
-              p.decisions = {{"", "", {}, 0}};
+              p.decisions = {{"", "", {}, 0, ResolverKind::rule}};
             }).size(),
             6U);
 }

@@ -75,6 +75,39 @@ TEST(Projection, WhatFailedHasNoEffectAtItsEndAndItsRateStops) {
                                                    "executed 10 0", "executed 60 -100"));
 }
 
+// R76: the drive has taken more than planned; what is still to come starts from what was seen.
+TEST(Projection, StartsAtTheNewestObservation) {
+  Progress progress;
+  progress["drive"] = {ActivityState::running, seconds(10), {}};
+  const ObservedValues observed{{"energy", {seconds(60), 700.0}}};
+  const auto out = project(drive_and_image(), progress, seconds(70), {{"energy", 1000.0}}, observed);
+  EXPECT_THAT(words(out.at("energy")),
+              ElementsAre("planned 10 1000", "planned 110 800", "planned 111 750", "executed 10 1000",
+                          "executed 60 700", "projected 110 600", "projected 111 550"));
+  EXPECT_EQ(out.at("energy")[4].activity, "") << "nobody's: it was seen";
+}
+
+// What ended after the sample was taken is not in it.
+TEST(Projection, AnObservationShowsWhatWasExecutedBeforeItAlone) {
+  Progress progress;
+  progress["drive"] = {ActivityState::succeeded, seconds(10), seconds(110)};
+  progress["image"] = {ActivityState::running, seconds(120), {}};
+  const ObservedValues observed{{"energy", {seconds(115), 640.0}}, {"at b", {seconds(112), false}}};
+  const auto out = project(drive_and_image(), progress, seconds(130), {{"energy", 1000.0}}, observed);
+  EXPECT_THAT(words(out.at("energy")),
+              ElementsAre("planned 10 1000", "planned 110 800", "planned 111 750", "executed 10 1000",
+                          "executed 110 800", "executed 115 640", "executed 120 590"));
+  EXPECT_THAT(words(out.at("at b")),
+              ElementsAre("planned 110 true", "executed 110 true", "executed 112 false"));
+}
+
+TEST(Projection, AnObservationOfAPlanThatHasNotBegunIsWhereItStarts) {
+  const ObservedValues observed{{"energy", {seconds(5), 500.0}}, {"untouched", {seconds(5), 1.0}}};
+  const auto out = project(drive_and_image(), {}, seconds(10), {}, observed);
+  EXPECT_EQ(words(out.at("energy")).back(), "projected 111 250");
+  EXPECT_FALSE(out.contains("untouched"));
+}
+
 // One impact as it really comes about.
 struct Effect {
   const Impact* impact;

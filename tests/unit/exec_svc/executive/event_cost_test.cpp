@@ -5,6 +5,11 @@
 #include "tests/unit/exec_svc/executive/plan_builder.hpp"
 
 namespace roci::exec::testing {
+
+using executive::CommandStage;
+using executive::Executive;
+using executive::Outputs;
+
 namespace {
 
 using temporal::seconds;

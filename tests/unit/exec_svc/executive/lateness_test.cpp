@@ -6,6 +6,10 @@
 #include "tests/unit/exec_svc/executive/scripted_world.hpp"
 
 namespace roci::exec::testing {
+
+using executive::Executive;
+using executive::OutcomeKind;
+
 namespace {
 
 using ::testing::ElementsAre;

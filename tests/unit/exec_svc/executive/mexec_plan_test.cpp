@@ -8,6 +8,10 @@
 #include "tests/unit/exec_svc/executive/scripted_world.hpp"
 
 namespace roci::exec::testing {
+
+using executive::Breakage;
+using executive::CommandStage;
+
 namespace {
 
 using temporal::ImpactKind;
@@ -59,7 +63,7 @@ PlanBuilder sampling_network() {
   downlink.pre = temporal::all_of({compare("earth.in-view", ConditionOp::eq, true),
                                    compare("phase", ConditionOp::eq, state("downlinking")),
                                    compare("samples", ConditionOp::ge, 1.0)});
-  downlink.utility = 10;
+  downlink.utility = {10};
 
   b.between(b.start("site-1"), b.start("prepare-arm"), 0);
   b.after("prepare-arm", "excavate");
@@ -126,9 +130,9 @@ TEST(MexecPlan, FailsTheTaskThatWaitedTooLong) {
   world.observe(230, "lab.product", state("stored"));
   world.observe(240, "earth.in-view", false);
   world.run();
-  EXPECT_EQ(world.executive.outcome().reason, BreakReason::activity_failed);
+  EXPECT_EQ(world.executive.outcome().breakage, Breakage::activity_failed);
   EXPECT_EQ(world.executive.outcome().activity, "downlink");
-  EXPECT_EQ(world.executive.outcome().cause,
+  EXPECT_EQ(world.executive.outcome().reason,
             "could not start within its wait timeout: earth.in-view = true (is false)");
   EXPECT_THAT(world.trace, ::testing::Contains("500 seismometry succeeded"));  // the rest goes on
 }

@@ -6,6 +6,11 @@
 #include "tests/unit/exec_svc/executive/scripted_world.hpp"
 
 namespace roci::exec::testing {
+
+using executive::CommandStage;
+using executive::Executive;
+using executive::OutcomeKind;
+
 namespace {
 
 using ::testing::Contains;

@@ -11,6 +11,20 @@
 #include "tests/unit/exec_svc/executive/random_plan.hpp"
 
 namespace roci::exec::testing {
+
+using executive::Breakage;
+using executive::CommandStage;
+using executive::Executive;
+using executive::Inputs;
+using executive::OutcomeKind;
+using executive::Outputs;
+using executive::point_owners;
+using executive::PointOwner;
+using executive::PointRole;
+using executive::Precedence;
+using executive::precedence_of;
+using executive::StepStatus;
+
 namespace {
 
 using temporal::Duration;
@@ -134,7 +148,7 @@ TEST(RandomExecution, DelaysInsideTheWindowsNeverBreakAPlan) {
       }
       outputs = run.step(now, ends);
     }
-    ASSERT_EQ(outputs.outcome.kind, OutcomeKind::finished) << outputs.outcome.cause;
+    ASSERT_EQ(outputs.outcome.kind, OutcomeKind::finished) << outputs.outcome.reason;
     expect_satisfied(run, true);
     if (HasFailure()) break;
   }
@@ -142,7 +156,7 @@ TEST(RandomExecution, DelaysInsideTheWindowsNeverBreakAPlan) {
 
 TEST(RandomExecution, AnyDurationsKeepEveryOrderOfStartsOrBreakThePlan) {
   std::mt19937_64 random(18);
-  std::map<BreakReason, int> ends_by;
+  std::map<Breakage, int> ends_by;
   for (int round = 0; round < 4000; ++round) {
     Observer run(random_plan(random, 8));
     SCOPED_TRACE(round);
@@ -166,13 +180,13 @@ TEST(RandomExecution, AnyDurationsKeepEveryOrderOfStartsOrBreakThePlan) {
       }
       outputs = run.step(now, ends);
     }
-    ++ends_by[outputs.outcome.reason];
+    ++ends_by[outputs.outcome.breakage];
     expect_satisfied(run, false);
     if (HasFailure()) break;
   }
-  EXPECT_GT(ends_by[BreakReason::none], 1000);
-  EXPECT_GT(ends_by[BreakReason::late_start], 200);
-  EXPECT_GT(ends_by[BreakReason::ordering_violated], 20);
+  EXPECT_GT(ends_by[Breakage::none], 1000);
+  EXPECT_GT(ends_by[Breakage::late_start], 200);
+  EXPECT_GT(ends_by[Breakage::ordering_violated], 20);
 }
 
 /// Latest times that stand even when durations are exceeded.

@@ -1,4 +1,4 @@
-// The rungs of the ladder that need no planner: push, retry, contingency (R69, R70, R98, R99, R141), the
+// The recovery actions that need no planner: push, retry, contingency (R69, R70, R98, R99, R141), the
 // owner's own repair (R146), and each of them told with its cause.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,17 @@
 #include "tests/unit/exec_svc/executive/scripted_world.hpp"
 
 namespace roci::exec::testing {
+
+using executive::CommandAck;
+using executive::CommandAction;
+using executive::CommandStage;
+using executive::Contingency;
+using executive::Executive;
+using executive::ExecutiveSettings;
+using executive::OutcomeKind;
+using executive::Outputs;
+using executive::StartPolicy;
+
 namespace {
 
 using ::testing::Contains;

@@ -6,6 +6,19 @@
 #include <stdexcept>
 
 namespace roci::exec::testing {
+
+using executive::Breakage;
+using executive::Command;
+using executive::CommandAction;
+using executive::CommandStage;
+using executive::DecisionRequest;
+using executive::ExecutiveSettings;
+using executive::Inputs;
+using executive::OutcomeKind;
+using executive::Outputs;
+using executive::RecoveryStep;
+using executive::StepStatus;
+
 namespace {
 
 using temporal::seconds;
@@ -28,7 +41,7 @@ std::string name_of(OutcomeKind kind) {
   return names.at(static_cast<std::size_t>(kind));
 }
 
-std::string name_of(BreakReason reason) {
+std::string name_of(Breakage breakage) {
   static constexpr std::array names{"none",
                                     "late_start",
                                     "activity_failed",
@@ -36,7 +49,7 @@ std::string name_of(BreakReason reason) {
                                     "deadline_passed",
                                     "ordering_violated",
                                     "decision_missing"};
-  return names.at(static_cast<std::size_t>(reason));
+  return names.at(static_cast<std::size_t>(breakage));
 }
 
 }  // namespace
@@ -93,7 +106,7 @@ void ScriptedWorld::note(const Outputs& outputs) {
   for (const StepStatus& change : outputs.changes)
     if (change.state != temporal::ActivityState::dispatched)
       trace.push_back(at + change.activity + " " + name_of(change.state) +
-                      (change.cause.empty() ? "" : " (" + change.cause + ")"));
+                      (change.reason.empty() ? "" : " (" + change.reason + ")"));
   for (const Command& command : outputs.commands) {
     const bool execute = command.action == CommandAction::execute;
     trace.push_back(at + (execute ? "execute " : "cancel ") + command.activity + "#" +
@@ -101,10 +114,10 @@ void ScriptedWorld::note(const Outputs& outputs) {
     if (!command.arguments.empty()) arguments[command.activity] = command.arguments.front().value;
     answer(command);
   }
-  static constexpr std::array rungs{"push", "retry", "contingency"};
+  static constexpr std::array recovery_actions{"push", "retry", "contingency"};
   for (const RecoveryStep& recovery : outputs.recoveries)
-    recoveries.push_back(at + rungs.at(static_cast<std::size_t>(recovery.rung)) + " " + recovery.activity +
-                         ": " + recovery.cause);
+    recoveries.push_back(at + recovery_actions.at(static_cast<std::size_t>(recovery.action)) + " " +
+                         recovery.activity + ": " + recovery.reason);
   for (const DecisionRequest& request : outputs.decision_requests) {
     std::string line = at + "ask " + request.resolver + ": " + request.decision + "?";
     for (const std::string& choice : request.choices) line += " " + choice;
@@ -114,8 +127,8 @@ void ScriptedWorld::note(const Outputs& outputs) {
   outcome_ = outputs.outcome.kind;
   std::string line = at + "plan " + name_of(outcome_);
   if (outcome_ == OutcomeKind::broken)
-    line += ": " + name_of(outputs.outcome.reason) + ", " + outputs.outcome.activity + ", " +
-            outputs.outcome.cause;
+    line += ": " + name_of(outputs.outcome.breakage) + ", " + outputs.outcome.activity + ", " +
+            outputs.outcome.reason;
   trace.push_back(line);
 }
 

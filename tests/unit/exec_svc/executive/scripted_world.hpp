@@ -21,7 +21,7 @@ using temporal::state;
 struct Answer {
   bool accepts = true;
   double lasts = -1;  ///< until the end; negative: as long as the command expects
-  CommandStage ends_with = CommandStage::completed;
+  executive::CommandStage ends_with = executive::CommandStage::completed;
   std::string reason{};
   bool answers_cancel = true;
 };
@@ -30,13 +30,13 @@ struct Answer {
 /// wake.
 class ScriptedWorld {
  public:
-  explicit ScriptedWorld(temporal::FlexiblePlan plan, ExecutiveSettings settings = {});
+  explicit ScriptedWorld(temporal::FlexiblePlan plan, executive::ExecutiveSettings settings = {});
 
   /// Answers of an activity's attempts in their order; the last one stands for all further ones.
   void answers(const std::string& activity, std::vector<Answer> answers) {
     answers_[activity] = std::move(answers);
   }
-  void at(double seconds, Inputs inputs);
+  void at(double seconds, executive::Inputs inputs);
   void observe(double seconds, const std::string& timeline, temporal::Value value);
   void cancel_at(double seconds);
   void load_at(double seconds, temporal::FlexiblePlan plan);
@@ -44,25 +44,25 @@ class ScriptedWorld {
   /// Until nothing more can happen, or the plan has ended, or `until` has passed. Returns the trace.
   const std::vector<std::string>& run(double until = 1e6);
 
-  Executive executive;
+  executive::Executive executive;
   std::vector<std::string> trace;
   std::vector<std::string> recoveries;           ///< "30 retry drive: cause"
   std::map<std::string, std::string> arguments;  ///< first argument of each command, by activity
 
  private:
   struct Event {
-    Inputs inputs{};
-    std::function<Outputs(temporal::Time)> act{};
+    executive::Inputs inputs{};
+    std::function<executive::Outputs(temporal::Time)> act{};
   };
 
-  void note(const Outputs& outputs);
-  void answer(const Command& command);
+  void note(const executive::Outputs& outputs);
+  void answer(const executive::Command& command);
 
   std::map<std::string, std::vector<Answer>> answers_;
   std::multimap<temporal::Time, Event> events_;
   std::map<std::string, std::multimap<temporal::Time, Event>::iterator> ends_;  // of commands that run
   temporal::Time now_{0};
-  OutcomeKind outcome_ = OutcomeKind::running;
+  executive::OutcomeKind outcome_ = executive::OutcomeKind::running;
 };
 
 }  // namespace roci::exec::testing

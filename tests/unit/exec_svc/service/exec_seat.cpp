@@ -11,6 +11,10 @@
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec::testing {
+
+using goals::GoalRecord;
+using journal::Journal;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,9 +79,9 @@ v1::Goal photo_goal(const std::string& id) {
 }
 
 ExecSeat::ExecSeat(const std::string& vendor, const std::string& vendor_of_others, int domain,
-                   const std::vector<GoalRecord>& journalled, fs::path mission)
+                   const std::vector<GoalRecord>& journalled, fs::path mission_folder)
     : folder_(made_folder(domain)),
-      mission_(std::move(mission)),
+      mission_(std::move(mission_folder)),
       vendor_(vendor),
       run_({"sim_svc", "planner_svc", "exec_svc"}, domain),
       robot_(waiting_master(run_, vendor_of_others)),
@@ -120,7 +124,7 @@ void ExecSeat::start_executive(std::uint32_t incarnation) {
   executive_ = make_service(node, settings);
 }
 
-void ExecSeat::kill_executive_at(services::Time when) {
+void ExecSeat::kill_executive_at(temporal::Time when) {
   killed_ = true;
   run_.node("exec_svc").at(when, [this] {
     executive_.reset();
@@ -128,7 +132,7 @@ void ExecSeat::kill_executive_at(services::Time when) {
   });
 }
 
-void ExecSeat::kill_both_at(services::Time when) {
+void ExecSeat::kill_both_at(temporal::Time when) {
   kill_executive_at(when);
   planner_killed_ = true;
   run_.node("planner_svc").at(when, [] { throw services::Crash{}; });
@@ -155,44 +159,46 @@ void ExecSeat::observe(const std::string& timeline, const temporal::Value& value
 
 void ExecSeat::tell(const std::string& activity, std::uint32_t attempt, v1::CommandStage stage) {
   v1::CommandAck out;
+  out.commander("exec_svc");
+  if (!commands.empty()) out.epoch(commands.back().epoch());
   out.activity(activity);
   out.attempt(attempt);
   out.stage(stage);
   out.owner("sim_svc");
-  if (stage != v1::COMMAND_UNKNOWN) words_[{activity, attempt}] = stage;
+  if (stage != v1::STAGE_UNKNOWN) messages_[{activity, attempt}] = stage;
   acks_.write(out);
 }
 
 void ExecSeat::obey(const v1::Command& command) {
   commands.push_back(command);
   const std::pair key(command.activity(), command.attempt());
-  const auto word = words_.find(key);
+  const auto word = messages_.find(key);
   if (command.action() == v1::COMMAND_QUERY ||
-      (command.action() == v1::COMMAND_EXECUTE && word != words_.end())) {
-    tell(command.activity(), command.attempt(), word == words_.end() ? v1::COMMAND_UNKNOWN : word->second);
+      (command.action() == v1::COMMAND_EXECUTE && word != messages_.end())) {
+    tell(command.activity(), command.attempt(), word == messages_.end() ? v1::STAGE_UNKNOWN : word->second);
     return;
   }
   if (command.command_name() == "stop" || command.action() == v1::COMMAND_CANCEL) {
     tell(command.activity(), command.attempt(),
-         command.action() == v1::COMMAND_CANCEL ? v1::COMMAND_CANCELLED : v1::COMMAND_COMPLETED);
+         command.action() == v1::COMMAND_CANCEL ? v1::STAGE_CANCELLED : v1::STAGE_COMPLETED);
     observe("rover.camera", temporal::state("idle"));
     return;
   }
-  tell(command.activity(), command.attempt(), v1::COMMAND_ACCEPTED);
+  tell(command.activity(), command.attempt(), v1::STAGE_ACCEPTED);
   observe("rover.camera", temporal::state("imaging"));
   const std::string image = command.arguments().at(0).value();
   robot_.after(40s, [this, image, activity = command.activity(), attempt = command.attempt()] {
     observe("rover.camera", temporal::state("idle"));
-    observe("image." + image, temporal::state("sent"));
-    tell(activity, attempt, v1::COMMAND_COMPLETED);
+    observe("rover.image." + image, temporal::state("sent"));
+    tell(activity, attempt, v1::STAGE_COMPLETED);
   });
 }
 
-void ExecSeat::send(services::Time when, const v1::Goal& goal) {
+void ExecSeat::send(temporal::Time when, const v1::Goal& goal) {
   robot_.at(when, [this, goal] { goals_.write(goal); });
 }
 
-void ExecSeat::run_until(services::Time end) {
+void ExecSeat::run_until(temporal::Time end) {
   robot_.at(end, [this] { robot_.stop(); });
   run_.start();
   if (killed_) {

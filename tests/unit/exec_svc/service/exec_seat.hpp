@@ -26,22 +26,25 @@ class ExecSeat {
   // `vendor` of the executive's transport; the others use `vendor_of_others`. `journalled`: what an earlier
   // start left in the journal. `mission`: its folder.
   explicit ExecSeat(const std::string& vendor = "inproc", const std::string& vendor_of_others = "inproc",
-                    int domain = services::next_domain(), const std::vector<GoalRecord>& journalled = {},
+                    int domain = services::next_domain(),
+                    const std::vector<goals::GoalRecord>& journalled = {},
                     std::filesystem::path mission = ROCI_SOURCE_DIR "/missions/planetary");
   ~ExecSeat();
 
-  void send(services::Time when, const v1::Goal& goal);
+  void send(temporal::Time when, const v1::Goal& goal);
   // The executive dies then without a word, and starts again as its next incarnation.
-  void kill_executive_at(services::Time when);
+  void kill_executive_at(temporal::Time when);
   // With it the planner dies, and is back before it.
-  void kill_both_at(services::Time when);
-  void at(services::Time when, std::function<void()> what) { robot_.at(when, std::move(what)); }
-  void run_until(services::Time end);
+  void kill_both_at(temporal::Time when);
+  void at(temporal::Time when, std::function<void()> what) { robot_.at(when, std::move(what)); }
+  void run_until(temporal::Time end);
 
   services::SimRun& run() { return run_; }
   services::Node& robot() { return robot_; }
   // As after a crash: what stands in the file now.
-  Journal journal() const { return Journal(folder_ / "journal.sqlite", Durability::process); }
+  journal::Journal journal() const {
+    return journal::Journal(folder_ / "journal.sqlite", journal::Durability::process);
+  }
   std::string summary() const;
 
   std::vector<std::string> statuses;  // "id state reason", as they came
@@ -67,7 +70,7 @@ class ExecSeat {
   services::Publisher<v1::Observation> observations_;
   services::Publisher<v1::CommandAck> acks_;
   std::unique_ptr<services::Service> executive_;
-  std::map<std::pair<std::string, std::uint32_t>, v1::CommandStage> words_;  // the last on each key
+  std::map<std::pair<std::string, std::uint32_t>, v1::CommandStage> messages_;  // the last on each key
   bool killed_ = false;
   bool planner_killed_ = false;
 };

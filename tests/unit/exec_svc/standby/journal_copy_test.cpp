@@ -9,11 +9,23 @@
 #include "exec_svc/standby/journal_feed.hpp"
 
 namespace roci::exec {
+
+using goals::GoalRecord;
+using journal::Batch;
+using journal::Durability;
+using journal::Journal;
+using journal::JournalError;
+using journal::kForkedHistory;
+using journal::Position;
+using standby::Chunk;
+using standby::JournalCopy;
+using standby::JournalFeed;
+
 namespace {
 
 using namespace std::chrono_literals;
 using temporal::seconds;
-using Taken = JournalCopy::Taken;
+using Result = JournalCopy::Result;
 
 std::string everything(const Journal& journal) {
   std::string out;
@@ -65,8 +77,8 @@ class JournalCopyTest : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-Parcel parcel_of(const Batch& batch) {
-  Parcel out{batch.at.epoch, batch.after, batch.at, 0, 0, 0, batch.changes};
+Chunk parcel_of(const Batch& batch) {
+  Chunk out{batch.at.epoch, batch.after, batch.at, 0, 0, 0, batch.changes};
   out.checksum = checksum(out);
   return out;
 }
@@ -77,7 +89,8 @@ TEST_F(JournalCopyTest, BatchAfterBatchTheCopyIsTheJournal) {
   JournalCopy copy(other);
   for (int step = 1; step <= 60; ++step) {
     write_step(journal, step);
-    for (const Batch& batch : journal.take_batches()) EXPECT_EQ(copy.take(parcel_of(batch), 3), Taken::batch);
+    for (const Batch& batch : journal.take_batches())
+      EXPECT_EQ(copy.take(parcel_of(batch), 3), Result::batch);
     ASSERT_TRUE(everything(other) == everything(journal)) << step;
     ASSERT_EQ(other.position(), journal.position());
   }
@@ -104,16 +117,16 @@ TEST_F(JournalCopyTest, EachBatchIsTakenOnceInOrderAndUnharmed) {
   const auto batches = journal.take_batches();
   ASSERT_EQ(batches.size(), 3U);
   JournalCopy copy(other);
-  EXPECT_EQ(copy.take(parcel_of(batches[0]), 2), Taken::batch);
-  EXPECT_EQ(copy.take(parcel_of(batches[0]), 2), Taken::known);
-  EXPECT_EQ(copy.take(parcel_of(batches[2]), 2), Taken::gap);
-  EXPECT_EQ(copy.take(parcel_of(batches[1]), 4), Taken::old) << "another leads already";
-  Parcel garbled = parcel_of(batches[1]);
+  EXPECT_EQ(copy.take(parcel_of(batches[0]), 2), Result::batch);
+  EXPECT_EQ(copy.take(parcel_of(batches[0]), 2), Result::known);
+  EXPECT_EQ(copy.take(parcel_of(batches[2]), 2), Result::gap);
+  EXPECT_EQ(copy.take(parcel_of(batches[1]), 4), Result::old) << "another leads already";
+  Chunk garbled = parcel_of(batches[1]);
   garbled.bytes[garbled.bytes.size() / 2] ^= 4;
-  EXPECT_EQ(copy.take(garbled, 2), Taken::corrupt);
+  EXPECT_EQ(copy.take(garbled, 2), Result::corrupt);
   EXPECT_EQ(copy.has(), batches[0].at);
-  EXPECT_EQ(copy.take(parcel_of(batches[1]), 2), Taken::batch);
-  EXPECT_EQ(copy.take(parcel_of(batches[2]), 2), Taken::batch);
+  EXPECT_EQ(copy.take(parcel_of(batches[1]), 2), Result::batch);
+  EXPECT_EQ(copy.take(parcel_of(batches[2]), 2), Result::batch);
   EXPECT_TRUE(everything(other) == everything(journal));
 }
 
@@ -128,7 +141,7 @@ TEST_F(JournalCopyTest, NoGarbledParcelGetsThrough) {
   const std::string before = everything(other);
   std::mt19937_64 random(3);
   for (int i = 0; i < 2000; ++i) {
-    Parcel garbled = parcel_of(batches[1]);
+    Chunk garbled = parcel_of(batches[1]);
     const auto bit = std::uint64_t{1} << random() % 64;
     switch (random() % 5) {
       case 0:
@@ -146,7 +159,7 @@ TEST_F(JournalCopyTest, NoGarbledParcelGetsThrough) {
       default:
         garbled.bytes[random() % garbled.bytes.size()] ^= static_cast<char>(1 + random() % 255);
     }
-    ASSERT_EQ(copy.take(garbled, 2), Taken::corrupt);
+    ASSERT_EQ(copy.take(garbled, 2), Result::corrupt);
   }
   EXPECT_EQ(everything(other), before);
   EXPECT_EQ(copy.has(), batches[0].at);
@@ -172,8 +185,8 @@ TEST_F(JournalCopyTest, AfterABatchThatDoesNotFitTheWholeJournalIsWanted) {
   JournalCopy copy(other);
   Batch batch = journal.take_batches().at(0);
   batch.changes = "no changes";
-  EXPECT_EQ(copy.take(parcel_of(batch), 2), Taken::corrupt);
-  EXPECT_EQ(copy.has(), kOwnPast);
+  EXPECT_EQ(copy.take(parcel_of(batch), 2), Result::corrupt);
+  EXPECT_EQ(copy.has(), kForkedHistory);
 }
 
 TEST_F(JournalCopyTest, AJournalWithAnotherPastIsReplaced) {
@@ -186,11 +199,11 @@ TEST_F(JournalCopyTest, AJournalWithAnotherPastIsReplaced) {
   JournalCopy copy(other);
   feed.hear(copy.has(), copy.arrival(), 0us);
   int parts = 0;
-  for (auto due = feed.due(0us, [&] { return journal.whole(); }); !due.empty();
-       due = feed.due(0us, [&] { return journal.whole(); })) {
-    for (const Parcel& parcel : due) {
-      const Taken taken = copy.take(parcel, 2);
-      ASSERT_TRUE(taken == Taken::part || taken == Taken::whole);
+  for (auto due = feed.due(0us, [&] { return journal.serialized(); }); !due.empty();
+       due = feed.due(0us, [&] { return journal.serialized(); })) {
+    for (const Chunk& chunk : due) {
+      const Result taken = copy.take(chunk, 2);
+      ASSERT_TRUE(taken == Result::part || taken == Result::whole);
       ++parts;
     }
     feed.hear(copy.has(), copy.arrival(), 0us);
@@ -204,10 +217,10 @@ TEST_F(JournalCopyTest, WhatIsNoJournalReplacesNothing) {
   Journal other = open("copy");
   write_step(other, 1);
   const std::string before = everything(other);
-  const std::string whole = other.whole();
+  const std::string whole = other.serialized();
   for (const std::string& bytes :
        {std::string("no journal"), std::string(), whole.substr(0, whole.size() / 2)})
-    EXPECT_THROW(other.become(bytes), JournalError);
+    EXPECT_THROW(other.replace_with(bytes), JournalError);
   EXPECT_EQ(everything(other), before);
 }
 
@@ -215,7 +228,7 @@ TEST_F(JournalCopyTest, TheWholeJournalLeavesOutWhatIsNotCommitted) {
   Journal journal = open("journal"), other = open("copy");
   write_step(journal, 1);
   journal.put_peer("arm_svc", 1);
-  other.become(journal.whole());
+  other.replace_with(journal.serialized());
   EXPECT_TRUE(other.peers().empty());
 }
 
@@ -230,17 +243,17 @@ TEST_F(JournalCopyTest, OverABadChannelTheCopyBecomesTheJournal) {
     journal.take_batches();
     JournalFeed feed(1, journal.position());
     auto copy = std::make_unique<JournalCopy>(other);
-    std::vector<Parcel> under_way;
+    std::vector<Chunk> under_way;
     for (int step = 20; step < 400; ++step) {
       const JournalFeed::Moment now = 100ms * step;
       if (step < 300) write_step(journal, step);
       for (Batch& batch : journal.take_batches()) feed.add(std::move(batch));
-      for (Parcel& parcel : feed.due(now, [&] { return journal.whole(); })) {
+      for (Chunk& chunk : feed.due(now, [&] { return journal.serialized(); })) {
         const bool bad = step < 300;
         if (bad && chance(10)) continue;
-        if (bad && chance(5)) parcel.bytes[random() % parcel.bytes.size()] ^= 1;
-        if (bad && chance(10)) under_way.push_back(parcel);
-        under_way.push_back(std::move(parcel));
+        if (bad && chance(5)) chunk.bytes[random() % chunk.bytes.size()] ^= 1;
+        if (bad && chance(10)) under_way.push_back(chunk);
+        under_way.push_back(std::move(chunk));
         if (bad && chance(10)) std::swap(under_way.front(), under_way.back());
       }
       while (!under_way.empty() && !chance(1)) {

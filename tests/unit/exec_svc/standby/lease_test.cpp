@@ -7,6 +7,10 @@
 #include "tests/unit/exec_svc/standby/pair_world.hpp"
 
 namespace roci::exec {
+
+using standby::Lease;
+using standby::Member;
+
 namespace {
 
 using namespace std::chrono_literals;
@@ -133,11 +137,11 @@ TEST(Lease, WithoutItsFollowerALeaderGoesOnAlone) {
   world.run(2350ms);  // a second of patience, then term and margin
   EXPECT_EQ(world.acknowledged(), 1U);
   EXPECT_EQ(world.last_change(kFirst), Lease::Change::alone);
-  EXPECT_TRUE(world.disk(kFirst).standing.alone);
+  EXPECT_TRUE(world.disk(kFirst).persisted_term.alone);
   world.start(kSecond);
   world.run(2s);
   EXPECT_EQ(world.last_change(kFirst), Lease::Change::paired);
-  EXPECT_FALSE(world.disk(kFirst).standing.alone);
+  EXPECT_FALSE(world.disk(kFirst).persisted_term.alone);
   EXPECT_TRUE(world.has_goal(kSecond, 1));
 }
 

@@ -4,6 +4,14 @@
 #include <utility>
 
 namespace roci::exec::testing {
+
+using journal::Position;
+using standby::Lease;
+using standby::LeaseSettings;
+using standby::Member;
+using standby::Moment;
+using standby::Role;
+
 namespace {
 
 constexpr Moment kStep = std::chrono::milliseconds(10);
@@ -21,7 +29,7 @@ PairWorld::PairWorld(std::uint64_t seed, const LeaseSettings& settings) : random
 
 void PairWorld::start(Member member, bool superseded) {
   Process& process = at(member);
-  process.lease = std::make_unique<Lease>(member, settings_, process.disk.standing, superseded, now_);
+  process.lease = std::make_unique<Lease>(member, settings_, process.disk.persisted_term, superseded, now_);
   process.paused = false;
   process.unsent.clear();
   process.late.reset();
@@ -65,15 +73,16 @@ void PairWorld::act(Member member) {
     return true;
   });
   for (const Message& message : mine) take(member, message);
-  const bool by_right = process.lease->word(process.disk.newest()).entitled && !process.disk.standing.alone;
+  const bool by_right =
+      process.lease->message(process.disk.newest()).entitled && !process.disk.persisted_term.alone;
   const Lease::Turn turn = process.lease->turn(process.disk.newest(), now_);
-  process.disk.standing = process.lease->standing();
+  process.disk.persisted_term = process.lease->persisted_term();
   if (turn.change != Lease::Change::none) process.last_change = turn.change;
   if (turn.change == Lease::Change::stand_down) return start(member, process.lease->superseded());
   if (turn.change == Lease::Change::lead && by_right) check_right(process);
   if (turn.doubtful) ledger_.clear();  // it plans anew, and lacks what it lacks
   if (turn.change == Lease::Change::lead) lead(member);
-  if (turn.speak) post({{}, other(member), process.lease->word(process.disk.newest()), 0, {}, {}, false});
+  if (turn.speak) post({{}, other(member), process.lease->message(process.disk.newest()), 0, {}, {}, false});
   if (process.lease->role() != Role::leading) return;
   work(member);
   feed(member);
@@ -82,9 +91,9 @@ void PairWorld::act(Member member) {
 
 void PairWorld::take(Member member, const Message& message) {
   Process& process = at(member);
-  if (message.word) {
-    process.lease->hear(*message.word, now_);
-    process.other = message.word;
+  if (message.message) {
+    process.lease->hear(*message.message, now_);
+    process.other = message.message;
     return;
   }
   if (process.lease->role() == Role::leading || message.leader < process.lease->epoch()) return;
@@ -93,12 +102,12 @@ void PairWorld::take(Member member, const Message& message) {
     // Goals that only this one knew are asked for again.
     for (const Line& line : std::exchange(process.disk.lines, message.lines)) {
       if (line.text.starts_with("goal ") && !contains(process.disk.lines, line.text))
-        wanted_.insert(std::stoi(line.text.substr(5)));
+        replan_wanted_.insert(std::stoi(line.text.substr(5)));
     }
   } else if (message.after == process.disk.newest()) {
     process.disk.lines.insert(process.disk.lines.end(), message.lines.begin(), message.lines.end());
   }
-  post({{}, other(member), process.lease->word(process.disk.newest()), 0, {}, {}, false});
+  post({{}, other(member), process.lease->message(process.disk.newest()), 0, {}, {}, false});
 }
 
 // As after a restart: the owner is asked with the new epoch, and what was decided is sent again.
@@ -128,7 +137,7 @@ void PairWorld::check_right(const Process& process) {
 
 void PairWorld::work(Member member) {
   Process& process = at(member);
-  for (const int goal : wanted_) {
+  for (const int goal : replan_wanted_) {
     const std::string text = "goal " + std::to_string(goal);
     if (!contains(process.disk.lines, text)) commit(process, text);
   }
@@ -174,7 +183,7 @@ void PairWorld::command(Member member, const Line& decision) {
   if (decision.text.starts_with("goal ")) {
     const int goal = std::stoi(decision.text.substr(5));
     acknowledged_.insert(goal);
-    wanted_.erase(goal);
+    replan_wanted_.erase(goal);
     return;
   }
   if (epoch < owner_epoch_) {

@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using namespace testing;
-using services::CallStatus;
+using services::rpc::CallStatus;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -31,11 +31,11 @@ v1::PlanReply reply_to(RoadPlanning& planning, const v1::PlanRequest& request) {
     ADD_FAILURE() << planning.replies().size() << " replies";
     return {};
   }
-  EXPECT_EQ(planning.replies()[0].result.status, CallStatus::ok) << planning.replies()[0].result.message;
+  EXPECT_EQ(planning.replies()[0].result.status, CallStatus::ok) << planning.replies()[0].result.reason;
   return planning.replies()[0].result.reply;
 }
 
-v1::FunctionReply without_the_direct_road(const v1::FunctionRequest& request, services::Time now) {
+v1::FunctionReply without_the_direct_road(const v1::FunctionRequest& request, temporal::Time now) {
   v1::FunctionReply reply = ten_seconds(request, now);
   reply.results()[0].outcomes()[2] = v1::FUNCTION_UNREACHABLE;  // a c
   return reply;

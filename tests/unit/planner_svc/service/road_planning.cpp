@@ -54,12 +54,12 @@ std::string road_problem(const std::string& goal) {
 v1::PlanRequest plan_request(const std::string& domain, const std::string& problem) {
   v1::PlanRequest out;
   out.engine("temporal_pddl");
-  out.domain_text(domain);
+  out.model(domain);
   out.problem_text(problem);
   return out;
 }
 
-v1::FunctionReply ten_seconds(const v1::FunctionRequest& request, services::Time now) {
+v1::FunctionReply ten_seconds(const v1::FunctionRequest& request, temporal::Time now) {
   v1::FunctionReply out;
   out.owner("roads_svc");
   out.model_version(7);
@@ -109,7 +109,7 @@ RoadPlanning::~RoadPlanning() {
   std::filesystem::remove_all(mission_);
 }
 
-void RoadPlanning::ask(services::Time when, const v1::PlanRequest& request) {
+void RoadPlanning::ask(temporal::Time when, const v1::PlanRequest& request) {
   client_.at(when, [this, request] {
     newest_ = planner_.call(request, "planner_svc", 1000s,
                             [this](const services::CallResult<v1::PlanReply>& result) {
@@ -118,11 +118,11 @@ void RoadPlanning::ask(services::Time when, const v1::PlanRequest& request) {
   });
 }
 
-void RoadPlanning::cancel(services::Time when) {
+void RoadPlanning::cancel(temporal::Time when) {
   client_.at(when, [this] { planner_.cancel(newest_); });
 }
 
-void RoadPlanning::run_until(services::Time end) {
+void RoadPlanning::run_until(temporal::Time end) {
   client_.at(end, [this] { client_.stop(); });
   run_.run();
 }

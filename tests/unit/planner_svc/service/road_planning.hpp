@@ -35,13 +35,13 @@ std::string road_problem(const std::string& goal = "(at c)");
 v1::PlanRequest plan_request(const std::string& domain, const std::string& problem);
 
 // An answer of roads_svc, map version 7: ten seconds for every tuple.
-v1::FunctionReply ten_seconds(const v1::FunctionRequest& request, services::Time now);
+v1::FunctionReply ten_seconds(const v1::FunctionRequest& request, temporal::Time now);
 
 // "go a c, …": what a plan does, in the order of its activities.
 std::string steps_of(const v1::Plan& plan);
 
 struct TimedReply {
-  services::Time time{0};
+  temporal::Time time{0};
   services::CallResult<v1::PlanReply> result;
 };
 
@@ -56,11 +56,11 @@ class RoadPlanning {
 
   // From now on the owner answers so.
   void owner_answers(Answer answer) { answer_ = std::move(answer); }
-  void ask(services::Time when, const v1::PlanRequest& request);
+  void ask(temporal::Time when, const v1::PlanRequest& request);
   // The newest call of then.
-  void cancel(services::Time when);
+  void cancel(temporal::Time when);
   // Until `end`; mission time only.
-  void run_until(services::Time end);
+  void run_until(temporal::Time end);
 
   services::Node& owner() { return owner_; }
   services::Node& client() { return client_; }
@@ -79,7 +79,7 @@ class RoadPlanning {
   std::unique_ptr<services::Service> service_;
   Answer answer_;
   int requests_for_values_ = 0;
-  services::CallId newest_ = 0;
+  services::rpc::CallId newest_ = 0;
   std::vector<TimedReply> replies_;
   std::vector<v1::Event> events_;
 };

@@ -8,6 +8,9 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using call::Options;
+using search::BestFirstSearch;
+
 // A key at the other end of a corridor opens a door at this one: the way there and the way back are together
 // always as long. From everywhere lamps can be switched, and with all of them lit one can jump to the key,
 // which takes more than to walk.
@@ -53,8 +56,8 @@ std::size_t evaluations(const testing::Model& model, const Options& options) {
 
 TEST(BestFirstSearch, NoveltyLeadsAcrossPlateaus) {
   Options without;
-  without.preferred_operators = without.landmarks = without.lookahead = without.width = without.serial =
-      without.novelty = false;
+  without.preferred_operators = without.landmarks = without.lookahead = without.best_first_width =
+      without.goal_serialization = without.novelty = false;
   Options with = without;
   with.novelty = true;
   const testing::Model model = fetch(8);

@@ -9,6 +9,8 @@ namespace roci::planner::temporal_pddl::testing {
 
 namespace {
 
+using temporal::Duration;
+
 constexpr long kEpsilon = 1;
 constexpr long kSecond = 1000;  // in units of ε
 constexpr long kNone = std::numeric_limits<long>::min() / 4;

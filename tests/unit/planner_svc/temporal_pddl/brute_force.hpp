@@ -13,6 +13,6 @@ namespace roci::planner::temporal_pddl::testing {
 
 bool has_plan(const Model& model, std::size_t max_actions);
 // The shortest makespan of such plans; none: there are none.
-std::optional<Duration> best_makespan(const Model& model, std::size_t max_actions);
+std::optional<temporal::Duration> best_makespan(const Model& model, std::size_t max_actions);
 
 }  // namespace roci::planner::temporal_pddl::testing

@@ -12,6 +12,12 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using call::Budget;
+using call::Options;
+using call::WindowExtraction;
+using temporal::Duration;
+using temporal::Verdict;
+
 constexpr std::size_t kActions = 3;  // of the brute force plans
 
 constexpr std::size_t kNeverMeasured = std::numeric_limits<std::size_t>::max();
@@ -36,15 +42,15 @@ std::vector<Named> configurations() {
   result.push_back({"no landmarks", {}});
   result.back().options.landmarks = false;
   result.push_back({"no whole actions", {}});
-  result.back().options.whole_actions = false;
+  result.back().options.compress_all_actions = false;
   result.push_back({"no novelty", {}});
   result.back().options.novelty = false;
   result.push_back({"no lookahead", {}});
   result.back().options.lookahead = false;
   result.push_back({"no width", {}});
-  result.back().options.width = false;
+  result.back().options.best_first_width = false;
   result.push_back({"no serial search", {}});
-  result.back().options.serial = false;
+  result.back().options.goal_serialization = false;
   result.push_back({"timed literals as steps", {}});
   result.back().options.windows = WindowExtraction::none;
   result.push_back({"one-off windows", {}});
@@ -109,9 +115,9 @@ TEST(AgainstBruteForce, ResourcesCutOffNoPlan) {
     const testing::Model model = testing::random_task(random);
     with.compression_safety = round % 2 == 0;
     const Result result = testing::solved(model, with, budget);
-    cut += result.statistics.hopeless > 0;
+    cut += result.statistics.dead_ends > 0;
     told += result.reason.starts_with("the goals take");
-    if (result.statistics.hopeless == 0 || result.verdict != Verdict::unsolvable) continue;
+    if (result.statistics.dead_ends == 0 || result.verdict != Verdict::unsolvable) continue;
     EXPECT_NE(testing::solved(model, without, budget).verdict, Verdict::solved) << text(model);
     EXPECT_FALSE(testing::has_plan(model, kActions)) << result.reason << text(model);
   }

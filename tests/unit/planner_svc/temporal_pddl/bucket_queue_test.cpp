@@ -8,6 +8,9 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using heuristics::BucketQueue;
+using heuristics::PropositionId;
+
 // Dijkstra's use of it: what is pushed costs no less than what was taken last.
 TEST(BucketQueue, CheapestFirstThenOldest) {
   std::mt19937_64 random(3);

@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
-#include "planner_svc/temporal_pddl/plan/plan_text.hpp"
+#include "planner_svc/temporal_pddl/extraction/plan_text.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
 
 namespace roci::planner::temporal_pddl {
 namespace {
+
+using extraction::to_ipc;
+using call::Budget, call::Monitor, call::Options, call::Statistics;
+using temporal::Verdict;
 
 // Counts x up to a goal that needs many steps, without an end if the goal is out of reach.
 testing::Model counting(int goal) {

@@ -13,6 +13,9 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using call::Budget, call::Options, call::WindowExtraction;
+using task::Action, task::FactId, task::SnapId, task::Task, task::VariableId;
+using temporal::Duration, temporal::Verdict;
 using ::testing::UnorderedElementsAre;
 
 // What the snap action reads, by name.
@@ -121,7 +124,7 @@ TEST_P(ChoicesAgainstBruteForce, AgreesOnSolvability) {
   Budget budget;
   budget.evaluations = 1000;
   Options bare;
-  bare.compression_safety = bare.dominance = bare.whole_actions = false;
+  bare.compression_safety = bare.dominance = bare.compress_all_actions = false;
   bare.windows = WindowExtraction::none;
   std::size_t solved = 0, unsolvable = 0;
   for (int round = 0; round < 300; ++round) {

@@ -1,12 +1,13 @@
-#include "planner_svc/temporal_pddl/grounding/compression.hpp"
-
 #include <gtest/gtest.h>
 
+#include "planner_svc/temporal_pddl/grounding/invariants/compression_safety.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
 
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using grounding::invariants::Compression;
+using task::Task;
 using testing::action;
 
 // One domain, each action a case of the criterion.

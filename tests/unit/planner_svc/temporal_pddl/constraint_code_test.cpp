@@ -8,6 +8,14 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using constraints::decode;
+using constraints::encode;
+using constraints::BoundTable;
+using constraints::kMaxSteps;
+using constraints::StepConstraint;
+using temporal::Duration;
+using temporal::no_bound;
+
 constexpr Duration kEpsilon{1000};
 
 std::vector<std::uint8_t> code_of(const StepConstraint& constraint, BoundTable& bounds) {
@@ -20,10 +28,9 @@ std::vector<std::uint8_t> code_of(const StepConstraint& constraint, BoundTable& 
 // first.
 TEST(ConstraintCode, FourGoldenEncodings) {
   BoundTable bounds;
-  EXPECT_EQ(code_of({3, 5, Duration{0}, kUnbounded}, bounds),
+  EXPECT_EQ(code_of({3, 5, Duration{0}, no_bound}, bounds),
             (std::vector<std::uint8_t>{0x0c, 0x00, 0x0a, 0x00}));
-  EXPECT_EQ(code_of({3, 5, kEpsilon, kUnbounded}, bounds),
-            (std::vector<std::uint8_t>{0x0d, 0x00, 0x0a, 0x00}));
+  EXPECT_EQ(code_of({3, 5, kEpsilon, no_bound}, bounds), (std::vector<std::uint8_t>{0x0d, 0x00, 0x0a, 0x00}));
   EXPECT_EQ(code_of({3, 5, Duration{7}, Duration{7}}, bounds),
             (std::vector<std::uint8_t>{0x0e, 0x00, 0x0a, 0x00, 0x00}));
   EXPECT_EQ(code_of({3, 5, Duration{7}, Duration{9}}, bounds),
@@ -39,8 +46,8 @@ TEST(ConstraintCode, LargestStepsAndLongIndices) {
 
 TEST(ConstraintCode, RefusesStep32768) {
   BoundTable bounds;
-  EXPECT_THROW(code_of({0, 32767, kEpsilon, kUnbounded}, bounds), std::length_error);
-  EXPECT_THROW(code_of({32767, 0, kEpsilon, kUnbounded}, bounds), std::length_error);
+  EXPECT_THROW(code_of({0, 32767, kEpsilon, no_bound}, bounds), std::length_error);
+  EXPECT_THROW(code_of({32767, 0, kEpsilon, no_bound}, bounds), std::length_error);
 }
 
 TEST(ConstraintCode, RandomListsRoundTrip) {
@@ -64,7 +71,7 @@ TEST(ConstraintCode, RandomListsRoundTrip) {
           break;
         case 3:
           c.lower = some();
-          c.upper = c.lower > kUnbounded - Duration{100} ? kUnbounded : c.lower + Duration{random() % 100};
+          c.upper = c.lower > no_bound - Duration{100} ? no_bound : c.lower + Duration{random() % 100};
           break;
         case 4:
           c.lower = some();

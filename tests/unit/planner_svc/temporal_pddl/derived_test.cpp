@@ -12,6 +12,10 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using call::Budget, call::Options, call::WindowExtraction;
+using task::DerivationRule, task::DerivedFacts, task::FactId, task::IdVector, task::StateLayout, task::Word;
+using temporal::Verdict;
+
 constexpr std::size_t kNodes = 6;
 
 FactId edge(std::size_t a, std::size_t b) { return FactId(kNodes * a + b); }
@@ -20,7 +24,7 @@ FactId no_path(std::size_t a, std::size_t b) { return FactId(kNodes * (2 * kNode
 FactId apart(std::size_t a, std::size_t b) { return FactId(kNodes * (3 * kNodes + a) + b); }
 
 TEST(DerivedFacts, AreTheTransitiveClosureAndWhatItsNegationImplies) {
-  std::vector<FactRule> rules;
+  std::vector<DerivationRule> rules;
   for (std::size_t a = 0; a < kNodes; ++a) {
     for (std::size_t b = 0; b < kNodes; ++b) {
       rules.push_back({path(a, b), 0, {edge(a, b)}, {}});

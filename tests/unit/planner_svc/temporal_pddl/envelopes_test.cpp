@@ -1,15 +1,18 @@
 // What is long enough to hold what: which actions are left, and random envelopes against a count by hand.
-#include "planner_svc/temporal_pddl/grounding/envelopes.hpp"
+#include "planner_svc/temporal_pddl/grounding/simplification/envelopes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "planner_svc/temporal_pddl/grounding/refusal.hpp"
+#include "planner_svc/temporal_pddl/call/planning_failure.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/validated.hpp"
 
 namespace roci::planner::temporal_pddl {
 namespace {
+
+using task::Task;
+using temporal::Verdict;
 
 std::string envelope(const std::string& name, const std::string& fact, int seconds) {
   return "(:durative-action " + name + " :parameters () :duration (= ?duration " + std::to_string(seconds) +

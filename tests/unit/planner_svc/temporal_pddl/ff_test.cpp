@@ -13,8 +13,9 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
-using testing::action;
-using testing::fact;
+using heuristics::Estimate, heuristics::FfHeuristic;
+using task::ActionId, task::SnapId, task::Task, task::Word;
+using testing::action, testing::fact;
 using ::testing::UnorderedElementsAre;
 
 constexpr const char* kDomain = R"(

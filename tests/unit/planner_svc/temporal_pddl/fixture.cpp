@@ -1,9 +1,15 @@
 #include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
 
 #include "core/pddl/check.hpp"
-#include "planner_svc/temporal_pddl/watch.hpp"
+#include "planner_svc/temporal_pddl/call/search_limits.hpp"
 
 namespace roci::planner::temporal_pddl::testing {
+
+using grounding::ground;
+using call::Budget, call::Monitor, call::Options, call::SearchLimits;
+using grounding::Grounding;
+using grounding::lifted::FunctionUse;
+using task::ActionId, task::FactId, task::NumberId, task::Task;
 
 Model model(const std::string& domain, const std::string& problem) {
   Model result;
@@ -40,9 +46,9 @@ Grounding grounded(const Model& model, const Options& options) {
   NoFunctions functions;
   const Budget budget;
   const Monitor monitor;
-  Watch watch(budget, monitor);
+  SearchLimits limits(budget, monitor);
   std::vector<FunctionUse> used;
-  return ground(model.domain, model.problem, functions, options, watch, used);
+  return ground(model.domain, model.problem, functions, options, limits, used);
 }
 
 Result solved(const Model& model, const Options& options, const Budget& budget) {

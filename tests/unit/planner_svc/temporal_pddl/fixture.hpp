@@ -31,13 +31,13 @@ class MapFunctions final : public FunctionSource {
                                       const std::function<bool()>& cancelled) override;
 };
 
-Grounding grounded(const Model& model, const Options& options = {});
-Result solved(const Model& model, const Options& options = {}, const Budget& budget = {});
-Result solved(const Model& model, FunctionSource& functions, const Options& options = {});
+grounding::Grounding grounded(const Model& model, const call::Options& options = {});
+Result solved(const Model& model, const call::Options& options = {}, const call::Budget& budget = {});
+Result solved(const Model& model, FunctionSource& functions, const call::Options& options = {});
 
 // The ids of a grounding's things by their names; none if there are none.
-FactId fact(const Task& task, const std::string& name);
-ActionId action(const Task& task, const std::string& name);
-NumberId number(const Task& task, const std::string& name);
+task::FactId fact(const task::Task& task, const std::string& name);
+task::ActionId action(const task::Task& task, const std::string& name);
+task::NumberId number(const task::Task& task, const std::string& name);
 
 }  // namespace roci::planner::temporal_pddl::testing

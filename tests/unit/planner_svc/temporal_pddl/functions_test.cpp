@@ -8,6 +8,8 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using grounding::lifted::FunctionUse;
+using temporal::Verdict;
 using testing::MapFunctions;
 
 // Stellar, figure 2, verbatim, in a domain that uses it.
@@ -68,7 +70,7 @@ TEST(Functions, EachOtherOutcomeIsNamed) {
     MapFunctions functions = all_values();
     functions.set("(ra_move_dur b c)", outcome);
     functions.answers["(ra_move_dur b c)"].provenance.owner = "arm_svc";
-    functions.answers["(ra_move_dur b c)"].detail = "motor cold";
+    functions.answers["(ra_move_dur b c)"].reason = "motor cold";
     const Result result = testing::solved(arm(), functions);
     EXPECT_EQ(result.verdict, Verdict::function_unavailable);
     for (const char* part :

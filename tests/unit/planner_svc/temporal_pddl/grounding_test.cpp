@@ -9,10 +9,12 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
-using testing::action;
-using testing::fact;
-using testing::grounded;
-using testing::model;
+using call::Options, call::WindowExtraction;
+using grounding::Grounding;
+using task::Action, task::ActionId, task::FactId, task::NumericCondition, task::SnapId, task::Task,
+    task::TimeWindow;
+using temporal::Duration, temporal::Verdict, temporal::no_bound;
+using testing::action, testing::fact, testing::grounded, testing::model;
 
 std::vector<std::string> actions(const Task& task) {
   std::vector<std::string> names;
@@ -133,7 +135,7 @@ TEST(Grounding, ConditionalEffectsHappenOrNot) {
       :effect (and (at end (when (wet) (g))) (when (at start (dry)) (at end (h))))))",
                           "(:init (dry)) (:goal (and (g) (h)))");
   Options options;
-  options.whole_actions = false;  // else it walks twice
+  options.compress_all_actions = false;  // else it walks twice
   const Result result = testing::solved(made, options);
   ASSERT_TRUE(result.plan);
   // walk starts dry, rain falls meanwhile, walk ends wet
@@ -229,7 +231,7 @@ TEST_F(Windows, RecurringOnesAreNotOneOff) {
   EXPECT_EQ(task(init, WindowExtraction::one_off).timed_steps.size(), 5u);
   // the second one is too short for the action
   EXPECT_EQ(starts(task(init, WindowExtraction::recurring)),
-            (std::vector<TimeWindow>{{10001 * kMs, 18000 * kMs}, {40001 * kMs, kUnbounded}}));
+            (std::vector<TimeWindow>{{10001 * kMs, 18000 * kMs}, {40001 * kMs, no_bound}}));
 }
 
 }  // namespace

@@ -4,15 +4,28 @@
 
 #include "core/pddl/printer.hpp"
 #include "planner_svc/temporal_pddl/heuristics/ff.hpp"
-#include "planner_svc/temporal_pddl/improvement/earliest_finish.hpp"
-#include "planner_svc/temporal_pddl/improvement/elimination.hpp"
-#include "planner_svc/temporal_pddl/improvement/neighbourhood.hpp"
+#include "planner_svc/temporal_pddl/improvement/action_elimination.hpp"
+#include "planner_svc/temporal_pddl/improvement/large_neighbourhood_search.hpp"
+#include "planner_svc/temporal_pddl/improvement/relaxed_schedule.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/brute_force.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/random_task.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/validated.hpp"
 
 namespace roci::planner::temporal_pddl {
 namespace {
+
+using extraction::to_ipc;
+using improvement::eliminate_useless_actions;
+using improvement::quality_of;
+using dead_ends::DeadEndDetectors;
+using call::Budget, call::Monitor, call::Options, call::SearchLimits, call::Statistics;
+using constraints::ReleaseTimes;
+using extraction::Activity;
+using heuristics::CostMeasure, heuristics::FfHeuristic;
+using improvement::LargeNeighbourhoodSearch, improvement::PlanReplay, improvement::RelaxedSchedule;
+using search::Guide;
+using task::Action, task::SnapId, task::Task, task::Word;
+using temporal::Duration, temporal::Verdict, temporal::no_bound;
 
 const testing::Model& roads() {
   static const testing::Model made = testing::model(R"(
@@ -45,7 +58,7 @@ std::vector<SnapId> both_steps(const Task& task, std::initializer_list<const cha
 
 TEST(Elimination, DropsWhatServesNothingAndWhatDependsOnIt) {
   const Task task = testing::grounded(roads()).task;
-  Replay replay(task, Duration{1000});
+  PlanReplay replay(task, Duration{1000});
   // there and back again, before the way to the goal
   const auto steps = both_steps(
       task, {"(drive a b)", "(see b)", "(drive b a)", "(polish)", "(drive a b)", "(drive b c)", "(see c)"});
@@ -53,27 +66,27 @@ TEST(Elimination, DropsWhatServesNothingAndWhatDependsOnIt) {
   ASSERT_TRUE(plan);
   Budget budget;
   Monitor monitor;
-  Watch watch(budget, monitor);
-  drop_useless_actions(task, *plan, replay, 10'000, watch);
+  SearchLimits limits(budget, monitor);
+  eliminate_useless_actions(task, *plan, replay, 10'000, limits);
   EXPECT_EQ(plan->steps, both_steps(task, {"(polish)", "(drive a b)", "(drive b c)", "(see c)"}));
 }
 
 TEST(Elimination, KeepsToItsWork) {
   const Task task = testing::grounded(roads()).task;
-  Replay replay(task, Duration{1000});
+  PlanReplay replay(task, Duration{1000});
   const auto steps = both_steps(task, {"(drive a b)", "(see b)", "(polish)", "(drive b c)", "(see c)"});
   auto plan = replay.run(steps, {});
   ASSERT_TRUE(plan);
   Budget budget;
   Monitor monitor;
-  Watch watch(budget, monitor);
-  drop_useless_actions(task, *plan, replay, 0, watch);
+  SearchLimits limits(budget, monitor);
+  eliminate_useless_actions(task, *plan, replay, 0, limits);
   EXPECT_EQ(plan->steps, steps);
 }
 
-TEST(Replay, NoPlanWithoutWhatIsNeeded) {
+TEST(PlanReplay, NoPlanWithoutWhatIsNeeded) {
   const Task task = testing::grounded(roads()).task;
-  Replay replay(task, Duration{1000});
+  PlanReplay replay(task, Duration{1000});
   const auto steps = both_steps(task, {"(polish)", "(drive a c)", "(see c)"});
   EXPECT_TRUE(replay.run(steps, {}));
   for (const std::uint32_t dropped : {0u, 2u, 4u}) EXPECT_FALSE(replay.run(steps, std::vector{dropped}));
@@ -92,47 +105,49 @@ const testing::Model& visits() {
   return made;
 }
 
-TEST(EarliestFinish, SendsWhoIsFree) {
+TEST(RelaxedSchedule, SendsWhoIsFree) {
   const Task task = testing::grounded(visits()).task;
-  Replay replay(task, Duration{1000});
+  PlanReplay replay(task, Duration{1000});
   const auto busy = replay.rest(both_steps(task, {"(visit r1 s1)", "(visit r1 s2)"}), {});
   ASSERT_TRUE(busy);
-  TimeFreedom freedom(task);
-  freedom.measure(busy->steps, *replay.check().earliest(*busy));
+  ReleaseTimes release_times(task);
+  release_times.measure(busy->steps, *replay.check().earliest(*busy));
   std::vector<Word> state = task.initial_state;
   for (const char* done : {"(done s1)", "(done s2)"}) task.layout.add(state, testing::fact(task, done));
-  EarliestFinish finish(task);
+  RelaxedSchedule finish(task);
   // r1 is back at 40.001 s only; r2 has been free all the time, for one after the other.
-  EXPECT_EQ(finish.measure({state, {}, 0, &freedom, {}, busy->steps}), 40'000'000);
+  EXPECT_EQ(finish.measure({state, {}, 0, &release_times, {}, busy->steps}), Duration{40'000'000});
   const auto start = [&](const char* name) { return task.actions[testing::action(task, name)].start; };
   EXPECT_EQ(std::vector(finish.preferred().begin(), finish.preferred().end()),
             (std::vector{start("(visit r2 s4)"), start("(visit r2 s3)")}));
-  finish.limit(15'000'000);
-  EXPECT_EQ(finish.measure({state, {}, 0, &freedom, {}, busy->steps}), kNever);
+  finish.limit(Duration{15'000'000});
+  EXPECT_EQ(finish.measure({state, {}, 0, &release_times, {}, busy->steps}), no_bound);
 }
 
-TEST(Neighbourhood, SharesOutWhatOneDoes) {
+TEST(LargeNeighbourhoodSearch, SharesOutWhatOneDoes) {
   const Task task = testing::grounded(visits()).task;
-  Replay replay(task, Duration{1000});
+  PlanReplay replay(task, Duration{1000});
   auto plan =
       replay.run(both_steps(task, {"(visit r1 s1)", "(visit r1 s2)", "(visit r1 s3)", "(visit r1 s4)"}), {});
   ASSERT_TRUE(plan);
   Budget budget;
   Monitor monitor;
-  Watch watch(budget, monitor);
+  SearchLimits limits(budget, monitor);
   Statistics statistics;
   FfHeuristic ff(task);
-  const std::vector<Guide> guides{{ff, CostMeasure::duration}};
-  Neighbourhood neighbourhood(task, guides, {}, watch, statistics);
-  Ticks makespan = quality_of(task, *plan, replay.check()).makespan;
-  EXPECT_EQ(makespan, 80'003'000);
+  DeadEndDetectors detectors;
+  const std::vector<Guide> guides{{ff, detectors}};
+  const Options options;
+  LargeNeighbourhoodSearch neighbourhood({task, options, limits, statistics}, guides);
+  Duration makespan = quality_of(task, *plan, replay.check()).makespan;
+  EXPECT_EQ(makespan, Duration{80'003'000});
   for (int tries = 0; tries < 60; ++tries) {
     neighbourhood.vary(*plan, replay);
-    const Ticks now = quality_of(task, *plan, replay.check()).makespan;
+    const Duration now = quality_of(task, *plan, replay.check()).makespan;
     EXPECT_LE(now, makespan);
     makespan = now;
   }
-  EXPECT_EQ(makespan, 40'001'000);
+  EXPECT_EQ(makespan, Duration{40'001'000});
 }
 
 // Brute force keeps apart what only adds the same fact.

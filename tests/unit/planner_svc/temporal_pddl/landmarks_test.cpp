@@ -6,7 +6,7 @@
 
 #include <limits>
 
-#include "planner_svc/temporal_pddl/grounding/refusal.hpp"
+#include "planner_svc/temporal_pddl/call/planning_failure.hpp"
 #include "planner_svc/temporal_pddl/heuristics/landmark_count.hpp"
 #include "planner_svc/temporal_pddl/search/best_first_search.hpp"
 #include "planner_svc/temporal_pddl/task/semantics.hpp"
@@ -16,6 +16,12 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using dead_ends::DeadEndDetectors;
+using call::Budget, call::Monitor, call::Options, call::PlanningFailure, call::SearchLimits, call::Statistics;
+using heuristics::Estimate, heuristics::FfHeuristic, heuristics::Landmark, heuristics::LandmarkCount,
+    heuristics::LandmarkId, heuristics::PropositionId, heuristics::RelaxedTask;
+using search::BestFirstSearch, search::SearchStyle;
+using task::Action, task::FactId, task::Semantics, task::SnapId, task::Task;
 using testing::fact;
 
 constexpr const char* kCarts = R"(
@@ -39,7 +45,7 @@ const testing::Model& carts() {
 
 class Landmarks : public ::testing::Test {
  protected:
-  Landmarks() : task_(testing::grounded(carts()).task), ff_(task_), count_(task_, ff_, watch_) {}
+  Landmarks() : task_(testing::grounded(carts()).task), ff_(task_), count_(task_, ff_, limits_) {}
 
   LandmarkId of(const std::vector<std::string>& facts) const {
     std::vector<PropositionId> any_of;
@@ -56,7 +62,7 @@ class Landmarks : public ::testing::Test {
 
   Budget budget_;
   Monitor monitor_;
-  Watch watch_{budget_, monitor_};
+  SearchLimits limits_{budget_, monitor_};
   Task task_;
   FfHeuristic ff_;
   LandmarkCount count_;
@@ -105,8 +111,8 @@ std::int64_t open_after(const testing::Model& model, const std::vector<std::stri
   FfHeuristic ff(task);
   Budget budget;
   Monitor monitor;
-  const Watch watch(budget, monitor);
-  LandmarkCount count(task, ff, watch);
+  const SearchLimits limits(budget, monitor);
+  LandmarkCount count(task, ff, limits);
   const Semantics semantics(task);
   std::vector<SnapId> steps;
   auto state = task.initial_state;
@@ -157,17 +163,18 @@ TEST(LandmarksOfRandomTasks, EveryPlanMakesEachTrue) {
     Task task;
     try {
       task = testing::grounded(testing::random_task(random)).task;
-    } catch (const Refusal&) {
+    } catch (const PlanningFailure&) {
       continue;  // proved unsolvable
     }
     Budget budget;
     Monitor monitor;
-    Watch watch(budget, monitor);
+    SearchLimits limits(budget, monitor);
     FfHeuristic ff(task);
-    const LandmarkCount count(task, ff, watch);
+    const LandmarkCount count(task, ff, limits);
     Statistics statistics;
     Options options;
-    BestFirstSearch search(task, ff, options, SearchStyle{}, watch, statistics);
+    DeadEndDetectors detectors;
+    BestFirstSearch search({task, options, limits, statistics}, {ff, detectors}, SearchStyle{});
     const auto outcome = search.run(500, 0);
     if (!outcome || !outcome->plan) continue;
     std::vector<bool> held(ff.relaxed().propositions(), false);

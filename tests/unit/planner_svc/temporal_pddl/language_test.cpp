@@ -7,6 +7,8 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using temporal::Verdict;
+
 struct Row {
   const char* name;
   const char* domain;

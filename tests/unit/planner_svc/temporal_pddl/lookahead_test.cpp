@@ -12,6 +12,10 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using call::Options;
+using search::Lookahead, search::NodeId, search::PlanPrefix, search::StateSpace, search::Successor;
+using task::ActionCompression, task::SnapId, task::SnapKind, task::Task;
+using temporal::Duration;
 using ::testing::ElementsAre;
 
 // A match gives light for 5 s, in which a fuse can be mended; (burn) needs what only (never) brings.
@@ -31,7 +35,8 @@ testing::Model cellar() {
 class LookaheadTest : public ::testing::Test {
  protected:
   LookaheadTest()
-      : task_(testing::grounded(cellar()).task), space_(task_, Duration(1000), ActionSteps::as_needed) {
+      : task_(testing::grounded(cellar()).task),
+        space_(task_, Duration(1000), ActionCompression::where_safe) {
     first_.state = task_.initial_state;
     space_.add(NodeId(), first_);
   }
@@ -77,7 +82,7 @@ TEST(LookaheadOrder, WhoeverLeavesAPlaceHasDoneWhatWasToBeDoneThere) {
       :condition (over all (there)) :effect (at end (rested))))",
                                              "(:init (here)) (:goal (and (painted) (rested)))");
   const Task task = testing::grounded(room).task;
-  StateSpace space(task, Duration(1000), ActionSteps::whole);
+  StateSpace space(task, Duration(1000), ActionCompression::always);
   Successor first, last;
   first.state = task.initial_state;
   space.add(NodeId(), first);
@@ -112,7 +117,7 @@ TEST(LookaheadSearch, GoesAllTheWayWithOneEvaluation) {
                                                  ") (:goal (at r" + std::to_string(kRooms - 1) + "))");
   Options step_by_step;
   step_by_step.lookahead = false;
-  step_by_step.width = step_by_step.serial = false;
+  step_by_step.best_first_width = step_by_step.goal_serialization = false;
   const Result far = testing::solved(made);
   testing::expect_valid(made, far);
   EXPECT_EQ(far.statistics.evaluated, 1u);

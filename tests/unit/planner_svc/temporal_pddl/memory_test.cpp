@@ -37,6 +37,8 @@ void operator delete(void* memory, std::size_t) noexcept { give_back(memory); }
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using call::Budget;
+
 // share: of what is taken, how much at least is counted.
 void expect_honest(const testing::Model& model, std::size_t evaluations, double share) {
   NoFunctions functions;

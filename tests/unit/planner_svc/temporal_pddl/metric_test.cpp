@@ -11,6 +11,12 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using extraction::to_ipc;
+using call::Options;
+using task::Metric;
+using temporal::Duration;
+using temporal::Verdict;
+
 Options improving(std::size_t evaluations = 3000) {
   Options options;
   options.improvement_evaluations = evaluations;

@@ -9,6 +9,8 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using temporal::Verdict;
+
 // Places on a line, 10 s apart; each has something to see for 2 s in a window of its own.
 testing::Model tour(const std::vector<std::pair<int, int>>& windows) {
   std::string objects, init = "(:init (at p0) (idle)", goal;

@@ -1,4 +1,4 @@
-#include "planner_svc/temporal_pddl/grounding/mutex_groups.hpp"
+#include "planner_svc/temporal_pddl/grounding/invariants/mutex_groups.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,15 +7,29 @@
 #include <random>
 #include <set>
 
-#include "planner_svc/temporal_pddl/grounding/instantiate.hpp"
-#include "planner_svc/temporal_pddl/grounding/lowering.hpp"
-#include "planner_svc/temporal_pddl/grounding/prune.hpp"
-#include "planner_svc/temporal_pddl/grounding/variable_cover.hpp"
+#include "planner_svc/temporal_pddl/grounding/encoding/variable_cover.hpp"
+#include "planner_svc/temporal_pddl/grounding/instantiation/instantiate.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted/lowering.hpp"
+#include "planner_svc/temporal_pddl/grounding/simplification/relaxed_pruning.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/random_task.hpp"
 
 namespace roci::planner::temporal_pddl {
 namespace {
+
+using grounding::encoding::cover;
+using grounding::instantiation::instantiate;
+using grounding::invariants::find_mutex_groups;
+using grounding::lifted::lower_actions;
+using grounding::reachability::explore;
+using grounding::simplification::prune;
+using call::Budget, call::Monitor, call::SearchLimits;
+using grounding::instantiation::Conjunction, grounding::instantiation::GroundAction,
+    grounding::instantiation::GroundEffects, grounding::instantiation::GroundLiteral,
+    grounding::instantiation::GroundModel;
+using grounding::invariants::MutexGroup;
+using grounding::lifted::ConstantFunctions, grounding::lifted::StaticModel, grounding::lifted::Symbols;
+using task::Task;
 
 struct Ground {
   GroundModel model;
@@ -26,15 +40,15 @@ Ground groups_of(const testing::Model& made) {
   const Symbols symbols(made.domain, made.problem);
   const auto actions = lower_actions(made.domain, symbols);
   const ConstantFunctions constants(made.problem, actions, symbols);
-  const World world(made.problem, actions, symbols, constants);
+  const StaticModel static_model(made.problem, actions, symbols, constants);
   const Budget budget;
   const Monitor monitor;
-  Watch watch(budget, monitor);
+  SearchLimits limits(budget, monitor);
   Ground result;
-  result.model =
-      instantiate(made.domain, made.problem, actions, world, explore(actions, world, watch), watch);
-  const auto reached = prune(result.model, watch);
-  result.groups = find_mutex_groups(result.model, reached, symbols.predicates(), actions.size(), watch);
+  result.model = instantiate(made.domain, made.problem, actions, static_model,
+                             explore(actions, static_model, limits), limits);
+  const auto reached = prune(result.model, limits);
+  result.groups = find_mutex_groups(result.model, reached, symbols.predicates(), actions.size(), limits);
   return result;
 }
 

@@ -8,6 +8,13 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using call::Budget;
+using call::Options;
+using call::WindowExtraction;
+using extraction::Activity;
+using extraction::Network;
+using temporal::no_bound;
+
 constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max() / 4;
 
 // By Floyd and Warshall: the greatest t(j) − t(i).
@@ -16,8 +23,9 @@ std::vector<std::vector<std::int64_t>> distances(const Network& network) {
   std::vector<std::vector<std::int64_t>> d(n, std::vector<std::int64_t>(n, kFar));
   for (std::size_t i = 0; i < n; ++i) d[i][i] = 0;
   for (const auto& c : network.constraints) {
-    if (c.upper != kUnbounded) d[c.from][c.to] = std::min(d[c.from][c.to], c.upper.count());
-    d[c.to][c.from] = std::min(d[c.to][c.from], -c.lower.count());
+    if (c.upper != no_bound)
+      d[c.from_point][c.to_point] = std::min(d[c.from_point][c.to_point], c.upper.count());
+    d[c.to_point][c.from_point] = std::min(d[c.to_point][c.from_point], -c.lower.count());
   }
   for (std::size_t k = 0; k < n; ++k) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -44,7 +52,7 @@ TEST(Network, WindowsAreShortestPaths) {
     const auto d = distances(network);
     for (std::size_t i = 0; i < network.points.size(); ++i) {
       EXPECT_EQ(network.points[i].earliest.count(), -d[i][0]);
-      EXPECT_EQ(network.points[i].latest.count(), d[0][i] == kFar ? kUnbounded.count() : d[0][i]);
+      EXPECT_EQ(network.points[i].latest.count(), d[0][i] == kFar ? no_bound.count() : d[0][i]);
       bounded += d[0][i] < kFar;
     }
     points += network.points.size();

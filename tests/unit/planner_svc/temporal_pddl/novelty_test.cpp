@@ -8,6 +8,11 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using search::Novelty;
+using task::ActionId;
+using task::Task;
+using task::Word;
+
 TEST(Novelty, CountsFactsAndRunningActionsThatNoStateSoNearTheGoalHad) {
   const Task task = testing::grounded(testing::model(R"((:requirements :durative-actions)
     (:predicates (p) (q) (g))

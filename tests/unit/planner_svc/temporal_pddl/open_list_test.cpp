@@ -12,6 +12,8 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using search::NodeId, search::OpenList, search::Priority, search::Ranks;
+using task::SnapId;
 using Snaps = std::vector<SnapId>;
 
 constexpr Priority kAny{0, 0};

@@ -12,13 +12,17 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using constraints::Orderings, constraints::StepConstraint;
+using task::Action, task::ActionId, task::FactId, task::Snap, task::SnapId, task::SnapKind, task::Task,
+    task::VariableId;
+using temporal::Duration, temporal::no_bound;
 using testing::action;
 using ::testing::UnorderedElementsAre;
 
 constexpr Duration kEpsilon{1000};
 
 StepConstraint after(std::uint32_t from, std::uint32_t to, Duration lower) {
-  return {from, to, lower, kUnbounded};
+  return {from, to, lower, no_bound};
 }
 
 std::vector<StepConstraint> orderings(const Task& task, const std::vector<SnapId>& steps) {

@@ -12,6 +12,7 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using search::PairNovelty;
 using Facts = std::vector<std::uint32_t>;
 
 TEST(PairNovelty, TellsNewFactsFromNewPairsFromNothingNew) {

@@ -10,6 +10,8 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using temporal::Verdict;
+
 constexpr const char* kDomain = R"(
   (:requirements :typing :durative-actions :numeric-fluents :timed-initial-literals)
   (:types waypoint image sample)

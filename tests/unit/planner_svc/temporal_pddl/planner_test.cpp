@@ -8,9 +8,10 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
-using testing::expect_valid;
-using testing::model;
-using testing::solved;
+using call::Options, call::WindowExtraction;
+using extraction::Activity, extraction::GroundCondition, extraction::NetworkPoint;
+using temporal::Duration, temporal::Verdict;
+using testing::expect_valid, testing::model, testing::solved;
 
 // R10: every plan must mend while a match burns.
 TEST(Planner, MatchCellar) {
@@ -169,7 +170,7 @@ TEST_P(TimedLiterals, OneWindow) {
   const Result result = plan("(at 10 (open)) (at 20 (not (open)))", "(g)");
   ASSERT_TRUE(result.plan);
   EXPECT_EQ(result.plan->activities[1].start, std::chrono::microseconds(12001000));
-  const TimePoint& start = result.plan->network.points[result.plan->activities[1].start_point];
+  const NetworkPoint& start = result.plan->network.points[result.plan->activities[1].start_point];
   EXPECT_EQ(start.latest, std::chrono::seconds(15));
   EXPECT_EQ(plan("(at 10 (open)) (at 17 (not (open)))", "(g)").verdict, Verdict::unsolvable);
 }

@@ -5,6 +5,8 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using search::RankedQueue;
+
 TEST(RankedQueue, BestFirstThenOldestOrYoungest) {
   RankedQueue<int> queue;
   queue.push({2, 0}, 1);

@@ -10,6 +10,12 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using heuristics::Estimate;
+using heuristics::FfHeuristic;
+using heuristics::RelaxedPlan;
+using task::Action;
+using task::ActionId;
+using task::Task;
 using ::testing::UnorderedElementsAre;
 
 // Name of the action and how often each of its ends, or it itself, is in the first relaxed plan.

@@ -6,6 +6,8 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using call::Options;
+
 // Each match burns for 5 s, long enough to mend two fuses, one after the other; there are just enough.
 testing::Model cellar(int fuses) {
   std::string objects, init = "(:init (handfree)", goal;
@@ -82,9 +84,9 @@ TEST(WholeActions, HalveTheWorkWhereNothingMustRunAtTheSameTime) {
                      "(:objects" + objects + ") (:init (lit)) (:goal (and" + goal + "))");
   Options step_by_step;
   step_by_step.lookahead = false;
-  step_by_step.width = step_by_step.serial = false;
+  step_by_step.best_first_width = step_by_step.goal_serialization = false;
   Options split = step_by_step;
-  split.whole_actions = false;
+  split.compress_all_actions = false;
   const Result whole = testing::solved(made, step_by_step);
   const Result parts = testing::solved(made, split);
   testing::expect_valid(made, whole);

@@ -1,7 +1,5 @@
 // Numbers that plans can only use up: which they are, what is still needed of them, and what that spares the
 // search.
-#include "planner_svc/temporal_pddl/task/resources.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,18 +7,24 @@
 #include <numeric>
 #include <random>
 
-#include "planner_svc/temporal_pddl/dead_ends/resource_need.hpp"
-#include "planner_svc/temporal_pddl/dead_ends/within_resources.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/consumption_bound.hpp"
+#include "planner_svc/temporal_pddl/dead_ends/resource_dead_ends.hpp"
 #include "planner_svc/temporal_pddl/heuristics/ff.hpp"
+#include "planner_svc/temporal_pddl/task/consumable_resources.hpp"
 #include "planner_svc/temporal_pddl/task/semantics.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/validated.hpp"
 
 namespace roci::planner::temporal_pddl {
 namespace {
 
-using testing::grounded;
-using testing::model;
-using testing::solved;
+using task::find_consumable_resources;
+using call::Budget, call::Monitor, call::Options, call::SearchLimits;
+using dead_ends::AtemporalAbstraction, dead_ends::ConsumptionBound, dead_ends::ResourceDeadEnds;
+using heuristics::FfHeuristic;
+using task::Action, task::ActionCompression, task::ConsumableResource, task::FactId, task::Semantics,
+    task::Task;
+using temporal::Verdict;
+using testing::grounded, testing::model, testing::solved;
 
 testing::Model using_up(const std::string& actions, const std::string& goal = "(done)") {
   return model(
@@ -39,7 +43,7 @@ TEST(Resources, WhatConditionsKeepFromFallingOrRising) {
                              "(done) (more)");
   const auto grounding = grounded(made);
   const Task& task = grounding.task;
-  const auto resources = find_resources(task);
+  const auto resources = find_consumable_resources(task);
   ASSERT_EQ(resources.size(), 2u);
   const auto& [x, y] = std::pair(resources[0], resources[1]);
   const Action& a = task.actions[testing::action(task, "(a)")];
@@ -60,7 +64,7 @@ TEST(Resources, NoneWhereSomethingGivesOrSetsOrTakesUnasked) {
     (:durative-action a :parameters () :duration (= ?duration 3) :condition (at start (>= (x) 5))
       :effect (and (at start (decrease (x) 4)) (at end (done)))) )";
   const auto resources = [](const testing::Model& made) {
-    return find_resources(grounded(made).task).size();
+    return find_consumable_resources(grounded(made).task).size();
   };
   EXPECT_EQ(resources(using_up(spends)), 1u);
   EXPECT_EQ(resources(using_up(spends + "(:action b :parameters () :effect (increase (x) 1))")), 0u);
@@ -133,17 +137,17 @@ TEST(Resources, NothingIsMeasuredBeforeOneIsHalfUsedUp) {
   const Tour tour(random, 4);
   const auto grounding = grounded(tour.with_fuel(tour.fuel[0][1] * 3 / 2));
   const Task& task = grounding.task;
-  FfHeuristic ff(task);
   const Budget budget;
   const Monitor monitor;
-  Watch watch(budget, monitor);
-  WithinResources within(task, ff, 1, watch);
+  SearchLimits limits(budget, monitor);
+  ResourceDeadEnds within(task, 1, limits);
   const std::size_t before = within.bytes();
-  for (int i = 0; i < 5; ++i) EXPECT_FALSE(within.hopeless(task.initial_state, {}, ActionSteps::as_needed));
+  for (int i = 0; i < 5; ++i)
+    EXPECT_FALSE(within.proves_dead_end(task.initial_state, {}, ActionCompression::where_safe));
   EXPECT_EQ(within.bytes(), before);
   auto state = task.initial_state;
   Semantics(task).apply(task.actions[testing::action(task, "(go p0 p1)")].start, 1, state);
-  within.hopeless(state, {}, ActionSteps::as_needed);
+  within.proves_dead_end(state, {}, ActionCompression::where_safe);
   EXPECT_GT(within.bytes(), before);
 }
 
@@ -151,11 +155,11 @@ TEST(Resources, WhileItIsMeasuredTheBytesInUseAreTold) {
   std::mt19937_64 random(5);
   const Tour tour(random, 6);
   const auto grounding = grounded(tour.with_fuel(1000));
-  const auto resources = find_resources(grounding.task);
+  const auto resources = find_consumable_resources(grounding.task);
   std::size_t most = 0;
   const auto need =
-      ResourceNeed::measure(grounding.task, TimelessSpace(grounding.task, {}), resources.front(), 10000,
-                            [&](std::size_t bytes) { most = std::max(most, bytes); });
+      ConsumptionBound::measure(grounding.task, AtemporalAbstraction(grounding.task, {}), resources.front(),
+                                10000, [&](std::size_t bytes) { most = std::max(most, bytes); });
   ASSERT_TRUE(need);
   EXPECT_GT(most, need->bytes());
 }
@@ -165,10 +169,10 @@ TEST(Resources, TheNeedIsThatOfTheBestOrder) {
   for (int round = 0; round < 20; ++round) {
     const Tour tour(random, 6);
     const auto grounding = grounded(tour.with_fuel(1000));
-    const auto resources = find_resources(grounding.task);
+    const auto resources = find_consumable_resources(grounding.task);
     ASSERT_EQ(resources.size(), 1u);
-    auto need = ResourceNeed::measure(grounding.task, TimelessSpace(grounding.task, {}), resources.front(),
-                                      10000, [](std::size_t) {});
+    auto need = ConsumptionBound::measure(grounding.task, AtemporalAbstraction(grounding.task, {}),
+                                          resources.front(), 10000, [](std::size_t) {});
     ASSERT_TRUE(need);
     EXPECT_EQ(need->at_first(), tour.shortest());
     EXPECT_EQ(need->of(grounding.task.initial_state, {}), tour.shortest());
@@ -215,15 +219,15 @@ TEST(Resources, HalfOfTheGoalsWhereAllAreTooMany) {
   std::mt19937_64 random(7);
   const Tour tour(random, 6);
   const auto grounding = grounded(tour.with_fuel(1000));
-  const Resource resource = find_resources(grounding.task).front();
+  const ConsumableResource resource = find_consumable_resources(grounding.task).front();
   const auto& goals = grounding.task.goals.front().facts;
   const auto all = [&](std::size_t states) {
-    return ResourceNeed::measure(grounding.task, TimelessSpace(grounding.task, {}), resource, states,
-                                 [](std::size_t) {});
+    return ConsumptionBound::measure(grounding.task, AtemporalAbstraction(grounding.task, {}), resource,
+                                     states, [](std::size_t) {});
   };
   const auto some = [&](std::span<const FactId> of) {
-    return ResourceNeed::measure(grounding.task, TimelessSpace(grounding.task, of), resource, 1000,
-                                 [](std::size_t) {});
+    return ConsumptionBound::measure(grounding.task, AtemporalAbstraction(grounding.task, of), resource, 1000,
+                                     [](std::size_t) {});
   };
   EXPECT_FALSE(all(50));
   const auto whole = all(1000);

@@ -9,6 +9,8 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using task::FactId, task::IdVector, task::NumberId, task::StateLayout, task::StateView, task::Word;
+
 struct RandomLayout {
   std::vector<std::vector<FactId>> variables;
   IdVector<FactId, FactId> negation_of;

@@ -9,6 +9,10 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using search::NodeId, search::Rejection, search::StateSpace, search::Successor;
+using task::ActionCompression, task::Task;
+using temporal::Duration;
+
 TEST(StateSpace, NothingStartsWhoseInvariantFailsUnlessTheStartBringsIt) {
   const Task task = testing::grounded(testing::model(R"((:requirements :durative-actions)
     (:predicates (light) (own) (g) (h))
@@ -21,7 +25,7 @@ TEST(StateSpace, NothingStartsWhoseInvariantFailsUnlessTheStartBringsIt) {
                                                      "(:init) (:goal (and (g) (h)))"))
                         .task;
   const auto start = [&](const char* name) { return task.actions[testing::action(task, name)].start; };
-  StateSpace space(task, Duration(1000), ActionSteps::as_needed);
+  StateSpace space(task, Duration(1000), ActionCompression::where_safe);
   Successor at_first, lit;
   at_first.state = task.initial_state;
   space.add(NodeId(), at_first);

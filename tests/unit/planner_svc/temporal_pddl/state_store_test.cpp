@@ -8,6 +8,12 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using search::NodeId;
+using search::StateStore;
+using search::Transition;
+using task::SnapId;
+using task::Word;
+
 TEST(StateStore, GivesBackWhatItGot) {
   std::mt19937_64 random(5);
   StateStore store(3);

@@ -7,6 +7,14 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using task::intersection;
+using task::shrunk;
+using task::window_from;
+using task::TimeWindow;
+using task::TimeWindows;
+using temporal::Duration;
+using temporal::no_bound;
+
 bool contains(const TimeWindows& windows, Duration time) {
   for (const auto& window : windows) {
     if (window.open <= time && time <= window.close) return true;
@@ -19,7 +27,7 @@ TimeWindows random_windows(std::mt19937_64& random) {
   std::int64_t at = static_cast<std::int64_t>(random() % 5);
   for (std::size_t n = random() % 5; n > 0; --n) {
     const auto close = at + static_cast<std::int64_t>(random() % 6);
-    result.push_back({Duration(at), n == 1 && random() % 2 == 0 ? kUnbounded : Duration(close)});
+    result.push_back({Duration(at), n == 1 && random() % 2 == 0 ? no_bound : Duration(close)});
     at = close + 1 + static_cast<std::int64_t>(random() % 4);
   }
   return result;
@@ -43,16 +51,15 @@ TEST(TimeWindows, IntersectionAndShrinkingPointByPoint) {
     }
     for (const auto& window : shrunk(a, Duration{1}, Duration{2})) {
       EXPECT_TRUE(window.open == Duration{0} || contains(a, window.open - Duration{1}));
-      EXPECT_TRUE(window.close == kUnbounded || contains(a, window.close + Duration{2}));
+      EXPECT_TRUE(window.close == no_bound || contains(a, window.close + Duration{2}));
     }
   }
 }
 
 TEST(TimeWindows, ShrinkingDropsWhatBecomesEmpty) {
-  const TimeWindows windows{
-      {Duration{0}, Duration{3}}, {Duration{5}, Duration{6}}, {Duration{10}, kUnbounded}};
+  const TimeWindows windows{{Duration{0}, Duration{3}}, {Duration{5}, Duration{6}}, {Duration{10}, no_bound}};
   EXPECT_EQ(shrunk(windows, Duration{1}, Duration{1}),
-            (TimeWindows{{Duration{0}, Duration{2}}, {Duration{11}, kUnbounded}}));
+            (TimeWindows{{Duration{0}, Duration{2}}, {Duration{11}, no_bound}}));
 }
 
 }  // namespace

@@ -3,17 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include "planner_svc/temporal_pddl/plan/plan_text.hpp"
-#include "planner_svc/validate/validator.hpp"
+#include "planner_svc/temporal_pddl/extraction/plan_text.hpp"
+#include "planner_svc/temporal_pddl/validate/validator.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
 
 namespace roci::planner::temporal_pddl::testing {
 
 // Expects a plan that is valid at the given ε.
-inline void expect_valid(const Model& model, const Result& result, const Options& options = {}) {
-  ASSERT_EQ(result.verdict, Verdict::solved) << result.reason;
+inline void expect_valid(const Model& model, const Result& result, const call::Options& options = {}) {
+  ASSERT_EQ(result.verdict, temporal::Verdict::solved) << result.reason;
   pddl::FunctionTable table;
-  for (const FunctionUse& use : result.functions) {
+  for (const grounding::lifted::FunctionUse& use : result.functions) {
     std::string application = "(" + use.call.function;
     for (const auto& argument : use.call.arguments) application += " " + argument;
     const bool value = use.answer.outcome == FunctionOutcome::value;

@@ -6,17 +6,19 @@
 #include <random>
 #include <set>
 
-namespace roci::services {
+namespace roci::services::vendors {
 namespace {
 
-Guid writer(std::uint8_t number) {
-  Guid guid{};
+transport::Guid writer(std::uint8_t number) {
+  transport::Guid guid{};
   guid[15] = number;
   return guid;
 }
 
-Payload payload_of(const InstanceTable::Key& key) { return Payload(key.begin(), key.end()); }
-InstanceTable::Key key_of(const Payload& payload) {
+transport::Payload payload_of(const InstanceTable::Key& key) {
+  return transport::Payload(key.begin(), key.end());
+}
+InstanceTable::Key key_of(const transport::Payload& payload) {
   return InstanceTable::Key(payload.begin(), payload.end());
 }
 
@@ -24,10 +26,10 @@ InstanceTable::Key key_of(const Payload& payload) {
 TEST(InstanceTable, AgreesWithAModelUnderRandomLives) {
   std::mt19937_64 random(7);
   InstanceTable table;
-  std::map<InstanceTable::Key, std::set<Guid>> model;
+  std::map<InstanceTable::Key, std::set<transport::Guid>> model;
   for (int step = 0; step < 20000; ++step) {
     const InstanceTable::Key key(1, static_cast<char>('a' + random() % 20));
-    const Guid who = writer(static_cast<std::uint8_t>(random() % 5));
+    const transport::Guid who = writer(static_cast<std::uint8_t>(random() % 5));
     const auto action = random() % 10;
     if (action < 7) {
       EXPECT_EQ(table.wrote(key, who), model.contains(key));
@@ -54,4 +56,4 @@ TEST(InstanceTable, AgreesWithAModelUnderRandomLives) {
 }
 
 }  // namespace
-}  // namespace roci::services
+}  // namespace roci::services::vendors

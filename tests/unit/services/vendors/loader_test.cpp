@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "services/domain_claim.hpp"
-#include "services/lossy_transport.hpp"
-#include "services/transport.hpp"
+#include "services/process/domain_claim.hpp"
+#include "services/transport/lossy_transport.hpp"
+#include "services/transport/plug_ins.hpp"
 #include "services/vendors/peers.hpp"
 
 namespace roci::services {
@@ -21,16 +21,17 @@ using testing::HasSubstr;
 std::string refusal(const std::function<void()>& open) {
   try {
     open();
-  } catch (const TransportError& error) {
+  } catch (const transport::TransportError& error) {
     return error.what();
   }
   return "no error";
 }
 
 TEST(Loader, NamesWhatIsInstalledWhenAskedForSomethingElse) {
-  EXPECT_THAT(installed_transports(), AllOf(Contains("inproc"), Contains("fastdds"), Contains("cyclonedds")));
+  EXPECT_THAT(transport::installed_transports(),
+              AllOf(Contains("inproc"), Contains("fastdds"), Contains("cyclonedds")));
   for (const auto* vendor : {"opendds", "", "../inproc", "inproc/"}) {
-    EXPECT_THAT(refusal([vendor] { open_transport(vendor, {}); }),
+    EXPECT_THAT(refusal([vendor] { transport::open_transport(vendor, {}); }),
                 AllOf(HasSubstr("cyclonedds, fastdds, inproc"), HasSubstr("--dds"), HasSubstr(vendor)));
   }
 }
@@ -40,70 +41,72 @@ TEST(Loader, LooksIntoThePluginPathFirst) {
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "libroci_transport_broken.so") << "no shared object";
   setenv("ROCI_PLUGIN_PATH", (":/nowhere:" + folder.string()).c_str(), 1);
-  EXPECT_THAT(installed_transports(), AllOf(Contains("broken"), Contains("inproc")));
-  EXPECT_THAT(refusal([] { open_transport("broken", {}); }), HasSubstr("libroci_transport_broken.so"));
-  EXPECT_EQ(open_transport("inproc", {})->vendor(), "inproc");
+  EXPECT_THAT(transport::installed_transports(), AllOf(Contains("broken"), Contains("inproc")));
+  EXPECT_THAT(refusal([] { transport::open_transport("broken", {}); }),
+              HasSubstr("libroci_transport_broken.so"));
+  EXPECT_EQ(transport::open_transport("inproc", {})->vendor(), "inproc");
   unsetenv("ROCI_PLUGIN_PATH");
   std::filesystem::remove_all(folder);
 }
 
 TEST(Loader, RefusesAddressesThatAreNotThisHosts) {
   for (const auto* vendor : {"fastdds", "cyclonedds"}) {
-    EXPECT_THAT(refusal([vendor] { open_transport(vendor, {.address = "192.0.2.1"}); }),
+    EXPECT_THAT(refusal([vendor] { transport::open_transport(vendor, {.address = "192.0.2.1"}); }),
                 AllOf(HasSubstr("192.0.2.1"), HasSubstr("--address")));
-    EXPECT_THAT(refusal([vendor] { open_transport(vendor, {.address = "127.0.0.2"}); }),
+    EXPECT_THAT(refusal([vendor] { transport::open_transport(vendor, {.address = "127.0.0.2"}); }),
                 HasSubstr("--address"));
-    EXPECT_THAT(refusal([vendor] { open_transport(vendor, {.address = "localhost"}); }),
+    EXPECT_THAT(refusal([vendor] { transport::open_transport(vendor, {.address = "localhost"}); }),
                 HasSubstr("--address"));
-    EXPECT_THAT(refusal([vendor] { open_transport(vendor, {.peers = {"ground"}}); }), HasSubstr("--peers"));
-    EXPECT_THAT(refusal([vendor] { open_transport(vendor, {.vendor_xml = "/nowhere.xml"}); }),
+    EXPECT_THAT(refusal([vendor] { transport::open_transport(vendor, {.peers = {"ground"}}); }),
+                HasSubstr("--peers"));
+    EXPECT_THAT(refusal([vendor] { transport::open_transport(vendor, {.vendor_xml = "/nowhere.xml"}); }),
                 HasSubstr("/nowhere.xml"));
   }
 }
 
 TEST(Loader, PeersStayOnTheirSideOfTheLoopback) {
-  EXPECT_THAT(peers_of({}), ElementsAre("127.0.0.1"));
-  EXPECT_THAT(peers_of({.address = "10.77.0.1"}), ElementsAre("10.77.0.1"));
-  EXPECT_THAT(peers_of({.address = "10.77.0.1", .peers = {"10.77.0.2", "10.77.0.1", "10.77.0.2"}}),
+  EXPECT_THAT(vendors::peers_of({}), ElementsAre("127.0.0.1"));
+  EXPECT_THAT(vendors::peers_of({.address = "10.77.0.1"}), ElementsAre("10.77.0.1"));
+  EXPECT_THAT(vendors::peers_of({.address = "10.77.0.1", .peers = {"10.77.0.2", "10.77.0.1", "10.77.0.2"}}),
               ElementsAre("10.77.0.1", "10.77.0.2"));
-  EXPECT_THAT(peers_of({.address = "127.0.0.2", .peers = {"10.77.0.2", "127.0.0.1"}}),
+  EXPECT_THAT(vendors::peers_of({.address = "127.0.0.2", .peers = {"10.77.0.2", "127.0.0.1"}}),
               ElementsAre("127.0.0.2", "127.0.0.1"));
 }
 
 TEST(Loader, ReadsTheLossFromItsText) {
-  const auto loss = parse_loss("0.2:7:30");
+  const auto loss = transport::parse_loss("0.2:7:30");
   EXPECT_DOUBLE_EQ(loss.fraction, 0.2);
   EXPECT_EQ(loss.seed, 7U);
   EXPECT_EQ(loss.delay, std::chrono::milliseconds(30));
   for (const auto* text :
        {"", "0.2", "0.2:7", "1.5:7:30", "-0.1:7:30", "0.2:7:-1", "0.2:x:30", "0.2:7:30ms", "nan:1:1"}) {
-    EXPECT_THAT(refusal([text] { parse_loss(text); }), HasSubstr("ROCI_LOSS")) << text;
+    EXPECT_THAT(refusal([text] { transport::parse_loss(text); }), HasSubstr("ROCI_LOSS")) << text;
   }
 }
 
 TEST(DomainClaim, ClaimsAreDistinctAndEnd) {
   int freed = 0;
   {
-    const DomainClaim first, second;
+    const process::DomainClaim first, second;
     EXPECT_NE(first.id(), second.id());
     EXPECT_GE(first.id(), 1);
     EXPECT_LE(first.id(), 100);
     freed = first.id();
   }
-  EXPECT_EQ(DomainClaim().id(), freed);
+  EXPECT_EQ(process::DomainClaim().id(), freed);
 }
 
 TEST(DomainClaim, LeavesOutADomainWhoseFirstParticipantHasLeft) {
   for (const std::string vendor : {"fastdds", "cyclonedds"}) {
     int domain = 0;
-    std::unique_ptr<Transport> second;
+    std::unique_ptr<transport::Transport> second;
     {
-      const DomainClaim claim;
+      const process::DomainClaim claim;
       domain = claim.id();
-      const auto first = open_transport("fastdds", {.domain = domain});
-      second = open_transport(vendor, {.domain = domain});
+      const auto first = transport::open_transport("fastdds", {.domain = domain});
+      second = transport::open_transport(vendor, {.domain = domain});
     }
-    EXPECT_NE(DomainClaim().id(), domain) << vendor;
+    EXPECT_NE(process::DomainClaim().id(), domain) << vendor;
   }
 }
 

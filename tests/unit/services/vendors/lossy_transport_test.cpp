@@ -1,7 +1,8 @@
-#include "services/lossy_transport.hpp"
+#include "services/transport/lossy_transport.hpp"
 
 #include <gtest/gtest.h>
 
+#include "services/transport/plug_ins.hpp"
 #include "tests/contract/support/inbox.hpp"
 #include "tests/contract/support/profiles.hpp"
 
@@ -16,12 +17,13 @@ constexpr int kCount = 2000;
 
 // A marker on a reliable topic cannot tell when the last best-effort sample is through: keep-all samples and
 // a last one that is sent until it arrives can.
-QosSettings best_effort() { return {.reliable = false, .history_depth = 0}; }
+transport::QosSettings best_effort() { return {.reliable = false, .history_depth = 0}; }
 
 // The goals of `kCount` that a reader gets over a network of this quality.
-std::vector<std::string> survivors(const Loss& loss, const QosSettings& qos, int domain) {
-  const auto sender = open_transport("inproc", {.domain = domain});
-  const auto receiver = make_lossy(open_transport("inproc", {.domain = domain}), loss);
+std::vector<std::string> survivors(const transport::Loss& loss, const transport::QosSettings& qos,
+                                   int domain) {
+  const auto sender = transport::open_transport("inproc", {.domain = domain});
+  const auto receiver = transport::make_lossy(transport::open_transport("inproc", {.domain = domain}), loss);
   Inbox inbox;
   const auto writer = sender->create_writer(goal_endpoint(qos), {});
   const auto reader = receiver->create_reader(goal_endpoint(qos), inbox.reader_events());
@@ -70,12 +72,12 @@ TEST(LossyTransport, ReliableTopicsPassUntouched) {
 
 TEST(LossyTransport, IsChosenByTheEnvironment) {
   setenv("ROCI_LOSS", "1:1:0", 1);
-  const auto transport = open_transport("inproc", {.domain = 1007});
+  const auto transport = transport::open_transport("inproc", {.domain = 1007});
   unsetenv("ROCI_LOSS");
   Inbox lossy, whole;
   const auto writer = transport->create_writer(goal_endpoint(best_effort()), {});
   const auto lossy_reader = transport->create_reader(goal_endpoint(best_effort()), lossy.reader_events());
-  const auto plain = open_transport("inproc", {.domain = 1007});
+  const auto plain = transport::open_transport("inproc", {.domain = 1007});
   const auto whole_reader = plain->create_reader(goal_endpoint(best_effort()), whole.reader_events());
   writer->write(goal("photo", 1));
   ASSERT_TRUE(whole.wait_for_samples(1));

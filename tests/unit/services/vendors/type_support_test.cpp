@@ -1,4 +1,4 @@
-#include "services/type_support.hpp"
+#include "services/transport/type_support.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,6 +24,8 @@ std::string text(Random& random) {
 
 v1::Command random_command(Random& random) {
   v1::Command command;
+  command.commander(text(random));
+  command.epoch(random());
   command.activity(text(random));
   command.attempt(static_cast<std::uint32_t>(random()));
   command.header().sender(text(random));
@@ -59,23 +61,30 @@ v1::PlanReply random_plan(Random& random) {
   return reply;
 }
 
-// The key as RTPS hashes it, written by hand: string length with its zero, string, alignment to 4, number.
-Payload expected_key(const v1::Command& command) {
-  Payload key;
+// The key as RTPS hashes it, written by hand: string length with its zero, string, alignment to a number's own size, number.
+transport::Payload expected_key(const v1::Command& command) {
+  transport::Payload key;
   const auto number = [&key](std::uint32_t value) {
     key.resize((key.size() + 3) / 4 * 4);
     for (int shift = 24; shift >= 0; shift -= 8) key.push_back(static_cast<std::uint8_t>(value >> shift));
   };
-  number(static_cast<std::uint32_t>(command.activity().size() + 1));
-  key.insert(key.end(), command.activity().begin(), command.activity().end());
-  key.push_back(0);
+  const auto string = [&](const std::string& text) {
+    number(static_cast<std::uint32_t>(text.size() + 1));
+    key.insert(key.end(), text.begin(), text.end());
+    key.push_back(0);
+  };
+  string(command.commander());
+  key.resize((key.size() + 7) / 8 * 8);
+  number(static_cast<std::uint32_t>(command.epoch() >> 32));
+  number(static_cast<std::uint32_t>(command.epoch()));
+  string(command.activity());
   number(command.attempt());
   return key;
 }
 
 template <class T>
-Payload big_endian(const T& value) {
-  Payload payload(4 + T::getCdrSerializedSize(value));
+transport::Payload big_endian(const T& value) {
+  transport::Payload payload(4 + T::getCdrSerializedSize(value));
   eprosima::fastcdr::FastBuffer buffer(reinterpret_cast<char*>(payload.data()), payload.size());
   eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::BIG_ENDIANNESS, eprosima::fastcdr::Cdr::DDS_CDR);
   cdr.serialize_encapsulation();
@@ -88,8 +97,8 @@ TEST(TypeSupport, ValuesComeBackFromBothByteOrders) {
   for (int i = 0; i < 500; ++i) {
     const auto command = random_command(random);
     v1::Command little, big;
-    ASSERT_TRUE(deserialize(serialize(command), little));
-    ASSERT_TRUE(deserialize(big_endian(command), big));
+    ASSERT_TRUE(transport::deserialize(transport::serialize(command), little));
+    ASSERT_TRUE(transport::deserialize(big_endian(command), big));
     EXPECT_TRUE(little == command);
     EXPECT_TRUE(big == command);
   }
@@ -100,21 +109,21 @@ TEST(TypeSupport, EqualValuesGiveEqualBytes) {
   for (int i = 0; i < 500; ++i) {
     const auto command = random_command(random);
     const v1::Command copy = command;
-    EXPECT_EQ(serialize(command), serialize(copy));
-    EXPECT_EQ(serialize(command).size(), 4 + v1::Command::getCdrSerializedSize(command));
+    EXPECT_EQ(transport::serialize(command), transport::serialize(copy));
+    EXPECT_EQ(transport::serialize(command).size(), 4 + v1::Command::getCdrSerializedSize(command));
   }
 }
 
 TEST(TypeSupport, KeysAreBigEndianWhateverTheSampleIs) {
   Random random(3);
-  const auto type = describe_type<v1::Command>("roci::v1::Command");
+  const auto type = transport::describe_type<v1::Command>("roci::v1::Command");
   ASSERT_TRUE(type.keyed);
   EXPECT_FALSE(type.key_fits_hash);
   for (int i = 0; i < 500; ++i) {
     const auto command = random_command(random);
     const auto expected = expected_key(command);
-    for (const auto& payload : {serialize(command), big_endian(command)}) {
-      Payload key;
+    for (const auto& payload : {transport::serialize(command), big_endian(command)}) {
+      transport::Payload key;
       ASSERT_TRUE(type.serialized_key(payload, false, key));
       EXPECT_EQ(key, expected);
     }
@@ -123,37 +132,41 @@ TEST(TypeSupport, KeysAreBigEndianWhateverTheSampleIs) {
 
 TEST(TypeSupport, AKeyOnlyPayloadGivesTheKeyMembers) {
   Random random(4);
-  const auto type = describe_type<v1::Command>("roci::v1::Command");
+  const auto type = transport::describe_type<v1::Command>("roci::v1::Command");
   for (int i = 0; i < 500; ++i) {
     const auto command = random_command(random);
     const auto expected = expected_key(command);
-    Payload payload(4), key;
+    transport::Payload payload(4), key;
     payload.insert(payload.end(), expected.begin(), expected.end());
     EXPECT_FALSE(type.serialized_key(payload, false, key)) << "it is no whole sample";
     ASSERT_TRUE(type.serialized_key(payload, true, key));
     EXPECT_EQ(key, expected);
     v1::Command read;
-    ASSERT_TRUE(deserialize_key(payload, read));
+    ASSERT_TRUE(transport::deserialize_key(payload, read));
+    EXPECT_EQ(read.commander(), command.commander());
+    EXPECT_EQ(read.epoch(), command.epoch());
     EXPECT_EQ(read.activity(), command.activity());
     EXPECT_EQ(read.attempt(), command.attempt());
     for (std::size_t size = 0; size < payload.size(); ++size) {
-      EXPECT_FALSE(deserialize_key(std::span(payload).first(size), read)) << size << " of " << payload.size();
+      EXPECT_FALSE(transport::deserialize_key(std::span(payload).first(size), read))
+          << size << " of " << payload.size();
     }
   }
 }
 
 TEST(TypeSupport, TypesWithoutKeyHaveNone) {
-  const auto type = describe_type<v1::PlanRequest>("roci::v1::PlanRequest");
+  const auto type = transport::describe_type<v1::PlanRequest>("roci::v1::PlanRequest");
   EXPECT_FALSE(type.keyed);
   EXPECT_EQ(type.serialized_key, nullptr);
 }
 
 TEST(TypeSupport, TruncatedSamplesAreRefused) {
   Random random(5);
-  const auto payload = serialize(random_command(random));
+  const auto payload = transport::serialize(random_command(random));
   for (std::size_t size = 0; size < payload.size(); ++size) {
     v1::Command value;
-    EXPECT_FALSE(deserialize(std::span(payload).first(size), value)) << size << " of " << payload.size();
+    EXPECT_FALSE(transport::deserialize(std::span(payload).first(size), value))
+        << size << " of " << payload.size();
   }
 }
 
@@ -161,16 +174,16 @@ template <class T, class Make>
 void survive_mutations(Make make, int count) {
   Random random(6);
   for (int i = 0; i < count; ++i) {
-    auto payload = serialize(make(random));
+    auto payload = transport::serialize(make(random));
     for (int flips = 1 + below(random, 4); flips > 0; --flips) {
       auto& byte = payload[random() % payload.size()];
       byte = random() % 2 ? 0xFF : static_cast<std::uint8_t>(random());
     }
     if (random() % 4 == 0) payload.resize(random() % payload.size());
     T value;
-    if (deserialize(payload, value)) {
+    if (transport::deserialize(payload, value)) {
       T again;
-      EXPECT_TRUE(deserialize(serialize(value), again));
+      EXPECT_TRUE(transport::deserialize(transport::serialize(value), again));
     }
   }
 }
@@ -186,9 +199,9 @@ TEST(TypeSupport, ALengthThatTheSampleCannotHoldIsRefusedBeforeMemoryIsTaken) {
   v1::FunctionReply reply;
   reply.results().resize(1);
   reply.results()[0].outcomes({v1::FUNCTION_VALUE});
-  auto payload = serialize(reply);
+  auto payload = transport::serialize(reply);
   std::fill_n(payload.end() - 8, 4, std::uint8_t{0xFF});
-  EXPECT_FALSE(deserialize(payload, reply));
+  EXPECT_FALSE(transport::deserialize(payload, reply));
   EXPECT_LT(reply.results()[0].outcomes().capacity(), 1000U);
 }
 

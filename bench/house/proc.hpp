@@ -1,0 +1,22 @@
+/// What the kernel says of a process, from /proc.
+#pragma once
+
+#include <sys/types.h>
+
+#include <vector>
+
+namespace roci::bench::house {
+
+struct ProcessFigures {
+  double pss_mb = 0;  ///< Proportional set size: pages that several processes share count by shares.
+  double cpu_s = 0;   ///< User and system time since its start.
+  int threads = 0;
+};
+
+/// Zeros for a process that is gone.
+ProcessFigures figures_of(pid_t process);
+
+/// The sums over processes.
+ProcessFigures figures_of(const std::vector<pid_t>& processes);
+
+}  // namespace roci::bench::house

@@ -1,0 +1,49 @@
+// The services of a mission: `services:` of mission.yaml. Launcher, roster of the simulated clock,
+// supervisor, rehearsal and systemd units read this list; there is no other.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/mission/entry.hpp"
+
+namespace roci::mission {
+
+/// One process of a run.
+struct ServiceEntry {
+  std::string name;  ///< logical name, unique in the mission; samples carry it as their sender
+  /// A program beside the launcher, or a path seen from the mission's folder if it holds a '/'.
+  std::string program;
+  std::string robot;   ///< whose inner topics it shares; empty: the team's, with those of every robot
+  std::string vendor;  ///< DDS vendor in a mixed run; empty: the run's first vendor
+  std::filesystem::path settings;  ///< the mission file that it reads, mission.yaml unless another is named
+  bool clock_master = false;       ///< it drives the simulated clock; at most one does
+  bool paired = false;  ///< with a standby the run has a second process of it (program option --pair)
+  std::vector<std::string> arguments;  ///< appended to its command line
+};
+
+struct ServiceList {
+  std::vector<std::string> robots;  ///< as `robots:` names them, in that order
+  std::vector<ServiceEntry> services;
+
+  /// Null if there is none of that name.
+  const ServiceEntry* find(std::string_view name) const;
+  std::vector<std::string> names() const;
+  /// The one with `clock: master`; null if there is none: then the mission can only be flown live.
+  const ServiceEntry* clock_master() const;
+  /// The only service of a program that serves this robot: its own, else the team's. Empty if there is none
+  /// or a choice.
+  std::string serving(std::string_view program, std::string_view robot) const;
+};
+
+/// Reads `robots:` and `services:`. Throws FileError with the place: no list, a name twice or not of letters,
+/// digits, '_',
+/// '-' and '.', an unknown robot, a settings file or a program path that does not exist, two clock masters.
+ServiceList read_service_list(const Entry& mission);
+
+/// The list of mission.yaml in that folder. Throws FileError.
+ServiceList load_service_list(const std::filesystem::path& mission_folder);
+
+}  // namespace roci::mission

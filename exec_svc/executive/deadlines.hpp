@@ -1,0 +1,31 @@
+/// Until when an activity under way may do what. Derived from the network as it is now; nothing is kept.
+#pragma once
+
+#include <vector>
+
+#include "exec_svc/executive/run_state.hpp"
+
+namespace roci::exec::executive {
+
+class Deadlines {
+ public:
+  /// The state outlives this.
+  explicit Deadlines(const RunState& state);
+
+  /// The latest end under LatenessPolicy::deadline: the latest next change of the timelines that begin a
+  /// token with the activity (R144); no bound under the other policies.
+  temporal::Time end(Index activity) const;
+  /// When a command counts as hung. An activity without a longest duration is followed as long as its owner
+  /// lives.
+  temporal::Time hung_after(Index activity) const;
+  /// From when on a completed command counts as a success, if its post condition holds (R86).
+  temporal::Time settled_from(Index activity) const;
+  /// When the activity, which runs no contingency, is to be looked at next.
+  temporal::Time next_timer(Index activity, temporal::Time now) const;
+
+ private:
+  const RunState* state_;
+  std::vector<std::vector<std::size_t>> tokens_from_;  ///< by activity: tokens that begin with it
+};
+
+}  // namespace roci::exec::executive

@@ -1,0 +1,18 @@
+/// The fields of the executive's messages for the archive, each type once, for writing and reading.
+#pragma once
+
+#include "exec_svc/archive/archive.hpp"
+#include "exec_svc/executive/messages.hpp"
+
+namespace roci::exec::executive {
+
+template <class A>
+void fields(A& a, archive::Of<Observation, A>& v) {
+  a(v.timeline, v.value);
+}
+template <class A>
+void fields(A& a, archive::Of<CommandAck, A>& v) {
+  a(v.activity, v.attempt, v.stage, v.code, v.reason, v.epoch);
+}
+
+}  // namespace roci::exec::executive

@@ -1,0 +1,99 @@
+#include "exec_svc/executive/run_state.hpp"
+
+#include <utility>
+
+namespace roci::exec::executive {
+
+using temporal::ActivityState;
+using temporal::PlanActivity;
+using temporal::Time;
+
+RunState::RunState(temporal::FlexiblePlan flexible_plan, const ExecutiveSettings& executive_settings,
+                   TimelineStore& timelines, std::uint64_t current_epoch)
+    : plan(std::move(flexible_plan)),
+      settings(executive_settings),
+      store(timelines),
+      epoch(current_epoch),
+      points(plan, executive_settings.start == StartPolicy::latest, executive_settings.only_committed),
+      runs(plan.activities.size()),
+      unfinished(plan.activities.size()) {
+  outcome.kind = OutcomeKind::running;
+  for (Index i = 0; i < plan.activities.size(); ++i) index_of[plan.activities[i].id] = i;
+}
+
+temporal::Lookup RunState::lookup() const {
+  return [this](const std::string& timeline) { return store.value_of(timeline); };
+}
+
+StepStatus RunState::status(Index activity) const {
+  const PlanActivity& planned = plan.activities[activity];
+  const ActivityRun& run = runs[activity];
+  const temporal::Window window = points.window(planned.start_point);
+  return {planned.id,   planned.name, run.attempt, run.state, window.lower,
+          window.upper, run.started,  run.ended,   run.reason};
+}
+
+void RunState::change(Index activity, ActivityState state, std::string reason) {
+  runs[activity].state = state;
+  runs[activity].reason = std::move(reason);
+  while (first_waiting < runs.size() && runs[first_waiting].state != ActivityState::waiting) ++first_waiting;
+  outputs.changes.push_back(status(activity));
+}
+
+void RunState::enter(Index activity, ActivityPhase phase, Time now) {
+  ActivityRun& run = runs[activity];
+  if (phase == ActivityPhase::done && run.phase != ActivityPhase::done) --unfinished;
+  run.phase = phase;
+  run.phase_since = now;
+  if (run.active()) {
+    active.insert(activity);
+  } else {
+    active.erase(activity);
+  }
+}
+
+void RunState::send(Index activity, CommandAction action) {
+  const PlanActivity& planned = plan.activities[activity];
+  ActivityRun& run = runs[activity];
+  if (run.issued != run.attempt) {  // what is sent again, or asked after a restart, keeps the key of its issue
+    run.issued = run.attempt;
+    run.epoch = epoch;
+  }
+  outputs.commands.push_back({action, planned.id, run.attempt, planned.owner, planned.subsystem,
+                              planned.command_name, planned.arguments, points.duration(activity).lower,
+                              run.epoch, temporal::no_bound, planned.robot});
+}
+
+void RunState::close(Index activity, Time now, ActivityState state, const std::string& reason) {
+  ActivityRun& run = runs[activity];
+  if (run.started) run.ended = now;
+  if (plan.activities[activity].owner.empty() && run.started)
+    store.end(plan.activities[activity], state == ActivityState::succeeded);
+  enter(activity, ActivityPhase::done, now);
+  change(activity, state, reason);
+}
+
+void RunState::skip(Index activity, const std::string& reason) {
+  const PlanActivity& planned = plan.activities[activity];
+  enter(activity, ActivityPhase::done, {});
+  points.drop(planned.start_point);
+  points.drop(planned.end_point);
+  change(activity, ActivityState::skipped, reason);
+}
+
+void RunState::report_recovery(RecoveryAction action, Index activity, std::string reason) {
+  outputs.recoveries.push_back({action, plan.activities[activity].id, std::move(reason)});
+}
+
+void RunState::break_plan(Breakage breakage, const std::string& who, const std::string& reason,
+                          const std::string& contingency) {
+  if (outcome.kind == OutcomeKind::running)
+    outcome = {OutcomeKind::broken, breakage, who, reason, contingency};
+}
+
+void RunState::update_outcome() {
+  if (outcome.kind == OutcomeKind::running && unfinished == 0) outcome.kind = OutcomeKind::finished;
+  if (outcome.kind == OutcomeKind::cancelling && active.empty()) outcome.kind = OutcomeKind::cancelled;
+}
+
+}  // namespace roci::exec::executive

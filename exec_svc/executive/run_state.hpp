@@ -1,0 +1,62 @@
+/// What all parts of a plan's run share: the plan, its network, how far its activities have come, and what is
+/// said and asked for. Each part owns what else it needs.
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "exec_svc/executive/activity_run.hpp"
+#include "exec_svc/executive/executive.hpp"
+#include "exec_svc/executive/messages.hpp"
+#include "exec_svc/executive/point_dispatcher.hpp"
+#include "exec_svc/executive/timeline_store.hpp"
+
+namespace roci::exec::executive {
+
+using Index = std::size_t;  ///< of an activity, in plan order
+
+struct RunState {
+  /// The plan has passed check(); settings and store outlive the run.
+  RunState(temporal::FlexiblePlan flexible_plan, const ExecutiveSettings& executive_settings,
+           TimelineStore& timelines, std::uint64_t current_epoch);
+  RunState(const RunState&) = delete;  // parts know it by address
+  RunState& operator=(const RunState&) = delete;
+
+  temporal::FlexiblePlan plan;
+  const ExecutiveSettings& settings;
+  TimelineStore& store;
+  std::uint64_t epoch;  ///< of the executive: keys that it issues carry it for good
+  PointDispatcher points;
+  std::vector<ActivityRun> runs;
+  std::unordered_map<std::string, Index> index_of;
+  std::set<Index> active;   ///< started and not ended
+  std::size_t unfinished;   ///< activities that are not done
+  Index first_waiting = 0;  ///< none before it waits any more
+  Outcome outcome;
+  Outputs outputs;  ///< since they were taken last
+
+  /// Activities may start and fail; else what runs is only followed to its end.
+  bool starting() const { return outcome.kind == OutcomeKind::running; }
+  temporal::Lookup lookup() const;
+  StepStatus status(Index activity) const;
+
+  /// The activity's state as everybody sees it. Every change is told.
+  void change(Index activity, temporal::ActivityState state, std::string reason);
+  /// Its phase, which is the run's own.
+  void enter(Index activity, ActivityPhase phase, temporal::Time now);
+  void send(Index activity, CommandAction action);
+  /// It ends, with its impacts on timelines that nobody observes.
+  void close(Index activity, temporal::Time now, temporal::ActivityState state, const std::string& reason);
+  /// It will not start; its neighbours keep their order.
+  void skip(Index activity, const std::string& reason);
+  void report_recovery(RecoveryAction action, Index activity, std::string reason);
+  /// The first reason stands.
+  void break_plan(Breakage breakage, const std::string& who, const std::string& reason,
+                  const std::string& contingency);
+  void update_outcome();
+};
+
+}  // namespace roci::exec::executive

@@ -1,0 +1,26 @@
+/// The fields of goals for the archive, each type once, for writing and reading.
+#pragma once
+
+#include "exec_svc/archive/archive.hpp"
+#include "exec_svc/goals/goal_set.hpp"
+
+namespace roci::exec::goals {
+
+template <class A>
+void fields(A& a, archive::Of<GoalKey, A>& v) {
+  a(v.issuer, v.id);
+}
+template <class A>
+void fields(A& a, archive::Of<SampleId, A>& v) {
+  a(v.sender, v.incarnation, v.number);
+}
+template <class A>
+void fields(A& a, archive::Of<GoalRequest, A>& v) {
+  a(v.key, v.kind, v.arguments, v.importance, v.utility, v.priority, v.opens, v.closes, v.recalled, v.sample);
+}
+template <class A>
+void fields(A& a, archive::Of<GoalRecord, A>& v) {
+  a(v.request, v.state, v.reason, v.arrival, v.plan_version, v.answers);
+}
+
+}  // namespace roci::exec::goals

@@ -1,0 +1,93 @@
+#include "exec_svc/output_publisher_service.hpp"
+
+#include <set>
+
+#include "exec_svc/wire_service.hpp"
+#include "services/wire/plan_wire.hpp"
+
+namespace roci::exec {
+
+using executive::Command;
+using executive::CommandAction;
+using executive::StepStatus;
+using goals::GoalRecord;
+using journal::CrashPoints;
+using mission::Component;
+using mission::MissionModel;
+using reactor::Event;
+using reactor::Reactor;
+using reactor::ReactorOutputs;
+
+namespace {
+
+namespace topics = services::topics;
+
+// The key of the query that tells owners a leader's epoch; no activity has it.
+constexpr char kEpochKey[] = "epoch";
+
+}  // namespace
+
+OutputPublisher::OutputPublisher(services::Node& node, const MissionModel& mission, std::uint64_t epoch,
+                                 CrashPoints& crash)
+    : mission_(&mission),
+      executive_(node.options().name),
+      epoch_(epoch),
+      crash_(&crash),
+      commands_(services::advertise(node, topics::command)),
+      goal_statuses_(services::advertise(node, topics::goal_status)),
+      plans_(services::advertise(node, topics::plan)),
+      steps_(services::advertise(node, topics::step_status)),
+      missions_(services::advertise(node, topics::mission_status)),
+      events_(services::advertise(node, topics::event)) {}
+
+void OutputPublisher::send_goals(const Reactor& reactor) const {
+  for (const GoalRecord* goal : reactor.goals().all()) goal_statuses_.write(to_wire(*goal, executive_));
+}
+
+void OutputPublisher::send_plan(const Reactor& reactor) const {
+  if (reactor.plan().version != 0) plans_.write(plan_sample(reactor.plan()));
+  for (const StepStatus& step : reactor.steps()) steps_.write(to_wire(step, executive_, reactor.plan_version()));
+}
+
+void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version) const {
+  for (const GoalRecord& goal : out.goal_changes) sent(goal_statuses_.write(to_wire(goal, executive_)));
+  if (out.adopted) sent(plans_.write(plan_sample(*out.adopted)));
+  for (const Command& command : out.commands) sent(commands_.write(to_wire(command, executive_, version, epoch_)));
+  for (const StepStatus& step : out.steps) sent(steps_.write(to_wire(step, executive_, version)));
+  for (const Event& event : out.events) report(event);
+}
+
+v1::Plan OutputPublisher::plan_sample(const temporal::FlexiblePlan& plan) const {
+  v1::Plan out = services::wire::to_wire(plan);
+  out.executive(executive_);
+  return out;
+}
+
+void OutputPublisher::report(const Event& event) const { events_.write(to_wire(event)); }
+
+bool OutputPublisher::publish(v1::MissionStatus status, const std::string& trace_sha256) {
+  if (status == last_status_) return false;
+  last_status_ = status;
+  status.executive(executive_);
+  status.trace_sha256(trace_sha256);
+  missions_.write(std::move(status));
+  return true;
+}
+
+void OutputPublisher::announce_epoch() {
+  if (epoch_announced_ || commands_.matched_readers() == 0) return;
+  epoch_announced_ = true;
+  std::set<std::string> owners;
+  for (const Component& component : mission_->components) owners.insert(component.owner);
+  for (const std::string& owner : owners) {
+    Command query;
+    query.action = CommandAction::query;
+    query.activity = kEpochKey;
+    query.owner = owner;
+    commands_.write(to_wire(query, executive_, 0, epoch_));
+  }
+}
+
+bool OutputPublisher::answers_epoch(const v1::CommandAck& ack) { return ack.activity() == kEpochKey; }
+
+}  // namespace roci::exec

@@ -1,0 +1,56 @@
+/// What leaves an executive: commands, plans, statuses and events, in one order and with its epoch.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "exec_svc/journal/crash_points.hpp"
+#include "exec_svc/mission/mission_model.hpp"
+#include "exec_svc/reactor/reactor.hpp"
+#include "services/node.hpp"
+#include "services/publisher.hpp"
+#include "services/topics.hpp"
+
+namespace roci::exec {
+
+class OutputPublisher {
+ public:
+  /// `crash`: passes `during-send` after each sample of a step.
+  OutputPublisher(services::Node&, const mission::MissionModel&, std::uint64_t epoch,
+                  journal::CrashPoints& crash);
+
+  /// Goals, plan and steps as they stand, for who joins after a restart.
+  void send_goals(const reactor::Reactor&) const;
+  void send_plan(const reactor::Reactor&) const;
+  /// What a step decided, but for its planner call.
+  void send(const reactor::ReactorOutputs&, std::uint32_t plan_version) const;
+  void report(const reactor::Event&) const;
+  /// True if it is news: a status that equals the last one is not sent again.
+  bool publish(v1::MissionStatus, const std::string& trace_sha256);
+
+  /// Owners that know this epoch refuse what an earlier leader may still send. Does nothing until somebody
+  /// hears commands, and after the first time. (The simulated clock drops an earlier leader.)
+  void announce_epoch();
+  static bool answers_epoch(const v1::CommandAck&);
+
+ private:
+  void sent(bool) const { crash_->pass("during-send"); }
+
+  v1::Plan plan_sample(const temporal::FlexiblePlan&) const;
+
+  const mission::MissionModel* mission_;
+  std::string executive_;  // logical name
+  std::uint64_t epoch_;
+  journal::CrashPoints* crash_;
+  bool epoch_announced_ = false;
+  v1::MissionStatus last_status_;
+  services::Publisher<v1::Command> commands_;
+  services::Publisher<v1::GoalStatus> goal_statuses_;
+  services::Publisher<v1::Plan> plans_;
+  services::Publisher<v1::StepStatus> steps_;
+  services::Publisher<v1::MissionStatus> missions_;
+  services::Publisher<v1::Event> events_;
+};
+
+}  // namespace roci::exec

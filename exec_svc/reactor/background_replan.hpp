@@ -1,0 +1,44 @@
+/// What runs goes on while the planner works. The problem is written for the state that the running
+/// activities will leave; nothing else starts meanwhile; the plans change when they have ended, if that state
+/// has come about. Where the old plan must not go on, the robot stops as under StopAndReplan. (`replanning:
+/// situated`)
+#pragma once
+
+#include <optional>
+
+#include "exec_svc/reactor/replanning_policy.hpp"
+#include "exec_svc/reactor/stop_and_replan.hpp"
+
+namespace roci::exec::reactor {
+
+class BackgroundReplan final : public ReplanningPolicy {
+ public:
+  explicit BackgroundReplan(const PolicyParts& parts) : parts_(parts), stop_(parts) {}
+
+  void step(temporal::Time now, const ReactorInputs& inputs) override;
+  void resume(temporal::Time now) override;
+  void save(archive::Writer& archive) const override { stop_.save(archive); }
+  void restore(archive::Reader& archive) override { stop_.restore(archive); }
+
+ private:
+  /// A planner call during which what runs goes on. It exists only while a plan is executed.
+  struct Call {
+    problem::Forecast forecast;  ///< of the state that the running activities leave
+    std::optional<PlanReply> reply;
+    std::optional<temporal::Time> observed_by;  ///< until then that state may still come to be observed
+  };
+
+  bool possible() const;
+  void grant(temporal::Time now);
+  void call_planner(temporal::Time now);
+  void proceed(temporal::Time now);
+  void act_on_failure(temporal::Time now, const PlanReply& reply);
+  void keep_plan(temporal::Time now);
+  void change_plans(temporal::Time now);
+
+  PolicyParts parts_;
+  StopAndReplan stop_;
+  std::optional<Call> call_;
+};
+
+}  // namespace roci::exec::reactor

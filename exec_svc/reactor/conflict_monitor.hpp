@@ -1,0 +1,73 @@
+/// Whether what is so now leaves the rest of a plan possible: a state that somebody else changed, and that
+/// nothing in the plan brings back, is missed long before the activity that needs it is due (conflicts seen
+/// ahead, R73–R76).
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "core/temporal/condition.hpp"
+#include "core/temporal/flexible_plan.hpp"
+#include "exec_svc/reactor/predicted_conflict.hpp"
+
+namespace roci::exec::reactor {
+
+/// For every timeline that the plan's pre conditions compare with a truth or a state. An alarm is raised only
+/// if no other activity that waits or runs assigns a value that would do, wherever it stands in the plan, and
+/// only if it lasts: observations may follow the end of an activity. What may be skipped, is an open choice,
+/// or is pushed until somebody else makes it possible demands nothing. A change of a timeline costs the
+/// activities that touch it.
+class ConflictMonitor {
+ public:
+  ConflictMonitor() = default;
+  /// At first all activities wait. `foreseen`: timelines that change by themselves, as their timed windows
+  /// say; no alarm for them. `lasting`: for how long a conflict must stand.
+  ConflictMonitor(const temporal::FlexiblePlan& plan, const std::set<std::string>& foreseen,
+                  temporal::Duration lasting);
+
+  /// The plan is a new version of the one that `before` watched: what it saw stands, and since when.
+  void continue_from(const ConflictMonitor& before);
+
+  void observe(const std::string& timeline, const temporal::Value& value);
+  void change(const std::string& activity, temporal::ActivityState state);
+
+  /// The conflict of the earliest activity that stands for long enough.
+  std::optional<PredictedConflict> conflict(temporal::Time now);
+  /// When a conflict that is known will have stood for long enough.
+  std::optional<temporal::Time> next_check() const;
+
+ private:
+  struct Consumer {
+    std::size_t activity;
+    temporal::ConditionNode node;
+  };
+  struct Producer {
+    std::size_t activity;
+    temporal::Value value;
+  };
+  struct Timeline {
+    std::vector<Consumer> consumers;
+    std::vector<Producer> producers;
+    std::optional<temporal::Value> value;
+    const Consumer* conflict = nullptr;
+    temporal::Time since{0};
+  };
+
+  const Consumer* first_unmet(const Timeline& timeline) const;
+  void update(temporal::Time now);
+
+  temporal::Duration lasting_{0};
+  std::map<std::string, Timeline> timelines_;
+  std::set<std::string> touched_;
+  std::vector<std::string> ids_;
+  std::vector<temporal::ActivityState> states_;
+  std::unordered_map<std::string, std::size_t> index_of_;
+  std::vector<std::vector<std::string>> touched_by_;  ///< timelines of each activity
+};
+
+}  // namespace roci::exec::reactor

@@ -1,0 +1,14 @@
+/// What a condition asks of single timelines.
+#pragma once
+
+#include <vector>
+
+#include "core/temporal/condition.hpp"
+
+namespace roci::exec::reactor {
+
+/// The comparisons that must all hold: the condition itself, or the parts of its conjunction. What lies below
+/// an alternative or a negation is no demand by itself; nothing that follows such a part is told.
+std::vector<temporal::ConditionNode> conjuncts(const temporal::Condition& condition);
+
+}  // namespace roci::exec::reactor

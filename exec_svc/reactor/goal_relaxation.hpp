@@ -1,0 +1,55 @@
+/// Which goals leave when not all fit (over-subscription planning: D. E. Smith, "Choosing objectives in
+/// over-subscription planning", ICAPS 2004; R52, R53). Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exec_svc/goals/goal_set.hpp"
+#include "exec_svc/mission/mission_model.hpp"
+#include "exec_svc/problem/problem_writer.hpp"
+#include "exec_svc/reactor/messages.hpp"
+
+namespace roci::exec::reactor {
+
+/// What was already relaxed in the planner call that was replied to.
+struct Relaxation {
+  std::string soft_goals_left_out;                       ///< the reason why they were; empty: they were in it
+  problem::Reserves reserves = problem::Reserves::kept;  ///< spent: for hard goals, until one fails or comes
+
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self) {
+    archive(self.soft_goals_left_out, self.reserves);
+  }
+};
+
+struct RelaxationStep {
+  enum class Kind {
+    give_up_soft,    ///< these goals leave
+    give_up_hard,    ///< likewise; the reserves are kept back again, the goals that remain may not need them
+    leave_out_soft,  ///< no goal leaves yet: one more call without the soft ones tells
+    spend_reserves,  ///< no goal leaves yet: one more call may use what the mission keeps back
+  };
+  Kind kind = Kind::give_up_soft;
+  std::vector<goals::GoalKey> goals;  ///< that leave, or would have to
+  std::string reason;
+};
+
+/// The next step after a reply that says that the goals do not fit (temporal::speaks_of_goals). What the
+/// planner proves out of reach takes no other goal with it. One goal leaves at a time, unless hard ones alone
+/// are named: the others may be within reach once it is gone. A proof that names hard goals alone may hold
+/// only because of what the soft ones demand (a search leaves out what cannot serve all goals), hence
+/// leave_out_soft.
+RelaxationStep relax(const PlanReply& reply, const goals::GoalSet& goals,
+                     const mission::MissionModel& mission, const Relaxation& relaxed);
+
+/// The soft goal that relax() gives up; nothing: the reply speaks of hard goals alone.
+std::optional<goals::GoalKey> soft_goal_to_give_up(const PlanReply& reply, const goals::GoalSet& goals,
+                                                   const mission::MissionModel& mission,
+                                                   const Relaxation& relaxed);
+
+/// The goals as they are, but soft ones that are open count as gone.
+goals::GoalSet hard_goals(const goals::GoalSet& goals);
+
+}  // namespace roci::exec::reactor

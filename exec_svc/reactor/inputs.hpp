@@ -1,0 +1,18 @@
+/// What the ground and the world say, before anything is decided: goals, and facts that achieve them.
+#pragma once
+
+#include "exec_svc/reactor/mission_state.hpp"
+
+namespace roci::exec::reactor {
+
+/// Takes requests for goals in; each is answered by a change of its goal's status. True: one was accepted,
+/// and a plan is wanted for it.
+bool take_goals(MissionState& state, temporal::Time now, const std::vector<goals::GoalRequest>& requests);
+
+/// Until they are observed, the timelines that the goal brings with it are as its kind says.
+void assume_unobserved(MissionState& state, const goals::GoalRequest& goal);
+
+/// Open goals of which all facts are observed are achieved, whoever brought them about.
+void note_achieved(MissionState& state);
+
+}  // namespace roci::exec::reactor

@@ -1,0 +1,112 @@
+/// What goes into the reactor and what comes out of it: plain values, no DDS. The names are those of idl/.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/temporal/flexible_plan.hpp"
+#include "core/temporal/plan_delta.hpp"
+#include "core/temporal/verdict.hpp"
+#include "exec_svc/executive/messages.hpp"
+#include "exec_svc/goals/goal_set.hpp"
+#include "exec_svc/problem/problem_writer.hpp"
+#include "exec_svc/reactor/remaining_plan.hpp"
+
+namespace roci::exec::reactor {
+
+/// A service was lost: it is dead, hangs or is cut off.
+struct PeerLoss {
+  std::string service;
+  std::string reason;
+};
+
+/// A call to the planner; its reply comes back with the same id.
+struct PlanRequest {
+  std::uint64_t id = 0;
+  std::string problem_name;
+  problem::Problem problem;
+  temporal::Time origin{0};              ///< mission time of the problem's 0
+  std::vector<PlannedAction> remaining;  ///< of the plan before; the planner begins with it
+};
+
+/// How a planner call ended.
+struct PlanReply {
+  std::uint64_t call = 0;
+  temporal::Verdict verdict = temporal::Verdict::no_reply;
+  std::string reason;           ///< of the verdict, in plain words; may be empty
+  temporal::FlexiblePlan plan;  ///< with solved; its activities are not yet bound to owners
+};
+
+/// The model behind an owner's functions, e.g. a map or an arm. Versions rise.
+struct ModelVersion {
+  std::string owner;
+  std::uint64_t version = 0;
+};
+
+/// What the engine that plans all the time is told of its versions.
+struct PlanReceipt {
+  std::uint32_t version = 0;  ///< that is executed; 0: none is, and the next one is to come whole
+  std::uint32_t refused = 0;  ///< the newest one, if it was not taken, for this reason
+  std::string reason;
+  std::string conflict;  ///< seen ahead in the version that is executed (R81); empty: none is
+  bool open = false;     ///< a plan would be taken now
+  bool operator==(const PlanReceipt&) const = default;
+};
+
+/// What happened since the last step. Each list is in the order of events.
+struct ReactorInputs {
+  bool restarted = false;  ///< the executive was started anew and stands as before; its owners may not
+  std::uint64_t epoch = 0;  ///< of the executive from this step on; 0: as before
+  std::vector<goals::GoalRequest> goals;
+  std::vector<executive::Observation> observations;
+  std::vector<executive::CommandAck> acks;
+  std::vector<PeerLoss> losses;
+  std::vector<std::string> arrivals;  ///< services that came (back)
+  std::vector<ModelVersion> models;
+  std::optional<PlanReply> reply;
+  std::vector<temporal::PlanDelta> deltas;  ///< of an engine that plans all the time
+};
+
+/// In the order of MissionPhase in idl/plan.idl.
+enum class MissionPhase {
+  idle,       ///< no plan runs and none is wanted
+  pausing,    ///< what runs is cancelled, components fall back
+  planning,   ///< the planner works, nothing runs
+  executing,  ///< a plan runs
+  safe,       ///< the robot was made safe; goals wait for the ground or for a service
+  finished,   ///< every goal has its end
+};
+/// "idle", "pausing", …: the name above.
+const char* to_string(MissionPhase phase);
+
+enum class Severity { info, warning, error };
+
+/// What operators are told: a stable code and plain words.
+struct Event {
+  Severity level = Severity::info;
+  std::string code;  ///< e.g. "goal.dropped"
+  std::string text;
+};
+
+/// What one step decided. Each list is in the order of decisions.
+struct ReactorOutputs {
+  std::vector<executive::Command> commands;
+  std::vector<goals::GoalRecord> goal_changes;
+  std::vector<executive::StepStatus> steps;
+  std::vector<Event> events;
+  std::optional<std::uint64_t> cancelled_call;  ///< its reply is wanted no more; it is still awaited
+  std::optional<PlanRequest> call;
+  std::optional<temporal::FlexiblePlan> adopted;  ///< a plan that now runs
+  std::optional<PlanReceipt> receipt;
+  std::optional<temporal::Time> wake;  ///< step() is to be called then, if nothing comes before
+};
+
+struct ReactorCounts {
+  std::uint32_t planner_calls = 0;
+  std::uint32_t replans = 0;  ///< wishes for a plan that were granted after a first plan was adopted
+  std::uint32_t achieved = 0, dropped = 0, failed = 0, rejected = 0, open = 0;  ///< goals
+};
+
+}  // namespace roci::exec::reactor

@@ -1,0 +1,50 @@
+#include "exec_svc/reactor/mission_state.hpp"
+
+#include <utility>
+
+namespace roci::exec::reactor {
+
+using goals::GoalClass;
+using goals::GoalKey;
+using goals::GoalRecord;
+using goals::GoalState;
+
+void MissionState::want_plan(const std::string& reason) {
+  replan_wanted = true;
+  replan_reason = reason;
+}
+
+void MissionState::report(Severity level, std::string code, std::string text) {
+  out.events.push_back({level, std::move(code), std::move(text)});
+}
+
+void MissionState::set_goal(const GoalKey& key, GoalState goal_state, const std::string& reason,
+                            std::uint32_t plan_version) {
+  goals.set_state(key, goal_state, reason, plan_version);
+  out.goal_changes.push_back(*goals.find(key));
+}
+
+void MissionState::give_up(const std::vector<GoalKey>& keys, const std::string& reason) {
+  for (const GoalKey& key : keys) {
+    const bool hard = goals.find(key)->request.importance == GoalClass::hard;
+    set_goal(key, hard ? GoalState::failed : GoalState::dropped, reason);
+    if (hard) {
+      report(Severity::error, "goal.failed",
+             "hard goal " + key.text() + " failed: " + reason + "; the ground is asked");
+    } else {
+      report(Severity::warning, "goal.dropped", "goal " + key.text() + " dropped: " + reason);
+    }
+  }
+}
+
+std::vector<GoalKey> MissionState::open_goals() const {
+  std::vector<GoalKey> out_keys;
+  for (const GoalRecord* record : goals.open()) out_keys.push_back(record->request.key);
+  return out_keys;
+}
+
+void MissionState::wake_at(temporal::Time time) {
+  if (!out.wake || time < *out.wake) out.wake = time;
+}
+
+}  // namespace roci::exec::reactor

@@ -1,0 +1,44 @@
+/// What all parts of the reactor share: the mission, its goals and beliefs, the phase, and what the step
+/// under way puts out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "exec_svc/beliefs/beliefs.hpp"
+#include "exec_svc/goals/goal_set.hpp"
+#include "exec_svc/mission/mission_model.hpp"
+#include "exec_svc/reactor/messages.hpp"
+
+namespace roci::exec::reactor {
+
+struct MissionState {
+  /// The model outlives the state.
+  explicit MissionState(const mission::MissionModel& model) : mission(&model), beliefs(model), goals(model) {}
+
+  const mission::MissionModel* mission;
+  beliefs::Beliefs beliefs;
+  goals::GoalSet goals;
+  MissionPhase phase = MissionPhase::idle;
+  bool replan_wanted = false;
+  std::string replan_reason;  ///< of the newest wish for a plan, also once it has been granted
+  ReactorCounts counts;       ///< of planner calls and replans; goals are counted when asked for
+  ReactorOutputs out;         ///< of the step under way
+
+  void want_plan(const std::string& reason);
+  /// Tells operators.
+  void report(Severity level, std::string code, std::string text);
+  void set_goal(const goals::GoalKey& key, goals::GoalState goal_state, const std::string& reason,
+                std::uint32_t plan_version = 0);
+  /// Ends goals that cannot be reached. Hard ones are never dropped: they fail, and the ground is asked.
+  void give_up(const std::vector<goals::GoalKey>& keys, const std::string& reason);
+  std::vector<goals::GoalKey> open_goals() const;
+  void wake_at(temporal::Time time);
+
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self) {
+    archive(self.phase, self.replan_wanted, self.replan_reason, self.counts);
+  }
+};
+
+}  // namespace roci::exec::reactor

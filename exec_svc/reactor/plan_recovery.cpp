@@ -1,0 +1,109 @@
+#include "exec_svc/reactor/plan_recovery.hpp"
+
+#include <algorithm>
+
+namespace roci::exec::reactor {
+
+using executive::Breakage;
+using executive::Outcome;
+using executive::OutcomeKind;
+using executive::StepStatus;
+using goals::GoalKey;
+using goals::GoalRecord;
+using goals::GoalSet;
+using temporal::Time;
+
+namespace {
+
+/// The goals that an activity works for: those it serves, else those of the next one that serves any.
+std::vector<GoalKey> goals_behind(const temporal::FlexiblePlan& plan, const std::string& activity,
+                                  const GoalSet& goals) {
+  const auto failed = std::find_if(plan.activities.begin(), plan.activities.end(),
+                                   [&](const temporal::PlanActivity& one) { return one.id == activity; });
+  for (auto one = failed; one != plan.activities.end(); ++one) {
+    std::vector<GoalKey> out;
+    for (const GoalRecord* record : goals.open()) {
+      const auto& served = one->goals_served;
+      if (std::find(served.begin(), served.end(), record->request.key.text()) != served.end())
+        out.push_back(record->request.key);
+    }
+    if (!out.empty()) return out;
+  }
+  return {};
+}
+
+}  // namespace
+
+PlanRecovery::PlanRecovery(MissionState& state, RunningPlan& plan, PlannerCall& call, Safing& safing)
+    : state_(&state),
+      plan_(&plan),
+      call_(&call),
+      safing_(&safing),
+      policy_(recovery_policy_of(state.mission->executive.recovery)),
+      backoff_(state.mission->executive.failure_limit, state.mission->executive.failure_pause,
+               state.mission->executive.failure_pause_max) {}
+
+void PlanRecovery::note_successes() {
+  for (const StepStatus& step : state_->out.steps) {
+    if (step.state != temporal::ActivityState::succeeded) continue;
+    if (const auto* activity = plan_->executive().activity(step.activity))
+      backoff_.succeeded(activity->subsystem);
+  }
+}
+
+void PlanRecovery::monitor(Time now, bool next_is_coming) {
+  const Outcome outcome = plan_->outcome();
+  if (outcome.kind == OutcomeKind::broken) {
+    handle_failure(now, outcome);
+  } else if (outcome.kind == OutcomeKind::finished && !next_is_coming) {
+    state_->report(Severity::info, "plan.finished", plan_->name() + " finished");
+    state_->phase = MissionPhase::idle;
+    if (!state_->goals.open().empty()) state_->want_plan("the plan ended with goals open");
+  } else if (outcome.kind == OutcomeKind::running && !state_->replan_wanted) {
+    if (const auto conflict = plan_->conflict_ahead(now)) break_plan(now, conflict->reason);
+  }
+}
+
+void PlanRecovery::handle_failure(Time now, const Outcome& outcome) {
+  break_plan(now, (outcome.activity.empty() ? "" : outcome.activity + ": ") + outcome.reason);
+  if (!state_->replan_wanted) return;
+  if (outcome.breakage == Breakage::activity_failed) count_failure(now, outcome);
+  if (outcome.breakage == Breakage::refused_for_good) {
+    state_->give_up(goals_behind(plan_->executive().plan(), outcome.activity, state_->goals),
+                    outcome.activity + " will never be taken: " + outcome.reason);
+  }
+}
+
+void PlanRecovery::break_plan(Time now, const std::string& reason) {
+  plan_->invalidate();
+  state_->report(Severity::warning, "plan.broken", plan_->name() + " is broken: " + reason);
+  if (policy_.replans) return state_->want_plan(plan_->name() + " is broken");
+  if (!policy_.asks_ground)
+    state_->give_up(state_->open_goals(),
+                    plan_->name() + " broke, and nothing is mended in this run: " + reason);
+  safing_->make_safe(now, plan_->name() + " broke: " + reason);
+}
+
+/// A component that keeps failing gets ever more time to recover; in the end its goals are given up.
+void PlanRecovery::count_failure(Time now, const Outcome& outcome) {
+  const temporal::PlanActivity* activity = plan_->executive().activity(outcome.activity);
+  if (activity == nullptr || activity->subsystem.empty()) return;
+  const FailureBackoff::Count count = backoff_.failed(activity->subsystem);
+  if (count.used_up) {
+    state_->give_up(goals_behind(plan_->executive().plan(), outcome.activity, state_->goals),
+                    activity->subsystem + " failed " + std::to_string(count.in_a_row) +
+                        " times in a row, last as " + outcome.activity + " " + outcome.reason);
+  } else if (count.pause > temporal::Duration{0}) {
+    call_->wait_until(now + count.pause);
+  }
+}
+
+bool PlanRecovery::may_replan(Time now) {
+  const std::uint32_t limit = state_->mission->executive.replan_limit;
+  if (plan_->version() == 0 || ++state_->counts.replans <= limit) return true;
+  safing_->make_safe(now, "the limit of " + std::to_string(limit) +
+                              " replans is reached; the last: " + state_->replan_reason);
+  return false;
+}
+
+}  // namespace roci::exec::reactor

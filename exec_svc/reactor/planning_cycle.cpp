@@ -1,0 +1,130 @@
+#include "exec_svc/reactor/planning_cycle.hpp"
+
+#include <utility>
+
+#include "exec_svc/reactor/plan_binding.hpp"
+#include "exec_svc/reactor/recovery_policy.hpp"
+
+namespace roci::exec::reactor {
+
+using goals::GoalRecord;
+using goals::GoalState;
+using problem::Forecast;
+using problem::Reserves;
+using temporal::Time;
+using temporal::Verdict;
+
+void PlanningCycle::begin(Time now) {
+  state_->replan_wanted = false;  // the problem holds all that is known now
+  if (state_->goals.open().empty()) {
+    state_->phase = MissionPhase::idle;
+    return;
+  }
+  state_->phase = MissionPhase::planning;
+  relaxed_.soft_goals_left_out.clear();
+  call_for_now(now);
+}
+
+void PlanningCycle::call_for_now(Time now) { call(now, now + state_->mission->planner.allowance, {}); }
+
+void PlanningCycle::call(Time now, Time origin, const Forecast& forecast) {
+  const bool all_goals = relaxed_.soft_goals_left_out.empty();
+  PlanRequest request;
+  request.problem_name = call_->next_name();
+  request.origin = origin;
+  request.problem =
+      write_problem(*state_->mission, state_->beliefs, all_goals ? state_->goals : hard_goals(state_->goals),
+                    request.problem_name, now, origin, relaxed_.reserves, forecast);
+  request.remaining = plan_->remaining();
+  call_->send(std::move(request));
+}
+
+void PlanningCycle::take_reply(Time now, const PlanReply& reply) {
+  if (call_->is_end_of_cancelled(reply) || call_->count_as_stale(reply)) return begin(now);
+  call_->note_fresh();
+  if (reply.verdict == Verdict::solved && !relaxed_.soft_goals_left_out.empty()) {
+    state_->give_up({*state_->goals.drop_candidate()}, relaxed_.soft_goals_left_out);
+    begin(now);
+  } else if (reply.verdict == Verdict::solved) {
+    adopt(now, reply);
+  } else if (speaks_of_goals(reply.verdict)) {
+    call_->clear_failures();
+    if (relax(reply)) {
+      begin(now);
+    } else {
+      call_for_now(now);
+    }
+  } else {
+    try_again_later(now, reply);
+  }
+}
+
+void PlanningCycle::adopt(Time now, const PlanReply& reply) {
+  call_->clear_failures();
+  call_->note_fresh();
+  temporal::FlexiblePlan plan = reply.plan;
+  plan.origin = call_->request().origin;
+  std::vector<PlannedAction> planned = planned_actions(plan);
+  std::string fault = bind_plan(plan, plan_->version() + 1, *state_->mission, call_->request().problem,
+                                state_->beliefs, state_->goals);
+  if (!recovery_policy_of(state_->mission->executive.recovery).flexible) make_inflexible(plan);
+  if (fault.empty()) fault = plan_->load(plan, now);
+  if (!fault.empty()) return safing_->make_safe(now, "the planner's plan cannot be executed: " + fault);
+  for (std::size_t i = 0; i < planned.size(); ++i) planned[i].activity = plan.activities[i].id;
+  plan_->keep_actions(std::move(planned));
+  note_planned();
+  plan_->begin(now);
+}
+
+/// Every open goal is in the plan: the planner was asked for all of them.
+void PlanningCycle::note_planned() {
+  std::string served;
+  for (const GoalRecord* record : state_->goals.open()) {
+    const goals::GoalKey key = record->request.key;
+    served += (served.empty() ? "" : ", ") + key.id;
+    state_->set_goal(key, GoalState::planned, "in " + plan_->name(), plan_->version());
+  }
+  state_->report(Severity::info, "plan.adopted",
+                 plan_->name() + " with " + std::to_string(plan_->executive().plan().activities.size()) +
+                     " activities for " + served);
+}
+
+bool PlanningCycle::relax(const PlanReply& reply) {
+  const RelaxationStep step = reactor::relax(reply, state_->goals, *state_->mission, relaxed_);
+  switch (step.kind) {
+    case RelaxationStep::Kind::give_up_soft:
+      state_->give_up(step.goals, step.reason);
+      return true;
+    case RelaxationStep::Kind::give_up_hard:
+      state_->give_up(step.goals, step.reason);
+      keep_reserves();
+      return true;
+    case RelaxationStep::Kind::leave_out_soft:
+      relaxed_.soft_goals_left_out = step.reason;
+      return false;
+    case RelaxationStep::Kind::spend_reserves:
+      relaxed_.reserves = Reserves::spent;
+      state_->report(Severity::warning, "reserve.spent",
+                     "what is kept back is now used, before hard goal " + step.goals.front().text() +
+                         " is given up: " + step.reason);
+      return true;
+  }
+  return true;
+}
+
+bool PlanningCycle::soft_goal_would_leave(const PlanReply& reply) const {
+  return soft_goal_to_give_up(reply, state_->goals, *state_->mission, relaxed_).has_value();
+}
+
+void PlanningCycle::try_again_later(Time now, const PlanReply& reply) {
+  const std::string what = std::string("planner call ended as ") + to_string(reply.verdict) +
+                           (reply.reason.empty() ? "" : ": " + reply.reason);
+  const bool may_pass = reply.verdict != Verdict::unsupported && reply.verdict != Verdict::invalid_input;
+  if (!may_pass || !call_->back_off(now)) return safing_->make_safe(now, what);
+  state_->report(Severity::warning, "plan.retry", what + "; will be tried again");
+  state_->phase = MissionPhase::idle;
+  state_->want_plan("the planner call is tried again");
+  state_->wake_at(call_->not_before());
+}
+
+}  // namespace roci::exec::reactor

@@ -1,0 +1,53 @@
+/// From a wish for a plan to a plan that runs: the problem is written, the planner called, and its reply
+/// turned into a plan, into fewer goals or into another call.
+#pragma once
+
+#include "exec_svc/reactor/goal_relaxation.hpp"
+#include "exec_svc/reactor/mission_state.hpp"
+#include "exec_svc/reactor/planner_call.hpp"
+#include "exec_svc/reactor/running_plan.hpp"
+#include "exec_svc/reactor/safing.hpp"
+
+namespace roci::exec::reactor {
+
+class PlanningCycle {
+ public:
+  /// All outlive this.
+  PlanningCycle(MissionState& state, RunningPlan& plan, PlannerCall& call, Safing& safing)
+      : state_(&state), plan_(&plan), call_(&call), safing_(&safing) {}
+
+  /// Calls the planner for the state that is observed; without open goals there is nothing to plan.
+  void begin(temporal::Time now);
+  /// Calls the planner for a plan that starts at `origin`, when the forecast has come about.
+  void call(temporal::Time now, temporal::Time origin, const problem::Forecast& forecast);
+  /// Acts on the reply to a call that begin() made.
+  void take_reply(temporal::Time now, const PlanReply& reply);
+  /// Binds the plan to its commands and runs it. A plan that cannot be executed makes the robot safe.
+  void adopt(temporal::Time now, const PlanReply& reply);
+
+  /// Not all goals fit: one leaves, or the next call is relaxed. False: that call is to be made as it is, for
+  /// hard goals alone.
+  bool relax(const PlanReply& reply);
+  /// Whether relax() would end a soft goal, and no hard one is at stake.
+  bool soft_goal_would_leave(const PlanReply& reply) const;
+  /// Another goal came: what the mission keeps back is kept again.
+  void keep_reserves() { relaxed_.reserves = problem::Reserves::kept; }
+
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self) {
+    Relaxation::fields(archive, self.relaxed_);
+  }
+
+ private:
+  void call_for_now(temporal::Time now);
+  void try_again_later(temporal::Time now, const PlanReply& reply);
+  void note_planned();
+
+  MissionState* state_;
+  RunningPlan* plan_;
+  PlannerCall* call_;
+  Safing* safing_;
+  Relaxation relaxed_;  ///< in the newest call
+};
+
+}  // namespace roci::exec::reactor

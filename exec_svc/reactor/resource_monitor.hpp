@@ -1,0 +1,65 @@
+/// Whether what is there now suffices for the rest of a plan: energy that was lost is missed long before the
+/// activity that lacks it is due (conflicts seen ahead, R72–R74).
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "core/temporal/condition.hpp"
+#include "core/temporal/flexible_plan.hpp"
+#include "exec_svc/reactor/predicted_conflict.hpp"
+
+namespace roci::exec::reactor {
+
+/// For every numeric timeline that the plan's activities change by a known amount, and in no other way: the
+/// range in which its value must lie now, so that the pre conditions of all waiting activities hold in plan
+/// order. What running activities will still take counts as nothing, so that no alarm is false. An activity
+/// that waits no more costs the logarithm of the plan's length, a check one comparison for each timeline.
+class ResourceMonitor {
+ public:
+  ResourceMonitor() = default;
+  /// At first all activities wait.
+  explicit ResourceMonitor(const temporal::FlexiblePlan& plan);
+
+  /// The activity waits no more: it was started, skipped or cancelled.
+  void remove(const std::string& activity);
+
+  /// The first waiting activity, in plan order, whose pre conditions will fail on the values of now.
+  std::optional<PredictedConflict> conflict(const temporal::Lookup& now) const;
+
+ private:
+  /// A part of the plan: what its waiting activities add up to, and the range that they ask of the value
+  /// before the first of them.
+  struct Segment {
+    double change = 0;
+    double least, most;
+    Segment();
+    bool holds(double value) const;
+  };
+  /// The segments of one timeline as a tree in an array: node i holds 2i and 2i + 1, the leaves are the
+  /// activities that touch the timeline.
+  struct Timeline {
+    std::vector<std::size_t> activities;
+    std::vector<Segment> tree;
+    std::size_t leaves() const { return tree.size() / 2; }
+    void build(const std::vector<Segment>& of_activities);
+    void clear(std::size_t leaf);
+    std::optional<std::size_t> first_failing(double value, double& before) const;
+  };
+  struct Asked {
+    std::string id;
+    temporal::Condition pre;
+  };
+
+  static Segment join(const Segment& first, const Segment& second);
+
+  std::map<std::string, Timeline> timelines_;
+  std::vector<Asked> activities_;
+  std::unordered_map<std::string, std::size_t> index_of_;
+};
+
+}  // namespace roci::exec::reactor

@@ -1,0 +1,184 @@
+#include "exec_svc/reactor/running_plan.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include "core/temporal/schedule.hpp"
+#include "exec_svc/reactor/recovery_policy.hpp"
+
+namespace roci::exec::reactor {
+
+using executive::Inputs;
+using executive::Observation;
+using executive::Outputs;
+using executive::RecoveryAction;
+using executive::RecoveryStep;
+using executive::StepStatus;
+using temporal::Time;
+
+namespace {
+
+/// Activities whose windows are told to the ground when these move: what a screen shows, and no work in the
+/// size of the plan.
+constexpr std::size_t kReportedAhead = 32;
+
+const char* code_of(RecoveryAction action) {
+  switch (action) {
+    case RecoveryAction::push:
+      return "recovery.push";
+    case RecoveryAction::retry:
+      return "recovery.retry";
+    case RecoveryAction::contingency:
+      return "recovery.contingency";
+  }
+  return "recovery";
+}
+
+temporal::FlexiblePlan in_order_of_starts(const temporal::FlexiblePlan& plan) {
+  temporal::FlexiblePlan out = plan;
+  const auto times = temporal::earliest_schedule(plan.point_count, temporal::all_constraints(plan));
+  if (!times) return out;
+  std::ranges::stable_sort(out.activities, {}, [&](const temporal::PlanActivity& activity) {
+    return (*times)[activity.start_point];
+  });
+  return out;
+}
+
+}  // namespace
+
+RunningPlan::RunningPlan(MissionState& state)
+    : state_(&state), executive_(executive_settings(*state.mission)) {}
+
+void RunningPlan::step(Time now, const ReactorInputs& inputs) {
+  Inputs told;
+  told.observations = inputs.observations;
+  for (Observation& change : changed_conditions()) {
+    conflict_monitor_.observe(change.timeline, change.value);
+    told.observations.push_back(std::move(change));
+  }
+  if (inputs.epoch != 0) epoch_ = inputs.epoch;
+  told.epoch = epoch_;
+  told.acks = inputs.acks;
+  for (const PeerLoss& loss : inputs.losses) told.lost_owners.push_back(loss.service);
+  Outputs done = executive_.step(now, told);
+  for (const StepStatus& step : done.changes) {
+    conflict_monitor_.change(step.activity, step.state);
+    if (step.state != temporal::ActivityState::waiting) resource_monitor_.remove(step.activity);
+  }
+  for (const RecoveryStep& recovery : done.recoveries)
+    state_->report(Severity::info, code_of(recovery.action), recovery.activity + ": " + recovery.reason);
+  forward(std::move(done));
+  if (!state_->out.steps.empty() && state_->phase == MissionPhase::executing) report_windows();
+}
+
+void RunningPlan::resume(Time now) { forward(executive_.resume(now)); }
+
+void RunningPlan::cancel(Time now) { forward(executive_.cancel_all(now)); }
+
+std::string RunningPlan::load(temporal::FlexiblePlan plan, Time now) {
+  const auto faults = executive_.load(plan, now);
+  if (!faults.empty()) return faults.front();
+  version_ = plan.version;
+  invalid_ = false;
+  watch(plan);
+  return "";
+}
+
+/// An engine that plans all the time sends activities in any order and changes a plan of which a part has
+/// happened; a planner's plan comes in the order of its starts, and all of it waits.
+void RunningPlan::watch(const temporal::FlexiblePlan& plan) {
+  const mission::MissionModel& mission = *state_->mission;
+  std::set<std::string> predicted;
+  for (const mission::WindowModel& window : mission.windows) predicted.insert(window.fact);
+  const bool new_version = mission.executive.replanning == mission::Replanning::continuous;
+  const temporal::FlexiblePlan watched = new_version ? in_order_of_starts(plan) : plan;
+  ConflictMonitor conflicts(watched, predicted, mission.executive.ack_timeout);
+  resource_monitor_ = ResourceMonitor(watched);
+  if (new_version) {
+    conflicts.continue_from(conflict_monitor_);
+    for (const StepStatus& step : executive_.steps()) {
+      conflicts.change(step.activity, step.state);
+      if (step.state != temporal::ActivityState::waiting) resource_monitor_.remove(step.activity);
+    }
+  }
+  conflict_monitor_ = std::move(conflicts);
+}
+
+void RunningPlan::begin(Time now) {
+  state_->phase = MissionPhase::executing;
+  condition_values_.clear();
+  for (const temporal::PlanActivity& activity : executive_.plan().activities) {
+    for (const temporal::Condition* condition : {&activity.pre, &activity.maintenance}) {
+      for (const std::string& name : temporal::timelines_of(*condition)) condition_values_[name] = {};
+    }
+  }
+  state_->out.adopted = executive_.plan();
+  reported_starts_.clear();
+  report_windows();
+  state_->wake_at(now);
+}
+
+void RunningPlan::unload(Time now) {
+  executive_.load({}, now);
+  forward(executive_.step(now, {}));
+}
+
+std::optional<ConflictAhead> RunningPlan::conflict_ahead(Time now) {
+  const auto lookup = [this](const std::string& timeline) { return state_->beliefs.lookup(timeline); };
+  if (const auto conflict = resource_monitor_.conflict(lookup))
+    return ConflictAhead{conflict->activity, conflict->activity + " will lack " + conflict->description};
+  if (const auto conflict = conflict_monitor_.conflict(now)) {
+    const auto steps = executive_.steps();
+    const auto due = std::ranges::find(steps, conflict->activity, &StepStatus::activity);
+    return ConflictAhead{conflict->activity, conflict->activity + ", due at " +
+                                                 temporal::to_text(due->earliest_start) + ", will lack " +
+                                                 conflict->description +
+                                                 ", and nothing in the plan brings it about"};
+  }
+  if (const auto next = conflict_monitor_.next_check()) state_->wake_at(*next);
+  return std::nullopt;
+}
+
+std::vector<PlannedAction> RunningPlan::remaining() const {
+  return remaining_actions(planned_, executive_.steps());
+}
+
+void RunningPlan::restore_observations(const std::vector<Observation>& observations) {
+  Inputs observed;
+  observed.observations = observations;
+  executive_.step(Time{0}, observed);
+}
+
+/// Facts are derived from observations here, where the metadata is; the executive sees each as one more
+/// timeline.
+std::vector<Observation> RunningPlan::changed_conditions() {
+  std::vector<Observation> out;
+  for (auto& [name, last] : condition_values_) {
+    auto value = state_->beliefs.lookup(name);
+    if (!value || *value == last) continue;
+    last = *value;
+    out.push_back({name, std::move(*value)});
+  }
+  return out;
+}
+
+void RunningPlan::forward(Outputs done) {
+  ReactorOutputs& out = state_->out;
+  std::move(done.commands.begin(), done.commands.end(), std::back_inserter(out.commands));
+  std::move(done.changes.begin(), done.changes.end(), std::back_inserter(out.steps));
+  if (done.next_wake) state_->wake_at(*done.next_wake);
+}
+
+/// Windows of what starts next are told again where real events have moved them.
+void RunningPlan::report_windows() {
+  for (const StepStatus& step : executive_.upcoming(kReportedAhead)) {
+    const auto [reported, added] = reported_starts_.try_emplace(step.activity, step.earliest_start);
+    if (!added && reported->second == step.earliest_start) continue;
+    reported->second = step.earliest_start;
+    state_->out.steps.push_back(step);
+  }
+}
+
+}  // namespace roci::exec::reactor

@@ -1,0 +1,92 @@
+/// The plan that runs, or ran last: the executive that runs it, what is left of it, and whether it still
+/// leads to its goals.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exec_svc/executive/executive.hpp"
+#include "exec_svc/reactor/conflict_monitor.hpp"
+#include "exec_svc/reactor/mission_state.hpp"
+#include "exec_svc/reactor/resource_monitor.hpp"
+
+namespace roci::exec::reactor {
+
+/// A conflict seen ahead, for operators and engines.
+struct ConflictAhead {
+  std::string activity;
+  std::string reason;  ///< in plain words: the activity, when it is due, and what it will lack
+};
+
+class RunningPlan {
+ public:
+  /// The state outlives this.
+  explicit RunningPlan(MissionState& state);
+
+  /// Tells the executive and the monitors what was observed and acknowledged, in every phase, so that cancels
+  /// are answered and observations kept; forwards commands, steps and recoveries.
+  void step(temporal::Time now, const ReactorInputs& inputs);
+  /// Asks owners, after a restart, what became of all that runs.
+  void resume(temporal::Time now);
+  void cancel(temporal::Time now);
+  /// While held, no activity starts; what runs goes on.
+  void hold_starts(bool hold) { executive_.hold_starts(hold); }
+
+  /// Puts the plan in the place of the one before; what stands in both goes on. Returns what is wrong with
+  /// it; nothing has changed then.
+  std::string load(temporal::FlexiblePlan plan, temporal::Time now);
+  /// Tells everybody that the loaded plan runs from now on.
+  void begin(temporal::Time now);
+  /// Forgets a plan that has ended, but for its version.
+  void unload(temporal::Time now);
+  /// What the planner wrote for the loaded plan; each with its id in it.
+  void keep_actions(std::vector<PlannedAction> planned) { planned_ = std::move(planned); }
+
+  /// The first activity that will not find what it needs, as far as is known (R73-R76). Asks to be woken when
+  /// a doubt becomes certain.
+  std::optional<ConflictAhead> conflict_ahead(temporal::Time now);
+
+  /// The plan must not go on.
+  void invalidate() { invalid_ = true; }
+  void restore_validity() { invalid_ = false; }
+  bool invalid() const { return invalid_; }
+
+  const executive::Executive& executive() const { return executive_; }
+  executive::Outcome outcome() const { return executive_.outcome(); }
+  /// Of the plan that was loaded last, also in an earlier start of the executive; 0: none was.
+  std::uint32_t version() const { return version_; }
+  void restore_version(std::uint32_t version) { version_ = version; }
+  std::string name() const { return "plan " + std::to_string(version_); }
+  /// What the planner wrote and nobody has begun.
+  std::vector<PlannedAction> remaining() const;
+  /// The executive knows again what was observed before a restart.
+  void restore_observations(const std::vector<executive::Observation>& observations);
+
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self) {
+    archive(self.version_, self.epoch_, self.invalid_, self.reported_starts_, self.condition_values_);
+  }
+
+ private:
+  void watch(const temporal::FlexiblePlan& plan);
+  std::vector<executive::Observation> changed_conditions();
+  void forward(executive::Outputs done);
+  void report_windows();
+
+  MissionState* state_;
+  executive::Executive executive_;
+  std::uint32_t version_ = 0;
+  std::uint64_t epoch_ = 0;  // of the executive, as the inputs told last
+  bool invalid_ = false;
+  std::vector<PlannedAction> planned_;  ///< of the last plan; after a restart what remained of it
+  ResourceMonitor resource_monitor_;
+  ConflictMonitor conflict_monitor_;
+  std::map<std::string, temporal::Time> reported_starts_;  ///< earliest starts as last reported, by activity
+  /// Timelines of the plan's conditions, as last told to the executive.
+  std::map<std::string, temporal::Value> condition_values_;
+};
+
+}  // namespace roci::exec::reactor

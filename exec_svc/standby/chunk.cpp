@@ -1,0 +1,44 @@
+#include "exec_svc/standby/chunk.hpp"
+
+#include <algorithm>
+#include <boost/crc.hpp>
+
+namespace roci::exec::standby {
+
+using journal::Position;
+
+namespace {
+
+constexpr std::size_t kPartBytes = 128 * 1024;
+
+}  // namespace
+
+std::uint32_t checksum(const Chunk& chunk) {
+  boost::crc_32_type crc;
+  for (const std::uint64_t number :
+       {chunk.leader, chunk.after.epoch, chunk.after.sequence, chunk.at.epoch, chunk.at.sequence,
+        std::uint64_t{chunk.part}, std::uint64_t{chunk.parts}}) {
+    for (int shift = 0; shift < 64; shift += 8) crc.process_byte(static_cast<unsigned char>(number >> shift));
+  }
+  crc.process_bytes(chunk.bytes.data(), chunk.bytes.size());
+  return crc.checksum();
+}
+
+std::vector<Chunk> split(std::uint64_t leader, const Position& at, const std::string& whole) {
+  std::vector<Chunk> out;
+  for (std::size_t begin = 0; begin < whole.size(); begin += kPartBytes) {
+    Chunk part;
+    part.leader = leader;
+    part.at = at;
+    part.part = static_cast<std::uint32_t>(out.size());
+    part.bytes = whole.substr(begin, kPartBytes);
+    out.push_back(std::move(part));
+  }
+  for (Chunk& part : out) {
+    part.parts = static_cast<std::uint32_t>(out.size());
+    part.checksum = checksum(part);
+  }
+  return out;
+}
+
+}  // namespace roci::exec::standby

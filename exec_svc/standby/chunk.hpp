@@ -1,0 +1,37 @@
+/// What goes from the leader's journal to the follower's: a batch, or a part of a whole journal. Plain
+/// values.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "exec_svc/journal/batch.hpp"
+
+namespace roci::exec::standby {
+
+struct Chunk {
+  std::uint64_t leader = 0;    ///< epoch of who sends it
+  journal::Position after;     ///< a batch: of the journal that it fits
+  journal::Position at;        ///< of the journal with it
+  std::uint32_t part = 0;      ///< of a whole journal: this one, from 0,
+  std::uint32_t parts = 0;     ///< of so many; 0: a batch
+  std::uint32_t checksum = 0;  ///< of all other members
+  std::string bytes;
+  bool operator==(const Chunk&) const = default;
+};
+
+/// CRC-32 over everything but the checksum itself.
+std::uint32_t checksum(const Chunk& chunk);
+
+/// How much of a whole journal the follower has in a row.
+struct TransferProgress {
+  journal::Position at;
+  std::uint32_t parts = 0;
+  bool operator==(const TransferProgress&) const = default;
+};
+
+/// Seals each part with its checksum.
+std::vector<Chunk> split(std::uint64_t leader, const journal::Position& at, const std::string& whole);
+
+}  // namespace roci::exec::standby

@@ -1,0 +1,45 @@
+/// The follower's side on the wire: takes the leader's journal, says what it has, and finds out when to lead.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exec_svc/standby/journal_copy.hpp"
+#include "exec_svc/standby/lease.hpp"
+#include "exec_svc/standby/persisted_term_file.hpp"
+#include "services/node.hpp"
+#include "services/publisher.hpp"
+
+namespace roci::exec::standby {
+
+class FollowerService {
+ public:
+  /// On an observer's node, so that it stands outside the simulated clock. All outlive this.
+  FollowerService(services::Node& node, Lease& lease, journal::Journal& journal,
+                  PersistedTermFile& persisted_term);
+
+  /// Why this member leads, once it does; the node has been stopped then.
+  const std::optional<Lease::Turn>& lead() const { return lead_; }
+  /// The simulated clock has come to its end, and with it the run.
+  bool run_is_over() const { return over_; }
+
+ private:
+  void hear(const v1::LeaseMessage& member);
+  void take(const Chunk& chunk);
+  void ask_again(const std::vector<goals::GoalRecord>& earlier);
+  void turn();
+  void say();
+
+  services::Node& node_;
+  Lease* lease_;
+  journal::Journal* journal_;
+  PersistedTermFile* persisted_term_;
+  JournalCopy copy_;
+  std::optional<Lease::Turn> lead_;
+  bool over_ = false;
+  services::Publisher<v1::LeaseMessage> messages_;
+  services::Publisher<v1::Goal> goals_;
+};
+
+}  // namespace roci::exec::standby

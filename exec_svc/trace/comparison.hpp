@@ -1,0 +1,37 @@
+/// Two traces line by line, after one renaming.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "exec_svc/trace/recorded_trace.hpp"
+#include "exec_svc/trace/renaming.hpp"
+#include "exec_svc/trace/trace_map.hpp"
+
+namespace roci::exec::trace {
+
+/// One differing line: where it stands in Comparison::before and ::after; empty on the side that has no such
+/// line.
+struct Difference {
+  std::optional<std::size_t> before;
+  std::optional<std::size_t> after;
+  bool operator==(const Difference&) const = default;
+};
+
+struct Comparison {
+  std::vector<Line> before;             ///< OLD under its new names.
+  std::vector<Line> after;              ///< NEW without what was added.
+  std::vector<Difference> differences;  ///< In order of mission time, without the accepted ones.
+  std::size_t accepted = 0;             ///< Differing lines that the map accepts.
+  Uses uses;                            ///< Of the map's rules.
+
+  bool equal() const { return differences.empty(); }
+};
+
+/// Lines are compared within each mission time, where the longest common row of lines counts as equal: a line
+/// too many is one difference and moves no others. Both traces must hold the same kinds of lines
+/// (RecordedTrace::decisions). `before` is OLD; its scenario, or that of `after`, chooses what is accepted.
+Comparison compare(const RecordedTrace& before, const RecordedTrace& after, const TraceMap& map);
+
+}  // namespace roci::exec::trace

@@ -1,0 +1,78 @@
+/// One committed renaming between two versions of the code: what the lines of OLD are called in NEW, what NEW
+/// has in addition, and which differences remain, each with its reason. The README publishes the file's
+/// schema.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exec_svc/trace/pattern.hpp"
+
+namespace roci::exec::trace {
+
+/// The newest version of the file that this code reads.
+inline constexpr int kMapFormat = 1;
+
+/// Where a rule stands ("file:line:column") names it in reports and counts.
+using Place = std::string;
+
+/// One word for another one.
+struct NewName {
+  std::string to;
+  Place place;
+};
+using NewNames = std::map<std::string, NewName, std::less<>>;
+
+/// A rewrite of OLD lines; without a kind, of lines of any kind.
+struct Rewrite {
+  std::optional<std::string> kind;
+  Pattern pattern;
+  std::string replacement;
+  Place place;
+};
+
+/// What is taken out of NEW lines before they are compared: whole lines, or what a pattern matches in them.
+struct Addition {
+  std::optional<std::string> kind;
+  Pattern pattern;
+  bool whole_line = false;
+  std::string shown;
+  Place place;
+};
+
+/// Lines of these kinds may stand in another order within one mission time.
+struct FreeOrder {
+  std::vector<std::string> kinds;
+  std::string reason;
+  Place place;
+};
+
+/// A difference that remains. With `before` alone it is a line that only OLD has, with `after` alone one that
+/// only NEW has, with both a line that stands for the other one at the same mission time. Patterns see OLD
+/// lines with their new names.
+struct Accepted {
+  Pattern scenario;
+  std::optional<Pattern> before;
+  std::optional<Pattern> after;
+  std::string reason;
+  Place place;
+};
+
+struct TraceMap {
+  NewNames names;  ///< Words that are neither the kind of a line nor the name of a field.
+  NewNames kinds;  ///< The first words of lines.
+  NewNames keys;   ///< Words before an equals sign.
+  std::vector<Rewrite> rewrites;
+  std::vector<Addition> additions;
+  std::vector<FreeOrder> free_orders;
+  std::vector<Accepted> accepted;
+};
+
+/// Reads the file. Throws mission::FileError with file, line, column and remedy.
+TraceMap read_map(const std::filesystem::path& file);
+
+}  // namespace roci::exec::trace

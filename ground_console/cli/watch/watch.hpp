@@ -1,0 +1,12 @@
+// The verb `roci watch`.
+#pragma once
+
+#include "ground_console/lib/client.hpp"
+
+namespace roci::console::cli::watch {
+
+/// Shows the live view on a terminal until the mission ends or Ctrl-C; with `json`, prints a line of status
+/// each second instead. Returns an exit code (docs/exit-codes.md, "Ground tool").
+int watch(lib::Client& client, bool json);
+
+}  // namespace roci::console::cli::watch

@@ -1,0 +1,41 @@
+// Prints the conditions and effects of an action instance as PDDL text without variables.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/pddl/ast.hpp"
+#include "planner_svc/temporal_pddl/extraction/plan.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted/constant_functions.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted/symbols.hpp"
+
+namespace roci::planner::temporal_pddl::extraction {
+
+class GroundText {
+ public:
+  /// Takes the object of each parameter by its name, with its question mark.
+  GroundText(const grounding::lifted::Symbols& symbols, const grounding::lifted::ConstantFunctions& constants,
+             std::map<std::string, std::string> variables)
+      : symbols_(symbols), constants_(constants), variables_(std::move(variables)) {}
+
+  /// Returns the parts of a conjunction, static ones too. What is no fact and no comparison is one formula.
+  std::vector<GroundCondition> conditions(const pddl::Condition& condition) const;
+  /// Returns the effects; `forall` is written out.
+  std::vector<GroundEffect> effects(const std::vector<pddl::Effect>& effects) const;
+
+ private:
+  pddl::Term ground(const pddl::Term& term) const;
+  pddl::Atom ground(const pddl::Atom& atom) const;
+  pddl::Expression ground(const pddl::Expression& expression) const;
+  pddl::Condition ground(const pddl::Condition& condition) const;
+  void add_conditions(const pddl::Condition& condition, std::vector<GroundCondition>& result) const;
+  void add_effect(const pddl::Effect& effect, std::vector<std::string>& result) const;
+  GroundText without(const std::vector<pddl::TypedName>& variables) const;
+
+  const grounding::lifted::Symbols& symbols_;
+  const grounding::lifted::ConstantFunctions& constants_;
+  std::map<std::string, std::string> variables_;
+};
+
+}  // namespace roci::planner::temporal_pddl::extraction

@@ -1,0 +1,86 @@
+// Grounds formulas and expressions under a full binding: to disjunctions of ground conjunctions and to
+// linear expressions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/grounding/instantiation/ground_model.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted/static_model.hpp"
+#include "planner_svc/temporal_pddl/grounding/reachability/reachability.hpp"
+
+namespace roci::planner::temporal_pddl::grounding::instantiation {
+
+/// A ground condition may have so many alternatives.
+inline constexpr std::size_t kMaxAlternatives = 256;
+
+class FormulaGrounder {
+ public:
+  /// Takes in `touched` those of the atoms that hold at first which some effect is about. The others are
+  /// true for ever; what is not reached is false for ever.
+  FormulaGrounder(const lifted::StaticModel& static_model, const reachability::Reachability& reachability,
+                  const lifted::TupleTable& touched, lifted::TupleTable& numbers,
+                  task::ExpressionPool& expressions, const std::string& file)
+      : static_model_(static_model),
+        reachability_(reachability),
+        touched_(touched),
+        numbers_(numbers),
+        expressions_(expressions),
+        file_(file) {}
+
+  /// Grounds the formula. Throws ModelFailure (unsupported) for more than kMaxAlternatives, and for products
+  /// of numbers that change.
+  Disjunction ground(const lifted::LiftedFormula& formula, lifted::Binding& binding);
+
+  /// Appends the atoms and numbers in the formula that may change. Atoms that are false for ever count if
+  /// some effect deletes them.
+  void read(const lifted::LiftedFormula& formula, lifted::Binding& binding, bool at_end,
+            std::vector<ReadVariable>& result);
+
+  /// Returns the expression in linear form, or nothing if a constant in it is undefined or it divides by 0.
+  std::optional<task::LinearExpression> linear(const lifted::LiftedExpression& expression,
+                                               const lifted::Binding& binding);
+
+  std::optional<std::uint32_t> reached_atom(const lifted::LiftedAtom& atom,
+                                            const lifted::Binding& binding) const;
+  /// Returns the atom; also one that is false for ever, if some effect deletes it and some condition reads
+  /// it.
+  std::optional<std::uint32_t> known_atom(const lifted::LiftedAtom& atom,
+                                          const lifted::Binding& binding) const;
+  task::NumberId number(task::FunctionId function, const std::vector<task::ObjectId>& objects);
+  task::ExpressionId intern(const task::LinearExpression& expression) {
+    return expressions_.intern(expression);
+  }
+
+  [[noreturn]] void fail(pddl::SourceLocation where, const std::string& message,
+                         const std::string& remedy) const;
+
+  const lifted::StaticModel& static_model() const { return static_model_; }
+
+ private:
+  Disjunction ground_atom(const lifted::LiftedFormula& formula, const lifted::Binding& binding) const;
+  void read(const lifted::LiftedExpression& expression, const lifted::Binding& binding, bool at_end,
+            std::vector<ReadVariable>& result);
+  Disjunction ground_comparison(const lifted::LiftedFormula& formula, const lifted::Binding& binding);
+
+  const lifted::StaticModel& static_model_;
+  const reachability::Reachability& reachability_;
+  const lifted::TupleTable& touched_;
+  lifted::TupleTable& numbers_;
+  task::ExpressionPool& expressions_;
+  const std::string& file_;
+};
+
+/// Returns whether it may be that not all parts of the formula that can change are in all alternatives.
+bool has_choice(const lifted::LiftedFormula& formula);
+
+Disjunction always();
+bool is_certain(const Disjunction& alternatives);
+/// Returns all ways to satisfy both; contradictions and alternatives that another one implies are dropped.
+Disjunction both(const Disjunction& a, const Disjunction& b);
+Disjunction either(Disjunction a, const Disjunction& b);
+/// Returns nothing if the two contradict each other.
+std::optional<Conjunction> merged(const Conjunction& a, const Conjunction& b);
+
+}  // namespace roci::planner::temporal_pddl::grounding::instantiation

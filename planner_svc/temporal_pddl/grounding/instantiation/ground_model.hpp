@@ -1,0 +1,118 @@
+// The ground model as instantiation leaves it: over atoms of the reachability analysis, before facts are
+// numbered.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/grounding/lifted/tuple_table.hpp"
+#include "planner_svc/temporal_pddl/task/numbers.hpp"
+#include "planner_svc/temporal_pddl/task/task.hpp"
+
+namespace roci::planner::temporal_pddl::grounding::instantiation {
+
+/// An atom or its negation.
+struct GroundLiteral {
+  std::uint32_t atom = 0;
+  bool negated = false;
+  auto operator<=>(const GroundLiteral&) const = default;
+};
+
+/// A conjunction, all of which must hold. Both lists are sorted and without duplicates.
+struct Conjunction {
+  std::vector<GroundLiteral> literals;
+  std::vector<task::NumericCondition> comparisons;
+
+  bool empty() const { return literals.empty() && comparisons.empty(); }
+  auto operator<=>(const Conjunction&) const = default;
+};
+
+/// Alternatives: without any, it is false; with an empty one, it is true.
+using Disjunction = std::vector<Conjunction>;
+
+/// An entry of a read set: what a condition at the start or at the end of an action reads without asking for
+/// it. These are parts that what never changes decides, alternatives that were not chosen, and conditions of
+/// effects that do not happen. Nobody may change it within ε of that moment either (R6; Fox and Long 2003,
+/// definition 12).
+struct ReadVariable {
+  std::uint32_t index = 0;  ///< the index of an atom or a number
+  bool is_number = false;
+  bool at_end = false;
+  auto operator<=>(const ReadVariable&) const = default;
+};
+
+struct GroundEffects {
+  std::vector<std::uint32_t> adds, deletes;  ///< atoms, sorted; no atom is in both
+  std::vector<task::NumericEffect> numeric;
+  /// Holds those of `adds` that are also deleted, which is seen by what happens at that moment.
+  std::vector<std::uint32_t> resets;
+  auto operator<=>(const GroundEffects&) const = default;
+};
+
+/// Says when the start and the end may happen; the whole action must lie in one of `span`. See
+/// simplification/timed_windows.hpp.
+struct ActionWindows {
+  task::TimeWindows start = task::any_time(), end = task::any_time(), span = task::any_time();
+};
+
+struct GroundAction {
+  task::SchemaId schema;
+  std::vector<task::ObjectId> arguments;
+  bool durative = true;
+  std::uint32_t read_sets = 0;  ///< the index of a list of GroundModel::read_sets
+  temporal::Duration min_duration{0};
+  temporal::Duration max_duration = temporal::no_bound;
+  std::vector<task::DurationRule> duration_rules;
+  Conjunction at_start, over_all, at_end;
+  GroundEffects start_effects, end_effects;
+  std::shared_ptr<const ActionWindows> windows;  ///< is null where any time will do
+};
+
+/// A rule: wherever the body holds, so does the head, a derived atom.
+struct GroundRule {
+  GroundLiteral head;
+  int layer = 0;
+  Conjunction body;
+};
+
+struct TimedChange {
+  temporal::Duration time{0};
+  GroundEffects effects;
+};
+
+/// An action instance that none of its windows has room for.
+struct WindowMisfit {
+  task::SchemaId schema;
+  std::vector<task::ObjectId> arguments;
+  std::vector<std::uint32_t> adds;  ///< atoms
+  temporal::Duration duration{0};   ///< at least
+  temporal::Duration window{0};     ///< the longest
+};
+
+struct GroundModel {
+  lifted::TupleTable atoms;
+  std::vector<bool> derived;   ///< by atom
+  lifted::TupleTable numbers;  ///< fluents that change; their index is the NumberId
+  task::ExpressionPool expressions;
+  std::vector<std::uint32_t> initial_atoms;
+  std::vector<double> initial_numbers;  ///< NaN: undefined
+  std::vector<GroundAction> actions;
+  /// Holds sorted lists, of which the first is empty. Neighbours with equal read sets share one.
+  std::vector<std::vector<ReadVariable>> read_sets = std::vector<std::vector<ReadVariable>>(1);
+  std::vector<WindowMisfit> window_misfits;  ///< taken out of `actions`
+  std::vector<GroundRule> rules;             ///< by layer
+  std::vector<TimedChange> timed;            ///< by time, one per instant
+  Disjunction goal;
+  task::Metric metric;
+  std::vector<bool> only_metric_asks;          ///< by number: nothing else does, and it is never assigned
+  std::vector<std::string> unreachable_goals;  ///< as text, if `goal` has no alternative from the beginning
+
+  const std::vector<ReadVariable>& read_set_of(const GroundAction& action) const {
+    return read_sets[action.read_sets];
+  }
+};
+
+}  // namespace roci::planner::temporal_pddl::grounding::instantiation

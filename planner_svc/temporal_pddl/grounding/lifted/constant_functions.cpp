@@ -1,0 +1,143 @@
+#include "planner_svc/temporal_pddl/grounding/lifted/constant_functions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner_svc/temporal_pddl/call/planning_failure.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted/model_failure.hpp"
+
+namespace roci::planner::temporal_pddl::grounding::lifted {
+
+using call::PlanningFailure;
+using task::FunctionId;
+using task::ObjectId;
+using temporal::Verdict;
+
+namespace {
+
+// All tuples of the product, the last position running fastest.
+std::vector<std::vector<ObjectId>> all_tuples(const std::vector<std::vector<ObjectId>>& domains) {
+  std::vector<std::vector<ObjectId>> tuples{{}};
+  for (const auto& domain : domains) {
+    std::vector<std::vector<ObjectId>> longer;
+    longer.reserve(tuples.size() * domain.size());
+    for (const auto& tuple : tuples) {
+      for (const ObjectId object : domain) {
+        longer.push_back(tuple);
+        longer.back().push_back(object);
+      }
+    }
+    tuples = std::move(longer);
+  }
+  return tuples;
+}
+
+std::string describe(const FunctionCall& call) {
+  std::string text = "(" + call.function;
+  for (const auto& argument : call.arguments) text += " " + argument;
+  return text + ") of module " + call.module;
+}
+
+std::string remedy_for(FunctionOutcome outcome, const FunctionCall& call) {
+  switch (outcome) {
+    case FunctionOutcome::unavailable:
+    case FunctionOutcome::owner_lost:
+      return "start the service that offers module " + call.module + ", or give the values in a file";
+    case FunctionOutcome::late:
+      return "give the owner more time, or declare fewer objects";
+    case FunctionOutcome::unknown_object:
+    case FunctionOutcome::wrong_arity:
+      return "declare the function as its owner offers it, with objects that the owner knows";
+    case FunctionOutcome::not_a_number:
+      return "the owner must answer with a finite number or with 'unreachable'";
+    case FunctionOutcome::value:
+    case FunctionOutcome::unreachable:
+      break;
+  }
+  return "";
+}
+
+std::string describe(const Provenance& said) {
+  if (said.owner.empty()) return "";
+  std::string text = "; asked " + said.owner;
+  if (!said.model_version.empty()) {
+    text += ", model " + said.model_version + ", at " +
+            std::to_string(std::chrono::duration<double>(said.time).count()) + " s";
+  }
+  return text;
+}
+
+void require_usable(const FunctionCall& call, const FunctionValue& answer, const Symbols& symbols,
+                    const FunctionSymbol& symbol) {
+  if (answer.outcome == FunctionOutcome::value || answer.outcome == FunctionOutcome::unreachable) return;
+  std::string message = "external function " + describe(call) + ": " + to_string(answer.outcome);
+  if (!answer.reason.empty()) message += ", " + answer.reason;
+  message += describe(answer.provenance);
+  throw ModelFailure(
+      Verdict::function_unavailable,
+      pddl::Diagnostic{symbols.domain_file(), symbol.declared, message, remedy_for(answer.outcome, call)});
+}
+
+}  // namespace
+
+ConstantFunctions::ConstantFunctions(const pddl::Problem& problem, const std::vector<LiftedAction>& actions,
+                                     const Symbols& symbols)
+    : constant_(symbols.functions(), true) {
+  for (const auto& action : actions) {
+    for (const auto* effects : {&action.start_effects, &action.end_effects}) {
+      for (const auto& effect : *effects) {
+        if (effect.kind == LiftedEffect::Kind::numeric) constant_[effect.function] = false;
+      }
+    }
+  }
+  for (const auto& timed : problem.timed_values) constant_[symbols.function(timed.fluent.symbol)] = false;
+  for (const auto& initial : problem.values) {
+    const FunctionId function = symbols.function(initial.fluent.symbol);
+    if (!constant_[function]) continue;
+    std::vector<ObjectId> objects;
+    for (const auto& term : initial.fluent.arguments) objects.push_back(symbols.object(term.name));
+    define(function, objects, initial.value);
+  }
+}
+
+void ConstantFunctions::load_external(FunctionSource& source, const std::function<bool()>& cancelled,
+                                      const Symbols& symbols, std::vector<FunctionUse>& used) {
+  for (std::size_t i = 0; i < symbols.functions(); ++i) {
+    const FunctionId function(i);
+    const FunctionSymbol& symbol = symbols[function];
+    if (symbol.module.empty()) continue;
+    const auto tuples = all_tuples(symbol.parameters);
+    std::vector<FunctionCall> calls;
+    for (const auto& tuple : tuples) {
+      FunctionCall call{symbol.module, symbol.name, {}};
+      for (const ObjectId object : tuple) call.arguments.push_back(symbols.name(object));
+      calls.push_back(std::move(call));
+    }
+    auto answers = source.evaluate(calls, cancelled);
+    if (cancelled())
+      throw PlanningFailure(Verdict::cancelled, "cancelled while waiting for external functions");
+    if (answers.size() != calls.size()) answers.assign(calls.size(), FunctionValue{});
+    for (std::size_t k = 0; k < calls.size(); ++k) {
+      FunctionValue& answer = answers[k];
+      if (answer.outcome == FunctionOutcome::value && !std::isfinite(answer.value)) {
+        answer.outcome = FunctionOutcome::not_a_number;
+      }
+      used.push_back({calls[k], answer});
+      if (answer.outcome == FunctionOutcome::value) define(function, tuples[k], answer.value);
+    }
+    for (std::size_t k = 0; k < calls.size(); ++k) require_usable(calls[k], answers[k], symbols, symbol);
+  }
+}
+
+std::optional<double> ConstantFunctions::value(FunctionId function, std::span<const ObjectId> objects) const {
+  const auto tuple = tuples_.find(function.value, objects);
+  return tuple ? std::optional(values_[*tuple]) : std::nullopt;
+}
+
+void ConstantFunctions::define(FunctionId function, std::span<const ObjectId> objects, double value) {
+  const std::uint32_t tuple = tuples_.intern(function.value, objects);
+  values_.resize(tuples_.size());
+  values_[tuple] = value;
+}
+
+}  // namespace roci::planner::temporal_pddl::grounding::lifted

@@ -1,0 +1,21 @@
+// Derived predicates as rules of a form that instantiation takes: those of a domain, split where they say
+// "or".
+#pragma once
+
+#include <vector>
+
+#include "core/pddl/ast.hpp"
+
+namespace roci::planner::temporal_pddl::grounding::lifted {
+
+/// Wherever the precondition of `rule` holds, its one effect, the derived atom, is true.
+struct DerivedRule {
+  pddl::Action rule;
+  int layer = 0;  ///< see core/pddl/stratify.hpp
+};
+
+/// Returns the rules by layer. An alternative of a body becomes a rule of its own, and what exists is a
+/// parameter: joins find instances, and no disjunction grows.
+std::vector<DerivedRule> derived_rules(const pddl::Domain& domain);
+
+}  // namespace roci::planner::temporal_pddl::grounding::lifted

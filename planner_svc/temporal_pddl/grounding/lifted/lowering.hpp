@@ -1,0 +1,23 @@
+// From the syntax tree to lifted actions.
+#pragma once
+
+#include "core/pddl/ast.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted/lifted.hpp"
+#include "planner_svc/temporal_pddl/grounding/lifted/symbols.hpp"
+
+namespace roci::planner::temporal_pddl::grounding::lifted {
+
+/// Returns the actions of the domain in their order, first plain ones, then durative ones; then the rules of
+/// derived predicates, by layer. Throws ModelFailure (unsupported) for conditional effects that look at
+/// `over all` or, in a start effect, at the end.
+std::vector<LiftedAction> lower_actions(const pddl::Domain& domain, const Symbols& symbols);
+
+/// Returns the metric, in which the duration is that of the plan: (total-time).
+LiftedExpression lower_metric(const pddl::Expression& metric, const std::string& file,
+                              const Symbols& symbols);
+
+/// Returns a formula without free variables; `slots` grows by those of its quantifiers.
+LiftedFormula lower_goal(const pddl::Condition& goal, const std::string& file, const Symbols& symbols,
+                         std::uint32_t& slots);
+
+}  // namespace roci::planner::temporal_pddl::grounding::lifted

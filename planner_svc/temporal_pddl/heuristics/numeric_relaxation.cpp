@@ -1,0 +1,125 @@
+#include "planner_svc/temporal_pddl/heuristics/numeric_relaxation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roci::planner::temporal_pddl::heuristics {
+
+using task::ActionId, task::Comparator, task::Goal, task::LinearExpression, task::NumberId, task::NumbersView,
+    task::NumericCondition, task::NumericEffect, task::Snap, task::SnapId, task::SnapKind, task::StateView,
+    task::Task;
+
+namespace {
+
+constexpr double kMostRepeats = 1000;
+
+double weight_of(const LinearExpression& expression, NumberId number) {
+  for (const auto& term : expression.terms) {
+    if (term.variable == number) return term.weight;
+  }
+  return 0;
+}
+
+}  // namespace
+
+NumericRelaxation::NumericRelaxation(const Task& task) : task_(task) {
+  for (std::size_t i = 0; i < task.snaps.size(); ++i) find_needs(SnapId(i));
+  for (const Goal& goal : task.goals) {
+    std::vector<ComparisonId> needs;
+    for (const NumericCondition& condition : goal.comparisons) needs.push_back(intern(condition));
+    std::erase(needs, ComparisonId());
+    goal_needs_.push_back(needs);
+  }
+  std::vector<std::vector<SnapId>> needed_by(comparisons());
+  for (std::size_t i = 0; i < task.snaps.size(); ++i) {
+    for (const ComparisonId need : needs_[SnapId(i)]) needed_by[need.index()].push_back(SnapId(i));
+    find_changes(SnapId(i));
+  }
+  for (const auto& list : needed_by) needed_by_.push_back(list);
+}
+
+ComparisonId NumericRelaxation::intern(const NumericCondition& condition) {
+  if (task_.expressions[condition.expression].duration_weight != 0) return {};
+  const auto [place, fresh] = ids_.try_emplace(condition, ComparisonId(conditions_.size()));
+  if (fresh) conditions_.push_back(condition);
+  return place->second;
+}
+
+void NumericRelaxation::find_needs(SnapId op) {
+  std::vector<ComparisonId> needs;
+  for (const NumericCondition& condition : task_.comparisons[op]) needs.push_back(intern(condition));
+  const Snap& snap = task_.snaps[op];
+  if (snap.kind == SnapKind::start) {
+    for (const NumericCondition& condition : task_.numeric_invariants[snap.action]) {
+      if (!changed_by(op, condition)) needs.push_back(intern(condition));
+    }
+  }
+  std::erase(needs, ComparisonId());
+  std::ranges::sort(needs);
+  needs.erase(std::unique(needs.begin(), needs.end()), needs.end());
+  needs_.push_back(needs);
+}
+
+bool NumericRelaxation::changed_by(SnapId op, const NumericCondition& condition) const {
+  return std::ranges::any_of(task_.numeric_effects[op], [&](const NumericEffect& effect) {
+    return weight_of(task_.expressions[condition.expression], effect.variable) != 0;
+  });
+}
+
+void NumericRelaxation::find_changes(SnapId op) {
+  std::vector<NumericAchiever> raises;
+  std::vector<ComparisonId> touches;
+  for (std::size_t i = 0; i < comparisons() && !task_.numeric_effects[op].empty(); ++i) {
+    const ComparisonId id(i);
+    if (!changed_by(op, conditions_[id])) continue;
+    touches.push_back(id);
+    bool known = true;
+    double change = 0;
+    for (const NumericEffect& effect : task_.numeric_effects[op]) {
+      const LinearExpression& by = task_.expressions[effect.expression];
+      const double weight = weight_of(expression(id), effect.variable);
+      known = known && (weight == 0 || (!effect.assigns && by.is_constant()));
+      change += weight * by.constant;
+    }
+    if (!known || change > 0 || conditions_[id].comparator == Comparator::equal) raises.push_back({id, op});
+  }
+  raises_.push_back(raises);
+  touches_.push_back(touches);
+}
+
+double NumericRelaxation::value(ComparisonId comparison, StateView state) const {
+  return evaluate(expression(comparison), task_.layout.numbers(state), 0);
+}
+
+bool NumericRelaxation::satisfies(ComparisonId comparison, double value) const {
+  return task::holds(conditions_[comparison].comparator, value);
+}
+
+double NumericRelaxation::change(SnapId op, ComparisonId comparison, StateView state) const {
+  const NumbersView numbers = task_.layout.numbers(state);
+  const ActionId action = task_.snaps[op].action;
+  const double seconds =
+      action.is_none() ? 0 : std::chrono::duration<double>(task_.actions[action].min_duration).count();
+  double change = 0;
+  for (const NumericEffect& effect : task_.numeric_effects[op]) {
+    const double weight = weight_of(expression(comparison), effect.variable);
+    if (weight == 0) continue;
+    if (effect.assigns) return 0;
+    change += weight * evaluate(task_.expressions[effect.expression], numbers, seconds);
+  }
+  return std::isfinite(change) ? change : 0;
+}
+
+double NumericRelaxation::whole_change(SnapId op, ComparisonId comparison, StateView state) const {
+  const SnapId other = task_.other_end(op);
+  return change(op, comparison, state) + (other.is_none() ? 0 : change(other, comparison, state));
+}
+
+std::int64_t NumericRelaxation::repeats(const NumericAchiever& raise, StateView state) const {
+  const double gain = change(raise.op, raise.comparison, state);
+  const double missing = -value(raise.comparison, state);
+  if (!(gain > 0) || !(missing > gain)) return 1;
+  return static_cast<std::int64_t>(std::min(kMostRepeats, std::ceil(missing / gain - 1e-9)));
+}
+
+}  // namespace roci::planner::temporal_pddl::heuristics

@@ -1,0 +1,32 @@
+// From the effects of an action to what they change.
+#pragma once
+
+#include <vector>
+
+#include "planner_svc/temporal_pddl/validate/evaluator.hpp"
+
+namespace roci::planner::temporal_pddl::validate {
+
+/// One literal or assignment with its quantified variables bound and the conditions of all `when` around it,
+/// which are looked at as their times come.
+struct PendingEffect {
+  const pddl::Effect* effect = nullptr;
+  Bindings bindings;
+  std::vector<const pddl::TimedCondition*> conditions;
+  bool alive = true;  ///< no condition has failed so far
+};
+
+/// Unfolds `forall` and `when`. The effects must outlive the result.
+std::vector<PendingEffect> unfold(const std::vector<pddl::Effect>& effects, const Bindings& bindings,
+                                  const Model& model);
+
+/// Marks as not alive those whose conditions of this time (a member of TimedCondition) do not hold.
+void check_conditions(std::vector<PendingEffect>& effects, pddl::Condition pddl::TimedCondition::*time,
+                      Evaluator& evaluator);
+
+/// What the effects that are alive change, seen from the evaluator's state. False if some value is undefined,
+/// and that effect is left out; evaluator.reason() says why.
+bool collect(const std::vector<PendingEffect>& effects, const Specials& specials, Evaluator& evaluator,
+             Changes& changes);
+
+}  // namespace roci::planner::temporal_pddl::validate

@@ -1,0 +1,81 @@
+// Truth of conditions and values of expressions in one state.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/validate/model.hpp"
+
+namespace roci::planner::temporal_pddl::validate {
+
+/// unknown: depends on a number that is undefined (Kleene's logic). A condition holds only if it is yes.
+enum class Truth { no, unknown, yes };
+
+/// Values that no state holds, in seconds.
+struct Specials {
+  std::optional<double> duration;    ///< ?duration
+  std::optional<double> total_time;  ///< total-time
+};
+
+/// For one state; make a new one after each change. With `reads`, collects what the results depend on: every
+/// changing fact and fluent that a condition mentions once it is instantiated (Fox and Long 2003, definition
+/// 12), and what derived predicates rest on.
+class Evaluator {
+ public:
+  Evaluator(const Model& model, const State& state, Reads* reads = nullptr)
+      : model_(model), state_(state), reads_(reads) {}
+
+  Truth evaluate(const pddl::Condition& condition, Bindings& bindings);
+  bool holds(const pddl::Condition& condition, Bindings& bindings) {
+    return evaluate(condition, bindings) == Truth::yes;
+  }
+
+  /// nullopt: undefined; reason() then says why.
+  std::optional<double> value(const pddl::Expression& expression, const Bindings& bindings,
+                              const Specials& specials = {});
+
+  /// Why the latest undefined value was undefined; empty if none was.
+  const std::string& reason() const { return reason_; }
+
+ private:
+  // Instances of derived predicates of one layer whose truth is being settled together.
+  struct Instance {
+    const pddl::Atom* atom;
+    std::vector<std::string_view> objects;
+    bool derived = false;
+  };
+  struct Layer {
+    int number = 0;
+    std::deque<Instance> instances;
+    std::map<std::string, std::size_t> index;
+  };
+
+  // Conjunction (decisive no) or disjunction (decisive yes) of the parts that `visit_parts` hands, one
+  // by one, to the function it is given; that function returns false when no further part can matter.
+  using Part = std::function<bool(const pddl::Condition& part, bool negated)>;
+  Truth combine(Truth decisive, Bindings& bindings, const std::function<void(const Part&)>& visit_parts);
+  Truth combine(Truth decisive, const std::vector<pddl::Condition>& parts, Bindings& bindings);
+  Truth fact(const pddl::Atom& atom, const Bindings& bindings);
+  Truth compare(const pddl::Comparison& comparison, const Bindings& bindings);
+  bool derived(const pddl::Atom& atom, const std::string& ground, const Bindings& bindings);
+  void settle(Layer& layer);
+  bool derive(const Instance& instance);
+
+  std::optional<double> fluent(const pddl::Atom& atom, const Bindings& bindings);
+  std::optional<double> arithmetic(const pddl::Arithmetic& sum, const Bindings& bindings,
+                                   const Specials& specials);
+  std::nullopt_t undefined(std::string reason);
+
+  const Model& model_;
+  const State& state_;
+  Reads* reads_;
+  Layer* open_ = nullptr;
+  std::map<std::string, bool> settled_;
+  std::string reason_;
+};
+
+}  // namespace roci::planner::temporal_pddl::validate

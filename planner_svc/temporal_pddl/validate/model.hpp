@@ -1,0 +1,55 @@
+// The problem as the validator looks things up in it. Nothing is grounded.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/pddl/ast.hpp"
+#include "core/pddl/function_table.hpp"
+#include "core/pddl/stratify.hpp"
+#include "core/pddl/types.hpp"
+#include "planner_svc/temporal_pddl/validate/bindings.hpp"
+#include "planner_svc/temporal_pddl/validate/state.hpp"
+
+namespace roci::planner::temporal_pddl::validate {
+
+/// Holds references: domain, problem and table must outlive it. Takes what check() finds nothing wrong with.
+class Model {
+ public:
+  Model(const pddl::Domain& domain, const pddl::Problem& problem, const pddl::FunctionTable& functions);
+
+  const pddl::Domain& domain() const { return domain_; }
+  const pddl::Problem& problem() const { return problem_; }
+  const pddl::ObjectTable& objects() const { return objects_; }
+  const pddl::FunctionTable& functions() const { return functions_; }
+
+  bool is_external(const std::string& function) const { return externals_.contains(function); }
+  /// No effect and no timed fact ever changes it.
+  bool is_static(const std::string& symbol) const { return !changing_.contains(symbol); }
+  /// The rules of a derived predicate; empty for others.
+  const std::vector<const pddl::DerivedPredicate*>& rules(const std::string& predicate) const;
+  int layer(const std::string& derived) const { return strata_.layer.at(derived); }
+
+  State initial_state() const;
+
+  /// Calls visit() for each choice of objects for the variables, bound in `bindings`, until it returns false.
+  /// False if it was stopped.
+  bool for_each_choice(const std::vector<pddl::TypedName>& variables, Bindings& bindings,
+                       const std::function<bool()>& visit) const;
+
+ private:
+  const pddl::Domain& domain_;
+  const pddl::Problem& problem_;
+  const pddl::FunctionTable& functions_;
+  pddl::ObjectTable objects_;
+  pddl::Strata strata_;
+  std::map<std::string, std::vector<const pddl::DerivedPredicate*>> rules_;
+  std::set<std::string> externals_;
+  std::set<std::string> changing_;  // predicates and fluents
+};
+
+}  // namespace roci::planner::temporal_pddl::validate

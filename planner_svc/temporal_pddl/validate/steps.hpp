@@ -1,0 +1,40 @@
+// The steps of a plan, found in the domain and put in order of time.
+#pragma once
+
+#include <vector>
+
+#include "planner_svc/temporal_pddl/validate/model.hpp"
+#include "planner_svc/temporal_pddl/validate/report.hpp"
+
+namespace roci::planner::temporal_pddl::validate {
+
+/// Exactly one of the two actions is set, or none if the step names no action that could be executed.
+struct Step {
+  const pddl::Action* instantaneous = nullptr;
+  const pddl::DurativeAction* durative = nullptr;
+  Bindings bindings;
+
+  bool executable() const { return instantaneous || durative; }
+};
+
+/// One per step of the plan, in its order; each one that is not executable has added a violation. `plan` must
+/// outlive the result.
+std::vector<Step> resolve(const std::vector<pddl::PlanStep>& plan, const Model& model,
+                          std::vector<Violation>& violations);
+
+/// In the order in which events of one moment are executed.
+enum class EventKind { timed_literal, timed_value, instant, start, end };
+
+struct Event {
+  pddl::Microseconds time{0};
+  EventKind kind = EventKind::instant;
+  std::size_t index = 0;  ///< of the step, the timed literal or the timed value
+
+  auto operator<=>(const Event&) const = default;
+};
+
+/// All events of executable steps, and those of the timed facts until the last of them; ascending.
+std::vector<Event> schedule(const std::vector<pddl::PlanStep>& plan, const std::vector<Step>& steps,
+                            const pddl::Problem& problem);
+
+}  // namespace roci::planner::temporal_pddl::validate

@@ -1,0 +1,52 @@
+#include "services/health/failure_detector.hpp"
+
+#include <utility>
+
+namespace roci::services::health {
+
+void FailureDetector::heartbeat(const v1::Heartbeat& beat, clock::WallTime now) {
+  Peer& peer = peers_[beat.service()];
+  if (beat.incarnation() < peer.incarnation) return;
+  if (beat.incarnation() > peer.incarnation && peer.alive) die(beat.service(), peer, "restarted");
+  const bool leaving = beat.state() == v1::SERVICE_STOPPING;
+  const bool left = peer.left && beat.incarnation() == peer.incarnation;
+  peer.incarnation = beat.incarnation();
+  peer.last_seen = now;
+  peer.left = left || leaving;
+  if (peer.alive && leaving) die(beat.service(), peer, "left");
+  if (peer.alive || peer.left) return;
+  peer.alive = true;
+  changes_.push_back({beat.service(), beat.incarnation(), true, ""});
+}
+
+void FailureDetector::seen(const std::string& service, std::uint32_t incarnation, clock::WallTime now) {
+  const auto found = peers_.find(service);
+  if (found != peers_.end() && found->second.incarnation == incarnation) found->second.last_seen = now;
+}
+
+void FailureDetector::writer_lost(const std::string& service) {
+  const auto found = peers_.find(service);
+  if (found == peers_.end() || !found->second.alive) return;
+  die(service, found->second, "killed");
+}
+
+void FailureDetector::check(clock::WallTime now) {
+  for (auto& [service, peer] : peers_) {
+    if (peer.alive && now - peer.last_seen > hang_limit_) die(service, peer, "hung");
+  }
+}
+
+PeerState FailureDetector::state(std::string_view service) const {
+  const auto found = peers_.find(service);
+  if (found == peers_.end()) return PeerState::never_seen;
+  return found->second.alive ? PeerState::alive : PeerState::dead;
+}
+
+std::vector<PeerChange> FailureDetector::take_changes() { return std::exchange(changes_, {}); }
+
+void FailureDetector::die(const std::string& service, Peer& peer, std::string cause) {
+  peer.alive = false;
+  changes_.push_back({service, peer.incarnation, false, std::move(cause)});
+}
+
+}  // namespace roci::services::health

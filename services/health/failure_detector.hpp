@@ -1,0 +1,46 @@
+// Tells which services are alive, from their heartbeats and from what the transport says of their writers: an
+// unreliable failure detector (Chandra and Toueg, 1996), which may suspect a service that is only slow. Wall
+// time.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "roci_idl/health.h"
+#include "services/clock/wall.hpp"
+#include "services/health/peer.hpp"
+
+namespace roci::services::health {
+
+class FailureDetector {
+ public:
+  explicit FailureDetector(clock::WallDuration hang_limit) : hang_limit_(hang_limit) {}
+
+  void heartbeat(const v1::Heartbeat&, clock::WallTime now);
+  /// Something other than a heartbeat has shown that the service lives.
+  void seen(const std::string& service, std::uint32_t incarnation, clock::WallTime now);
+  /// The transport no longer knows a living writer of this service's heartbeat.
+  void writer_lost(const std::string& service);
+  /// Declares dead whoever has been silent for longer than the limit.
+  void check(clock::WallTime now);
+
+  PeerState state(std::string_view service) const;
+  std::vector<PeerChange> take_changes();
+
+ private:
+  struct Peer {
+    std::uint32_t incarnation = 0;
+    bool alive = false;
+    bool left = false;  // it said that it stops
+    clock::WallTime last_seen;
+  };
+  void die(const std::string& service, Peer&, std::string cause);
+
+  clock::WallDuration hang_limit_;
+  std::map<std::string, Peer, std::less<>> peers_;
+  std::vector<PeerChange> changes_;
+};
+
+}  // namespace roci::services::health

@@ -1,0 +1,12 @@
+// A service's own log on standard error, for developers. Operators get events (topics::event).
+#pragma once
+
+#include <string_view>
+
+namespace roci::services::log {
+
+void info(std::string_view);
+void warning(std::string_view);
+void error(std::string_view);
+
+}  // namespace roci::services::log

@@ -1,0 +1,98 @@
+#include "services/node/node_impl.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "services/log/log.hpp"
+#include "services/node/typed_endpoints.hpp"
+
+namespace roci::services::node {
+
+NodeImpl::NodeImpl(NodeOptions node_options, std::unique_ptr<transport::Transport> node_transport)
+    : options(std::move(node_options)),
+      run(options.name, options.run, options.clock == clock::ClockMode::observer),
+      transport(std::move(node_transport)),
+      work(simulated() ? ResultOrder::as_begun : ResultOrder::as_finished),
+      endpoints(
+          options, run, [this] { return now(); }, *transport, inbox),
+      loop(simulated() ? make_sim_loop(*this) : make_live_loop(*this)) {}
+
+TimerQueue::Id NodeImpl::after(temporal::Duration wait, std::function<void()> fire) {
+  return timers.add(loop->timer_now() + wait, std::move(fire));
+}
+
+health::PeerState NodeImpl::peer(std::string_view service) const {
+  return service == options.name ? health::PeerState::alive : loop->peer(service);
+}
+
+TopicReader& NodeImpl::subscribe(const TopicSpec& topic) {
+  const bool barriered = topic.clocking == transport::Clocking::clocked && simulated();
+  if (running && barriered && endpoints.find_in(topic.name) == nullptr) {
+    throw std::logic_error(
+        options.name + " subscribes to " + topic.name +
+        " while it runs; under the simulated clock subscribe (or make clients) before run()");
+  }
+  return endpoints.in(topic);
+}
+
+void NodeImpl::receive(Arrival&& arrival) {
+  TopicReader& input = *arrival.topic;
+  if (arrival.sample.kind == transport::SampleKind::no_writers) {
+    for (const auto& lost : input.on_no_writers) lost(arrival.sample.payload);
+  }
+  if (arrival.sample.kind != transport::SampleKind::data) return;
+  auto value = input.topic.codec.decode(arrival.sample.payload);
+  if (!value) {
+    ++input.malformed;
+    log::warning(options.name + " drops a malformed sample of " + input.topic.name);
+    return;
+  }
+  const auto run_of = input.topic.codec.run;
+  if (run_of != nullptr && !run.obeys(run_of(value.get()), input.topic.name)) return;
+  if (input.topic.clocking == transport::Clocking::wall) return handle(input, value.get());
+  const v1::SampleHeader& header = input.topic.codec.header(value.get());
+  loop->take_clocked(input, header, std::move(value));
+}
+
+void NodeImpl::handle(TopicReader& input, const void* value) {
+  // By index: a handler may subscribe, live.
+  for (std::size_t i = 0; i < input.on_value.size(); ++i) {
+    const auto handler = input.on_value[i];
+    handler(value);
+  }
+}
+
+void NodeImpl::announce(const health::PeerChange& change) {
+  for (std::size_t i = 0; i < on_peer_change.size(); ++i) {
+    const auto handler = on_peer_change[i];
+    handler(change);
+  }
+}
+
+void NodeImpl::announce_turn() {
+  for (std::size_t i = 0; i < on_turn.size(); ++i) {
+    const auto handler = on_turn[i];
+    handler();
+  }
+}
+
+void NodeImpl::announce_match() {
+  for (std::size_t i = 0; i < on_match.size(); ++i) {
+    const auto handler = on_match[i];
+    handler();
+  }
+}
+
+health::HeartbeatSender NodeImpl::make_heartbeat_sender() {
+  TopicWriter& stream = advertise(*this, topics::heartbeat);
+  v1::Heartbeat identity;
+  identity.service(options.name);
+  identity.mission(options.mission);
+  identity.robot(options.robot);
+  identity.incarnation(options.incarnation);
+  identity.dds(options.vendor);
+  return health::HeartbeatSender(std::move(identity),
+                                 [&stream](const v1::Heartbeat& beat) { write(stream, beat); });
+}
+
+}  // namespace roci::services::node

@@ -1,0 +1,70 @@
+// What a node consists of. The loop (live or simulated) decides when handlers run; the rest is shared.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string_view>
+#include <typeindex>
+#include <vector>
+
+#include "core/temporal/duration.hpp"
+#include "services/health/heartbeat_sender.hpp"
+#include "services/health/peer.hpp"
+#include "services/node/completion_queue.hpp"
+#include "services/node/endpoints.hpp"
+#include "services/node/inbox.hpp"
+#include "services/node/loop.hpp"
+#include "services/node/node_options.hpp"
+#include "services/node/timer_queue.hpp"
+#include "services/transport/transport.hpp"
+
+namespace roci::services::node {
+
+class NodeImpl {
+ public:
+  NodeImpl(NodeOptions, std::unique_ptr<transport::Transport>);
+
+  bool simulated() const { return clock::is_simulated(options.clock); }
+  temporal::Time now() const { return loop->now(); }
+  TimerQueue::Id after(temporal::Duration, std::function<void()> fire);
+  health::PeerState peer(std::string_view service) const;
+
+  /// Subscribing under the simulated clock is over once the loop runs: throws std::logic_error.
+  TopicReader& subscribe(const TopicSpec&);
+
+  /// Decodes an arrival and runs its handlers, or hands it to the loop if its topic is clocked.
+  void receive(Arrival&&);
+  static void handle(TopicReader&, const void* value);
+  void announce(const health::PeerChange&);
+  void announce_match();
+  void announce_turn();
+
+  /// Keeps one T for a floor above for as long as the node lives; makes it when it is first asked for.
+  template <class T>
+  T& attachment() {
+    std::shared_ptr<void>& kept = attachments[typeid(T)];
+    if (!kept) kept = std::make_shared<T>();
+    return *static_cast<T*>(kept.get());
+  }
+
+  /// Makes the sender of this node's heartbeats, on their topic.
+  health::HeartbeatSender make_heartbeat_sender();
+
+  const NodeOptions options;
+  RunIdentity run;
+  std::unique_ptr<transport::Transport> transport;
+  Inbox inbox;
+  TimerQueue timers;
+  CompletionQueue work;
+  std::vector<std::function<void(const health::PeerChange&)>> on_peer_change;
+  std::vector<std::function<void()>> on_match;
+  std::vector<std::function<void()>> on_turn;
+  /// They outlive the endpoints, whose handlers use them.
+  std::map<std::type_index, std::shared_ptr<void>> attachments;
+  Endpoints endpoints;
+  bool running = false;
+  std::unique_ptr<Loop> loop;
+};
+
+}  // namespace roci::services::node

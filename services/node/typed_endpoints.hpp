@@ -1,0 +1,46 @@
+// A node's topics with their types. T is a generated struct of idl/; typed_endpoints.cpp lists the types.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <type_traits>
+#include <utility>
+
+#include "services/topics.hpp"
+
+namespace roci::services::node {
+
+class NodeImpl;
+class TopicWriter;
+
+/// Defined and instantiated in typed_endpoints.cpp, so that users of this header compile no serialization.
+template <class T>
+struct TypedEndpoints {
+  static TopicWriter& advertise(NodeImpl&, const Topic<T>&);
+  static void subscribe(NodeImpl&, const Topic<T>&, std::function<void(const T&)>);
+  static bool write(TopicWriter&, T&&);
+  static bool dispose(TopicWriter&, const T&);
+};
+
+int matched_readers(const TopicWriter&);
+
+/// How many samples the stream has written.
+std::uint64_t written(const TopicWriter&);
+
+template <class T>
+TopicWriter& advertise(NodeImpl& node, const Topic<T>& topic) {
+  return TypedEndpoints<T>::advertise(node, topic);
+}
+
+template <class T>
+void subscribe(NodeImpl& node, const Topic<T>& topic,
+               std::type_identity_t<std::function<void(const T&)>> on_value) {
+  TypedEndpoints<T>::subscribe(node, topic, std::move(on_value));
+}
+
+template <class T>
+bool write(TopicWriter& stream, T value) {
+  return TypedEndpoints<T>::write(stream, std::move(value));
+}
+
+}  // namespace roci::services::node

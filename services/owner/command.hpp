@@ -1,0 +1,74 @@
+// What an owner of commands and its commanders say to each other, as plain values.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/temporal/duration.hpp"
+#include "core/temporal/value.hpp"
+
+namespace roci::services::owner {
+
+/// The command that breaks off whatever its subsystem runs, whoever commanded that.
+inline constexpr char kStopCommand[] = "stop";
+
+/// Names one command for good. A commander that takes over from another one, or from itself after a restart,
+/// asks under the old key.
+struct CommandKey {
+  std::string activity;
+  std::uint32_t attempt = 0;
+  std::string commander{};         ///< empty where commanders are not told apart
+  std::uint64_t issued_epoch = 0;  ///< of the commander, when it first sent the command
+  auto operator<=>(const CommandKey&) const = default;
+};
+
+enum class Action { execute, cancel, query };
+
+struct Request {
+  CommandKey key;
+  Action action = Action::execute;
+  std::uint64_t epoch = 0;  ///< of the sender now
+  std::string sender{};     ///< the commander that says this; not always the one of the key
+  std::string robot{};      ///< empty: the owner's only one
+  std::string subsystem{};
+  std::string command{};
+  std::map<std::string, std::string> arguments{};
+  /// When the step has to be over at the latest; until then the owner may repair (R146). Empty: no limit.
+  std::optional<temporal::Time> latest_end{};
+};
+
+/// `accepted` is no last word; `cancel_failed` and `unknown` answer a cancel or a query and are no word on
+/// the activity. The order is the one of CommandStage in idl/command.idl.
+enum class Stage { accepted, rejected, completed, failed, cancelled, cancel_failed, unknown };
+
+/// What a command came to that ran and ended.
+struct Results {
+  std::optional<temporal::Duration> duration{};  ///< empty: the time since it was accepted
+  std::optional<double> energy_j{};              ///< drawn by it alone; empty: not measured
+  std::map<std::string, temporal::Value> values{};
+  bool operator==(const Results&) const = default;
+};
+
+/// A word of the owner on a command: a stable code for programs, a reason in plain words.
+struct Word {
+  Stage stage = Stage::accepted;
+  std::string code{};
+  std::string reason{};
+  Results results{};
+  bool operator==(const Word&) const = default;
+};
+
+/// The word as it goes out.
+struct Ack {
+  CommandKey key;
+  Word word;
+  temporal::Time at{};
+  std::uint64_t newest_epoch = 0;  ///< that the owner has taken of who asked; else of the key's commander
+  bool refused_epoch = false;      ///< the request came from an older one
+  bool operator==(const Ack&) const = default;
+};
+
+}  // namespace roci::services::owner

@@ -1,0 +1,59 @@
+// The commands of one owner on its node: requests come in by the topic `command`, the ledger applies the
+// rules, the driver does what is to be done, and its words go out by `command_ack`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/node.hpp"
+#include "services/owner/command_ledger.hpp"
+#include "services/publisher.hpp"
+
+namespace roci::services::owner {
+
+/// What an owner does by itself. It answers through the server, within the call or later, on the node's loop.
+class Driver {
+ public:
+  virtual ~Driver() = default;
+  /// Called before each request: what has happened by now is said first.
+  virtual void catch_up() {}
+  /// A new command. The answer is say(accepted) or say(rejected), and one last word when it has ended.
+  virtual void carry_out(const Request&) = 0;
+  /// The command is to end early; `why` is the word to say when it has (cancelled on request, stopped, or
+  /// failed by an overrun). A driver that cannot break off says refuse_cancel().
+  virtual void break_off(const CommandKey&, const Word& why) = 0;
+};
+
+/// Lives as long as its node's loop runs; the driver outlives it.
+class CommandServer {
+ public:
+  CommandServer(Node&, Driver&);
+  CommandServer(const CommandServer&) = delete;
+  CommandServer& operator=(const CommandServer&) = delete;
+
+  /// By default the server breaks off what a stopped subsystem runs, and says that the stop is completed. A
+  /// driver that knows its subsystems better gets stops by carry_out(), like other commands.
+  void leave_stops_to_driver() { driver_stops_ = true; }
+
+  /// False: the ledger has no such command, or it has ended (command_ledger.hpp).
+  bool say(const CommandKey&, Word);
+  bool refuse_cancel(const CommandKey&, std::string reason);
+  /// False: there is no time for a repair, and the driver fails the command.
+  bool repair(const CommandKey&, std::string reason);
+
+ private:
+  void receive(const Request&);
+  void stop(const Request&);
+  bool send(const std::optional<Ack>&);
+  void watch_overruns();
+
+  Node& node_;
+  Driver& driver_;
+  CommandLedger ledger_;
+  Publisher<v1::CommandAck> acks_;
+  bool driver_stops_ = false;
+  std::optional<Node::TimerId> overrun_;
+};
+
+}  // namespace roci::services::owner

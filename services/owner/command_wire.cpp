@@ -1,0 +1,85 @@
+#include "services/owner/command_wire.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "services/wire/plan_wire.hpp"
+
+namespace roci::services::owner {
+namespace {
+
+Action action_of(v1::CommandAction action) {
+  switch (action) {
+    case v1::COMMAND_CANCEL:
+      return Action::cancel;
+    case v1::COMMAND_QUERY:
+      return Action::query;
+    default:
+      return Action::execute;
+  }
+}
+
+v1::CommandStage stage_of(Stage stage) {
+  switch (stage) {
+    case Stage::accepted:
+      return v1::STAGE_ACCEPTED;
+    case Stage::rejected:
+      return v1::STAGE_REJECTED;
+    case Stage::completed:
+      return v1::STAGE_COMPLETED;
+    case Stage::failed:
+      return v1::STAGE_FAILED;
+    case Stage::cancelled:
+      return v1::STAGE_CANCELLED;
+    case Stage::cancel_failed:
+      return v1::STAGE_CANCEL_FAILED;
+    case Stage::unknown:
+      break;
+  }
+  return v1::STAGE_UNKNOWN;
+}
+
+}  // namespace
+
+Request from_wire(const v1::Command& command) {
+  Request request;
+  // Executives do not keep yet in which epoch they issued a key; they send the present one.
+  request.key = {command.activity(), command.attempt(), command.commander(), 0};
+  request.action = action_of(command.action());
+  request.epoch = command.sender_epoch();
+  request.sender = command.header().sender();
+  request.robot = command.robot();
+  request.subsystem = command.subsystem();
+  request.command = command.command_name();
+  for (const v1::Property& argument : command.arguments()) {
+    request.arguments[argument.name()] = argument.value();
+  }
+  if (command.latest_end_us() >= 0) request.latest_end = temporal::Time(command.latest_end_us());
+  return request;
+}
+
+v1::CommandAck to_wire(const Ack& ack, const std::string& owner) {
+  v1::CommandAck out;
+  out.commander(ack.key.commander);
+  out.epoch(ack.key.issued_epoch);
+  out.activity(ack.key.activity);
+  out.attempt(ack.key.attempt);
+  out.stage(stage_of(ack.word.stage));
+  out.owner(owner);
+  out.code(ack.word.code);
+  out.reason(ack.word.reason);
+  const Results& results = ack.word.results;
+  out.outcome().duration_us(results.duration ? results.duration->count() : -1);
+  out.outcome().energy_j(results.energy_j.value_or(std::numeric_limits<double>::quiet_NaN()));
+  for (const auto& [name, value] : results.values) {
+    v1::NamedValue measured;
+    measured.name(name);
+    measured.held(wire::to_wire(value));
+    out.outcome().measured().push_back(std::move(measured));
+  }
+  out.newest_epoch(ack.newest_epoch);
+  out.refused_epoch(ack.refused_epoch);
+  return out;
+}
+
+}  // namespace roci::services::owner

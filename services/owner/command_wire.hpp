@@ -1,0 +1,14 @@
+// Between the kit's values and idl/command.idl.
+#pragma once
+
+#include <string>
+
+#include "roci_idl/command.h"
+#include "services/owner/command.hpp"
+
+namespace roci::services::owner {
+
+Request from_wire(const v1::Command&);
+v1::CommandAck to_wire(const Ack&, const std::string& owner);
+
+}  // namespace roci::services::owner

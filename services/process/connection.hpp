@@ -1,0 +1,41 @@
+// Where a program joins a run, and over which vendor: from the command line, the environment, a host's
+// network file and the mission file, in this order of precedence.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/transport/transport.hpp"
+
+namespace roci::services::process {
+
+struct ConnectionFlags {
+  std::optional<std::string> dds;      ///< --dds, ROCI_DDS, dds: in the network and mission files
+  std::optional<int> domain;           ///< --domain, ROCI_DOMAIN, domain:
+  std::optional<std::string> address;  ///< --address, ROCI_ADDRESS, address:
+  /// --peers, ROCI_PEERS (separated by commas), peers: (a list)
+  std::optional<std::string> peers;
+  std::optional<std::filesystem::path> network;  ///< --network, ROCI_NETWORK: the network file
+};
+
+struct Connection {
+  std::string dds;
+  std::string run{};  // identity of the run, where it is known; else the first that is heard
+  transport::TransportOptions transport;
+};
+
+using Environment = std::function<std::optional<std::string>(const char* name)>;
+Environment process_environment();
+
+/// `mission` is a mission folder, or empty. Throws mission::FileError for a bad file and
+/// std::invalid_argument for a bad flag or variable.
+Connection resolve_connection(const ConnectionFlags&, const Environment&,
+                              const std::filesystem::path& mission);
+
+/// Turns "a,b,c" into {"a", "b", "c"}; empty parts are left out.
+std::vector<std::string> split_list(const std::string&);
+
+}  // namespace roci::services::process

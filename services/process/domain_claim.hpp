@@ -1,0 +1,25 @@
+// Domain ids that are free on this machine, so that missions and tests run side by side without hearing each
+// other.
+#pragma once
+
+namespace roci::services::process {
+
+/// Holds a domain id from 1 to 100 until it is destroyed or the process ends, against every other DomainClaim
+/// on this host (in this network namespace) and against participants that are there already. Children inherit
+/// the claim over fork(), not over exec().
+class DomainClaim {
+ public:
+  /// Throws TransportError when all are taken.
+  DomainClaim();
+  ~DomainClaim();
+  DomainClaim(const DomainClaim&) = delete;
+  DomainClaim& operator=(const DomainClaim&) = delete;
+
+  int id() const { return id_; }
+
+ private:
+  int id_ = 0;
+  int socket_ = -1;
+};
+
+}  // namespace roci::services::process

@@ -1,0 +1,53 @@
+// What a running mission leaves for tools on the same machine to find it by.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace roci::services::process {
+
+/// The newest version of the record's schema (docs/formats.md) that this code reads; it writes this one. It
+/// rises when a key changes its meaning or goes; a record that names no version is of version 1.
+inline constexpr int kRunRecordFormat = 1;
+
+struct RunRecord {
+  std::int64_t pid = 0;  ///< The launcher's.
+  int domain = 0;
+  std::filesystem::path mission;
+  std::string scenario;
+  std::string dds;  ///< As given to --dds.
+  std::string address;
+  std::vector<std::string> peers;
+  std::filesystem::path run_folder;
+  std::string clock;  ///< "live" or "simulated".
+  std::int64_t started_unix_us = 0;
+  std::string run{};  // identity; empty in records of before there were any
+
+  bool operator==(const RunRecord&) const = default;
+};
+
+/// Returns $XDG_RUNTIME_DIR/rocinante, else /tmp/rocinante-<uid>; created for this user alone.
+std::filesystem::path runtime_folder();
+
+/// Publishes the record of a run for as long as this object lives.
+class PublishedRun {
+ public:
+  PublishedRun(const std::filesystem::path& folder, const RunRecord&);
+  ~PublishedRun();
+  PublishedRun(const PublishedRun&) = delete;
+  PublishedRun& operator=(const PublishedRun&) = delete;
+
+ private:
+  std::filesystem::path file_;
+};
+
+/// Returns the runs whose launcher lives, newest first. Records of dead ones are passed over.
+std::vector<RunRecord> find_runs(const std::filesystem::path& folder);
+
+/// Those records of a newer format whose launcher may live, in words with a remedy; find_runs() does not read
+/// them.
+std::vector<std::string> refused_runs(const std::filesystem::path& folder);
+
+}  // namespace roci::services::process

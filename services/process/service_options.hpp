@@ -1,0 +1,36 @@
+// The command line of every service process.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "services/node.hpp"
+#include "services/process/connection.hpp"
+#include "services/service.hpp"
+
+namespace roci::services::process {
+
+struct ServiceOptions {
+  RunSettings run;
+  node::NodeOptions node;
+  Connection connection;
+  std::string notify_socket;       ///< Its supervisor's, for WatchdogNotifier; empty: there is none.
+  bool count_incarnation = false;  ///< Nobody gave one: it is counted in the run folder.
+};
+
+/// The command line ended the program: --help (code 0) or a mistake (code 2). what() is text for the user.
+class CommandLineEnd : public std::runtime_error {
+ public:
+  CommandLineEnd(int code, const std::string& text) : std::runtime_error(text), exit_code(code) {}
+  const int exit_code;
+};
+
+/// Throws CommandLineEnd, and what resolve_connection throws.
+ServiceOptions parse_service_options(int argc, const char* const* argv, const std::string& name,
+                                     const Environment&);
+
+/// Throws transport::TransportError, also for inproc, which joins no processes.
+std::unique_ptr<transport::Transport> connect(const Connection&);
+
+}  // namespace roci::services::process

@@ -1,0 +1,69 @@
+// One server of a procedure, without its types. It makes calls at-most-once (Birrell and Nelson, 1984): it
+// knows which requests it has seen, their answers, and which of them were cancelled, before they came or
+// after.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "roci_idl/rpc.h"
+
+namespace roci::services::rpc {
+
+inline constexpr std::size_t kCachedReplies = 256;
+
+class ReplyCache {
+ public:
+  using Id = std::pair<std::array<std::uint8_t, 16>, std::int64_t>;
+  using SendAgain = std::function<void()>;
+
+  /// Returns true if this request is to be handled, false if it is a duplicate; if it was answered before,
+  /// the answer has gone out again.
+  bool accept(const Id&);
+  void answered(const Id&, SendAgain);
+
+  void cancel(const Id&);
+  /// `handler` runs once, when this request is cancelled before its answer; at once if it already is.
+  void on_cancel(const Id&, std::function<void()> handler);
+
+ private:
+  struct Request {
+    bool seen = false;
+    bool cancelled = false;
+    SendAgain send_again;  // empty: not answered yet
+    std::function<void()> on_cancel;
+  };
+  Request& entry(const Id&);
+
+  std::map<Id, Request> known_;
+  std::deque<Id> order_;  // oldest first; bounds known_
+};
+
+/// The duty to answer one request, and the writer that does it.
+class PendingReply {
+ public:
+  using Write = std::function<void(const void* reply)>;
+
+  PendingReply(std::shared_ptr<ReplyCache> server, const v1::SampleIdentity& request, Write write)
+      : server_(std::move(server)), request_(request), write_(std::move(write)) {}
+
+  const v1::SampleIdentity& request() const { return request_; }
+  /// The first answer is sent and remembered; others are ignored.
+  void answer(std::shared_ptr<const void> reply);
+  void on_cancel(std::function<void()> handler);
+
+ private:
+  ReplyCache::Id id() const { return {request_.writer_guid(), request_.sequence_number()}; }
+
+  std::shared_ptr<ReplyCache> server_;
+  v1::SampleIdentity request_;
+  Write write_;
+  bool answered_ = false;
+};
+
+}  // namespace roci::services::rpc

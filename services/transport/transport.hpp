@@ -1,0 +1,116 @@
+// The vendor boundary: serialized samples in and out of named, typed topics. A DDS vendor is a shared object
+// that implements these classes (vendors/X); services link none of them. Types are known here by name and key
+// alone.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "services/transport/qos.hpp"
+
+namespace roci::services::transport {
+
+/// A payload is a 4-byte encapsulation header and CDR, exactly as on the wire.
+using Payload = std::vector<std::uint8_t>;
+using Guid = std::array<std::uint8_t, 16>;
+
+/// Describes a type without naming it in C++. `serialized_key` appends the big-endian CDR of the key members
+/// (no encapsulation) of a payload, which is a whole sample or, with key_only, a key-only payload; it returns
+/// false if the payload is malformed.
+struct TypeDescription {
+  /// E.g. "roci::v1::Goal". Matching is by name alone, so that a foreign type never matches.
+  std::string name;
+  bool keyed = false;
+  /// The largest serialized key takes at most 16 bytes, so that the key hash is the key itself.
+  bool key_fits_hash = false;
+  bool (*serialized_key)(std::span<const std::uint8_t> payload, bool key_only, Payload& out) = nullptr;
+};
+
+struct EndpointDescription {
+  std::string topic;
+  TypeDescription type;
+  QosSettings qos;
+};
+
+/// The payload of the last two, of keyed topics alone, holds at least the key (deserialize_key).
+enum class SampleKind {
+  data,
+  disposed,    ///< The writer disposed the instance.
+  no_writers,  ///< The instance has no live writer any more (DDS: NOT_ALIVE_NO_WRITERS).
+};
+
+struct Sample {
+  SampleKind kind = SampleKind::data;
+  Payload payload;
+  Guid writer{};
+};
+
+/// Vendor threads call these: implementations only enqueue, they never write and never block.
+struct ReaderEvents {
+  std::function<void(Sample&&)> on_sample;
+  std::function<void(int current_writers)> on_matched;
+};
+
+/// A reliable writer reaches every reader that it counts: all that is written from then on arrives.
+struct WriterEvents {
+  std::function<void(int current_readers)> on_matched;
+};
+
+class Writer {
+ public:
+  virtual ~Writer() = default;
+  /// Returns false if a reliable reader's history stood full for longer than max_blocking_ms, or the payload
+  /// is malformed.
+  virtual bool write(std::span<const std::uint8_t> payload) = 0;
+  /// Disposes the instance whose key members the (whole) payload holds.
+  virtual bool dispose(std::span<const std::uint8_t> payload) = 0;
+  virtual Guid guid() const = 0;
+  virtual int matched_readers() const = 0;
+};
+
+/// Destroying a Reader (or a Writer) waits until no callback of it runs any more; never do it in a callback.
+class Reader {
+ public:
+  virtual ~Reader() = default;
+  virtual int matched_writers() const = 0;
+};
+
+struct TransportOptions {
+  int domain = 0;
+  std::string participant{};  ///< Vendor tools show it.
+  /// The one interface address that is used; never any other is.
+  std::string address = "127.0.0.1";
+  std::vector<std::string> peers = {"127.0.0.1"};  ///< These hosts are asked for participants, unicast.
+  std::string partition{};                         ///< Empty: there is none.
+  /// The path of a vendor's own XML, which is used instead of the defaults if not empty.
+  std::string vendor_xml{};
+};
+
+class TransportError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A transport is one DDS participant. Its writers and readers are destroyed before it. A topic has one type
+/// in it; asking for another is a TransportError, like everything that the vendor refuses.
+class Transport {
+ public:
+  virtual ~Transport() = default;
+  virtual std::string_view vendor() const = 0;
+  virtual std::unique_ptr<Writer> create_writer(const EndpointDescription&, WriterEvents) = 0;
+  virtual std::unique_ptr<Reader> create_reader(const EndpointDescription&, ReaderEvents) = 0;
+};
+
+/// Each plug-in exports this under the name roci_create_transport. It throws TransportError.
+using CreateTransport = std::unique_ptr<Transport>(const TransportOptions&);
+inline constexpr char kCreateTransportSymbol[] = "roci_create_transport";
+
+}  // namespace roci::services::transport

@@ -1,0 +1,59 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim_svc/components/arm_motion.hpp"
+#include "sim_svc/world/capabilities.hpp"
+#include "sim_svc/world/component.hpp"
+
+namespace roci::sim::components {
+
+struct ArmSettings {
+  ArmParameters motion;
+  std::string planner = "arm_svc";     ///< the service that is asked for trajectories
+  std::string stow_pose = "stow";      ///< the only pose in which the body may drive
+  std::string stop_pose = "arm-here";  ///< its pose after a stop on the way
+  std::string start_pose = "stow";
+  std::vector<double> start_joints;  ///< rad or m, one per joint
+};
+
+/// An arm: move (from, to) asks for a trajectory between named poses and tracks it; a stop on the way leaves
+/// it at the stop pose. It does not move while the body drives.
+class Arm final : public world::Component, public world::Manipulator, public world::BodyInterlock {
+ public:
+  Arm(ArmSettings, world::RandomStream noise);
+
+  std::vector<world::CommandForm> commands() const override { return {{"move", {"from", "to"}}}; }
+  /// idle-pose (pose), going-to (pose).
+  temporal::State state() const override;
+  bool busy() const override { return target_.has_value(); }
+  std::optional<std::string> pose() const override;
+  world::Ending forbids_driving() const override;
+
+  world::Ending begin(const world::Task&, temporal::Time now, world::Surroundings&) override;
+  std::optional<temporal::Time> next_change() const override;
+  world::Ending finish(world::Surroundings&) override;
+  void halt(temporal::Time now, world::Surroundings&) override;
+  bool waits_for_answer() const override { return busy() && !trace_; }
+  world::Ending answer(const world::Answer&, temporal::Time now, world::Surroundings&) override;
+  void settle(temporal::Time now, world::Body&) override;
+
+  double energy_j(temporal::Time from, temporal::Time to) const override;
+  double peak_power_w() const override { return trace_ ? trace_->peak_power_w : 0; }
+  bool moves() const override { return next_change().has_value(); }
+  /// q0, q1, …: the joints.
+  std::vector<world::NamedNumber> numbers() const override;
+
+ private:
+  void rest(std::string pose);
+
+  ArmSettings settings_;
+  std::string pose_;
+  std::vector<double> joints_;
+  std::optional<std::string> target_;
+  std::optional<ArmTrace> trace_;
+  world::RandomStream noise_;
+};
+
+}  // namespace roci::sim::components

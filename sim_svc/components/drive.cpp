@@ -1,0 +1,148 @@
+#include "sim_svc/components/drive.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace roci::sim::components {
+
+using temporal::State;
+using temporal::Time;
+using world::Ending;
+using world::Failure;
+using world::Surroundings;
+
+namespace {
+
+std::optional<double> number(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+Drive::Drive(DriveSettings settings, world::RandomStream noise)
+    : settings_(std::move(settings)), place_(settings_.stop_place), noise_(std::move(noise)) {}
+
+State Drive::state() const {
+  return target_ ? State{"going-to", {target_->place}} : State{"idle-at", {place_}};
+}
+
+std::optional<std::string> Drive::place() const {
+  if (target_) return std::nullopt;
+  return place_;
+}
+
+Ending Drive::begin(const world::Task& task, Time, Surroundings& around) {
+  const auto x = number(task.arguments.at("x"));
+  const auto y = number(task.arguments.at("y"));
+  if (!x || !y) return Failure{"bad-arguments", "drive: x and y must be numbers, in metres"};
+  for (const auto* other : around.components.all<world::BodyInterlock>()) {
+    if (Ending forbidden = other->forbids_driving()) return forbidden;
+  }
+  target_ = Target{task.key, task.latest_end, task.arguments.at("to"), *x, *y};
+  detours_ = last_detours_ = 0;
+  ask(around);
+  return std::nullopt;
+}
+
+void Drive::ask(Surroundings& around) const {
+  around.out.push_back(world::PathWanted{target_->key, settings_.planner, around.robot, *around.body.pose,
+                                         target_->x, target_->y});
+}
+
+Ending Drive::answer(const world::Answer& answer, Time now, Surroundings& around) {
+  const auto* way = std::get_if<world::Way>(&answer);
+  if (!way || way->points.empty()) return Failure{"no-path", "the path has no way-points"};
+  way_ = way->points;
+  trace_ =
+      simulate_drive(around.environment.ground, settings_.motion, now, *around.body.pose, way_, 0, noise_);
+  return std::nullopt;
+}
+
+void Drive::ground_changed(Time now, Surroundings& around) {
+  if (!trace_) return;
+  const DriveSample sample = trace_->at(now);
+  around.body.pose = sample.pose;
+  trace_ = simulate_drive(around.environment.ground, settings_.motion, now, sample.pose, way_,
+                          sample.next_waypoint, noise_);
+}
+
+std::optional<Time> Drive::next_change() const {
+  if (trace_) return trace_->end;
+  return looks_until_;
+}
+
+Ending Drive::finish(Surroundings& around) {
+  if (looks_until_) {
+    looks_until_.reset();
+    ask(around);
+    return std::nullopt;
+  }
+  const DriveTrace trace = *std::exchange(trace_, std::nullopt);
+  around.body.pose = trace.samples.back().pose;
+  const std::string rock = trace.outcome == DriveEnd::blocked ? see_rock(trace, around) : "";
+  if (!rock.empty() && looks_around(trace, rock, around)) return std::nullopt;
+  stand(trace.outcome == DriveEnd::arrived ? target_->place : settings_.stop_place);
+  switch (trace.outcome) {
+    case DriveEnd::arrived:
+      return std::nullopt;
+    case DriveEnd::stuck:
+      return Failure{"stuck", "the wheels turn without progress"};
+    case DriveEnd::collision:
+      return Failure{"collision", "the path led into a rock of the map"};
+    case DriveEnd::blocked:
+      break;
+  }
+  return Failure{"blocked", "a rock that the map does not show lies on the way (" + rock + ")"};
+}
+
+// Whether the drive repairs what stopped it: it looks at the rock and will ask for a way around.
+bool Drive::looks_around(const DriveTrace& trace, const std::string& rock, Surroundings& around) {
+  const Time looked = trace.end + temporal::seconds(settings_.look_s);
+  if (detours_ >= settings_.detours || (target_->latest_end && looked >= *target_->latest_end)) return false;
+  ++detours_;
+  looks_until_ = looked;
+  around.out.push_back(world::TaskReport{target_->key, world::TaskStage::repairing, "repairing",
+                                         rock + " lies on the way and on no map; it looks for a way around",
+                                         trace.end});
+  return true;
+}
+
+// The id under which the rock that ended the trace is known from now on.
+std::string Drive::see_rock(const DriveTrace& trace, Surroundings& around) {
+  const std::size_t index = *trace.seen_rock;
+  auto& known = around.environment.known_rocks;
+  const std::string id = known.try_emplace(index, "rock-" + std::to_string(known.size() + 1)).first->second;
+  if (seen_rocks_.insert(index).second) {
+    const world::Rock& rock = around.environment.ground.hidden_rocks[index];
+    around.out.push_back(world::RockSeen{id, around.robot, rock.x, rock.y, rock.radius, trace.end});
+  }
+  return id;
+}
+
+void Drive::halt(Time now, Surroundings& around) {
+  const bool moved = trace_.has_value() || detours_ > 0;
+  settle(now, around.body);
+  stand(moved ? settings_.stop_place : place_);
+}
+
+void Drive::settle(Time now, world::Body& body) {
+  if (trace_) body.pose = trace_->at(now).pose;
+}
+
+double Drive::energy_j(Time from, Time to) const {
+  return trace_ ? trace_->at(to).energy_j - trace_->at(from).energy_j : 0;
+}
+
+void Drive::stand(std::string place) {
+  place_ = std::move(place);
+  target_.reset();
+  trace_.reset();
+  looks_until_.reset();
+  last_detours_ = std::exchange(detours_, 0);
+}
+
+}  // namespace roci::sim::components

@@ -1,0 +1,78 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sim_svc/components/drive_motion.hpp"
+#include "sim_svc/world/capabilities.hpp"
+#include "sim_svc/world/component.hpp"
+
+namespace roci::sim::components {
+
+struct DriveSettings {
+  DriveParameters motion;
+  double detours = 0;                    ///< rocks that one drive looks at and asks a way around
+  double look_s = 20;                    ///< a look at such a rock takes this long
+  std::string planner = "pathplan_svc";  ///< the service that is asked for paths
+  std::string stop_place = "here";       ///< where the body stands at the start and after a stop on the way
+};
+
+/// Wheels: drive (to, x, y) asks for a path and follows it; a stop on the way leaves the body at the stop
+/// place. Before a hidden rock it stands, looks, and asks for a path around (a repair of its own, R146), as
+/// long as there are detours and time left.
+class Drive final : public world::Component, public world::Mobility {
+ public:
+  /// The body stands at the stop place; it must have a pose, and the world a site.
+  Drive(DriveSettings, world::RandomStream noise);
+
+  std::vector<world::CommandForm> commands() const override { return {{"drive", {"to", "x", "y"}}}; }
+  /// idle-at (place), going-to (place).
+  temporal::State state() const override;
+  bool busy() const override { return target_.has_value(); }
+  std::optional<std::string> place() const override;
+
+  world::Ending begin(const world::Task&, temporal::Time now, world::Surroundings&) override;
+  std::optional<temporal::Time> next_change() const override;
+  world::Ending finish(world::Surroundings&) override;
+  void halt(temporal::Time now, world::Surroundings&) override;
+  bool waits_for_answer() const override { return busy() && !trace_ && !looks_until_; }
+  world::Ending answer(const world::Answer&, temporal::Time now, world::Surroundings&) override;
+  void settle(temporal::Time now, world::Body&) override;
+  /// The rest of a running drive is worked out anew.
+  void ground_changed(temporal::Time now, world::Surroundings&) override;
+
+  double energy_j(temporal::Time from, temporal::Time to) const override;
+  double peak_power_w() const override { return trace_ ? trace_->peak_power_w : 0; }
+  bool moves() const override { return next_change().has_value(); }
+  /// detours: rocks that the drive went around.
+  std::map<std::string, temporal::Value> results() const override { return {{"detours", last_detours_}}; }
+
+ private:
+  struct Target {
+    world::TaskKey key;
+    std::optional<temporal::Time> latest_end;
+    std::string place;
+    double x = 0;
+    double y = 0;
+  };
+
+  void stand(std::string place);
+  void ask(world::Surroundings&) const;
+  std::string see_rock(const DriveTrace&, world::Surroundings&);
+  bool looks_around(const DriveTrace&, const std::string& rock, world::Surroundings&);
+
+  DriveSettings settings_;
+  std::string place_;
+  std::optional<Target> target_;
+  std::optional<DriveTrace> trace_;
+  std::optional<temporal::Time> looks_until_;
+  double detours_ = 0;  // of the running drive
+  double last_detours_ = 0;
+  std::vector<terrain::Point> way_;
+  std::set<std::size_t> seen_rocks_;  // indices into Ground::hidden_rocks
+  world::RandomStream noise_;
+};
+
+}  // namespace roci::sim::components

@@ -1,0 +1,63 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim_svc/world/environment.hpp"
+#include "sim_svc/world/random_stream.hpp"
+#include "sim_svc/world/values.hpp"
+
+namespace roci::sim::components {
+
+/// The true wheels and ground, which the estimators' models only resemble.
+struct DriveParameters {
+  double radius_m = 0.6;           ///< of the disc that the rover covers
+  double wheel_speed_m_s = 0.105;  ///< on flat ground, before slip
+  double turn_rate_rad_s = 0.19;
+  double slip = 0.04;           ///< mean on flat ground, as a share of the wheel speed
+  double uphill_slip = 2.5;     ///< added slip is this times sin²(pitch)
+  double slip_noise = 0.35;     ///< standard deviation as a share of the mean
+  double slope_slowdown = 0.3;  ///< the wheels turn slower by this times sin(slope)
+  double heading_noise = 0.01;  ///< rad per square root of a second
+  double max_slope_deg = 30;    ///< steeper ground holds the rover fast
+  double rock_sight_m = 3;      ///< a rock on the way is seen this far ahead of the rover's edge
+  double weight_n = 560;
+  double rolling_resistance = 0.2;
+  double drive_efficiency = 0.35;
+  double drive_electronics_w = 28;
+  double turn_power_w = 55;
+};
+
+enum class DriveEnd { arrived, blocked, stuck, collision };
+
+struct DriveSample {
+  world::Pose pose;
+  double energy_j = 0;            ///< used since the start of the drive
+  std::size_t next_waypoint = 0;  ///< index into the way-points
+};
+
+/// A whole drive as it happens if nobody interrupts it. Sample i holds at start + i * kDriveStep; the last
+/// one at `end`.
+struct DriveTrace {
+  temporal::Time start{};
+  temporal::Time end{};
+  std::vector<DriveSample> samples;
+  DriveEnd outcome = DriveEnd::arrived;
+  std::optional<std::size_t> seen_rock;  ///< with `blocked`: index into Ground::hidden_rocks
+  double peak_power_w = 0;
+
+  /// Between two samples: linear. Before the start the first, after the end the last sample.
+  DriveSample at(temporal::Time) const;
+};
+
+inline constexpr temporal::Duration kDriveStep{100000};
+
+/// Integrates the rover along the way-points: point turns, speed by slope, slip by pitch and noise, drift of
+/// the heading, electrical energy. The ground has a site; `way` has at least one point; `first` is the index
+/// of the one it heads for.
+DriveTrace simulate_drive(const world::Ground&, const DriveParameters&, temporal::Time start,
+                          const world::Pose& from, const std::vector<terrain::Point>& way, std::size_t first,
+                          world::RandomStream& noise);
+
+}  // namespace roci::sim::components

@@ -1,0 +1,56 @@
+#include "sim_svc/components/radio.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roci::sim::components {
+
+using temporal::State;
+using temporal::Time;
+using world::Ending;
+using world::Failure;
+using world::Surroundings;
+
+Radio::Radio(RadioSettings settings, world::RandomStream noise)
+    : settings_(std::move(settings)), noise_(std::move(noise)) {}
+
+State Radio::state() const { return busy() ? State{"sending", {}} : State{"idle", {}}; }
+
+Ending Radio::begin(const world::Task& task, Time now, Surroundings& around) {
+  const std::string& id = task.arguments.at("image");
+  const auto image = around.body.images.find(id);
+  if (image == around.body.images.end()) {
+    return Failure{"no-image", "no image '" + id + "' is on board; take it first"};
+  }
+  const auto& windows = around.environment.windows;
+  const auto window = std::find_if(windows.begin(), windows.end(),
+                                   [&](const world::Window& w) { return w.timeline == settings_.window; });
+  if (window == windows.end() || !window->is_open(now)) {
+    return Failure{"no-contact", settings_.window + " is closed; send in the next window"};
+  }
+  const double rate = settings_.rate_bit_s * std::max(0.1, 1 + settings_.rate_noise * noise_.normal());
+  const Time sent = now + temporal::seconds(8.0 * static_cast<double>(image->second.bytes) / rate);
+  const Time closes = window->next_change(now).value_or(sent);
+  transfer_ = Transfer{id, std::min(sent, closes), closes < sent};
+  return std::nullopt;
+}
+
+std::optional<Time> Radio::next_change() const {
+  if (!transfer_) return std::nullopt;
+  return transfer_->end;
+}
+
+Ending Radio::finish(Surroundings& around) {
+  const Transfer done = *std::exchange(transfer_, std::nullopt);
+  if (done.cut_off) return Failure{"contact-lost", "the window closed before the image was sent"};
+  world::Image& image = around.body.images.at(done.image);
+  image.sent = true;
+  around.out.push_back(image);
+  return std::nullopt;
+}
+
+double Radio::energy_j(Time from, Time to) const {
+  return busy() ? settings_.power_w * temporal::to_seconds(to - from) : 0;
+}
+
+}  // namespace roci::sim::components

@@ -1,0 +1,50 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim_svc/world/component.hpp"
+#include "sim_svc/world/random_stream.hpp"
+
+namespace roci::sim::components {
+
+struct RadioSettings {
+  double rate_bit_s = 98000;
+  double rate_noise = 0.02;
+  double power_w = 25;
+  std::string window = "comm.window";  ///< timeline that says when the other side is in view
+};
+
+/// A radio: send (image) sends an image on board at the radio's rate, only while the window is open; when the
+/// window closes before the end, the send fails and the image stays stored.
+class Radio final : public world::Component {
+ public:
+  Radio(RadioSettings, world::RandomStream noise);
+
+  std::vector<world::CommandForm> commands() const override { return {{"send", {"image"}}}; }
+  /// idle, sending.
+  temporal::State state() const override;
+  bool busy() const override { return transfer_.has_value(); }
+
+  world::Ending begin(const world::Task&, temporal::Time now, world::Surroundings&) override;
+  std::optional<temporal::Time> next_change() const override;
+  world::Ending finish(world::Surroundings&) override;
+  void halt(temporal::Time, world::Surroundings&) override { transfer_.reset(); }
+
+  double energy_j(temporal::Time from, temporal::Time to) const override;
+  double peak_power_w() const override { return busy() ? settings_.power_w : 0; }
+
+ private:
+  struct Transfer {
+    std::string image;
+    temporal::Time end{};
+    bool cut_off = false;  // the window closes first
+  };
+
+  RadioSettings settings_;
+  std::optional<Transfer> transfer_;
+  world::RandomStream noise_;
+};
+
+}  // namespace roci::sim::components

@@ -1,0 +1,136 @@
+// Names and ranges of the settings of each type; their defaults stand with the types.
+#include "sim_svc/components/standard_types.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "sim_svc/components/arm.hpp"
+#include "sim_svc/components/camera.hpp"
+#include "sim_svc/components/drive.hpp"
+#include "sim_svc/components/gripper.hpp"
+#include "sim_svc/components/radio.hpp"
+#include "sim_svc/components/task.hpp"
+#include "sim_svc/components/task_settings.hpp"
+
+namespace roci::sim::components {
+
+using mission::Entry;
+using setup::Settings;
+
+namespace {
+
+constexpr double kPositive = 1e-3;  // for what is divided by or would never end
+
+template <class Component, class ComponentSettings>
+world::MakeComponent making(ComponentSettings settings) {
+  return [settings = std::move(settings)](world::RandomStream noise) {
+    return std::make_unique<Component>(settings, std::move(noise));
+  };
+}
+
+world::MakeComponent read_drive(Settings& in) {
+  DriveSettings out;
+  DriveParameters& p = out.motion;
+  p.radius_m = in.number("radius_m", p.radius_m);
+  p.wheel_speed_m_s = in.number("wheel_speed_m_s", p.wheel_speed_m_s, kPositive);
+  p.turn_rate_rad_s = in.number("turn_rate_rad_s", p.turn_rate_rad_s, kPositive);
+  p.slip = in.number("slip", p.slip);
+  p.uphill_slip = in.number("uphill_slip", p.uphill_slip);
+  p.slip_noise = in.number("slip_noise", p.slip_noise);
+  p.slope_slowdown = in.number("slope_slowdown", p.slope_slowdown);
+  p.heading_noise = in.number("heading_noise", p.heading_noise);
+  p.max_slope_deg = in.number("max_slope_deg", p.max_slope_deg, 1);
+  p.rock_sight_m = in.number("rock_sight_m", p.rock_sight_m);
+  p.weight_n = in.number("weight_n", p.weight_n);
+  p.rolling_resistance = in.number("rolling_resistance", p.rolling_resistance);
+  p.drive_efficiency = in.number("drive_efficiency", p.drive_efficiency, kPositive);
+  p.drive_electronics_w = in.number("drive_electronics_w", p.drive_electronics_w);
+  p.turn_power_w = in.number("turn_power_w", p.turn_power_w);
+  out.detours = in.number("detours", out.detours);
+  out.look_s = in.number("look_s", out.look_s, kPositive);
+  out.planner = in.text("planner", out.planner);
+  out.stop_place = in.text("stop_place", out.stop_place);
+  return making<Drive>(std::move(out));
+}
+
+// A start pose has no inverse kinematics yet: it must be given by joint coordinates.
+std::vector<double> joints_of(const Entry& pose, const Entry& poses_file) {
+  const Entry poses = Entry::load(poses_file.resolve(poses_file.text())).at("poses");
+  const auto entry = poses.find(pose.text());
+  if (entry) entry->allow_only({"joints", "position", "approach", "rpy"});
+  const auto joints = entry ? entry->find("joints") : std::nullopt;
+  if (!joints) {
+    pose.fail("no pose '" + pose.text() + "' with joints stands in " + poses.file().string() +
+              "; start at a pose that is given by joints");
+  }
+  std::vector<double> out;
+  for (const Entry& joint : joints->items()) out.push_back(joint.number());
+  return out;
+}
+
+world::MakeComponent read_arm(Settings& in) {
+  ArmSettings out;
+  ArmParameters& p = out.motion;
+  p.joint_lag_s = in.number("joint_lag_s", p.joint_lag_s, kPositive);
+  p.speed_noise = in.number("speed_noise", p.speed_noise);
+  p.settled_rad = in.number("settled_rad", p.settled_rad, 1e-6);
+  p.base_power_w = in.number("base_power_w", p.base_power_w);
+  p.power_per_speed_w = in.number("power_per_speed_w", p.power_per_speed_w);
+  out.planner = in.text("planner", out.planner);
+  out.stow_pose = in.text("stow_pose", out.stow_pose);
+  out.stop_pose = in.text("stop_pose", out.stop_pose);
+  const auto start_pose = in.find("start_pose");
+  const auto poses = in.find("poses");
+  const std::optional<Entry> start = in.start() ? in.start() : start_pose;
+  if (!start)
+    in.component().fail("the pose at the start is not given; add start_pose, or the scenario's start");
+  out.start_pose = start->text();
+  out.start_joints = joints_of(*start, poses ? *poses : in.mission().at("arm").at("poses"));
+  return making<Arm>(std::move(out));
+}
+
+world::MakeComponent read_camera(Settings& in) {
+  CameraSettings out;
+  out.duration_s = in.number("duration_s", out.duration_s);
+  out.duration_noise = in.number("duration_noise", out.duration_noise);
+  out.power_w = in.number("power_w", out.power_w);
+  out.image_bytes = in.number("image_bytes", out.image_bytes);
+  out.bytes_noise = in.number("bytes_noise", out.bytes_noise);
+  out.image_noise = in.number("image_noise", out.image_noise);
+  return making<Camera>(out);
+}
+
+world::MakeComponent read_gripper(Settings& in) {
+  GripperSettings out;
+  out.pick_s = in.number("pick_s", out.pick_s);
+  out.drop_s = in.number("drop_s", out.drop_s);
+  out.duration_noise = in.number("duration_noise", out.duration_noise);
+  out.power_w = in.number("power_w", out.power_w);
+  out.pick_pose = in.text("pick_pose", out.pick_pose);
+  out.drop_pose = in.text("drop_pose", out.drop_pose);
+  return making<Gripper>(std::move(out));
+}
+
+world::MakeComponent read_radio(Settings& in) {
+  RadioSettings out;
+  out.rate_bit_s = in.number("rate_bit_s", out.rate_bit_s, 1);
+  out.rate_noise = in.number("rate_noise", out.rate_noise);
+  out.power_w = in.number("power_w", out.power_w);
+  out.window = in.text("window", out.window);
+  return making<Radio>(std::move(out));
+}
+
+}  // namespace
+
+setup::Registry standard_types() {
+  setup::Registry out;
+  out.add("drive", {read_drive, true});
+  out.add("arm", {read_arm});
+  out.add("camera", {read_camera, true});
+  out.add("gripper", {read_gripper});
+  out.add("radio", {read_radio});
+  out.add("task", {[](Settings& in) { return making<TaskComponent>(read_task_settings(in)); }});
+  return out;
+}
+
+}  // namespace roci::sim::components

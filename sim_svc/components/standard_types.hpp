@@ -1,0 +1,10 @@
+#pragma once
+#include "sim_svc/setup/registry.hpp"
+
+namespace roci::sim::components {
+
+/// The types that come with the simulator: arm, camera, drive, gripper, radio, task. README.md lists their
+/// settings.
+setup::Registry standard_types();
+
+}  // namespace roci::sim::components

@@ -1,0 +1,133 @@
+#include "sim_svc/components/task.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roci::sim::components {
+
+using temporal::State;
+using temporal::Time;
+using world::Ending;
+using world::Failure;
+using world::Surroundings;
+
+namespace {
+
+constexpr double kShortest = 0.5;  // share of the duration that noise leaves at least
+
+std::string filled(std::string text, const std::map<std::string, std::string>& arguments) {
+  for (const auto& [name, value] : arguments) {
+    const std::string slot = "{" + name + "}";
+    for (auto at = text.find(slot); at != std::string::npos; at = text.find(slot, at + value.size())) {
+      text.replace(at, slot.size(), value);
+    }
+  }
+  return text;
+}
+
+State filled(const StateTemplate& form, const std::map<std::string, std::string>& arguments) {
+  State out{filled(form.name, arguments), {}};
+  for (const std::string& argument : form.arguments) out.arguments.push_back(filled(argument, arguments));
+  return out;
+}
+
+Ending unmet(const std::map<std::string, std::string>& needs, const world::ComponentSet& components) {
+  for (const auto& [name, wanted] : needs) {
+    const world::Component* other = components.named(name);
+    if (!other) return Failure{"not-ready", "there is no component '" + name + "'"};
+    if (const State state = other->state(); state.name != wanted) {
+      return Failure{"not-ready", name + " is " + temporal::to_text(state) + ", not " + wanted};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+TaskComponent::TaskComponent(TaskSettings settings, world::RandomStream noise)
+    : settings_(std::move(settings)), state_(filled(settings_.start, {})), noise_(std::move(noise)) {
+  for (const TaskNumber& number : settings_.numbers) values_.push_back(number.start);
+}
+
+std::vector<world::CommandForm> TaskComponent::commands() const {
+  std::vector<world::CommandForm> out;
+  for (const TaskCommand& command : settings_.commands) out.push_back({command.name, command.arguments});
+  return out;
+}
+
+Ending TaskComponent::begin(const world::Task& task, Time now, Surroundings& around) {
+  const auto found = std::find_if(settings_.commands.begin(), settings_.commands.end(),
+                                  [&](const TaskCommand& one) { return one.name == task.command; });
+  const TaskCommand& command = *found;
+  if (Ending refused = unmet(command.needs, around.components)) return refused;
+  const double noise = command.duration_noise > 0 ? command.duration_noise * noise_.normal() : 0;
+  const double duration = command.duration_s * std::max(kShortest, 1 + noise);
+  const auto form = [&](const std::optional<StateTemplate>& state) {
+    return state ? filled(*state, task.arguments) : state_;
+  };
+  run_ = Run{static_cast<std::size_t>(found - settings_.commands.begin()),
+             now,
+             now + temporal::seconds(duration),
+             form(command.then),
+             form(command.stopped),
+             values_};
+  state_ = command.during ? filled(*command.during, task.arguments) : State{command.name, {}};
+  return std::nullopt;
+}
+
+std::optional<Time> TaskComponent::next_change() const {
+  if (!run_) return std::nullopt;
+  return run_->end;
+}
+
+Ending TaskComponent::finish(Surroundings&) {
+  const Run done = *std::exchange(run_, std::nullopt);
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const auto& changes = settings_.commands[done.command].changes;
+    const auto change = changes.find(settings_.numbers[i].name);
+    if (change == changes.end()) continue;
+    values_[i] = change->second.to.value_or(done.before[i] + change->second.by);
+  }
+  state_ = done.then;
+  return std::nullopt;
+}
+
+void TaskComponent::halt(Time now, Surroundings& around) {
+  settle(now, around.body);
+  state_ = run_->stopped;
+  run_.reset();
+}
+
+void TaskComponent::settle(Time now, world::Body&) {
+  if (!run_ || run_->end <= run_->start) return;
+  const double share = std::clamp(
+      temporal::to_seconds(now - run_->start) / temporal::to_seconds(run_->end - run_->start), 0.0, 1.0);
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const auto& changes = settings_.commands[run_->command].changes;
+    const auto change = changes.find(settings_.numbers[i].name);
+    if (change != changes.end() && !change->second.to)
+      values_[i] = run_->before[i] + share * change->second.by;
+  }
+}
+
+double TaskComponent::energy_j(Time from, Time to) const {
+  return run_ ? settings_.commands[run_->command].power_w * temporal::to_seconds(to - from) : 0;
+}
+
+double TaskComponent::peak_power_w() const { return run_ ? settings_.commands[run_->command].power_w : 0; }
+
+std::vector<world::NamedNumber> TaskComponent::numbers() const {
+  std::vector<world::NamedNumber> out;
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    out.push_back({settings_.numbers[i].name, values_[i], settings_.numbers[i].resolution});
+  }
+  return out;
+}
+
+std::map<std::string, temporal::Value> TaskComponent::results() const {
+  std::map<std::string, temporal::Value> out;
+  for (std::size_t i = 0; i < values_.size(); ++i) out[settings_.numbers[i].name] = values_[i];
+  return out;
+}
+
+}  // namespace roci::sim::components

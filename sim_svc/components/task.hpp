@@ -1,0 +1,93 @@
+// A component that is data alone: commands that take time and power and lead from state to state. With it
+// somebody else's robot flies without any code.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim_svc/world/component.hpp"
+#include "sim_svc/world/random_stream.hpp"
+
+namespace roci::sim::components {
+
+/// A state whose words may hold arguments of the command in braces: going-to ({to}).
+struct StateTemplate {
+  std::string name;
+  std::vector<std::string> arguments;
+};
+
+/// What a command does with one of the component's numbers.
+struct NumberChange {
+  double by = 0;             ///< added evenly over the duration
+  std::optional<double> to;  ///< the value at the end, instead
+};
+
+struct TaskCommand {
+  std::string name;
+  std::vector<std::string> arguments{};
+  double duration_s = 0;
+  double duration_noise = 0;                   ///< standard deviation as a share of the duration
+  double power_w = 0;                          ///< while it runs; negative: it charges the battery
+  std::optional<StateTemplate> during{};       ///< while it runs; empty: the command's name
+  std::optional<StateTemplate> then{};         ///< when it is done; empty: the state before
+  std::optional<StateTemplate> stopped{};      ///< when it is broken off; empty: the state before
+  std::map<std::string, std::string> needs{};  ///< component → name of the state it must be in at the start
+  std::map<std::string, NumberChange> changes{};  ///< by number
+};
+
+/// A numeric timeline of the component, `<robot>.<component>.<name>`.
+struct TaskNumber {
+  std::string name;
+  double start = 0;
+  double resolution = 1e-3;
+};
+
+struct TaskSettings {
+  StateTemplate start{"idle", {}};
+  std::vector<TaskCommand> commands;
+  std::vector<TaskNumber> numbers;
+};
+
+/// The component. A task that is broken off leaves the numbers as they are by then; a number set `to` a value
+/// has it only at the end.
+class TaskComponent final : public world::Component {
+ public:
+  TaskComponent(TaskSettings, world::RandomStream noise);
+
+  std::vector<world::CommandForm> commands() const override;
+  temporal::State state() const override { return state_; }
+  bool busy() const override { return run_.has_value(); }
+
+  world::Ending begin(const world::Task&, temporal::Time now, world::Surroundings&) override;
+  std::optional<temporal::Time> next_change() const override;
+  world::Ending finish(world::Surroundings&) override;
+  void halt(temporal::Time now, world::Surroundings&) override;
+  void settle(temporal::Time now, world::Body&) override;
+
+  double energy_j(temporal::Time from, temporal::Time to) const override;
+  double peak_power_w() const override;
+  bool moves() const override { return run_ && !settings_.commands[run_->command].changes.empty(); }
+  std::vector<world::NamedNumber> numbers() const override;
+  /// The component's numbers, as the task left them.
+  std::map<std::string, temporal::Value> results() const override;
+
+ private:
+  struct Run {
+    std::size_t command = 0;  // index into the settings
+    temporal::Time start{};
+    temporal::Time end{};
+    temporal::State then;
+    temporal::State stopped;
+    std::vector<double> before;  // the numbers at the start
+  };
+
+  TaskSettings settings_;
+  temporal::State state_;
+  std::vector<double> values_;  // one per number
+  std::optional<Run> run_;
+  world::RandomStream noise_;
+};
+
+}  // namespace roci::sim::components

@@ -1,0 +1,91 @@
+#include "sim_svc/scenario/run_file.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "core/mission/scenario.hpp"
+#include "core/terrain/map_error.hpp"
+#include "core/terrain/site_file.hpp"
+#include "sim_svc/scenario/scenario_file.hpp"
+
+namespace roci::sim::scenario {
+
+using mission::Entry;
+using setup::RobotEntry;
+using setup::Roster;
+using world::Window;
+
+namespace {
+
+std::shared_ptr<const terrain::Site> load_ground(const Entry& site) {
+  try {
+    return std::make_shared<terrain::Site>(terrain::load_site(site.resolve(site.text())));
+  } catch (const terrain::MapError& error) {
+    throw mission::FileError(error.what());
+  }
+}
+
+// The predicted windows, with those of the scenario in place of the predicted ones of the same timeline.
+std::vector<Window> true_windows(const Entry& mission, const std::vector<Window>& overriding) {
+  std::vector<Window> out;
+  if (const auto predicted = mission.find("windows")) out = read_windows(*predicted);
+  for (const Window& window : overriding) {
+    std::erase_if(out, [&](const Window& other) { return other.timeline == window.timeline; });
+    out.push_back(window);
+  }
+  return out;
+}
+
+void check_on_map(const Start& start, const std::string& robot, const world::Ground& ground) {
+  if (!start.pose || !ground.site) return;
+  if (ground.site->grid().contains(terrain::Point{start.pose->x, start.pose->y})) return;
+  start.pose_entry->fail("the " + robot +
+                         " would start outside the map; give x and y in metres of the map frame");
+}
+
+// Reads the settings of a robot's components; adds the names of those that they know.
+world::RobotSetup read_robot(const RobotEntry& robot, const Start& start, const Entry& mission,
+                             const setup::Registry& types, const Scenario& scenario,
+                             std::set<std::string, std::less<>>& known) {
+  world::RobotSetup out;
+  out.name = robot.name;
+  out.pose = start.pose;
+  out.telemetry = robot.telemetry;
+  if (robot.power) out.power = world::PowerSetup{*robot.power, start.battery_j.value_or(0)};
+  for (const setup::ComponentEntry& component : robot.components) {
+    const auto begin = start.components.find(component.name);
+    setup::Settings settings(mission, component.entry,
+                             begin == start.components.end() ? std::nullopt : std::optional(begin->second),
+                             scenario.conditions);
+    out.components.push_back({component.name, component.type, types.find(component.type)->read(settings)});
+    settings.refuse_unknown();
+    known.insert(settings.known().begin(), settings.known().end());
+  }
+  return out;
+}
+
+}  // namespace
+
+RunSetup load_run(const std::filesystem::path& mission_folder, const std::string& scenario_name,
+                  const setup::Registry& types) {
+  const Entry mission = Entry::load(mission::mission_file(mission_folder));
+  const Entry scenario_file = mission::load_scenario(mission_folder, scenario_name);
+  const Roster roster = setup::read_roster(mission.at("simulation"), types);
+  RunSetup run;
+  run.scenario = read_scenario(scenario_file, roster);
+  const bool on_ground =
+      std::any_of(roster.begin(), roster.end(), [](const RobotEntry& r) { return r.on_ground; });
+  run.world.ground = {on_ground ? load_ground(mission.at("site")) : nullptr, run.scenario.rocks};
+  run.world.windows = true_windows(mission, run.scenario.windows);
+  std::set<std::string, std::less<>> known{"rocks"};
+  for (const RobotEntry& robot : roster) {
+    const Start& start = run.scenario.starts[robot.name];
+    check_on_map(start, robot.name, run.world.ground);
+    run.world.robots.push_back(read_robot(robot, start, mission, types, run.scenario, known));
+  }
+  if (const auto world = scenario_file.find("world")) setup::refuse_unknown_keys(*world, known);
+  return run;
+}
+
+}  // namespace roci::sim::scenario

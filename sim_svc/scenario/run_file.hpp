@@ -1,0 +1,22 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "sim_svc/components/standard_types.hpp"
+#include "sim_svc/scenario/scenario.hpp"
+#include "sim_svc/world/world.hpp"
+
+namespace roci::sim::scenario {
+
+/// All that a run of the simulator needs.
+struct RunSetup {
+  world::WorldSetup world;
+  Scenario scenario;
+};
+
+/// Reads mission.yaml of the folder (`windows`, `simulation`; `site` and `arm` if a component needs them),
+/// the files that it names, and the scenario. Throws mission::FileError with place and remedy.
+RunSetup load_run(const std::filesystem::path& mission_folder, const std::string& scenario,
+                  const setup::Registry& types = components::standard_types());
+
+}  // namespace roci::sim::scenario

@@ -1,0 +1,71 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/mission/entry.hpp"
+#include "sim_svc/scenario/event_order.hpp"
+#include "sim_svc/world/disturbance.hpp"
+#include "sim_svc/world/values.hpp"
+#include "sim_svc/world/windows.hpp"
+
+namespace roci::sim::scenario {
+
+enum class Importance { hard, optional, opportunistic };
+
+/// A goal that somebody else than the robot publishes during the run.
+struct GoalStimulus {
+  std::string issuer;
+  std::string id;
+  std::string kind;
+  Importance importance = Importance::optional;
+  double utility = 1;
+  std::int32_t priority = 0;
+  temporal::Time opens{};   ///< 0: any time
+  temporal::Time closes{};  ///< 0: none
+  std::vector<std::pair<std::string, std::string>> arguments;
+};
+
+/// The issuer takes a goal back.
+struct RecallStimulus {
+  std::string issuer;
+  std::string id;
+};
+
+/// The ground knows of an obstacle and tells those who keep a map.
+struct HazardStimulus {
+  std::string id;
+  world::Rock rock;
+};
+
+struct Stimulus {
+  temporal::Time at{};
+  std::variant<GoalStimulus, RecallStimulus, HazardStimulus, world::Disturbance> what;
+};
+
+/// How a robot begins.
+struct Start {
+  std::optional<world::Pose> pose;
+  std::optional<mission::Entry> pose_entry;  ///< where it stands in the file
+  std::optional<double> battery_j;
+  std::map<std::string, mission::Entry> components;  ///< component → what its type makes of it
+};
+
+/// What happens in a run: scenarios/<name>.yaml of a mission.
+struct Scenario {
+  std::string description;
+  temporal::Duration duration{};        ///< the run ends here at the latest
+  std::map<std::string, Start> starts;  ///< by robot
+  /// Settings that hold for every component that has one of the name, instead of the mission's.
+  std::map<std::string, mission::Entry> conditions;
+  std::vector<world::Rock> rocks;      ///< there from the start, on no map
+  std::vector<world::Window> windows;  ///< true ones where they differ from the predicted
+  std::vector<Stimulus> stimuli;       ///< in order of time
+  std::vector<ExpectedEvent> expect;   ///< empty: anything may happen
+};
+
+}  // namespace roci::sim::scenario

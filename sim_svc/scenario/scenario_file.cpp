@@ -1,0 +1,122 @@
+#include "sim_svc/scenario/scenario_file.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "sim_svc/scenario/file_values.hpp"
+#include "sim_svc/scenario/stimuli_file.hpp"
+
+namespace roci::sim::scenario {
+
+using mission::Entry;
+using setup::RobotEntry;
+using setup::Roster;
+using temporal::Time;
+using world::Window;
+
+namespace {
+
+// What a robot's start may say: its pose, its battery, and something for each component that wants it.
+Start read_robot_start(const Entry& entry, const RobotEntry& robot) {
+  std::set<std::string, std::less<>> known{"x", "y", "heading", "battery"};
+  for (const auto& component : robot.components) known.insert(component.name);
+  setup::refuse_unknown_keys(entry, known);
+  Start out;
+  if (robot.on_ground || entry.find("x") || entry.find("y")) {
+    out.pose = {entry.at("x").number(), entry.at("y").number(), entry.number_or("heading", 0)};
+    out.pose_entry = entry;
+  }
+  if (robot.power) out.battery_j = at_least(entry.at("battery"), 0);
+  if (const auto battery = entry.find("battery"); battery && !robot.power) {
+    battery->fail("'" + robot.name + "' has no battery; drop it, or give the robot power in mission.yaml");
+  }
+  for (const auto& component : robot.components) {
+    if (const auto start = entry.find(component.name)) out.components.emplace(component.name, *start);
+  }
+  return out;
+}
+
+// Of the only robot, or by robot.
+void read_starts(const Entry& root, const Roster& roster, Scenario& out) {
+  const auto entry = root.find("start");
+  if (entry && roster.size() > 1) {
+    std::set<std::string, std::less<>> known;
+    for (const RobotEntry& robot : roster) known.insert(robot.name);
+    setup::refuse_unknown_keys(*entry, known);
+  }
+  for (const RobotEntry& robot : roster) {
+    const bool needed = robot.on_ground || robot.power;
+    if (!entry && !needed) continue;
+    const Entry all = root.at("start");
+    if (roster.size() == 1) {
+      out.starts.emplace(robot.name, read_robot_start(all, robot));
+    } else if (needed || all.find(robot.name)) {
+      out.starts.emplace(robot.name, read_robot_start(all.at(robot.name), robot));
+    }
+  }
+}
+
+void read_world(const Entry& entry, Scenario& out) {
+  for (const auto& [key, value] : entry.fields()) {
+    if (key != "rocks") out.conditions.emplace(key, value);
+  }
+  if (const auto rocks = entry.find("rocks")) {
+    for (const Entry& rock : rocks->items()) out.rocks.push_back(read_rock(rock));
+  }
+}
+
+// "code", or "code: part of the text"; a code that ends in + may come several times.
+ExpectedEvent read_expected(const Entry& entry) {
+  ExpectedEvent out;
+  if (entry.is_mapping()) {
+    const auto fields = entry.fields();
+    if (fields.size() != 1) entry.fail("expected one 'code: part of the text'; split it into several");
+    out.code = fields.front().first;
+    out.part = fields.front().second.text();
+  } else {
+    out.code = entry.text();
+  }
+  out.repeats = out.code.ends_with('+');
+  if (out.repeats) out.code.pop_back();
+  if (out.code.empty()) entry.fail("expected an event's code, like goal.achieved");
+  return out;
+}
+
+}  // namespace
+
+Scenario read_scenario(const Entry& root, const Roster& roster) {
+  root.allow_only({"description", "duration_s", "start", "world", "windows", "science", "stimuli", "expect"});
+  Scenario out;
+  out.description = root.text_or("description", "");
+  out.duration = time_of(root.at("duration_s"));
+  read_starts(root, roster, out);
+  if (const auto world = root.find("world")) read_world(*world, out);
+  if (const auto windows = root.find("windows")) out.windows = read_windows(*windows);
+  if (const auto stimuli = root.find("stimuli")) out.stimuli = read_stimuli(*stimuli, out.duration, roster);
+  if (const auto expect = root.find("expect")) {
+    for (const Entry& item : expect->items()) out.expect.push_back(read_expected(item));
+  }
+  return out;
+}
+
+std::vector<Window> read_windows(const Entry& list) {
+  std::vector<Window> out;
+  for (const Entry& item : list.items()) {
+    Window window{item.at("timeline").text(), {}};
+    for (const Entry& pair : item.at("open").items()) {
+      const auto ends = pair.items();
+      if (ends.size() != 2) pair.fail("expected [opens, closes], in seconds");
+      const Time opens = time_of(ends[0]);
+      const Time closes = time_of(ends[1]);
+      if (closes <= opens) pair.fail("closes before it opens; swap the two");
+      if (!window.open.empty() && opens <= window.open.back().second) {
+        pair.fail("opens before the one above has closed; sort or join them");
+      }
+      window.open.emplace_back(opens, closes);
+    }
+    out.push_back(std::move(window));
+  }
+  return out;
+}
+
+}  // namespace roci::sim::scenario

@@ -1,0 +1,130 @@
+#include "sim_svc/scenario/stimuli_file.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "sim_svc/scenario/file_values.hpp"
+
+namespace roci::sim::scenario {
+
+using mission::Entry;
+using setup::RobotEntry;
+using setup::Roster;
+using temporal::Time;
+using world::ComponentFault;
+using world::Disturbance;
+using world::EnergyLoss;
+using world::RockFall;
+
+namespace {
+
+Time time_or_none(const Entry& map, std::string_view key) {
+  const auto entry = map.find(key);
+  return entry ? time_of(*entry) : Time{};
+}
+
+Importance read_importance(const Entry& entry) {
+  const std::string text = entry.text();
+  if (text == "hard") return Importance::hard;
+  if (text == "optional") return Importance::optional;
+  if (text == "opportunistic") return Importance::opportunistic;
+  entry.fail("unknown importance '" + text + "'; known: hard, optional, opportunistic");
+}
+
+GoalStimulus read_goal(const Entry& entry) {
+  entry.allow_only(
+      {"issuer", "id", "kind", "importance", "utility", "priority", "opens_s", "closes_s", "arguments"});
+  GoalStimulus goal;
+  goal.issuer = entry.text_or("issuer", "ground");
+  goal.id = entry.at("id").text();
+  goal.kind = entry.at("kind").text();
+  if (const auto importance = entry.find("importance")) goal.importance = read_importance(*importance);
+  goal.utility = entry.number_or("utility", goal.utility);
+  if (const auto priority = entry.find("priority"))
+    goal.priority = static_cast<std::int32_t>(priority->integer());
+  goal.opens = time_or_none(entry, "opens_s");
+  goal.closes = time_or_none(entry, "closes_s");
+  if (const auto arguments = entry.find("arguments")) {
+    for (const auto& [name, value] : arguments->fields()) goal.arguments.emplace_back(name, value.text());
+  }
+  return goal;
+}
+
+RecallStimulus read_recall(const Entry& entry) {
+  entry.allow_only({"issuer", "id"});
+  return {entry.text_or("issuer", "ground"), entry.at("id").text()};
+}
+
+HazardStimulus read_hazard(const Entry& entry) {
+  entry.allow_only({"id", "x", "y", "radius"});
+  return {entry.at("id").text(),
+          {entry.at("x").number(), entry.at("y").number(), at_least(entry.at("radius"), 0.01)}};
+}
+
+ComponentFault read_fault(const Entry& entry, const RobotEntry& robot, Time at) {
+  entry.allow_only({"component", "for_s"});
+  const Entry component = entry.at("component");
+  if (!robot.has(component.text())) {
+    component.fail("unknown component '" + component.text() + "'; known: " + robot.component_names());
+  }
+  return {robot.name, component.text(), at + time_of(entry.at("for_s"))};
+}
+
+EnergyLoss read_loss(const Entry& entry, const RobotEntry& robot) {
+  if (!robot.power) entry.fail("'" + robot.name + "' has no battery to lose energy from; drop the stimulus");
+  return {robot.name, at_least(entry, 0)};
+}
+
+// Whom the stimulus concerns.
+const RobotEntry& robot_of(const Entry& entry, const Roster& roster) {
+  const auto name = entry.find("robot");
+  if (const RobotEntry* robot = robot_named(roster, name ? name->text() : "")) return *robot;
+  if (name) name->fail("no robot '" + name->text() + "'; known: " + robot_names(roster));
+  entry.fail("there are several robots; say which with robot: one of " + robot_names(roster));
+}
+
+Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
+  entry.allow_only({"at_s", "robot", "goal", "recall", "hazard", "fault", "rock", "battery_loss_j"});
+  const std::size_t frame = entry.find("robot") ? 2 : 1;
+  if (entry.fields().size() != frame + 1) {
+    entry.fail(
+        "a stimulus is at_s (and robot) and one of goal, recall, hazard, fault, rock, battery_loss_j; split "
+        "it into "
+        "several");
+  }
+  Stimulus out;
+  out.at = time_of(entry.at("at_s"));
+  if (const auto goal = entry.find("goal")) out.what = read_goal(*goal);
+  if (const auto recall = entry.find("recall")) out.what = read_recall(*recall);
+  if (const auto hazard = entry.find("hazard")) out.what = read_hazard(*hazard);
+  if (const auto fault = entry.find("fault")) {
+    out.what = Disturbance{read_fault(*fault, robot_of(entry, roster), out.at)};
+  }
+  if (const auto rock = entry.find("rock")) out.what = Disturbance{RockFall{read_rock(*rock)}};
+  if (const auto loss = entry.find("battery_loss_j")) {
+    out.what = Disturbance{read_loss(*loss, robot_of(entry, roster))};
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Stimulus> read_stimuli(const Entry& list, temporal::Duration duration, const Roster& roster) {
+  std::vector<Stimulus> out;
+  std::set<std::pair<std::string, std::string>> uploaded;
+  for (const Entry& item : list.items()) {
+    const Stimulus& stimulus = out.emplace_back(read_stimulus(item, roster));
+    if (stimulus.at > duration)
+      item.at("at_s").fail("lies after the end of the run; raise duration_s or drop it");
+    if (const auto* goal = std::get_if<GoalStimulus>(&stimulus.what))
+      uploaded.emplace(goal->issuer, goal->id);
+    const auto* recall = std::get_if<RecallStimulus>(&stimulus.what);
+    if (recall && !uploaded.contains({recall->issuer, recall->id})) {
+      item.fail("recalls '" + recall->id + "', which no stimulus above uploads; correct the id or the order");
+    }
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Stimulus& a, const Stimulus& b) { return a.at < b.at; });
+  return out;
+}
+
+}  // namespace roci::sim::scenario

@@ -1,0 +1,122 @@
+#include "sim_svc/setup/roster_file.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace roci::sim::setup {
+
+using mission::Entry;
+
+namespace {
+
+// A number of the section that is no less than `least`; the fallback where it is not given.
+double number(const Entry& section, std::string_view key, double fallback, double least = 0) {
+  const auto entry = section.find(key);
+  if (!entry) return fallback;
+  const double value = entry->number();
+  if (value < least) {
+    entry->fail("'" + std::string(key) + "' must be at least " + std::to_string(least) +
+                "; correct the number");
+  }
+  return value;
+}
+
+world::PowerParameters read_power(const Entry& entry) {
+  entry.allow_only({"capacity_j", "idle_w", "solar_peak_w", "solar_noon_s", "day_s"});
+  world::PowerParameters out;
+  out.capacity_j = number(entry, "capacity_j", out.capacity_j, 1);
+  out.idle_w = number(entry, "idle_w", out.idle_w);
+  out.solar_peak_w = number(entry, "solar_peak_w", out.solar_peak_w);
+  out.solar_noon_s = number(entry, "solar_noon_s", out.solar_noon_s);
+  out.day_s = number(entry, "day_s", out.day_s, 1);
+  return out;
+}
+
+world::TelemetryParameters read_telemetry(const Entry& entry) {
+  entry.allow_only({"moving_s", "idle_s"});
+  world::TelemetryParameters out;
+  out.moving_s = number(entry, "moving_s", out.moving_s, 0.1);
+  out.idle_s = number(entry, "idle_s", out.idle_s, 0.1);
+  return out;
+}
+
+// A name becomes part of a timeline's.
+std::string read_name(const Entry& entry) {
+  const std::string name = entry.text();
+  if (name.empty() || name.find_first_of(". *{}") != std::string::npos) {
+    entry.fail("'" + name + "' is no name for a timeline; use letters, digits, - and _");
+  }
+  return name;
+}
+
+// Names that the robot's own timelines and its start have.
+constexpr std::array<std::string_view, 6> kTaken{"x", "y", "heading", "battery", "image", "sample"};
+
+ComponentEntry read_component(const Entry& entry, const Registry& registry) {
+  const Entry type = entry.at("type");
+  if (!registry.find(type.text())) {
+    type.fail("no component type '" + type.text() + "'; known: " + registry.types());
+  }
+  const Entry name = entry.at("name");
+  if (std::find(kTaken.begin(), kTaken.end(), name.text()) != kTaken.end()) {
+    name.fail("'" + name.text() + "' is taken by the robot itself; choose another name");
+  }
+  return {read_name(name), type.text(), entry};
+}
+
+RobotEntry read_robot(const Entry& entry, const Registry& registry) {
+  entry.allow_only({"name", "components", "power", "telemetry"});
+  RobotEntry out;
+  out.name = read_name(entry.at("name"));
+  for (const Entry& item : entry.at("components").items()) {
+    ComponentEntry component = read_component(item, registry);
+    if (out.has(component.name)) item.fail("'" + component.name + "' stands above already; rename one");
+    out.on_ground = out.on_ground || registry.find(component.type)->on_ground;
+    out.components.push_back(std::move(component));
+  }
+  if (const auto power = entry.find("power")) out.power = read_power(*power);
+  if (const auto telemetry = entry.find("telemetry")) out.telemetry = read_telemetry(*telemetry);
+  return out;
+}
+
+}  // namespace
+
+bool RobotEntry::has(std::string_view component) const {
+  return std::any_of(components.begin(), components.end(),
+                     [&](const ComponentEntry& one) { return one.name == component; });
+}
+
+std::string RobotEntry::component_names() const {
+  std::string out;
+  for (const ComponentEntry& one : components) out += (out.empty() ? "" : ", ") + one.name;
+  return out;
+}
+
+Roster read_roster(const Entry& simulation, const Registry& registry) {
+  simulation.allow_only({"robots"});
+  Roster out;
+  const Entry robots = simulation.at("robots");
+  for (const Entry& item : robots.items()) {
+    RobotEntry robot = read_robot(item, registry);
+    if (robot_named(out, robot.name))
+      item.fail("robot '" + robot.name + "' stands above already; rename one");
+    out.push_back(std::move(robot));
+  }
+  if (out.empty()) robots.fail("a world needs a robot; list one with its components");
+  return out;
+}
+
+const RobotEntry* robot_named(const Roster& roster, std::string_view name) {
+  if (name.empty()) return roster.size() == 1 ? &roster.front() : nullptr;
+  const auto found =
+      std::find_if(roster.begin(), roster.end(), [&](const RobotEntry& one) { return one.name == name; });
+  return found == roster.end() ? nullptr : &*found;
+}
+
+std::string robot_names(const Roster& roster) {
+  std::string out;
+  for (const RobotEntry& one : roster) out += (out.empty() ? "" : ", ") + one.name;
+  return out;
+}
+
+}  // namespace roci::sim::setup

@@ -1,0 +1,40 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim_svc/setup/registry.hpp"
+
+namespace roci::sim::setup {
+
+/// A component as `simulation.robots` of mission.yaml lists it.
+struct ComponentEntry {
+  std::string name;
+  std::string type;
+  mission::Entry entry;
+};
+
+struct RobotEntry {
+  std::string name;
+  std::vector<ComponentEntry> components;
+  std::optional<world::PowerParameters> power;  ///< empty: it has no battery
+  world::TelemetryParameters telemetry;
+  bool on_ground = false;  ///< one of its components is
+
+  bool has(std::string_view component) const;
+  std::string component_names() const;  ///< "nav, arm, …"
+};
+
+/// The robots of a mission, in the order of the file; never empty.
+using Roster = std::vector<RobotEntry>;
+
+/// Reads `simulation` of mission.yaml: which robots there are and what they are made of. The components' own
+/// settings stay unread. Throws mission::FileError with place and remedy.
+Roster read_roster(const mission::Entry& simulation, const Registry&);
+
+/// The robot of that name, or the only one when the name is empty; null: there is none.
+const RobotEntry* robot_named(const Roster&, std::string_view name);
+std::string robot_names(const Roster&);  ///< "rover, scout"
+
+}  // namespace roci::sim::setup

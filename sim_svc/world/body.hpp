@@ -1,0 +1,18 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+
+#include "sim_svc/world/battery.hpp"
+#include "sim_svc/world/values.hpp"
+
+namespace roci::sim::world {
+
+/// What a robot has once, whatever its components are.
+struct Body {
+  std::optional<Pose> pose;             ///< empty: it stands nowhere on the map
+  std::optional<Battery> battery;       ///< empty: its power comes from elsewhere and never ends
+  std::map<std::string, Image> images;  ///< on board, by id
+};
+
+}  // namespace roci::sim::world

@@ -1,0 +1,52 @@
+// What components of one robot know of each other: not who is there, but what somebody there can do. A
+// component implements those that are true of it; the others find it by them (ComponentSet), whatever its
+// name and type.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "sim_svc/world/values.hpp"
+
+namespace roci::sim::world {
+
+/// Moves the body.
+class Mobility {
+ public:
+  virtual ~Mobility() = default;
+  /// Name of the place where the body stands; empty while it moves.
+  virtual std::optional<std::string> place() const = 0;
+};
+
+/// Carries a tool from pose to pose.
+class Manipulator {
+ public:
+  virtual ~Manipulator() = default;
+  /// Name of the pose in which it rests; empty while it moves.
+  virtual std::optional<std::string> pose() const = 0;
+};
+
+/// Holds samples.
+class SampleHolder {
+ public:
+  virtual ~SampleHolder() = default;
+  virtual std::optional<std::string> held() const = 0;
+};
+
+/// Has a say in whether the body may move.
+class BodyInterlock {
+ public:
+  virtual ~BodyInterlock() = default;
+  /// Why the body must stand still; empty: it may move.
+  virtual Ending forbids_driving() const = 0;
+};
+
+/// Has a say in whether manipulators may move.
+class ManipulatorInterlock {
+ public:
+  virtual ~ManipulatorInterlock() = default;
+  /// Why they must stand still; empty: they may move.
+  virtual Ending forbids_reaching() const = 0;
+};
+
+}  // namespace roci::sim::world

@@ -1,0 +1,34 @@
+#pragma once
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/terrain/site.hpp"
+#include "sim_svc/world/windows.hpp"
+
+namespace roci::sim::world {
+
+/// A boulder that no map shows, in metres.
+struct Rock {
+  double x = 0;
+  double y = 0;
+  double radius = 0;
+};
+
+/// The true ground.
+struct Ground {
+  std::shared_ptr<const terrain::Site> site;  ///< empty in a world without ground
+  std::vector<Rock> hidden_rocks;
+};
+
+/// What all robots of a world share.
+struct Environment {
+  Ground ground;
+  std::vector<Window> windows;
+  std::map<std::size_t, std::string> known_rocks;  ///< index into Ground::hidden_rocks → id, once one was met
+  std::map<std::string, std::string> samples;  ///< sample → place where it lies; empty: somebody holds it
+};
+
+}  // namespace roci::sim::world

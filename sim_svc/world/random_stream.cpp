@@ -1,0 +1,29 @@
+#include "sim_svc/world/random_stream.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace roci::sim::world {
+namespace {
+
+// FNV-1a over the name, started from the seed, then the finalizer of SplitMix64 so that near seeds lie apart.
+std::uint64_t mixed(std::uint64_t seed, std::string_view name) {
+  std::uint64_t hash = 14695981039346656037ull ^ seed;
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+  hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9ull;
+  hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebull;
+  return hash ^ (hash >> 31);
+}
+
+}  // namespace
+
+RandomStream::RandomStream(std::uint64_t seed, std::string_view name) : engine_(mixed(seed, name)) {}
+
+double RandomStream::uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+
+double RandomStream::normal() {
+  const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+  return radius * std::cos(2.0 * std::numbers::pi * uniform());
+}
+
+}  // namespace roci::sim::world

@@ -1,0 +1,202 @@
+#include "sim_svc/world/robot.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace roci::sim::world {
+
+using temporal::seconds;
+using temporal::Time;
+using temporal::to_seconds;
+
+namespace {
+
+std::string joined(const std::vector<CommandForm>& forms) {
+  std::string out;
+  for (const CommandForm& form : forms) out += form.name + ", ";
+  return out + kStopCommand;
+}
+
+}  // namespace
+
+Robot::Robot(RobotSetup setup, bool first, std::uint64_t seed)
+    : name_(std::move(setup.name)), telemetry_(setup.telemetry) {
+  body_.pose = setup.pose;
+  if (setup.power) {
+    power_ = setup.power->parameters;
+    body_.battery.emplace(setup.power->start_j, power_->capacity_j);
+  }
+  std::set<std::string> types;
+  for (const ComponentSetup& one : setup.components) {
+    const bool first_of_type = types.insert(one.type).second;
+    const std::string stream = (first ? "" : name_ + "/") + one.type + (first_of_type ? "" : ":" + one.name);
+    parts_.push_back({one.name, one.make(RandomStream(seed, stream)), std::nullopt, {}});
+    components_.add(one.name, parts_.back().component.get());
+  }
+}
+
+std::string Robot::component_names() const {
+  std::string out;
+  for (const Part& one : parts_) out += (out.empty() ? "" : ", ") + one.name;
+  return out;
+}
+
+Robot::Part* Robot::part(std::string_view name) {
+  const auto found =
+      std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.name == name; });
+  return found == parts_.end() ? nullptr : &*found;
+}
+
+Robot::Part* Robot::part_that_runs(const TaskKey& key) {
+  const auto found = std::find_if(parts_.begin(), parts_.end(),
+                                  [&](const Part& p) { return p.running && p.running->key == key; });
+  return found == parts_.end() ? nullptr : &*found;
+}
+
+bool Robot::runs(const TaskKey& key) const {
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [&](const Part& p) { return p.running && p.running->key == key; });
+}
+
+// Why the command is none for this component, or none for now.
+Ending Robot::refusal_of(const Part& one, const Task& task) const {
+  const auto forms = one.component->commands();
+  const auto form =
+      std::find_if(forms.begin(), forms.end(), [&](const CommandForm& f) { return f.name == task.command; });
+  if (form == forms.end()) {
+    return Failure{"unknown-command",
+                   one.name + " has no command '" + task.command + "'; known: " + joined(forms)};
+  }
+  for (const std::string& argument : form->arguments) {
+    if (!task.arguments.contains(argument)) {
+      return Failure{"missing-argument", task.command + " needs the argument '" + argument + "'"};
+    }
+  }
+  if (one.running) return Failure{"busy", one.name + " still runs " + one.running->key.activity};
+  return std::nullopt;
+}
+
+bool Robot::begin(const std::string& component, const Task& task, Time now, Environment& environment,
+                  Outputs& out) {
+  const auto say = [&](TaskStage stage, const Failure& why) {
+    out.push_back(TaskReport{task.key, stage, why.code, why.reason, now});
+  };
+  Part* one = part(component);
+  if (!one) {
+    say(TaskStage::rejected,
+        {"unknown-component", "no component '" + component + "'; known: " + component_names()});
+    return false;
+  }
+  if (task.command == kStopCommand) {
+    break_off(*one, TaskStage::cancelled, {"stopped", "stopped by " + task.key.activity}, now, environment,
+              out);
+    say(TaskStage::completed, {"done", ""});
+    return false;
+  }
+  if (const Ending refusal = refusal_of(*one, task)) {
+    say(TaskStage::rejected, *refusal);
+    return false;
+  }
+  say(TaskStage::accepted, {});
+  Ending failure;
+  if (now < one->out_of_order_until) {
+    failure = Failure{"fault", "the component is out of order"};
+  } else if (flat()) {
+    failure = Failure{"battery-flat", "the battery is empty"};
+  } else {
+    Surroundings surroundings = around(environment, out);
+    failure = one->component->begin(task, now, surroundings);
+  }
+  if (failure) {
+    say(TaskStage::failed, *failure);
+    return false;
+  }
+  one->running = Running{task.key, now, 0};
+  return true;
+}
+
+void Robot::halt(const TaskKey& key, TaskStage stage, const Failure& why, Time now, Environment& environment,
+                 Outputs& out) {
+  if (Part* one = part_that_runs(key)) break_off(*one, stage, why, now, environment, out);
+}
+
+void Robot::answer(const TaskKey& key, const Answer& answer, Time now, Environment& environment,
+                   Outputs& out) {
+  Part* one = part_that_runs(key);
+  if (!one || !one->component->waits_for_answer()) return;
+  Ending failure;
+  if (const auto* refused = std::get_if<Failure>(&answer)) {
+    failure = *refused;
+  } else {
+    Surroundings surroundings = around(environment, out);
+    failure = one->component->answer(answer, now, surroundings);
+  }
+  if (failure) break_off(*one, TaskStage::failed, *failure, now, environment, out);
+}
+
+void Robot::finish_due(Time now, Environment& environment, Outputs& out) {
+  for (Part& one : parts_) {
+    if (!one.running || one.component->next_change() != now) continue;
+    Surroundings surroundings = around(environment, out);
+    const Ending failure = one.component->finish(surroundings);
+    if (one.component->busy()) continue;  // it goes on
+    if (failure) {
+      conclude(one, TaskStage::failed, *failure, one.component->results(), now, out);
+    } else {
+      conclude(one, TaskStage::completed, {"done", ""}, one.component->results(), now, out);
+    }
+  }
+}
+
+void Robot::break_component(const std::string& component, Time until, Time now, Environment& environment,
+                            Outputs& out) {
+  Part* one = part(component);
+  if (!one) return;
+  one->out_of_order_until = until;
+  break_off(*one, TaskStage::failed, {"fault", "the component broke down"}, now, environment, out);
+}
+
+void Robot::ground_changed(Time now, Environment& environment, Outputs& out) {
+  Surroundings surroundings = around(environment, out);
+  for (Part& one : parts_) one.component->ground_changed(now, surroundings);
+}
+
+void Robot::lose_energy(double joules) {
+  if (body_.battery) body_.battery->add(-joules);
+}
+
+void Robot::settle(Time from, Time to, Environment& environment, Outputs& out) {
+  double used = power_ ? power_->idle_w * to_seconds(to - from) : 0;
+  for (Part& one : parts_) {
+    const double energy = one.component->energy_j(from, to);
+    if (one.running) one.running->energy_j += energy;
+    used += energy;
+  }
+  if (body_.battery) {
+    body_.battery->add(solar_power_w(*power_, from + (to - from) / 2) * to_seconds(to - from) - used);
+  }
+  for (Part& one : parts_) one.component->settle(to, body_);
+  if (!flat()) return;
+  for (Part& one : parts_) {
+    break_off(one, TaskStage::failed, {"battery-flat", "the battery is empty"}, to, environment, out);
+  }
+}
+
+void Robot::break_off(Part& one, TaskStage stage, const Failure& why, Time now, Environment& environment,
+                      Outputs& out) {
+  if (!one.running) return;
+  Surroundings surroundings = around(environment, out);
+  one.component->halt(now, surroundings);
+  conclude(one, stage, why, {}, now, out);
+}
+
+void Robot::conclude(Part& one, TaskStage stage, const Failure& why,
+                     std::map<std::string, temporal::Value> values, Time now, Outputs& out) {
+  Results results{now - one.running->since, one.running->energy_j, std::move(values)};
+  out.push_back(TaskReport{one.running->key, stage, why.code, why.reason, now, std::move(results)});
+  one.running.reset();
+  task_ended_ = true;
+}
+
+}  // namespace roci::sim::world

@@ -1,0 +1,134 @@
+// A robot: a body and components, each with its running task. It decides which commands its components take
+// up, ends their tasks, and settles the energy that they use.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim_svc/world/component.hpp"
+#include "sim_svc/world/random_stream.hpp"
+#include "sim_svc/world/reporter.hpp"
+
+namespace roci::sim::world {
+
+/// The command that every component takes: its running task is broken off, and nothing else happens.
+inline constexpr char kStopCommand[] = "stop";
+
+/// How often the robot's numbers are reported, s.
+struct TelemetryParameters {
+  double moving_s = 10;  ///< while something moves
+  double idle_s = 60;
+};
+
+/// A battery, what draws from it, and how full it is at the start.
+struct PowerSetup {
+  PowerParameters parameters;
+  double start_j = 0;
+};
+
+/// Makes the component with its own source of noise.
+using MakeComponent = std::function<std::unique_ptr<Component>(RandomStream noise)>;
+
+struct ComponentSetup {
+  std::string name;
+  std::string type;
+  MakeComponent make;
+};
+
+struct RobotSetup {
+  std::string name;
+  std::optional<Pose> pose;         ///< empty: it stands nowhere on the map
+  std::optional<PowerSetup> power;  ///< empty: its power never ends
+  TelemetryParameters telemetry;
+  std::vector<ComponentSetup> components;
+};
+
+/// A command that a component took up; what bench/kill counts.
+struct Begun {
+  temporal::Time at{};
+  std::string robot;
+  std::string component;
+  Task task;
+};
+
+class Robot {
+ public:
+  /// `first`: the first robot of the world. A component of it that is the first of its type draws from the
+  /// stream named as the type; in all other streams the component's or the robot's name enters, too.
+  Robot(RobotSetup, bool first, std::uint64_t seed);
+
+  const std::string& name() const { return name_; }
+  std::string component_names() const;  ///< "nav, arm, …"
+  bool runs(const TaskKey&) const;
+  /// When a task ends or numbers are due.
+  temporal::Time next_change() const;
+  /// When the battery will be empty if everything goes on at its peak power; empty: never.
+  std::optional<temporal::Time> flat_at(temporal::Time now) const;
+
+  // All that follows happens at `now`, up to which the robot has been settled; what it has to say goes to
+  // `out`.
+
+  /// Takes the command up or refuses it. True: a task began.
+  bool begin(const std::string& component, const Task&, temporal::Time now, Environment&, Outputs& out);
+  /// Breaks the task off if it runs.
+  void halt(const TaskKey&, TaskStage, const Failure& why, temporal::Time now, Environment&, Outputs& out);
+  /// Goes on with the task if it waits for an answer.
+  void answer(const TaskKey&, const Answer&, temporal::Time now, Environment&, Outputs& out);
+  /// Lets every task end or change whose time it is.
+  void finish_due(temporal::Time now, Environment&, Outputs& out);
+  void break_component(const std::string& component, temporal::Time until, temporal::Time now, Environment&,
+                       Outputs& out);
+  void ground_changed(temporal::Time now, Environment&, Outputs& out);
+  void lose_energy(double joules);
+
+  /// Settles energy and body over [from, to], at most a tick long, with the tasks as they run.
+  void settle(temporal::Time from, temporal::Time to, Environment&, Outputs& out);
+
+  void report_components(temporal::Time now, Reporter&, Outputs& out) const;
+  void report_things(temporal::Time now, Reporter&, Outputs& out) const;
+  /// If a task has ended since the last time, or the telemetry's period is over.
+  void report_numbers_if_due(temporal::Time now, Reporter&, Outputs& out);
+  /// The next numbers come within the telemetry's period if something has begun to move.
+  void hasten_numbers(temporal::Time now);
+
+ private:
+  struct Running {
+    TaskKey key;
+    temporal::Time since{};
+    double energy_j = 0;
+  };
+  struct Part {
+    std::string name;
+    std::unique_ptr<Component> component;
+    std::optional<Running> running;
+    temporal::Time out_of_order_until{};
+  };
+
+  Part* part(std::string_view name);
+  Part* part_that_runs(const TaskKey&);
+  Surroundings around(Environment& environment, Outputs& out) {
+    return {name_, environment, body_, components_, out};
+  }
+  void break_off(Part&, TaskStage, const Failure& why, temporal::Time now, Environment&, Outputs& out);
+  void conclude(Part&, TaskStage, const Failure& why, std::map<std::string, temporal::Value> values,
+                temporal::Time now, Outputs& out);
+  Ending refusal_of(const Part&, const Task&) const;
+  bool flat() const { return body_.battery && body_.battery->flat(); }
+  bool moves() const;
+
+  std::string name_;
+  Body body_;
+  std::optional<PowerParameters> power_;
+  TelemetryParameters telemetry_;
+  std::vector<Part> parts_;
+  ComponentSet components_;
+  bool task_ended_ = false;  // since its numbers were last reported
+  temporal::Time next_report_{};
+};
+
+}  // namespace roci::sim::world

@@ -1,0 +1,21 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/temporal/duration.hpp"
+
+namespace roci::sim::world {
+
+/// A Boolean timeline that is true in [opens, closes) of each interval. Intervals ascend and do not overlap.
+struct Window {
+  std::string timeline;
+  std::vector<std::pair<temporal::Time, temporal::Time>> open;
+
+  bool is_open(temporal::Time) const;
+  /// First opening or closing after `t`.
+  std::optional<temporal::Time> next_change(temporal::Time t) const;
+};
+
+}  // namespace roci::sim::world

@@ -1,0 +1,71 @@
+// A world of robots as a functional core: commands and the time go in, reports, observations and products
+// come out. Between events everything is a function of time (a drive and a motion of an arm are worked out
+// whole when they start), so results do not depend on how advance() is sliced. The rules for commands (keys,
+// epochs, queries) are not its business: whoever owns the robots keeps them (services/owner).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim_svc/world/disturbance.hpp"
+#include "sim_svc/world/robot.hpp"
+
+namespace roci::sim::world {
+
+struct WorldSetup {
+  Ground ground;
+  std::vector<Window> windows;
+  std::vector<RobotSetup> robots;
+};
+
+/// A task for a component.
+struct Order {
+  std::string robot;  ///< empty: the only one
+  std::string component;
+  Task task;
+};
+
+class World {
+ public:
+  /// Throws std::invalid_argument when two robots, or two components of one, have the same name.
+  World(WorldSetup, std::uint64_t seed);
+
+  // Each of these first brings the world to `now`, which never lies before the `now` of an earlier call.
+  // advance(0) gives the first observation of every timeline.
+  Outputs advance(temporal::Time now);
+  /// The component takes the task up or refuses it; the command `stop` breaks off what it runs.
+  Outputs begin(temporal::Time now, const Order&);
+  /// Breaks the task off, if it runs; it ends in `stage`, for the reason given.
+  Outputs halt(temporal::Time now, const TaskKey&, TaskStage stage, const Failure& why);
+  /// What another service says to a PathWanted or MotionWanted; ignored unless the task still waits for it.
+  Outputs answer(temporal::Time now, const TaskKey&, const Answer&);
+  /// What names a robot or a component that is not there changes nothing.
+  Outputs disturb(temporal::Time now, const Disturbance&);
+
+  bool runs(const TaskKey&) const;
+  /// Nothing leaves the world by itself before this time. It may turn out that nothing happens then, either.
+  std::optional<temporal::Time> next_change() const;
+
+  const std::vector<Begun>& begun() const { return begun_; }
+
+ private:
+  void advance_to(temporal::Time now);
+  void settle(temporal::Time t);
+  void publish(temporal::Time t);
+  Outputs done(temporal::Time now);
+  temporal::Time next_tick() const;
+  temporal::Time next_event() const;
+  Robot* robot(const std::string& name);
+  std::string robot_names() const;
+
+  Environment environment_;
+  std::vector<Robot> robots_;
+  std::vector<Begun> begun_;
+  Reporter reporter_;
+  temporal::Time now_{};  // of the last event
+  Outputs out_;
+};
+
+}  // namespace roci::sim::world

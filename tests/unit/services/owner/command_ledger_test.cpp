@@ -1,0 +1,216 @@
+#include "services/owner/command_ledger.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace roci::services::owner {
+
+using temporal::seconds;
+
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Order = Reception::Order;
+
+Request request(const std::string& activity, Action action = Action::execute, std::uint64_t epoch = 1,
+                const std::string& commander = "") {
+  return {{activity, 1, commander}, action, epoch, commander, "", "drill", "bore"};
+}
+
+// A ledger that has accepted "a" at 1 s.
+CommandLedger with_running(std::optional<temporal::Time> latest_end = std::nullopt) {
+  CommandLedger ledger;
+  Request bore = request("a");
+  bore.latest_end = latest_end;
+  EXPECT_EQ(ledger.receive(bore, seconds(1)).order, Order::carry_out);
+  EXPECT_TRUE(ledger.say(bore.key, {Stage::accepted}, seconds(1)));
+  return ledger;
+}
+
+const CommandKey kA{"a", 1};
+
+TEST(CommandLedger, AKeyIsTakenOnceAndItsLastWordRepeated) {
+  CommandLedger ledger = with_running();
+  const Reception again = ledger.receive(request("a"), seconds(2));
+  EXPECT_EQ(again.order, Order::nothing);
+  EXPECT_EQ(again.ack->word.stage, Stage::accepted);
+  const auto done = ledger.say(kA, {Stage::completed, "done"}, seconds(9));
+  const Reception late = ledger.receive(request("a"), seconds(20));
+  EXPECT_EQ(late.order, Order::nothing);
+  EXPECT_EQ(late.ack->word, done->word);
+  EXPECT_EQ(late.ack->at, seconds(20));
+}
+
+TEST(CommandLedger, WhatRepeatsACommandWithoutAWordWaitsForTheWord) {
+  CommandLedger ledger;
+  EXPECT_EQ(ledger.receive(request("a"), seconds(1)).order, Order::carry_out);
+  const Reception again = ledger.receive(request("a"), seconds(2));
+  EXPECT_EQ(again.order, Order::nothing);
+  EXPECT_FALSE(again.ack);
+  EXPECT_EQ(ledger.receive(request("a", Action::query), seconds(2)).ack->word.stage, Stage::accepted);
+}
+
+TEST(CommandLedger, AttemptsCommandersAndEpochsOfIssueMakeDifferentKeys) {
+  CommandLedger ledger;
+  for (const CommandKey& key : std::vector<CommandKey>{{"a", 1}, {"a", 2}, {"a", 1, "e"}, {"a", 1, "e", 7}}) {
+    Request one = request("a", Action::execute, 9);
+    one.key = key;
+    EXPECT_EQ(ledger.receive(one, seconds(1)).order, Order::carry_out);
+  }
+}
+
+TEST(CommandLedger, AQueryGetsTheLastWord) {
+  CommandLedger ledger = with_running();
+  EXPECT_EQ(ledger.receive(request("a", Action::query), seconds(2)).ack->word.stage, Stage::accepted);
+  ledger.say(kA, {Stage::failed, "jammed", "in hard rock"}, seconds(3));
+  const Ack ack = *ledger.receive(request("a", Action::query), seconds(4)).ack;
+  EXPECT_EQ(ack.word.stage, Stage::failed);
+  EXPECT_EQ(ack.word.code, "jammed");
+  const Ack unknown = *ledger.receive(request("b", Action::query), seconds(4)).ack;
+  EXPECT_EQ(unknown.word.stage, Stage::unknown);
+  EXPECT_EQ(unknown.word.code, "unknown-key");
+}
+
+TEST(CommandLedger, EpochsAreCountedByCommander) {
+  CommandLedger ledger;
+  EXPECT_EQ(ledger.receive(request("a", Action::execute, 5, "first"), seconds(1)).order, Order::carry_out);
+  EXPECT_EQ(ledger.receive(request("b", Action::execute, 1, "second"), seconds(1)).order, Order::carry_out);
+  const Ack refused = *ledger.receive(request("c", Action::execute, 4, "first"), seconds(2)).ack;
+  EXPECT_EQ(refused.word.stage, Stage::rejected);
+  EXPECT_EQ(refused.word.code, "old-epoch");
+  EXPECT_TRUE(refused.refused_epoch);
+  EXPECT_EQ(refused.newest_epoch, 5u);
+  EXPECT_THAT(refused.word.reason, HasSubstr("epoch 4 is over"));
+  EXPECT_EQ(ledger.receive(request("c", Action::execute, 5, "first"), seconds(3)).order, Order::carry_out)
+      << "a refused request does not take the key";
+  EXPECT_EQ(ledger.receive(request("d", Action::execute, 1, "second"), seconds(3)).order, Order::carry_out);
+}
+
+// Who takes over asks under the old key, and is counted by its own epochs.
+TEST(CommandLedger, ASuccessorCancelsWhatAnotherCommanded) {
+  CommandLedger ledger;
+  const Request bore = request("a", Action::execute, 5, "first");
+  ledger.receive(bore, seconds(1));
+  ledger.say(bore.key, {Stage::accepted}, seconds(1));
+  Request cancel = request("a", Action::cancel, 2, "first");
+  cancel.sender = "second";
+  EXPECT_EQ(ledger.receive(cancel, seconds(2)).order, Order::break_off);
+  EXPECT_EQ(ledger.say(bore.key, {Stage::cancelled}, seconds(2))->newest_epoch, 5u);
+  cancel.epoch = 1;
+  EXPECT_TRUE(ledger.receive(cancel, seconds(3)).ack->refused_epoch) << "that one is counted now, too";
+}
+
+TEST(CommandLedger, AnOlderEpochMayNeitherAskNorCancel) {
+  CommandLedger ledger = with_running();
+  ledger.receive(request("x", Action::query, 3), seconds(2));
+  for (const Action action : {Action::query, Action::cancel}) {
+    const Reception old = ledger.receive(request("a", action, 2), seconds(3));
+    EXPECT_EQ(old.order, Order::nothing);
+    EXPECT_EQ(old.ack->word.code, "old-epoch");
+  }
+}
+
+TEST(CommandLedger, ACancelIsAnOrderFirstAndThenAnOutcome) {
+  CommandLedger ledger = with_running();
+  const Reception first = ledger.receive(request("a", Action::cancel), seconds(2));
+  EXPECT_EQ(first.order, Order::break_off);
+  EXPECT_FALSE(first.ack);
+  const Reception second = ledger.receive(request("a", Action::cancel), seconds(3));
+  EXPECT_EQ(second.order, Order::nothing) << "it is being broken off";
+  EXPECT_FALSE(second.ack);
+  const Ack ended = *ledger.say(kA, {Stage::cancelled, "cancelled"}, seconds(4));
+  EXPECT_EQ(ended.word.results.duration, seconds(3));
+  const Ack late = *ledger.receive(request("a", Action::cancel), seconds(5)).ack;
+  EXPECT_EQ(late.word.stage, Stage::cancel_failed);
+  EXPECT_EQ(late.word.code, "already-ended");
+  EXPECT_EQ(ledger.answer(kA, seconds(6)).word.stage, Stage::cancelled) << "that is no word on the activity";
+}
+
+TEST(CommandLedger, ACancelThatCannotBeLetsTheCommandRun) {
+  CommandLedger ledger = with_running();
+  EXPECT_FALSE(ledger.refuse_cancel(kA, "nobody asked", seconds(2)));
+  ledger.receive(request("a", Action::cancel), seconds(2));
+  const Ack refused = *ledger.refuse_cancel(kA, "the drill is too deep", seconds(3));
+  EXPECT_EQ(refused.word.stage, Stage::cancel_failed);
+  EXPECT_EQ(refused.word.code, "cannot-cancel");
+  EXPECT_EQ(ledger.answer(kA, seconds(4)).word.stage, Stage::accepted);
+  EXPECT_EQ(ledger.receive(request("a", Action::cancel), seconds(5)).order, Order::break_off) << "once more";
+}
+
+TEST(CommandLedger, WhatEndsWhileItIsCancelledHasEndedSo) {
+  CommandLedger ledger = with_running();
+  ledger.receive(request("a", Action::cancel), seconds(2));
+  EXPECT_EQ(ledger.say(kA, {Stage::completed, "done"}, seconds(3))->word.stage, Stage::completed);
+  EXPECT_FALSE(ledger.say(kA, {Stage::cancelled, "cancelled"}, seconds(4)));
+  EXPECT_EQ(ledger.answer(kA, seconds(5)).word.stage, Stage::completed);
+}
+
+TEST(CommandLedger, ResultsStayWithTheLastWord) {
+  CommandLedger ledger = with_running();
+  const Results results{seconds(2), 30, {{"depth", 0.3}}};
+  EXPECT_EQ(ledger.say(kA, {Stage::completed, "done", "", results}, seconds(9))->word.results, results);
+  EXPECT_EQ(ledger.answer(kA, seconds(10)).word.results, results);
+}
+
+TEST(CommandLedger, WordsOnUnknownCommandsAndAnswersAreNoWords) {
+  CommandLedger ledger = with_running();
+  EXPECT_FALSE(ledger.say({"b", 1}, {Stage::completed}, seconds(2)));
+  EXPECT_FALSE(ledger.say(kA, {Stage::unknown}, seconds(2)));
+  EXPECT_FALSE(ledger.say(kA, {Stage::cancel_failed}, seconds(2)));
+}
+
+// R146: success looks like success.
+TEST(CommandLedger, ARepairInTimeIsInvisibleInTheEnd) {
+  CommandLedger ledger = with_running(seconds(100));
+  EXPECT_FALSE(ledger.next_overrun());
+  const Ack told = *ledger.repair(kA, "it tries again", seconds(40));
+  EXPECT_EQ(told.word.stage, Stage::accepted);
+  EXPECT_EQ(told.word.code, "repairing");
+  EXPECT_EQ(ledger.next_overrun(), seconds(100));
+  EXPECT_THAT(ledger.take_overruns(seconds(99)), testing::IsEmpty());
+  const Ack done = *ledger.say(kA, {Stage::completed, "done"}, seconds(80));
+  EXPECT_EQ(done.word.code, "done");
+  EXPECT_EQ(done.word.results.duration, seconds(79)) << "the whole time, the repair with it";
+  EXPECT_FALSE(ledger.next_overrun());
+  EXPECT_THAT(ledger.take_overruns(seconds(200)), testing::IsEmpty());
+}
+
+TEST(CommandLedger, ARepairThatIsNotDoneInTimeIsToldOnce) {
+  CommandLedger ledger = with_running(seconds(100));
+  ledger.repair(kA, "it tries again", seconds(40));
+  EXPECT_THAT(ledger.take_overruns(seconds(100)), ElementsAre(kA));
+  EXPECT_THAT(ledger.take_overruns(seconds(100)), testing::IsEmpty());
+  EXPECT_FALSE(ledger.next_overrun());
+}
+
+TEST(CommandLedger, NoRepairAfterTheLatestEndNorOfWhatDoesNotRun) {
+  CommandLedger ledger = with_running(seconds(100));
+  EXPECT_FALSE(ledger.repair(kA, "too late", seconds(100)));
+  EXPECT_FALSE(ledger.repair({"b", 1}, "nothing", seconds(2)));
+  ledger.say(kA, {Stage::failed, "jammed"}, seconds(101));
+  EXPECT_FALSE(ledger.repair(kA, "over", seconds(50)));
+}
+
+TEST(CommandLedger, WithoutALatestEndARepairHasAllTime) {
+  CommandLedger ledger = with_running();
+  EXPECT_TRUE(ledger.repair(kA, "again", seconds(1e6)));
+  EXPECT_FALSE(ledger.next_overrun());
+}
+
+TEST(CommandLedger, KnowsWhatASubsystemHasOpen) {
+  CommandLedger ledger = with_running();
+  Request other = request("b");
+  other.subsystem = "arm";
+  ledger.receive(other, seconds(2));
+  other = request("c");
+  other.robot = "scout";
+  ledger.receive(other, seconds(2));
+  EXPECT_THAT(ledger.open("", "drill"), ElementsAre(kA));
+  EXPECT_THAT(ledger.open("scout", "drill"), ElementsAre(CommandKey{"c", 1}));
+  ledger.say(kA, {Stage::rejected, "busy"}, seconds(3));
+  EXPECT_THAT(ledger.open("", "drill"), testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace roci::services::owner

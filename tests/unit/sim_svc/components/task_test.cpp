@@ -1,0 +1,111 @@
+#include "sim_svc/components/task.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/sim_svc/world_fixture.hpp"
+
+namespace roci::sim::components {
+
+using services::owner::Stage;
+using temporal::seconds;
+using temporal::State;
+
+namespace {
+
+TaskSettings drill() {
+  TaskSettings out;
+  out.start = {"up", {}};
+  out.numbers = {{"depth", 1, 1e-3}, {"bits", 4, 1}};
+  TaskCommand bore{"bore", {"hole"}, 100, 0, 50};
+  bore.during = StateTemplate{"boring", {"{hole}"}};
+  bore.then = StateTemplate{"in", {"{hole}", "deep"}};
+  bore.stopped = StateTemplate{"jammed", {}};
+  bore.needs = {{"clamp", "closed"}};
+  bore.changes = {{"depth", {20, std::nullopt}}, {"bits", {0, 3}}};
+  out.commands = {bore, {"wait", {}, 10, 0.5, 0}};
+  return out;
+}
+
+TaskSettings clamp() {
+  TaskSettings out;
+  out.start = {"open", {}};
+  TaskCommand close{"close", {}, 0};
+  close.then = StateTemplate{"closed", {}};
+  TaskCommand charge{"charge", {}, 50, 0, -30};
+  out.commands = {close, charge};
+  return out;
+}
+
+world::WorldSetup station() {
+  world::RobotSetup robot;
+  robot.name = "station";
+  robot.power = world::PowerSetup{{100000, 10, 0, 0, 1}, 50000};
+  robot.components = {part<TaskComponent>("drill", "task", drill()),
+                      part<TaskComponent>("clamp", "task", clamp())};
+  return {{}, {}, {robot}};
+}
+
+TEST(TaskComponent, GoesFromStateToStateAndChangesItsNumbers) {
+  Flight run(station());
+  EXPECT_EQ(run.state("station.drill"), (State{"up", {}}));
+  EXPECT_EQ(last_number(run.said, "station.drill.depth"), 1);
+  run.command(seconds(1), execute("c", "clamp", "close"));
+  EXPECT_EQ(run.stage("c"), Stage::completed);
+  EXPECT_EQ(run.time_of("c"), seconds(1));
+  run.command(seconds(2), execute("b", "drill", "bore", {{"hole", "h1"}}));
+  EXPECT_EQ(run.state("station.drill"), (State{"boring", {"h1"}}));
+  run.advance(seconds(52));
+  EXPECT_NEAR(last_number(run.said, "station.drill.depth"), 11, 2.1);  // told every 10 s
+  EXPECT_EQ(last_number(run.said, "station.drill.bits"), 4);
+  run.advance(seconds(102));
+  EXPECT_EQ(run.state("station.drill"), (State{"in", {"h1", "deep"}}));
+  EXPECT_EQ(last_number(run.said, "station.drill.depth"), 21);
+  EXPECT_EQ(last_number(run.said, "station.drill.bits"), 3);
+  const auto results = run.last_ack("b")->word.results;
+  EXPECT_EQ(results.duration, seconds(100));
+  EXPECT_NEAR(results.energy_j.value(), 5000, 1e-6);
+  EXPECT_EQ(results.values.at("depth"), temporal::Value{21.0});
+  EXPECT_NEAR(last_number(run.said, "station.battery"), 50000 - 102 * 10 - 5000, 1);
+}
+
+TEST(TaskComponent, NeedsOtherPartsInTheirStates) {
+  Flight run(station());
+  run.command(seconds(1), execute("b", "drill", "bore", {{"hole", "h1"}}));
+  EXPECT_EQ(run.stage("b"), Stage::failed);
+  EXPECT_EQ(run.code("b"), "not-ready");
+  EXPECT_EQ(run.last_ack("b")->word.reason, "clamp is open, not closed");
+  EXPECT_EQ(run.state("station.drill"), (State{"up", {}}));
+}
+
+TEST(TaskComponent, AStopLeavesItWhereItIs) {
+  Flight run(station());
+  run.command(seconds(1), execute("c", "clamp", "close"));
+  run.command(seconds(2), execute("b", "drill", "bore", {{"hole", "h1"}}));
+  run.command(seconds(27), execute("s", "drill", "stop"));
+  EXPECT_EQ(run.stage("b"), Stage::cancelled);
+  EXPECT_EQ(run.state("station.drill"), (State{"jammed", {}}));
+  EXPECT_EQ(last_number(run.said, "station.drill.depth"), 6);
+  EXPECT_EQ(last_number(run.said, "station.drill.bits"), 4);
+}
+
+TEST(TaskComponent, NegativePowerChargesTheBattery) {
+  Flight run(station());
+  run.command(seconds(1), execute("c", "clamp", "charge"));
+  run.advance(seconds(101));
+  EXPECT_NEAR(last_number(run.said, "station.battery"), 50000 - 51 * 10 + 50 * 30, 1);
+  EXPECT_EQ(run.state("station.clamp"), (State{"open", {}}));
+}
+
+TEST(TaskComponent, NoiseMakesItLongerOrShorter) {
+  const auto duration = [](std::uint64_t seed) {
+    Flight run(station(), seed);
+    run.command(seconds(1), execute("w", "drill", "wait"));
+    run.advance(seconds(60));
+    return run.time_of("w");
+  };
+  EXPECT_EQ(duration(1), duration(1));
+  EXPECT_NE(duration(1), duration(2));
+}
+
+}  // namespace
+}  // namespace roci::sim::components

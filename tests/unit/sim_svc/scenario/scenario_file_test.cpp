@@ -1,0 +1,157 @@
+#include "sim_svc/scenario/scenario_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "sim_svc/scenario/run_file.hpp"
+
+namespace roci::sim::scenario {
+
+using temporal::seconds;
+
+namespace {
+
+using testing::HasSubstr;
+
+constexpr char kRover[] =
+    "site: site.yaml\narm: {poses: poses.yaml}\nsimulation:\n  robots:\n    - name: rover\n      "
+    "components:\n"
+    "        - {name: nav, type: drive}\n        - {name: arm, type: arm}\n"
+    "        - {name: camera, type: camera}\n      power: {capacity_j: 100}\n";
+
+class ScenarioFile : public testing::Test {
+ protected:
+  // A run of the mission under the scenario with this text.
+  RunSetup load(const std::string& scenario, const std::string& mission = kRover) {
+    write("scenarios/s.yaml", scenario);
+    write("mission.yaml", mission);
+    return load_run(folder_, "s");
+  }
+  std::string error_of(const std::string& scenario, const std::string& mission = kRover) {
+    try {
+      load(scenario, mission);
+    } catch (const mission::FileError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("roci_scenario_") + test->name());
+    std::filesystem::create_directories(folder_ / "scenarios");
+    write("poses.yaml", "poses:\n  stow: {joints: [0, 1]}\n");
+    write("site.yaml",
+          "image: rocks.pgm\nresolution: 100\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
+          "free_thresh: 0.2\n");
+    write("rocks.pgm", "P2\n2 2\n255\n255 255\n255 255\n");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path folder_;
+  const std::string head_ = "duration_s: 100\nstart: {x: 1, y: 2, arm: stow, battery: 10}\n";
+};
+
+TEST_F(ScenarioFile, ReadsTheExpectedOrderOfEvents) {
+  const Scenario s =
+      load(head_ + "expect: [plan.adopted, goal.dropped: gap, hazard.seen+, plan.broken+: late]\n").scenario;
+  ASSERT_EQ(s.expect.size(), 4u);
+  EXPECT_EQ(s.expect[0].code, "plan.adopted");
+  EXPECT_EQ(s.expect[0].part, "");
+  EXPECT_FALSE(s.expect[0].repeats);
+  EXPECT_EQ(s.expect[1].code, "goal.dropped");
+  EXPECT_EQ(s.expect[1].part, "gap");
+  EXPECT_EQ(s.expect[2].code, "hazard.seen");
+  EXPECT_TRUE(s.expect[2].repeats);
+  EXPECT_EQ(s.expect[3].code, "plan.broken");
+  EXPECT_EQ(s.expect[3].part, "late");
+  EXPECT_THAT(error_of(head_ + "expect: [{a: b, c: d}]\n"), HasSubstr("s.yaml:3:10: expected one"));
+  EXPECT_THAT(error_of(head_ + "expect: ['+']\n"), HasSubstr("expected an event's code"));
+}
+
+TEST_F(ScenarioFile, ReadsWhatItSays) {
+  const RunSetup run = load(
+      "description: d\nduration_s: 100\nstart: {x: 1, y: 2, heading: 0.5, arm: stow, battery: 10}\n"
+      "world: {slip: 0.1, image_noise: 0.2, rocks: [{x: 3, y: 4, radius: 0.5}]}\n"
+      "windows: [{timeline: comm.window, open: [[10, 20], [30, 40]]}]\n"
+      "science: {enabled: false}\n"
+      "stimuli:\n"
+      "  - {at_s: 50, fault: {component: arm, for_s: 10}}\n"
+      "  - {at_s: 10, goal: {id: g, kind: photo, importance: hard, utility: 2, opens_s: 5, arguments: "
+      "{x: 1.5}}}\n"
+      "  - {at_s: 60, recall: {id: g}}\n"
+      "  - {at_s: 61, rock: {x: 1, y: 2, radius: 3}}\n"
+      "  - {at_s: 62, battery_loss_j: 7}\n");
+  const Scenario& s = run.scenario;
+  EXPECT_EQ(s.duration, seconds(100));
+  EXPECT_EQ(s.starts.at("rover").pose, (world::Pose{1, 2, 0.5}));
+  EXPECT_EQ(s.starts.at("rover").battery_j, 10);
+  EXPECT_EQ(s.conditions.at("slip").number(), 0.1);
+  ASSERT_EQ(s.rocks.size(), 1u);
+  ASSERT_EQ(s.windows.size(), 1u);
+  EXPECT_TRUE(s.windows[0].is_open(seconds(10)));
+  EXPECT_FALSE(s.windows[0].is_open(seconds(20)));
+  ASSERT_EQ(s.stimuli.size(), 5u);
+  const auto& goal = std::get<GoalStimulus>(s.stimuli[0].what);
+  EXPECT_EQ(goal.issuer, "ground");
+  EXPECT_EQ(goal.importance, Importance::hard);
+  EXPECT_EQ(goal.opens, seconds(5));
+  EXPECT_EQ(goal.arguments, (std::vector<std::pair<std::string, std::string>>{{"x", "1.5"}}));
+  const auto& fault = std::get<world::ComponentFault>(std::get<world::Disturbance>(s.stimuli[1].what));
+  EXPECT_EQ(fault.until, seconds(60));
+  EXPECT_EQ(fault.robot, "rover");
+  EXPECT_EQ(std::get<RecallStimulus>(s.stimuli[2].what).id, "g");
+  EXPECT_EQ(std::get<world::EnergyLoss>(std::get<world::Disturbance>(s.stimuli[4].what)).joules, 7);
+}
+
+TEST_F(ScenarioFile, EveryFaultNamesItsPlaceAndARemedy) {
+  struct Case {
+    std::string text;
+    std::string place;
+    std::string says;
+  };
+  const std::vector<Case> cases = {
+      {"duration_s: soon\n", "s.yaml:1:13", "finite number"},
+      {"duration_s: -1\n", "s.yaml:1:13", "at least 0"},
+      {"duration_s: 5\n", "s.yaml:1:1", "'start' is missing"},
+      {head_ + "wrold: {slip: 1}\n", "s.yaml:3:1", "unknown key 'wrold'"},
+      {head_ + "world: {slip: [1]}\n", "s.yaml:3:15", "finite number"},
+      {head_ + "world: {rocks: [{x: 1, y: 2, radius: 0}]}\n", "s.yaml:3:38", "at least"},
+      {head_ + "windows: [{timeline: w, open: [[20, 10]]}]\n", "s.yaml:3:32", "closes before it opens"},
+      {head_ + "windows: [{timeline: w, open: [[1, 5], [4, 9]]}]\n", "s.yaml:3:40", "opens before"},
+      {head_ + "stimuli:\n  - {at_s: 1}\n", "s.yaml:4:5", "one of goal"},
+      {head_ + "stimuli:\n  - {at_s: 1, rock: {x: 1, y: 1, radius: 1}, battery_loss_j: 2}\n", "s.yaml:4:5",
+       "split"},
+      {head_ + "stimuli:\n  - {at_s: 101, battery_loss_j: 1}\n", "s.yaml:4:12", "after the end of the run"},
+      {head_ + "stimuli:\n  - {at_s: 1, goal: {id: g}}\n", "s.yaml:4:21", "'kind' is missing"},
+      {head_ + "stimuli:\n  - {at_s: 1, goal: {id: g, kind: k, importance: vital}}\n", "s.yaml:4:50",
+       "hard, optional"},
+      {head_ + "stimuli:\n  - {at_s: 1, recall: {id: g}}\n", "s.yaml:4:5", "no stimulus above uploads"},
+      {head_ + "stimuli:\n  - {at_s: 1, fault: {component: leg, for_s: 1}}\n", "s.yaml:4:34",
+       "known: nav, arm"},
+  };
+  for (const Case& c : cases) {
+    const std::string error = error_of(c.text);
+    EXPECT_THAT(error, HasSubstr(c.place)) << c.text;
+    EXPECT_THAT(error, HasSubstr(c.says)) << c.text;
+  }
+}
+
+TEST_F(ScenarioFile, TheMissionsOwnScenariosAreGood) {
+  const std::filesystem::path missions = std::filesystem::path(ROCI_SOURCE_DIR) / "missions";
+  int read = 0;
+  for (const auto& mission : std::filesystem::directory_iterator(missions)) {
+    if (!std::filesystem::exists(mission.path() / "scenarios")) continue;
+    for (const auto& scenario : std::filesystem::directory_iterator(mission.path() / "scenarios")) {
+      EXPECT_NO_THROW(load_run(mission.path(), scenario.path().stem())) << scenario.path();
+      ++read;
+    }
+  }
+  EXPECT_GT(read, 0);
+}
+
+}  // namespace
+}  // namespace roci::sim::scenario

@@ -1,0 +1,103 @@
+#include "sim_svc/world/battery.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/sim_svc/world_fixture.hpp"
+
+namespace roci::sim::world {
+
+using services::owner::Stage;
+using temporal::seconds;
+using temporal::State;
+using temporal::Time;
+
+namespace {
+
+TEST(Battery, HoldsAtMostItsCapacityAndNeverLessThanNothing) {
+  Battery battery(50, 100);
+  battery.add(80);
+  EXPECT_EQ(battery.energy_j(), 100);
+  battery.add(-300);
+  EXPECT_EQ(battery.energy_j(), 0);
+}
+
+TEST(Battery, StaysFlatUntilAHundredthIsThereAgain) {
+  Battery battery(1, 100);
+  EXPECT_FALSE(battery.flat());
+  battery.add(-1);
+  EXPECT_TRUE(battery.flat());
+  battery.add(0.9);
+  EXPECT_TRUE(battery.flat());
+  battery.add(0.2);
+  EXPECT_FALSE(battery.flat());
+}
+
+TEST(Battery, SunIsHighestAtNoonAndGoneAtNight) {
+  PowerParameters power;
+  power.solar_peak_w = 40;
+  EXPECT_DOUBLE_EQ(solar_power_w(power, seconds(power.solar_noon_s)), 40);
+  EXPECT_EQ(solar_power_w(power, seconds(power.solar_noon_s + power.day_s / 2)), 0);
+}
+
+TEST(WorldEnergy, NeverRisesWithoutSun) {
+  Flight run(flat_setup());
+  run.drive(seconds(5), "d", "there", 40, 30);
+  run.command(seconds(600), execute("i", "camera", "image", {{"image", "one"}}));
+  run.advance(seconds(1000));
+  run.command(seconds(1001), execute("t", "radio", "send", {{"image", "one"}}));
+  run.advance(seconds(3000));
+  ASSERT_EQ(run.stage("t"), Stage::completed);
+  double last = 1e9;
+  for (const Output& output : run.said) {
+    const auto* seen = std::get_if<Observed>(&output);
+    if (!seen || seen->timeline != "rover.battery") continue;
+    const double energy = std::get<double>(seen->value);
+    EXPECT_LT(energy, last);
+    last = energy;
+  }
+}
+
+TEST(WorldEnergy, IdlePowerIsWhatARestingRobotUses) {
+  Flight run(flat_setup());
+  run.advance(seconds(6000));
+  EXPECT_NEAR(last_number(run.said, "rover.battery"), 500000 - 6000 * PowerParameters{}.idle_w, 1);
+}
+
+TEST(WorldEnergy, RisesInTheSun) {
+  FlatSetup setup = flat_setup();
+  setup.robot.power.solar_peak_w = 100;
+  setup.robot.power.solar_noon_s = 3000;
+  Flight run(setup);
+  run.advance(seconds(6000));
+  EXPECT_GT(last_number(run.said, "rover.battery"), 500000 + 6000 * 70.0);
+}
+
+TEST(WorldEnergy, AFlatBatteryFailsWhatRunsAndWhatComes) {
+  FlatSetup setup = flat_setup();
+  setup.robot.battery_j = 5000;  // about a minute of driving
+  Flight run(setup);
+  run.drive(seconds(1), "d", "there", 100, 20);
+  Time now{};
+  while (run.stage("d") == Stage::accepted) {
+    now = run.world.next_change().value();
+    run.advance(now);
+  }
+  EXPECT_EQ(run.time_of("d"), now) << "the change was announced in time";
+  EXPECT_EQ(run.stage("d"), Stage::failed);
+  EXPECT_EQ(run.code("d"), "battery-flat");
+  EXPECT_LT(run.time_of("d"), seconds(90));
+  EXPECT_EQ(run.state("rover.nav"), (State{"idle-at", {"here"}}));
+  run.command(now + seconds(1), execute("i", "camera", "image", {{"image", "one"}}));
+  EXPECT_EQ(run.code("i"), "battery-flat");
+}
+
+TEST(WorldEnergy, LossAtOnceIsNoticed) {
+  Flight run(flat_setup());
+  run.drive(seconds(1), "d", "there", 100, 20);
+  run.disturb(seconds(10), EnergyLoss{"rover", 1e9});
+  EXPECT_EQ(run.code("d"), "battery-flat");
+  EXPECT_EQ(run.time_of("d"), seconds(10));
+}
+
+}  // namespace
+}  // namespace roci::sim::world
