@@ -117,6 +117,7 @@ class Mutant:
             if "program" in self.entry:
                 programs = self.programs_with(changed)
                 code, output = run([str(plain), filter_word], TEST_SECONDS, self.folder, limited, {"ROCI_BIN": programs})
+                shutil.rmtree(programs)
             else:
                 mutated = self.link(self.entry["target"], "tests/", changed,
                                     self.folder.with_name(f"{self.folder.name}-{self.entry['target']}"))
