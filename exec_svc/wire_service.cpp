@@ -164,8 +164,8 @@ v1::PlanReceipt to_wire(const PlanReceipt& in, const std::string& executive) {
   out.executive(executive);
   out.version(in.version);
   out.refused(in.refused);
-  const bool both = !in.reason.empty() && !in.conflict.empty();
-  out.reason(in.reason + (both ? "; " : "") + in.conflict);
+  out.reason(in.reason);
+  out.conflict(in.conflict);
   out.open(in.open);
   return out;
 }

@@ -43,8 +43,7 @@ v1::CommandStage stage_of(Stage stage) {
 
 Request from_wire(const v1::Command& command) {
   Request request;
-  // Executives do not keep yet in which epoch they issued a key; they send the present one.
-  request.key = {command.activity(), command.attempt(), command.commander(), 0};
+  request.key = {command.activity(), command.attempt(), command.commander(), command.epoch()};
   request.action = action_of(command.action());
   request.epoch = command.sender_epoch();
   request.sender = command.header().sender();

@@ -20,7 +20,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 v1::Command command(const std::string& activity, v1::CommandAction action = v1::COMMAND_EXECUTE,
-                    const std::string& name = "bore", std::uint64_t epoch = 1) {
+                    const std::string& name = "bore", std::uint64_t epoch = 1, std::uint64_t issued = 1) {
   v1::Command out;
   out.activity(activity);
   out.attempt(1);
@@ -28,7 +28,7 @@ v1::Command command(const std::string& activity, v1::CommandAction action = v1::
   out.owner("drill");
   out.subsystem("drill");
   out.command_name(name);
-  out.epoch(epoch);
+  out.epoch(issued);
   out.sender_epoch(epoch);
   out.latest_end_us(-1);
   return out;
@@ -75,10 +75,11 @@ TEST(CommandServer, RejectsAndAnswersQueriesAndOldEpochs) {
                     {4s, command("a", v1::COMMAND_QUERY)},
                     {5s, command("d", v1::COMMAND_QUERY)},
                     {6s, command("a", v1::COMMAND_QUERY, "", 7)},
-                    {7s, command("a", v1::COMMAND_QUERY, "", 6)}}),
+                    {7s, command("a", v1::COMMAND_QUERY, "", 6)},
+                    {8s, command("a", v1::COMMAND_EXECUTE, "bore", 7, 7)}}),
               ElementsAre("1 a accepted", "2 b rejected busy", "3 c rejected unknown-command", "4 a accepted",
                           "5 d unknown unknown-key", "6 a accepted", "7 a rejected old-epoch",
-                          "41 a completed done"));
+                          "8 a rejected busy", "41 a completed done"));
 }
 
 TEST(CommandServer, CancelsAndStops) {
@@ -117,16 +118,21 @@ TEST(CommandServer, AfterItsLatestEndNothingIsRepaired) {
 TEST(CommandServer, TheKeyAndTheResultsGoOverTheWire) {
   v1::Command in = command("a");
   in.commander("exec_svc");
+  in.epoch(3);
+  in.sender_epoch(4);
   in.robot("scout");
   in.latest_end_us(7);
   const Request request = from_wire(in);
   EXPECT_EQ(request.key.commander, "exec_svc");
+  EXPECT_EQ(request.key.issued_epoch, 3u);
+  EXPECT_EQ(request.epoch, 4u);
   EXPECT_EQ(request.robot, "scout");
   EXPECT_EQ(request.latest_end, 7us);
   const Results results{3us, 2.5, {{"depth", 0.3}}};
   const v1::CommandAck out =
       to_wire({request.key, {Stage::completed, "done", "", results}, 9us, 4, true}, "drill");
   EXPECT_EQ(out.commander(), "exec_svc");
+  EXPECT_EQ(out.epoch(), 3u);
   EXPECT_EQ(out.newest_epoch(), 4u);
   EXPECT_TRUE(out.refused_epoch());
   EXPECT_EQ(out.outcome().duration_us(), 3);
