@@ -58,6 +58,24 @@ class SpoiltMission {
   fs::path folder_;
 };
 
+// What a unit of systemd starts: the service that the mission's list has under this name.
+TEST(Become, TheProcessTurnsIntoAServiceOfTheList) {
+  const fs::path folder = fs::temp_directory_path() / ("roci_become_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "mission.yaml") << "name: mine\nrobots: [scout]\nservices:\n"
+                                            "  - {name: left.drill, program: ./drill, robot: scout, arguments: [--bit, 3]}\n";
+  std::ofstream(folder / "drill") << "#!/bin/sh\necho \"$@\"\n";
+  fs::permissions(folder / "drill", fs::perms::owner_all);
+  const Ended ended = run("roci-launch " + folder.string() + " --become left.drill --clock live --epoch 5 2>&1");
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("--name left.drill"), HasSubstr("--robot scout"), HasSubstr("--bit 3"),
+                                  HasSubstr("--clock live"), HasSubstr("--epoch 5")));
+  const Ended wrong = run("roci-launch " + folder.string() + " --become drill --clock live 2>&1");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.output, HasSubstr("unknown service drill; this mission has: left.drill"));
+  fs::remove_all(folder);
+}
+
 struct Slip {
   const char* name;
   const char* file;
