@@ -1,5 +1,6 @@
 #include "exec_svc/executive/run_state.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace roci::exec::executive {
@@ -33,6 +34,21 @@ StepStatus RunState::status(Index activity) const {
           window.upper, run.started,  run.ended,   run.reason};
 }
 
+std::vector<temporal::Property> RunState::with_bound(Index activity,
+                                                     std::vector<temporal::Property> planned) const {
+  const auto found = bound.find(activity);
+  if (found == bound.end()) return planned;
+  for (const temporal::Property& argument : found->second) {
+    const auto same = std::ranges::find(planned, argument.name, &temporal::Property::name);
+    if (same == planned.end()) {
+      planned.push_back(argument);
+    } else {
+      same->value = argument.value;
+    }
+  }
+  return planned;
+}
+
 void RunState::change(Index activity, ActivityState state, std::string reason) {
   runs[activity].state = state;
   runs[activity].reason = std::move(reason);
@@ -55,13 +71,14 @@ void RunState::enter(Index activity, ActivityPhase phase, Time now) {
 void RunState::send(Index activity, CommandAction action) {
   const PlanActivity& planned = plan.activities[activity];
   ActivityRun& run = runs[activity];
-  if (run.issued != run.attempt) {  // what is sent again, or asked after a restart, keeps the key of its issue
+  if (run.issued !=
+      run.attempt) {  // what is sent again, or asked after a restart, keeps the key of its issue
     run.issued = run.attempt;
     run.epoch = epoch;
   }
   outputs.commands.push_back({action, planned.id, run.attempt, planned.owner, planned.subsystem,
-                              planned.command_name, planned.arguments, points.duration(activity).lower,
-                              run.epoch, temporal::no_bound, planned.robot});
+                              planned.command_name, with_bound(activity, planned.arguments),
+                              points.duration(activity).lower, run.epoch, temporal::no_bound, planned.robot});
 }
 
 void RunState::close(Index activity, Time now, ActivityState state, const std::string& reason) {
