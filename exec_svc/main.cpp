@@ -1,4 +1,7 @@
+#include <stdexcept>
+
 #include "exec_svc/exec_service.hpp"
+#include "exec_svc/journal/journal.hpp"
 #include "exec_svc/standby/pair_service.hpp"
 #include "services/process/service_main.hpp"
 
@@ -13,6 +16,16 @@ void run(const roci::services::process::ServiceOptions& options,
   }
 }
 
+// A journal that a newer version wrote is bad input: starting again mends nothing.
+void run_or_refuse(const roci::services::process::ServiceOptions& options,
+                   roci::services::process::StopSignals& signals) {
+  try {
+    run(options, signals);
+  } catch (const roci::exec::journal::NewerJournal& error) {
+    throw std::invalid_argument(error.what());
+  }
+}
+
 }  // namespace
 
-int main(int argc, char** argv) { return roci::services::process::service_main(argc, argv, "exec_svc", run); }
+int main(int argc, char** argv) { return roci::services::process::service_main(argc, argv, "exec_svc", run_or_refuse); }

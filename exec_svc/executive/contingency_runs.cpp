@@ -64,9 +64,10 @@ void ContingencyRuns::send(Index activity, CommandAction action) {
     record.epoch = state_->epoch;
     activity_of_[record.command_id] = activity;
   }
-  state_->outputs.commands.push_back({action, record.command_id, 1, command.owner, command.subsystem,
-                                      command.command_name, filled(command.arguments, state_->with_bound(activity, planned.arguments)),
-                                      temporal::Duration{0}, record.epoch});
+  state_->outputs.commands.push_back(
+      {action, record.command_id, 1, command.owner, command.subsystem, command.command_name,
+       filled(command.arguments, state_->with_bound(activity, planned.arguments)), temporal::Duration{0},
+       record.epoch});
 }
 
 bool ContingencyRuns::expects(const CommandAck& ack) const {

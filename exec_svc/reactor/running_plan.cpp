@@ -68,9 +68,15 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
   for (const StepStatus& step : done.changes) {
     conflict_monitor_.change(step.activity, step.state);
     if (step.state != temporal::ActivityState::waiting) resource_monitor_.remove(step.activity);
+    if (step.ended) resource_monitor_.settle(step.activity);
   }
-  for (const RecoveryStep& recovery : done.recoveries)
+  for (const RecoveryStep& recovery : done.recoveries) {
+    if (recovery.action == RecoveryAction::retry)
+      resource_monitor_.charge_again(recovery.activity, [this](const std::string& timeline) {
+        return state_->beliefs.lookup(timeline);
+      });
     state_->report(Severity::info, code_of(recovery.action), recovery.activity + ": " + recovery.reason);
+  }
   forward(std::move(done));
   if (!state_->out.steps.empty() && state_->phase == MissionPhase::executing) report_windows();
 }

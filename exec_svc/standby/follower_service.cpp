@@ -13,9 +13,10 @@ using journal::Journal;
 
 namespace topics = services::topics;
 
-FollowerService::FollowerService(services::Node& node, Lease& lease, Journal& journal,
+FollowerService::FollowerService(services::Node& node, std::string executive, Lease& lease, Journal& journal,
                                  PersistedTermFile& persisted_term)
     : node_(node),
+      executive_(std::move(executive)),
       lease_(&lease),
       journal_(&journal),
       persisted_term_(&persisted_term),
@@ -24,7 +25,9 @@ FollowerService::FollowerService(services::Node& node, Lease& lease, Journal& jo
       goals_(services::advertise(node, topics::goal)) {
   services::subscribe(node, topics::exec_member, [this](const v1::LeaseMessage& member) { hear(member); });
   services::subscribe(node, topics::exec_journal,
-                      [this](const v1::JournalChunk& chunk) { take(from_wire(chunk)); });
+                      [this](const v1::JournalChunk& chunk) {
+                        if (chunk.executive() == executive_) take(from_wire(chunk));
+                      });
   services::subscribe(node, topics::clock_step, [this](const v1::ClockStep& step) {
     over_ = over_ || step.last();
     if (over_) node_.stop();
@@ -33,6 +36,7 @@ FollowerService::FollowerService(services::Node& node, Lease& lease, Journal& jo
 }
 
 void FollowerService::hear(const v1::LeaseMessage& member) {
+  if (member.executive() != executive_) return;
   lease_->hear(from_wire(member), moment());
   turn();
 }
@@ -69,6 +73,6 @@ void FollowerService::turn() {
   node_.stop();
 }
 
-void FollowerService::say() { messages_.write(to_wire(lease_->message(copy_.has()), copy_.arrival())); }
+void FollowerService::say() { messages_.write(to_wire(lease_->message(copy_.has()), copy_.arrival(), executive_)); }
 
 }  // namespace roci::exec::standby

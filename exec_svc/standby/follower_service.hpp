@@ -15,8 +15,9 @@ namespace roci::exec::standby {
 
 class FollowerService {
  public:
-  /// On an observer's node, so that it stands outside the simulated clock. All outlive this.
-  FollowerService(services::Node& node, Lease& lease, journal::Journal& journal,
+  /// On an observer's node, so that it stands outside the simulated clock. All outlive this. `executive`:
+  /// logical name of the pair; what is said by and for another one is passed over.
+  FollowerService(services::Node& node, std::string executive, Lease& lease, journal::Journal& journal,
                   PersistedTermFile& persisted_term);
 
   /// Why this member leads, once it does; the node has been stopped then.
@@ -32,6 +33,7 @@ class FollowerService {
   void say();
 
   services::Node& node_;
+  std::string executive_;  ///< the logical name of the pair
   Lease* lease_;
   journal::Journal* journal_;
   PersistedTermFile* persisted_term_;

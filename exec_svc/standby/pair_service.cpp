@@ -137,7 +137,7 @@ class PairProcess {
     options.name += "." + options_.run.pair;
     options.clock = services::clock::ClockMode::observer;
     services::Node node(options, std::move(transport));
-    FollowerService following(node, lease, journal_, persisted_term_);
+    FollowerService following(node, options_.node.name, lease, journal_, persisted_term_);
     node.on_turn([this] { watchdog_.notify(); });
     const InterruptibleNode reach(stop_, node);
     node.run();
@@ -154,7 +154,7 @@ class PairProcess {
     services::Node node(options, std::move(transport));
     node.on_turn([this] { watchdog_.notify(); });
     try {
-      LeaderService leading(node, lease, journal_, persisted_term_);
+      LeaderService leading(node, options_.node.name, lease, journal_, persisted_term_);
       const auto executive = make_executive(node, options_.run, journal_, leading, turn.doubtful);
       const InterruptibleNode reach(stop_, node);
       node.run();
