@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "exec_svc/decision_link_service.hpp"
 #include "exec_svc/engine_link_service.hpp"
 #include "exec_svc/journal/crash_points.hpp"
 #include "exec_svc/journal/journal.hpp"
@@ -31,7 +32,9 @@ using journal::JournaledReactor;
 using journal::Recovery;
 using mission::MissionModel;
 using mission::read_mission;
+using reactor::DecisionRecord;
 using reactor::Event;
+using reactor::GivenAnswer;
 using reactor::PlanReply;
 using reactor::PlanRequest;
 using reactor::Reactor;
@@ -73,7 +76,10 @@ class ExecService final : public services::Service {
         reactor_(mission_, journal_, doubtful),
         crash_(crash_points(node)),
         planner_(node, topics::plan_request),
-        publisher_(node, mission_, epoch, crash_) {
+        publisher_(node, mission_, epoch, crash_),
+        decisions_(node, [this](GivenAnswer answer, std::string line) {
+          take(std::move(answer), std::move(line));
+        }) {
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
     if (reactor_.reactor().plans_continuously()) {
       engine_.emplace(
@@ -117,6 +123,7 @@ class ExecService final : public services::Service {
     publisher_.send_goals(reactor);
     if (!recovery.resumed) return report_divergence(*recovery.divergence);
     publisher_.send_plan(reactor);
+    decisions_.tell(reactor);
     if (engine_) engine_->tell(reactor.receipt());
     for (const Event& event : recovery.last_events) publisher_.report(event);
     missed_ = journal_.peers();
@@ -186,6 +193,12 @@ class ExecService final : public services::Service {
     step_soon();
   }
 
+  void take(GivenAnswer answer, std::string line) {
+    inputs_.answers.push_back(std::move(answer));
+    seen_.push_back(std::move(line));
+    step_soon();
+  }
+
   void step_soon() {
     if (step_due_) return;
     step_due_ = true;
@@ -221,6 +234,11 @@ class ExecService final : public services::Service {
 
   void send(const ReactorOutputs& out, std::uint32_t version) {
     publisher_.send(out, version);
+    decisions_.send(out);
+    const auto is_open = [](const DecisionRecord& decision) {
+      return decision.status.state == executive::DecisionState::open;
+    };
+    if (std::ranges::any_of(out.decisions, is_open)) crash_.pass("after-question");
     if (leader_ != nullptr)
       for (const Event& event : leader_->take_events()) publisher_.report(event);
     if (out.cancelled_call && call_.id == *out.cancelled_call) planner_.cancel(call_.sent);
@@ -238,7 +256,8 @@ class ExecService final : public services::Service {
   void take(std::uint64_t call, const services::CallResult<v1::PlanReply>& result) {
     PlanReply reply;
     reply.call = call;
-    reply.verdict = result.status == services::rpc::CallStatus::cancelled ? Verdict::cancelled : Verdict::no_reply;
+    reply.verdict =
+        result.status == services::rpc::CallStatus::cancelled ? Verdict::cancelled : Verdict::no_reply;
     reply.reason = result.reason;
     if (result.status == services::rpc::CallStatus::ok) {
       slowest_call_s_ = std::max(slowest_call_s_, result.reply.statistics().wall_s());
@@ -282,10 +301,11 @@ class ExecService final : public services::Service {
   std::optional<EngineLink> engine_;  // one that plans all the time
   services::Client<v1::PlanRequest, v1::PlanReply> planner_;
   struct {
-    std::uint64_t id = 0;       // the reactor's
+    std::uint64_t id = 0;            // the reactor's
     services::rpc::CallId sent = 0;  // the wire's
-  } call_;                      // the last one
+  } call_;                           // the last one
   OutputPublisher publisher_;
+  DecisionLink decisions_;
 };
 
 // With a journal of its own.
@@ -293,7 +313,8 @@ class LoneExecutive final : public services::Service {
  public:
   LoneExecutive(Node& node, const services::RunSettings& settings)
       : journal_(settings.run_folder / "journal.sqlite",
-                 node.options().clock == services::clock::ClockMode::live ? Durability::power : Durability::process),
+                 node.options().clock == services::clock::ClockMode::live ? Durability::power
+                                                                          : Durability::process),
         executive_(node, settings, journal_, journal_.next_epoch(), nullptr, false) {}
 
  private:

@@ -12,9 +12,9 @@ using temporal::to_text;
 namespace {
 
 std::vector<temporal::Property> filled(std::vector<temporal::Property> arguments,
-                                       const PlanActivity& failed) {
+                                       const std::vector<temporal::Property>& of_failed) {
   for (temporal::Property& argument : arguments)
-    for (const temporal::Property& known : failed.arguments)
+    for (const temporal::Property& known : of_failed)
       if (argument.value == "{" + known.name + "}") argument.value = known.value;
   return arguments;
 }
@@ -64,9 +64,10 @@ void ContingencyRuns::send(Index activity, CommandAction action) {
     record.epoch = state_->epoch;
     activity_of_[record.command_id] = activity;
   }
-  state_->outputs.commands.push_back({action, record.command_id, 1, command.owner, command.subsystem,
-                                      command.command_name, filled(command.arguments, planned),
-                                      temporal::Duration{0}, record.epoch});
+  state_->outputs.commands.push_back(
+      {action, record.command_id, 1, command.owner, command.subsystem, command.command_name,
+       filled(command.arguments, state_->with_bound(activity, planned.arguments)), temporal::Duration{0},
+       record.epoch});
 }
 
 bool ContingencyRuns::expects(const CommandAck& ack) const {

@@ -24,6 +24,16 @@ struct Executive::Impl {
     now = std::max(now, time);
     store.advance(now);
   }
+
+  std::vector<AnswerResult> take_answers(const std::vector<DecisionAnswer>& given) {
+    std::vector<AnswerResult> results;
+    for (const DecisionAnswer& answer : given) {
+      results.push_back(run ? run->take_answer(answer, now)
+                            : AnswerResult{AnswerOutcome::unknown_decision, "no plan runs"});
+      if (results.back().outcome != AnswerOutcome::taken) ++ignored_answers;
+    }
+    return results;
+  }
 };
 
 Executive::Executive(ExecutiveSettings settings) : impl_(std::make_unique<Impl>()) {
@@ -39,7 +49,7 @@ std::vector<std::string> Executive::load(temporal::FlexiblePlan plan, temporal::
   impl_->move_to(now);
   const std::unique_ptr<PlanRun> before = std::move(impl_->run);
   impl_->run = std::make_unique<PlanRun>(std::move(plan), impl_->settings, impl_->store, impl_->epoch);
-  if (before) impl_->run->adopt(*before);
+  if (before) impl_->run->adopt(*before, impl_->now);
   return {};
 }
 
@@ -52,12 +62,13 @@ Outputs Executive::step(temporal::Time now, const Inputs& inputs) {
   if (inputs.epoch != 0 && run) run->begin_epoch(inputs.epoch);
   for (const CommandAck& ack : inputs.acks)
     if (!run || !run->take_ack(ack, impl_->now)) ++impl_->ignored_acks;
-  for (const DecisionAnswer& answer : inputs.answers)
-    if (!run || !run->take_answer(answer, impl_->now)) ++impl_->ignored_answers;
-  if (!run) return {};
+  std::vector<AnswerResult> answers = impl_->take_answers(inputs.answers);
+  if (!run) return {.answers = std::move(answers)};
   for (const std::string& owner : inputs.lost_owners) run->lose_owner(owner, impl_->now);
   run->advance(impl_->now);
-  return run->take_outputs(impl_->now);
+  Outputs outputs = run->take_outputs(impl_->now);
+  outputs.answers = std::move(answers);
+  return outputs;
 }
 
 Outputs Executive::resume(temporal::Time now) {

@@ -15,4 +15,13 @@ void fields(A& a, archive::Of<CommandAck, A>& v) {
   a(v.activity, v.attempt, v.stage, v.code, v.reason, v.epoch);
 }
 
+template <class A>
+void fields(A& a, archive::Of<AnswerResult, A>& v) {
+  a(v.outcome, v.reason);
+}
+template <class A>
+void fields(A& a, archive::Of<DecisionStatus, A>& v) {
+  a(v.decision, v.resolver, v.choices, v.admissible, v.answer_before, v.state, v.chosen, v.answered_by);
+}
+
 }  // namespace roci::exec::executive

@@ -32,9 +32,27 @@ struct CommandAck {
   std::uint64_t epoch = 0;  ///< in which the command was issued; 0: not told, any fits
 };
 
+/// An answer to an open decision of the plan.
 struct DecisionAnswer {
   std::string decision;
-  std::string choice;
+  std::string choice;    ///< one of the decision's choices; or
+  std::string value{};   ///< for the arguments that the decision binds
+  std::string issuer{};  ///< who gave it
+};
+
+/// What became of an answer, in the order of AnswerOutcome in idl/order.idl.
+enum class AnswerOutcome {
+  taken,
+  late,              ///< its time has passed, or the plan no longer asks
+  repeated,          ///< the decision was answered before, or this very answer was given before
+  unknown_decision,  ///< nobody asks for it
+  unknown_choice,    ///< it has no such choice, or does not admit the value
+  not_entitled,      ///< somebody else is asked
+};
+
+struct AnswerResult {
+  AnswerOutcome outcome = AnswerOutcome::taken;
+  std::string reason{};  ///< in plain words; empty: it was taken
 };
 
 /// What happened since the last step. Each list is in the order of events.
@@ -73,11 +91,26 @@ struct StepStatus {
   std::string reason;  ///< why it is in this state, where that is not obvious
 };
 
-struct DecisionRequest {
+/// How far a decision that was asked for has come, in the order of DecisionState in idl/order.idl.
+enum class DecisionState {
+  open,
+  answered,
+  missed,  ///< no answer came in time, and the plan is broken
+  void_,   ///< the plan ended, or another one took its place, before it was answered
+};
+
+/// A decision that was asked for. It is told when it is asked for and when its state changes.
+struct DecisionStatus {
   std::string decision;
-  std::string resolver;
+  std::string
+      resolver;  ///< who is asked: a service, an engine, an issuer; "rule": the choices' own conditions
   std::vector<std::string> choices;
-  temporal::Time answer_before = temporal::no_bound;  ///< later answers are ignored
+  std::vector<std::string> admissible;                ///< values that may be bound; empty: any
+  temporal::Time answer_before = temporal::no_bound;  ///< a later answer is late
+  DecisionState state = DecisionState::open;
+  std::string chosen{};       ///< the choice or the value
+  std::string answered_by{};  ///< who gave the answer that was taken
+  friend bool operator==(const DecisionStatus&, const DecisionStatus&) = default;
 };
 
 /// What is done about a step that cannot start or fails, and needs no planner; cheapest first.
@@ -125,9 +158,10 @@ struct Outcome {
 };
 
 struct Outputs {
-  std::vector<Command> commands{};    ///< in the order of sending
-  std::vector<StepStatus> changes{};  ///< every change of state, in the order of events
-  std::vector<DecisionRequest> decision_requests{};
+  std::vector<Command> commands{};          ///< in the order of sending
+  std::vector<StepStatus> changes{};        ///< every change of state, in the order of events
+  std::vector<DecisionStatus> decisions{};  ///< every change of state, in the order of events
+  std::vector<AnswerResult> answers{};      ///< of the step's answers, in their order
   std::vector<RecoveryStep> recoveries{};
   Outcome outcome{};                          ///< after this step
   std::optional<temporal::Time> next_wake{};  ///< step again then, if nothing happens before

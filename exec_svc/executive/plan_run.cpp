@@ -14,7 +14,7 @@ PlanRun::PlanRun(temporal::FlexiblePlan plan, const ExecutiveSettings& settings,
                  std::uint64_t epoch)
     : state_(std::move(plan), settings, store, epoch) {}
 
-void PlanRun::adopt(PlanRun& before) {
+void PlanRun::adopt(PlanRun& before, Time now) {
   withdraw_what_is_gone(before);
   std::vector<std::pair<Time, TimePoint>> events;
   for (Index i = 0; i < state_.runs.size(); ++i) {
@@ -35,6 +35,7 @@ void PlanRun::adopt(PlanRun& before) {
     if (run.started) events.emplace_back(*run.started, planned.start_point);
     if (run.ended) events.emplace_back(*run.ended, planned.end_point);
   }
+  decisions_.inherit(before.decisions_, now);
   std::sort(events.begin(), events.end());
   for (const auto& [at, point] : events) state_.points.happen(point, at);
   state_.outputs.commands = std::move(before.state_.outputs.commands);
@@ -67,6 +68,7 @@ void PlanRun::advance(Time now) {
     progress = dispatch_.expire_waits(now) || progress;
   }
   state_.update_outcome();
+  decisions_.close();
 }
 
 void PlanRun::cancel_all(Time now) {
@@ -74,6 +76,7 @@ void PlanRun::cancel_all(Time now) {
   state_.outcome.kind = OutcomeKind::cancelling;
   exchange_.withdraw_all(now);
   state_.update_outcome();
+  decisions_.close();
 }
 
 Outputs PlanRun::take_outputs(Time now) {

@@ -28,11 +28,11 @@ class PlanRun {
 
   /// Takes over from the run before what was started and stands in this plan too; the rest of it is
   /// cancelled.
-  void adopt(PlanRun& before);
+  void adopt(PlanRun& before, temporal::Time now);
 
   /// False: nothing that matches is awaited.
   bool take_ack(const CommandAck& ack, temporal::Time now) { return exchange_.take_ack(ack, now); }
-  bool take_answer(const DecisionAnswer& answer, temporal::Time now) {
+  AnswerResult take_answer(const DecisionAnswer& answer, temporal::Time now) {
     return decisions_.take_answer(answer, now);
   }
   void lose_owner(const std::string& owner, temporal::Time now) { exchange_.lose_owner(owner, now); }

@@ -36,6 +36,29 @@ StepStatus RunState::status(Index activity) const {
           window.upper, run.started,  run.ended,   run.reason};
 }
 
+std::vector<temporal::Property> RunState::with_bound(Index activity,
+                                                     std::vector<temporal::Property> planned) const {
+  const auto found = bound.find(activity);
+  if (found == bound.end()) return planned;
+  const PlanActivity& whole = plan.activities[activity];
+  const auto place_in = [](auto& arguments, const std::string& name) {
+    return std::ranges::find(arguments, name, &temporal::Property::name);
+  };
+  for (const temporal::Property& argument : found->second) {
+    const auto same = place_in(planned, argument.name);
+    const bool nowhere = place_in(whole.arguments, argument.name) == whole.arguments.end() &&
+                         std::ranges::none_of(whole.then, [&](const temporal::PlanCommand& next) {
+                           return place_in(next.arguments, argument.name) != next.arguments.end();
+                         });
+    if (same != planned.end()) {
+      same->value = argument.value;
+    } else if (nowhere && planned == whole.arguments) {
+      planned.push_back(argument);
+    }
+  }
+  return planned;
+}
+
 void RunState::change(Index activity, ActivityState state, std::string reason) {
   runs[activity].state = state;
   runs[activity].reason = std::move(reason);
@@ -58,14 +81,15 @@ void RunState::enter(Index activity, ActivityPhase phase, Time now) {
 void RunState::send(Index activity, CommandAction action) {
   const PlanActivity& planned = plan.activities[activity];
   ActivityRun& run = runs[activity];
-  if (run.issued != run.attempt) {  // what is sent again, or asked after a restart, keeps the key of its issue
+  if (run.issued !=
+      run.attempt) {  // what is sent again, or asked after a restart, keeps the key of its issue
     run.issued = run.attempt;
     run.epoch = epoch;
   }
   const CommandOf sent = command(activity);
   outputs.commands.push_back({action, planned.id, run.attempt, sent.owner, sent.subsystem, sent.command_name,
-                              sent.arguments, points.duration(activity).lower, run.epoch,
-                              run.latest_end, sent.robot});
+                              with_bound(activity, sent.arguments), points.duration(activity).lower,
+                              run.epoch, run.latest_end, sent.robot});
 }
 
 CommandOf RunState::command(Index activity) const {
@@ -76,11 +100,17 @@ CommandOf RunState::command(Index activity) const {
     return temporal::bounded(own) ? own : settings.ack_timeout;
   };
   if (number == 0)
-    return {planned.owner,     planned.robot, planned.subsystem, planned.command_name, planned.arguments,
-            within(planned.answer_within), last};
+    return {planned.owner,
+            planned.robot,
+            planned.subsystem,
+            planned.command_name,
+            planned.arguments,
+            within(planned.answer_within),
+            last};
   const temporal::PlanCommand& next = planned.then[number - 1];
-  return {next.owner, next.robot, next.subsystem, next.command_name, next.arguments, within(next.answer_within),
-          last};
+  return {
+      next.owner, next.robot, next.subsystem, next.command_name, next.arguments, within(next.answer_within),
+      last};
 }
 
 std::vector<TimePoint> RunState::ready_points() const {

@@ -43,9 +43,10 @@ struct RunState {
   PointDispatcher points;
   std::vector<ActivityRun> runs;
   std::unordered_map<std::string, Index> index_of;
-  std::set<Index> active;   ///< started and not ended
-  std::size_t unfinished;   ///< activities that are not done
-  Index first_waiting = 0;  ///< none before it waits any more
+  std::unordered_map<Index, std::vector<temporal::Property>> bound;  ///< arguments that decisions have bound
+  std::set<Index> active;                                            ///< started and not ended
+  std::size_t unfinished;                                            ///< activities that are not done
+  Index first_waiting = 0;                                           ///< none before it waits any more
   Outcome outcome;
   Outputs outputs;  ///< since they were taken last
 
@@ -53,6 +54,10 @@ struct RunState {
   bool starting() const { return outcome.kind == OutcomeKind::running; }
   temporal::Lookup lookup() const;
   StepStatus status(Index activity) const;
+
+  /// The arguments of a command of the activity, `planned`, with those that decisions have bound: in each
+  /// command that has an argument of that name, else in the first one.
+  std::vector<temporal::Property> with_bound(Index activity, std::vector<temporal::Property> planned) const;
 
   /// The activity's state as everybody sees it. Every change is told.
   void change(Index activity, temporal::ActivityState state, std::string reason);

@@ -12,7 +12,7 @@
 namespace roci::exec::journal {
 
 /// In the order of one turn.
-inline constexpr std::array<std::string_view, 8> kCrashPoints{
+inline constexpr std::array<std::string_view, 9> kCrashPoints{
     "after-goal",          ///< a goal came in
     "after-ack",           ///< the owner answered a command: it has been carried out, or is
     "after-answer",        ///< the planner answered
@@ -20,6 +20,7 @@ inline constexpr std::array<std::string_view, 8> kCrashPoints{
     "after-write-ahead",   ///< inputs and decisions are durable, nothing was sent
     "after-copy",          ///< the follower has them too (exec_svc/standby), nothing was sent
     "during-send",         ///< between two samples sent
+    "after-question",      ///< a decision was asked for, nobody has answered it
     "after-send",          ///< everything was sent, no effect seen
 };
 

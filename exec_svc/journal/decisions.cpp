@@ -1,5 +1,7 @@
 #include "exec_svc/journal/decisions.hpp"
 
+#include <algorithm>
+#include <array>
 #include <sstream>
 
 namespace roci::exec::journal {
@@ -7,6 +9,8 @@ namespace roci::exec::journal {
 using executive::Command;
 using executive::StepStatus;
 using goals::GoalRecord;
+using reactor::AnswerReceipt;
+using reactor::DecisionRecord;
 using reactor::Event;
 using reactor::PlannedAction;
 using reactor::PlanReceipt;
@@ -53,6 +57,20 @@ std::string line_of(const PlanReceipt& receipt) {
          (receipt.open ? "" : " (no plan would be taken)");
 }
 
+std::string line_of(const DecisionRecord& decision) {
+  const executive::DecisionStatus& status = decision.status;
+  std::string out = "decision " + status.decision + " " + std::to_string(decision.plan_version) +
+                    " state=" + std::to_string(static_cast<int>(status.state)) + " of " + status.resolver +
+                    " before " + std::to_string(number(status.answer_before));
+  for (const std::string& choice : status.choices) out += " (" + choice + ")";
+  return status.answered_by.empty() ? out : out + " = " + status.chosen + " by " + status.answered_by;
+}
+
+std::string line_of(const AnswerReceipt& receipt) {
+  return "answered " + receipt.key.text() + " " + receipt.decision +
+         " outcome=" + std::to_string(static_cast<int>(receipt.result.outcome)) + " " + receipt.result.reason;
+}
+
 std::string line_of(const Command& command) {
   return "command " + command.activity + " " + std::to_string(command.attempt) +
          " action=" + std::to_string(static_cast<int>(command.action)) + " " + command.owner + " " +
@@ -79,6 +97,9 @@ std::vector<DecisionLine> decisions(temporal::Time now, const ReactorOutputs& ou
   for (const StepStatus& step : out.steps) lines.push_back({"step", line_of(step)});
   if (out.adopted) lines.push_back({"trace", stamp + line_of(*out.adopted)});
   for (const Command& command : out.commands) lines.push_back({"trace", stamp + line_of(command)});
+  for (const DecisionRecord& decision : out.decisions) lines.push_back({"trace", stamp + line_of(decision)});
+  for (const AnswerReceipt& receipt : out.answer_receipts)
+    lines.push_back({"trace", stamp + line_of(receipt)});
   if (out.cancelled_call) lines.push_back({"call", "cancel " + std::to_string(*out.cancelled_call)});
   if (out.call) {
     lines.push_back({"call", out.call->problem.text});
@@ -91,7 +112,8 @@ std::vector<DecisionLine> decisions(temporal::Time now, const ReactorOutputs& ou
 bool is_decision(std::string_view kind, std::string_view text) {
   if (kind == "trace") {
     text.remove_prefix(std::min(text.find(' '), text.size()));
-    return text.starts_with(" plan ") || text.starts_with(" command ");
+    constexpr std::array<std::string_view, 4> kDecided{" plan ", " command ", " decision ", " answered "};
+    return std::ranges::any_of(kDecided, [&](std::string_view word) { return text.starts_with(word); });
   }
   return kind == "goal" || kind == "event" || kind == "step" || kind == "call";
 }

@@ -23,8 +23,25 @@ void fields(A& a, archive::Of<PlanReply, A>& v) {
   a(v.call, v.verdict, v.reason, v.plan);
 }
 template <class A>
+void fields(A& a, archive::Of<IssuedKey, A>& v) {
+  a(v.issuer, v.id);
+}
+template <class A>
+void fields(A& a, archive::Of<GivenAnswer, A>& v) {
+  a(v.key, v.sample, v.decision, v.choice, v.value);
+}
+template <class A>
+void fields(A& a, archive::Of<DecisionRecord, A>& v) {
+  a(v.status, v.plan_version);
+}
+template <class A>
+void fields(A& a, archive::Of<AnswerReceipt, A>& v) {
+  a(v.key, v.answers, v.decision, v.result);
+}
+template <class A>
 void fields(A& a, archive::Of<ReactorInputs, A>& v) {
   a(v.restarted, v.epoch, v.goals, v.observations, v.acks, v.losses, v.arrivals, v.models, v.reply, v.deltas);
+  a(v.answers);
 }
 template <class A>
 void fields(A& a, archive::Of<PlannedAction, A>& v) {

@@ -55,9 +55,40 @@ struct PlanReceipt {
   bool operator==(const PlanReceipt&) const = default;
 };
 
+/// Who gave an answer or an order, under a name of the giver's choice.
+struct IssuedKey {
+  std::string issuer;
+  std::string id;
+  auto operator<=>(const IssuedKey&) const = default;
+  std::string text() const { return issuer + "/" + id; }
+};
+
+/// An answer to a decision, as it came in.
+struct GivenAnswer {
+  IssuedKey key;
+  goals::SampleId sample;
+  std::string decision;
+  std::string choice;  ///< one of its choices; or
+  std::string value;   ///< for the arguments that it binds
+};
+
+/// A decision that some plan has asked for.
+struct DecisionRecord {
+  executive::DecisionStatus status;
+  std::uint32_t plan_version = 0;  ///< that asked for it
+};
+
+/// What became of an answer.
+struct AnswerReceipt {
+  IssuedKey key;
+  goals::SampleId answers;  ///< the sample that brought it
+  std::string decision;
+  executive::AnswerResult result;
+};
+
 /// What happened since the last step. Each list is in the order of events.
 struct ReactorInputs {
-  bool restarted = false;  ///< the executive was started anew and stands as before; its owners may not
+  bool restarted = false;   ///< the executive was started anew and stands as before; its owners may not
   std::uint64_t epoch = 0;  ///< of the executive from this step on; 0: as before
   std::vector<goals::GoalRequest> goals;
   std::vector<executive::Observation> observations;
@@ -67,6 +98,7 @@ struct ReactorInputs {
   std::vector<ModelVersion> models;
   std::optional<PlanReply> reply;
   std::vector<temporal::PlanDelta> deltas;  ///< of an engine that plans all the time
+  std::vector<GivenAnswer> answers;         ///< to decisions of the running plan
 };
 
 /// In the order of MissionPhase in idl/plan.idl.
@@ -100,7 +132,9 @@ struct ReactorOutputs {
   std::optional<PlanRequest> call;
   std::optional<temporal::FlexiblePlan> adopted;  ///< a plan that now runs
   std::optional<PlanReceipt> receipt;
-  std::optional<temporal::Time> wake;  ///< step() is to be called then, if nothing comes before
+  std::vector<DecisionRecord> decisions;       ///< those of which the state has changed
+  std::vector<AnswerReceipt> answer_receipts;  ///< one for each answer that was not known
+  std::optional<temporal::Time> wake;          ///< step() is to be called then, if nothing comes before
 };
 
 struct ReactorCounts {

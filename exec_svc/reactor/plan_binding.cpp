@@ -62,6 +62,20 @@ std::vector<std::string> goals_served(const std::vector<std::string>& objects, c
   return out;
 }
 
+/// Decisions of one plan and the next have different ids, as activities have.
+void rename_decisions(temporal::FlexiblePlan& plan, std::uint32_t version,
+                      const std::map<std::string, std::string>& new_ids) {
+  for (temporal::DecisionPoint& decision : plan.decisions) {
+    decision.id = "p" + std::to_string(version) + "." + decision.id;
+    for (temporal::DecisionChoice& choice : decision.choices)
+      for (std::string& id : choice.activities)
+        if (const auto renamed = new_ids.find(id); renamed != new_ids.end()) id = renamed->second;
+    for (temporal::ArgumentBinding& binding : decision.bindings)
+      if (const auto renamed = new_ids.find(binding.activity); renamed != new_ids.end())
+        binding.activity = renamed->second;
+  }
+}
+
 }  // namespace
 
 std::string bind_plan(temporal::FlexiblePlan& plan, std::uint32_t version, const MissionModel& mission,
@@ -70,6 +84,7 @@ std::string bind_plan(temporal::FlexiblePlan& plan, std::uint32_t version, const
   plan.version = version;
   plan.id = mission.name;
   std::size_t number = 0;
+  std::map<std::string, std::string> new_ids;
   for (temporal::PlanActivity& activity : plan.activities) {
     const auto found = mission.actions.find(activity.name);
     if (found == mission.actions.end()) {
@@ -78,7 +93,9 @@ std::string bind_plan(temporal::FlexiblePlan& plan, std::uint32_t version, const
     const ActionBinding& binding = found->second;
     std::vector<std::string> objects;
     for (const temporal::Property& argument : activity.arguments) objects.push_back(argument.value);
-    activity.id = "p" + std::to_string(version) + "." + std::to_string(++number) + "-" + activity.name;
+    std::string& new_id = new_ids[activity.id];
+    new_id = "p" + std::to_string(version) + "." + std::to_string(++number) + "-" + activity.name;
+    activity.id = new_id;
     activity.owner = binding.owner;
     activity.subsystem = binding.component;
     activity.command_name = binding.command;
@@ -102,6 +119,7 @@ std::string bind_plan(temporal::FlexiblePlan& plan, std::uint32_t version, const
     activity.maintenance = decidable(activity.maintenance, beliefs);
     activity.post = {};  // what an action achieves is seen by the goals and by the next action's conditions
   }
+  rename_decisions(plan, version, new_ids);
   return "";
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "exec_svc/reactor/decision_exchange.hpp"
 #include "exec_svc/reactor/inputs.hpp"
 #include "exec_svc/reactor/message_fields.hpp"
 #include "exec_svc/reactor/replanning_policy.hpp"
@@ -25,6 +26,7 @@ struct Reactor::Parts {
 
   MissionState state;
   RunningPlan plan{state};
+  DecisionExchange decisions;
   PlannerCall call{state};
   Safing safing{state, plan};
   PlanningCycle planning{state, plan, call, safing};
@@ -57,11 +59,14 @@ ReactorOutputs Reactor::step(Time now, const ReactorInputs& inputs) {
   parts_->call.note_models(inputs.models);
   if (take_goals(state, now, inputs.goals)) parts_->planning.keep_reserves();
   note_achieved(state);
+  parts_->plan.give_answers(parts_->decisions.admit(inputs.answers, state.out));
   parts_->plan.step(now, inputs);
+  parts_->decisions.note_results(parts_->plan.answer_results(), state.out);
   parts_->recovery.note_successes();
   if (inputs.restarted) resume(now);
   parts_->policy->step(now, inputs);
   finish_if_done();
+  parts_->decisions.note_changes(state.out.decisions);
   return std::move(state.out);
 }
 
@@ -110,6 +115,7 @@ template <class Archive, class Parts>
 void part_fields(Archive& archive, Parts& parts) {
   MissionState::fields(archive, parts.state);
   RunningPlan::fields(archive, parts.plan);
+  DecisionExchange::fields(archive, parts.decisions);
   PlannerCall::fields(archive, parts.call);
   Safing::fields(archive, parts.safing);
   PlanningCycle::fields(archive, parts.planning);
@@ -167,6 +173,12 @@ const PlanReceipt& Reactor::receipt() const {
   const PlanReceipt* receipt = parts_->policy->receipt();
   return receipt == nullptr ? kNone : *receipt;
 }
+
+const std::map<std::string, DecisionRecord>& Reactor::decisions() const {
+  return parts_->decisions.decisions();
+}
+
+std::vector<AnswerReceipt> Reactor::answer_receipts() const { return parts_->decisions.receipts(); }
 
 ReactorCounts Reactor::counts() const {
   ReactorCounts counts = parts_->state.counts;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -44,6 +45,9 @@ class Reactor {
   /// Whether its engine plans all the time; what that was told last (of nothing, if it does not).
   bool plans_continuously() const;
   const PlanReceipt& receipt() const;
+  /// The decisions that plans have asked for, and the newest receipt of each answer.
+  const std::map<std::string, DecisionRecord>& decisions() const;
+  std::vector<AnswerReceipt> answer_receipts() const;
   /// "achieved": every hard goal, and there was one (a console's goals that were rejected do not count:
   /// whoever sent them was told); "partial": some hard goal was not, robot safe; "failed": robot not safe;
   /// empty while open.

@@ -50,7 +50,9 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
   told.epoch = epoch_;
   told.acks = inputs.acks;
   for (const PeerLoss& loss : inputs.losses) told.lost_owners.push_back(loss.service);
+  told.answers = std::exchange(answers_, {});
   Outputs done = executive_.step(now, told);
+  answer_results_ = std::move(done.answers);
   for (const StepStatus& step : done.changes) {
     conflict_monitor_.change(step.activity, step.state);
     if (step.state != temporal::ActivityState::waiting) resource_monitor_.remove(step.activity);
@@ -109,6 +111,11 @@ void RunningPlan::begin(Time now) {
       for (const std::string& name : temporal::timelines_of(*condition)) condition_values_[name] = {};
     }
   }
+  for (const temporal::DecisionPoint& decision : executive_.plan().decisions) {
+    for (const temporal::DecisionChoice& choice : decision.choices) {
+      for (const std::string& name : temporal::timelines_of(choice.rule)) condition_values_[name] = {};
+    }
+  }
   state_->out.adopted = executive_.plan();
   reported_starts_.clear();
   report_windows();
@@ -163,6 +170,8 @@ void RunningPlan::forward(Outputs done) {
   ReactorOutputs& out = state_->out;
   std::move(done.commands.begin(), done.commands.end(), std::back_inserter(out.commands));
   std::move(done.changes.begin(), done.changes.end(), std::back_inserter(out.steps));
+  for (executive::DecisionStatus& decision : done.decisions)
+    out.decisions.push_back({std::move(decision), version_});
   if (done.next_wake) state_->wake_at(*done.next_wake);
 }
 

@@ -29,6 +29,10 @@ class RunningPlan {
   /// Tells the executive and the monitors what was observed and acknowledged, in every phase, so that cancels
   /// are answered and observations kept; forwards commands, steps and recoveries.
   void step(temporal::Time now, const ReactorInputs& inputs);
+  /// Answers to decisions, which the plan hears in its next step.
+  void give_answers(std::vector<executive::DecisionAnswer> answers) { answers_ = std::move(answers); }
+  /// What became of those that it heard in its last step, in their order.
+  const std::vector<executive::AnswerResult>& answer_results() const { return answer_results_; }
   /// Asks owners, after a restart, what became of all that runs.
   void resume(temporal::Time now);
   void cancel(temporal::Time now);
@@ -81,7 +85,9 @@ class RunningPlan {
   std::uint32_t version_ = 0;
   std::uint64_t epoch_ = 0;  // of the executive, as the inputs told last
   bool invalid_ = false;
-  std::vector<PlannedAction> planned_;  ///< of the last plan; after a restart what remained of it
+  std::vector<PlannedAction> planned_;              ///< of the last plan; after a restart what remained of it
+  std::vector<executive::DecisionAnswer> answers_;  ///< of the step to come
+  std::vector<executive::AnswerResult> answer_results_;  ///< of the last step
   ResourceMonitor resource_monitor_;
   ConflictMonitor conflict_monitor_;
   std::map<std::string, temporal::Time> reported_starts_;  ///< earliest starts as last reported, by activity

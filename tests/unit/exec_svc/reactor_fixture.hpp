@@ -42,7 +42,7 @@ inline temporal::FlexiblePlan images(const std::vector<std::string>& ids) {
 inline bool is_empty(const reactor::ReactorInputs& inputs) {
   return inputs.goals.empty() && inputs.observations.empty() && inputs.acks.empty() &&
          inputs.losses.empty() && inputs.arrivals.empty() && inputs.models.empty() && !inputs.reply &&
-         inputs.deltas.empty();
+         inputs.deltas.empty() && inputs.answers.empty();
 }
 
 class ReactorTest : public ::testing::Test {
@@ -97,6 +97,9 @@ class ReactorTest : public ::testing::Test {
         pending.reply->call = call.id;
       });
     }
+    for (const reactor::DecisionRecord& decision : out.decisions)
+      decisions.push_back({temporal::to_seconds(now), decision});
+    for (const reactor::AnswerReceipt& receipt : out.answer_receipts) receipts.push_back(receipt);
     for (const executive::Command& command : out.commands) obey(command);
   }
 
@@ -164,6 +167,8 @@ class ReactorTest : public ::testing::Test {
   std::vector<executive::Command> commands;
   std::vector<std::string> trace;
   std::map<std::string, std::string> reasons;
+  std::vector<std::pair<double, reactor::DecisionRecord>> decisions;  // as they changed, with their times
+  std::vector<reactor::AnswerReceipt> receipts;
 };
 
 }  // namespace roci::exec::testing

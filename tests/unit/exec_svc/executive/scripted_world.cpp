@@ -11,7 +11,8 @@ using executive::Breakage;
 using executive::Command;
 using executive::CommandAction;
 using executive::CommandStage;
-using executive::DecisionRequest;
+using executive::DecisionState;
+using executive::DecisionStatus;
 using executive::ExecutiveSettings;
 using executive::Inputs;
 using executive::OutcomeKind;
@@ -117,7 +118,8 @@ void ScriptedWorld::note(const Outputs& outputs) {
   for (const RecoveryStep& recovery : outputs.recoveries)
     recoveries.push_back(at + std::string(to_string(recovery.action)) + " " + recovery.activity + ": " +
                          recovery.reason);
-  for (const DecisionRequest& request : outputs.decision_requests) {
+  for (const DecisionStatus& request : outputs.decisions) {
+    if (request.state != DecisionState::open) continue;
     std::string line = at + "ask " + request.resolver + ": " + request.decision + "?";
     for (const std::string& choice : request.choices) line += " " + choice;
     trace.push_back(line);
