@@ -37,13 +37,14 @@ class FallbackTest : public ReactorTest, public ::testing::WithParamInterface<Ac
 // R43, R44: planning begins only from inactive states, and the way there is each component's own command.
 TEST_P(FallbackTest, BeforePlanningAnActiveComponentFallsBack) {
   const std::string timeline = std::string("rover.") + GetParam().component;
+  for (Component& component : mission.components) component.fallback = "rest-" + component.name;
   ReactorInputs inputs = robot_and({photo("a")});
   inputs.observations.push_back({timeline, GetParam().seen});
   run(10, std::move(inputs));
   ASSERT_EQ(commands.size(), 1U);
   EXPECT_EQ(commands[0].owner, "sim_svc");
   EXPECT_EQ(commands[0].subsystem, GetParam().component);
-  EXPECT_EQ(commands[0].command_name, "stop");
+  EXPECT_EQ(commands[0].command_name, std::string("rest-") + GetParam().component);
   EXPECT_THAT(trace, Not(Contains("call")));
   ReactorInputs stopped;
   stopped.observations = {{timeline, GetParam().rest}};

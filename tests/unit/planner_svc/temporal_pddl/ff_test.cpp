@@ -61,6 +61,28 @@ TEST_F(Ff, InitialStateNeedsAllThree) {
   EXPECT_THAT(estimate_.preferred, UnorderedElementsAre(start("(a)"), start("(c)")));
 }
 
+// R16: the start of b asks for s, which e brings about in 7 s; that of f brings its own invariant about.
+TEST(FfInvariants, AStartAsksForThoseThatItDoesNotBringAbout) {
+  constexpr const char* domain = R"(
+    (:requirements :durative-actions)
+    (:predicates (s) (t) (g) (h))
+    (:durative-action e :parameters () :duration (= ?duration 7) :condition () :effect (at end (s)))
+    (:durative-action b :parameters () :duration (= ?duration 2) :condition (over all (s)) :effect (at end (g)))
+    (:durative-action f :parameters () :duration (= ?duration 1) :condition (over all (t))
+      :effect (and (at start (t)) (at end (h))))
+  )";
+  const auto cost = [&](const char* goal) {
+    const Task task = testing::grounded(testing::model(domain, std::string("(:init) (:goal ") + goal + ")")).task;
+    FfHeuristic heuristic(task);
+    Estimate estimate;
+    const std::vector<Word> state = task.initial_state;
+    heuristic.evaluate({state, {}, 0, nullptr, {}, {}}, estimate);
+    return estimate.cost;
+  };
+  EXPECT_EQ(cost("(g)"), 9'000'000);
+  EXPECT_EQ(cost("(h)"), 1'000'000);
+}
+
 TEST_F(Ff, ARunningActionOnlyHasToEnd) {
   task_.layout.add(state_, fact(task_, "(q)"));
   evaluate({"(a)"});
