@@ -1,13 +1,12 @@
 #include "planner_svc/settings.hpp"
 
-#include "core/mission/entry.hpp"
-#include "core/mission/scenario.hpp"
+#include "core/mission/mission_file.hpp"
 
 namespace roci::planner {
 
 Settings read_settings(const std::filesystem::path& mission) {
   Settings out;
-  const auto planner = roci::mission::Entry::load(roci::mission::mission_file(mission)).find("planner");
+  const auto planner = roci::mission::load_mission_file(mission).find("planner");
   if (!planner) return out;
   out.function_timeout = temporal::seconds(planner->number_or("function_timeout_s", 20));
   if (const auto simulated = planner->find("simulated")) {
