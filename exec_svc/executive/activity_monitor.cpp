@@ -58,9 +58,10 @@ bool ActivityMonitor::check_command(Index activity, Time now) {
                               "cancel not answered within " + to_text(settings.cancel_timeout));
     return true;
   }
-  if (age < settings.ack_timeout) return false;
+  const CommandOf command = state_->command(activity);
+  if (age < command.answer_within) return false;
   const std::string reason =
-      "command not answered by " + planned.owner + " within " + to_text(settings.ack_timeout);
+      "command not answered by " + command.owner + " within " + to_text(command.answer_within);
   if (run.retries_used < planned.retries && state_->starting()) {
     attempts_->cancel(activity, now, AfterCancel::retry, reason);
   } else {

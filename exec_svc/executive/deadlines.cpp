@@ -36,6 +36,8 @@ Time Deadlines::hung_after(Index activity) const {
   return plus(state_->runs[activity].attempt_started, plus(stretched, settings.overrun_grace));
 }
 
+Time Deadlines::latest_end(Index activity) const { return std::min(end(activity), hung_after(activity)); }
+
 Time Deadlines::settled_from(Index activity) const {
   const PlanActivity& planned = state_->plan.activities[activity];
   const ActivityRun& run = state_->runs[activity];
@@ -54,7 +56,7 @@ Time Deadlines::next_timer(Index activity, Time now) const {
   }
   Time next = plus(end(activity), Duration{1});
   if (!planned.owner.empty()) next = std::min(next, hung_after(activity));
-  if (run.phase == ActivityPhase::sent) next = std::min(next, run.phase_since + settings.ack_timeout);
+  if (run.phase == ActivityPhase::sent) next = std::min(next, run.phase_since + state_->command(activity).answer_within);
   if (!planned.maintenance.empty() && !run.maintenance_held)
     next = std::min(next, run.attempt_started + settings.settle_time);
   return next;

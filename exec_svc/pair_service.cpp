@@ -1,4 +1,4 @@
-#include "exec_svc/standby/pair_service.hpp"
+#include "exec_svc/pair_service.hpp"
 
 #include <chrono>
 #include <condition_variable>
@@ -11,18 +11,29 @@
 #include "exec_svc/standby/follower_service.hpp"
 #include "exec_svc/standby/leader_service.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
+#include "exec_svc/wire_service.hpp"
 #include "services/health/watchdog_notifier.hpp"
 #include "services/log/log.hpp"
 #include "services/node.hpp"
 #include "services/process/service_options.hpp"
 #include "services/process/stop_signals.hpp"
+#include "services/publisher.hpp"
 #include "services/transport/transport.hpp"
 
-namespace roci::exec::standby {
+namespace roci::exec {
 
 using journal::Durability;
 using journal::Journal;
 using mission::read_mission;
+using standby::FollowerService;
+using standby::LeaderService;
+using standby::Lease;
+using standby::LeaseSettings;
+using standby::Member;
+using standby::member_of;
+using standby::moment;
+using standby::PersistedTermFile;
+using standby::StandDown;
 
 namespace {
 
@@ -141,7 +152,9 @@ class PairProcess {
     options.name += "." + options_.run.pair;
     options.clock = services::clock::ClockMode::observer;
     services::Node node(options, std::move(transport));
-    FollowerService following(node, lease, journal_, persisted_term_);
+    const auto goals = services::advertise(node, services::topics::goal);
+    FollowerService following(node, options_.node.name, lease, journal_, persisted_term_,
+                              [&goals](const goals::GoalRequest& goal) { goals.write(to_wire(goal)); });
     node.on_turn([this] { watchdog_.notify(); });
     const InterruptibleNode reach(stop_, node);
     node.run();
@@ -158,7 +171,7 @@ class PairProcess {
     services::Node node(options, std::move(transport));
     node.on_turn([this] { watchdog_.notify(); });
     try {
-      LeaderService leading(node, lease, journal_, persisted_term_);
+      LeaderService leading(node, options_.node.name, lease, journal_, persisted_term_);
       const auto executive = make_executive(node, options_.run, journal_, leading, turn.doubtful);
       const InterruptibleNode reach(stop_, node);
       node.run();
@@ -188,4 +201,4 @@ void run_pair(const services::process::ServiceOptions& options, services::proces
   PairProcess(options, signals).run();
 }
 
-}  // namespace roci::exec::standby
+}  // namespace roci::exec
