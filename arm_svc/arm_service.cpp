@@ -6,7 +6,7 @@
 
 #include "arm_svc/setup_file.hpp"
 #include "arm_svc/wire_service.hpp"
-#include "core/mission/entry.hpp"
+#include "core/mission/mission_file.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "services/worker.hpp"
@@ -77,7 +77,7 @@ class ArmService : public services::Service {
 }  // namespace
 
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
-  const mission::Entry mission = mission::Entry::load(settings.mission_file());
+  const mission::Entry mission = mission::load_mission_file(settings.mission_file());
   const mission::Entry arm = mission.at("arm");
   arm.allow_only({"model", "poses"});
   const mission::Entry model = arm.at("model"), poses = arm.at("poses");

@@ -17,6 +17,7 @@
 #include "exec_svc/journal/journaled_reactor.hpp"
 #include "exec_svc/mission_report_service.hpp"
 #include "exec_svc/output_publisher_service.hpp"
+#include "exec_svc/run_files_service.hpp"
 #include "exec_svc/standby/leader_service.hpp"
 #include "exec_svc/wire_service.hpp"
 #include "services/rpc.hpp"
@@ -24,6 +25,7 @@
 
 namespace roci::exec {
 
+using goals::GoalRequest;
 using journal::CrashPoints;
 using journal::Divergence;
 using journal::Durability;
@@ -55,6 +57,14 @@ temporal::Duration reunion(const Node& node) {
   return temporal::seconds(5 * (live ? node.options().live_scale : 1));
 }
 
+constexpr char kPlanner[] = "planner_svc";
+
+std::string planner_of(const MissionModel& mission, const services::RunSettings& settings) {
+  if (!mission.planner.service.empty()) return mission.planner.service;
+  const std::string serving = services_of(settings).serving(kPlanner, mission.role.robot);
+  return serving.empty() ? kPlanner : serving;
+}
+
 CrashPoints crash_points(const Node& node) {
   const char* setting = std::getenv("ROCI_CRASH");
   return CrashPoints(setting == nullptr ? "" : setting, node.options().incarnation,
@@ -69,7 +79,8 @@ class ExecService final : public services::Service {
               LeaderService* leading, bool doubtful)
       : node_(node),
         settings_(settings),
-        mission_(read_mission(settings.mission_file())),
+        mission_(read_mission(settings.mission_file(), role_of(settings, node.options()))),
+        planner_service_(planner_of(mission_, settings)),
         journal_(journal),
         epoch_(epoch),
         leader_(leading),
@@ -81,6 +92,8 @@ class ExecService final : public services::Service {
           take(std::move(answer), std::move(line));
         }) {
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
+    journal_.set_text("mission_file", std::filesystem::absolute(settings.mission_file()).string());
+    journal_.set_text("executive", node.options().name);
     if (reactor_.reactor().plans_continuously()) {
       engine_.emplace(
           node, [this](temporal::PlanDelta delta) { take(std::move(delta)); },
@@ -88,11 +101,7 @@ class ExecService final : public services::Service {
     }
     inputs_.epoch = epoch_;
     recover();
-    services::subscribe(node, topics::goal, [this](const v1::Goal& goal) {
-      inputs_.goals.push_back(from_wire(goal));
-      crash_.pass("after-goal");
-      step_soon();
-    });
+    services::subscribe(node, topics::goal, [this](const v1::Goal& goal) { take(goal); });
     services::subscribe(node, topics::observation,
                         [this](const v1::Observation& observation) { take(observation); });
     services::subscribe(node, topics::command_ack, [this](const v1::CommandAck& ack) { take(ack); });
@@ -140,6 +149,18 @@ class ExecService final : public services::Service {
   void tell_pair() {
     publisher_.announce_epoch();
     for (const Event& event : leader_->take_events()) publisher_.report(event);
+  }
+
+  // A goal that goes to another executive is recalled here.
+  void take(const v1::Goal& goal) {
+    GoalRequest request = from_wire(goal);
+    if (addressee(mission_.role, request.robot) == mission::Addressee::another) {
+      if (reactor_.reactor().goals().find(request.key) == nullptr) return;
+      request.recalled = true;
+    }
+    inputs_.goals.push_back(std::move(request));
+    crash_.pass("after-goal");
+    step_soon();
   }
 
   void take(const services::health::PeerChange& change) {
@@ -249,7 +270,7 @@ class ExecService final : public services::Service {
   void call_planner(const PlanRequest& call) {
     call_.id = call.id;
     call_.sent = planner_.call(
-        to_wire(call, mission_), "planner_svc", mission_.planner.reply_timeout,
+        to_wire(call, mission_), planner_service_, mission_.planner.reply_timeout,
         [this, id = call.id](const services::CallResult<v1::PlanReply>& result) { take(id, result); });
   }
 
@@ -277,7 +298,7 @@ class ExecService final : public services::Service {
   }
 
   void write_summary() const {
-    exec::write_summary(settings_, mission_, reactor_.reactor(),
+    exec::write_summary(settings_, node_.options().name, mission_, reactor_.reactor(),
                         {slowest_call_s_, planner_peak_kb_ / 1024.0, temporal::to_seconds(node_.now()),
                          reactor_.trace_sha256(), journal_.file(), epoch_});
   }
@@ -285,6 +306,7 @@ class ExecService final : public services::Service {
   Node& node_;
   services::RunSettings settings_;
   MissionModel mission_;
+  std::string planner_service_;  // that is called
   Journal& journal_;
   std::uint64_t epoch_;
   LeaderService* leader_;  // none: no other executive follows
@@ -312,7 +334,7 @@ class ExecService final : public services::Service {
 class LoneExecutive final : public services::Service {
  public:
   LoneExecutive(Node& node, const services::RunSettings& settings)
-      : journal_(settings.run_folder / "journal.sqlite",
+      : journal_(run_file(settings, node.options().name, journal::kJournalFile),
                  node.options().clock == services::clock::ClockMode::live ? Durability::power
                                                                           : Durability::process),
         executive_(node, settings, journal_, journal_.next_epoch(), nullptr, false) {}

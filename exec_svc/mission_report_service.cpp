@@ -3,6 +3,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "exec_svc/run_files_service.hpp"
+
 namespace roci::exec {
 
 using mission::MissionModel;
@@ -34,8 +36,8 @@ v1::MissionStatus mission_status(const Reactor& reactor, const MissionModel& mis
   return status;
 }
 
-void write_summary(const services::RunSettings& settings, const MissionModel& mission, const Reactor& reactor,
-                   const RunFigures& figures) {
+void write_summary(const services::RunSettings& settings, const std::string& executive,
+                   const MissionModel& mission, const Reactor& reactor, const RunFigures& figures) {
   const ReactorCounts counts = reactor.counts();
   const std::string outcome = reactor.outcome();
   const nlohmann::json summary{{"format", services::kSummaryFormat},
@@ -58,7 +60,7 @@ void write_summary(const services::RunSettings& settings, const MissionModel& mi
                                {"trace_sha256", figures.trace_sha256},
                                {"journal", figures.journal.lexically_relative(settings.run_folder).string()},
                                {"epoch", figures.epoch}};
-  std::ofstream(settings.run_folder / services::kSummaryFile) << summary.dump(2) << "\n";
+  std::ofstream(run_file(settings, executive, services::kSummaryFile)) << summary.dump(2) << "\n";
 }
 
 }  // namespace roci::exec

@@ -7,6 +7,7 @@
 
 #include "exec_svc/exec_service.hpp"
 #include "exec_svc/mission/mission_model.hpp"
+#include "exec_svc/run_files_service.hpp"
 #include "exec_svc/standby/follower_service.hpp"
 #include "exec_svc/standby/leader_service.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
@@ -44,10 +45,11 @@ Durability durability_for(const services::node::NodeOptions& node) {
   return node.clock == services::clock::ClockMode::live ? Durability::power : Durability::process;
 }
 
-fs::path folder_of(const services::RunSettings& run) {
-  const fs::path folder = run.pair == "second" ? run.run_folder / "standby" : run.run_folder;
-  fs::create_directories(folder);
-  return folder;
+fs::path file_of(const services::process::ServiceOptions& options, const std::string& name) {
+  services::RunSettings run = options.run;
+  if (run.pair == "second") run.run_folder /= "standby";
+  fs::create_directories(run.run_folder);
+  return run_file(run, options.node.name, name);
 }
 
 // The node that is open now, for the thread that hears of signals.
@@ -99,9 +101,10 @@ class PairProcess {
       : options_(options),
         watchdog_(options.notify_socket),
         self_(member_of(options.run.pair)),
-        lease_{read_mission(options.run.mission_file()).executive.standby_term},
-        journal_(folder_of(options.run) / "journal.sqlite", durability_for(options.node)),
-        persisted_term_(folder_of(options.run) / "standing", durability_for(options.node)) {
+        lease_{read_mission(options.run.mission_file(), role_of(options.run, options.node))
+                   .executive.standby_term},
+        journal_(file_of(options, journal::kJournalFile), durability_for(options.node)),
+        persisted_term_(file_of(options, "standing"), durability_for(options.node)) {
     signals.watch([this] { stop_.ask(); });
   }
 

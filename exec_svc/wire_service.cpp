@@ -15,6 +15,8 @@ using goals::GoalClass;
 using goals::GoalRecord;
 using goals::GoalRequest;
 using mission::MissionModel;
+using problem::PredictedValue;
+using problem::ProblemGoal;
 using problem::ProblemObject;
 using reactor::Event;
 using reactor::PlannedAction;
@@ -24,14 +26,52 @@ using reactor::PlanRequest;
 using reactor::Severity;
 using temporal::Verdict;
 
+namespace {
+
+// -1: none.
+std::int64_t wire_time(temporal::Time time) { return time == temporal::no_bound ? -1 : time.count(); }
+
+v1::NamedValue named_value(const std::string& name, const temporal::Value& value) {
+  v1::NamedValue out;
+  out.name(name);
+  out.held(services::wire::to_wire(value));
+  return out;
+}
+
+v1::PlanGoal to_wire(const ProblemGoal& in) {
+  v1::PlanGoal out;
+  out.issuer(in.key.issuer);
+  out.id(in.key.id);
+  out.achieved(services::wire::to_wire(in.achieved));
+  out.importance(static_cast<v1::GoalClass>(in.importance));
+  out.utility(in.utility.scores());
+  out.priority(in.priority);
+  out.preferred_us(wire_time(in.preferred));
+  out.opens_us(in.opens.count());
+  out.closes_us(in.closes.count());
+  return out;
+}
+
+v1::PredictedValue to_wire(const PredictedValue& in) {
+  v1::PredictedValue out;
+  out.timeline(in.timeline);
+  out.at_us(in.at.count());
+  out.held(services::wire::to_wire(in.value));
+  return out;
+}
+
+}  // namespace
+
 GoalRequest from_wire(const v1::Goal& in) {
   GoalRequest out;
   out.key = {in.issuer(), in.id()};
+  out.robot = in.robot();
   out.kind = in.goal_kind();
   for (const v1::Property& argument : in.arguments()) out.arguments[argument.name()] = argument.value();
   out.importance = static_cast<GoalClass>(std::min<std::uint32_t>(in.importance(), v1::GOAL_OPPORTUNISTIC));
-  out.utility = in.utility().empty() ? 0.0 : in.utility().front();
+  out.utility = temporal::RankVector(in.utility());
   out.priority = in.priority();
+  if (in.preferred_us() >= 0) out.preferred = temporal::Time(in.preferred_us());
   out.opens = temporal::Time(in.opens_us());
   out.closes = temporal::Time(in.closes_us());
   out.recalled = in.recalled();
@@ -53,6 +93,8 @@ PlanReply from_wire(std::uint64_t call, const v1::PlanReply& in) {
   out.call = call;
   out.verdict = static_cast<Verdict>(std::min<std::uint32_t>(in.verdict_code(), v1::VERDICT_NO_REPLY));
   out.reason = in.reason();
+  for (const v1::BlockingGoal& goal : in.blocking())
+    out.blocking.push_back({{goal.issuer(), goal.id()}, goal.timeline(), goal.reason()});
   if (out.verdict == Verdict::solved) out.plan = services::wire::from_wire(in.solution());
   return out;
 }
@@ -69,8 +111,9 @@ v1::Goal to_wire(const GoalRequest& in) {
     out.arguments().push_back(std::move(argument));
   }
   out.importance(static_cast<v1::GoalClass>(in.importance));
-  out.utility({in.utility});
-  out.preferred_us(-1);
+  out.robot(in.robot);
+  out.utility(in.utility.scores());
+  out.preferred_us(wire_time(in.preferred));
   out.priority(in.priority);
   out.opens_us(in.opens.count());
   out.closes_us(in.closes.count());
@@ -111,7 +154,7 @@ v1::Command to_wire(const Command& in, const std::string& commander, std::uint32
   out.epoch(in.epoch != 0 ? in.epoch : epoch);
   out.sender_epoch(epoch);
   out.expected_us(in.expected.count());
-  out.latest_end_us(in.latest_end == temporal::no_bound ? -1 : in.latest_end.count());
+  out.latest_end_us(wire_time(in.latest_end));
   return out;
 }
 
@@ -124,7 +167,7 @@ v1::StepStatus to_wire(const StepStatus& in, const std::string& executive, std::
   out.name(in.name);
   out.state(static_cast<v1::ActivityState>(in.state));
   out.earliest_start_us(in.earliest_start.count());
-  out.latest_start_us(in.latest_start == temporal::no_bound ? -1 : in.latest_start.count());
+  out.latest_start_us(wire_time(in.latest_start));
   out.started_us(in.started ? in.started->count() : -1);
   out.ended_us(in.ended ? in.ended->count() : -1);
   out.cause(in.reason);
@@ -135,8 +178,11 @@ v1::PlanRequest to_wire(const PlanRequest& in, const MissionModel& mission) {
   v1::PlanRequest out;
   out.engine(mission.planner.engine);
   out.origin_us(in.origin.count());
-  out.model(mission.domain_text);
+  out.model(mission.model_text);
   out.problem_text(in.problem.text);
+  for (const auto& [timeline, value] : in.problem.state) out.state().push_back(named_value(timeline, value));
+  for (const PredictedValue& value : in.problem.predictions) out.predictions().push_back(to_wire(value));
+  for (const ProblemGoal& goal : in.problem.goals) out.goals().push_back(to_wire(goal));
   for (const ProblemObject& object : in.problem.objects) {
     v1::PlanObject wire;
     wire.name(object.name);

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/mission/entry.hpp"
+#include "core/mission/mission_file.hpp"
 #include "core/terrain/site_file.hpp"
 #include "pathplan_svc/rover_file.hpp"
 #include "pathplan_svc/wire_service.hpp"
@@ -132,7 +132,7 @@ class PathplanService : public services::Service {
 }  // namespace
 
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
-  const mission::Entry mission = mission::Entry::load(settings.mission_file());
+  const mission::Entry mission = mission::load_mission_file(settings.mission_file());
   const mission::Entry site = mission.at("site");
   const auto rover = mission.find("rover");
   return std::make_unique<PathplanService>(node, terrain::load_site(site.resolve(site.text())),

@@ -3,8 +3,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/mission/entry.hpp"
-#include "core/mission/scenario.hpp"
+#include "core/mission/mission_file.hpp"
 
 namespace roci::planner {
 namespace {
@@ -19,7 +18,7 @@ std::string text_of(const roci::mission::Entry& name) {
 
 Settings read_settings(const std::filesystem::path& mission) {
   Settings out;
-  const auto root = roci::mission::Entry::load(roci::mission::mission_file(mission));
+  const auto root = roci::mission::load_mission_file(mission);
   if (const auto model = root.find("model")) out.model = text_of(*model);
   const auto planner = root.find("planner");
   if (!planner) return out;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/mission/mission_file.hpp"
 #include "core/mission/scenario.hpp"
 #include "core/terrain/map_error.hpp"
 #include "core/terrain/site_file.hpp"
@@ -73,7 +74,7 @@ terrain::Grid map_of(const mission::Entry& site) {
 }  // namespace
 
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
-  const mission::Entry mission = mission::Entry::load(settings.mission_file());
+  const mission::Entry mission = mission::load_mission_file(settings.mission_file());
   const mission::Entry scenario = mission::load_scenario(settings.mission, settings.scenario);
   return std::make_unique<ScienceService>(node, read_detector(mission, scenario), map_of(mission.at("site")),
                                           settings.seed);

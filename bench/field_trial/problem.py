@@ -38,7 +38,7 @@ class Problem:
 
 def parse(text: str) -> Problem:
     problem = Problem(text)
-    init = text[text.index("(:init") : text.index("(:goal")]
+    init = text[text.index("(:init") : text.index("(:goal")].rstrip().removesuffix(")")
     for line in init.splitlines()[1:]:
         if match := re.match(r"\s+\(= \((\S+)\) (\S+)\)", line):
             problem.numbers[match[1]] = float(match[2])
@@ -49,7 +49,7 @@ def parse(text: str) -> Problem:
         elif match := re.match(r"\s+\(([^()]+)\)$", line):
             problem.facts.add(tuple(match[1].split()))
     goal = text[text.index("(:goal") : text.index("(:metric")]
-    problem.goals = [tuple(fact.split()) for fact in re.findall(r"^\s+\(([^()]+)\)$", goal, re.M)]
+    problem.goals = [tuple(fact.split()) for fact in re.findall(r"\(([^()]+)\)", goal)]
     return problem
 
 

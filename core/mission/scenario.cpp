@@ -20,12 +20,6 @@ std::string scenarios_of(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::filesystem::path mission_file(const std::filesystem::path& folder_or_file) {
-  std::error_code error;
-  return std::filesystem::is_regular_file(folder_or_file, error) ? folder_or_file
-                                                                 : folder_or_file / "mission.yaml";
-}
-
 Entry load_scenario(const std::filesystem::path& folder_or_file, const std::string& name) {
   const auto folder = mission_file(folder_or_file).parent_path() / "scenarios";
   const auto file = folder / (name + ".yaml");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/mission/mission_file.hpp"
+
 namespace roci::mission {
 namespace {
 
@@ -94,6 +96,20 @@ const ServiceEntry* ServiceList::clock_master() const {
   return found == services.end() ? nullptr : &*found;
 }
 
+std::vector<const ServiceEntry*> ServiceList::of_program(std::string_view program) const {
+  std::vector<const ServiceEntry*> out;
+  const auto name = std::filesystem::path(program).filename();
+  for (const ServiceEntry& service : services)
+    if (std::filesystem::path(service.program).filename() == name) out.push_back(&service);
+  return out;
+}
+
+std::string ServiceList::file_name(std::string_view service, const std::string& name) const {
+  const ServiceEntry* entry = find(service);
+  if (entry == nullptr || of_program(entry->program).size() == 1) return name;
+  return entry->name + "." + name;
+}
+
 std::string ServiceList::serving(std::string_view program, std::string_view robot) const {
   const auto only = [&](std::string_view of) {
     std::string name;
@@ -131,7 +147,7 @@ ServiceList read_service_list(const Entry& mission) {
 }
 
 ServiceList load_service_list(const std::filesystem::path& mission_folder) {
-  return read_service_list(Entry::load(mission_folder / kMissionFile));
+  return read_service_list(load_mission_file(mission_folder / kMissionFile));
 }
 
 }  // namespace roci::mission

@@ -33,6 +33,11 @@ struct ServiceList {
   std::vector<std::string> names() const;
   /// The one with `clock: master`; null if there is none: then the mission can only be flown live.
   const ServiceEntry* clock_master() const;
+  /// Those that run this program, in the order of the list.
+  std::vector<const ServiceEntry*> of_program(std::string_view program) const;
+  /// What a file of this service is called in the run folder, which all services share: `name` if no other
+  /// service of the mission runs its program, else with the service's own name before it.
+  std::string file_name(std::string_view service, const std::string& name) const;
   /// The only service of a program that serves this robot: its own, else the team's. Empty if there is none
   /// or a choice.
   std::string serving(std::string_view program, std::string_view robot) const;

@@ -16,6 +16,7 @@ struct ContingencyCommand {
   std::string subsystem;
   std::string command_name;
   std::vector<temporal::Property> arguments;  ///< {name}: the failed command's argument of that name
+  std::string robot{};                        ///< whose subsystem; empty: the owner's only one
 };
 
 /// A task that nobody requested; a failure makes an instance of it.

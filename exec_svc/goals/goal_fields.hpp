@@ -1,7 +1,7 @@
 /// The fields of goals for the archive, each type once, for writing and reading.
 #pragma once
 
-#include "exec_svc/archive/archive.hpp"
+#include "exec_svc/archive/plan_fields.hpp"
 #include "exec_svc/goals/goal_set.hpp"
 
 namespace roci::exec::goals {
@@ -16,7 +16,8 @@ void fields(A& a, archive::Of<SampleId, A>& v) {
 }
 template <class A>
 void fields(A& a, archive::Of<GoalRequest, A>& v) {
-  a(v.key, v.kind, v.arguments, v.importance, v.utility, v.priority, v.opens, v.closes, v.recalled, v.sample);
+  a(v.key, v.robot, v.kind, v.arguments, v.importance, v.utility, v.priority, v.preferred, v.opens, v.closes);
+  a(v.recalled, v.sample);
 }
 template <class A>
 void fields(A& a, archive::Of<GoalRecord, A>& v) {

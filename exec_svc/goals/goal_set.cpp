@@ -42,6 +42,7 @@ std::string keys_of(const Map& map) {
 std::map<std::string, std::string> template_values(const GoalRequest& goal) {
   auto values = goal.arguments;
   values["id"] = goal.key.id;
+  if (!goal.robot.empty()) values["robot"] = goal.robot;
   return values;
 }
 
@@ -56,6 +57,7 @@ bool from_console(const GoalRequest& goal) { return goal.sample.incarnation == 0
 bool is_final(GoalState state) { return state != GoalState::pending && state != GoalState::planned; }
 
 std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) const {
+  if (std::string fault = fault_of_address(request); !fault.empty()) return fault;
   if (!is_name(request.key.id))
     return "id '" + request.key.id + "' is not a name; use lower-case letters, digits, - and _";
   const auto kind = mission_->goal_kinds.find(request.kind);
@@ -89,11 +91,21 @@ std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) co
       return "id '" + key.id + "' is in use by issuer '" + key.issuer + "'; choose another id";
     }
   }
-  if (!std::isfinite(request.utility)) return "utility is not a finite number; give one, e.g. 1";
+  if (!request.utility.finite()) return "utility is not a finite number; give one, e.g. 1";
   if (request.closes.count() != 0 && request.closes <= std::max(request.opens, now)) {
     return "the window closes before it opens or has passed; give a later end";
   }
   return "";
+}
+
+std::string GoalSet::fault_of_address(const GoalRequest& request) const {
+  const mission::ExecutiveRole& role = mission_->role;
+  if (addressee(role, request.robot) == mission::Addressee::this_one) return "";
+  std::string known;
+  for (const std::string& robot : role.commanded) known += (known.empty() ? "" : ", ") + robot;
+  if (request.robot.empty()) return "it names no robot, and several are commanded: " + known + "; name one";
+  return "no executive commands robot '" + request.robot +
+         "'; name one of: " + (known.empty() ? role.robot : known);
 }
 
 // An argument that names another goal stands for that goal's objects: those of this goal's facts that hold

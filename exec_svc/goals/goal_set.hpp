@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/temporal/duration.hpp"
+#include "core/temporal/rank_vector.hpp"
 #include "exec_svc/mission/mission_model.hpp"
 
 namespace roci::exec::goals {
@@ -33,13 +34,15 @@ struct SampleId {
 
 struct GoalRequest {
   GoalKey key;
+  std::string robot;  ///< that is to achieve it; empty: the executive's
   std::string kind;
   std::map<std::string, std::string> arguments;
   GoalClass importance = GoalClass::hard;
-  double utility = 0;
+  temporal::RankVector utility;
   std::int32_t priority = 0;
-  temporal::Time opens{0};   ///< 0: any time
-  temporal::Time closes{0};  ///< 0: never
+  temporal::Time preferred = temporal::no_bound;  ///< at which it is best achieved; no_bound: none
+  temporal::Time opens{0};                        ///< 0: any time
+  temporal::Time closes{0};                       ///< 0: never
   bool recalled = false;
   SampleId sample;
   bool operator==(const GoalRequest&) const = default;
@@ -51,7 +54,7 @@ bool same_request(const GoalRequest&, const GoalRequest&);
 /// By somebody who reads the answer; the services of a run, which pass on what its scenario says, do not.
 bool from_console(const GoalRequest&);
 
-/// What the templates of the goal's kind are filled with: its arguments and its id.
+/// What the templates of the goal's kind are filled with: its arguments, its id and its robot.
 std::map<std::string, std::string> template_values(const GoalRequest& goal);
 
 struct GoalRecord {
@@ -104,7 +107,7 @@ class GoalSet {
   const GoalRecord* find(const GoalKey& key) const;
 
   /// Which goal goes when not all fit: the newest opportunistic one, else the optional one of the lowest
-  /// utility (the newest of equals), never a hard one (R52, R53; architecture, "Which goals go").
+  /// utility by rank (the newest of equals), never a hard one (R52, R53, R113; architecture, "Which goals go").
   std::optional<GoalKey> drop_candidate() const;
   /// The same among these goals alone.
   std::optional<GoalKey> drop_candidate(const std::vector<GoalKey>& among) const;
@@ -112,6 +115,7 @@ class GoalSet {
  private:
   Disposition change(GoalRecord&, const GoalRequest&, temporal::Time now);
   std::string fault_of(const GoalRequest& request, temporal::Time now) const;
+  std::string fault_of_address(const GoalRequest& request) const;
   bool names(const GoalRequest& request, const GoalRequest& other) const;
   std::string fault_of_reference(const GoalRequest& request, const std::string& argument) const;
 

@@ -14,6 +14,7 @@ using reactor::DecisionRecord;
 using reactor::Event;
 using reactor::PlannedAction;
 using reactor::PlanReceipt;
+using reactor::PlanRequest;
 using reactor::ReactorOutputs;
 
 namespace {
@@ -77,6 +78,21 @@ std::string line_of(const Command& command) {
          command.subsystem + " " + command.command_name + properties_text(command.arguments);
 }
 
+// A PDDL problem as it is; else the goals, the state at the origin and what is predicted.
+std::string line_of(const PlanRequest& call) {
+  const problem::Problem& problem = call.problem;
+  if (!problem.text.empty()) return problem.text;
+  std::string out = call.problem_name + " origin " + std::to_string(call.origin.count());
+  for (const problem::ProblemGoal& goal : problem.goals)
+    out += "; goal " + goal.key.text() + ": " + temporal::describe(goal.achieved);
+  for (const auto& [timeline, value] : problem.state)
+    out += "; " + timeline + " = " + temporal::to_text(value);
+  for (const problem::PredictedValue& value : problem.predictions)
+    out += "; at " + std::to_string(value.at.count()) + " " + value.timeline + " = " +
+           temporal::to_text(value.value);
+  return out;
+}
+
 std::string line_of(const std::vector<PlannedAction>& remaining) {
   std::string out = "remaining";
   for (const PlannedAction& action : remaining) {
@@ -102,7 +118,7 @@ std::vector<DecisionLine> decisions(temporal::Time now, const ReactorOutputs& ou
     lines.push_back({"trace", stamp + line_of(receipt)});
   if (out.cancelled_call) lines.push_back({"call", "cancel " + std::to_string(*out.cancelled_call)});
   if (out.call) {
-    lines.push_back({"call", out.call->problem.text});
+    lines.push_back({"call", line_of(*out.call)});
     if (!out.call->remaining.empty()) lines.push_back({"call", line_of(out.call->remaining)});
   }
   if (out.receipt) lines.push_back({"call", line_of(*out.receipt)});

@@ -29,22 +29,36 @@ SampleId sample_in(const nlohmann::json& json, const char* key) {
 
 std::string encode(const GoalRecord& record) {
   const GoalRequest& goal = record.request;
-  return nlohmann::json{{"kind", goal.kind},
-                        {"arguments", goal.arguments},
-                        {"class", static_cast<int>(goal.importance)},
-                        {"utility", goal.utility},
-                        {"priority", goal.priority},
-                        {"opens", goal.opens.count()},
-                        {"closes", goal.closes.count()},
-                        {"recalled", goal.recalled},
-                        {"said_in", to_json(goal.sample)},
-                        {"answers", to_json(record.answers)}}
-      .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // rejected goals may hold anything
+  nlohmann::json out{{"kind", goal.kind},
+                     {"arguments", goal.arguments},
+                     {"class", static_cast<int>(goal.importance)},
+                     {"utility", goal.utility[0]},
+                     {"priority", goal.priority},
+                     {"opens", goal.opens.count()},
+                     {"closes", goal.closes.count()},
+                     {"recalled", goal.recalled},
+                     {"said_in", to_json(goal.sample)},
+                     {"answers", to_json(record.answers)}};
+  // What baseline-05 did not know stands there only where it says something.
+  if (goal.utility.scores().size() > 1) out["ranks"] = goal.utility.scores();
+  if (goal.preferred != temporal::no_bound) out["preferred"] = goal.preferred.count();
+  if (!goal.robot.empty()) out["robot"] = goal.robot;
+  // Rejected goals may hold anything.
+  return out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 // JSON knows no NaN: it stands there as null.
 double number_of(const nlohmann::json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+// The highest rank stands alone under its first name, all of several under another one.
+temporal::RankVector utility_in(const nlohmann::json& json) {
+  const auto ranks = json.find("ranks");
+  if (ranks == json.end()) return {number_of(json.at("utility"))};
+  std::vector<double> scores;
+  for (const nlohmann::json& score : *ranks) scores.push_back(number_of(score));
+  return temporal::RankVector(std::move(scores));
 }
 
 void decode(GoalKey key, const std::string& text, GoalRecord& record) {
@@ -54,7 +68,10 @@ void decode(GoalKey key, const std::string& text, GoalRecord& record) {
   goal.kind = json.at("kind").get<std::string>();
   goal.arguments = json.at("arguments").get<std::map<std::string, std::string>>();
   goal.importance = static_cast<GoalClass>(json.at("class").get<int>());
-  goal.utility = number_of(json.at("utility"));
+  goal.utility = utility_in(json);
+  goal.robot = json.value("robot", "");
+  if (const auto preferred = json.find("preferred"); preferred != json.end())
+    goal.preferred = temporal::Time(preferred->get<std::int64_t>());
   goal.priority = json.at("priority").get<std::int32_t>();
   goal.opens = temporal::Time(json.at("opens").get<std::int64_t>());
   goal.closes = temporal::Time(json.at("closes").get<std::int64_t>());

@@ -36,6 +36,9 @@ enum class Durability {
   power,    ///< survives the loss of power
 };
 
+/// In the run folder; ServiceList::file_name() tells the journals of several executives apart.
+inline constexpr char kJournalFile[] = "journal.sqlite";
+
 class Journal {
  public:
   struct Database;  ///< database.hpp

@@ -27,12 +27,12 @@ Meaning read_word(const Entry& entry, const char* what,
   entry.fail("unknown " + std::string(what) + " '" + text + "'; one of: " + known);
 }
 
-std::string read_component_name(const Entry& entry, const std::vector<Component>& components) {
-  std::string name = entry.text();
-  const bool known = std::any_of(components.begin(), components.end(),
-                                 [&](const Component& component) { return component.name == name; });
-  if (!known) entry.fail("no component '" + name + "' in this mission; declare it under 'components'");
-  return name;
+const Component& read_component(const Entry& entry, const std::vector<Component>& components) {
+  const std::string name = entry.text();
+  const auto found = std::ranges::find(components, name, &Component::name);
+  if (found == components.end())
+    entry.fail("no component '" + name + "' in this mission; declare it under 'components'");
+  return *found;
 }
 
 temporal::Duration read_time(const Entry& entry) {
@@ -59,10 +59,9 @@ Contingency read_contingency(const std::string& name, const Entry& entry,
   out.name = name;
   for (const Entry& item : entry.at("commands").items()) {
     item.allow_only({"owner", "component", "command", "arguments"});
-    ContingencyCommand command{item.at("owner").text(),
-                               read_component_name(item.at("component"), components),
-                               item.at("command").text(),
-                               {}};
+    const Component& component = read_component(item.at("component"), components);
+    ContingencyCommand command{
+        item.at("owner").text(), component.name, item.at("command").text(), {}, component.robot};
     if (const auto arguments = item.find("arguments")) {
       for (const auto& [argument, value] : arguments->fields())
         command.arguments.push_back({argument, value.text()});
@@ -83,7 +82,9 @@ ActionBinding read_action(const Entry& entry, const std::vector<Component>& comp
                     "wait_timeout_s", "contingency"});
   ActionBinding out;
   out.owner = entry.at("owner").text();
-  out.component = read_component_name(entry.at("component"), components);
+  const Component& component = read_component(entry.at("component"), components);
+  out.robot = component.robot;
+  out.component = component.name;
   out.command = entry.at("command").text();
   if (const auto arguments = entry.find("arguments")) {
     for (const auto& [name, value] : arguments->fields()) out.arguments.emplace_back(name, value.text());

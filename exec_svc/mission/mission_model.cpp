@@ -1,12 +1,13 @@
 #include "exec_svc/mission/mission_model.hpp"
 
 #include <fstream>
+#include <optional>
 #include <sstream>
 
-#include "core/mission/entry.hpp"
-#include "core/mission/scenario.hpp"
+#include "core/mission/mission_file.hpp"
 #include "exec_svc/mission/action_entries.hpp"
 #include "exec_svc/mission/domain_names.hpp"
+#include "exec_svc/mission/goal_kind_entries.hpp"
 
 namespace roci::exec::mission {
 namespace {
@@ -20,11 +21,6 @@ Duration seconds_or(const Entry& parent, const char* key, double fallback_s) {
   return temporal::seconds(parent.number_or(key, fallback_s));
 }
 
-std::vector<std::string> texts_or_none(const Entry& parent, const char* key) {
-  const auto entry = parent.find(key);
-  return entry ? entry->texts() : std::vector<std::string>{};
-}
-
 std::string whole_file(const Entry& name) {
   const auto path = name.resolve(name.text());
   std::ifstream in(path);
@@ -34,19 +30,28 @@ std::string whole_file(const Entry& name) {
   return text.str();
 }
 
-std::vector<StateModel> read_states(const Entry& states) {
+std::vector<StateModel> read_states(const Entry& states, bool has_domain) {
   std::vector<StateModel> out;
   for (const auto& [name, entry] : states.fields()) {
     entry.allow_only({"active", "facts"});
-    out.push_back({name, entry.truth_or("active", false), texts_or_none(entry, "facts")});
+    if (!has_domain) refuse_without_domain(entry, {"facts"});
+    const auto facts = entry.find("facts");
+    out.push_back(
+        {name, entry.truth_or("active", false), facts ? facts->texts() : std::vector<std::string>{}});
   }
   return out;
 }
 
-Component read_component(const Entry& entry) {
-  entry.allow_only({"name", "timeline", "owner", "fallback", "states"});
-  Component out{entry.at("name").text(), entry.at("timeline").text(), entry.at("owner").text(),
-                entry.text_or("fallback", ""), read_states(entry.at("states"))};
+Component read_component(const Entry& entry, const MissionModel& mission) {
+  entry.allow_only({"name", "robot", "timeline", "owner", "fallback", "states"});
+  const std::string robot = entry.text_or("robot", mission.role.robot);
+  const bool own = mission.role.robot.empty() || robot == mission.role.robot;
+  Component out{robot,
+                entry.at("name").text(),
+                own ? read_timeline(entry.at("timeline"), mission.role) : entry.at("timeline").text(),
+                entry.at("owner").text(),
+                entry.text_or("fallback", ""),
+                read_states(entry.at("states"), mission.has_domain())};
   bool has_inactive = false;
   bool has_active = false;
   for (const StateModel& state : out.states) (state.active ? has_active : has_inactive) = true;
@@ -58,13 +63,13 @@ Component read_component(const Entry& entry) {
   return out;
 }
 
-TimelineFamily read_family(const Entry& entry) {
+TimelineFamily read_family(const Entry& entry, const MissionModel& mission) {
   entry.allow_only({"timeline", "states"});
-  std::string pattern = entry.at("timeline").text();
+  std::string pattern = read_timeline(entry.at("timeline"), mission.role);
   if (pattern.empty() || pattern.back() != '*')
     entry.at("timeline").fail("expected a name that ends in *, e.g. image.*");
   pattern.pop_back();
-  TimelineFamily out{pattern, read_states(entry.at("states"))};
+  TimelineFamily out{pattern, read_states(entry.at("states"), mission.has_domain())};
   for (const StateModel& state : out.states) {
     if (state.active)
       entry.fail("states of a family are inactive; make '" + state.name + "' a component's state");
@@ -72,12 +77,12 @@ TimelineFamily read_family(const Entry& entry) {
   return out;
 }
 
-FluentSource read_fluent(const Entry& entry) {
+FluentSource read_fluent(const Entry& entry, const ExecutiveRole& role) {
   entry.allow_only({"fluent", "timeline", "value", "last"});
   FluentSource out;
   out.fluent = entry.at("fluent").text();
   if (const auto timeline = entry.find("timeline")) {
-    out.timeline = timeline->text();
+    out.timeline = read_timeline(*timeline, role);
   } else {
     out.value = entry.at("value").number();
     if (const auto last = entry.find("last")) out.last = last->number();
@@ -85,9 +90,16 @@ FluentSource read_fluent(const Entry& entry) {
   return out;
 }
 
-WindowModel read_window(const Entry& entry) {
+WindowModel read_window(const Entry& entry, const MissionModel& mission) {
   entry.allow_only({"fact", "timeline", "open"});
-  WindowModel out{entry.at("fact").text(), entry.text_or("timeline", ""), {}};
+  WindowModel out;
+  if (mission.has_domain()) {
+    out.fact = entry.at("fact").text();
+    if (const auto timeline = entry.find("timeline")) out.timeline = read_timeline(*timeline, mission.role);
+  } else {
+    refuse_without_domain(entry, {"fact"});
+    out.timeline = read_timeline(entry.at("timeline"), mission.role);
+  }
   for (const Entry& item : entry.at("open").items()) {
     const auto ends = item.items();
     if (ends.size() != 2) item.fail("expected [from, to] in seconds");
@@ -102,66 +114,14 @@ WindowModel read_window(const Entry& entry) {
   return out;
 }
 
-ObjectModel read_object(const Entry& entry) {
-  entry.allow_only({"name", "type", "dynamic", "properties"});
-  ObjectModel out{entry.at("name").text(), entry.at("type").text(), entry.truth_or("dynamic", false), {}};
-  if (const auto properties = entry.find("properties")) {
-    for (const auto& [name, value] : properties->fields()) {
-      PropertySource source{name, "", std::nullopt};
-      if (value.is_mapping()) {
-        value.allow_only({"timeline"});
-        source.timeline = value.at("timeline").text();
-      } else {
-        source.text = value.text();
-      }
-      out.properties.push_back(std::move(source));
-    }
-  }
-  return out;
-}
-
-std::vector<ObjectModel> read_objects(const Entry& parent) {
-  std::vector<ObjectModel> out;
-  if (const auto list = parent.find("objects")) {
-    for (const Entry& item : list->items()) out.push_back(read_object(item));
-  }
-  return out;
-}
-
-ArgumentKind read_argument_kind(const Entry& entry) {
-  const std::string text = entry.text();
-  if (text == "number") return ArgumentKind::number;
-  if (text == "text") return ArgumentKind::text;
-  if (text == "goal") return ArgumentKind::goal;
-  entry.fail("unknown kind of argument '" + text + "'; one of: number, text, goal");
-}
-
-GoalKind read_goal_kind(const std::string& name, const Entry& entry) {
-  entry.allow_only({"help", "arguments", "objects", "facts", "unobserved", "window", "goal"});
-  GoalKind out;
-  out.name = name;
-  out.help = entry.text_or("help", "");
-  if (const auto arguments = entry.find("arguments")) {
-    for (const auto& [argument, kind] : arguments->fields())
-      out.arguments[argument] = read_argument_kind(kind);
-  }
-  out.objects = read_objects(entry);
-  out.facts = texts_or_none(entry, "facts");
-  if (const auto unobserved = entry.find("unobserved")) {
-    for (const Entry& item : unobserved->items()) {
-      item.allow_only({"timeline", "facts"});
-      out.unobserved.emplace_back(item.at("timeline").text(), item.at("facts").texts());
-    }
-  }
-  out.window_fact = entry.text_or("window", "");
-  out.goal = entry.at("goal").texts();
-  if (out.goal.empty()) entry.at("goal").fail("a goal kind needs at least one goal fact");
-  return out;
-}
-
-PlannerSettings read_planner(const Entry& entry) {
+PlannerSettings read_planner(const Entry& entry, const MissionModel& mission) {
   PlannerSettings out;
+  if (!mission.has_domain() && !entry.find("engine"))
+    entry.fail(
+        "without a 'domain' the mission names the engine that plans it; add 'engine: NAME', or the file "
+        "under 'domain'");
   out.engine = entry.text_or("engine", out.engine);
+  if (const auto service = entry.find("service")) out.service = read_timeline(*service, mission.role);
   if (const auto budget = entry.find("budget")) {
     budget->allow_only({"work", "memory_mb", "wall_s"});
     out.work = static_cast<std::uint64_t>(budget->number_or("work", 0));
@@ -198,38 +158,63 @@ ReactorSettings read_executive(const Entry& entry) {
   return out;
 }
 
+// The planner's model, and what it means for the rest of the file.
+std::optional<pddl::Domain> read_model(const Entry& root, MissionModel& out) {
+  const auto domain_file = root.find("domain");
+  const auto model_file = root.find("model");
+  if (domain_file && model_file)
+    model_file->fail(
+        "'domain' is the model of an engine that reads PDDL; name 'model' or 'domain', not both");
+  if (model_file) out.model_text = whole_file(*model_file);
+  if (!domain_file) return std::nullopt;
+  out.model_text = whole_file(*domain_file);
+  pddl::Domain domain = read_domain(out.model_text, root.resolve(domain_file->text()).string());
+  out.domain_name = domain.name;
+  return domain;
+}
+
+// Components of other robots stay until all names are read.
+void keep_own(std::vector<Component>& components, const std::string& robot) {
+  std::erase_if(components,
+                [&](const Component& component) { return !robot.empty() && component.robot != robot; });
+}
+
+void read_actions(const Entry& root, MissionModel& out) {
+  if (!out.has_domain()) return refuse_without_domain(root, {"actions", "fluents"});
+  for (const auto& [name, entry] : root.at("actions").fields())
+    out.actions[name] = read_action(entry, out.components, out.contingencies);
+}
+
 }  // namespace
 
-MissionModel read_mission(const std::filesystem::path& mission_folder) {
-  const Entry root = Entry::load(roci::mission::mission_file(mission_folder));
+MissionModel read_mission(const std::filesystem::path& folder_or_file, const ExecutiveRole& role) {
+  const Entry root = roci::mission::load_mission_file(folder_or_file);
   MissionModel out;
   out.name = root.at("name").text();
-  out.domain_text = whole_file(root.at("domain"));
-  const pddl::Domain domain = read_domain(out.domain_text, root.resolve(root.at("domain").text()).string());
-  out.domain_name = domain.name;
-  out.objects = read_objects(root);
-  for (const Entry& item : root.at("components").items()) out.components.push_back(read_component(item));
+  out.role = role;
+  const auto domain = read_model(root, out);
+  out.objects = read_objects(root, out.has_domain());
+  for (const Entry& item : root.at("components").items()) out.components.push_back(read_component(item, out));
   if (const auto list = root.find("families")) {
-    for (const Entry& item : list->items()) out.families.push_back(read_family(item));
+    for (const Entry& item : list->items()) out.families.push_back(read_family(item, out));
   }
   if (const auto list = root.find("fluents")) {
-    for (const Entry& item : list->items()) out.fluents.push_back(read_fluent(item));
+    for (const Entry& item : list->items()) out.fluents.push_back(read_fluent(item, role));
   }
   if (const auto list = root.find("windows")) {
-    for (const Entry& item : list->items()) out.windows.push_back(read_window(item));
+    for (const Entry& item : list->items()) out.windows.push_back(read_window(item, out));
   }
   if (const auto contingencies = root.find("contingencies")) {
     for (const auto& [name, entry] : contingencies->fields())
       out.contingencies[name] = read_contingency(name, entry, out.components);
   }
-  for (const auto& [name, entry] : root.at("actions").fields()) {
-    out.actions[name] = read_action(entry, out.components, out.contingencies);
-  }
+  read_actions(root, out);
+  keep_own(out.components, role.robot);
   for (const auto& [name, entry] : root.at("goal_kinds").fields()) {
-    out.goal_kinds[name] = read_goal_kind(name, entry);
+    out.goal_kinds[name] = read_goal_kind(name, entry, out);
   }
-  require_domain_names(root, domain);
-  out.planner = read_planner(root.at("planner"));
+  if (domain) require_domain_names(root, *domain);
+  out.planner = read_planner(root.at("planner"), out);
   if (const auto executive = root.find("executive")) out.executive = read_executive(*executive);
   return out;
 }

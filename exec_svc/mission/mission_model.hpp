@@ -1,6 +1,6 @@
-/// A mission as the reactor sees it: metadata outside the PDDL that says how observations become facts, which
-/// states are inactive, and what goals and actions mean (R43-R46). Read from mission.yaml; code never names a
-/// mission.
+/// A mission as the reactor sees it: metadata that says which states are inactive and what goals mean, and for
+/// an engine that reads PDDL how observations become facts and actions commands (R43-R46). Read from
+/// mission.yaml; code never names a mission.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include "core/temporal/flexible_plan.hpp"
 #include "exec_svc/executive/contingency.hpp"
 #include "exec_svc/executive/executive.hpp"
+#include "exec_svc/mission/executive_role.hpp"
 
 namespace roci::exec::mission {
 
@@ -28,6 +29,7 @@ struct StateModel {
 /// A subsystem; planning starts only when it is in an inactive state, reached by its fallback command (R43,
 /// R44).
 struct Component {
+  std::string robot;  ///< whose subsystem; empty: the owner's only one
   std::string name;
   std::string timeline;
   std::string owner;
@@ -48,9 +50,9 @@ struct FluentSource {
   std::optional<double> last;  ///< instead of the value, before a hard goal is given up
 };
 
-/// A fact that comes and goes by the clock, as predicted.
+/// A fact and a truth-valued timeline that come and go by the clock, as predicted.
 struct WindowModel {
-  std::string fact;
+  std::string fact;                                             ///< empty without a PDDL domain
   std::string timeline;                                         ///< says whether it is open now
   std::vector<std::pair<temporal::Time, temporal::Time>> open;  ///< in mission time, ascending, disjoint
 };
@@ -63,14 +65,14 @@ struct PropertySource {
 
 struct ObjectModel {
   std::string name;
-  std::string type;
+  std::string type;      ///< may be empty without a PDDL domain
   bool dynamic = false;  ///< declared only while an observed state names it
   std::vector<PropertySource> properties;
 };
 
 enum class ArgumentKind { number, text, goal };
 
-/// Templates with {id} and {argument}.
+/// Templates with {id}, {robot} (that the goal is for) and {argument}.
 struct GoalKind {
   std::string name;
   std::string help;
@@ -80,6 +82,9 @@ struct GoalKind {
   /// Timeline → facts that hold until it is seen.
   std::vector<std::pair<std::string, std::vector<std::string>>> unobserved;
   std::string window_fact;  ///< empty: the kind has no window
+  /// Achieved when it holds; empty: when all of `goal` are observed.
+  temporal::Condition achieved;
+  /// The PDDL goal; empty: the facts that the states of `achieved` stand for.
   std::vector<std::string> goal;
 };
 
@@ -87,6 +92,7 @@ struct GoalKind {
 /// object).
 struct ActionBinding {
   std::string owner;
+  std::string robot;  ///< of the component
   std::string component;
   std::string command;
   std::vector<std::pair<std::string, std::string>> arguments;
@@ -115,6 +121,7 @@ enum class Replanning {
 
 struct PlannerSettings {
   std::string engine = "temporal_pddl";
+  std::string service;     ///< that hosts it; empty: the mission's planner_svc that serves the robot
   std::uint64_t work = 0;  ///< evaluations; 0: no bound
   std::uint32_t memory_mb = 0;
   temporal::Duration wall{0};
@@ -141,8 +148,9 @@ struct ReactorSettings {
 
 struct MissionModel {
   std::string name;
-  std::string domain_text;
-  std::string domain_name;
+  ExecutiveRole role;
+  std::string model_text;   ///< the PDDL domain, or a model in the engine's own language; may be empty then
+  std::string domain_name;  ///< empty: the engine reads no PDDL
   std::vector<ObjectModel> objects;
   std::vector<Component> components;
   std::vector<TimelineFamily> families;
@@ -153,9 +161,13 @@ struct MissionModel {
   std::map<std::string, GoalKind> goal_kinds;
   PlannerSettings planner;
   ReactorSettings executive;
+
+  bool has_domain() const { return !domain_name.empty(); }
 };
 
-/// Throws roci::mission::FileError naming file, line, column and remedy.
-MissionModel read_mission(const std::filesystem::path& mission_folder);
+/// Reads a mission file (or the mission.yaml of a folder) for one of its executives. In names of timelines
+/// {robot} is the executive's robot; components of other robots are left out. Throws roci::mission::FileError
+/// naming file, line, column and remedy.
+MissionModel read_mission(const std::filesystem::path& folder_or_file, const ExecutiveRole& role = {});
 
 }  // namespace roci::exec::mission

@@ -23,35 +23,41 @@ constexpr char kModelChanged[] = "a map or arm model changed during the planner 
 struct Remainder {
   const PlanActivity* activity;
   Time ends;
-  double part;  ///< of the duration, that is still to come
+  double part;               ///< of the duration, that is still to come
+  temporal::Duration lasts;  ///< likewise, in time
 };
 
 Remainder remainder_of(const PlanActivity& activity, Time started, Time now) {
   const Time ends = std::max(now, started + activity.duration_lower);
   const auto whole = static_cast<double>(activity.duration_lower.count());
-  return {&activity, ends, whole > 0 ? static_cast<double>((ends - now).count()) / whole : 0.0};
+  return {&activity, ends, whole > 0 ? static_cast<double>((ends - now).count()) / whole : 0.0, ends - now};
 }
 
 /// Adds what the rest of an activity will change. Amounts of fluents come little by little over an activity,
 /// whatever the domain says for simplicity.
 void add_effects(const Remainder& remainder, Forecast& forecast) {
-  for (const temporal::ImpactWhen moment : {temporal::ImpactWhen::at_start, temporal::ImpactWhen::at_end}) {
+  using enum temporal::ImpactWhen;
+  for (const temporal::ImpactWhen moment : {at_start, during, at_end}) {
     for (const Impact& impact : remainder.activity->impacts) {
       if (impact.moment != moment) continue;
-      if (const bool* holds = std::get_if<bool>(&impact.amount)) forecast.facts[impact.timeline] = *holds;
-      if (const double* amount = std::get_if<double>(&impact.amount);
-          amount && impact.kind == ImpactKind::delta)
+      const double* amount = std::get_if<double>(&impact.amount);
+      if (impact.kind == ImpactKind::assign) forecast.values.insert_or_assign(impact.timeline, impact.amount);
+      if (amount && impact.kind == ImpactKind::delta)
         forecast.changes[impact.timeline] += *amount * remainder.part;
+      if (amount && impact.kind == ImpactKind::rate)
+        forecast.changes[impact.timeline] += *amount * temporal::to_seconds(remainder.lasts);
     }
   }
 }
 
 /// What has come about differently; empty if nothing has.
 std::string mismatch(const Forecast& forecast, const beliefs::Beliefs& beliefs) {
-  for (const auto& [fact, holds] : forecast.facts) {
-    const auto value = beliefs.lookup(fact);
-    if (value && *value != temporal::Value(holds))
-      return fact + (holds ? " was foreseen and is not so" : " is still so, unforeseen");
+  for (const auto& [name, foreseen] : forecast.values) {
+    const auto value = beliefs.lookup(name);
+    if (!value || *value == foreseen || std::holds_alternative<double>(foreseen)) continue;
+    if (foreseen == temporal::Value(true)) return name + " was foreseen and is not so";
+    if (foreseen == temporal::Value(false)) return name + " is still so, unforeseen";
+    return name + " is " + temporal::to_text(*value) + ", foreseen was " + temporal::to_text(foreseen);
   }
   return "";
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "exec_svc/problem/problem_writer.hpp"
+
 namespace roci::exec::reactor {
 
 using goals::GoalClass;
@@ -22,10 +24,16 @@ GoalKey newest_hard(const GoalSet& goals) {
   return out;
 }
 
-/// Open goals of which a fact stands in the reason of a proof.
+/// Open goals that a proof blames; where it blames none by name, those of which a fact stands in its reason.
 std::vector<GoalKey> named_goals(const PlanReply& reply, const GoalSet& goals, const MissionModel& mission) {
   std::vector<GoalKey> out;
   if (reply.verdict != Verdict::unsolvable) return out;
+  const auto blamed = [&](const GoalRecord& record) {
+    return std::ranges::find(reply.blocking, record.request.key, &BlockingGoal::key) != reply.blocking.end();
+  };
+  for (const GoalRecord* record : goals.open())
+    if (blamed(*record)) out.push_back(record->request.key);
+  if (!reply.blocking.empty()) return out;
   for (const GoalRecord* record : goals.open()) {
     const auto facts = problem::goal_facts(mission, record->request);
     const auto named = [&](const std::string& fact) { return reply.reason.find(fact) != std::string::npos; };

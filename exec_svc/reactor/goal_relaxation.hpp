@@ -8,7 +8,7 @@
 
 #include "exec_svc/goals/goal_set.hpp"
 #include "exec_svc/mission/mission_model.hpp"
-#include "exec_svc/problem/problem_writer.hpp"
+#include "exec_svc/problem/problem.hpp"
 #include "exec_svc/reactor/messages.hpp"
 
 namespace roci::exec::reactor {

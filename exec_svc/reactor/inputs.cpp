@@ -49,7 +49,7 @@ void assume_unobserved(MissionState& state, const GoalRequest& goal) {
 
 void note_achieved(MissionState& state) {
   for (const GoalRecord* record : state.goals.open()) {
-    if (!state.beliefs.holds(problem::goal_facts(*state.mission, record->request))) continue;
+    if (!problem::is_achieved(*state.mission, state.beliefs, record->request)) continue;
     const GoalKey key = record->request.key;
     state.set_goal(key, GoalState::achieved, "observed");
     state.report(Severity::info, "goal.achieved", "goal " + key.text() + " achieved");

@@ -12,7 +12,7 @@ bool take_goals(MissionState& state, temporal::Time now, const std::vector<goals
 /// Until they are observed, the timelines that the goal brings with it are as its kind says.
 void assume_unobserved(MissionState& state, const goals::GoalRequest& goal);
 
-/// Open goals of which all facts are observed are achieved, whoever brought them about.
+/// Open goals whose success is observed are achieved, whoever brought it about.
 void note_achieved(MissionState& state);
 
 }  // namespace roci::exec::reactor

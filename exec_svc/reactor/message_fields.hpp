@@ -19,8 +19,12 @@ void fields(A& a, archive::Of<ModelVersion, A>& v) {
   a(v.owner, v.version);
 }
 template <class A>
+void fields(A& a, archive::Of<BlockingGoal, A>& v) {
+  a(v.key, v.timeline, v.reason);
+}
+template <class A>
 void fields(A& a, archive::Of<PlanReply, A>& v) {
-  a(v.call, v.verdict, v.reason, v.plan);
+  a(v.call, v.verdict, v.reason, v.blocking, v.plan);
 }
 template <class A>
 void fields(A& a, archive::Of<IssuedKey, A>& v) {

@@ -11,7 +11,7 @@
 #include "core/temporal/verdict.hpp"
 #include "exec_svc/executive/messages.hpp"
 #include "exec_svc/goals/goal_set.hpp"
-#include "exec_svc/problem/problem_writer.hpp"
+#include "exec_svc/problem/problem.hpp"
 #include "exec_svc/reactor/remaining_plan.hpp"
 
 namespace roci::exec::reactor {
@@ -31,12 +31,20 @@ struct PlanRequest {
   std::vector<PlannedAction> remaining;  ///< of the plan before; the planner begins with it
 };
 
+/// A goal that the planner proved to be out of reach.
+struct BlockingGoal {
+  goals::GoalKey key;
+  std::string timeline;  ///< that nothing brings about, or that runs out; empty: not known
+  std::string reason;
+};
+
 /// How a planner call ended.
 struct PlanReply {
   std::uint64_t call = 0;
   temporal::Verdict verdict = temporal::Verdict::no_reply;
-  std::string reason;           ///< of the verdict, in plain words; may be empty
-  temporal::FlexiblePlan plan;  ///< with solved; its activities are not yet bound to owners
+  std::string reason;                  ///< of the verdict, in plain words; may be empty
+  std::vector<BlockingGoal> blocking;  ///< with unsolvable; none: not known, or all goals together
+  temporal::FlexiblePlan plan;  ///< with solved; of an engine that reads PDDL it names actions, not commands
 };
 
 /// The model behind an owner's functions, e.g. a map or an arm. Versions rise.

@@ -11,6 +11,7 @@ using beliefs::Beliefs;
 using goals::GoalRecord;
 using goals::GoalSet;
 using mission::ActionBinding;
+using mission::Component;
 using mission::fill_names;
 using mission::fill_positions;
 using mission::GoalKind;
@@ -24,6 +25,7 @@ namespace {
 using temporal::Condition;
 using temporal::ConditionNode;
 using temporal::ConditionOp;
+using temporal::PlanActivity;
 
 using PropertyTable = std::map<std::string, std::string>;  // "place-1.x" → "12.5"
 
@@ -62,18 +64,104 @@ std::vector<std::string> goals_served(const std::vector<std::string>& objects, c
   return out;
 }
 
-/// Decisions of one plan and the next have different ids, as activities have.
-void rename_decisions(temporal::FlexiblePlan& plan, std::uint32_t version,
-                      const std::map<std::string, std::string>& new_ids) {
-  for (temporal::DecisionPoint& decision : plan.decisions) {
-    decision.id = "p" + std::to_string(version) + "." + decision.id;
-    for (temporal::DecisionChoice& choice : decision.choices)
-      for (std::string& id : choice.activities)
-        if (const auto renamed = new_ids.find(id); renamed != new_ids.end()) id = renamed->second;
-    for (temporal::ArgumentBinding& binding : decision.bindings)
-      if (const auto renamed = new_ids.find(binding.activity); renamed != new_ids.end())
-        binding.activity = renamed->second;
+using Renaming = std::map<std::string, std::string>;
+
+// Ids that no other plan of the run has, in the order of the activities.
+Renaming rename_activities(temporal::FlexiblePlan& plan) {
+  Renaming renamed;
+  std::size_t number = 0;
+  for (PlanActivity& activity : plan.activities) {
+    std::string id =
+        "p" + std::to_string(plan.version) + "." + std::to_string(++number) + "-" + activity.name;
+    renamed[activity.id] = id;
+    activity.id = std::move(id);
   }
+  return renamed;
+}
+
+// Decisions of one plan and the next have different ids, too.
+void rename_references(temporal::FlexiblePlan& plan, const Renaming& renamed) {
+  const auto rename = [&](std::string& id) {
+    if (const auto found = renamed.find(id); found != renamed.end()) id = found->second;
+  };
+  for (PlanActivity& activity : plan.activities) rename(activity.parent);
+  for (temporal::DecisionPoint& decision : plan.decisions) {
+    decision.id = "p" + std::to_string(plan.version) + "." + decision.id;
+    for (temporal::DecisionChoice& choice : decision.choices)
+      for (std::string& activity : choice.activities) rename(activity);
+    for (temporal::ArgumentBinding& binding : decision.bindings) rename(binding.activity);
+  }
+}
+
+// `goals`: none if the engine says itself which goals its activities serve.
+std::string bind_action(PlanActivity& activity, const MissionModel& mission, const PropertyTable& properties,
+                        const Beliefs& beliefs, const GoalSet* goals) {
+  const auto found = mission.actions.find(activity.name);
+  if (found == mission.actions.end())
+    return "the mission file binds no command to action '" + activity.name + "'; add it under 'actions'";
+  const ActionBinding& binding = found->second;
+  std::vector<std::string> objects;
+  for (const temporal::Property& argument : activity.arguments) objects.push_back(argument.value);
+  activity.owner = binding.owner;
+  activity.robot = binding.robot;
+  activity.subsystem = binding.component;
+  activity.command_name = binding.command;
+  activity.lateness = binding.lateness;
+  activity.retries = binding.retries;
+  activity.wait_timeout = binding.wait_timeout;
+  activity.contingency = binding.contingency;
+  if (goals != nullptr) activity.goals_served = goals_served(objects, mission, *goals);
+  activity.arguments.clear();
+  for (const auto& [name, text] : binding.arguments) {
+    std::string value = fill_positions(text, objects);
+    if (const auto property = properties.find(value); property != properties.end()) {
+      value = property->second;
+    } else if (text.starts_with('?') && text.find('.') != std::string::npos) {
+      return "action '" + activity.name + "' needs " + value +
+             " for its command, and the object has no such property";
+    }
+    activity.arguments.push_back({name, value});
+  }
+  activity.pre = decidable(activity.pre, beliefs);
+  activity.maintenance = decidable(activity.maintenance, beliefs);
+  activity.post = {};  // what an action achieves is seen by the goals and by the next action's conditions
+  return "";
+}
+
+std::string known_subsystems(const MissionModel& mission) {
+  std::string out;
+  for (const Component& component : mission.components)
+    out += (out.empty() ? "" : ", ") + component.name + " of " + component.owner;
+  return out.empty() ? "none" : out;
+}
+
+// Of PlanActivity or PlanCommand: whose members have the same names.
+template <class Commanding>
+std::string bind_command(Commanding& command, const std::string& activity, const MissionModel& mission) {
+  const auto fits = [&](const Component& component) {
+    return component.name == command.subsystem && component.owner == command.owner &&
+           (command.robot.empty() || component.robot.empty() || component.robot == command.robot);
+  };
+  const auto component = std::ranges::find_if(mission.components, fits);
+  if (component == mission.components.end()) {
+    const std::string robot = command.robot.empty() ? "" : "robot '" + command.robot + "' has ";
+    return activity + " commands '" + command.command_name + "' of subsystem '" + command.subsystem +
+           "' and owner '" + command.owner + "', but " + (robot.empty() ? "the mission has " : robot) +
+           "no such subsystem; it has: " + known_subsystems(mission);
+  }
+  if (command.robot.empty()) command.robot = component->robot;
+  return "";
+}
+
+std::string bind_commands(PlanActivity& activity, const MissionModel& mission) {
+  if (!activity.contingency.empty() && !mission.contingencies.contains(activity.contingency))
+    return activity.id + " names contingency '" + activity.contingency +
+           "', which the mission has not; add it under 'contingencies'";
+  if (activity.owner.empty()) return "";  // internal state alone
+  if (std::string fault = bind_command(activity, activity.id, mission); !fault.empty()) return fault;
+  for (temporal::PlanCommand& command : activity.then)
+    if (std::string fault = bind_command(command, activity.id, mission); !fault.empty()) return fault;
+  return "";
 }
 
 }  // namespace
@@ -83,43 +171,17 @@ std::string bind_plan(temporal::FlexiblePlan& plan, std::uint32_t version, const
   const PropertyTable properties = property_table(problem);
   plan.version = version;
   plan.id = mission.name;
-  std::size_t number = 0;
-  std::map<std::string, std::string> new_ids;
-  for (temporal::PlanActivity& activity : plan.activities) {
-    const auto found = mission.actions.find(activity.name);
-    if (found == mission.actions.end()) {
-      return "the mission file binds no command to action '" + activity.name + "'; add it under 'actions'";
-    }
-    const ActionBinding& binding = found->second;
-    std::vector<std::string> objects;
-    for (const temporal::Property& argument : activity.arguments) objects.push_back(argument.value);
-    std::string& new_id = new_ids[activity.id];
-    new_id = "p" + std::to_string(version) + "." + std::to_string(++number) + "-" + activity.name;
-    activity.id = new_id;
-    activity.owner = binding.owner;
-    activity.subsystem = binding.component;
-    activity.command_name = binding.command;
-    activity.lateness = binding.lateness;
-    activity.retries = binding.retries;
-    activity.wait_timeout = binding.wait_timeout;
-    activity.contingency = binding.contingency;
-    activity.goals_served = goals_served(objects, mission, goals);
-    activity.arguments.clear();
-    for (const auto& [name, text] : binding.arguments) {
-      std::string value = fill_positions(text, objects);
-      if (const auto property = properties.find(value); property != properties.end()) {
-        value = property->second;
-      } else if (text.starts_with('?') && text.find('.') != std::string::npos) {
-        return "action '" + activity.name + "' needs " + value +
-               " for its command, and the object has no such property";
-      }
-      activity.arguments.push_back({name, value});
-    }
-    activity.pre = decidable(activity.pre, beliefs);
-    activity.maintenance = decidable(activity.maintenance, beliefs);
-    activity.post = {};  // what an action achieves is seen by the goals and by the next action's conditions
+  const Renaming renamed = rename_activities(plan);
+  rename_references(plan, renamed);
+  const bool served_is_known = std::ranges::any_of(
+      plan.activities, [](const PlanActivity& activity) { return !activity.goals_served.empty(); });
+  const GoalSet* guessed_from = served_is_known ? nullptr : &goals;
+  for (PlanActivity& activity : plan.activities) {
+    std::string fault = mission.has_domain()
+                            ? bind_action(activity, mission, properties, beliefs, guessed_from)
+                            : bind_commands(activity, mission);
+    if (!fault.empty()) return fault;
   }
-  rename_decisions(plan, version, new_ids);
   return "";
 }
 

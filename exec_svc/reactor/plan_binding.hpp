@@ -1,5 +1,5 @@
-/// A planner's plan becomes a plan for this mission: actions become commands of owners, by the mission's
-/// metadata.
+/// A planner's plan becomes a plan for this mission. That of an engine that reads PDDL names actions, and becomes
+/// commands of owners by the mission's metadata; any other one commands by itself and is held against the mission.
 #pragma once
 
 #include <string>
@@ -8,14 +8,15 @@
 #include "core/temporal/flexible_plan.hpp"
 #include "exec_svc/beliefs/beliefs.hpp"
 #include "exec_svc/goals/goal_set.hpp"
-#include "exec_svc/problem/problem_writer.hpp"
+#include "exec_svc/problem/problem.hpp"
 
 namespace roci::exec::reactor {
 
-/// Gives each activity an id that no other plan of the run has, its command, and the goals it serves; leaves
-/// out conditions that no observation can decide (their times stand in the network). An activity's arguments
-/// are its PDDL objects in order. Returns what is wrong, empty if nothing: an action without binding, a
-/// property that its object has not.
+/// Gives each activity an id that no other plan of the run has (and every reference to it). An activity of a PDDL
+/// plan gets its command and the goals it serves; its arguments are its PDDL objects in order, and conditions that
+/// no observation can decide are left out (their times stand in the network). One that commands itself keeps what
+/// it says; its subsystems get this executive's robot where it names none. Returns what is wrong, empty if nothing:
+/// an action without binding, a property that its object has not, an owner or subsystem that the mission has not.
 std::string bind_plan(temporal::FlexiblePlan& plan, std::uint32_t version,
                       const mission::MissionModel& mission, const problem::Problem& problem,
                       const beliefs::Beliefs& beliefs, const goals::GoalSet& goals);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "exec_svc/problem/problem_writer.hpp"
 #include "exec_svc/reactor/plan_binding.hpp"
 #include "exec_svc/reactor/recovery_policy.hpp"
 
@@ -64,7 +65,8 @@ void PlanningCycle::adopt(Time now, const PlanReply& reply) {
   call_->note_fresh();
   temporal::FlexiblePlan plan = reply.plan;
   plan.origin = call_->request().origin;
-  std::vector<PlannedAction> planned = planned_actions(plan);
+  std::vector<PlannedAction> planned;  // what is left of a plan is told as PDDL actions
+  if (state_->mission->has_domain()) planned = planned_actions(plan);
   std::string fault = bind_plan(plan, plan_->version() + 1, *state_->mission, call_->request().problem,
                                 state_->beliefs, state_->goals);
   if (!recovery_policy_of(state_->mission->executive.recovery).flexible) make_inflexible(plan);

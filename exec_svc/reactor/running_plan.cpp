@@ -88,7 +88,8 @@ std::string RunningPlan::load(temporal::FlexiblePlan plan, Time now) {
 void RunningPlan::watch(const temporal::FlexiblePlan& plan) {
   const mission::MissionModel& mission = *state_->mission;
   std::set<std::string> predicted;
-  for (const mission::WindowModel& window : mission.windows) predicted.insert(window.fact);
+  for (const mission::WindowModel& window : mission.windows)
+    predicted.insert(mission.has_domain() ? window.fact : window.timeline);
   const bool new_version = mission.executive.replanning == mission::Replanning::continuous;
   const temporal::FlexiblePlan watched = new_version ? in_order_of_starts(plan) : plan;
   ConflictMonitor conflicts(watched, predicted, mission.executive.ack_timeout);

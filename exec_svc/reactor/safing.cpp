@@ -21,6 +21,7 @@ void Safing::send_fallbacks() {
     command.activity =
         "fallback." + std::to_string(plan_->version()) + "." + std::to_string(round_) + "." + component->name;
     command.owner = component->owner;
+    command.robot = component->robot;
     command.subsystem = component->name;
     command.command_name = component->fallback;
     state_->out.commands.push_back(std::move(command));

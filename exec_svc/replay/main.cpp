@@ -7,7 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/mission/entry.hpp"
+#include "core/mission/mission_file.hpp"
+#include "core/mission/service_list.hpp"
 #include "exec_svc/archive/archive.hpp"
 #include "exec_svc/journal/format.hpp"
 #include "exec_svc/journal/run_replay.hpp"
@@ -68,6 +69,19 @@ void print(const RunReplay& run) {
             << "\n  now:       " << or_nothing(run.divergence->got) << "\n";
 }
 
+// As the executive that wrote the journal read it.
+roci::exec::mission::MissionModel mission_of(const Journal& journal, const Options& options) {
+  const fs::path mission = options.mission.empty() ? fs::path(journal.text("mission")) : options.mission;
+  if (mission.empty()) throw JournalError("the journal names no mission; give its folder with --mission");
+  const std::string file = options.mission.empty() ? journal.text("mission_file") : "";
+  const auto root = roci::mission::load_mission_file(mission);
+  roci::exec::mission::ExecutiveRole role;
+  if (root.find("services"))
+    role =
+        roci::exec::mission::role_of(roci::mission::read_service_list(root), journal.text("executive"), "");
+  return read_mission(file.empty() ? mission : fs::path(file), role);
+}
+
 int replay(const Options& options) {
   const Journal journal(journal_file(options.journal), Durability::process);
   const std::int64_t format = journal.number("format", 0);
@@ -77,9 +91,7 @@ int replay(const Options& options) {
                        ", this roci-replay repeats format " +
                        std::to_string(roci::exec::journal::kInputFormat) +
                        "; repeat the run with the version that flew it");
-  const fs::path mission = options.mission.empty() ? fs::path(journal.text("mission")) : options.mission;
-  if (mission.empty()) throw JournalError("the journal names no mission; give its folder with --mission");
-  const RunReplay run = replay_run(journal, read_mission(mission));
+  const RunReplay run = replay_run(journal, mission_of(journal, options));
   if (run.turns == 0) throw JournalError(options.journal.string() + " holds no inputs of a run");
   if (options.json) {
     std::cout << as_json(run).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";

@@ -23,7 +23,8 @@
 
 namespace roci::planner::temporal_pddl {
 
-using call::Budget, call::Monitor, call::Options, call::PlanningFailure, call::SearchLimits, call::Statistics;
+using call::Budget, call::Monitor, call::NamedGoal, call::Options, call::PlanningFailure, call::SearchLimits,
+    call::Statistics;
 using dead_ends::DeadEndDetectors, dead_ends::MutexDeadEnds, dead_ends::ResourceDeadEnds;
 using engine::FunctionSource;
 using extraction::build_plan;
@@ -65,9 +66,22 @@ PlanPrefix improved(const SearchContext& context, PlanPrefix first, const Guide&
   return improve(std::move(first), guides, restarts, context);
 }
 
+// Why there is no plan: time alone, else a number that does not suffice, else what the search has seen.
+void explain(FfHeuristic& ff, ResourceDeadEnds& resources, SearchOutcome outcome, Result& result) {
+  if (auto late = ff.lateness()) {
+    result.reason = late->reason;
+    result.blocked = {std::move(*late)};
+    return;
+  }
+  result.reason = resources.shortage_reason();
+  if (!result.reason.empty()) return;
+  result.reason = std::move(outcome.reason);
+  result.blocked = std::move(outcome.blocked);
+}
+
 void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
-           const Options& options, std::span<const pddl::PlanStep> remaining, SearchLimits& limits,
-           Result& result) {
+           const Options& options, std::span<const pddl::PlanStep> remaining,
+           std::span<const NamedGoal> goals, SearchLimits& limits, Result& result) {
   require_model(domain, problem);
   const Grounding grounding = ground(domain, problem, functions, options, limits, result.functions);
   const Task& task = grounding.task;
@@ -90,13 +104,11 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   if (outcome.plan) {
     limits.first_plan_found();
     const PlanPrefix best = improved(context, std::move(*outcome.plan), guide, ff);
-    result.plan = build_plan(domain, grounding, best, options);
+    result.plan = build_plan(domain, grounding, best, options, goals);
     result.verdict = Verdict::solved;
   } else {
     result.verdict = Verdict::unsolvable;
-    result.reason = ff.lateness_reason();
-    if (result.reason.empty()) result.reason = resources.shortage_reason();
-    if (result.reason.empty()) result.reason = std::move(outcome.reason);
+    explain(ff, resources, std::move(outcome), result);
   }
 }
 
@@ -104,11 +116,11 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
 
 Result plan(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
             const Budget& budget, const Monitor& monitor, const Options& options,
-            std::span<const pddl::PlanStep> remaining) {
+            std::span<const pddl::PlanStep> remaining, std::span<const NamedGoal> goals) {
   Result result;
   SearchLimits limits(budget, monitor);
   try {
-    solve(domain, problem, functions, options, remaining, limits, result);
+    solve(domain, problem, functions, options, remaining, goals, limits, result);
   } catch (const ModelFailure& failure) {
     result.verdict = failure.verdict();
     result.reason = failure.reason();
@@ -116,6 +128,7 @@ Result plan(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSo
   } catch (const PlanningFailure& failure) {
     result.verdict = failure.verdict();
     result.reason = failure.reason();
+    result.blocked = failure.blocked();
   } catch (const std::bad_alloc&) {
     result.verdict = Verdict::out_of_memory;
     result.reason = "the system has no more memory";

@@ -8,6 +8,7 @@
 
 #include "core/pddl/source.hpp"
 #include "core/temporal/verdict.hpp"
+#include "planner_svc/temporal_pddl/call/named_goal.hpp"
 #include "planner_svc/temporal_pddl/call/statistics.hpp"
 #include "planner_svc/temporal_pddl/extraction/plan.hpp"
 #include "planner_svc/temporal_pddl/grounding/lifted/constant_functions.hpp"
@@ -18,7 +19,9 @@ namespace roci::planner::temporal_pddl {
 /// is unreachable even when relaxed, or the search space is exhausted.
 struct Result {
   temporal::Verdict verdict = temporal::Verdict::invalid_input;
-  std::string reason;                     ///< what blocks, in words; empty with solved
+  std::string reason;  ///< what blocks, in words; empty with solved
+  /// With unsolvable: facts of the goal that are out of reach, as far as they are known one by one.
+  std::vector<call::BlockedFact> blocked;
   std::optional<pddl::Diagnostic> where;  ///< of unsupported and invalid_input: the place in the model
   std::optional<extraction::Plan> plan;   ///< is there with solved alone
   call::Statistics statistics;

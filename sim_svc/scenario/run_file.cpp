@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "core/mission/mission_file.hpp"
 #include "core/mission/scenario.hpp"
 #include "core/terrain/map_error.hpp"
 #include "core/terrain/site_file.hpp"
@@ -69,7 +70,7 @@ world::RobotSetup read_robot(const RobotEntry& robot, const Start& start, const 
 
 RunSetup load_run(const std::filesystem::path& mission_folder, const std::string& scenario_name,
                   const setup::Registry& types) {
-  const Entry mission = Entry::load(mission::mission_file(mission_folder));
+  const Entry mission = mission::load_mission_file(mission_folder);
   const Entry scenario_file = mission::load_scenario(mission_folder, scenario_name);
   const Roster roster = setup::read_roster(mission.at("simulation"), types);
   RunSetup run;

@@ -1,8 +1,11 @@
 #include "planner_svc/temporal_pddl/adapter/pddl_engine.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <new>
+#include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/pddl/function_table.hpp"
@@ -13,9 +16,9 @@
 
 namespace roci::planner::temporal_pddl::adapter {
 
-using call::Budget, call::Monitor, call::Options;
-using engine::Answer, engine::FunctionOutcome, engine::FunctionSource, engine::FunctionUse, engine::Limits,
-    engine::RemainingAction, engine::Request;
+using call::BlockedFact, call::Budget, call::Monitor, call::NamedGoal, call::Options;
+using engine::Answer, engine::BlockingGoal, engine::FunctionOutcome, engine::FunctionSource,
+    engine::FunctionUse, engine::Limits, engine::RemainingAction, engine::Request;
 using temporal::Verdict;
 
 namespace {
@@ -49,6 +52,37 @@ pddl::FunctionTable table_of(const std::vector<FunctionUse>& uses) {
   return table;
 }
 
+// The facts that a goal asks for. Its condition is a conjunction over facts as timelines; other conditions
+// stand in the problem alone.
+std::vector<std::string> facts_of(const engine::Goal& goal) {
+  std::vector<std::string> facts;
+  for (const temporal::ConditionNode& node : goal.achieved.nodes) {
+    const bool* holds = std::get_if<bool>(&node.operand);
+    if (node.op != temporal::ConditionOp::eq || holds == nullptr) continue;
+    facts.push_back(*holds ? node.timeline : "(not " + node.timeline + ")");
+  }
+  return facts;
+}
+
+std::vector<NamedGoal> named_goals(const std::vector<engine::Goal>& goals) {
+  std::vector<NamedGoal> out;
+  for (const engine::Goal& goal : goals) out.push_back({goal.key(), facts_of(goal)});
+  return out;
+}
+
+// Each goal of which a fact is out of reach, once.
+std::vector<BlockingGoal> blocking_goals(const std::vector<BlockedFact>& blocked,
+                                         const std::vector<engine::Goal>& goals) {
+  std::vector<BlockingGoal> out;
+  for (const engine::Goal& goal : goals) {
+    const std::vector<std::string> facts = facts_of(goal);
+    const auto found = std::ranges::find_if(
+        blocked, [&](const BlockedFact& one) { return std::ranges::count(facts, one.fact) > 0; });
+    if (found != blocked.end()) out.push_back({goal.issuer, goal.id, found->fact, found->reason});
+  }
+  return out;
+}
+
 Answer plan_for(const Request& request, const Limits& limits, FunctionSource& functions,
                 const std::vector<pddl::PlanStep>& remaining, std::vector<FunctionUse>& used) {
   const pddl::Domain domain = pddl::parse_domain(request.model, "domain");
@@ -61,7 +95,8 @@ Answer plan_for(const Request& request, const Limits& limits, FunctionSource& fu
   monitor.cancelled = limits.cancelled;
   Options options;
   options.improvement_evaluations = kImprovementEvaluations;
-  Result result = temporal_pddl::plan(domain, problem, functions, budget, monitor, options, remaining);
+  const std::vector<NamedGoal> goals = named_goals(request.goals);
+  Result result = temporal_pddl::plan(domain, problem, functions, budget, monitor, options, remaining, goals);
   Answer out;
   out.verdict = result.verdict;
   out.reason = std::move(result.reason);
@@ -69,7 +104,10 @@ Answer plan_for(const Request& request, const Limits& limits, FunctionSource& fu
   out.statistics.evaluated = result.statistics.evaluated;
   out.statistics.bytes_per_state = result.statistics.bytes_per_state;
   out.statistics.from_remaining = result.statistics.from_remaining;
-  if (result.plan) out.plan = export_plan(*result.plan, result.functions);
+  out.blocking = blocking_goals(result.blocked, request.goals);
+  std::vector<std::string> names;
+  for (const NamedGoal& goal : goals) names.push_back(goal.name);
+  if (result.plan) out.plan = export_plan(*result.plan, result.functions, names);
   used = std::move(result.functions);
   return out;
 }
@@ -86,7 +124,7 @@ Answer PddlEngine::answer(const Request& request, const Limits& limits, Function
     out = engine::without_plan(Verdict::invalid_input, error.what());
   } catch (const std::bad_alloc&) {
     out = engine::without_plan(Verdict::out_of_memory,
-                       "memory ran out outside the search; give the call a larger budget");
+                               "memory ran out outside the search; give the call a larger budget");
   } catch (const std::exception& error) {
     out = engine::without_plan(Verdict::crashed, error.what());
   }

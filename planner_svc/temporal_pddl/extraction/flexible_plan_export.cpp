@@ -1,10 +1,12 @@
 #include "planner_svc/temporal_pddl/extraction/flexible_plan_export.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <optional>
 #include <string>
+#include <variant>
+
+#include "core/pddl/printer.hpp"
 
 namespace roci::planner::temporal_pddl::extraction {
 
@@ -21,86 +23,74 @@ Duration minus(Duration a, Duration b) {
   return temporal::plus(a, b == temporal::no_bound ? -temporal::no_bound : -b);
 }
 
-std::optional<ConditionOp> comparison_of(std::string_view symbol) {
-  if (symbol == "<") return ConditionOp::lt;
-  if (symbol == "<=") return ConditionOp::le;
-  if (symbol == "=") return ConditionOp::eq;
-  if (symbol == ">=") return ConditionOp::ge;
-  if (symbol == ">") return ConditionOp::gt;
-  return std::nullopt;
-}
-
-// "(>= (battery) 30)"; nothing for comparisons of more than one fluent.
-std::optional<Condition> single_fluent_comparison(const std::string& text) {
-  const auto fluent_begin = text.find('(', 1);
-  const auto fluent_end = text.find(')');
-  if (fluent_begin == std::string::npos || fluent_end == std::string::npos || fluent_end < fluent_begin)
-    return std::nullopt;
-  std::string symbol = text.substr(1, fluent_begin - 1);
-  symbol.erase(symbol.find_last_not_of(' ') + 1);
-  const auto op = comparison_of(symbol);
-  const auto number_begin = text.find_first_not_of(' ', fluent_end + 1);
-  if (!op || number_begin == std::string::npos) return std::nullopt;
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data() + number_begin, text.data() + text.size(), number);
-  if (error != std::errc() ||
-      std::string_view(end, static_cast<std::size_t>(text.data() + text.size() - end)) != ")")
-    return std::nullopt;
-  return temporal::compare(text.substr(fluent_begin, fluent_end - fluent_begin + 1), *op, number);
-}
-
-std::optional<Condition> exported(const GroundCondition& condition) {
-  using Kind = GroundCondition::Kind;
-  switch (condition.kind) {
-    case Kind::fact:
-      return temporal::compare(condition.text, ConditionOp::eq, true);
-    case Kind::negated_fact:
-      return temporal::compare(condition.text, ConditionOp::eq, false);
-    case Kind::comparison:
-      return single_fluent_comparison(condition.text);
-    case Kind::formula:
-      return std::nullopt;
+ConditionOp exported(pddl::ComparisonOperator op) {
+  switch (op) {
+    case pddl::ComparisonOperator::less:
+      return ConditionOp::lt;
+    case pddl::ComparisonOperator::less_equal:
+      return ConditionOp::le;
+    case pddl::ComparisonOperator::equal:
+      return ConditionOp::eq;
+    case pddl::ComparisonOperator::greater_equal:
+      return ConditionOp::ge;
+    case pddl::ComparisonOperator::greater:
+      return ConditionOp::gt;
   }
-  return std::nullopt;
+  return ConditionOp::eq;
 }
 
-// "(at place-1)" and "(not (at place-1))": the fact as a timeline becomes true or false.
-temporal::Impact exported_fact(const std::string& text, temporal::ImpactWhen moment) {
-  constexpr std::string_view kNot = "(not ";
-  const bool becomes_false = text.starts_with(kNot);
-  const std::string fact = becomes_false ? text.substr(kNot.size(), text.size() - kNot.size() - 1) : text;
-  return {fact, temporal::ImpactKind::assign, moment, !becomes_false};
+// A fact and whether it is to be true; nothing for other conditions.
+std::optional<pddl::Literal> literal_of(const pddl::Condition& condition) {
+  if (const auto* atom = std::get_if<pddl::Atom>(&condition.node)) return pddl::Literal{*atom, false};
+  const auto* negation = std::get_if<pddl::Not>(&condition.node);
+  if (negation == nullptr) return std::nullopt;
+  const auto* atom = std::get_if<pddl::Atom>(&negation->body->node);
+  return atom == nullptr ? std::nullopt : std::optional(pddl::Literal{*atom, true});
 }
 
-// "(decrease (battery) 12.5)" and "(increase …)" by a number, and facts; nothing for other effects.
-std::optional<temporal::Impact> exported(const GroundEffect& effect, temporal::ImpactWhen moment) {
-  const bool less = effect.text.starts_with("(decrease ");
-  if (!less && !effect.text.starts_with("(increase ")) {
-    constexpr std::array kOfNumbers{"(assign ", "(scale-up ", "(scale-down "};
-    const bool of_number = std::any_of(kOfNumbers.begin(), kOfNumbers.end(),
-                                       [&](const char* start) { return effect.text.starts_with(start); });
-    return of_number ? std::nullopt : std::optional(exported_fact(effect.text, moment));
-  }
-  const auto amount =
-      single_fluent_comparison("(= " + effect.text.substr(std::string_view("(decrease ").size()));
-  if (!amount) return std::nullopt;
-  const temporal::ConditionNode& node = amount->nodes.front();
-  const double number = std::get<double>(node.operand);
-  return temporal::Impact{node.timeline, temporal::ImpactKind::delta, moment, less ? -number : number};
+// A fact, or a single fluent beside a number; nothing for what no single timeline decides.
+std::optional<Condition> exported(const pddl::Condition& condition) {
+  if (const auto literal = literal_of(condition))
+    return temporal::compare(pddl::print(literal->atom), ConditionOp::eq, !literal->negated);
+  const auto* comparison = std::get_if<pddl::Comparison>(&condition.node);
+  if (comparison == nullptr) return std::nullopt;
+  const auto* fluent = std::get_if<pddl::Atom>(&comparison->left.node);
+  const auto* number = std::get_if<pddl::Number>(&comparison->right.node);
+  if (fluent == nullptr || number == nullptr) return std::nullopt;
+  return temporal::compare(pddl::print(*fluent), exported(comparison->op), number->value);
 }
 
-bool achieved_by(const GroundCondition& condition, const std::vector<GroundEffect>& effects) {
-  const std::string wanted =
-      condition.kind == GroundCondition::Kind::negated_fact ? "(not " + condition.text + ")" : condition.text;
-  return std::any_of(effects.begin(), effects.end(),
-                     [&](const GroundEffect& effect) { return effect.text == wanted; });
+// A fact that becomes true or false, or a fluent that changes by a number; nothing for other effects.
+std::optional<temporal::Impact> exported(const pddl::Effect& effect, temporal::ImpactWhen moment) {
+  if (const auto* literal = std::get_if<pddl::Literal>(&effect.node))
+    return temporal::Impact{pddl::print(literal->atom), temporal::ImpactKind::assign, moment,
+                            !literal->negated};
+  const auto* assignment = std::get_if<pddl::Assignment>(&effect.node);
+  if (assignment == nullptr) return std::nullopt;
+  const auto* number = std::get_if<pddl::Number>(&assignment->value.node);
+  const bool less = assignment->op == pddl::AssignmentOperator::decrease;
+  if (number == nullptr || (!less && assignment->op != pddl::AssignmentOperator::increase))
+    return std::nullopt;
+  return temporal::Impact{pddl::print(assignment->fluent), temporal::ImpactKind::delta, moment,
+                          less ? -number->value : number->value};
+}
+
+bool achieved_by(const pddl::Condition& condition, const std::vector<pddl::Effect>& effects) {
+  const auto wanted = literal_of(condition);
+  if (!wanted) return false;
+  const std::string fact = pddl::print(*wanted);
+  return std::ranges::any_of(effects, [&](const pddl::Effect& effect) {
+    const auto* literal = std::get_if<pddl::Literal>(&effect.node);
+    return literal != nullptr && pddl::print(*literal) == fact;
+  });
 }
 
 Condition conjunction(const std::vector<Condition>& parts) {
   return parts.empty() ? Condition{} : temporal::all_of(parts);
 }
 
-temporal::PlanActivity exported(const Activity& in, std::size_t index) {
+temporal::PlanActivity exported(const Activity& in, std::size_t index,
+                                const std::vector<std::string>& goals) {
   temporal::PlanActivity out;
   out.id = "a" + std::to_string(index + 1);
   out.name = in.name;
@@ -109,23 +99,24 @@ temporal::PlanActivity exported(const Activity& in, std::size_t index) {
   out.duration_lower = in.durative ? in.min_duration : Duration{0};
   out.duration_upper = in.durative ? in.max_duration : Duration{0};
   std::vector<Condition> pre, maintenance;
-  for (const GroundCondition& condition : in.at_start) {
+  for (const pddl::Condition& condition : in.at_start) {
     if (auto part = exported(condition)) pre.push_back(std::move(*part));
   }
-  for (const GroundCondition& condition : in.over_all) {
+  for (const pddl::Condition& condition : in.over_all) {
     auto part = exported(condition);
     if (!part) continue;
     if (!achieved_by(condition, in.start_effects)) pre.push_back(*part);
     maintenance.push_back(std::move(*part));
   }
-  for (const GroundEffect& effect : in.start_effects) {
+  for (const pddl::Effect& effect : in.start_effects) {
     if (auto impact = exported(effect, temporal::ImpactWhen::at_start))
       out.impacts.push_back(std::move(*impact));
   }
-  for (const GroundEffect& effect : in.end_effects) {
+  for (const pddl::Effect& effect : in.end_effects) {
     if (auto impact = exported(effect, temporal::ImpactWhen::at_end))
       out.impacts.push_back(std::move(*impact));
   }
+  for (const std::size_t goal : in.goals_served) out.goals_served.push_back(goals[goal]);
   out.pre = conjunction(pre);
   out.maintenance = conjunction(maintenance);
   return out;
@@ -151,7 +142,8 @@ struct Renumbered {
 
 }  // namespace
 
-temporal::FlexiblePlan export_plan(const Plan& plan, const std::vector<FunctionUse>& functions) {
+temporal::FlexiblePlan export_plan(const Plan& plan, const std::vector<FunctionUse>& functions,
+                                   const std::vector<std::string>& goals) {
   temporal::FlexiblePlan out;
   out.engine = "temporal_pddl";
   std::vector<Renumbered> renumbered(plan.network.points.size());
@@ -163,7 +155,7 @@ temporal::FlexiblePlan export_plan(const Plan& plan, const std::vector<FunctionU
     }
   }
   for (const Activity& activity : plan.activities) {
-    temporal::PlanActivity exported_activity = exported(activity, out.activities.size());
+    temporal::PlanActivity exported_activity = exported(activity, out.activities.size(), goals);
     exported_activity.start_point = renumbered[activity.start_point].point;
     exported_activity.end_point =
         activity.start_point == activity.end_point ? out.point_count++ : renumbered[activity.end_point].point;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/pddl/ast.hpp"
 #include "core/temporal/duration.hpp"
 #include "core/temporal/flexible_plan.hpp"
 
@@ -30,19 +31,6 @@ struct Network {
   std::vector<temporal::TemporalConstraint> constraints;
 };
 
-/// A condition with objects in place of parameters, as PDDL text; values of constant fluents and of external
-/// functions stand in it as numbers. A disjunction is one formula.
-struct GroundCondition {
-  enum class Kind { fact, negated_fact, comparison, formula };
-  Kind kind = Kind::fact;
-  std::string text;  ///< "(at w1)" also for negated_fact, "(>= (battery) 30)"
-};
-
-/// An effect as PDDL text: "(at w2)", "(not (at w1))", "(decrease (battery) 12.5)".
-struct GroundEffect {
-  std::string text;
-};
-
 /// One action of the plan. A plain PDDL action has one time point: start_point == end_point.
 struct Activity {
   std::string name;
@@ -54,8 +42,11 @@ struct Activity {
   temporal::Duration end{0};            ///< likewise
   temporal::Duration min_duration{0};
   temporal::Duration max_duration = temporal::no_bound;
-  std::vector<GroundCondition> at_start, over_all, at_end;
-  std::vector<GroundEffect> start_effects, end_effects;
+  /// These have objects in place of parameters, and numbers in place of constant fluents and external
+  /// functions. Conditions are parts of conjunctions; `forall` effects are written out.
+  std::vector<pddl::Condition> at_start, over_all, at_end;
+  std::vector<pddl::Effect> start_effects, end_effects;
+  std::vector<std::size_t> goals_served;  ///< indices of the goals that were named, see goal_support.hpp
 };
 
 struct Plan {

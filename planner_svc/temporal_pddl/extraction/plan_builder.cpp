@@ -4,13 +4,14 @@
 #include <map>
 #include <numeric>
 
-#include "planner_svc/temporal_pddl/extraction/ground_text.hpp"
+#include "planner_svc/temporal_pddl/extraction/goal_support.hpp"
+#include "planner_svc/temporal_pddl/extraction/substitution.hpp"
 #include "planner_svc/temporal_pddl/improvement/plan_quality.hpp"
 #include "planner_svc/temporal_pddl/search/temporal_check.hpp"
 
 namespace roci::planner::temporal_pddl::extraction {
 
-using call::Options;
+using call::NamedGoal, call::Options;
 using constraints::StepConstraint;
 using grounding::Grounding;
 using improvement::metric_of;
@@ -24,17 +25,19 @@ namespace {
 class PlanBuilder {
  public:
   PlanBuilder(const pddl::Domain& domain, const Grounding& grounding, const PlanPrefix& steps,
-              const Options& options)
+              const Options& options, std::span<const NamedGoal> goals)
       : domain_(domain),
         grounding_(grounding),
         task_(grounding.task),
         steps_(steps),
+        goals_(goals),
         describes_(options.describe_activities),
         check_(task_, options.epsilon) {}
 
   Plan run() {
     add_points();
     add_constraints();
+    if (!goals_.empty()) served_ = goals_served(task_, steps_, goals_);
     add_activities();
     plan_.metric = metric_of(task_, steps_, plan_.makespan);
     return std::move(plan_);
@@ -119,6 +122,7 @@ class PlanBuilder {
       activity.arguments.push_back(task_.objects[object.index()]);
     }
     activity.name = task_.schemas[task_.actions[id].schema.index()];
+    if (!served_.empty()) activity.goals_served = std::move(served_[start]);
     if (describes_) describe(task_.actions[id].schema, activity);
     plan_.makespan = std::max(plan_.makespan, activity.end);
     plan_.activities.push_back(std::move(activity));
@@ -126,20 +130,20 @@ class PlanBuilder {
 
   // Schemas are numbered as lower_actions() orders them: plain actions, then durative ones.
   void describe(SchemaId schema, Activity& activity) const {
-    const auto text = [&](const std::vector<pddl::TypedName>& parameters) {
+    const auto instance_of = [&](const std::vector<pddl::TypedName>& parameters) {
       std::map<std::string, std::string> variables;
       for (std::size_t i = 0; i < parameters.size(); ++i)
         variables[parameters[i].name] = activity.arguments[i];
-      return GroundText(grounding_.symbols, grounding_.constants, std::move(variables));
+      return Substitution(grounding_.symbols, grounding_.constants, std::move(variables));
     };
     if (schema.index() < domain_.actions.size()) {
       const pddl::Action& action = domain_.actions[schema.index()];
-      activity.at_start = text(action.parameters).conditions(action.precondition);
-      activity.start_effects = text(action.parameters).effects(action.effects);
+      activity.at_start = instance_of(action.parameters).conditions(action.precondition);
+      activity.start_effects = instance_of(action.parameters).effects(action.effects);
       return;
     }
     const pddl::DurativeAction& action = domain_.durative_actions[schema.index() - domain_.actions.size()];
-    const GroundText ground = text(action.parameters);
+    const Substitution ground = instance_of(action.parameters);
     activity.at_start = ground.conditions(action.condition.at_start);
     activity.over_all = ground.conditions(action.condition.over_all);
     activity.at_end = ground.conditions(action.condition.at_end);
@@ -151,6 +155,8 @@ class PlanBuilder {
   const Grounding& grounding_;
   const Task& task_;
   const PlanPrefix& steps_;
+  std::span<const NamedGoal> goals_;
+  std::vector<std::vector<std::size_t>> served_;  // by step of a start
   bool describes_;
   TemporalCheck check_;
   std::vector<TimeWindow> windows_;  // by step: the window in which the schedule puts it
@@ -160,8 +166,8 @@ class PlanBuilder {
 }  // namespace
 
 Plan build_plan(const pddl::Domain& domain, const Grounding& grounding, const PlanPrefix& steps,
-                const Options& options) {
-  return PlanBuilder(domain, grounding, steps, options).run();
+                const Options& options, std::span<const NamedGoal> goals) {
+  return PlanBuilder(domain, grounding, steps, options, goals).run();
 }
 
 }  // namespace roci::planner::temporal_pddl::extraction

@@ -1,6 +1,7 @@
 #include "planner_svc/temporal_pddl/grounding/grounder.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -23,7 +24,7 @@
 
 namespace roci::planner::temporal_pddl::grounding {
 
-using call::Options, call::PlanningFailure, call::SearchLimits;
+using call::BlockedFact, call::Options, call::PlanningFailure, call::SearchLimits;
 using encoding::build_task;
 using engine::FunctionSource, engine::FunctionUse;
 using instantiation::Disjunction, instantiation::GroundLiteral, instantiation::GroundModel,
@@ -71,23 +72,42 @@ std::string window_too_short(const GroundModel& model, const std::vector<bool>& 
          seconds(nearest->window) + ": " + seconds(nearest->duration - nearest->window) + " too short";
 }
 
+// The parts of a conjunction as text.
+std::vector<std::string> parts_of(const pddl::Condition& condition) {
+  const auto* conjunction = std::get_if<pddl::And>(&condition.node);
+  if (conjunction == nullptr) return {pddl::print(condition)};
+  std::vector<std::string> parts;
+  for (const pddl::Condition& part : conjunction->parts)
+    std::ranges::copy(parts_of(part), std::back_inserter(parts));
+  return parts;
+}
+
 // Throws if no alternative of the goal survives pruning, naming what stands in the way.
 void require_reachable_goal(const pddl::Problem& problem, const Disjunction& before, const GroundModel& model,
                             const std::vector<bool>& reached, const Symbols& symbols,
                             const std::vector<LiftedAction>& actions) {
   if (!model.goal.empty()) return;
-  std::string blocked;
-  for (const auto& goal : model.unreachable_goals) blocked += " " + goal;
+  std::vector<std::string> facts = model.unreachable_goals;
   for (const auto& goal : before) {
     for (const auto literal : goal.literals) {
-      if (!reached[literal_index(literal)]) blocked += " " + literal_text(model, symbols, literal);
+      if (!reached[literal_index(literal)]) facts.push_back(literal_text(model, symbols, literal));
     }
   }
-  if (blocked.empty()) blocked = " " + pddl::print(problem.goal);
+  std::string text;
+  for (const std::string& fact : facts) text += " " + fact;
+  if (facts.empty()) {
+    text = " " + pddl::print(problem.goal);
+    facts = parts_of(problem.goal);
+  }
+  const std::string misfit = window_too_short(model, reached, symbols, actions);
+  std::vector<BlockedFact> blocked;
+  for (std::string& fact : facts)
+    blocked.push_back({std::move(fact), "no sequence of actions reaches it" + misfit});
   throw PlanningFailure(
       Verdict::unsolvable,
-      "no sequence of actions reaches, even if nothing were ever deleted and numbers did not count:" +
-          blocked + window_too_short(model, reached, symbols, actions));
+      "no sequence of actions reaches, even if nothing were ever deleted and numbers did not count:" + text +
+          misfit,
+      std::move(blocked));
 }
 
 }  // namespace

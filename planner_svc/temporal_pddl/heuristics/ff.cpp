@@ -82,19 +82,20 @@ void FfHeuristic::list_deepest_first(SnapId op, std::vector<SnapId>& ordered) {
     ordered.insert(ordered.end(), static_cast<std::size_t>(plan_.times(op)), op);
 }
 
-std::string FfHeuristic::lateness_reason() {
-  if (!earliest_.matters()) return {};
+std::optional<call::BlockedFact> FfHeuristic::lateness() {
+  if (!earliest_.matters()) return std::nullopt;
   earliest_.measure({task_.initial_state, {}, 0, nullptr, {}, {}});
-  std::string reason;
+  std::optional<call::BlockedFact> late;
   for (const Goal& goal : task_.goals) {
     const auto never = std::ranges::find_if(
         goal.facts, [&](FactId fact) { return earliest_.of(relaxed_.proposition(fact)) == no_bound; });
-    if (never == goal.facts.end()) return {};
+    if (never == goal.facts.end()) return std::nullopt;
     const std::string why = earliest_.lateness_reason(relaxed_.proposition(*never));
-    if (why.empty()) return {};
-    reason = name(task_, *never) + " cannot be reached in time: " + why;
+    if (why.empty()) return std::nullopt;
+    const std::string fact = name(task_, *never);
+    late = {fact, fact + " cannot be reached in time: " + why};
   }
-  return reason;
+  return late;
 }
 
 const Goal* FfHeuristic::cheapest_goal() {

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "planner_svc/temporal_pddl/call/named_goal.hpp"
 #include "planner_svc/temporal_pddl/heuristics/best_supporters.hpp"
 #include "planner_svc/temporal_pddl/heuristics/earliest_times.hpp"
 #include "planner_svc/temporal_pddl/heuristics/heuristic.hpp"
@@ -48,9 +49,9 @@ class FfHeuristic final : public Heuristic {
   /// Returns the relaxed plan of the state evaluated last, which is no dead end.
   std::span<const task::SnapId> relaxed_plan() const { return plan_.operators(); }
 
-  /// Tells why time alone forbids every plan from the initial state of the task on; the text is empty if it
-  /// does not.
-  std::string lateness_reason();
+  /// Returns the fact of the goals that time alone puts out of reach from the initial state of the task on,
+  /// and why; nothing if time does not.
+  std::optional<call::BlockedFact> lateness();
 
  private:
   // Is null where any time will do.

@@ -78,7 +78,10 @@ SearchOutcome BestFirstSearch::failed() const {
   std::string reason = goal_.failure_reason(space_.store().size(), context_.statistics.dead_ends > 0);
   const std::string number = unmet_comparison(task_, space_.store());
   if (!number.empty()) reason += "; " + number;
-  return {std::nullopt, {}, std::move(reason)};
+  std::vector<call::BlockedFact> blocked;
+  for (std::string& fact : goal_.never_held())
+    blocked.push_back({std::move(fact), number.empty() ? "never reached" : "never reached; " + number});
+  return {std::nullopt, {}, std::move(reason), std::move(blocked)};
 }
 
 // Stores the state in successor_ and takes it up, and then what its relaxed plan leads to as long as that is

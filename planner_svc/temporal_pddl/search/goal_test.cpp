@@ -83,14 +83,20 @@ bool GoalTest::complete(StateView state, PlanPrefix& prefix) {
   return false;
 }
 
-std::string GoalTest::failure_reason(std::size_t states, bool cut) const {
-  std::string never;
+std::vector<std::string> GoalTest::never_held() const {
+  std::vector<std::string> never;
   for (std::size_t goal = 0; goal < task_.goals.size(); ++goal) {
     const auto& facts = task_.goals[goal].facts;
     for (std::size_t i = 0; i < facts.size(); ++i) {
-      if (!held_[goal][i]) never += " " + name(task_, facts[i]);
+      if (!held_[goal][i]) never.push_back(name(task_, facts[i]));
     }
   }
+  return never;
+}
+
+std::string GoalTest::failure_reason(std::size_t states, bool cut) const {
+  std::string never;
+  for (const std::string& fact : never_held()) never += " " + fact;
   const std::string tried = "all " + std::to_string(states) +
                             " states that time, numbers and conditions allow were tried" +
                             (cut ? ", but for those that provably lead nowhere; " : "; ");

@@ -26,8 +26,10 @@ class GoalTest {
   bool has_deadlines() const { return has_deadlines_; }
   /// Returns whether a timed literal may make a goal true; then how late a finished step may be matters too.
   bool has_openings() const { return has_openings_; }
-  /// Tells after a search without success which goals held in none of the states that were tested. `cut`
-  /// says that some states were not tested, as they lead nowhere.
+  /// Returns after a search without success the facts of the goals that held in none of the states that were
+  /// tested.
+  std::vector<std::string> never_held() const;
+  /// Tells of them in words. `cut` says that some states were not tested, as they lead nowhere.
   std::string failure_reason(std::size_t states, bool cut) const;
 
  private:

@@ -6,14 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "planner_svc/temporal_pddl/call/named_goal.hpp"
 #include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
 
 namespace roci::planner::temporal_pddl::search {
 
 struct SearchOutcome {
-  std::optional<PlanPrefix> plan;       ///< is none if there is no plan
-  std::vector<task::Word> final_state;  ///< the state after the last step of the plan
-  std::string reason;                   ///< what stood in the way, if there is no plan
+  std::optional<PlanPrefix> plan;            ///< is none if there is no plan
+  std::vector<task::Word> final_state;       ///< the state after the last step of the plan
+  std::string reason;                        ///< what stood in the way, if there is no plan
+  std::vector<call::BlockedFact> blocked{};  ///< which facts of the goals did, as far as is known
 };
 
 class ResumableSearch {

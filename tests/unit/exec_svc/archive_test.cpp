@@ -35,7 +35,7 @@ ReactorInputs rich_inputs() {
   in.losses = {{"sim_svc", "killed"}};
   in.arrivals = {"arm_svc"};
   in.models = {{"arm_svc", std::numeric_limits<std::uint64_t>::max()}};
-  in.reply = PlanReply{7, Verdict::solved, "", testing::images({"a", "b"})};
+  in.reply = PlanReply{7, Verdict::solved, "", {{{"ground", "a"}, "x", "why"}}, testing::images({"a", "b"})};
   temporal::PlanActivity& activity = in.reply->plan.activities[0];
   activity.pre = temporal::compare("battery", temporal::ConditionOp::ge, 12.5);
   activity.impacts = {{"battery", temporal::ImpactKind::rate, temporal::ImpactWhen::during, -3.0}};
@@ -60,7 +60,7 @@ TEST(Archive, GivesBackExactlyWhatItTook) {
 TEST(Archive, KeepsNumbersThatAreNone) {
   const auto out = from_bytes<GoalRequest>(
       to_bytes(testing::photo("a", GoalClass::hard, std::numeric_limits<double>::quiet_NaN())));
-  EXPECT_TRUE(std::isnan(out.utility));
+  EXPECT_TRUE(std::isnan(out.utility[0]));
 }
 
 // Whatever stands in a file, reading it ends with values or with an ArchiveError.

@@ -160,6 +160,31 @@ TEST_F(GoalSetTest, DropsNewestOpportunisticThenOptionalOfLowestUtilityNeverHard
   EXPECT_EQ(goals.open().front()->request.key.id, "hard");
 }
 
+// Any gain of a higher rank outweighs every gain of the lower ones.
+TEST_F(GoalSetTest, UtilitiesAreComparedByRank) {
+  const auto submit = [this](const std::string& id, temporal::RankVector utility) {
+    GoalRequest goal = photo(id, GoalClass::optional);
+    goal.utility = std::move(utility);
+    EXPECT_EQ(fault(goal), "accepted");
+  };
+  submit("science", {0, 100});
+  submit("safety", {1});
+  submit("both", {1, 2});
+  submit("neither", {0, 99, 7});
+  std::vector<std::string> order;
+  while (const auto victim = goals.drop_candidate()) {
+    order.push_back(victim->id);
+    goals.set_state(*victim, GoalState::dropped, "test");
+  }
+  EXPECT_THAT(order, ::testing::ElementsAre("neither", "science", "safety", "both"));
+  EXPECT_THAT(fault([] {
+                GoalRequest goal = photo("none", GoalClass::optional);
+                goal.utility = temporal::RankVector(std::vector<double>{1, std::nan("")});
+                return goal;
+              }()),
+              HasSubstr("finite"));
+}
+
 TEST_F(GoalSetTest, AGoalComesAfterTheOnesThatItNames) {
   GoalRequest depot = photo("depot");
   depot.kind = "drop_sample";

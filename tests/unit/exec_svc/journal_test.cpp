@@ -80,7 +80,7 @@ TEST_F(JournalTest, ARejectedGoalOfGarbageComesBack) {
   const auto goals = Journal(file, Durability::power).goals();
   ASSERT_EQ(goals.size(), 1U);
   EXPECT_EQ(goals[0].state, GoalState::rejected);
-  EXPECT_TRUE(std::isnan(goals[0].request.utility));
+  EXPECT_TRUE(std::isnan(goals[0].request.utility[0]));
 }
 
 TEST_F(JournalTest, EachStartHasALaterEpoch) {

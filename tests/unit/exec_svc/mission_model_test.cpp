@@ -10,6 +10,8 @@
 #include <sstream>
 
 #include "core/mission/entry.hpp"
+#include "exec_svc/problem/problem_writer.hpp"
+#include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec {
 
@@ -53,6 +55,23 @@ TEST_F(MissionSlip, TheMissionItselfHasNone) {
   const MissionModel mission = read_mission(folder_);
   EXPECT_EQ(mission.domain_name, "planetary");
   EXPECT_EQ(mission.actions.size(), 6U);
+}
+
+// A goal's success may be a condition over timelines; its states stand for the facts that the planner reads.
+TEST_F(MissionSlip, AGoalMayBeAConditionInsteadOfFacts) {
+  const std::string facts = "goal: [\"(sent image-{id})\"]";
+  std::string text = text_of(folder_ / "mission.yaml");
+  text.replace(text.find(facts), facts.size(), "achieved: {timeline: \"rover.image.image-{id}\", is: sent}");
+  std::ofstream(folder_ / "mission.yaml") << text;
+  const MissionModel mission = read_mission(folder_);
+  EXPECT_THAT(mission.goal_kinds.at("photo").goal,
+              ::testing::ElementsAre("(have-image image-{id})", "(sent image-{id})"));
+  const goals::GoalRequest goal = testing::photo("a");
+  beliefs::Beliefs beliefs = testing::standing_beliefs(mission);
+  beliefs.observe("rover.image.image-a", temporal::state("stored"));
+  EXPECT_FALSE(problem::is_achieved(mission, beliefs, goal));
+  beliefs.observe("rover.image.image-a", temporal::state("sent"));
+  EXPECT_TRUE(problem::is_achieved(mission, beliefs, goal));
 }
 
 TEST_P(MissionSlip, IsToldWithPlaceAndRemedy) {
@@ -107,6 +126,10 @@ INSTANTIATE_TEST_SUITE_P(
              "contingencies: {stop-arm: {commands: [{owner: sim_svc, component: leg, command: "
              "stop}]}}\nexecutive:",
              "no component 'leg'"},
+        Slip{"mission.yaml", "goal: [\"(sent image-{id})\"]", "achieved: {timeline: rover.battery, above: 3}",
+             "only states of components and families"},
+        Slip{"mission.yaml", "format: 1", "format: 2", "of format 2, this version reads up to 1"},
+        Slip{"mission.yaml", "format: 1", "format: 0", "write 'format: 1'"},
         Slip{"mission.yaml", "[[1500, 2700]", "[[2700, 1500]", "from < to"},
         Slip{"mission.yaml", "work: 4000", "work: much", "number"}));
 

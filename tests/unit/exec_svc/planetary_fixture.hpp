@@ -40,7 +40,7 @@ inline goals::GoalRequest photo(const std::string& id, goals::GoalClass importan
   goal.kind = "photo";
   goal.arguments = {{"x", "110"}, {"y", "60"}};
   goal.importance = importance;
-  goal.utility = utility;
+  goal.utility = {utility};
   return goal;
 }
 

@@ -16,8 +16,8 @@ using goals::GoalSet;
 using goals::GoalState;
 using mission::MissionModel;
 using problem::Problem;
-using problem::write_problem;
 using problem::ProblemObject;
+using problem::write_problem;
 
 namespace {
 
@@ -46,7 +46,7 @@ TEST_F(ProblemWriterTest, StateComesFromObservations) {
   EXPECT_THAT(problem.text, HasSubstr("(:domain planetary)"));
   EXPECT_THAT(problem.text, HasSubstr("(at here)"));
   EXPECT_THAT(problem.text, HasSubstr("(arm-at stow)"));
-  EXPECT_THAT(problem.text, HasSubstr("(= (battery) 900000.000000)"));
+  EXPECT_THAT(problem.text, HasSubstr("(= (battery) 900000)"));
   EXPECT_THAT(problem.text, HasSubstr("(target image-ridge place-ridge)"));
   EXPECT_THAT(problem.text, HasSubstr("(sent image-ridge)"));
   EXPECT_THAT(problem.text, Not(HasSubstr("arm-here")));
@@ -55,7 +55,7 @@ TEST_F(ProblemWriterTest, StateComesFromObservations) {
 TEST_F(ProblemWriterTest, PassesTheProjectsOwnParser) {
   submit(photo("ridge"));
   EXPECT_NO_THROW(pddl::parse_problem(write().text, "problem"));
-  EXPECT_NO_THROW(pddl::parse_domain(mission.domain_text, "domain"));
+  EXPECT_NO_THROW(pddl::parse_domain(mission.model_text, "domain"));
 }
 
 TEST_F(ProblemWriterTest, ObjectsCarryTheirPlaces) {
@@ -70,11 +70,11 @@ TEST_F(ProblemWriterTest, ObjectsCarryTheirPlaces) {
 
 TEST_F(ProblemWriterTest, WindowsAreRelativeToTheOrigin) {
   submit(photo("ridge"));
-  EXPECT_THAT(write(0).text, HasSubstr("(at 1495.000000 (comm-window))"));
-  EXPECT_THAT(write(0).text, HasSubstr("(at 2695.000000 (not (comm-window)))"));
+  EXPECT_THAT(write(0).text, HasSubstr("(at 1495 (comm-window))"));
+  EXPECT_THAT(write(0).text, HasSubstr("(at 2695 (not (comm-window)))"));
   beliefs.observe("comm.window", true);
   EXPECT_THAT(write(2000).text, HasSubstr("    (comm-window)\n"));
-  EXPECT_THAT(write(2000).text, HasSubstr("(at 695.000000 (not (comm-window)))"));
+  EXPECT_THAT(write(2000).text, HasSubstr("(at 695 (not (comm-window)))"));
 }
 
 TEST_F(ProblemWriterTest, AWindowThatShouldBeOpenAndIsNotIsLeftOut) {
@@ -89,8 +89,8 @@ TEST_F(ProblemWriterTest, GoalWindowsBecomeTimedLiterals) {
   goal.opens = seconds(100);
   goal.closes = seconds(200);
   submit(goal);
-  EXPECT_THAT(write().text, HasSubstr("(at 95.000000 (available image-ridge))"));
-  EXPECT_THAT(write().text, HasSubstr("(at 195.000000 (not (available image-ridge)))"));
+  EXPECT_THAT(write().text, HasSubstr("(at 95 (available image-ridge))"));
+  EXPECT_THAT(write().text, HasSubstr("(at 195 (not (available image-ridge)))"));
 }
 
 TEST_F(ProblemWriterTest, AchievedGoalsLeaveTheProblemUnlessTheRobotStandsThere) {

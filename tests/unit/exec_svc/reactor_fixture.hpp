@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <string>
@@ -43,6 +44,11 @@ inline bool is_empty(const reactor::ReactorInputs& inputs) {
   return inputs.goals.empty() && inputs.observations.empty() && inputs.acks.empty() &&
          inputs.losses.empty() && inputs.arrivals.empty() && inputs.models.empty() && !inputs.reply &&
          inputs.deltas.empty() && inputs.answers.empty();
+}
+
+inline bool asks_for(const reactor::PlanRequest& call, const std::string& goal) {
+  return std::ranges::any_of(call.problem.goals,
+                             [&](const problem::ProblemGoal& one) { return one.key.id == goal; });
 }
 
 class ReactorTest : public ::testing::Test {

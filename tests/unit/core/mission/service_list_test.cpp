@@ -73,6 +73,19 @@ TEST_F(ServiceListTest, FindsWhoServesARobot) {
   EXPECT_EQ(list.clock_master(), nullptr);
 }
 
+// The run folder is shared: what one service alone writes keeps its plain name.
+TEST_F(ServiceListTest, FilesOfSeveralInstancesAreToldApart) {
+  const ServiceList list = read(
+      "services:\n"
+      "  - {name: exec.a, program: exec_svc}\n"
+      "  - {name: exec.b, program: exec_svc}\n"
+      "  - {name: planner.a, program: planner_svc}\n");
+  EXPECT_EQ(list.file_name("exec.a", "journal.sqlite"), "exec.a.journal.sqlite");
+  EXPECT_EQ(list.file_name("planner.a", "calls"), "calls");
+  EXPECT_EQ(list.file_name("nobody", "calls"), "calls");
+  EXPECT_EQ(list.of_program("exec_svc").size(), 2U);
+}
+
 TEST_F(ServiceListTest, RefusesWithPlaceAndRemedy) {
   EXPECT_THAT(error_of("name: m\n"), HasSubstr("names no services"));
   EXPECT_THAT(error_of("services: []\n"), HasSubstr("names no services"));

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <variant>
 
+#include "core/pddl/printer.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
 
 namespace roci::planner::temporal_pddl {
@@ -52,8 +54,11 @@ TEST(Functions, AreEvaluatedOnceAndAtLoad) {
   EXPECT_EQ(result.functions.size(), 12u);
   ASSERT_EQ(result.plan->activities.size(), 1u);
   EXPECT_EQ(result.plan->activities[0].end, std::chrono::milliseconds(12500));
-  EXPECT_EQ(result.plan->activities[0].at_start[1].text, "(>= (energy) 2)");
-  EXPECT_EQ(result.plan->activities[0].start_effects[1].text, "(decrease (energy) 2)");
+  EXPECT_EQ(pddl::print(result.plan->activities[0].at_start[1]), "(>= (energy) 2)");
+  const auto& change = std::get<pddl::Assignment>(result.plan->activities[0].start_effects[1].node);
+  EXPECT_EQ(change.op, pddl::AssignmentOperator::decrease);
+  EXPECT_EQ(pddl::print(change.fluent), "(energy)");
+  EXPECT_EQ(pddl::print(change.value), "2");
 }
 
 TEST(Functions, UnreachableMeansThatTheInstanceDoesNotExist) {

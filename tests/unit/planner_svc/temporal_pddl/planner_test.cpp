@@ -3,13 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <variant>
+
+#include "core/pddl/printer.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/validated.hpp"
 
 namespace roci::planner::temporal_pddl {
 namespace {
 
 using call::Options, call::WindowExtraction;
-using extraction::Activity, extraction::GroundCondition, extraction::NetworkPoint;
+using extraction::Activity, extraction::NetworkPoint;
 using temporal::Duration, temporal::Verdict;
 using testing::expect_valid, testing::model, testing::solved;
 
@@ -273,7 +276,19 @@ TEST(Planner, AnExhaustedSearchSaysWhatWasNeverReached) {
   EXPECT_THAT(result.reason, ::testing::Not(::testing::HasSubstr("(h)")));
 }
 
-// Conditions and effects leave the engine as ground text, static facts and folded constants included.
+std::string text_of(const pddl::Condition& condition) { return pddl::print(condition); }
+
+std::string text_of(const pddl::Effect& effect) {
+  if (const auto* literal = std::get_if<pddl::Literal>(&effect.node)) return pddl::print(*literal);
+  if (const auto* change = std::get_if<pddl::Assignment>(&effect.node)) {
+    EXPECT_EQ(change->op, pddl::AssignmentOperator::decrease);
+    return "(decrease " + pddl::print(change->fluent) + " " + pddl::print(change->value) + ")";
+  }
+  const auto& when = std::get<pddl::When>(effect.node);
+  return "(when " + pddl::print(when.condition.at_end) + " " + text_of(when.effects.at(0)) + ")";
+}
+
+// Conditions and effects leave the engine ground, static facts and folded constants included.
 TEST(Planner, ActivitiesCarryTheirConditionsAndEffects) {
   const auto made =
       model(R"(
@@ -291,17 +306,17 @@ TEST(Planner, ActivitiesCarryTheirConditionsAndEffects) {
   const Activity& go = result.plan->activities[0];
   const auto texts = [](const auto& list) {
     std::vector<std::string> out;
-    for (const auto& item : list) out.push_back(item.text);
+    for (const auto& item : list) out.push_back(text_of(item));
     return out;
   };
   EXPECT_THAT(texts(go.at_start), ::testing::ElementsAre("(at a)", "(>= (fuel) 3)"));
-  EXPECT_THAT(texts(go.over_all), ::testing::ElementsAre("(road a b)", "(blocked b)"));
-  EXPECT_EQ(go.over_all[1].kind, GroundCondition::Kind::negated_fact);
+  EXPECT_THAT(texts(go.over_all), ::testing::ElementsAre("(road a b)", "(not (blocked b))"));
+  EXPECT_TRUE(std::holds_alternative<pddl::Not>(go.over_all[1].node));
   EXPECT_THAT(texts(go.at_end), ::testing::ElementsAre("(or (at a) (not (at b)))"));
-  EXPECT_EQ(go.at_end[0].kind, GroundCondition::Kind::formula);
-  EXPECT_THAT(texts(go.end_effects), ::testing::ElementsAre("(at b)", "(decrease (fuel) 2)",
-                                                            "(when (and (blocked a)) (not (blocked a)))",
-                                                            "(when (and (blocked b)) (not (blocked b)))"));
+  EXPECT_TRUE(std::holds_alternative<pddl::Or>(go.at_end[0].node));
+  EXPECT_THAT(texts(go.end_effects),
+              ::testing::ElementsAre("(at b)", "(decrease (fuel) 2)", "(when (blocked a) (not (blocked a)))",
+                                     "(when (blocked b) (not (blocked b)))"));
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
-#include "planner_svc/temporal_pddl/extraction/ground_text.hpp"
+#include "planner_svc/temporal_pddl/extraction/substitution.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "core/pddl/overloaded.hpp"
-#include "core/pddl/printer.hpp"
 #include "planner_svc/temporal_pddl/grounding/lifted/static_model.hpp"
 
 namespace roci::planner::temporal_pddl::extraction {
@@ -13,87 +12,50 @@ using grounding::lifted::combine;
 using task::FunctionId;
 using task::ObjectId;
 
-namespace {
-
-const char* keyword(pddl::AssignmentOperator op) {
-  switch (op) {
-    case pddl::AssignmentOperator::assign:
-      return "assign";
-    case pddl::AssignmentOperator::increase:
-      return "increase";
-    case pddl::AssignmentOperator::decrease:
-      return "decrease";
-    case pddl::AssignmentOperator::scale_up:
-      return "scale-up";
-    case pddl::AssignmentOperator::scale_down:
-      return "scale-down";
-  }
-  return "assign";
-}
-
-}  // namespace
-
-std::vector<GroundCondition> GroundText::conditions(const pddl::Condition& condition) const {
-  std::vector<GroundCondition> result;
+std::vector<pddl::Condition> Substitution::conditions(const pddl::Condition& condition) const {
+  std::vector<pddl::Condition> result;
   add_conditions(condition, result);
   return result;
 }
 
-std::vector<GroundEffect> GroundText::effects(const std::vector<pddl::Effect>& effects) const {
-  std::vector<std::string> texts;
-  for (const auto& effect : effects) add_effect(effect, texts);
-  std::vector<GroundEffect> result;
-  for (auto& text : texts) result.push_back({std::move(text)});
+std::vector<pddl::Effect> Substitution::effects(const std::vector<pddl::Effect>& effects) const {
+  std::vector<pddl::Effect> result;
+  for (const auto& effect : effects) add_effect(effect, result);
   return result;
 }
 
-void GroundText::add_conditions(const pddl::Condition& condition,
-                                std::vector<GroundCondition>& result) const {
+void Substitution::add_conditions(const pddl::Condition& condition,
+                                  std::vector<pddl::Condition>& result) const {
   if (const auto* conjunction = std::get_if<pddl::And>(&condition.node)) {
     for (const auto& part : conjunction->parts) add_conditions(part, result);
-    return;
+  } else {
+    result.push_back(ground(condition));
   }
-  auto kind = GroundCondition::Kind::formula;
-  const pddl::Condition* shown = &condition;
-  if (std::holds_alternative<pddl::Atom>(condition.node)) kind = GroundCondition::Kind::fact;
-  if (std::holds_alternative<pddl::Comparison>(condition.node)) kind = GroundCondition::Kind::comparison;
-  if (const auto* negation = std::get_if<pddl::Not>(&condition.node)) {
-    if (std::holds_alternative<pddl::Atom>(negation->body->node)) {
-      kind = GroundCondition::Kind::negated_fact;
-      shown = &*negation->body;
-    }
-  }
-  result.push_back({kind, pddl::print(ground(*shown))});
 }
 
-void GroundText::add_effect(const pddl::Effect& effect, std::vector<std::string>& result) const {
+void Substitution::add_effect(const pddl::Effect& effect, std::vector<pddl::Effect>& result) const {
   std::visit(pddl::Overloaded{
                  [&](const pddl::Literal& literal) {
-                   result.push_back(pddl::print(pddl::Literal{ground(literal.atom), literal.negated}));
+                   result.push_back({pddl::Literal{ground(literal.atom), literal.negated}, effect.where});
                  },
                  [&](const pddl::Assignment& assignment) {
-                   result.push_back(std::string("(") + keyword(assignment.op) + " " +
-                                    pddl::print(ground(assignment.fluent)) + " " +
-                                    pddl::print(ground(assignment.value)) + ")");
+                   result.push_back(
+                       {pddl::Assignment{assignment.op, ground(assignment.fluent), ground(assignment.value)},
+                        effect.where});
                  },
                  [&](const pddl::When& when) {
-                   std::vector<std::string> inner;
+                   const pddl::TimedCondition condition{ground(when.condition.at_start),
+                                                        ground(when.condition.over_all),
+                                                        ground(when.condition.at_end)};
+                   std::vector<pddl::Effect> inner;
                    for (const auto& part : when.effects) add_effect(part, inner);
-                   std::string condition;
-                   for (const auto* part :
-                        {&when.condition.at_start, &when.condition.over_all, &when.condition.at_end}) {
-                     for (const auto& c : conditions(*part)) {
-                       const bool negated = c.kind == GroundCondition::Kind::negated_fact;
-                       condition += " " + (negated ? "(not " + c.text + ")" : c.text);
-                     }
-                   }
-                   for (const auto& text : inner)
-                     result.push_back("(when (and" + condition + ") " + text + ")");
+                   for (auto& part : inner)
+                     result.push_back({pddl::When{condition, {std::move(part)}}, effect.where});
                  },
                  [&](const pddl::ForallEffect& forall) {
-                   std::vector<GroundText> instances{*this};
+                   std::vector<Substitution> instances{*this};
                    for (const auto& variable : forall.variables) {
-                     std::vector<GroundText> longer;
+                     std::vector<Substitution> longer;
                      for (const auto& instance : instances) {
                        for (const ObjectId object : symbols_.of_types(variable.types)) {
                          auto variables = instance.variables_;
@@ -111,19 +73,19 @@ void GroundText::add_effect(const pddl::Effect& effect, std::vector<std::string>
              effect.node);
 }
 
-pddl::Term GroundText::ground(const pddl::Term& term) const {
+pddl::Term Substitution::ground(const pddl::Term& term) const {
   const auto found = variables_.find(term.name);
   return found == variables_.end() ? term : pddl::Term{found->second, term.where};
 }
 
-pddl::Atom GroundText::ground(const pddl::Atom& atom) const {
+pddl::Atom Substitution::ground(const pddl::Atom& atom) const {
   pddl::Atom result = atom;
   for (auto& term : result.arguments) term = ground(term);
   return result;
 }
 
 // Constants become numbers, and so do expressions of numbers alone.
-pddl::Expression GroundText::ground(const pddl::Expression& expression) const {
+pddl::Expression Substitution::ground(const pddl::Expression& expression) const {
   pddl::Expression result = expression;
   if (auto* atom = std::get_if<pddl::Atom>(&result.node)) {
     *atom = ground(*atom);
@@ -145,7 +107,7 @@ pddl::Expression GroundText::ground(const pddl::Expression& expression) const {
   return result;
 }
 
-pddl::Condition GroundText::ground(const pddl::Condition& condition) const {
+pddl::Condition Substitution::ground(const pddl::Condition& condition) const {
   pddl::Condition result = condition;
   std::visit(pddl::Overloaded{
                  [&](pddl::And& a) {
@@ -176,7 +138,7 @@ pddl::Condition GroundText::ground(const pddl::Condition& condition) const {
 }
 
 // Quantified variables hide parameters of the same name.
-GroundText GroundText::without(const std::vector<pddl::TypedName>& variables) const {
+Substitution Substitution::without(const std::vector<pddl::TypedName>& variables) const {
   auto kept = variables_;
   for (const auto& variable : variables) kept.erase(variable.name);
   return {symbols_, constants_, std::move(kept)};

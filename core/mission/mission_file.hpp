@@ -1,0 +1,20 @@
+// mission.yaml as a file of a stated format (docs/formats.md publishes its schema).
+#pragma once
+
+#include <filesystem>
+
+#include "core/mission/entry.hpp"
+
+namespace roci::mission {
+
+/// The newest format of mission.yaml that this code reads. It rises when a key changes its meaning or goes.
+inline constexpr int kMissionFormat = 1;
+
+/// What a service reads: a mission file is named itself or by its folder, whose mission.yaml it then is.
+std::filesystem::path mission_file(const std::filesystem::path& folder_or_file);
+
+/// Reads a mission file; one that states no `format` is of format 1. Throws FileError, also for a file of a newer
+/// format: it is never misread.
+Entry load_mission_file(const std::filesystem::path& folder_or_file);
+
+}  // namespace roci::mission

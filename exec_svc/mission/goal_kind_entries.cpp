@@ -1,0 +1,160 @@
+#include "exec_svc/mission/goal_kind_entries.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "exec_svc/mission/condition_entry.hpp"
+#include "exec_svc/mission/template_text.hpp"
+
+namespace roci::exec::mission {
+namespace {
+
+using roci::mission::Entry;
+using temporal::ConditionNode;
+using temporal::ConditionOp;
+
+constexpr char kRobot[] = "{robot}";
+
+std::vector<std::string> texts_or_none(const Entry& parent, const char* key) {
+  const auto entry = parent.find(key);
+  return entry ? entry->texts() : std::vector<std::string>{};
+}
+
+ObjectModel read_object(const Entry& entry, bool has_domain) {
+  entry.allow_only({"name", "type", "dynamic", "properties"});
+  ObjectModel out{entry.at("name").text(),
+                  has_domain ? entry.at("type").text() : entry.text_or("type", ""),
+                  entry.truth_or("dynamic", false),
+                  {}};
+  if (const auto properties = entry.find("properties")) {
+    for (const auto& [name, value] : properties->fields()) {
+      PropertySource source{name, "", std::nullopt};
+      if (value.is_mapping()) {
+        value.allow_only({"timeline"});
+        source.timeline = value.at("timeline").text();
+      } else {
+        source.text = value.text();
+      }
+      out.properties.push_back(std::move(source));
+    }
+  }
+  return out;
+}
+
+ArgumentKind read_argument_kind(const Entry& entry) {
+  const std::string text = entry.text();
+  if (text == "number") return ArgumentKind::number;
+  if (text == "text") return ArgumentKind::text;
+  if (text == "goal") return ArgumentKind::goal;
+  entry.fail("unknown kind of argument '" + text + "'; one of: number, text, goal");
+}
+
+// The facts that a state of a component or of a family stands for; nothing if it is none of theirs.
+std::optional<std::vector<std::string>> facts_of(const ConditionNode& node, const MissionModel& mission) {
+  const auto* state = std::get_if<temporal::State>(&node.operand);
+  if (state == nullptr) return std::nullopt;
+  const auto in = [&](const std::vector<StateModel>& states, const std::string& object) {
+    std::optional<std::vector<std::string>> out;
+    const auto model = std::ranges::find(states, state->name, &StateModel::name);
+    if (model == states.end()) return out;
+    out.emplace();
+    for (const std::string& fact : model->facts)
+      out->push_back(fill_star(fill_positions(fact, state->arguments), object));
+    return out;
+  };
+  for (const Component& component : mission.components)
+    if (component.timeline == node.timeline) return in(component.states, "");
+  for (const TimelineFamily& family : mission.families)
+    if (node.timeline.starts_with(family.prefix))
+      return in(family.states, node.timeline.substr(family.prefix.size()));
+  return std::nullopt;
+}
+
+// The PDDL goal that a conjunction of states means.
+std::vector<std::string> facts_of(const Entry& achieved, const temporal::Condition& condition,
+                                  const MissionModel& mission) {
+  std::vector<std::string> out;
+  for (const ConditionNode& node : condition.nodes) {
+    if (node.op == ConditionOp::all_of) continue;
+    const auto facts = node.op == ConditionOp::eq ? facts_of(node, mission) : std::nullopt;
+    const bool open = facts && std::ranges::any_of(*facts, [](const std::string& fact) {
+                        return fact.find('?') != std::string::npos;
+                      });
+    if (!facts || open)
+      achieved.fail(
+          "the planner reads facts, and only states of components and families, with all their arguments, "
+          "stand for facts; name the facts under 'goal' as well");
+    out.insert(out.end(), facts->begin(), facts->end());
+  }
+  return out;
+}
+
+void require_robot(const Entry& entry, const std::string& text) {
+  if (text.find(kRobot) != std::string::npos)
+    entry.fail("'{robot}' stands here, and this executive has no robot; give it one under 'services'");
+}
+
+}  // namespace
+
+std::vector<ObjectModel> read_objects(const Entry& parent, bool has_domain) {
+  std::vector<ObjectModel> out;
+  if (const auto list = parent.find("objects")) {
+    for (const Entry& item : list->items()) out.push_back(read_object(item, has_domain));
+  }
+  return out;
+}
+
+GoalKind read_goal_kind(const std::string& name, const Entry& entry, const MissionModel& mission) {
+  entry.allow_only({"help", "arguments", "objects", "facts", "unobserved", "window", "goal", "achieved"});
+  GoalKind out;
+  out.name = name;
+  out.help = entry.text_or("help", "");
+  if (const auto arguments = entry.find("arguments")) {
+    for (const auto& [argument, kind] : arguments->fields())
+      out.arguments[argument] = read_argument_kind(kind);
+  }
+  out.objects = read_objects(entry, mission.has_domain());
+  if (const auto achieved = entry.find("achieved")) {
+    out.achieved = read_condition(*achieved);
+    if (!mission.role.robot.empty()) out.achieved = fill_names(out.achieved, {{"robot", mission.role.robot}});
+  }
+  if (!mission.has_domain()) {
+    refuse_without_domain(entry, {"facts", "unobserved", "window", "goal"});
+    if (out.achieved.empty()) entry.at("achieved");
+    return out;
+  }
+  out.facts = texts_or_none(entry, "facts");
+  if (const auto unobserved = entry.find("unobserved")) {
+    for (const Entry& item : unobserved->items()) {
+      item.allow_only({"timeline", "facts"});
+      out.unobserved.emplace_back(item.at("timeline").text(), item.at("facts").texts());
+    }
+  }
+  out.window_fact = entry.text_or("window", "");
+  if (out.achieved.empty() || entry.find("goal")) {
+    out.goal = entry.at("goal").texts();
+    if (out.goal.empty()) entry.at("goal").fail("a goal kind needs at least one goal fact");
+  } else {
+    out.goal = facts_of(entry.at("achieved"), out.achieved, mission);
+  }
+  return out;
+}
+
+void refuse_without_domain(const Entry& entry, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) {
+    if (const auto found = entry.find(key))
+      found->fail("'" + std::string(key) +
+                  "' speaks of a PDDL domain, and this mission has none; drop it, or add 'domain: FILE'");
+  }
+}
+
+std::string read_timeline(const Entry& entry, const ExecutiveRole& role) {
+  const std::string text = entry.text();
+  if (role.robot.empty()) {
+    require_robot(entry, text);
+    return text;
+  }
+  return fill_names(text, {{"robot", role.robot}});
+}
+
+}  // namespace roci::exec::mission

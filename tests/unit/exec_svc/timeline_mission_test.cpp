@@ -1,0 +1,243 @@
+// Missions without PDDL: what their files may say, the problems that engines get, and the plans that come back.
+#include "tests/unit/exec_svc/timeline_mission.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "exec_svc/problem/problem_writer.hpp"
+#include "exec_svc/reactor/reactor.hpp"
+
+namespace roci::exec {
+
+using executive::CommandStage;
+using mission::Addressee;
+using mission::ExecutiveRole;
+using mission::MissionModel;
+using problem::Problem;
+using problem::write_problem;
+using reactor::Reactor;
+using reactor::ReactorInputs;
+using reactor::ReactorOutputs;
+
+namespace {
+
+using temporal::seconds;
+using temporal::state;
+using temporal::Value;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::hole;
+using ::testing::IsEmpty;
+using testing::TimelineMissionFile;
+
+std::string texts(const std::vector<reactor::Event>& events) {
+  std::string out;
+  for (const reactor::Event& event : events) out += event.code + " " + event.text + "\n";
+  return out;
+}
+
+TEST(TimelineMission, NeedsNoDomainActionsSiteOrArm) {
+  TimelineMissionFile file;
+  const MissionModel mission = file.read();
+  EXPECT_FALSE(mission.has_domain());
+  EXPECT_EQ(mission.model_text, "bore takes 60 s\n");
+  EXPECT_EQ(mission.planner.engine, "miner");
+  EXPECT_EQ(mission.planner.service, "planner.mole");
+  ASSERT_EQ(mission.components.size(), 2U);
+  EXPECT_EQ(mission.components[0].timeline, "mole.drill");
+  EXPECT_EQ(mission.components[0].robot, "mole");
+  EXPECT_EQ(file.read({"vole", true, {"mole", "vole"}, false}).components.size(), 1U)
+      << "the lamp is the mole's";
+}
+
+TEST(TimelineMission, WhatNeedsADomainIsRefusedWithTheRemedy) {
+  TimelineMissionFile file;
+  EXPECT_THAT(file.fault("up: {}", "up: {facts: [\"(up)\"]}"), HasSubstr("'facts' speaks of a PDDL domain"));
+  EXPECT_THAT(file.fault("planner:", "actions: {}\nplanner:"),
+              HasSubstr("'actions' speaks of a PDDL domain"));
+  EXPECT_THAT(file.fault("{timeline: comm.window", "{fact: \"(w)\", timeline: comm.window"),
+              HasSubstr("'fact' speaks of a PDDL domain"));
+  EXPECT_THAT(file.fault("    achieved:", "    goal: [\"(done)\"]\n    achieved:"),
+              HasSubstr("'goal' speaks of"));
+  EXPECT_THAT(file.fault("    achieved:", "    #"), HasSubstr("'achieved' is missing"));
+  EXPECT_THAT(file.fault("{engine: miner, ", "{"), HasSubstr("names the engine that plans it"));
+  EXPECT_THAT(file.fault("model: model.txt", "domain: model.txt\nmodel: model.txt"), HasSubstr("not both"));
+  EXPECT_THAT(file.fault("at_least: 3", "atleast: 3"),
+              HasSubstr("unknown key 'atleast'; known here: timeline, is"));
+  EXPECT_THAT(file.fault(", at_least: 3", ""), HasSubstr("a condition compares its timeline"));
+  EXPECT_THAT(file.fault("mine", "mine", ExecutiveRole{}), HasSubstr("this executive has no robot"));
+}
+
+// A planner with such a mission gets everything as timelines, and no text.
+TEST(TimelineMission, ProblemsHoldStatePredictionsGoalsAndObjects) {
+  TimelineMissionFile file;
+  const MissionModel mission = file.read();
+  beliefs::Beliefs beliefs(mission);
+  beliefs.observe("mole.drill", state("boring", {"h-a"}));
+  beliefs.observe("mole.depth", 2.0);
+  beliefs.observe("comm.window", false);
+  goals::GoalSet goals(mission);
+  goals::GoalRequest wish = hole("a");
+  wish.importance = goals::GoalClass::optional;
+  wish.utility = {1, 0.5};
+  wish.priority = 4;
+  wish.preferred = seconds(70);
+  wish.closes = seconds(500);
+  goals.submit(wish, seconds(0));
+  const problem::Forecast forecast{{{"mole.drill", state("in", {"h-a"})}}, {{"mole.depth", 1.0}}};
+  const Problem problem = write_problem(mission, beliefs, goals, "mine-1", seconds(60), seconds(150),
+                                        problem::Reserves::kept, forecast);
+  EXPECT_THAT(problem.text, IsEmpty());
+  EXPECT_EQ(problem.state.at("mole.drill"), state("in", {"h-a"})) << "as it will be at the origin";
+  EXPECT_EQ(problem.state.at("mole.depth"), Value(3.0));
+  EXPECT_EQ(problem.state.at("comm.window"), Value(true)) << "it will be open at 150 s";
+  ASSERT_EQ(problem.predictions.size(), 3U);
+  EXPECT_EQ(problem.predictions[0].at, seconds(200));
+  EXPECT_EQ(problem.predictions[0].value, Value(false));
+  EXPECT_EQ(problem.predictions[1].at, seconds(300));
+  ASSERT_EQ(problem.goals.size(), 1U);
+  EXPECT_EQ(temporal::describe(problem.goals[0].achieved), "mole.drill = in(h-a) and mole.depth >= 3");
+  EXPECT_EQ(problem.goals[0].utility, (temporal::RankVector{1, 0.5}));
+  EXPECT_EQ(problem.goals[0].priority, 4);
+  EXPECT_EQ(problem.goals[0].preferred, seconds(70));
+  EXPECT_EQ(problem.goals[0].closes, seconds(500));
+  ASSERT_EQ(problem.objects.size(), 2U) << "a dynamic one that no state names stays away";
+  EXPECT_EQ(problem.objects[1].name, "hole-1");
+}
+
+class TimelineReactor : public ::testing::Test {
+ protected:
+  ReactorInputs standing() {
+    ReactorInputs in;
+    in.observations = {{"mole.drill", state("up")}, {"mole.lamp", state("off")}, {"mole.depth", 0.0}};
+    return in;
+  }
+
+  // A call for the goal is open, with this id.
+  std::uint64_t asked() {
+    ReactorInputs in = standing();
+    in.goals = {hole("a")};
+    const ReactorOutputs out = reactor.step(seconds(0), in);
+    EXPECT_TRUE(out.call);
+    return out.call ? out.call->id : 0;
+  }
+
+  static temporal::FlexiblePlan bore() {
+    temporal::FlexiblePlan plan;
+    temporal::PlanActivity activity;
+    activity.id = "first";
+    activity.name = "bore";
+    activity.owner = "sim_svc";
+    activity.subsystem = "drill";
+    activity.command_name = "bore";
+    activity.arguments = {{"hole", "h-a"}};
+    activity.start_point = plan.point_count++;
+    activity.end_point = plan.point_count++;
+    activity.duration_lower = seconds(50);
+    activity.duration_upper = seconds(90);
+    activity.pre = temporal::compare("mole.drill", temporal::ConditionOp::eq, state("up"));
+    activity.goals_served = {"ground/a"};
+    plan.activities = {activity};
+    return plan;
+  }
+
+  ReactorOutputs answer(std::uint64_t call, temporal::FlexiblePlan plan) {
+    ReactorInputs in;
+    in.reply = reactor::PlanReply{call, temporal::Verdict::solved, "", {}, std::move(plan)};
+    return reactor.step(seconds(1), in);
+  }
+
+  TimelineMissionFile file;
+  MissionModel mission = file.read();
+  Reactor reactor{mission};
+};
+
+TEST_F(TimelineReactor, FliesAPlanThatCommandsItself) {
+  const std::uint64_t call = asked();
+  answer(call, bore());
+  const ReactorOutputs out = reactor.step(seconds(5), {});
+  ASSERT_EQ(out.commands.size(), 1U);
+  EXPECT_EQ(out.commands[0].activity, "p1.1-bore") << "ids of other plans come again";
+  EXPECT_EQ(out.commands[0].robot, "mole");
+  EXPECT_EQ(out.commands[0].command_name, "bore");
+  EXPECT_THAT(out.commands[0].arguments, ElementsAre(temporal::Property{"hole", "h-a"}));
+  ReactorInputs done;
+  done.acks = {{"p1.1-bore", 1, CommandStage::accepted, "", ""},
+               {"p1.1-bore", 1, CommandStage::completed, "", ""}};
+  done.observations = {{"mole.drill", state("in", {"h-a"})}};
+  reactor.step(seconds(65), done);
+  EXPECT_EQ(reactor.goals().find({"ground", "a"})->state, goals::GoalState::planned)
+      << "it is not deep enough";
+  ReactorInputs deep;
+  deep.observations = {{"mole.depth", 3.0}};
+  reactor.step(seconds(66), deep);
+  EXPECT_EQ(reactor.goals().find({"ground", "a"})->state, goals::GoalState::achieved);
+}
+
+TEST_F(TimelineReactor, APlanForStrangersIsRefusedInWords) {
+  const std::uint64_t call = asked();
+  temporal::FlexiblePlan plan = bore();
+  plan.activities[0].then = {{"lamp_driver", "", "torch", "light", {}, temporal::no_bound}};
+  EXPECT_THAT(texts(answer(call, plan).events),
+              AllOf(HasSubstr("robot.safe"), HasSubstr("subsystem 'torch' and owner 'lamp_driver'"),
+                    HasSubstr("it has: drill of sim_svc, lamp of lamp_driver")));
+}
+
+TEST_F(TimelineReactor, APlanForAnotherRobotIsRefused) {
+  const std::uint64_t call = asked();
+  temporal::FlexiblePlan plan = bore();
+  plan.activities[0].robot = "vole";
+  EXPECT_THAT(texts(answer(call, plan).events), HasSubstr("robot 'vole' has no such subsystem"));
+}
+
+TEST_F(TimelineReactor, GoalsThatTheEngineBlamesGoAlone) {
+  ReactorInputs in = standing();
+  in.goals = {hole("a"), hole("b")};
+  const std::uint64_t call = reactor.step(seconds(0), in).call->id;
+  ReactorInputs reply;
+  reply.reply = reactor::PlanReply{call,
+                                   temporal::Verdict::unsolvable,
+                                   "no drill is that long",
+                                   {{{"ground", "a"}, "mole.depth", "ends at 2"}},
+                                   {}};
+  const ReactorOutputs out = reactor.step(seconds(1), reply);
+  EXPECT_EQ(reactor.goals().find({"ground", "a"})->state, goals::GoalState::failed);
+  EXPECT_EQ(reactor.goals().find({"ground", "b"})->state, goals::GoalState::pending);
+  ASSERT_TRUE(out.call);
+  EXPECT_EQ(out.call->problem.goals.size(), 1U);
+}
+
+TEST_F(TimelineReactor, AGoalForNobodyIsRejectedByTheOneThatAnswers) {
+  ReactorInputs in = standing();
+  goals::GoalRequest stray = hole("a");
+  stray.robot = "";
+  goals::GoalRequest unknown = hole("b");
+  unknown.robot = "toad";
+  in.goals = {stray, unknown};
+  reactor.step(seconds(0), in);
+  EXPECT_THAT(reactor.goals().find({"ground", "a"})->reason,
+              HasSubstr("names no robot, and several are commanded: mole, vole"));
+  EXPECT_THAT(reactor.goals().find({"ground", "b"})->reason, HasSubstr("no executive commands robot 'toad'"));
+}
+
+TEST(ExecutiveRole, EachGoalHasOneAddressee) {
+  const ExecutiveRole mole{"mole", true, {"mole", "vole"}, true};
+  const ExecutiveRole vole{"vole", true, {"mole", "vole"}, false};
+  EXPECT_EQ(addressee(mole, "mole"), Addressee::this_one);
+  EXPECT_EQ(addressee(vole, "mole"), Addressee::another);
+  EXPECT_EQ(addressee(mole, ""), Addressee::nobody);
+  EXPECT_EQ(addressee(vole, ""), Addressee::another);
+  EXPECT_EQ(addressee(mole, "toad"), Addressee::nobody);
+  EXPECT_EQ(addressee(vole, "toad"), Addressee::another);
+  const ExecutiveRole only{"mole", false, {}, true};
+  EXPECT_EQ(addressee(only, ""), Addressee::this_one);
+  EXPECT_EQ(addressee(only, "toad"), Addressee::nobody);
+  const ExecutiveRole team{"", true, {"mole"}, true};
+  EXPECT_EQ(addressee(team, "vole"), Addressee::this_one) << "nobody else commands it";
+  EXPECT_EQ(addressee(team, "mole"), Addressee::another);
+  EXPECT_EQ(addressee(team, ""), Addressee::nobody);
+}
+
+}  // namespace
+}  // namespace roci::exec
