@@ -43,20 +43,25 @@ Time Deadlines::settled_from(Index activity) const {
   return std::max(run.phase_since, run.attempt_started + state_->points.duration(activity).lower);
 }
 
+Duration Deadlines::settle_time(Index activity) const {
+  return state_->settings.settle_time + state_->settings.round_trip(state_->plan.activities[activity].owner);
+}
+
 Time Deadlines::next_timer(Index activity, Time now) const {
   const PlanActivity& planned = state_->plan.activities[activity];
   const ActivityRun& run = state_->runs[activity];
   const ExecutiveSettings& settings = state_->settings;
-  if (run.phase == ActivityPhase::cancelling) return run.phase_since + settings.cancel_timeout;
+  const Duration way = settings.round_trip(planned.owner);
+  if (run.phase == ActivityPhase::cancelling) return run.phase_since + settings.cancel_timeout + way;
   if (run.phase == ActivityPhase::settling) {
     const Time from = settled_from(activity);
-    return now < from ? from : from + settings.settle_time;
+    return now < from ? from : from + settle_time(activity);
   }
   Time next = plus(end(activity), Duration{1});
   if (!planned.owner.empty()) next = std::min(next, hung_after(activity));
-  if (run.phase == ActivityPhase::sent) next = std::min(next, run.phase_since + settings.ack_timeout);
+  if (run.phase == ActivityPhase::sent) next = std::min(next, run.phase_since + settings.ack_timeout + way);
   if (!planned.maintenance.empty() && !run.maintenance_held)
-    next = std::min(next, run.attempt_started + settings.settle_time);
+    next = std::min(next, run.attempt_started + settle_time(activity));
   return next;
 }
 

@@ -149,6 +149,17 @@ void OwnerExchange::withdraw_all(Time now) {
   }
 }
 
+bool OwnerExchange::ask_again(Index activity, Time now) {
+  ActivityRun& run = state_->runs[activity];
+  const bool linked = state_->settings.linked(state_->plan.activities[activity].owner);
+  if (!linked || run.queries >= state_->settings.queries) return false;
+  ++run.queries;
+  run.asked = true;
+  run.phase_since = now;
+  state_->send(activity, CommandAction::query);
+  return true;
+}
+
 void OwnerExchange::query_all(Time now) {
   for (const Index activity : state_->active) {
     ActivityRun& run = state_->runs[activity];

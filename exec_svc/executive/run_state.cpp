@@ -45,6 +45,7 @@ void RunState::enter(Index activity, ActivityPhase phase, Time now) {
   if (phase == ActivityPhase::done && run.phase != ActivityPhase::done) --unfinished;
   run.phase = phase;
   run.phase_since = now;
+  run.queries = 0;
   if (run.active()) {
     active.insert(activity);
   } else {

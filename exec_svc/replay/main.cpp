@@ -10,6 +10,7 @@
 #include "core/mission/entry.hpp"
 #include "exec_svc/archive/archive.hpp"
 #include "exec_svc/journal/format.hpp"
+#include "exec_svc/journal/round_trips.hpp"
 #include "exec_svc/journal/run_replay.hpp"
 
 namespace {
@@ -79,7 +80,9 @@ int replay(const Options& options) {
                        "; repeat the run with the version that flew it");
   const fs::path mission = options.mission.empty() ? fs::path(journal.text("mission")) : options.mission;
   if (mission.empty()) throw JournalError("the journal names no mission; give its folder with --mission");
-  const RunReplay run = replay_run(journal, read_mission(mission));
+  roci::exec::mission::MissionModel model = read_mission(mission);
+  model.executive.round_trips = roci::exec::journal::round_trips_of(journal.text("round_trips"));
+  const RunReplay run = replay_run(journal, model);
   if (run.turns == 0) throw JournalError(options.journal.string() + " holds no inputs of a run");
   if (options.json) {
     std::cout << as_json(run).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";

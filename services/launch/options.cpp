@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "services/clock/wall.hpp"
+#include "services/link/link_file.hpp"
 #include "services/process/mission_folder.hpp"
 #include "services/process/service_options.hpp"
 
@@ -116,6 +117,7 @@ Options parse_options(int argc, const char* const* argv, const services::process
   options.list = mission::load_service_list(options.mission);
   if (!options.live && options.list.clock_master() == nullptr)
     throw std::invalid_argument("no service of this mission has clock: master; fly it with --clock live");
+  link::load_links(options.mission, options.scenario, options.seed);  // a mistake is told before anything starts
   options.services = checked_services(service_list, options, true);
   options.roster = checked_services(roster, options, false);
   if (options.standby && service_list.empty()) {
