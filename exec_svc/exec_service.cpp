@@ -247,7 +247,8 @@ class ExecService final : public services::Service {
   void take(std::uint64_t call, const services::CallResult<v1::PlanReply>& result) {
     PlanReply reply;
     reply.call = call;
-    reply.verdict = result.status == services::rpc::CallStatus::cancelled ? Verdict::cancelled : Verdict::no_reply;
+    reply.verdict =
+        result.status == services::rpc::CallStatus::cancelled ? Verdict::cancelled : Verdict::no_reply;
     reply.reason = result.reason;
     if (result.status == services::rpc::CallStatus::ok) {
       slowest_call_s_ = std::max(slowest_call_s_, result.reply.statistics().wall_s());
@@ -291,9 +292,9 @@ class ExecService final : public services::Service {
   std::optional<EngineLink> engine_;  // one that plans all the time
   services::Client<v1::PlanRequest, v1::PlanReply> planner_;
   struct {
-    std::uint64_t id = 0;       // the reactor's
+    std::uint64_t id = 0;            // the reactor's
     services::rpc::CallId sent = 0;  // the wire's
-  } call_;                      // the last one
+  } call_;                           // the last one
   OutputPublisher publisher_;
 };
 
@@ -302,7 +303,8 @@ class LoneExecutive final : public services::Service {
  public:
   LoneExecutive(Node& node, const services::RunSettings& settings)
       : journal_(settings.run_folder / "journal.sqlite",
-                 node.options().clock == services::clock::ClockMode::live ? Durability::power : Durability::process),
+                 node.options().clock == services::clock::ClockMode::live ? Durability::power
+                                                                          : Durability::process),
         executive_(node, settings, journal_, journal_.next_epoch(), nullptr, false) {}
 
  private:

@@ -56,7 +56,8 @@ services::node::NodeOptions node_options(const std::filesystem::path& mission,
   options.run = options.mission;
   options.robot = entry.robot;
   options.vendor = "inproc";
-  options.clock = entry.clock_master ? services::clock::ClockMode::master : services::clock::ClockMode::simulated;
+  options.clock =
+      entry.clock_master ? services::clock::ClockMode::master : services::clock::ClockMode::simulated;
   if (!entry.clock_master) return options;
   options.master.pace = pace;
   for (const mission::ServiceEntry& other : crew_of(mission)) options.master.roster.push_back(other.name);

@@ -51,17 +51,18 @@ bool ActivityMonitor::check_command(Index activity, Time now) {
   const PlanActivity& planned = state_->plan.activities[activity];
   const ActivityRun& run = state_->runs[activity];
   const ExecutiveSettings& settings = state_->settings;
-  const Time age = now - run.phase_since - settings.round_trip(planned.owner);
+  const CommandOf command = state_->command(activity);
+  const Time age = now - run.phase_since;
   const bool cancelling = run.phase == ActivityPhase::cancelling;
-  if (age < (cancelling ? settings.cancel_timeout : settings.ack_timeout)) return false;
+  const temporal::Duration cancel_within = settings.cancel_timeout + settings.round_trip(command.owner);
+  if (age < (cancelling ? cancel_within : command.answer_within)) return false;
   if (exchange_->ask_again(activity, now)) return true;
   if (cancelling) {
-    exchange_->give_cancel_up(activity, now,
-                              "cancel not answered within " + to_text(settings.cancel_timeout));
+    exchange_->give_cancel_up(activity, now, "cancel not answered within " + to_text(cancel_within));
     return true;
   }
   const std::string reason =
-      "command not answered by " + planned.owner + " within " + to_text(settings.ack_timeout);
+      "command not answered by " + command.owner + " within " + to_text(command.answer_within);
   if (run.retries_used < planned.retries && state_->starting()) {
     attempts_->cancel(activity, now, AfterCancel::retry, reason);
   } else {

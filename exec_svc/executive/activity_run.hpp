@@ -25,18 +25,20 @@ enum class AfterCancel { retry, fail, withdraw };
 struct ActivityRun {
   ActivityPhase phase = ActivityPhase::waiting;
   temporal::ActivityState state = temporal::ActivityState::waiting;
-  std::uint32_t attempt = 0;  ///< part of the command's key: it is never reset
+  std::uint32_t attempt = 0;  ///< part of the command's key: each command sent anew counts, none is reset
+  std::size_t command = 0;    ///< of the activity's sequence, the one under way
   std::uint64_t epoch = 0;    ///< of the executive when it issued this attempt: part of the key, too
   std::uint32_t issued = 0;   ///< the newest attempt that was sent
   std::uint32_t retries_used = 0;
   std::optional<temporal::Time> started, ended;
   temporal::Time attempt_started{0};
   temporal::Time phase_since{0};
-  std::optional<temporal::Time> wait_until;  ///< its wait has begun and ends then
-  bool maintenance_held = false;             ///< seen true since the start: from then on it must stay true
-  bool overrun_noted = false;                ///< its longest duration has passed and no longer bounds its end
+  temporal::Time latest_end = temporal::no_bound;  ///< its owner is told: after it no repair is worth a try
+  std::optional<temporal::Time> wait_until;        ///< its wait has begun and ends then
+  bool maintenance_held = false;  ///< seen true since the start: from then on it must stay true
+  bool overrun_noted = false;     ///< its longest duration has passed and no longer bounds its end
   AfterCancel after_cancel = AfterCancel::fail;
-  bool asked = false;  ///< its owner was asked what became of it; not answered yet
+  bool asked = false;         ///< its owner was asked what became of it; not answered yet
   std::uint32_t queries = 0;  ///< how often it was asked in this phase because no answer came over a link
   std::string reason;
 

@@ -23,10 +23,24 @@ void Attempts::start(Index activity, Time now) {
     state_->change(activity, ActivityState::running, "");
   } else {
     ++run.attempt;
+    run.latest_end = deadlines_->latest_end(activity);
     state_->enter(activity, ActivityPhase::sent, now);
     state_->send(activity, CommandAction::execute);
     state_->change(activity, ActivityState::dispatched, "");
   }
+}
+
+bool Attempts::send_next(Index activity, Time now) {
+  if (state_->command(activity).last) return false;
+  ActivityRun& run = state_->runs[activity];
+  ++run.command;
+  ++run.attempt;
+  state_->enter(activity, ActivityPhase::sent, now);
+  state_->send(activity, CommandAction::execute);
+  state_->change(activity, ActivityState::running,
+                 "command " + std::to_string(run.command + 1) + " of " +
+                     std::to_string(state_->plan.activities[activity].then.size() + 1));
+  return true;
 }
 
 void Attempts::succeed(Index activity, Time now) {
@@ -45,12 +59,31 @@ void Attempts::fail(Index activity, Time now, Breakage breakage, const std::stri
       breakage == Breakage::activity_failed && contingencies_->usable(activity) != nullptr;
   if (may_recover && !still_commanded && contingencies_->begin(activity, now, reason)) return;
   if (may_recover && still_commanded) return cancel(activity, now, AfterCancel::fail, reason);
+  if (fails_alone(activity, breakage)) {
+    if (still_commanded) return cancel(activity, now, AfterCancel::fail, reason);
+    return close_alone(activity, now, reason);
+  }
   state_->break_plan(breakage, planned.id, reason, planned.contingency);
   if (still_commanded) {
     cancel(activity, now, AfterCancel::fail, reason);
   } else {
     state_->close(activity, now, ActivityState::failed, reason);
   }
+}
+
+/// A deadline that has passed is the network's, and so everybody's.
+bool Attempts::fails_alone(Index activity, Breakage breakage) const {
+  return state_->starting() &&
+         state_->plan.activities[activity].failure == temporal::FailureScope::of_activity &&
+         (breakage == Breakage::activity_failed || breakage == Breakage::refused_for_good);
+}
+
+/// Its neighbours keep their order, as with an activity that is skipped.
+void Attempts::close_alone(Index activity, Time now, const std::string& reason) {
+  const PlanActivity& planned = state_->plan.activities[activity];
+  if (!state_->runs[activity].started) state_->points.drop(planned.start_point);
+  state_->points.drop(planned.end_point);
+  state_->close(activity, now, ActivityState::failed, reason + "; it fails alone");
 }
 
 void Attempts::fail_or_retry(Index activity, Time now, const std::string& reason) {
@@ -77,11 +110,13 @@ bool Attempts::retry(Index activity, Time now, const std::string& reason) {
 void Attempts::try_again(Index activity, Time now, const std::string& reason) {
   ActivityRun& run = state_->runs[activity];
   ++run.attempt;
+  run.command = 0;
   run.attempt_started = now;
   run.overrun_noted = false;
   const Duration spent = now - *run.started;
   const temporal::Window duration = state_->points.duration(activity);
   state_->points.set_duration(activity, plus(spent, duration.lower), plus(spent, duration.upper));
+  run.latest_end = deadlines_->latest_end(activity);
   state_->enter(activity, ActivityPhase::sent, now);
   state_->send(activity, CommandAction::execute);
   state_->change(activity, ActivityState::dispatched, reason);

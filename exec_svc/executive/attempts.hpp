@@ -17,9 +17,11 @@ class Attempts {
       : state_(&state), contingencies_(&contingencies), deadlines_(&deadlines) {}
 
   void start(Index activity, temporal::Time now);
+  /// Sends the next command of its sequence. False: there is none.
+  bool send_next(Index activity, temporal::Time now);
   void succeed(Index activity, temporal::Time now);
-  /// The activity has failed: its contingency begins, or the plan is broken. `still_commanded`: its owner may
-  /// be at work, and is asked to stop first.
+  /// The activity has failed: its contingency begins, or it fails alone, where the plan says so, or the plan is
+  /// broken. `still_commanded`: its owner may be at work, and is asked to stop first.
   void fail(Index activity, temporal::Time now, Breakage breakage, const std::string& reason,
             bool still_commanded);
   /// As fail(), but the activity is tried again if it may be.
@@ -33,6 +35,8 @@ class Attempts {
   void check_order_of_ends();
 
  private:
+  bool fails_alone(Index activity, Breakage breakage) const;
+  void close_alone(Index activity, temporal::Time now, const std::string& reason);
   bool retry(Index activity, temporal::Time now, const std::string& reason);
   void try_again(Index activity, temporal::Time now, const std::string& reason);
 

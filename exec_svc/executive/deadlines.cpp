@@ -36,6 +36,8 @@ Time Deadlines::hung_after(Index activity) const {
   return plus(state_->runs[activity].attempt_started, plus(stretched, settings.overrun_grace));
 }
 
+Time Deadlines::latest_end(Index activity) const { return std::min(end(activity), hung_after(activity)); }
+
 Time Deadlines::settled_from(Index activity) const {
   const PlanActivity& planned = state_->plan.activities[activity];
   const ActivityRun& run = state_->runs[activity];
@@ -44,22 +46,23 @@ Time Deadlines::settled_from(Index activity) const {
 }
 
 Duration Deadlines::settle_time(Index activity) const {
-  return state_->settings.settle_time + state_->settings.round_trip(state_->plan.activities[activity].owner);
+  return state_->settings.settle_time + state_->settings.round_trip(state_->command(activity).owner);
 }
 
 Time Deadlines::next_timer(Index activity, Time now) const {
   const PlanActivity& planned = state_->plan.activities[activity];
   const ActivityRun& run = state_->runs[activity];
   const ExecutiveSettings& settings = state_->settings;
-  const Duration way = settings.round_trip(planned.owner);
-  if (run.phase == ActivityPhase::cancelling) return run.phase_since + settings.cancel_timeout + way;
+  if (run.phase == ActivityPhase::cancelling)
+    return run.phase_since + settings.cancel_timeout + settings.round_trip(state_->command(activity).owner);
   if (run.phase == ActivityPhase::settling) {
     const Time from = settled_from(activity);
     return now < from ? from : from + settle_time(activity);
   }
   Time next = plus(end(activity), Duration{1});
   if (!planned.owner.empty()) next = std::min(next, hung_after(activity));
-  if (run.phase == ActivityPhase::sent) next = std::min(next, run.phase_since + settings.ack_timeout + way);
+  if (run.phase == ActivityPhase::sent)
+    next = std::min(next, run.phase_since + state_->command(activity).answer_within);
   if (!planned.maintenance.empty() && !run.maintenance_held)
     next = std::min(next, run.attempt_started + settle_time(activity));
   return next;

@@ -15,6 +15,9 @@ class Deadlines {
   /// The latest end under LatenessPolicy::deadline: the latest next change of the timelines that begin a
   /// token with the activity (R144); no bound under the other policies.
   temporal::Time end(Index activity) const;
+  /// By which a command must have ended to be of use: its deadline, or when it counts as hung. Its owner is
+  /// told, and repairs no longer than that (R146).
+  temporal::Time latest_end(Index activity) const;
   /// When a command counts as hung. An activity without a longest duration is followed as long as its owner
   /// lives.
   temporal::Time hung_after(Index activity) const;

@@ -16,8 +16,7 @@ bool Dispatch::let_happen(Time now) {
   bool progress = false;
   for (const TimePoint point : points.advance(now))
     if (points.owner(point).role == PointRole::start) waits_->consider(points.owner(point).activity, now);
-  const std::vector<TimePoint> ready(points.ready().begin(), points.ready().end());
-  for (const TimePoint point : ready)
+  for (const TimePoint point : state_->ready_points())
     if (points.ready().contains(point)) progress = attempt(point, now) || progress;
   return progress;
 }

@@ -28,8 +28,7 @@ bool OwnerExchange::take_ack(const CommandAck& ack, Time now) {
   const Index activity = found->second;
   const ActivityRun& run = state_->runs[activity];
   const bool same_key = run.attempt == ack.attempt && (ack.epoch == 0 || ack.epoch == run.epoch);
-  if (!run.active() || !same_key || state_->plan.activities[activity].owner.empty())
-    return false;
+  if (!run.active() || !same_key || state_->plan.activities[activity].owner.empty()) return false;
   if (run.phase == ActivityPhase::contingency) return false;
   if (take_query_answer(activity, ack, now)) return true;
   if (run.phase == ActivityPhase::cancelling) {
@@ -56,7 +55,7 @@ bool OwnerExchange::take_progress(Index activity, const CommandAck& ack, Time no
         attempts_->fail(activity, now, Breakage::deadline_passed, "it ended after its deadline", false);
         return true;
       }
-      state_->enter(activity, ActivityPhase::settling, now);
+      if (!attempts_->send_next(activity, now)) state_->enter(activity, ActivityPhase::settling, now);
       return true;
     case CommandStage::rejected:
       if (ack.code == "unknown-command" || ack.code == "unknown-component") {
@@ -91,7 +90,7 @@ void OwnerExchange::lose_owner(const std::string& owner, Time now) {
         attempts_->resume_after(*end, now);
       continue;
     }
-    if (state_->plan.activities[activity].owner != owner || run.phase == ActivityPhase::settling) continue;
+    if (state_->command(activity).owner != owner || run.phase == ActivityPhase::settling) continue;
     const bool given_up = run.phase == ActivityPhase::cancelling && run.after_cancel != AfterCancel::retry;
     if (given_up && !state_->starting()) {
       state_->close(activity, now, ActivityState::failed, run.reason + "; " + lost);
@@ -104,12 +103,13 @@ void OwnerExchange::lose_owner(const std::string& owner, Time now) {
 void OwnerExchange::take_cancel_answer(Index activity, const CommandAck& ack, Time now) {
   const ActivityRun& run = state_->runs[activity];
   if (ack.stage == CommandStage::accepted) return;  // crossed the cancel
-  if (ack.stage == CommandStage::completed && run.after_cancel != AfterCancel::fail) {
-    state_->enter(activity, ActivityPhase::settling, now);
-    if (run.after_cancel == AfterCancel::withdraw)
-      state_->close(activity, now, ActivityState::succeeded, "completed before the cancel");
+  const bool all_done = ack.stage == CommandStage::completed && state_->command(activity).last;
+  if (ack.stage == CommandStage::completed && run.after_cancel == AfterCancel::retry) {
+    if (!attempts_->send_next(activity, now)) state_->enter(activity, ActivityPhase::settling, now);
     return;
   }
+  if (all_done && run.after_cancel == AfterCancel::withdraw)
+    return state_->close(activity, now, ActivityState::succeeded, "completed before the cancel");
   if (ack.stage == CommandStage::cancel_failed)
     return give_cancel_up(activity, now, with_reason("cancel failed", ack));
   const std::string reason = run.reason;
@@ -151,7 +151,7 @@ void OwnerExchange::withdraw_all(Time now) {
 
 bool OwnerExchange::ask_again(Index activity, Time now) {
   ActivityRun& run = state_->runs[activity];
-  const bool linked = state_->settings.linked(state_->plan.activities[activity].owner);
+  const bool linked = state_->settings.linked(state_->command(activity).owner);
   if (!linked || run.queries >= state_->settings.queries) return false;
   ++run.queries;
   run.asked = true;

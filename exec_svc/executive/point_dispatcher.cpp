@@ -21,9 +21,11 @@ PointDispatcher::PointDispatcher(const temporal::FlexiblePlan& plan, bool latest
   points_[temporal::origin_point].happened = plan.origin;
   for (std::size_t i = 0; i < plan.activities.size(); ++i) {
     const temporal::PlanActivity& activity = plan.activities[i];
-    const bool waits = only_committed && activity.commit != temporal::CommitState::committed;
-    points_[activity.start_point].may_be_late = waits || activity.lateness == temporal::LatenessPolicy::push;
-    points_[activity.start_point].holds = waits ? 1 : 0;
+    const bool held = only_committed && activity.commit != temporal::CommitState::committed;
+    points_[activity.start_point].may_be_late = held || activity.lateness == temporal::LatenessPolicy::push;
+    points_[activity.start_point].holds = held ? 1 : 0;
+    if (bounded(activity.preferred_start))
+      points_[activity.start_point].preferred = temporal::plus(plan.origin, activity.preferred_start);
     ends_[i] = activity.end_point;
   }
   for (TimePoint p = 1; p < points_.size(); ++p) {
@@ -139,8 +141,13 @@ bool PointDispatcher::watched(TimePoint point) const { return open(point) && poi
 
 Time PointDispatcher::due_time(TimePoint point) const {
   const temporal::Window window = windows_.window(point);
-  const bool waits = latest_starts_ && owners_[point].role == PointRole::start && bounded(window.upper);
-  return waits ? std::max(window.lower, window.upper) : window.lower;
+  if (!waits(point)) return window.lower;
+  const Time wish = latest_starts_ ? window.upper : std::min(points_[point].preferred, window.upper);
+  return bounded(wish) ? std::max(window.lower, wish) : window.lower;
+}
+
+bool PointDispatcher::waits(TimePoint point) const {
+  return owners_[point].role == PointRole::start && (latest_starts_ || bounded(points_[point].preferred));
 }
 
 void PointDispatcher::enter_times(TimePoint point) {
@@ -165,7 +172,7 @@ void PointDispatcher::note_changes() {
   }
   for (const auto& [point, before] : windows_.latest_changes()) {
     if (!watched(point) || windows_.happened(point) || before == windows_.window(point).upper) continue;
-    if (latest_starts_ && owners_[point].role == PointRole::start) {
+    if (waits(point)) {
       points_[point].due = false;
       ready_.erase(point);
     }

@@ -15,7 +15,7 @@ namespace roci::exec::executive {
 class PointDispatcher {
  public:
   /// The plan has passed check(). latest_starts: starts are due at the end of their windows, where these have
-  /// one (R144). only_committed: what is not committed never starts, and is never late (R78).
+  /// one (R144), and otherwise at their preferred time, or as near to it as the window allows (R67). only_committed: what is not committed never starts, and is never late (R78).
   explicit PointDispatcher(const temporal::FlexiblePlan& plan, bool latest_starts = false,
                            bool only_committed = false);
 
@@ -78,6 +78,7 @@ class PointDispatcher {
     bool dropped = false;
     bool passed = false;       ///< successors have been told
     bool may_be_late = false;  ///< its latest time does not matter
+    temporal::Time preferred = temporal::no_bound;  ///< mission time; of starts alone
   };
 
   bool open(temporal::TimePoint point) const { return !points_[point].happened && !points_[point].dropped; }
@@ -86,6 +87,8 @@ class PointDispatcher {
   void note_changes();
   void take_back(temporal::TimePoint point);
   temporal::Time due_time(temporal::TimePoint point) const;
+  /// It is due later than it may happen, and not after its latest time.
+  bool waits(temporal::TimePoint point) const;
   bool near(temporal::TimePoint point) const { return points_[point].unbegun == 0; }
   bool watched(temporal::TimePoint point) const;
   void begin(temporal::TimePoint point);

@@ -1,5 +1,7 @@
 #include "exec_svc/executive/run_state.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace roci::exec::executive {
@@ -7,6 +9,7 @@ namespace roci::exec::executive {
 using temporal::ActivityState;
 using temporal::PlanActivity;
 using temporal::Time;
+using temporal::TimePoint;
 
 RunState::RunState(temporal::FlexiblePlan flexible_plan, const ExecutiveSettings& executive_settings,
                    TimelineStore& timelines, std::uint64_t current_epoch)
@@ -56,13 +59,50 @@ void RunState::enter(Index activity, ActivityPhase phase, Time now) {
 void RunState::send(Index activity, CommandAction action) {
   const PlanActivity& planned = plan.activities[activity];
   ActivityRun& run = runs[activity];
-  if (run.issued != run.attempt) {  // what is sent again, or asked after a restart, keeps the key of its issue
+  if (run.issued !=
+      run.attempt) {  // what is sent again, or asked after a restart, keeps the key of its issue
     run.issued = run.attempt;
     run.epoch = epoch;
   }
-  outputs.commands.push_back({action, planned.id, run.attempt, planned.owner, planned.subsystem,
-                              planned.command_name, planned.arguments, points.duration(activity).lower,
-                              run.epoch, temporal::no_bound, planned.robot});
+  const CommandOf sent = command(activity);
+  outputs.commands.push_back({action, planned.id, run.attempt, sent.owner, sent.subsystem, sent.command_name,
+                              sent.arguments, points.duration(activity).lower, run.epoch, run.latest_end,
+                              sent.robot});
+}
+
+CommandOf RunState::command(Index activity) const {
+  const PlanActivity& planned = plan.activities[activity];
+  const std::size_t number = std::min(runs[activity].command, planned.then.size());
+  const bool last = number == planned.then.size();
+  const auto within = [this](const std::string& owner, temporal::Duration own) {
+    return (temporal::bounded(own) ? own : settings.ack_timeout) + settings.round_trip(owner);
+  };
+  if (number == 0)
+    return {planned.owner,
+            planned.robot,
+            planned.subsystem,
+            planned.command_name,
+            planned.arguments,
+            within(planned.owner, planned.answer_within),
+            last};
+  const temporal::PlanCommand& next = planned.then[number - 1];
+  return {next.owner,
+          next.robot,
+          next.subsystem,
+          next.command_name,
+          next.arguments,
+          within(next.owner, next.answer_within),
+          last};
+}
+
+std::vector<TimePoint> RunState::ready_points() const {
+  std::vector<TimePoint> ready(points.ready().begin(), points.ready().end());
+  const auto priority = [this](TimePoint point) {
+    const PointOwner& owner = points.owner(point);
+    return owner.role == PointRole::start ? plan.activities[owner.activity].priority : 0;
+  };
+  std::ranges::stable_sort(ready, std::ranges::greater{}, priority);
+  return ready;
 }
 
 void RunState::close(Index activity, Time now, ActivityState state, const std::string& reason) {

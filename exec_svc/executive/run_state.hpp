@@ -18,6 +18,17 @@ namespace roci::exec::executive {
 
 using Index = std::size_t;  ///< of an activity, in plan order
 
+/// One command of an activity's sequence; refers to the plan. Without an owner there is none.
+struct CommandOf {
+  const std::string& owner;
+  const std::string& robot;
+  const std::string& subsystem;
+  const std::string& command_name;
+  const std::vector<temporal::Property>& arguments;
+  temporal::Duration answer_within;  ///< from sending it to its first answer, the way over a link included
+  bool last;                         ///< of the sequence
+};
+
 struct RunState {
   /// The plan has passed check(); settings and store outlive the run.
   RunState(temporal::FlexiblePlan flexible_plan, const ExecutiveSettings& executive_settings,
@@ -48,6 +59,10 @@ struct RunState {
   /// Its phase, which is the run's own.
   void enter(Index activity, ActivityPhase phase, temporal::Time now);
   void send(Index activity, CommandAction action);
+  /// The command of the activity's sequence that is under way, or comes first.
+  CommandOf command(Index activity) const;
+  /// Points that may happen now: starts of higher priority first, then in order of index.
+  std::vector<temporal::TimePoint> ready_points() const;
   /// It ends, with its impacts on timelines that nobody observes.
   void close(Index activity, temporal::Time now, temporal::ActivityState state, const std::string& reason);
   /// It will not start; its neighbours keep their order.

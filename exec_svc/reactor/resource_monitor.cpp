@@ -68,7 +68,7 @@ std::optional<std::size_t> ResourceMonitor::Timeline::first_failing(double value
 ResourceMonitor::ResourceMonitor(const temporal::FlexiblePlan& plan) {
   for (const PlanActivity& activity : plan.activities) {
     index_of_[activity.id] = activities_.size();
-    activities_.push_back({activity.id, activity.pre});
+    activities_.push_back({activity.id, activity.pre, {}});
     for (const temporal::Impact& impact : activity.impacts)
       if (impact.kind == temporal::ImpactKind::delta) timelines_.try_emplace(impact.timeline);
   }
@@ -84,6 +84,7 @@ ResourceMonitor::ResourceMonitor(const temporal::FlexiblePlan& plan) {
       if (amount != nullptr && timelines_.contains(impact.timeline))
         touched[impact.timeline].change += *amount;
     }
+    for (const auto& [timeline, stretch] : touched) activities_[i].changes[timeline] = stretch.change;
     for (const ConditionNode& node : conjuncts(activity.pre)) {
       const double* limit = std::get_if<double>(&node.operand);
       if (limit == nullptr || !timelines_.contains(node.timeline)) continue;
@@ -112,6 +113,27 @@ void ResourceMonitor::remove(const std::string& activity) {
   }
 }
 
+void ResourceMonitor::charge_again(const std::string& activity, const temporal::Lookup& now) {
+  settle(activity);
+  const auto index = index_of_.find(activity);
+  if (index == index_of_.end()) return;
+  for (const auto& [timeline, change] : activities_[index->second].changes) {
+    const auto value = now(timeline);
+    const double* number = value ? std::get_if<double>(&*value) : nullptr;
+    if (number != nullptr) charges_[timeline].push_back({activity, change, *number + change});
+  }
+}
+
+void ResourceMonitor::settle(const std::string& activity) {
+  for (auto& [timeline, charges] : charges_)
+    std::erase_if(charges, [&](const Charge& charge) { return charge.activity == activity; });
+}
+
+double ResourceMonitor::Charge::remaining(double value) const {
+  const double left = expected - value;
+  return change < 0 ? std::clamp(left, change, 0.0) : std::clamp(left, 0.0, change);
+}
+
 std::optional<PredictedConflict> ResourceMonitor::conflict(const temporal::Lookup& now) const {
   std::optional<std::size_t> first;
   std::optional<PredictedConflict> out;
@@ -119,8 +141,11 @@ std::optional<PredictedConflict> ResourceMonitor::conflict(const temporal::Looku
     const auto value = now(name);
     const double* number = value ? std::get_if<double>(&*value) : nullptr;
     if (number == nullptr) continue;
+    double left = *number;
+    if (const auto charges = charges_.find(name); charges != charges_.end())
+      for (const Charge& charge : charges->second) left += charge.remaining(*number);
     double before = 0;
-    const auto leaf = timeline.first_failing(*number, before);
+    const auto leaf = timeline.first_failing(left, before);
     if (!leaf || (first && *first <= timeline.activities[*leaf])) continue;
     first = timeline.activities[*leaf];
     const Asked& activity = activities_[*first];

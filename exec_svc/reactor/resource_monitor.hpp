@@ -17,7 +17,8 @@ namespace roci::exec::reactor {
 
 /// For every numeric timeline that the plan's activities change by a known amount, and in no other way: the
 /// range in which its value must lie now, so that the pre conditions of all waiting activities hold in plan
-/// order. What running activities will still take counts as nothing, so that no alarm is false. An activity
+/// order. What the first attempt of a running activity will still take counts as nothing, so that no alarm is
+/// false; what another attempt will take counts until it is seen. An activity
 /// that waits no more costs the logarithm of the plan's length, a check one comparison for each timeline.
 class ResourceMonitor {
  public:
@@ -27,6 +28,11 @@ class ResourceMonitor {
 
   /// The activity waits no more: it was started, skipped or cancelled.
   void remove(const std::string& activity);
+  /// A running activity is tried again and takes once more, from the values of now on, all that was planned for
+  /// it (R99). What has been seen to be taken since then counts no more.
+  void charge_again(const std::string& activity, const temporal::Lookup& now);
+  /// The activity has ended: nothing more is taken by it.
+  void settle(const std::string& activity);
 
   /// The first waiting activity, in plan order, whose pre conditions will fail on the values of now.
   std::optional<PredictedConflict> conflict(const temporal::Lookup& now) const;
@@ -53,11 +59,20 @@ class ResourceMonitor {
   struct Asked {
     std::string id;
     temporal::Condition pre;
+    std::map<std::string, double> changes;  ///< by timeline, the amounts that it adds
+  };
+  /// What a further attempt takes from a timeline.
+  struct Charge {
+    std::string activity;
+    double change = 0;
+    double expected = 0;  ///< value when all of it has been taken, by nobody else
+    double remaining(double value) const;
   };
 
   static Segment join(const Segment& first, const Segment& second);
 
   std::map<std::string, Timeline> timelines_;
+  std::map<std::string, std::vector<Charge>> charges_;  ///< by timeline
   std::vector<Asked> activities_;
   std::unordered_map<std::string, std::size_t> index_of_;
 };

@@ -24,9 +24,10 @@ JournalFeed begin_feed(std::uint64_t epoch, Journal& journal) {
 
 }  // namespace
 
-LeaderService::LeaderService(services::Node& node, Lease& lease, Journal& journal,
+LeaderService::LeaderService(services::Node& node, std::string executive, Lease& lease, Journal& journal,
                              PersistedTermFile& persisted_term)
     : node_(node),
+      executive_(std::move(executive)),
       lease_(&lease),
       journal_(&journal),
       persisted_term_(&persisted_term),
@@ -38,6 +39,7 @@ LeaderService::LeaderService(services::Node& node, Lease& lease, Journal& journa
 }
 
 void LeaderService::hear(const v1::LeaseMessage& member) {
+  if (member.executive() != executive_) return;
   const LeaseMessage message = from_wire(member);
   if (message.member == lease_->message({}).member) return;
   const Moment now = moment();
@@ -51,7 +53,7 @@ void LeaderService::turn() {
   persisted_term_->keep(lease_->persisted_term());
   if (turn.change == Lease::Change::stand_down) throw StandDown(turn.reason, lease_->superseded());
   report(turn.change, turn.reason);
-  if (turn.speak) messages_.write(to_wire(lease_->message(feed_.newest()), {}));
+  if (turn.speak) messages_.write(to_wire(lease_->message(feed_.newest()), {}, executive_));
   feed();
   release();
 }
@@ -65,7 +67,7 @@ void LeaderService::report(Lease::Change change, const std::string& reason) {
 
 void LeaderService::feed() {
   const auto whole = [this] { return journal_->serialized(); };
-  for (const Chunk& chunk : feed_.due(moment(), whole)) chunks_.write(to_wire(chunk));
+  for (const Chunk& chunk : feed_.due(moment(), whole)) chunks_.write(to_wire(chunk, executive_));
 }
 
 void LeaderService::send_once_copied(std::function<void()> send) {

@@ -28,7 +28,7 @@ class StandDown : public std::runtime_error {
 class LeaderService {
  public:
   /// `lease` leads already; its epoch begins in the journal. All outlive this.
-  LeaderService(services::Node& node, Lease& lease, journal::Journal& journal,
+  LeaderService(services::Node& node, std::string executive, Lease& lease, journal::Journal& journal,
                 PersistedTermFile& persisted_term);
 
   /// What was decided with the journal's newest commit: `send` runs now or later, in the order of these
@@ -54,6 +54,7 @@ class LeaderService {
   void report(Lease::Change change, const std::string& reason);
 
   services::Node& node_;
+  std::string executive_;  ///< the logical name of the pair
   Lease* lease_;
   journal::Journal* journal_;
   PersistedTermFile* persisted_term_;

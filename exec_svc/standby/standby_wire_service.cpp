@@ -34,8 +34,10 @@ std::string name_of(Member member) { return member == Member::first ? "first" : 
 
 Member member_of(const std::string& name) { return name == "second" ? Member::second : Member::first; }
 
-v1::LeaseMessage to_wire(const LeaseMessage& message, const TransferProgress& arrival) {
+v1::LeaseMessage to_wire(const LeaseMessage& message, const TransferProgress& arrival,
+                         const std::string& executive) {
   v1::LeaseMessage out;
+  out.executive(executive);
   out.member(name_of(message.member));
   out.exec_role(message.role == Role::leading ? v1::EXEC_LEADING : v1::EXEC_FOLLOWING);
   out.epoch(message.epoch);
@@ -70,8 +72,9 @@ TransferProgress arrival_of(const v1::LeaseMessage& in) {
   return {from_wire(in.arriving()), in.arrived_parts()};
 }
 
-v1::JournalChunk to_wire(const Chunk& chunk) {
+v1::JournalChunk to_wire(const Chunk& chunk, const std::string& executive) {
   v1::JournalChunk out;
+  out.executive(executive);
   out.leader(chunk.leader);
   out.after(to_wire(chunk.after));
   out.reached(to_wire(chunk.at));

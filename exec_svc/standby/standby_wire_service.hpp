@@ -16,11 +16,13 @@ Moment moment();
 std::string name_of(Member member);  ///< "first", "second"
 Member member_of(const std::string& name);
 
-v1::LeaseMessage to_wire(const LeaseMessage& message, const TransferProgress& arrival);
+/// `executive`: logical name of the pair.
+v1::LeaseMessage to_wire(const LeaseMessage& message, const TransferProgress& arrival,
+                         const std::string& executive);
 LeaseMessage from_wire(const v1::LeaseMessage& member);
 TransferProgress arrival_of(const v1::LeaseMessage& member);
 
-v1::JournalChunk to_wire(const Chunk& chunk);
+v1::JournalChunk to_wire(const Chunk& chunk, const std::string& executive);
 Chunk from_wire(const v1::JournalChunk& chunk);
 
 }  // namespace roci::exec::standby

@@ -109,7 +109,7 @@ void MissionView::take(const v1::Heartbeat& heartbeat) {
 }
 
 void MissionView::take(const v1::LeaseMessage& member) {
-  v1::LeaseMessage& known = members_[member.member()];
+  v1::LeaseMessage& known = members_[{member.executive(), member.member()}];
   if (member.epoch() >= known.epoch()) known = member;
 }
 

@@ -76,7 +76,7 @@ class MissionView {
   std::map<std::string, v1::Observation> observations_;
   std::map<std::string, v1::DataProduct> products_;
   std::map<std::string, v1::Heartbeat> heartbeats_;
-  std::map<std::string, v1::LeaseMessage> members_;
+  std::map<std::pair<std::string, std::string>, v1::LeaseMessage> members_;  ///< by executive and member
   std::map<std::pair<std::string, std::string>, v1::Hazard> hazards_;  // by finder and id
   std::map<std::string, std::vector<Place>> ways_;
   std::deque<v1::Event> events_;

@@ -40,8 +40,8 @@ void OffsetEstimator::add(const ClockExchange& exchange) {
   sample.error_us = std::max(delay, 0.0) / 2 + kGrainUs;
   if (!newest_.empty()) {
     const Sample& known = best(sample.at);
-    const bool stepped = sample.at < newest_.back().at ||
-                         std::abs(sample.offset_us - known.offset_us) > sample.error_us + error_at(known, sample.at);
+    const bool stepped = sample.at < newest_.back().at || std::abs(sample.offset_us - known.offset_us) >
+                                                              sample.error_us + error_at(known, sample.at);
     if (stepped) {
       newest_.clear();
       history_.clear();
@@ -61,7 +61,8 @@ double OffsetEstimator::error_at(const Sample& sample, Time now) {
 }
 
 const OffsetEstimator::Sample& OffsetEstimator::best(Time now) const {
-  return *std::ranges::min_element(newest_, {}, [now](const Sample& sample) { return error_at(sample, now); });
+  return *std::ranges::min_element(newest_, {},
+                                   [now](const Sample& sample) { return error_at(sample, now); });
 }
 
 std::optional<ClockOffset> OffsetEstimator::estimate() const {
@@ -102,8 +103,8 @@ std::vector<ClockJudge::Change> ClockJudge::judge(const ClockOffset& found) {
     if (state ? !within : !beyond) return;
     state = beyond;
     out.push_back({code, beyond,
-                   figure + " (give or take " + error + "), " + (beyond ? "beyond" : "within") + " the bound of " +
-                       bound});
+                   figure + " (give or take " + error + "), " + (beyond ? "beyond" : "within") +
+                       " the bound of " + bound});
   };
   const Duration offset = found.offset < Duration(0) ? -found.offset : found.offset;
   note(offset_beyond_, offset - found.error > bounds_.offset, offset <= bounds_.offset, "clock.offset",

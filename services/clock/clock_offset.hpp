@@ -75,9 +75,9 @@ class ClockJudge {
   explicit ClockJudge(const ClockBounds& bounds) : bounds_(bounds) {}
 
   struct Change {
-    std::string code;    ///< "clock.offset" or "clock.drift"
+    std::string code;  ///< "clock.offset" or "clock.drift"
     bool beyond = false;
-    std::string text;    ///< For people: figure, error and bound.
+    std::string text;  ///< For people: figure, error and bound.
   };
   std::vector<Change> judge(const ClockOffset&);
   bool beyond() const { return offset_beyond_ || drift_beyond_; }

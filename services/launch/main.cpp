@@ -17,10 +17,9 @@ namespace {
 namespace launch = roci::services::launch;
 namespace process = roci::services::process;
 
-// All services in one process is another program: this one becomes it.
-int rehearse(const launch::Options& options) {
-  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "roci-rehearse";
-  auto arguments = launch::rehearsal_arguments(options);
+// This process becomes another program, which stands beside it unless it is a path.
+int become(const std::filesystem::path& name, std::vector<std::string> arguments) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
@@ -30,7 +29,12 @@ int rehearse(const launch::Options& options) {
 
 int start(int argc, char** argv) {
   const launch::Options options = launch::parse_options(argc, argv, process::process_environment());
-  if (options.connection.dds == "inproc") return rehearse(options);
+  if (!options.become.empty()) {
+    const auto epoch_us = static_cast<std::int64_t>(options.epoch_s * 1e6);
+    return become(launch::program_of(options, options.become),
+                  launch::service_arguments(options, options.become, 0, epoch_us));
+  }
+  if (options.connection.dds == "inproc") return become("roci-rehearse", launch::rehearsal_arguments(options));
   process::StopSignals signals;
   std::atomic<int> stops{0};
   signals.watch([&stops] { ++stops; });

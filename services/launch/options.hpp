@@ -27,6 +27,8 @@ struct Options {
   std::vector<std::string> services;  ///< Processes that are started here: services and their standbys.
   std::vector<std::string> roster;    ///< The services of the whole run.
   std::string run;                    ///< Identity of the run; every host's launcher has the same.
+  std::string become;                 ///< The one service that this process turns into; empty: the launcher stays.
+  double epoch_s = 0;                 ///< With `become`: mission time 0 of the live run, in seconds since 1970.
   std::filesystem::path run_folder;   ///< If empty, the launcher chooses one.
   bool domain_given = false;
   services::process::Connection connection;  ///< Its `dds` may be "mixed" or "inproc".

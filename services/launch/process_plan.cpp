@@ -90,9 +90,11 @@ std::vector<std::string> service_arguments(const Options& options, const std::st
                                      "--address",
                                      transport.address,
                                      "--peers",
-                                     joined(transport.peers),
-                                     "--incarnation",
-                                     std::to_string(incarnation)};
+                                     joined(transport.peers)};
+  if (incarnation != 0) {
+    arguments.emplace_back("--incarnation");
+    arguments.push_back(std::to_string(incarnation));
+  }
   add_clock(options, service, epoch_unix_us, arguments);
   if (!entry.robot.empty()) {
     arguments.emplace_back("--robot");

@@ -110,8 +110,8 @@ std::string text_with_goals(const json& summary, const Options& options) {
       summary.value("dds", ""), summary.value("result", ""), goals.value("achieved", 0),
       goals.value("dropped", 0), goals.value("failed", 0), rejected_text(goals), planner.value("calls", 0),
       planner.value("max_s", 0.0), planner.value("max_rss_mb", 0.0), summary.value("replans", 0),
-      summary.value("sim_s", 0.0), summary.value("wall_s", 0.0), expected_text(summary),
-      links_text(summary), options.run_folder.string());
+      summary.value("sim_s", 0.0), summary.value("wall_s", 0.0), expected_text(summary), links_text(summary),
+      options.run_folder.string());
 }
 
 }  // namespace

@@ -102,8 +102,7 @@ std::optional<Time> Channel::next() const {
 }
 
 bool Channel::refuses(const Passenger& passenger, Time now) const {
-  return passenger.lifetime == Lifetime::once &&
-         (waiting_.size() >= kLongestQueue || !link_->open.open(now));
+  return passenger.lifetime == Lifetime::once && (waiting_.size() >= kLongestQueue || !link_->open.open(now));
 }
 
 // What is ready first is sent first; the link being closed for it, it is closed for all behind it.
@@ -111,7 +110,8 @@ std::optional<Time> Channel::next_start() const {
   if (waiting_.empty()) return std::nullopt;
   const auto& [order, waiting] = *waiting_.begin();
   const Time earliest = std::max(order.first, free_at_);
-  const bool dies = waiting.passenger.lifetime == Lifetime::once && link_->open.closes(order.first) <= earliest;
+  const bool dies =
+      waiting.passenger.lifetime == Lifetime::once && link_->open.closes(order.first) <= earliest;
   return dies ? std::optional(order.first) : link_->open.next_open(earliest);
 }
 
@@ -145,7 +145,8 @@ void Channel::repeat(Order order, Waiting waiting, Time ended) {
     ++counts_.superseded;
     return;
   }
-  const Duration pause = std::min(kLongestRepetitionPause, kRepetitionPause * (1 << std::min(waiting.attempt - 1, 8U)));
+  const Duration pause =
+      std::min(kLongestRepetitionPause, kRepetitionPause * (1 << std::min(waiting.attempt - 1, 8U)));
   ++waiting.attempt;
   ++counts_.repeated;
   const Time ready = temporal::plus(ended, round_trip(*link_) + pause);
@@ -156,8 +157,8 @@ void Channel::supersede(const Passenger& newer, std::uint64_t offer) {
   newest_[{newer.topic, {newer.sender, newer.instance}}] = offer;
   counts_.superseded += std::erase_if(waiting_, [&](const auto& entry) {
     const Passenger& older = entry.second.passenger;
-    return older.lifetime == Lifetime::newest && older.topic == newer.topic &&
-           older.sender == newer.sender && older.instance == newer.instance;
+    return older.lifetime == Lifetime::newest && older.topic == newer.topic && older.sender == newer.sender &&
+           older.instance == newer.instance;
   });
 }
 

@@ -103,7 +103,7 @@ class Channel {
   std::uint64_t offers_ = 0;
   temporal::Time free_at_ = -temporal::no_bound;
   std::map<Order, Waiting> waiting_;
-  std::map<Order, Passenger> flying_;          // by arrival
+  std::map<Order, Passenger> flying_;         // by arrival
   std::map<Instance, std::uint64_t> newest_;  // the newest offer of each instance
   Counts counts_;
 };

@@ -31,8 +31,8 @@ std::array<std::string, 2> read_ends(const Entry& entry, const ServiceList& list
     const bool known = ends[i] == kGround || list.find(ends[i]) != nullptr ||
                        std::ranges::find(list.robots, ends[i]) != list.robots.end();
     if (!known)
-      items[i].fail("'" + ends[i] + "' is neither a robot nor a service of this mission; choose of: " +
-                    known_ends(list));
+      items[i].fail("'" + ends[i] +
+                    "' is neither a robot nor a service of this mission; choose of: " + known_ends(list));
   }
   if (ends[0] == ends[1]) items[1].fail("both ends are '" + ends[0] + "'; a link joins two");
   return ends;

@@ -51,8 +51,8 @@ std::vector<LinkGate::Due> LinkGate::take(temporal::Time now) {
   std::vector<std::pair<temporal::Time, Due>> arrived;
   for (auto& [key, direction] : directions_) {
     for (link::Channel::Arrival& arrival : direction.channel.take(now))
-      arrived.push_back({arrival.at,
-                         {direction.readers.at(arrival.passenger.topic), std::move(arrival.passenger.value)}});
+      arrived.push_back(
+          {arrival.at, {direction.readers.at(arrival.passenger.topic), std::move(arrival.passenger.value)}});
   }
   std::ranges::stable_sort(arrived, {}, &std::pair<temporal::Time, Due>::first);
   std::vector<Due> out;

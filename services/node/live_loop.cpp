@@ -44,7 +44,8 @@ class LiveLoop : public Loop {
     stopped_ = batch.stop;
     if (batch.matched) impl.announce_match();
     if (!observer_) {
-      for (const LinkGate::Due& due : impl.links.take(this->now())) NodeImpl::handle(*due.reader, due.value.get());
+      for (const LinkGate::Due& due : impl.links.take(this->now()))
+        NodeImpl::handle(*due.reader, due.value.get());
     }
     for (auto& arrival : batch.arrivals) impl.receive(std::move(arrival));
     const clock::WallTime now = clock::wall_now();

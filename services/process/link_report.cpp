@@ -12,8 +12,8 @@ namespace {
 constexpr char kFolder[] = "links";
 
 link::Counts counts_of(const json& report) {
-  return {report.value("offered", std::uint64_t{0}), report.value("arrived", std::uint64_t{0}),
-          report.value("lost", std::uint64_t{0}), report.value("superseded", std::uint64_t{0}),
+  return {report.value("offered", std::uint64_t{0}),   report.value("arrived", std::uint64_t{0}),
+          report.value("lost", std::uint64_t{0}),      report.value("superseded", std::uint64_t{0}),
           report.value("under_way", std::uint64_t{0}), report.value("repeated", std::uint64_t{0})};
 }
 
@@ -22,12 +22,9 @@ link::Counts counts_of(const json& report) {
 json as_json(const std::map<std::string, link::Counts>& links) {
   json out = json::object();
   for (const auto& [name, counts] : links) {
-    out[name] = {{"offered", counts.offered},
-                 {"arrived", counts.arrived},
-                 {"lost", counts.lost},
-                 {"superseded", counts.superseded},
-                 {"under_way", counts.under_way},
-                 {"repeated", counts.repeated}};
+    out[name] = {{"offered", counts.offered},     {"arrived", counts.arrived},
+                 {"lost", counts.lost},           {"superseded", counts.superseded},
+                 {"under_way", counts.under_way}, {"repeated", counts.repeated}};
   }
   return out;
 }

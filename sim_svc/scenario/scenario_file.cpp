@@ -86,7 +86,8 @@ ExpectedEvent read_expected(const Entry& entry) {
 
 Scenario read_scenario(const Entry& root, const Roster& roster) {
   // Every service reads the links for itself (services/link).
-  root.allow_only({"description", "duration_s", "start", "world", "windows", "links", "science", "stimuli", "expect"});
+  root.allow_only(
+      {"description", "duration_s", "start", "world", "windows", "links", "science", "stimuli", "expect"});
   Scenario out;
   out.description = root.text_or("description", "");
   out.duration = time_of(root.at("duration_s"));

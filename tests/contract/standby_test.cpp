@@ -79,14 +79,16 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
   void start_leader() {
     leader_lease_.emplace(Member::first, LeaseSettings{}, PersistedTerm{1, true}, false, -10s + moment());
     ASSERT_EQ(leader_lease_->turn(leader_journal_->position(), moment()).change, Lease::Change::lead);
-    leader_node_.emplace(options_of("exec_svc", services::clock::ClockMode::live), transport(GetParam().leader));
-    leader_.emplace(*leader_node_, *leader_lease_, *leader_journal_, leader_standing_);
+    leader_node_.emplace(options_of("exec_svc", services::clock::ClockMode::live),
+                         transport(GetParam().leader));
+    leader_.emplace(*leader_node_, "exec_svc", *leader_lease_, *leader_journal_, leader_standing_);
   }
   void start_follower() {
     follower_lease_.emplace(Member::second, LeaseSettings{}, PersistedTerm{}, false, moment());
     follower_node_.emplace(options_of("exec_svc.second", services::clock::ClockMode::observer),
                            transport(GetParam().follower));
-    follower_.emplace(*follower_node_, *follower_lease_, *follower_journal_, follower_standing_);
+    follower_.emplace(*follower_node_, "exec_svc", *follower_lease_, *follower_journal_, follower_standing_,
+                      [](const goals::GoalRequest&) {});
   }
   void stop_leader() {
     leader_.reset();
@@ -209,7 +211,7 @@ TEST_P(StandbyTest, StrayParcelsDoNoHarm) {
   const auto stray = [&](std::uint64_t leader, Position after, Position at, bool sealed) {
     Chunk chunk{leader, after, at, 0, 0, 0, "no changes"};
     chunk.checksum = checksum(chunk) + (sealed ? 0 : 1);
-    chunks.write(standby::to_wire(chunk));
+    chunks.write(standby::to_wire(chunk, "exec_svc"));
   };
   const Position next{has.epoch, has.sequence + 1};
   stray(has.epoch, has, next, false);                                  // garbled
@@ -226,6 +228,36 @@ TEST_P(StandbyTest, StrayParcelsDoNoHarm) {
   expect_copy();
 }
 
+// Another pair of the same run: its leader has led longer, its journal would fit.
+TEST_P(StandbyTest, AnotherPairConcernsNobody) {
+  start_leader();
+  start_follower();
+  ASSERT_TRUE(wait_for_pair());
+  write(0, 5);
+  ASSERT_TRUE(wait_for_copy());
+  services::Node stranger(options_of("other", services::clock::ClockMode::observer),
+                          transport(GetParam().leader));
+  const auto chunks = services::advertise(stranger, services::topics::exec_journal);
+  const auto members = services::advertise(stranger, services::topics::exec_member);
+  ASSERT_TRUE(wait([&] {
+    stranger.spin_once(1ms);
+    return chunks.matched_readers() > 0 && members.matched_readers() > 1;
+  }));
+  const Position has = newest();
+  standby::LeaseMessage message = leader_lease_->message(has);
+  message.member = Member::second;
+  message.role = standby::Role::leading;
+  message.epoch += 7;
+  members.write(standby::to_wire(message, {}, "other"));
+  Chunk chunk{has.epoch, has, {has.epoch, has.sequence + 1}, 0, 0, 0, "no changes"};
+  chunk.checksum = checksum(chunk);
+  chunks.write(standby::to_wire(chunk, "other"));
+  write(5, 20);
+  ASSERT_TRUE(wait_for_copy());
+  ASSERT_TRUE(wait([&] { return sent_ == 20; }));
+  expect_copy();
+}
+
 TEST_P(StandbyTest, TheFollowerLeadsWhenTheLeaderIsGoneAndTheOldOneStandsDown) {
   start_leader();
   start_follower();
@@ -233,7 +265,8 @@ TEST_P(StandbyTest, TheFollowerLeadsWhenTheLeaderIsGoneAndTheOldOneStandsDown) {
   ASSERT_TRUE(wait([&] { return sent_ == 0; }));
   const auto stopped_at = services::clock::wall_now();
   ASSERT_TRUE([&] {  // the leader's loop stands still
-    while (!follower_->lead() && services::clock::wall_now() < stopped_at + kLimit) follower_node_->spin_once(5ms);
+    while (!follower_->lead() && services::clock::wall_now() < stopped_at + kLimit)
+      follower_node_->spin_once(5ms);
     return follower_->lead().has_value();
   }());
   EXPECT_EQ(follower_lease_->epoch(), 4U);

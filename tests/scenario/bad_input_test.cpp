@@ -3,6 +3,7 @@
 // goal, and is told (docs/exit-codes.md).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -57,6 +58,40 @@ class SpoiltMission {
  private:
   fs::path folder_;
 };
+
+// No restart mends it: the run ends at once, and the journal is as it was.
+TEST(NewerJournal, EndsTheRunWithCodeTwoAndTheRemedy) {
+  const fs::path folder = fs::temp_directory_path() / ("roci_newer_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  sqlite3* database = nullptr;
+  sqlite3_open((folder / "journal.sqlite").c_str(), &database);
+  sqlite3_exec(database, "PRAGMA user_version = 99; CREATE TABLE kept(x)", nullptr, nullptr, nullptr);
+  sqlite3_close(database);
+  const Ended ended = run("timeout 60 exec_svc --mission " + std::string(ROCI_SOURCE_DIR) +
+                          "/missions/planetary --run-folder " + folder.string() + " 2>&1");
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("journal.sqlite is not a usable journal: it is of format 99"),
+                                  HasSubstr("go on with the version that wrote it")));
+  fs::remove_all(folder);
+}
+
+// What a unit of systemd starts: the service that the mission's list has under this name.
+TEST(Become, TheProcessTurnsIntoAServiceOfTheList) {
+  const fs::path folder = fs::temp_directory_path() / ("roci_become_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "mission.yaml") << "name: mine\nrobots: [scout]\nservices:\n"
+                                            "  - {name: left.drill, program: ./drill, robot: scout, arguments: [--bit, 3]}\n";
+  std::ofstream(folder / "drill") << "#!/bin/sh\necho \"$@\"\n";
+  fs::permissions(folder / "drill", fs::perms::owner_all);
+  const Ended ended = run("roci-launch " + folder.string() + " --become left.drill --clock live --epoch 5 2>&1");
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("--name left.drill"), HasSubstr("--robot scout"), HasSubstr("--bit 3"),
+                                  HasSubstr("--clock live"), HasSubstr("--epoch 5")));
+  const Ended wrong = run("roci-launch " + folder.string() + " --become drill --clock live 2>&1");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.output, HasSubstr("unknown service drill; this mission has: left.drill"));
+  fs::remove_all(folder);
+}
 
 struct Slip {
   const char* name;

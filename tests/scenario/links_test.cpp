@@ -78,8 +78,7 @@ TEST_P(LinksTest, AFifthIsLostAndTheMissionEndsAsStated) {
   EXPECT_EQ(flight.summary.value("trace_sha256", "none"), reference.summary.value("trace_sha256", ""));
 }
 
-INSTANTIATE_TEST_SUITE_P(Transports, LinksTest,
-                         ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
+INSTANTIATE_TEST_SUITE_P(Transports, LinksTest, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
                          [](const auto& test) { return test.param; });
 
 TEST_F(LinksTest, LightTimeAndANarrowWindowedLinkDelayTheMission) {

@@ -280,6 +280,22 @@ class ConflictsAhead : public ContinuousPlanning {
   }
 };
 
+// R99: the second attempt takes all of it once more.
+TEST_F(ConflictsAhead, WhatARetryTakesAgainIsMissed) {
+  engine.find("1").retries = 1;
+  engine.find("1").impacts = {
+      {"rover.battery", temporal::ImpactKind::delta, temporal::ImpactWhen::at_end, -200000.0}};
+  needs_battery("2");
+  see_at(1, "rover.battery", 600000.0);
+  at(10, [this] {
+    pending.acks.push_back({"1", 1, executive::CommandStage::failed, "dark", "too dark"});
+  });
+  run(9, with_plan(robot_and({photo("1"), photo("2")})));
+  EXPECT_EQ(reactor.receipt().conflict, "");
+  run(11, {});
+  EXPECT_THAT(reactor.receipt().conflict, HasSubstr("2 will lack rover.battery >= 500000 (is 400000)"));
+}
+
 TEST_F(ConflictsAhead, AreToldToTheEngineAndWhatIsCommittedGoesOn) {
   needs_battery("2");
   see_at(10, "rover.battery", 400000.0);

@@ -64,6 +64,18 @@ TEST(ResourceMonitor, WhatWaitsNoMoreTakesNothing) {
   EXPECT_NE(shortfall(monitor, levels({{"(battery)", 59}})), "");
 }
 
+// R99: the second attempt takes all of it once more, and is charged until it is seen to be taken.
+TEST(ResourceMonitor, ARetryIsChargedAgain) {
+  ResourceMonitor monitor(plan_of({{50, 30}, {60, 40}}));
+  monitor.remove("a1");
+  monitor.charge_again("a1", levels({{"(battery)", 80}}));
+  EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 80}})), "a2 will lack (battery) >= 60 (is 50)");
+  EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 65}})), "a2 will lack (battery) >= 60 (is 50)");
+  EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 95}})), "") << "charged meanwhile";
+  monitor.settle("a1");
+  EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 65}})), "");
+}
+
 TEST(ResourceMonitor, AnUnseenLevelIsNoAlarm) {
   EXPECT_EQ(shortfall(ResourceMonitor(plan_of({{10, 5}})), levels({})), "");
 }

@@ -116,6 +116,15 @@ TEST_F(LaunchTest, LiveServicesShareAnEpoch) {
               IsSupersetOf({"--clock", "live", "--scale", "2", "--epoch", "1700000000.25"}));
 }
 
+TEST_F(LaunchTest, OneServiceOfTheListStartsUnderAnotherSupervisor) {
+  Options options = parse({"--become", "second.arm", "--clock", "live", "--epoch", "5"});
+  EXPECT_EQ(options.become, "second.arm");
+  EXPECT_EQ(options.run, folder.filename().string()) << "each service of the run comes to the same identity";
+  EXPECT_THAT(service_arguments(options, options.become, 0, 5'000'000), Not(Contains("--incarnation")));
+  EXPECT_THROW(parse({"--become", "second.arm"}), std::invalid_argument);
+  EXPECT_THROW(parse({"--become", "nobody", "--clock", "live"}), std::invalid_argument);
+}
+
 TEST_F(LaunchTest, ServiceArgumentsAreThoseThatServicesRead) {
   Options options = parse({"--dds", "cyclonedds", "--seed", "9", "--domain", "7", "--speed", "2.5"});
   options.run_folder = "/run";

@@ -170,8 +170,7 @@ TEST_F(LinkGate, ACallOverABadLinkIsRepeatedAndItsDeadlineIsLaterByTheLightTime)
     const auto note = [&](const CallResult<v1::ArmMotionReply>& result) {
       results.push_back(rpc::to_string(result.status));
     };
-    for (int i = 0; i < 20; ++i)
-      a().at(1s, [client, note] { client.call({}, "b", 60s, note); });
+    for (int i = 0; i < 20; ++i) a().at(1s, [client, note] { client.call({}, "b", 60s, note); });
     a().at(80s, [this, client, &results] {
       client.call({}, "b", 1s, [this, &results](const CallResult<v1::ArmMotionReply>& result) {
         results.push_back(at(a(), to_string(result.status)));

@@ -126,7 +126,8 @@ TEST_F(ContingencyBehindALink, ItsLostCommandIsAskedFor) {
   step(10, {ack(CommandStage::accepted)});
   EXPECT_THAT(step(20, {ack(CommandStage::failed)}), ElementsAre("execute drive.c1-stop#1"));
   EXPECT_THAT(step(35), ElementsAre("query drive.c1-stop#1"));
-  EXPECT_THAT(step(45, {ack(CommandStage::unknown, "drive.c1-stop")}), ElementsAre("execute drive.c1-stop#1"));
+  EXPECT_THAT(step(45, {ack(CommandStage::unknown, "drive.c1-stop")}),
+              ElementsAre("execute drive.c1-stop#1"));
   EXPECT_THAT(step(55, {ack(CommandStage::completed, "drive.c1-stop")}), ElementsAre("execute drive#2"));
 }
 

@@ -113,9 +113,9 @@ TEST(Channel, AStateSampleIsRepeatedUntilItArrivesOrANewerOneComes) {
 // The numbers stand for all machines: a trace is the same on each.
 TEST(Channel, ChanceDependsOnTheSampleAlone) {
   EXPECT_EQ(chance(1, "l", passenger(1), 1), chance(1, "l", passenger(1, 99), 1));
-  std::vector<double> all{chance(1, "l", passenger(1), 1),  chance(2, "l", passenger(1), 1),
-                          chance(1, "m", passenger(1), 1),  chance(1, "l", passenger(2), 1),
-                          chance(1, "l", passenger(1), 2),  chance(1, "l", {"roci/event", "b", 1, 1}, 1),
+  std::vector<double> all{chance(1, "l", passenger(1), 1),     chance(2, "l", passenger(1), 1),
+                          chance(1, "m", passenger(1), 1),     chance(1, "l", passenger(2), 1),
+                          chance(1, "l", passenger(1), 2),     chance(1, "l", {"roci/event", "b", 1, 1}, 1),
                           chance(1, "l", {"x", "a", 1, 1}, 1), chance(1, "l", {"roci/event", "a", 2, 1}, 1)};
   std::ranges::sort(all);
   EXPECT_EQ(std::ranges::adjacent_find(all), all.end());
@@ -132,7 +132,8 @@ TEST(Channel, WhatWaitsForANarrowLinkIsBounded) {
   Link link{"l", {"a", "b"}};
   link.rate_bit_s = 1;
   Channel channel(link, 1);
-  for (std::uint64_t number = 1; number <= 2 * kLongestQueue; ++number) channel.offer(passenger(number, 1000), 0s);
+  for (std::uint64_t number = 1; number <= 2 * kLongestQueue; ++number)
+    channel.offer(passenger(number, 1000), 0s);
   EXPECT_EQ(channel.counts().lost, kLongestQueue - 1);  // one is being sent
 }
 
@@ -150,7 +151,9 @@ struct Case {
 
 Case random_case(std::mt19937& random) {
   Case out;
-  const auto up_to = [&random](int most) { return static_cast<int>(random() % static_cast<unsigned>(most + 1)); };
+  const auto up_to = [&random](int most) {
+    return static_cast<int>(random() % static_cast<unsigned>(most + 1));
+  };
   if (up_to(1)) out.link.light_time = std::chrono::milliseconds(up_to(3000));
   if (up_to(1)) out.link.rate_bit_s = 1000 + up_to(20'000);
   if (up_to(1)) out.link.loss = up_to(8) / 10.0;

@@ -18,7 +18,8 @@ class LinkFile : public testing::Test {
   LinkFile()
       : folder_(std::filesystem::temp_directory_path() / ("roci_links_" + std::to_string(::getpid()))) {
     std::filesystem::create_directories(folder_ / "scenarios");
-    write("mission.yaml", "robots: [rover, scout]\nservices: [{name: sim_svc}, {name: exec_svc, robot: rover}]\n");
+    write("mission.yaml",
+          "robots: [rover, scout]\nservices: [{name: sim_svc}, {name: exec_svc, robot: rover}]\n");
   }
   ~LinkFile() override { std::filesystem::remove_all(folder_); }
 
@@ -66,7 +67,9 @@ TEST_F(LinkFile, WithoutLinksOrWithoutAScenarioThereAreNone) {
 }
 
 TEST_F(LinkFile, BadInputIsRefusedWithPlaceAndRemedy) {
-  const auto of_line_3 = [](const std::string& what) { return AllOf(HasSubstr("day.yaml:3:"), HasSubstr(what)); };
+  const auto of_line_3 = [](const std::string& what) {
+    return AllOf(HasSubstr("day.yaml:3:"), HasSubstr(what));
+  };
   EXPECT_THAT(refusal("  - {ends: [ground]}\n"), of_line_3("ends: [ground, rover]"));
   EXPECT_THAT(refusal("  - {name: x}\n"), of_line_3("'ends' is missing"));
   EXPECT_THAT(refusal("  - {ends: [ground, mars]}\n"),
@@ -74,13 +77,16 @@ TEST_F(LinkFile, BadInputIsRefusedWithPlaceAndRemedy) {
   EXPECT_THAT(refusal("  - {ends: [rover, rover]}\n"), of_line_3("a link joins two"));
   EXPECT_THAT(refusal("  - {ends: [rover, ground], los: 0.1}\n"), of_line_3("unknown key 'los'"));
   for (const char* loss : {"1.1", "-0.1", ".nan", "much"})
-    EXPECT_THAT(refusal("  - {ends: [rover, ground], loss: " + std::string(loss) + "}\n"), HasSubstr("day.yaml:3:"));
+    EXPECT_THAT(refusal("  - {ends: [rover, ground], loss: " + std::string(loss) + "}\n"),
+                HasSubstr("day.yaml:3:"));
   EXPECT_THAT(refusal("  - {ends: [rover, ground], loss: 1.1}\n"), of_line_3("a share from 0 to 1"));
   EXPECT_THAT(refusal("  - {ends: [rover, ground], light_time_s: -1}\n"), of_line_3("from 0 to 86400 s"));
-  EXPECT_THAT(refusal("  - {ends: [rover, ground], rate_bit_s: 0}\n"), of_line_3("leave it out for no limit"));
+  EXPECT_THAT(refusal("  - {ends: [rover, ground], rate_bit_s: 0}\n"),
+              of_line_3("leave it out for no limit"));
   EXPECT_THAT(refusal("  - {ends: [rover, ground], windows: []}\n"), of_line_3("windows is empty"));
   EXPECT_THAT(refusal("  - {ends: [rover, ground], windows: [[5, 1]]}\n"), of_line_3("swap the two"));
-  EXPECT_THAT(refusal("  - {ends: [rover, ground], cuts: [[1, 5], [4, 6]]}\n"), of_line_3("sort or join them"));
+  EXPECT_THAT(refusal("  - {ends: [rover, ground], cuts: [[1, 5], [4, 6]]}\n"),
+              of_line_3("sort or join them"));
   EXPECT_THAT(refusal("  - {ends: [rover, ground], cuts: [[1, 5, 6]]}\n"), of_line_3("[from, to]"));
   EXPECT_THAT(refusal("  - {ends: [rover, ground]}\n  - {ends: [ground, rover]}\n"),
               AllOf(HasSubstr("day.yaml:4:"), HasSubstr("put both into one")));
