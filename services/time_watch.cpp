@@ -64,7 +64,11 @@ void TimeWatch::hear(const v1::TimeProbe& answer) {
                   temporal::Time(answer.answered_us()), now});
   const auto found = estimator_.estimate();
   if (!found) return;
-  for (const clock::ClockJudge::Change& change : judge_.judge(*found)) report(change, *found);
+  for (clock::ClockJudge::Change& change : judge_.judge(*found)) changes_.push_back(std::move(change));
+  if (!changes_.empty() && events_.matched_readers() > 0) {
+    for (const clock::ClockJudge::Change& change : changes_) report(change, *found);
+    changes_.clear();
+  }
   node_.impl().degraded = judge_.beyond();
 }
 

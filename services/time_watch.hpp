@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "services/clock/clock_offset.hpp"
 #include "services/node.hpp"
@@ -38,6 +39,7 @@ class TimeWatch {
   Publisher<v1::Event> events_;
   clock::OffsetEstimator estimator_;
   clock::ClockJudge judge_;
+  std::vector<clock::ClockJudge::Change> changes_;  // that nobody could have heard of yet
   std::uint64_t asked_ = 0;
   std::uint64_t heard_ = 0;  // the newest question that was answered
 };

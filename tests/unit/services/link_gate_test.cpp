@@ -211,5 +211,31 @@ TEST_F(LinkGate, WhatAConsoleSendsComesOverTheLinkOfTheGround) {
   EXPECT_GE(receiver.now(), 3s);
 }
 
+// Thirty seconds of light in a tenth of a second of wall time; nobody waits longer than that.
+TEST(LiveLinkGate, AppliesTheModelOnTheLiveClock) {
+  link::Link link;
+  link.light_time = 30s;
+  node::NodeOptions options;
+  options.live_scale = 300;
+  options.epoch_unix_us = clock::unix_us();
+  options.links = between("a", "b", link);
+  const int domain = next_domain();
+  options.name = "a";
+  Node a(options, transport::open_transport("inproc", {.domain = domain}));
+  options.name = "b";
+  Node b(options, transport::open_transport("inproc", {.domain = domain}));
+  std::vector<temporal::Duration> delays;
+  subscribe(b, topics::observation, [&](const v1::Observation& heard) {
+    delays.push_back(b.now() - temporal::Time(heard.header().stamp_us()));
+  });
+  const auto out = advertise(a, topics::observation);
+  out.write(observation("x", 1));
+  const auto end = clock::wall_now() + clock::wall_seconds(60);
+  while (delays.empty() && clock::wall_now() < end) b.spin_once(5ms);
+  ASSERT_EQ(delays.size(), 1U);
+  EXPECT_GE(delays.front(), 30s);
+  EXPECT_EQ(b.link_counts().at("radio").arrived, 1U);
+}
+
 }  // namespace
 }  // namespace roci::services
