@@ -17,6 +17,7 @@ packages=(
   libgtest-dev libgmock-dev libbenchmark-dev
   python3                                                          # the field trial
   iproute2                                                         # network namespaces in the tests
+  faketime                                                         # hosts whose clocks are wrong, in the tests
 )
 
 missing=()

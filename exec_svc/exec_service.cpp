@@ -15,6 +15,7 @@
 #include "exec_svc/journal/crash_points.hpp"
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/journaled_reactor.hpp"
+#include "exec_svc/journal/round_trips.hpp"
 #include "exec_svc/mission_report_service.hpp"
 #include "exec_svc/output_publisher_service.hpp"
 #include "exec_svc/run_files_service.hpp"
@@ -71,6 +72,12 @@ CrashPoints crash_points(const Node& node) {
                      [] { std::raise(SIGKILL); });
 }
 
+MissionModel mission_behind_links(const Node& node, const services::RunSettings& settings) {
+  MissionModel mission = read_mission(settings.mission_file(), role_of(settings, node.options()));
+  mission.executive.round_trips = node.round_trips();
+  return mission;
+}
+
 // Collects what comes in one turn of the loop, steps the reactor once, journals what it decided, then sends
 // it.
 class ExecService final : public services::Service {
@@ -79,7 +86,7 @@ class ExecService final : public services::Service {
               LeaderService* leading, bool doubtful)
       : node_(node),
         settings_(settings),
-        mission_(read_mission(settings.mission_file(), role_of(settings, node.options()))),
+        mission_(mission_behind_links(node, settings)),
         planner_service_(planner_of(mission_, settings)),
         journal_(journal),
         epoch_(epoch),
@@ -94,6 +101,8 @@ class ExecService final : public services::Service {
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
     journal_.set_text("mission_file", std::filesystem::absolute(settings.mission_file()).string());
     journal_.set_text("executive", node.options().name);
+    if (!mission_.executive.round_trips.empty())
+      journal_.set_text("round_trips", journal::round_trips_text(mission_.executive.round_trips));
     if (reactor_.reactor().plans_continuously()) {
       engine_.emplace(
           node, [this](temporal::PlanDelta delta) { take(std::move(delta)); },

@@ -15,6 +15,7 @@
 #include "services/health/watchdog_notifier.hpp"
 #include "services/log/log.hpp"
 #include "services/node.hpp"
+#include "services/process/link_report.hpp"
 #include "services/process/service_options.hpp"
 #include "services/process/stop_signals.hpp"
 #include "services/publisher.hpp"
@@ -170,11 +171,13 @@ class PairProcess {
     options.incarnation = static_cast<std::uint32_t>(lease.epoch());
     services::Node node(options, std::move(transport));
     node.on_turn([this] { watchdog_.notify(); });
+    const services::TimeWatch time_watch(node, options_.time);
     try {
       LeaderService leading(node, options_.node.name, lease, journal_, persisted_term_);
       const auto executive = make_executive(node, options_.run, journal_, leading, turn.doubtful);
       const InterruptibleNode reach(stop_, node);
       node.run();
+      services::process::write_link_report(node, options_.run.run_folder);
       return std::nullopt;
     } catch (const StandDown& end) {
       return end;

@@ -8,7 +8,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "services/link/link_file.hpp"
 #include "services/node.hpp"
+#include "services/process/link_report.hpp"
 #include "services/transport/plug_ins.hpp"
 
 namespace roci::rehearsal {
@@ -54,7 +56,8 @@ services::node::NodeOptions node_options(const std::filesystem::path& mission,
   options.run = options.mission;
   options.robot = entry.robot;
   options.vendor = "inproc";
-  options.clock = entry.clock_master ? services::clock::ClockMode::master : services::clock::ClockMode::simulated;
+  options.clock =
+      entry.clock_master ? services::clock::ClockMode::master : services::clock::ClockMode::simulated;
   if (!entry.clock_master) return options;
   options.master.pace = pace;
   for (const mission::ServiceEntry& other : crew_of(mission)) options.master.roster.push_back(other.name);
@@ -69,14 +72,17 @@ services::MakeService* make_of(const mission::ServiceEntry& entry) {
 }
 
 void fly(const FlightOptions& options) {
+  const auto links = services::link::load_links(options.run.mission, options.run.scenario, options.run.seed);
   std::vector<Seat> seats;
   for (const mission::ServiceEntry& entry : crew_of(options.run.mission)) {
     services::transport::TransportOptions transport;
     transport.domain = options.domain;
     transport.participant = entry.name;
     Seat seat;
-    seat.node = std::make_unique<services::Node>(node_options(options.run.mission, entry, options.pace),
-                                                 services::transport::open_transport("inproc", transport));
+    services::node::NodeOptions node = node_options(options.run.mission, entry, options.pace);
+    node.links = links;
+    seat.node =
+        std::make_unique<services::Node>(node, services::transport::open_transport("inproc", transport));
     services::RunSettings run = options.run;
     run.settings = entry.settings;
     seat.service = make_of(entry)(*seat.node, run);
@@ -96,6 +102,7 @@ void fly(const FlightOptions& options) {
   }
   for (std::thread& thread : threads) thread.join();
   failure.rethrow();
+  for (const Seat& seat : seats) services::process::write_link_report(*seat.node, options.run.run_folder);
 }
 
 }  // namespace roci::rehearsal

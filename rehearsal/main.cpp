@@ -9,6 +9,7 @@
 
 #include "rehearsal/flight.hpp"
 #include "services/clock/wall.hpp"
+#include "services/process/link_report.hpp"
 #include "services/process/mission_folder.hpp"
 
 namespace {
@@ -33,6 +34,8 @@ nlohmann::json summary_of(const std::filesystem::path& run_folder) {
   auto summary = in ? nlohmann::json::parse(in) : nlohmann::json{{"result", "failed"}};
   std::ifstream expected(run_folder / roci::services::kExpectedFile);
   if (expected) summary["expected"] = nlohmann::json::parse(expected);
+  const auto links = roci::services::process::read_link_reports(run_folder);
+  if (!links.empty()) summary["links"] = roci::services::process::as_json(links);
   return summary;
 }
 

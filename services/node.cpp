@@ -27,6 +27,10 @@ void Node::cancel(TimerId timer) { impl_->timers.cancel(timer); }
 
 void Node::on_turn(std::function<void()> handler) { impl_->on_turn.push_back(std::move(handler)); }
 
+std::map<std::string, temporal::Duration> Node::round_trips() const { return impl_->links.round_trips(); }
+
+std::map<std::string, link::Counts> Node::link_counts() const { return impl_->links.counts(); }
+
 void Node::on_peer_change(std::function<void(const health::PeerChange&)> handler) {
   impl_->on_peer_change.push_back(std::move(handler));
 }

@@ -9,11 +9,14 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "core/temporal/duration.hpp"
 #include "services/health/peer.hpp"
+#include "services/link/channel.hpp"
 #include "services/node/node_options.hpp"
 #include "services/transport/transport.hpp"
 
@@ -43,6 +46,12 @@ class Node {
   /// The handler is called in each turn of the loop, before timers fire: at least four times a second of wall
   /// time, also while the simulated clock stands still.
   void on_turn(std::function<void()>);
+
+  /// The services of the mission that a link of the scenario joins to this one, with the light time there and
+  /// back: by so much later may an answer come, and it may be lost.
+  std::map<std::string, temporal::Duration> round_trips() const;
+  /// What has become of what came over links so far, by name of the link.
+  std::map<std::string, link::Counts> link_counts() const;
 
   void on_peer_change(std::function<void(const health::PeerChange&)>);
   bool peer_alive(std::string_view service) const;

@@ -4,7 +4,8 @@
 //
 // Live, a request is sent once both of its topics have matched and sent again, with the same id, until it is
 // answered; servers handle an id once. Under the simulated clock the barrier delivers, so it is sent at once,
-// once.
+// once, unless a link of the scenario joins the two: then it is repeated as live, and its deadline is later by
+// the light time there and back.
 //
 // A caller that no longer needs an answer may cancel its call: the server is told, and answers what it has.
 // The call still ends with that answer, or as it would have.

@@ -51,15 +51,16 @@ bool ActivityMonitor::check_command(Index activity, Time now) {
   const PlanActivity& planned = state_->plan.activities[activity];
   const ActivityRun& run = state_->runs[activity];
   const ExecutiveSettings& settings = state_->settings;
+  const CommandOf command = state_->command(activity);
   const Time age = now - run.phase_since;
-  if (run.phase == ActivityPhase::cancelling) {
-    if (age < settings.cancel_timeout) return false;
-    exchange_->give_cancel_up(activity, now,
-                              "cancel not answered within " + to_text(settings.cancel_timeout));
+  const bool cancelling = run.phase == ActivityPhase::cancelling;
+  const temporal::Duration cancel_within = settings.cancel_timeout + settings.round_trip(command.owner);
+  if (age < (cancelling ? cancel_within : command.answer_within)) return false;
+  if (exchange_->ask_again(activity, now)) return true;
+  if (cancelling) {
+    exchange_->give_cancel_up(activity, now, "cancel not answered within " + to_text(cancel_within));
     return true;
   }
-  const CommandOf command = state_->command(activity);
-  if (age < command.answer_within) return false;
   const std::string reason =
       "command not answered by " + command.owner + " within " + to_text(command.answer_within);
   if (run.retries_used < planned.retries && state_->starting()) {
@@ -77,7 +78,8 @@ bool ActivityMonitor::check_maintenance(Index activity, Time now) {
   if (planned.maintenance.empty() || run.phase == ActivityPhase::settling) return false;
   const Truth truth = evaluate(planned.maintenance, state_->lookup());
   if (truth == Truth::yes) run.maintenance_held = true;
-  const bool demanded = run.maintenance_held || now >= run.attempt_started + state_->settings.settle_time;
+  const bool demanded =
+      run.maintenance_held || now >= run.attempt_started + deadlines_->settle_time(activity);
   if (truth != Truth::no || !demanded) return false;
   attempts_->fail(activity, now, Breakage::activity_failed,
                   "maintenance condition broken: " + explain(planned.maintenance, state_->lookup()),
@@ -94,7 +96,7 @@ bool ActivityMonitor::try_finish(Index activity, Time now) {
     attempts_->succeed(activity, now);
     return true;
   }
-  if (now < from + state_->settings.settle_time) return false;
+  if (now < from + deadlines_->settle_time(activity)) return false;
   attempts_->fail(activity, now, Breakage::activity_failed,
                   "post condition does not hold: " + explain(planned.post, state_->lookup()), false);
   return true;

@@ -34,11 +34,12 @@ struct ActivityRun {
   temporal::Time attempt_started{0};
   temporal::Time phase_since{0};
   temporal::Time latest_end = temporal::no_bound;  ///< its owner is told: after it no repair is worth a try
-  std::optional<temporal::Time> wait_until;  ///< its wait has begun and ends then
-  bool maintenance_held = false;             ///< seen true since the start: from then on it must stay true
-  bool overrun_noted = false;                ///< its longest duration has passed and no longer bounds its end
+  std::optional<temporal::Time> wait_until;        ///< its wait has begun and ends then
+  bool maintenance_held = false;  ///< seen true since the start: from then on it must stay true
+  bool overrun_noted = false;     ///< its longest duration has passed and no longer bounds its end
   AfterCancel after_cancel = AfterCancel::fail;
-  bool asked = false;  ///< its owner was asked, after a restart, what became of it; not answered yet
+  bool asked = false;         ///< its owner was asked what became of it; not answered yet
+  std::uint32_t queries = 0;  ///< how often it was asked in this phase because no answer came over a link
   std::string reason;
 
   bool active() const { return phase != ActivityPhase::waiting && phase != ActivityPhase::done; }

@@ -87,6 +87,7 @@ std::optional<ContingencyEnd> ContingencyRuns::take(const CommandAck& ack, Time 
     record.accepted = true;
   } else if (ack.stage == CommandStage::completed) {
     ++record.command;
+    record.queries = 0;
     record.command_id.clear();
     record.command_since = now;
     record.accepted = false;
@@ -99,7 +100,7 @@ std::optional<ContingencyEnd> ContingencyRuns::take(const CommandAck& ack, Time 
 
 std::optional<ContingencyEnd> ContingencyRuns::check(Index activity, Time now) {
   const Contingency& running = contingency(activity);
-  const Record& record = records_[activity];
+  Record& record = records_[activity];
   if (record.command == running.commands.size()) {
     const std::string unmet =
         running.retries ? explain(state_->plan.activities[activity].pre, state_->lookup()) : "";
@@ -107,6 +108,13 @@ std::optional<ContingencyEnd> ContingencyRuns::check(Index activity, Time now) {
     return ended(activity, unmet.empty() ? "" : "then the activity lacks " + unmet);
   }
   if (now < timer(activity)) return std::nullopt;
+  const bool may_be_lost = !record.accepted && state_->settings.linked(owner(activity)) &&
+                           now < temporal::plus(record.since, running.within);
+  if (may_be_lost && record.queries < state_->settings.queries) {
+    ++record.queries;
+    query(activity, now);
+    return std::nullopt;
+  }
   send(activity, CommandAction::cancel);
   return ended(activity, record.accepted ? "not done within " + to_text(running.within)
                                          : "not answered within " + to_text(state_->settings.ack_timeout));
@@ -130,7 +138,13 @@ Time ContingencyRuns::timer(Index activity) const {
   if (record.command == contingency(activity).commands.size())
     return record.command_since + state_->settings.settle_time;
   const Time end = temporal::plus(record.since, contingency(activity).within);
-  return record.accepted ? end : std::min(end, record.command_since + state_->settings.ack_timeout);
+  const ExecutiveSettings& settings = state_->settings;
+  const Time answered = record.command_since + settings.ack_timeout + settings.round_trip(owner(activity));
+  return record.accepted ? end : std::min(end, answered);
+}
+
+const std::string& ContingencyRuns::owner(Index activity) const {
+  return contingency(activity).commands[records_[activity].command].owner;
 }
 
 ContingencyEnd ContingencyRuns::ended(Index activity, const std::string& reason) const {

@@ -59,10 +59,12 @@ class ContingencyRuns {
     std::string failure;         ///< of the activity
     std::uint32_t used = 0;      ///< contingencies begun
     std::uint32_t commands = 0;  ///< part of their keys: it is never reset
+    std::uint32_t queries = 0;   ///< how often its owner was asked because no answer came over a link
   };
 
   const Contingency& contingency(Index activity) const;
   void send(Index activity, CommandAction action);
+  const std::string& owner(Index activity) const;  ///< of the command that runs
   ContingencyEnd ended(Index activity, const std::string& reason) const;
 
   RunState* state_;

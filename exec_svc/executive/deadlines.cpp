@@ -45,20 +45,26 @@ Time Deadlines::settled_from(Index activity) const {
   return std::max(run.phase_since, run.attempt_started + state_->points.duration(activity).lower);
 }
 
+Duration Deadlines::settle_time(Index activity) const {
+  return state_->settings.settle_time + state_->settings.round_trip(state_->command(activity).owner);
+}
+
 Time Deadlines::next_timer(Index activity, Time now) const {
   const PlanActivity& planned = state_->plan.activities[activity];
   const ActivityRun& run = state_->runs[activity];
   const ExecutiveSettings& settings = state_->settings;
-  if (run.phase == ActivityPhase::cancelling) return run.phase_since + settings.cancel_timeout;
+  if (run.phase == ActivityPhase::cancelling)
+    return run.phase_since + settings.cancel_timeout + settings.round_trip(state_->command(activity).owner);
   if (run.phase == ActivityPhase::settling) {
     const Time from = settled_from(activity);
-    return now < from ? from : from + settings.settle_time;
+    return now < from ? from : from + settle_time(activity);
   }
   Time next = plus(end(activity), Duration{1});
   if (!planned.owner.empty()) next = std::min(next, hung_after(activity));
-  if (run.phase == ActivityPhase::sent) next = std::min(next, run.phase_since + state_->command(activity).answer_within);
+  if (run.phase == ActivityPhase::sent)
+    next = std::min(next, run.phase_since + state_->command(activity).answer_within);
   if (!planned.maintenance.empty() && !run.maintenance_held)
-    next = std::min(next, run.attempt_started + settings.settle_time);
+    next = std::min(next, run.attempt_started + settle_time(activity));
   return next;
 }
 

@@ -23,6 +23,8 @@ class Deadlines {
   temporal::Time hung_after(Index activity) const;
   /// From when on a completed command counts as a success, if its post condition holds (R86).
   temporal::Time settled_from(Index activity) const;
+  /// How long observations may take to follow a start or an end of it.
+  temporal::Duration settle_time(Index activity) const;
   /// When the activity, which runs no contingency, is to be looked at next.
   temporal::Time next_timer(Index activity, temporal::Time now) const;
 

@@ -33,6 +33,17 @@ struct ExecutiveSettings {
   std::map<std::string, Contingency> contingencies{};  ///< by name, as PlanActivity::contingency names them
   /// After its start, by PlanActivity::name; else no bound.
   std::map<std::string, temporal::Duration> retry_within{};
+  /// The owners that a link of the scenario joins to the executive, with the light time there and back. What
+  /// they say comes later by that, and what they are told may be lost.
+  std::map<std::string, temporal::Duration> round_trips{};
+  /// So often such an owner is asked what became of a command before it counts as not answered.
+  std::uint32_t queries = 5;
+
+  bool linked(const std::string& owner) const { return round_trips.contains(owner); }
+  temporal::Duration round_trip(const std::string& owner) const {
+    const auto found = round_trips.find(owner);
+    return found == round_trips.end() ? temporal::Duration{0} : found->second;
+  }
 };
 
 /// Rules (docs in README.md): a start whose predecessors happened at t <= lb starts at lb, in (lb, ub] at

@@ -28,8 +28,7 @@ bool OwnerExchange::take_ack(const CommandAck& ack, Time now) {
   const Index activity = found->second;
   const ActivityRun& run = state_->runs[activity];
   const bool same_key = run.attempt == ack.attempt && (ack.epoch == 0 || ack.epoch == run.epoch);
-  if (!run.active() || !same_key || state_->plan.activities[activity].owner.empty())
-    return false;
+  if (!run.active() || !same_key || state_->plan.activities[activity].owner.empty()) return false;
   if (run.phase == ActivityPhase::contingency) return false;
   if (take_query_answer(activity, ack, now)) return true;
   if (run.phase == ActivityPhase::cancelling) {
@@ -148,6 +147,17 @@ void OwnerExchange::withdraw_all(Time now) {
                     settling ? "cancelled before its end was confirmed" : "");
     }
   }
+}
+
+bool OwnerExchange::ask_again(Index activity, Time now) {
+  ActivityRun& run = state_->runs[activity];
+  const bool linked = state_->settings.linked(state_->command(activity).owner);
+  if (!linked || run.queries >= state_->settings.queries) return false;
+  ++run.queries;
+  run.asked = true;
+  run.phase_since = now;
+  state_->send(activity, CommandAction::query);
+  return true;
 }
 
 void OwnerExchange::query_all(Time now) {

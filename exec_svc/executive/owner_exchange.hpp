@@ -25,6 +25,9 @@ class OwnerExchange {
   void give_cancel_up(Index activity, temporal::Time now, const std::string& answer);
   /// Ends everything: asks owners to stop, closes what no owner works on.
   void withdraw_all(temporal::Time now);
+  /// Asks an owner behind a link, which has not answered in time, what became of its command: the command,
+  /// the cancel or the answer may be lost. False: it was asked often enough, or there is no link.
+  bool ask_again(Index activity, temporal::Time now);
   /// Asks, after a restart, what became of all that runs.
   void query_all(temporal::Time now);
 

@@ -71,6 +71,7 @@ void RunState::enter(Index activity, ActivityPhase phase, Time now) {
   if (phase == ActivityPhase::done && run.phase != ActivityPhase::done) --unfinished;
   run.phase = phase;
   run.phase_since = now;
+  run.queries = 0;
   if (run.active()) {
     active.insert(activity);
   } else {
@@ -96,8 +97,8 @@ CommandOf RunState::command(Index activity) const {
   const PlanActivity& planned = plan.activities[activity];
   const std::size_t number = std::min(runs[activity].command, planned.then.size());
   const bool last = number == planned.then.size();
-  const auto within = [this](temporal::Duration own) {
-    return temporal::bounded(own) ? own : settings.ack_timeout;
+  const auto within = [this](const std::string& owner, temporal::Duration own) {
+    return (temporal::bounded(own) ? own : settings.ack_timeout) + settings.round_trip(owner);
   };
   if (number == 0)
     return {planned.owner,
@@ -105,12 +106,16 @@ CommandOf RunState::command(Index activity) const {
             planned.subsystem,
             planned.command_name,
             planned.arguments,
-            within(planned.answer_within),
+            within(planned.owner, planned.answer_within),
             last};
   const temporal::PlanCommand& next = planned.then[number - 1];
-  return {
-      next.owner, next.robot, next.subsystem, next.command_name, next.arguments, within(next.answer_within),
-      last};
+  return {next.owner,
+          next.robot,
+          next.subsystem,
+          next.command_name,
+          next.arguments,
+          within(next.owner, next.answer_within),
+          last};
 }
 
 std::vector<TimePoint> RunState::ready_points() const {

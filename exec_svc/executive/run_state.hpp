@@ -25,7 +25,7 @@ struct CommandOf {
   const std::string& subsystem;
   const std::string& command_name;
   const std::vector<temporal::Property>& arguments;
-  temporal::Duration answer_within;  ///< from sending it to its first answer
+  temporal::Duration answer_within;  ///< from sending it to its first answer, the way over a link included
   bool last;                         ///< of the sequence
 };
 

@@ -144,6 +144,8 @@ struct ReactorSettings {
   executive::StartPolicy start = executive::StartPolicy::earliest;
   Replanning replanning = Replanning::stop_and_replan;
   temporal::Duration standby_term = temporal::seconds(2);  ///< wall time; see standby/lease.hpp
+  /// Not of the mission, but of the scenario's links (executive::ExecutiveSettings).
+  std::map<std::string, temporal::Duration> round_trips{};
 };
 
 struct MissionModel {

@@ -65,6 +65,7 @@ ReactorOutputs Reactor::step(Time now, const ReactorInputs& inputs) {
   parts_->recovery.note_successes();
   if (inputs.restarted) resume(now);
   parts_->policy->step(now, inputs);
+  parts_->safing.repeat_lost(now);
   finish_if_done();
   parts_->decisions.note_changes(state.out.decisions);
   return std::move(state.out);

@@ -36,6 +36,7 @@ ExecutiveSettings executive_settings(const MissionModel& mission) {
   ExecutiveSettings settings;
   settings.ack_timeout = mission.executive.ack_timeout;
   settings.cancel_timeout = mission.executive.ack_timeout;
+  settings.round_trips = mission.executive.round_trips;
   settings.start = mission.executive.start;
   settings.only_committed = mission.executive.replanning == Replanning::continuous;
   settings.contingencies = mission.contingencies;

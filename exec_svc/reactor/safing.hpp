@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "exec_svc/reactor/mission_state.hpp"
@@ -22,6 +23,9 @@ class Safing {
   bool fallbacks_sent() const { return sent_; }
   /// Those that were sent may not have been heard.
   void expect_fallbacks_again() { sent_ = false; }
+  /// Sends those again, under their keys, whose components are still active behind a link, one after each
+  /// time in which an answer could have come: they may be lost.
+  void repeat_lost(temporal::Time now);
   /// After a restart.
   void resume();
 
@@ -31,10 +35,13 @@ class Safing {
   }
 
  private:
+  void send_fallback(const mission::Component&);
+
   MissionState* state_;
   RunningPlan* plan_;
   std::uint32_t round_ = 0;  ///< part of the commands' keys: it is never reset
   bool sent_ = false;
+  std::optional<temporal::Time> repeat_at_;
 };
 
 }  // namespace roci::exec::reactor

@@ -11,6 +11,7 @@
 #include "core/mission/service_list.hpp"
 #include "exec_svc/archive/archive.hpp"
 #include "exec_svc/journal/format.hpp"
+#include "exec_svc/journal/round_trips.hpp"
 #include "exec_svc/journal/run_replay.hpp"
 
 namespace {
@@ -91,7 +92,9 @@ int replay(const Options& options) {
                        ", this roci-replay repeats format " +
                        std::to_string(roci::exec::journal::kInputFormat) +
                        "; repeat the run with the version that flew it");
-  const RunReplay run = replay_run(journal, mission_of(journal, options));
+  roci::exec::mission::MissionModel model = mission_of(journal, options);
+  model.executive.round_trips = roci::exec::journal::round_trips_of(journal.text("round_trips"));
+  const RunReplay run = replay_run(journal, model);
   if (run.turns == 0) throw JournalError(options.journal.string() + " holds no inputs of a run");
   if (options.json) {
     std::cout << as_json(run).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";

@@ -33,11 +33,11 @@ HeartbeatSender::HeartbeatSender(v1::Heartbeat identity, Send send)
   beat_.process_id(getpid());
 }
 
-void HeartbeatSender::beat(clock::WallTime now) {
+void HeartbeatSender::beat(clock::WallTime now, bool degraded) {
   ++turns_;
   if (now < next_) return;
   next_ = now + clock::wall_seconds(kPeriodS);
-  send(v1::SERVICE_RUNNING);
+  send(degraded ? v1::SERVICE_DEGRADED : v1::SERVICE_RUNNING);
 }
 
 void HeartbeatSender::leave() { send(v1::SERVICE_STOPPING); }

@@ -17,8 +17,9 @@ class HeartbeatSender {
   /// `identity`: who beats (service, incarnation, mission, robot, vendor); the rest is filled in here.
   HeartbeatSender(v1::Heartbeat identity, Send);
 
-  /// The loop calls it in each of its turns; it sends when it is time.
-  void beat(clock::WallTime now);
+  /// The loop calls it in each of its turns; it sends when it is time. A degraded service works, but not as it
+  /// should: SERVICE_DEGRADED.
+  void beat(clock::WallTime now, bool degraded = false);
   /// Sends the last heartbeat, SERVICE_STOPPING.
   void leave();
   clock::WallTime next() const { return next_; }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "services/clock/wall.hpp"
+#include "services/link/link_file.hpp"
 #include "services/process/mission_folder.hpp"
 #include "services/process/service_options.hpp"
 
@@ -93,13 +94,15 @@ Options parse_options(int argc, const char* const* argv, const services::process
   app.add_option("--services", service_list,
                  "Services to start on this host, separated by commas (default: all)");
   app.add_option("--become", options.become,
-                 "Turn into this one service of the mission's list, for a supervisor such as systemd; live, with --epoch");
+                 "Turn into this one service of the mission's list, for a supervisor such as systemd; live, "
+                 "with --epoch");
   app.add_option("--epoch", options.epoch_s,
                  "With --become: mission time 0 in seconds since 1970, the same for all services");
   app.add_option("--roster", roster, "Services of the whole run, on all hosts (default: all)");
-  app.add_option("--run", options.run,
-                 "Identity of the run, the same on all of its hosts (or ROCI_RUN; default: one of its own, or the "
-                 "mission's name where only some of its services start here)");
+  app.add_option(
+      "--run", options.run,
+      "Identity of the run, the same on all of its hosts (or ROCI_RUN; default: one of its own, or the "
+      "mission's name where only some of its services start here)");
   app.add_option("--domain", flags.domain, "DDS domain id (default: a free one)");
   app.add_option("--address", flags.address, "The one interface address to use (default: loopback)");
   app.add_option("--peers", flags.peers, "Hosts of the run, separated by commas");
@@ -120,8 +123,11 @@ Options parse_options(int argc, const char* const* argv, const services::process
   options.list = mission::load_service_list(options.mission);
   if (!options.live && options.list.clock_master() == nullptr)
     throw std::invalid_argument("no service of this mission has clock: master; fly it with --clock live");
+  link::load_links(options.mission, options.scenario,
+                   options.seed);  // a mistake is told before anything starts
   if (!options.become.empty()) {
-    if (!options.live) throw std::invalid_argument("--become: only live services start one by one; add --clock live");
+    if (!options.live)
+      throw std::invalid_argument("--become: only live services start one by one; add --clock live");
     service_list = checked_services(options.become, options, false).front();
   }
   options.services = checked_services(service_list, options, true);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "services/process/link_report.hpp"
 #include "services/service.hpp"
 
 namespace roci::services::launch {
@@ -59,6 +60,8 @@ void complete(json& summary, const Options& options, const char* result) {
   }
   std::ifstream expected(options.run_folder / services::kExpectedFile);
   if (expected) summary["expected"] = json::parse(expected, nullptr, false);
+  const auto links = process::read_link_reports(options.run_folder);
+  if (!links.empty()) summary["links"] = process::as_json(links);
 }
 
 // A line of its own, if the scenario says what is to happen.
@@ -72,6 +75,18 @@ std::string expected_text(const json& summary) {
 std::string rejected_text(const json& goals) {
   const int rejected = goals.value("rejected", 0);
   return rejected == 0 ? "" : fmt::format(", {} rejected", rejected);
+}
+
+// A line for each link that the scenario declares and that carried something.
+std::string links_text(const json& summary) {
+  std::string out;
+  if (!summary.contains("links")) return out;
+  for (const auto& [name, counts] : summary["links"].items()) {
+    out += fmt::format("  link      {}: {} samples, {} lost, {} sent again, {} superseded\n", name,
+                       counts.value("offered", 0), counts.value("lost", 0), counts.value("repeated", 0),
+                       counts.value("superseded", 0));
+  }
+  return out;
 }
 
 std::string text_without_goals(const json& summary, const Options& options) {
@@ -89,13 +104,13 @@ std::string text_with_goals(const json& summary, const Options& options) {
       "  goals     {} achieved, {} dropped, {} failed{}\n"
       "  planner   {} calls, slowest {:.2f} s, {:.0f} MB; {} replans\n"
       "  time      {:.0f} s of mission in {:.1f} s\n"
-      "{}"
+      "{}{}"
       "  run       {}\n",
       summary.value("mission", ""), summary.value("scenario", ""), summary.value("seed", std::uint64_t{0}),
       summary.value("dds", ""), summary.value("result", ""), goals.value("achieved", 0),
       goals.value("dropped", 0), goals.value("failed", 0), rejected_text(goals), planner.value("calls", 0),
       planner.value("max_s", 0.0), planner.value("max_rss_mb", 0.0), summary.value("replans", 0),
-      summary.value("sim_s", 0.0), summary.value("wall_s", 0.0), expected_text(summary),
+      summary.value("sim_s", 0.0), summary.value("wall_s", 0.0), expected_text(summary), links_text(summary),
       options.run_folder.string());
 }
 

@@ -38,12 +38,20 @@ transport::Payload key_as(const void* value) {
 }
 
 template <class T>
+std::size_t size_as(const void* value) {
+  T without_run = *static_cast<const T*>(value);
+  without_run.header().run("");
+  return transport::serialize(without_run).size();
+}
+
+template <class T>
 TopicSpec spec_of(const Topic<T>& topic) {
   Codec codec;
   codec.type = transport::describe_type<T>(topic.type_name);
   codec.decode = &decode_as<T>;
   codec.key = &key_as<T>;
   if constexpr (HasHeader<T>) {
+    codec.size = &size_as<T>;
     codec.header = [](const void* value) -> const v1::SampleHeader& {
       return static_cast<const T*>(value)->header();
     };

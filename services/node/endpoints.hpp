@@ -29,6 +29,9 @@ struct Codec {
   const v1::SampleHeader& (*header)(const void* value) = nullptr;  ///< Null for types without one.
   const std::string& (*run)(const void* value) = nullptr;          ///< null for types that name no run
   transport::Payload (*key)(const void* value) = nullptr;          ///< Empty for types without a key.
+  /// In bytes as on the wire, but without the run's name, so that it is the same in every run. Null for types
+  /// without a header.
+  std::size_t (*size)(const void* value) = nullptr;
 };
 
 struct TopicSpec {

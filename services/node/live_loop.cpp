@@ -29,7 +29,7 @@ class LiveLoop : public Loop {
   void take_clocked(TopicReader& input, const v1::SampleHeader& header,
                     std::shared_ptr<const void> value) override {
     newest_stamp_ = std::max(newest_stamp_, temporal::Time(header.stamp_us()));
-    NodeImpl::handle(input, value.get());
+    if (observer_ || node_.links.admit(input, value, now())) NodeImpl::handle(input, value.get());
   }
 
   void run() override {
@@ -43,9 +43,13 @@ class LiveLoop : public Loop {
     Inbox::Batch batch = impl.inbox.take(wake_up(clock::wall_now() + wait));
     stopped_ = batch.stop;
     if (batch.matched) impl.announce_match();
+    if (!observer_) {
+      for (const LinkGate::Due& due : impl.links.take(this->now()))
+        NodeImpl::handle(*due.reader, due.value.get());
+    }
     for (auto& arrival : batch.arrivals) impl.receive(std::move(arrival));
     const clock::WallTime now = clock::wall_now();
-    if (heartbeat_) heartbeat_->beat(now);
+    if (heartbeat_) heartbeat_->beat(now, impl.degraded);
     impl.announce_turn();
     peers_.check(now);
     for (const health::PeerChange& change : peers_.take_changes()) {
@@ -79,11 +83,13 @@ class LiveLoop : public Loop {
   clock::WallTime wake_up(clock::WallTime latest) const {
     latest = std::min(latest, clock::wall_now() + clock::wall_seconds(kLongestWaitS));
     if (heartbeat_) latest = std::min(latest, heartbeat_->next());
-    if (const auto due = node_.timers.earliest()) {
-      latest = std::min(
-          latest, clock::wall_now() + clock_.wall_for(std::max(*due - timer_now(), temporal::Duration(0))));
-    }
+    if (const auto due = node_.timers.earliest()) latest = std::min(latest, wall_of(*due));
+    if (const auto due = node_.links.next()) latest = std::min(latest, wall_of(*due));
     return latest;
+  }
+
+  clock::WallTime wall_of(temporal::Time due) const {
+    return clock::wall_now() + clock_.wall_for(std::max(due - timer_now(), temporal::Duration(0)));
   }
 
   NodeImpl& node_;

@@ -15,6 +15,7 @@ NodeImpl::NodeImpl(NodeOptions node_options, std::unique_ptr<transport::Transpor
       work(simulated() ? ResultOrder::as_begun : ResultOrder::as_finished),
       endpoints(
           options, run, [this] { return now(); }, *transport, inbox),
+      links(options),
       loop(simulated() ? make_sim_loop(*this) : make_live_loop(*this)) {}
 
 TimerQueue::Id NodeImpl::after(temporal::Duration wait, std::function<void()> fire) {

@@ -14,6 +14,7 @@
 #include "services/node/completion_queue.hpp"
 #include "services/node/endpoints.hpp"
 #include "services/node/inbox.hpp"
+#include "services/node/link_gate.hpp"
 #include "services/node/loop.hpp"
 #include "services/node/node_options.hpp"
 #include "services/node/timer_queue.hpp"
@@ -63,7 +64,9 @@ class NodeImpl {
   /// They outlive the endpoints, whose handlers use them.
   std::map<std::type_index, std::shared_ptr<void>> attachments;
   Endpoints endpoints;
+  LinkGate links;
   bool running = false;
+  bool degraded = false;  ///< Heartbeats say so, live.
   std::unique_ptr<Loop> loop;
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "services/clock/clock_mode.hpp"
+#include "services/link/link_table.hpp"
 
 namespace roci::services::node {
 
@@ -29,6 +30,7 @@ struct NodeOptions {
   double live_hang_limit_s = 5;    ///< Live: a service without a heartbeat for this long counts as hung.
   MasterOptions master;
   std::string vendor = "fastdds";  ///< Reported in the heartbeat.
+  link::LinkTable links{};         ///< Of the scenario: what comes over one is lost or late as it says.
 };
 
 }  // namespace roci::services::node

@@ -19,6 +19,10 @@ clock::Durability durability_of(transport::Qos qos) {
   return qos == transport::Qos::state ? clock::Durability::transient_local : clock::Durability::volatile_;
 }
 
+std::optional<temporal::Time> earliest(std::optional<temporal::Time> a, std::optional<temporal::Time> b) {
+  return a && b ? std::min(*a, *b) : a ? a : b;
+}
+
 class SimLoop : public Loop {
  public:
   explicit SimLoop(NodeImpl& node) : node_(node) {}
@@ -112,9 +116,9 @@ class SimLoop : public Loop {
       for (const health::PeerChange& change : roster_.update(step, node_.options.name))
         node_.announce(change);
     }
-    for (const clock::Delivery& delivery : held_back_.take(step)) {
-      NodeImpl::handle(*node_.endpoints.find_in(delivery.topic), delivery.value.get());
-    }
+    for (const LinkGate::Due& due : node_.links.take(now_)) NodeImpl::handle(*due.reader, due.value.get());
+    for (const clock::Delivery& delivery : held_back_.take(step))
+      hear(*node_.endpoints.find_in(delivery.topic), delivery.value);
     take_outside_input();
     node_.timers.run_due(now_);
   }
@@ -123,8 +127,12 @@ class SimLoop : public Loop {
     for (const OutsideInput& input : std::exchange(outside_, {})) {
       const bool stale =
           !answered_ && input.input->topic.qos != transport::Qos::state;  // said before this node took part
-      if (!stale) NodeImpl::handle(*input.input, input.value.get());
+      if (!stale) hear(*input.input, input.value);
     }
+  }
+
+  void hear(TopicReader& input, const std::shared_ptr<const void>& value) {
+    if (node_.links.admit(input, value, now_)) NodeImpl::handle(input, value.get());
   }
 
   void answer(const v1::ClockStep& step) {
@@ -135,7 +143,7 @@ class SimLoop : public Loop {
     done.time_us(step.time_us());
     done.micro_step(step.micro_step());
     done.sent(node_.endpoints.take_growth());
-    const auto wish = node_.timers.earliest();
+    const auto wish = earliest(node_.timers.earliest(), node_.links.next());
     done.wish_us(wish ? std::max(*wish, now_).count() : -1);
     node_.endpoints.begin_micro_step();
     acting_ = false;

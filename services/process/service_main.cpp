@@ -10,6 +10,7 @@
 #include "services/node.hpp"
 #include "services/process/forced_exit.hpp"
 #include "services/process/incarnation.hpp"
+#include "services/process/link_report.hpp"
 #include "services/transport/plug_ins.hpp"
 
 namespace roci::services::process {
@@ -67,9 +68,13 @@ void run_service(const ServiceOptions& options, StopSignals& signals, MakeServic
   health::WatchdogNotifier watchdog(options.notify_socket);
   Node node(node_options, connect(options.connection));
   node.on_turn([&watchdog] { watchdog.notify(); });
+  const TimeWatch time_watch(node, options.time);
   const auto service = make(node, options.run);
   signals.watch([&node] { node.stop(); });
-  run_and_end(node_options.name, [&node] { node.run(); });
+  run_and_end(node_options.name, [&] {
+    node.run();
+    write_link_report(node, options.run.run_folder);
+  });
 }
 
 int service_main(int argc, char** argv, const std::string& name, RunProcess* run) {

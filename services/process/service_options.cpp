@@ -5,6 +5,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "services/link/link_file.hpp"
+#include "services/process/time_settings.hpp"
+
 namespace roci::services::process {
 namespace {
 
@@ -15,7 +18,8 @@ const std::map<std::string, clock::ClockMode> kClockNames{{"live", clock::ClockM
 
 void add_run(CLI::App& app, RunSettings& run) {
   app.add_option("--mission", run.mission, "Mission folder (with mission.yaml)")->required();
-  app.add_option("--settings", run.settings, "The mission file to read (default: mission.yaml of the folder)");
+  app.add_option("--settings", run.settings,
+                 "The mission file to read (default: mission.yaml of the folder)");
   app.add_option("--scenario", run.scenario, "scenarios/NAME.yaml of the mission")->capture_default_str();
   app.add_option("--seed", run.seed, "Seed of everything random")->capture_default_str();
   app.add_option("--run-folder", run.run_folder, "Folder for journal, logs and summary of this run");
@@ -25,7 +29,8 @@ void add_run(CLI::App& app, RunSettings& run) {
 }
 
 void add_identity(CLI::App& app, node::NodeOptions& node) {
-  app.add_option("--name", node.name, "Logical name of this service, unique in the run")->capture_default_str();
+  app.add_option("--name", node.name, "Logical name of this service, unique in the run")
+      ->capture_default_str();
   app.add_option("--robot", node.robot, "The robot that it belongs to (default: the team)");
   app.add_option("--run", node.run, "Identity of the run (or ROCI_RUN; default: the mission's name)");
 }
@@ -99,9 +104,13 @@ ServiceOptions parse_service_options(int argc, const char* const* argv, const st
   options.node.epoch_unix_us = static_cast<std::int64_t>(epoch_s * 1e6);
   options.connection = resolve_connection(flags, environment, options.run.mission);
   options.connection.transport.participant = options.node.name;
-  options.node.mission = std::filesystem::absolute(options.run.mission).lexically_normal().filename().string();
+  options.node.mission =
+      std::filesystem::absolute(options.run.mission).lexically_normal().filename().string();
   if (options.node.run.empty()) options.node.run = environment("ROCI_RUN").value_or(options.node.mission);
   options.node.vendor = options.connection.dds;
+  if (options.node.clock == clock::ClockMode::live)
+    options.time = read_time_settings(mission::Entry::load(options.run.mission / "mission.yaml"));
+  options.node.links = link::load_links(options.run.mission, options.run.scenario, options.run.seed);
   options.notify_socket = environment("NOTIFY_SOCKET").value_or("");
   if (options.run.pair.empty()) options.run.pair = pair_of(environment);
   return options;

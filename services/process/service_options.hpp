@@ -8,6 +8,7 @@
 #include "services/node.hpp"
 #include "services/process/connection.hpp"
 #include "services/service.hpp"
+#include "services/time_watch.hpp"
 
 namespace roci::services::process {
 
@@ -15,6 +16,7 @@ struct ServiceOptions {
   RunSettings run;
   node::NodeOptions node;
   Connection connection;
+  TimeWatchSettings time{};        ///< Live: how its host's clock is compared with the mission clock.
   std::string notify_socket;       ///< Its supervisor's, for WatchdogNotifier; empty: there is none.
   bool count_incarnation = false;  ///< Nobody gave one: it is counted in the run folder.
 };

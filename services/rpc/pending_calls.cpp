@@ -1,5 +1,6 @@
 #include "services/rpc/pending_calls.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@ namespace roci::services::rpc {
 namespace {
 
 constexpr temporal::Duration kFirstRepetition = std::chrono::milliseconds(250);
+constexpr temporal::Duration kLinkedRepetition = std::chrono::seconds(1);
 constexpr temporal::Duration kLongestRepetition = std::chrono::seconds(4);
 
 }  // namespace
@@ -39,25 +41,37 @@ CallId PendingCalls::start(Call call, temporal::Duration deadline) {
   const CallId number = ++last_number_;
   Pending& pending = pending_[number];
   pending.call = std::move(call);
-  pending.next_wait = kFirstRepetition;
+  pending.round_trip = node_.links.round_trip(pending.call.owner);
+  pending.next_wait = first_wait(pending);
   if (!pending.call.owner.empty()) {
     pending.owner_check = node_.after(temporal::Duration(0), [this, number] { check_owner(number); });
   }
-  pending.deadline = node_.after(deadline, [this, number] { expire(number); });
+  const temporal::Duration way = pending.round_trip.value_or(temporal::Duration(0));
+  pending.deadline = node_.after(temporal::plus(deadline, way), [this, number] { expire(number); });
   if (node_.simulated() || reachable_()) send(number, pending);
   return number;
 }
 
-// A live request may be lost on its way, and so may this: both are repeated until there is an answer.
+bool PendingCalls::repeats(const Pending& pending) const {
+  return !node_.simulated() || pending.round_trip.has_value();
+}
+
+// Over a link no answer can come before the round trip.
+temporal::Duration PendingCalls::first_wait(const Pending& pending) const {
+  if (!pending.round_trip) return kFirstRepetition;
+  return *pending.round_trip + (node_.simulated() ? kLinkedRepetition : kFirstRepetition);
+}
+
+// A request may be lost on its way, and so may this: both are repeated until there is an answer.
 void PendingCalls::cancel(CallId number) {
   const auto found = pending_.find(number);
   if (found == pending_.end() || std::exchange(found->second.cancelled, true)) return;
   Pending& pending = found->second;
   if (pending.sent) {
     send_cancel_(identity(number), pending.call.owner);
-    if (node_.simulated()) return;
+    if (!repeats(pending)) return;
     node_.timers.cancel(pending.repetition);
-    pending.next_wait = kFirstRepetition;
+    pending.next_wait = first_wait(pending);
     await_repetition(number, pending);
   } else {
     node_.timers.cancel(pending.deadline);
@@ -70,12 +84,13 @@ void PendingCalls::send(CallId number, Pending& pending) {
   ++statistics_.sent;
   pending.call.send(identity(number));
   if (pending.cancelled) send_cancel_(identity(number), pending.call.owner);
-  if (!node_.simulated()) await_repetition(number, pending);
+  if (repeats(pending)) await_repetition(number, pending);
 }
 
 void PendingCalls::await_repetition(CallId number, Pending& pending) {
   pending.repetition = node_.after(pending.next_wait, [this, number] { repeat(number); });
-  pending.next_wait = std::min(2 * pending.next_wait, kLongestRepetition);
+  const temporal::Duration longest = std::max(first_wait(pending), kLongestRepetition);
+  pending.next_wait = std::min(2 * pending.next_wait, longest);
 }
 
 void PendingCalls::repeat(CallId number) {

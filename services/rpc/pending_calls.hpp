@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "core/temporal/duration.hpp"
@@ -47,12 +48,17 @@ class PendingCalls {
     bool sent = false;
     bool cancelled = false;
     temporal::Duration next_wait{0};
+    /// The light time to the owner and back, where a link joins it; else empty.
+    std::optional<temporal::Duration> round_trip;
     node::TimerQueue::Id deadline = 0;
     node::TimerQueue::Id owner_check = 0;
     node::TimerQueue::Id repetition = 0;
   };
   using Pendings = std::map<CallId, Pending>;
 
+  /// Live, and over a link, requests may be lost on their way.
+  bool repeats(const Pending&) const;
+  temporal::Duration first_wait(const Pending&) const;
   void send(CallId number, Pending&);
   void await_repetition(CallId number, Pending&);
   void repeat(CallId number);

@@ -7,8 +7,6 @@
 #include <filesystem>
 #include <system_error>
 
-#include "services/transport/lossy_transport.hpp"
-
 namespace roci::services::transport {
 namespace {
 
@@ -88,11 +86,7 @@ std::vector<std::string> installed_transports() {
 }
 
 std::unique_ptr<Transport> open_transport(std::string_view vendor, const TransportOptions& options) {
-  auto transport = load(find_plugin(vendor))(options);
-  if (const char* loss = std::getenv("ROCI_LOSS"); loss && *loss) {
-    return make_lossy(std::move(transport), parse_loss(loss));
-  }
-  return transport;
+  return load(find_plugin(vendor))(options);
 }
 
 }  // namespace roci::services::transport

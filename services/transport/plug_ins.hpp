@@ -11,8 +11,8 @@
 namespace roci::services::transport {
 
 /// Opens libroci_transport_<vendor>.so in a folder of ROCI_PLUGIN_PATH (colon-separated), else in
-/// lib/rocinante beside the running program's bin folder; wraps it as ROCI_LOSS says (lossy_transport.hpp),
-/// if set. Throws TransportError naming the vendors that are installed when `vendor` is unknown or missing.
+/// lib/rocinante beside the running program's bin folder. Throws TransportError naming the vendors that are
+/// installed when `vendor` is unknown or missing.
 std::unique_ptr<Transport> open_transport(std::string_view vendor, const TransportOptions&);
 std::vector<std::string> installed_transports();
 

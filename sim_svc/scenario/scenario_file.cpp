@@ -85,7 +85,9 @@ ExpectedEvent read_expected(const Entry& entry) {
 }  // namespace
 
 Scenario read_scenario(const Entry& root, const Roster& roster) {
-  root.allow_only({"description", "duration_s", "start", "world", "windows", "science", "stimuli", "expect"});
+  // Every service reads the links for itself (services/link).
+  root.allow_only(
+      {"description", "duration_s", "start", "world", "windows", "links", "science", "stimuli", "expect"});
   Scenario out;
   out.description = root.text_or("description", "");
   out.duration = time_of(root.at("duration_s"));

@@ -1,5 +1,7 @@
 // What goes wrong around the reactor: components that do not stop, owners that die, commands that keep
 // failing, energy that is gone, goals and maps that change during a planner call.
+#include <set>
+
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
@@ -121,6 +123,29 @@ TEST_F(ReactorTest, AnOwnerThatComesBackWithinThePauseHearsTheFallbackAgain) {
   back.arrivals = {"sim_svc"};
   run(61, std::move(back));
   EXPECT_EQ(stops(), 2);
+  EXPECT_EQ(reactor.phase(), MissionPhase::pausing);
+}
+
+// Behind a link a fallback may be lost: it is sent again under its key, once in the time of an answer.
+TEST_F(ReactorTest, AFallbackOverALinkIsRepeatedUntilTheComponentIsInactive) {
+  mission.executive.round_trips["sim_svc"] = seconds(10);
+  reactor = reactor::Reactor(mission);
+  run(20, robot_and({photo("a")}));
+  robot_is_dead = true;
+  robot_events.clear();
+  ReactorInputs more;
+  more.goals = {photo("b")};
+  more.acks = {{"aa", 1, executive::CommandStage::failed, "", "shutter"}};
+  run(75, std::move(more));
+  std::set<std::string> keys;
+  int stops = 0;
+  for (const Command& command : commands) {
+    if (command.command_name != "stop") continue;
+    ++stops;
+    keys.insert(command.activity);
+  }
+  EXPECT_GE(stops, 3);
+  EXPECT_EQ(keys.size(), 1U);
   EXPECT_EQ(reactor.phase(), MissionPhase::pausing);
 }
 

@@ -47,6 +47,7 @@ class SimRun {
     options.master = master;
     options.master.roster = roster_;
     options.vendor = vendor;
+    options.links = links;
     auto member = std::make_unique<Member>();
     member->name = name;
     member->node = std::make_unique<Node>(options, transport(vendor));
@@ -113,6 +114,7 @@ class SimRun {
   }
 
   node::MasterOptions master;
+  link::LinkTable links;  // of the nodes that are added from then on
 
  private:
   struct Member {

@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "services/process/domain_claim.hpp"
-#include "services/transport/lossy_transport.hpp"
 #include "services/transport/plug_ins.hpp"
 #include "services/vendors/peers.hpp"
 
@@ -71,17 +70,6 @@ TEST(Loader, PeersStayOnTheirSideOfTheLoopback) {
               ElementsAre("10.77.0.1", "10.77.0.2"));
   EXPECT_THAT(vendors::peers_of({.address = "127.0.0.2", .peers = {"10.77.0.2", "127.0.0.1"}}),
               ElementsAre("127.0.0.2", "127.0.0.1"));
-}
-
-TEST(Loader, ReadsTheLossFromItsText) {
-  const auto loss = transport::parse_loss("0.2:7:30");
-  EXPECT_DOUBLE_EQ(loss.fraction, 0.2);
-  EXPECT_EQ(loss.seed, 7U);
-  EXPECT_EQ(loss.delay, std::chrono::milliseconds(30));
-  for (const auto* text :
-       {"", "0.2", "0.2:7", "1.5:7:30", "-0.1:7:30", "0.2:7:-1", "0.2:x:30", "0.2:7:30ms", "nan:1:1"}) {
-    EXPECT_THAT(refusal([text] { transport::parse_loss(text); }), HasSubstr("ROCI_LOSS")) << text;
-  }
 }
 
 TEST(DomainClaim, ClaimsAreDistinctAndEnd) {

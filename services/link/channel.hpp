@@ -1,0 +1,114 @@
+// One direction of a link as one receiver sees it: which samples arrive, and when. Pure: the time is an
+// argument, and chance is a function of the sample.
+//
+// Samples are sent one after the other, each for (bits / rate), and arrive one light time after their last
+// bit. Whether an attempt is lost depends on (seed, link, topic, sender, incarnation, number, attempt) alone,
+// so it is the same on every transport and in every replay. A sample of a state topic (Lifetime::newest)
+// waits while the link is closed and is sent again until it arrives or a newer one of its instance comes;
+// every other sample is lost when the link closes before its last bit is sent.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/link/link.hpp"
+
+namespace roci::services::link {
+
+/// How long after the end of the first lost attempt, and one round trip, the next one begins. The pause doubles
+/// with each further one, up to the longest.
+inline constexpr temporal::Duration kRepetitionPause = std::chrono::milliseconds(200);
+inline constexpr temporal::Duration kLongestRepetitionPause = std::chrono::seconds(10);
+
+/// So many samples without repetition may wait for a narrow link; more are lost.
+inline constexpr std::size_t kLongestQueue = 4096;
+
+/// The light time there and back.
+constexpr temporal::Duration round_trip(const Link& link) { return 2 * link.light_time; }
+
+enum class Lifetime {
+  once,    ///< A sample that is lost is lost.
+  newest,  ///< The newest sample of an instance arrives in the end.
+};
+
+/// What the model knows of a sample.
+struct Passenger {
+  std::string topic;
+  std::string sender;
+  std::uint32_t incarnation = 0;
+  std::uint64_t number = 0;  ///< Of the sender's samples on the topic, from 1.
+  std::size_t bytes = 0;
+  Lifetime lifetime = Lifetime::once;
+  std::string instance{};  ///< The key, with Lifetime::newest.
+  std::shared_ptr<const void> value{};
+};
+
+/// What has become of the samples of a channel, or of several.
+struct Counts {
+  std::uint64_t offered = 0;     ///< Samples that were sent.
+  std::uint64_t arrived = 0;     ///< Of these, at once or later.
+  std::uint64_t lost = 0;        ///< Of these, for good: by chance, or because the link was closed.
+  std::uint64_t superseded = 0;  ///< Of these: a newer one of the instance was sent instead.
+  std::uint64_t under_way = 0;   ///< Of these, at the time of asking.
+  std::uint64_t repeated = 0;    ///< Attempts that were made again.
+  Counts& operator+=(const Counts&);
+  bool operator==(const Counts&) const = default;
+};
+
+class Channel {
+ public:
+  /// The link outlives this.
+  Channel(const Link& link, std::uint64_t seed) : link_(&link), seed_(seed) {}
+
+  /// Takes a sample that is sent now. Returns true if it arrives now; else take() returns it when it arrives,
+  /// if it does. Times never go back, in calls of offer() and take() together.
+  bool offer(Passenger, temporal::Time now);
+
+  struct Arrival {
+    temporal::Time at{};
+    Passenger passenger;
+  };
+  /// Removes and returns what has arrived by now, in the order of arrival, then of sending.
+  std::vector<Arrival> take(temporal::Time now);
+  /// When take() or the channel itself has something to do next; empty: not before another offer().
+  std::optional<temporal::Time> next() const;
+
+  Counts counts() const;
+
+ private:
+  struct Waiting {
+    Passenger passenger;
+    std::uint32_t attempt = 1;
+  };
+  using Order = std::pair<temporal::Time, std::uint64_t>;  // ready since, number of the offer
+  using Instance = std::pair<std::string, std::pair<std::string, std::string>>;
+
+  void run(temporal::Time now);
+  std::optional<temporal::Time> next_start() const;
+  void send(Order, Waiting, temporal::Time start);
+  void repeat(Order, Waiting, temporal::Time ended);
+  void supersede(const Passenger&, std::uint64_t offer);
+  bool refuses(const Passenger&, temporal::Time now) const;
+  bool chance_loses(const Waiting&) const;
+  temporal::Duration sending_time(const Passenger&) const;
+
+  const Link* link_;
+  std::uint64_t seed_;
+  std::uint64_t offers_ = 0;
+  temporal::Time free_at_ = -temporal::no_bound;
+  std::map<Order, Waiting> waiting_;
+  std::map<Order, Passenger> flying_;         // by arrival
+  std::map<Instance, std::uint64_t> newest_;  // the newest offer of each instance
+  Counts counts_;
+};
+
+/// A number from 0 up to 1 that depends on these alone.
+double chance(std::uint64_t seed, const std::string& link, const Passenger&, std::uint32_t attempt);
+
+}  // namespace roci::services::link

@@ -1,0 +1,90 @@
+#include "services/node/link_gate.hpp"
+
+#include <algorithm>
+
+#include "services/node/endpoints.hpp"
+#include "services/topics.hpp"
+
+namespace roci::services::node {
+namespace {
+
+// A scenario's goals and orders are published by a service of no robot, in the ground's place.
+bool sent_up(std::string_view topic) {
+  return topic == topics::goal.name || topic == topics::order.name || topic == topics::decision_answer.name;
+}
+
+link::Passenger passenger_of(const TopicSpec& topic, const link::Link& link,
+                             const std::shared_ptr<const void>& value) {
+  const v1::SampleHeader& header = topic.codec.header(value.get());
+  link::Passenger out{topic.name, header.sender(), header.incarnation(), header.seq()};
+  if (link.rate_bit_s > 0) out.bytes = topic.codec.size(value.get());
+  if (topic.qos == transport::Qos::state) {
+    const transport::Payload key = topic.codec.key(value.get());
+    out.lifetime = link::Lifetime::newest;
+    out.instance.assign(key.begin(), key.end());
+  }
+  out.value = value;
+  return out;
+}
+
+}  // namespace
+
+link::Party LinkGate::self() const {
+  return {options_->name, options_->robot, options_->clock == clock::ClockMode::observer};
+}
+
+bool LinkGate::admit(TopicReader& reader, const std::shared_ptr<const void>& value, temporal::Time now) {
+  const link::LinkTable& links = options_->links;
+  if (links.empty()) return true;
+  const v1::SampleHeader& header = reader.topic.codec.header(value.get());
+  const bool ground = header.robot().empty() && (header.incarnation() == 0 || sent_up(reader.topic.name));
+  const auto passage = links.passage({header.sender(), header.robot(), ground}, self());
+  if (!passage) return true;
+  const auto [direction, fresh] =
+      directions_.try_emplace({passage->index, passage->sender_end},
+                              Direction{link::Channel(*passage->link, links.seed()), passage->link->name});
+  direction->second.readers[reader.topic.name] = &reader;
+  return direction->second.channel.offer(passenger_of(reader.topic, *passage->link, value), now);
+}
+
+std::vector<LinkGate::Due> LinkGate::take(temporal::Time now) {
+  std::vector<std::pair<temporal::Time, Due>> arrived;
+  for (auto& [key, direction] : directions_) {
+    for (link::Channel::Arrival& arrival : direction.channel.take(now))
+      arrived.push_back(
+          {arrival.at, {direction.readers.at(arrival.passenger.topic), std::move(arrival.passenger.value)}});
+  }
+  std::ranges::stable_sort(arrived, {}, &std::pair<temporal::Time, Due>::first);
+  std::vector<Due> out;
+  for (auto& [at, due] : arrived) out.push_back(std::move(due));
+  return out;
+}
+
+std::optional<temporal::Time> LinkGate::next() const {
+  std::optional<temporal::Time> next;
+  for (const auto& [key, direction] : directions_) {
+    const auto own = direction.channel.next();
+    if (own && (!next || *own < *next)) next = own;
+  }
+  return next;
+}
+
+std::optional<temporal::Duration> LinkGate::round_trip(const std::string& service) const {
+  const link::LinkTable& links = options_->links;
+  if (!service.empty()) return links.round_trip(self(), links.party(service));
+  std::optional<temporal::Duration> longest;
+  for (const auto& [name, time] : round_trips()) longest = std::max(longest.value_or(time), time);
+  return longest;
+}
+
+std::map<std::string, temporal::Duration> LinkGate::round_trips() const {
+  return options_->links.round_trips(self());
+}
+
+std::map<std::string, link::Counts> LinkGate::counts() const {
+  std::map<std::string, link::Counts> out;
+  for (const auto& [key, direction] : directions_) out[direction.name] += direction.channel.counts();
+  return out;
+}
+
+}  // namespace roci::services::node

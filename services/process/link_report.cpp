@@ -1,0 +1,53 @@
+#include "services/process/link_report.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace roci::services::process {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr char kFolder[] = "links";
+
+link::Counts counts_of(const json& report) {
+  return {report.value("offered", std::uint64_t{0}),   report.value("arrived", std::uint64_t{0}),
+          report.value("lost", std::uint64_t{0}),      report.value("superseded", std::uint64_t{0}),
+          report.value("under_way", std::uint64_t{0}), report.value("repeated", std::uint64_t{0})};
+}
+
+}  // namespace
+
+json as_json(const std::map<std::string, link::Counts>& links) {
+  json out = json::object();
+  for (const auto& [name, counts] : links) {
+    out[name] = {{"offered", counts.offered},     {"arrived", counts.arrived},
+                 {"lost", counts.lost},           {"superseded", counts.superseded},
+                 {"under_way", counts.under_way}, {"repeated", counts.repeated}};
+  }
+  return out;
+}
+
+void write_link_report(const Node& node, const std::filesystem::path& run_folder) {
+  const auto counts = node.link_counts();
+  if (counts.empty() || run_folder.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(run_folder / kFolder, error);
+  std::ofstream(run_folder / kFolder / (node.options().name + ".json")) << as_json(counts).dump(2) << '\n';
+}
+
+std::map<std::string, link::Counts> read_link_reports(const std::filesystem::path& run_folder) {
+  std::map<std::string, link::Counts> out;
+  std::error_code missing;
+  for (const auto& file : std::filesystem::directory_iterator(run_folder / kFolder, missing)) {
+    std::ifstream in(file.path());
+    const json report = json::parse(in, nullptr, false);
+    if (!report.is_object()) continue;
+    for (const auto& [name, counts] : report.items())
+      if (counts.is_object()) out[name] += counts_of(counts);
+  }
+  return out;
+}
+
+}  // namespace roci::services::process

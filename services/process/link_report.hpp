@@ -1,0 +1,24 @@
+// What each service of a run tells of the links that it heard over, in the run folder.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "services/link/channel.hpp"
+#include "services/node.hpp"
+
+namespace roci::services::process {
+
+/// Writes links/<service>.json, if a link of the scenario carried anything to the node and there is a run
+/// folder. Call it when the node's loop has ended.
+void write_link_report(const Node&, const std::filesystem::path& run_folder);
+
+/// The sum of all reports, by name of the link. What is no report is passed over.
+std::map<std::string, link::Counts> read_link_reports(const std::filesystem::path& run_folder);
+
+/// The same as the member `links` of a summary (docs/formats.md).
+nlohmann::json as_json(const std::map<std::string, link::Counts>&);
+
+}  // namespace roci::services::process
