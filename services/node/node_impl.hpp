@@ -12,6 +12,8 @@
 #include "services/health/heartbeat_sender.hpp"
 #include "services/health/peer.hpp"
 #include "services/node/completion_queue.hpp"
+#include "services/node/contract_check.hpp"
+#include "services/node/contract_gate.hpp"
 #include "services/node/endpoints.hpp"
 #include "services/node/inbox.hpp"
 #include "services/node/loop.hpp"
@@ -33,7 +35,8 @@ class NodeImpl {
   /// Subscribing under the simulated clock is over once the loop runs: throws std::logic_error.
   TopicReader& subscribe(const TopicSpec&);
 
-  /// Decodes an arrival and runs its handlers, or hands it to the loop if its topic is clocked.
+  /// Takes what has arrived; what the contract lets pass is decoded, and handled or handed to the loop if its topic is
+  /// clocked.
   void receive(Arrival&&);
   static void handle(TopicReader&, const void* value);
   void announce(const health::PeerChange&);
@@ -54,6 +57,7 @@ class NodeImpl {
   const NodeOptions options;
   RunIdentity run;
   std::unique_ptr<transport::Transport> transport;
+  ContractCheck contract;
   Inbox inbox;
   TimerQueue timers;
   CompletionQueue work;
@@ -63,8 +67,12 @@ class NodeImpl {
   /// They outlive the endpoints, whose handlers use them.
   std::map<std::type_index, std::shared_ptr<void>> attachments;
   Endpoints endpoints;
+  ContractGate gate;
   bool running = false;
   std::unique_ptr<Loop> loop;
+
+ private:
+  void read(Arrival&&);
 };
 
 }  // namespace roci::services::node

@@ -89,6 +89,10 @@ class LossyTransport : public Transport {
     if (endpoint.qos.reliable) return inner_->create_reader(endpoint, std::move(events));
     return std::make_unique<DelayedReader>(*inner_, endpoint, std::move(events), loss_);
   }
+  std::string announcement() const override { return inner_->announcement(); }
+  std::optional<Participant> participant_of(const Guid& guid) override {
+    return inner_->participant_of(guid);
+  }
 
  private:
   std::unique_ptr<Transport> inner_;

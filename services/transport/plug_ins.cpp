@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "services/transport/announcement.hpp"
 #include "services/transport/lossy_transport.hpp"
 
 namespace roci::services::transport {
@@ -88,7 +89,9 @@ std::vector<std::string> installed_transports() {
 }
 
 std::unique_ptr<Transport> open_transport(std::string_view vendor, const TransportOptions& options) {
-  auto transport = load(find_plugin(vendor))(options);
+  TransportOptions announced = options;
+  if (!announced.announcement) announced.announcement = own_announcement();
+  auto transport = load(find_plugin(vendor))(announced);
   if (const char* loss = std::getenv("ROCI_LOSS"); loss && *loss) {
     return make_lossy(std::move(transport), parse_loss(loss));
   }
