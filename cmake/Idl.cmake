@@ -4,6 +4,7 @@
 # by the contract tests' native peers and by nobody else.
 find_program(FASTDDSGEN fastddsgen REQUIRED)
 find_package(fastcdr REQUIRED)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
 function(roci_idl)
   cmake_parse_arguments(IDL "" "NAME;HELP" "FILES" ${ARGN})
@@ -28,7 +29,16 @@ function(roci_idl)
     WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}"
     COMMENT "IDL to C++: ${IDL_NAME}"
     VERBATIM)
-  add_library(${IDL_NAME} STATIC ${sources})
+  # The contract (docs/dds.md): a hash for each topic type, the same from the same files wherever they are built.
+  set(contract "${generated}/contract.h")
+  add_custom_command(
+    OUTPUT "${contract}"
+    COMMAND Python3::Interpreter "${CMAKE_CURRENT_SOURCE_DIR}/contract.py" --build "${PROJECT_VERSION}"
+            --out "${contract}" ${inputs}
+    DEPENDS ${inputs} "${CMAKE_CURRENT_SOURCE_DIR}/contract.py"
+    COMMENT "IDL to contract: ${IDL_NAME}"
+    VERBATIM)
+  add_library(${IDL_NAME} STATIC ${sources} "${contract}")
   target_include_directories(${IDL_NAME} SYSTEM PUBLIC "${include}")
   target_link_libraries(${IDL_NAME} PUBLIC fastcdr)
   set_property(GLOBAL APPEND PROPERTY ROCI_PARTS "${IDL_NAME}: ${IDL_HELP}")

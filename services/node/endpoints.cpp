@@ -23,12 +23,12 @@ std::string stream_topic(const TopicSpec& topic, const std::string& robot) {
 }
 
 TopicWriter::TopicWriter(const NodeOptions& options, const RunIdentity& run, Now now, const TopicSpec& topic,
-                         transport::Transport& transport, std::function<void()> on_matched)
+                         transport::Transport& transport, transport::WriterEvents events)
     : options_(options), run_(run), now_(std::move(now)), topic_(topic) {
   const transport::EndpointDescription endpoint{
       topic.name, topic.codec.type, transport::writer_qos(topic.qos, topic.clocking, options.clock),
       transport::partitions_of(topic.scope, options.robot)};
-  writer_ = transport.create_writer(endpoint, {[on_matched = std::move(on_matched)](int) { on_matched(); }});
+  writer_ = transport.create_writer(endpoint, std::move(events));
 }
 
 void TopicWriter::stamp(v1::SampleHeader& header) const {
@@ -63,16 +63,25 @@ bool TopicWriter::write(const transport::Payload& payload) {
 bool TopicWriter::dispose(const transport::Payload& payload) { return writer_->dispose(payload); }
 
 Endpoints::Endpoints(const NodeOptions& options, const RunIdentity& run, TopicWriter::Now now,
-                     transport::Transport& transport, Inbox& inbox)
-    : options_(options), run_(run), now_(std::move(now)), transport_(transport), inbox_(inbox) {}
+                     transport::Transport& transport, Inbox& inbox, ContractCheck& contract)
+    : options_(options),
+      run_(run),
+      now_(std::move(now)),
+      transport_(transport),
+      inbox_(inbox),
+      contract_(contract) {}
 
 Endpoints::~Endpoints() { in_.clear(); }  // no callback may find a writer gone
 
 TopicWriter& Endpoints::out(const TopicSpec& topic) {
   auto& stream = out_[topic.name];
-  if (!stream)
-    stream =
-        std::make_unique<TopicWriter>(options_, run_, now_, topic, transport_, [this] { inbox_.matched(); });
+  if (!stream) {
+    transport::WriterEvents events;
+    events.on_matched = [this](int) { inbox_.matched(); };
+    events.on_reader = [this, contract = ContractTopic{topic.name, topic.codec.type.name}](
+                           const transport::Guid& reader) { contract_.met(contract, reader); };
+    stream = std::make_unique<TopicWriter>(options_, run_, now_, topic, transport_, std::move(events));
+  }
   check_same_type(stream->topic(), topic);
   return *stream;
 }
@@ -82,6 +91,7 @@ TopicReader& Endpoints::in(const TopicSpec& topic) {
   if (!input) {
     input = std::make_unique<TopicReader>();
     input->topic = topic;
+    input->contract = {topic.name, topic.codec.type.name};
     const transport::EndpointDescription endpoint{
         topic.name, topic.codec.type, transport::reader_qos(topic.qos, topic.clocking, options_.clock),
         transport::partitions_of(topic.scope, options_.robot)};
@@ -90,6 +100,9 @@ TopicReader& Endpoints::in(const TopicSpec& topic) {
       inbox_.push(Arrival{target, std::move(sample)});
     };
     events.on_matched = [this](int) { inbox_.matched(); };
+    events.on_writer = [this, target = input.get()](const transport::Guid& writer) {
+      contract_.met(target->contract, writer);
+    };
     input->reader = transport_.create_reader(endpoint, std::move(events));
   }
   check_same_type(input->topic, topic);

@@ -13,6 +13,7 @@
 #include "core/temporal/duration.hpp"
 #include "roci_idl/basic.h"
 #include "roci_idl/clock.h"
+#include "services/node/contract_check.hpp"
 #include "services/node/inbox.hpp"
 #include "services/node/node_options.hpp"
 #include "services/node/run_identity.hpp"
@@ -51,7 +52,7 @@ class TopicWriter {
   using Now = std::function<temporal::Time()>;  ///< Mission time.
 
   TopicWriter(const NodeOptions&, const RunIdentity&, Now, const TopicSpec&, transport::Transport&,
-              std::function<void()> on_matched);
+              transport::WriterEvents);
 
   /// Numbers the next sample; the number counts once write() has succeeded.
   void stamp(v1::SampleHeader&) const;
@@ -79,6 +80,7 @@ class TopicWriter {
 
 struct TopicReader {
   TopicSpec topic;
+  ContractTopic contract;
   std::vector<std::function<void(const void* value)>> on_value;
   std::vector<std::function<void(const transport::Payload& key)>> on_no_writers;
   std::uint64_t malformed = 0;
@@ -87,7 +89,8 @@ struct TopicReader {
 
 class Endpoints {
  public:
-  Endpoints(const NodeOptions&, const RunIdentity&, TopicWriter::Now, transport::Transport&, Inbox&);
+  Endpoints(const NodeOptions&, const RunIdentity&, TopicWriter::Now, transport::Transport&, Inbox&,
+            ContractCheck&);
   ~Endpoints();
 
   /// Return the node's one writer or reader of a topic. They throw std::logic_error if the topic is known
@@ -109,6 +112,7 @@ class Endpoints {
   TopicWriter::Now now_;
   transport::Transport& transport_;
   Inbox& inbox_;
+  ContractCheck& contract_;
   std::map<std::string, std::unique_ptr<TopicWriter>> out_;
   std::map<std::string, std::unique_ptr<TopicReader>> in_;
   std::map<std::string, std::uint64_t> reported_;

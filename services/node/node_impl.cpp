@@ -12,10 +12,16 @@ NodeImpl::NodeImpl(NodeOptions node_options, std::unique_ptr<transport::Transpor
     : options(std::move(node_options)),
       run(options.name, options.run, options.clock == clock::ClockMode::observer),
       transport(std::move(node_transport)),
+      contract(transport->announcement(),
+               [this](const transport::Guid& guid) { return transport->participant_of(guid); }),
       work(simulated() ? ResultOrder::as_begun : ResultOrder::as_finished),
       endpoints(
-          options, run, [this] { return now(); }, *transport, inbox),
+          options, run, [this] { return now(); }, *transport, inbox, contract),
       links(options),
+      gate(
+          contract, [this](Arrival&& arrival) { read(std::move(arrival)); },
+          [this] { advertise(*this, topics::event); },
+          [this](const v1::Event& event) { write(advertise(*this, topics::event), event); }),
       loop(simulated() ? make_sim_loop(*this) : make_live_loop(*this)) {}
 
 TimerQueue::Id NodeImpl::after(temporal::Duration wait, std::function<void()> fire) {
@@ -36,7 +42,9 @@ TopicReader& NodeImpl::subscribe(const TopicSpec& topic) {
   return endpoints.in(topic);
 }
 
-void NodeImpl::receive(Arrival&& arrival) {
+void NodeImpl::receive(Arrival&& arrival) { gate.arrive(std::move(arrival)); }
+
+void NodeImpl::read(Arrival&& arrival) {
   TopicReader& input = *arrival.topic;
   if (arrival.sample.kind == transport::SampleKind::no_writers) {
     for (const auto& lost : input.on_no_writers) lost(arrival.sample.payload);
@@ -71,6 +79,7 @@ void NodeImpl::announce(const health::PeerChange& change) {
 }
 
 void NodeImpl::announce_turn() {
+  gate.turn(clock::wall_now());
   for (std::size_t i = 0; i < on_turn.size(); ++i) {
     const auto handler = on_turn[i];
     handler();

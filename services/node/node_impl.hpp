@@ -12,6 +12,8 @@
 #include "services/health/heartbeat_sender.hpp"
 #include "services/health/peer.hpp"
 #include "services/node/completion_queue.hpp"
+#include "services/node/contract_check.hpp"
+#include "services/node/contract_gate.hpp"
 #include "services/node/endpoints.hpp"
 #include "services/node/inbox.hpp"
 #include "services/node/link_gate.hpp"
@@ -34,7 +36,8 @@ class NodeImpl {
   /// Subscribing under the simulated clock is over once the loop runs: throws std::logic_error.
   TopicReader& subscribe(const TopicSpec&);
 
-  /// Decodes an arrival and runs its handlers, or hands it to the loop if its topic is clocked.
+  /// Takes what has arrived; what the contract lets pass is decoded, and handled or handed to the loop if its topic is
+  /// clocked.
   void receive(Arrival&&);
   static void handle(TopicReader&, const void* value);
   void announce(const health::PeerChange&);
@@ -55,6 +58,7 @@ class NodeImpl {
   const NodeOptions options;
   RunIdentity run;
   std::unique_ptr<transport::Transport> transport;
+  ContractCheck contract;
   Inbox inbox;
   TimerQueue timers;
   CompletionQueue work;
@@ -65,9 +69,13 @@ class NodeImpl {
   std::map<std::type_index, std::shared_ptr<void>> attachments;
   Endpoints endpoints;
   LinkGate links;
+  ContractGate gate;
   bool running = false;
   bool degraded = false;  ///< Heartbeats say so, live.
   std::unique_ptr<Loop> loop;
+
+ private:
+  void read(Arrival&&);
 };
 
 }  // namespace roci::services::node

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "services/transport/announcement.hpp"
+
 namespace roci::services::transport {
 namespace {
 
@@ -86,7 +88,9 @@ std::vector<std::string> installed_transports() {
 }
 
 std::unique_ptr<Transport> open_transport(std::string_view vendor, const TransportOptions& options) {
-  return load(find_plugin(vendor))(options);
+  TransportOptions announced = options;
+  if (!announced.announcement) announced.announcement = own_announcement();
+  return load(find_plugin(vendor))(announced);
 }
 
 }  // namespace roci::services::transport

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -59,11 +60,15 @@ struct Sample {
 struct ReaderEvents {
   std::function<void(Sample&&)> on_sample;
   std::function<void(int current_writers)> on_matched;
+  /// Names each writer that the reader is matched with, before or after it is counted, at least once.
+  std::function<void(const Guid& writer)> on_writer{};
 };
 
 /// A reliable writer reaches every reader that it counts: all that is written from then on arrives.
 struct WriterEvents {
   std::function<void(int current_readers)> on_matched;
+  /// Names each reader that the writer is matched with, before or after it is counted, at least once.
+  std::function<void(const Guid& reader)> on_reader{};
 };
 
 class Writer {
@@ -93,6 +98,14 @@ struct TransportOptions {
   std::vector<std::string> peers = {"127.0.0.1"};  ///< These hosts are asked for participants, unicast.
   /// The path of a vendor's own XML, which is used instead of the defaults if not empty.
   std::string vendor_xml{};
+  /// The USER_DATA of the participant; nothing stands for the announcement of this build, which open_transport fills in.
+  std::optional<std::string> announcement{};
+};
+
+/// What a participant of the domain says of itself.
+struct Participant {
+  std::string name{};          ///< Empty if it has none.
+  std::string announcement{};  ///< Its USER_DATA (announcement.hpp); empty if it has none.
 };
 
 class TransportError : public std::runtime_error {
@@ -108,6 +121,11 @@ class Transport {
   virtual std::string_view vendor() const = 0;
   virtual std::unique_ptr<Writer> create_writer(const EndpointDescription&, WriterEvents) = 0;
   virtual std::unique_ptr<Reader> create_reader(const EndpointDescription&, ReaderEvents) = 0;
+  /// What this participant announces.
+  virtual std::string announcement() const = 0;
+  /// The participant that a writer or a reader belongs to, also this one and also when it has left. It is known before
+  /// its first sample arrives, as long as its USER_DATA does; nothing if it was not discovered. Any thread may ask.
+  virtual std::optional<Participant> participant_of(const Guid&) = 0;
 };
 
 /// Each plug-in exports this under the name roci_create_transport. It throws TransportError.

@@ -93,6 +93,7 @@ void CycloneReader::begin_with(dds_entity_t reader, dds_instance_handle_t public
     const std::lock_guard lock(mutex_);
     writer = writer_of(reader, publication);
   }
+  if (events_.on_writer && writer != transport::Guid{}) events_.on_writer(writer);
   // Without our lock: the vendor holds the writer's while it delivers to take_all().
   if (reliable_volatile_) roci_keep_what_precedes_first_heartbeat(&type_, writer.data());
 }

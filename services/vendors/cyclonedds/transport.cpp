@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "services/vendors/cyclonedds/domain.hpp"
+#include "services/vendors/cyclonedds/participants.hpp"
 #include "services/vendors/cyclonedds/qos.hpp"
 #include "services/vendors/cyclonedds/reader.hpp"
 #include "services/vendors/cyclonedds/writer.hpp"
@@ -15,6 +16,8 @@ namespace {
 QosPtr participant_qos(const transport::TransportOptions& options) {
   QosPtr qos(dds_create_qos());
   dds_qset_entity_name(qos.get(), options.participant.c_str());
+  const std::string announcement = options.announcement.value_or("");
+  dds_qset_userdata(qos.get(), announcement.data(), announcement.size());
   return qos;
 }
 
@@ -32,9 +35,14 @@ class CycloneTransport : public transport::Transport {
       : domain_(join_domain(options)),
         participant_(checked(dds_create_participant(static_cast<dds_domainid_t>(options.domain),
                                                     participant_qos(options).get(), nullptr),
-                             "a participant in domain " + std::to_string(options.domain))) {}
+                             "a participant in domain " + std::to_string(options.domain))),
+        announcement_(options.announcement.value_or("")),
+        participants_(std::make_unique<Participants>(participant_)) {}
 
-  ~CycloneTransport() override { dds_delete(participant_); }
+  ~CycloneTransport() override {
+    participants_.reset();
+    dds_delete(participant_);
+  }
 
   std::string_view vendor() const override { return "cyclonedds"; }
 
@@ -48,6 +56,11 @@ class CycloneTransport : public transport::Transport {
                                                    transport::ReaderEvents events) override {
     return std::make_unique<CycloneReader>(subscriber_in(endpoint.partitions), topic_of(endpoint), endpoint,
                                            std::move(events));
+  }
+
+  std::string announcement() const override { return announcement_; }
+  std::optional<transport::Participant> participant_of(const transport::Guid& guid) override {
+    return participants_->find(guid);
   }
 
  private:
@@ -92,6 +105,8 @@ class CycloneTransport : public transport::Transport {
 
   const std::shared_ptr<Domain> domain_;
   const dds_entity_t participant_;
+  const std::string announcement_;
+  std::unique_ptr<Participants> participants_;
   std::mutex mutex_;
   std::map<std::vector<std::string>, dds_entity_t> publishers_;
   std::map<std::vector<std::string>, dds_entity_t> subscribers_;

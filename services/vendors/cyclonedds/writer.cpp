@@ -4,6 +4,8 @@ extern "C" {
 #include <dds/ddsi/q_protocol.h>
 }
 
+#include <vector>
+
 namespace roci::services::vendors::cyclonedds {
 
 CycloneWriter::CycloneWriter(dds_entity_t publisher, const TopicHandle& topic,
@@ -17,6 +19,7 @@ CycloneWriter::CycloneWriter(dds_entity_t publisher, const TopicHandle& topic,
   dds_guid_t guid;
   checked(dds_get_guid(writer_, &guid), "the identity of a writer on " + endpoint.topic);
   guid_ = to_guid(guid);
+  look_up_early_matches();
 }
 
 CycloneWriter::~CycloneWriter() {
@@ -37,8 +40,28 @@ bool CycloneWriter::dispose(std::span<const std::uint8_t> payload) {
   return dds_forwardcdr(writer_, data) == DDS_RETCODE_OK;
 }
 
-void CycloneWriter::on_matched(dds_entity_t, dds_publication_matched_status_t status, void* self) {
+void CycloneWriter::meet(dds_entity_t writer, dds_instance_handle_t subscription) const {
+  auto* endpoint = events_.on_reader ? dds_get_matched_subscription_data(writer, subscription) : nullptr;
+  if (!endpoint) return;
+  const transport::Guid reader = to_guid(endpoint->key);
+  dds_builtintopic_free_endpoint(endpoint);
+  events_.on_reader(reader);
+}
+
+// The vendor names no reader for a match that it reports while the writer is still being created.
+void CycloneWriter::look_up_early_matches() const {
+  std::vector<dds_instance_handle_t> readers(16);
+  dds_return_t count = 0;
+  while ((count = dds_get_matched_subscriptions(writer_, readers.data(), readers.size())) >
+         static_cast<dds_return_t>(readers.size())) {
+    readers.resize(static_cast<std::size_t>(count));
+  }
+  for (dds_return_t i = 0; i < count; ++i) meet(writer_, readers[static_cast<std::size_t>(i)]);
+}
+
+void CycloneWriter::on_matched(dds_entity_t entity, dds_publication_matched_status_t status, void* self) {
   auto& writer = *static_cast<CycloneWriter*>(self);
+  if (status.current_count_change > 0) writer.meet(entity, status.last_subscription_handle);
   writer.matched_ = static_cast<int>(status.current_count);
   if (writer.events_.on_matched) writer.events_.on_matched(writer.matched_);
 }

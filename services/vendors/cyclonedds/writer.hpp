@@ -28,6 +28,9 @@ class CycloneWriter : public transport::Writer {
  private:
   static void on_matched(dds_entity_t, dds_publication_matched_status_t, void* self);
 
+  void meet(dds_entity_t writer, dds_instance_handle_t subscription) const;
+  void look_up_early_matches() const;
+
   const Sertype& type_;
   const bool reliable_;
   const transport::WriterEvents events_;

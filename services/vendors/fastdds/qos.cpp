@@ -58,6 +58,8 @@ void set_history(const transport::QosSettings& settings, dds::HistoryQosPolicy& 
 dds::DomainParticipantQos participant_qos(const transport::TransportOptions& options) {
   auto qos = options.vendor_xml.empty() ? dds::DomainParticipantQos() : profile_of(options.vendor_xml);
   qos.name(options.participant.c_str());
+  const std::string announcement = options.announcement.value_or("");
+  qos.user_data().data_vec({announcement.begin(), announcement.end()});
   if (!options.vendor_xml.empty()) return qos;
 
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();

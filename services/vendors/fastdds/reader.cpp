@@ -75,11 +75,12 @@ void FastReader::on_subscription_matched(dds::DataReader*, const dds::Subscripti
   const std::lock_guard lock(mutex_);
   if (closed_) return;
   matched_ = status.current_count;
+  eprosima::fastrtps::rtps::GUID_t theirs;
+  eprosima::fastrtps::rtps::iHandle2GUID(theirs, status.last_publication_handle);
+  const transport::Guid writer = to_guid(theirs);
+  if (status.current_count_change > 0 && events_.on_writer) events_.on_writer(writer);
   if (status.current_count_change < 0) {
     // Fast DDS marks the instances of a writer that left, but reports no sample for it.
-    eprosima::fastrtps::rtps::GUID_t theirs;
-    eprosima::fastrtps::rtps::iHandle2GUID(theirs, status.last_publication_handle);
-    const transport::Guid writer = to_guid(theirs);
     for (auto& key_payload : instances_.writer_left(writer)) {
       if (events_.on_sample)
         events_.on_sample({transport::SampleKind::no_writers, std::move(key_payload), writer});

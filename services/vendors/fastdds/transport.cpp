@@ -9,6 +9,8 @@
 #include <mutex>
 
 #include "services/vendors/fastdds/bytes_type.hpp"
+#include "services/vendors/fastdds/guid.hpp"
+#include "services/vendors/fastdds/participants.hpp"
 #include "services/vendors/fastdds/qos.hpp"
 #include "services/vendors/fastdds/reader.hpp"
 #include "services/vendors/fastdds/writer.hpp"
@@ -36,16 +38,19 @@ dds::PartitionQosPolicy partition_qos(const std::vector<std::string>& partitions
 
 class FastTransport : public transport::Transport {
  public:
-  explicit FastTransport(const transport::TransportOptions& options) {
+  explicit FastTransport(const transport::TransportOptions& options)
+      : announcement_(options.announcement.value_or("")) {
     if (options.vendor_xml.empty()) require_usable_addresses(options);
     switch_intraprocess_delivery_off();
     auto* factory = dds::DomainParticipantFactory::get_instance();
     participant_ =
-        factory->create_participant(static_cast<std::uint32_t>(options.domain), participant_qos(options));
+        factory->create_participant(static_cast<std::uint32_t>(options.domain), participant_qos(options),
+                                    &participants_, dds::StatusMask::none());
     if (!participant_) {
       throw transport::TransportError("Fast DDS cannot join domain " + std::to_string(options.domain) +
                                       "; the domain id must be from 0 to 232, its UDP ports must be free");
     }
+    participants_.table.add(to_guid(participant_->guid()), {options.participant, announcement_});
   }
 
   ~FastTransport() override {
@@ -65,6 +70,11 @@ class FastTransport : public transport::Transport {
                                                    transport::ReaderEvents events) override {
     return std::make_unique<FastReader>(subscriber_in(endpoint.partitions), topic_of(endpoint), endpoint,
                                         std::move(events));
+  }
+
+  std::string announcement() const override { return announcement_; }
+  std::optional<transport::Participant> participant_of(const transport::Guid& guid) override {
+    return participants_.table.find(guid);
   }
 
  private:
@@ -109,6 +119,8 @@ class FastTransport : public transport::Transport {
     return *topic;
   }
 
+  const std::string announcement_;
+  Participants participants_;
   dds::DomainParticipant* participant_ = nullptr;
   std::mutex mutex_;
   std::map<std::vector<std::string>, dds::Publisher*> publishers_;

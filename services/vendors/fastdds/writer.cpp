@@ -55,6 +55,11 @@ transport::Guid FastWriter::guid() const { return to_guid(writer_->guid()); }
 
 void FastWriter::on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) {
   matched_ = status.current_count;
+  if (status.current_count_change > 0 && events_.on_reader) {
+    eprosima::fastrtps::rtps::GUID_t theirs;
+    eprosima::fastrtps::rtps::iHandle2GUID(theirs, status.last_subscription_handle);
+    events_.on_reader(to_guid(theirs));
+  }
   if (events_.on_matched) events_.on_matched(status.current_count);
 }
 

@@ -9,6 +9,7 @@
 #include "services/transport/transport.hpp"
 #include "services/vendors/inproc/reader_end.hpp"
 #include "services/vendors/inproc/writer_end.hpp"
+#include "services/vendors/participant_table.hpp"
 
 namespace roci::services::vendors::inproc {
 
@@ -19,10 +20,13 @@ class Bus {
   void remove(const std::shared_ptr<WriterEnd>&);
   void remove(const std::shared_ptr<ReaderEnd>&);
 
+  ParticipantTable& participants() { return participants_; }
+
   /// Unique in this process, from 1.
   std::uint64_t next_id();
 
  private:
+  ParticipantTable participants_;
   std::mutex mutex_;
   std::uint64_t last_id_ = 0;
   std::vector<std::shared_ptr<WriterEnd>> writers_;

@@ -5,11 +5,13 @@
 
 namespace roci::services::vendors::inproc {
 ReaderEnd::ReaderEnd(transport::EndpointDescription description, transport::ReaderEvents events,
-                     std::shared_ptr<Dispatcher> dispatcher, Dispatcher::Endpoint id)
+                     std::shared_ptr<Dispatcher> dispatcher, Dispatcher::Endpoint id,
+                     const transport::Guid& guid)
     : description_(std::move(description)),
       events_(std::move(events)),
       dispatcher_(std::move(dispatcher)),
-      id_(id) {}
+      id_(id),
+      guid_(guid) {}
 
 int ReaderEnd::matched_writers() const {
   const std::lock_guard lock(mutex_);
@@ -91,13 +93,16 @@ void ReaderEnd::deliver_next() {
   }
   lock.unlock();
   if (arrived && events_.on_sample) events_.on_sample(std::move(arrived->sample));
-  if (!arrived && events_.on_matched) events_.on_matched(std::get<Matched>(item).writers);
+  if (arrived) return;
+  const Matched& matched = std::get<Matched>(item);
+  if (matched.met && events_.on_writer) events_.on_writer(*matched.met);
+  if (events_.on_matched) events_.on_matched(matched.writers);
 }
 
 void ReaderEnd::attach(const transport::Guid& writer) {
   const std::lock_guard lock(mutex_);
   writers_.insert(writer);
-  enqueue(Matched{static_cast<int>(writers_.size())});
+  enqueue(Matched{static_cast<int>(writers_.size()), writer});
 }
 
 void ReaderEnd::detach(const transport::Guid& writer) {

@@ -7,6 +7,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -24,9 +25,10 @@ using Key = InstanceTable::Key;
 class ReaderEnd : public std::enable_shared_from_this<ReaderEnd> {
  public:
   ReaderEnd(transport::EndpointDescription, transport::ReaderEvents, std::shared_ptr<Dispatcher>,
-            Dispatcher::Endpoint);
+            Dispatcher::Endpoint, const transport::Guid&);
 
   const transport::EndpointDescription& description() const { return description_; }
+  const transport::Guid& guid() const { return guid_; }
   int matched_writers() const;
 
   /// Books a place in the queue; false when a reliable keep-all queue stayed full for so long.
@@ -48,6 +50,7 @@ class ReaderEnd : public std::enable_shared_from_this<ReaderEnd> {
   };
   struct Matched {
     int writers;
+    std::optional<transport::Guid> met{};  // the writer that is new
   };
   using Item = std::variant<Arrived, Matched>;
 
@@ -61,6 +64,7 @@ class ReaderEnd : public std::enable_shared_from_this<ReaderEnd> {
   const transport::ReaderEvents events_;
   const std::shared_ptr<Dispatcher> dispatcher_;
   const Dispatcher::Endpoint id_;
+  const transport::Guid guid_;
 
   mutable std::mutex mutex_;
   std::condition_variable space_;

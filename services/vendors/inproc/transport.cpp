@@ -9,10 +9,12 @@
 namespace roci::services::vendors::inproc {
 namespace {
 
-transport::Guid guid_of(int domain, std::uint64_t id) {
+// As in DDS, the endpoints of a participant share its first 12 bytes; here the domain and the participant's id.
+transport::Guid guid_of(int domain, std::uint64_t participant, std::uint64_t endpoint) {
   transport::Guid guid{};
   for (std::size_t i = 0; i < 4; ++i) guid[i] = static_cast<std::uint8_t>(domain >> (24 - 8 * i));
-  for (std::size_t i = 0; i < 8; ++i) guid[8 + i] = static_cast<std::uint8_t>(id >> (56 - 8 * i));
+  for (std::size_t i = 0; i < 8; ++i) guid[4 + i] = static_cast<std::uint8_t>(participant >> (56 - 8 * i));
+  for (std::size_t i = 0; i < 4; ++i) guid[12 + i] = static_cast<std::uint8_t>(endpoint >> (24 - 8 * i));
   return guid;
 }
 
@@ -46,7 +48,12 @@ class InprocReader : public transport::Reader {
 class InprocTransport : public transport::Transport {
  public:
   explicit InprocTransport(const transport::TransportOptions& options)
-      : domain_(options.domain), bus_(bus_of_domain(options.domain)) {}
+      : domain_(options.domain),
+        announcement_(options.announcement.value_or("")),
+        bus_(bus_of_domain(options.domain)),
+        participant_(bus_->next_id()) {
+    bus_->participants().add(guid_of(domain_, participant_, 0), {options.participant, announcement_});
+  }
 
   std::string_view vendor() const override { return "inproc"; }
 
@@ -54,8 +61,8 @@ class InprocTransport : public transport::Transport {
                                                    transport::WriterEvents events) override {
     check_type(description);
     const auto id = bus_->next_id();
-    auto end =
-        std::make_shared<WriterEnd>(description, std::move(events), dispatcher_, id, guid_of(domain_, id));
+    auto end = std::make_shared<WriterEnd>(description, std::move(events), dispatcher_, id,
+                                           guid_of(domain_, participant_, id));
     auto writer = std::make_unique<InprocWriter>(bus_, end);
     bus_->add(end);
     return writer;
@@ -64,10 +71,17 @@ class InprocTransport : public transport::Transport {
   std::unique_ptr<transport::Reader> create_reader(const transport::EndpointDescription& description,
                                                    transport::ReaderEvents events) override {
     check_type(description);
-    auto end = std::make_shared<ReaderEnd>(description, std::move(events), dispatcher_, bus_->next_id());
+    const auto id = bus_->next_id();
+    auto end = std::make_shared<ReaderEnd>(description, std::move(events), dispatcher_, id,
+                                           guid_of(domain_, participant_, id));
     auto reader = std::make_unique<InprocReader>(bus_, end);
     bus_->add(end);
     return reader;
+  }
+
+  std::string announcement() const override { return announcement_; }
+  std::optional<transport::Participant> participant_of(const transport::Guid& guid) override {
+    return bus_->participants().find(guid);
   }
 
  private:
@@ -82,7 +96,9 @@ class InprocTransport : public transport::Transport {
   }
 
   const int domain_;
+  const std::string announcement_;
   const std::shared_ptr<Bus> bus_;
+  const std::uint64_t participant_;
   std::mutex mutex_;
   std::map<std::string, std::string> types_;  // of the topics
   const std::shared_ptr<Dispatcher> dispatcher_ = std::make_shared<Dispatcher>();

@@ -84,6 +84,10 @@ void WriterEnd::attach(const std::shared_ptr<ReaderEnd>& reader) {
     for (const auto& kept : history_)
       reader->push({transport::SampleKind::data, kept.payload, guid_}, kept.key, false);
   }
+  if (events_.on_reader) {
+    dispatcher_->post(id_,
+                      [self = shared_from_this(), met = reader->guid()] { self->events_.on_reader(met); });
+  }
   report_matched();
 }
 

@@ -60,6 +60,9 @@ struct Settings {
   int domain = 0;
   std::string address = "127.0.0.1";
   std::string peer = "127.0.0.1";
+  std::string run{};           // that goals name
+  std::string partition{};     // of all endpoints, if not empty
+  std::string announcement{};  // USER_DATA of the participant
 };
 
 // Each program links one definition.

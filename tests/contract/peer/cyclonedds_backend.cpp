@@ -57,9 +57,12 @@ roci_v1_SampleIdentity identity(const std::array<std::uint8_t, 16>& guid, std::i
 class CycloneBackend : public Backend {
  public:
   CycloneBackend(const Settings& settings, Handlers handlers)
-      : handlers_(std::move(handlers)),
-        participant_(
-            checked(dds_create_participant(static_cast<dds_domainid_t>(settings.domain), nullptr, nullptr))) {
+      : run_(settings.run), partition_(settings.partition), handlers_(std::move(handlers)) {
+    dds_qos_t* qos = dds_create_qos();
+    dds_qset_userdata(qos, settings.announcement.data(), settings.announcement.size());
+    participant_ =
+        checked(dds_create_participant(static_cast<dds_domainid_t>(settings.domain), qos, nullptr));
+    dds_delete_qos(qos);
   }
   ~CycloneBackend() override { dds_delete(participant_); }
 
@@ -108,18 +111,22 @@ class CycloneBackend : public Backend {
   }
 
  private:
-  static roci_v1_Goal wire_goal(const Goal& goal) {
+  roci_v1_Goal wire_goal(const Goal& goal) const {
     auto value = zero<roci_v1_Goal>();
     value.issuer = lend(goal.issuer);
     value.id = lend(goal.id);
     fill(value.header);
+    value.header.run = lend(run_);
+    value.header.sender = lend(goal.issuer);
     value.goal_kind = lend("");
     value.priority = goal.priority;
     return value;
   }
 
-  static dds_qos_t* qos(bool latched) {
+  // An endpoint that is made straight on the participant takes its partition from the same settings.
+  dds_qos_t* qos(bool latched) const {
     dds_qos_t* qos = dds_create_qos();
+    if (!partition_.empty()) dds_qset_partition1(qos, partition_.c_str());
     dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
     dds_qset_durability(qos, latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
     dds_qset_history(qos, latched ? DDS_HISTORY_KEEP_LAST : DDS_HISTORY_KEEP_ALL, 1);
@@ -182,8 +189,10 @@ class CycloneBackend : public Backend {
         });
   }
 
+  const std::string run_;
+  const std::string partition_;
   Handlers handlers_;
-  dds_entity_t participant_;
+  dds_entity_t participant_ = 0;
   dds_entity_t writer_ = 0;
 };
 

@@ -57,12 +57,22 @@ class ReaderListener : public dds::DataReaderListener {
 class FastBackend : public Backend {
  public:
   FastBackend(const Settings& settings, Handlers handlers)
-      : handlers_(std::move(handlers)), writer_listener_(handlers_) {
+      : run_(settings.run), handlers_(std::move(handlers)), writer_listener_(handlers_) {
     auto* factory = dds::DomainParticipantFactory::get_instance();
+    factory->load_profiles();
+    dds::DomainParticipantQos participant_qos;
+    factory->get_participant_qos_from_profile("lo", participant_qos);
+    participant_qos.user_data().data_vec({settings.announcement.begin(), settings.announcement.end()});
     participant_ =
-        checked(factory->create_participant_with_profile(static_cast<std::uint32_t>(settings.domain), "lo"));
-    publisher_ = checked(participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT));
-    subscriber_ = checked(participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT));
+        checked(factory->create_participant(static_cast<std::uint32_t>(settings.domain), participant_qos));
+    auto publisher_qos = dds::PUBLISHER_QOS_DEFAULT;
+    auto subscriber_qos = dds::SUBSCRIBER_QOS_DEFAULT;
+    if (!settings.partition.empty()) {
+      publisher_qos.partition().push_back(settings.partition.c_str());
+      subscriber_qos.partition().push_back(settings.partition.c_str());
+    }
+    publisher_ = checked(participant_->create_publisher(publisher_qos));
+    subscriber_ = checked(participant_->create_subscriber(subscriber_qos));
   }
   ~FastBackend() override {
     participant_->delete_contained_entities();
@@ -133,8 +143,10 @@ class FastBackend : public Backend {
   }
 
  private:
-  static v1::Goal wire_goal(const Goal& goal) {
+  v1::Goal wire_goal(const Goal& goal) const {
     v1::Goal value;
+    value.header().run(run_);
+    value.header().sender(goal.issuer);
     value.issuer(goal.issuer);
     value.id(goal.id);
     value.priority(goal.priority);
@@ -176,6 +188,7 @@ class FastBackend : public Backend {
                                            reader_listener_.get()));
   }
 
+  const std::string run_;
   Handlers handlers_;
   WriterListener writer_listener_;
   std::unique_ptr<dds::DataReaderListener> reader_listener_;

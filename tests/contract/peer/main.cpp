@@ -1,4 +1,4 @@
-// peer ROLE VENDOR DOMAIN [ADDRESS PEER]
+// peer ROLE VENDOR DOMAIN [ADDRESS PEER]; environment: PEER_RUN, PEER_PARTITION, PEER_ANNOUNCEMENT (own: as this build's)
 //   ROLE: goal-writer, goal-reader, path-server, path-client
 // Standard input: write ISSUER ID PRIORITY | dispose ISSUER ID | call SEQUENCE X Y; it ends with the input.
 // Standard output, one line each: ready | matched N | goal ISSUER ID PRIORITY | disposed ISSUER ID | lost
@@ -6,6 +6,7 @@
 //   call SEQUENCE X Y | answer SEQUENCE EXCEPTION MESSAGE LENGTH WAYPOINTS SAME_CLIENT | refused
 #include <cmath>
 #include <condition_variable>
+#include <cstdlib>
 #include <deque>
 #include <iostream>
 #include <mutex>
@@ -13,6 +14,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "roci_idl/contract.h"
 #include "tests/contract/peer/backend.hpp"
 
 namespace roci::contract_peer {
@@ -46,6 +48,11 @@ class Loop {
 };
 
 constexpr std::array<std::uint8_t, 16> kClient{0xC1, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 0xFF};
+
+std::string variable(const char* name, const std::string& fallback) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? fallback : value;
+}
 
 void say(const std::string& line) { std::cout << line << std::endl; }
 
@@ -103,6 +110,10 @@ int run(int argc, char** argv) {
   if (argc != 4 && argc != 6) throw std::invalid_argument("usage: peer ROLE VENDOR DOMAIN [ADDRESS PEER]");
   Settings settings{.vendor = argv[2], .domain = std::stoi(argv[3])};
   if (argc == 6) settings.address = argv[4], settings.peer = argv[5];
+  settings.run = variable("PEER_RUN", "");
+  settings.partition = variable("PEER_PARTITION", "");
+  settings.announcement = variable("PEER_ANNOUNCEMENT", "own");
+  if (settings.announcement == "own") settings.announcement = ROCI_ANNOUNCEMENT;
 
   Loop loop;
   std::unique_ptr<Backend> backend;

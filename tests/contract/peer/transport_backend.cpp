@@ -17,7 +17,8 @@ services::transport::TransportOptions options_of(const Settings& settings) {
   return {.domain = settings.domain,
           .participant = "peer",
           .address = settings.address,
-          .peers = {settings.peer}};
+          .peers = {settings.peer},
+          .announcement = settings.announcement};
 }
 
 services::transport::EndpointDescription requests() {
@@ -32,14 +33,13 @@ services::transport::EndpointDescription replies() {
 class TransportBackend : public Backend {
  public:
   TransportBackend(const Settings& settings, Handlers handlers)
-      : handlers_(std::move(handlers)),
+      : settings_(settings),
+        handlers_(std::move(handlers)),
         transport_(services::transport::open_transport(settings.vendor, options_of(settings))) {}
 
-  void open_goal_writer() override {
-    writer_ = transport_->create_writer(contract::goal_endpoint(contract::latched(1)), {handlers_.matched});
-  }
+  void open_goal_writer() override { writer_ = transport_->create_writer(goals(), {handlers_.matched}); }
   void open_goal_reader() override {
-    reader_ = transport_->create_reader(contract::goal_endpoint(contract::latched(1)),
+    reader_ = transport_->create_reader(goals(),
                                         {[this](Sample&& sample) { take_goal(sample); }, handlers_.matched});
   }
   void open_path_server() override {
@@ -52,7 +52,7 @@ class TransportBackend : public Backend {
   }
 
   bool write(const Goal& goal) override {
-    return writer_->write(contract::goal(goal.id, goal.priority, goal.issuer));
+    return writer_->write(contract::goal(goal.id, goal.priority, goal.issuer, settings_.run));
   }
   bool dispose(const Goal& goal) override {
     return writer_->dispose(contract::goal(goal.id, 0, goal.issuer));
@@ -79,6 +79,11 @@ class TransportBackend : public Backend {
   }
 
  private:
+  services::transport::EndpointDescription goals() const {
+    auto description = contract::goal_endpoint(contract::latched(1));
+    if (!settings_.partition.empty()) description.partitions = {settings_.partition};
+    return description;
+  }
   void take_goal(const Sample& sample) {
     v1::Goal goal;
     if (sample.kind == SampleKind::data && services::transport::deserialize(sample.payload, goal)) {
@@ -104,6 +109,7 @@ class TransportBackend : public Backend {
                       reply.reply().remote_message(), reply.length_m(), reply.waypoints().size()});
   }
 
+  const Settings settings_;
   Handlers handlers_;
   std::unique_ptr<services::transport::Transport> transport_;
   std::unique_ptr<services::transport::Writer> writer_;

@@ -1,8 +1,10 @@
 #include "tests/contract/robot/robot_service.hpp"
 
+#include <map>
 #include <set>
 #include <utility>
 
+#include "services/node/node_impl.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 
@@ -22,6 +24,7 @@ class RobotService : public Service {
         paths_(make_client(node, topics::path_request)) {
     subscribe(node, topics::event, [this](const v1::Event& event) {
       hear("event", event.header());
+      if (event.code() == "contract.mismatch") say_(mismatch_in(event));
       if (event.text() == std::to_string(kRounds)) say_("rounds " + event.header().sender());
     });
     subscribe(node, topics::goal, [this](const v1::Goal& goal) { hear("goal", goal.header()); });
@@ -31,11 +34,25 @@ class RobotService : public Service {
       hear("request", request.header());
       responder.reply({});
     });
+    node.on_turn([this] { count_refused(); });
     node.after(100ms, [this] { write(); });
   }
   ~RobotService() override { say_("over"); }
 
  private:
+  static std::string mismatch_in(const v1::Event& event) {
+    std::map<std::string, std::string> properties;
+    for (const v1::Property& property : event.properties()) properties[property.name()] = property.value();
+    const std::string& hash = properties["other_hash"];
+    return "mismatch " + properties["topic"] + " " + (hash.empty() ? "none" : hash) + " by " +
+           event.header().sender();
+  }
+
+  void count_refused() {
+    const std::uint64_t refused = node_.impl().gate.refused();
+    while (refused_ < refused) say_("refused " + std::to_string(++refused_));
+  }
+
   void hear(const std::string& kind, const v1::SampleHeader& header) {
     if (header.sender() == node_.options().name) return;
     const std::string line = "heard " + kind + " " + header.sender();
@@ -72,6 +89,7 @@ class RobotService : public Service {
   Client<v1::PathRequest, v1::PathReply> paths_;
   std::set<std::string> heard_;
   int round_ = 0;
+  std::uint64_t refused_ = 0;
 };
 
 }  // namespace

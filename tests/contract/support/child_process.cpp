@@ -73,6 +73,10 @@ bool ChildProcess::wait_for(const std::string& line, std::chrono::milliseconds d
   }
 }
 
+bool ChildProcess::wait_for_more(std::chrono::milliseconds deadline) {
+  return read_more(static_cast<int>(deadline.count()));
+}
+
 bool ChildProcess::read_more(int timeout_ms) {
   pollfd ready{output_, POLLIN, 0};
   if (poll(&ready, 1, timeout_ms) <= 0) return false;

@@ -22,6 +22,8 @@ class ChildProcess {
   void send(const std::string& line);
   // Reads until `line` comes (or has come before); false at the end of the output or at the deadline.
   bool wait_for(const std::string& line, std::chrono::milliseconds deadline = std::chrono::seconds(20));
+  // Reads until there is something new; false at the end of the output or at the deadline.
+  bool wait_for_more(std::chrono::milliseconds deadline = std::chrono::seconds(20));
   const std::vector<std::string>& lines() const { return lines_; }
 
   // Ends its input and waits: its exit code, or minus the signal that ended it.

@@ -20,8 +20,11 @@ inline transport::EndpointDescription goal_endpoint(const transport::QosSettings
   return endpoint<v1::Goal>("roci/goal", "roci::v1::Goal", qos);
 }
 
-inline transport::Payload goal(const std::string& id, int priority, const std::string& issuer = "ground") {
+inline transport::Payload goal(const std::string& id, int priority, const std::string& issuer = "ground",
+                               const std::string& run = {}) {
   v1::Goal value;
+  value.header().run(run);
+  value.header().sender(issuer);
   value.issuer(issuer);
   value.id(id);
   value.priority(priority);

@@ -54,6 +54,10 @@ class LockedTransport : public services::transport::Transport {
                                                              services::transport::ReaderEvents) override {
     return std::make_unique<LockedReader>();
   }
+  std::string announcement() const override { return {}; }
+  std::optional<services::transport::Participant> participant_of(const services::transport::Guid&) override {
+    return std::nullopt;
+  }
 };
 
 }  // namespace

@@ -1,0 +1,90 @@
+// Whether the types of a remote participant are ours: its announced hashes compared with our own, once per participant.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "services/transport/announcement.hpp"
+#include "services/transport/transport.hpp"
+
+namespace roci::services::node {
+
+/// A topic on which this node and a participant do not understand each other. Hashes are empty where none is announced.
+struct ContractMismatch {
+  std::string topic;
+  std::string type;
+  std::string participant;  ///< Its name, or the start of its GUID in hexadecimal digits.
+  std::string own_build;
+  std::string own_hash;
+  std::string other_build;
+  std::string other_hash;
+};
+
+/// One sentence for people, with the remedy.
+std::string to_text(const ContractMismatch&);
+
+/// A topic as the contract sees it.
+struct ContractTopic {
+  std::string name;
+  std::string type;  ///< E.g. "roci::v1::Goal".
+  auto operator<=>(const ContractTopic&) const = default;
+};
+
+class ContractCheck {
+ public:
+  using Lookup = std::function<std::optional<transport::Participant>(const transport::Guid&)>;
+
+  enum class Verdict {
+    same,       ///< The participant announced our hash of the type.
+    different,  ///< It announced another one, or none.
+    unknown,    ///< It has not been discovered yet: ask again.
+  };
+
+  /// `own`: what this node's participant announces (announcement.hpp).
+  ContractCheck(std::string_view own, Lookup);
+
+  /// The loop's thread asks this of the writer of each sample. The first `different` of a participant and topic is a
+  /// mismatch to be told.
+  Verdict judge(const ContractTopic&, const transport::Guid& remote);
+
+  /// Any thread says that a writer or a reader of another participant was matched on a topic: a mismatch is told although
+  /// no sample may ever come.
+  void met(const ContractTopic&, const transport::Guid& remote);
+
+  /// Judges what was met, and removes and returns the mismatches that are new since the last call.
+  std::vector<ContractMismatch> take_mismatches();
+
+ private:
+  using Prefix = std::array<std::uint8_t, 12>;
+  struct Peer {
+    std::string name;
+    std::optional<transport::Announcement> announced;
+    std::map<std::string, bool, std::less<>> same;  // by type
+    std::set<std::string> told;                     // topics
+  };
+  struct Met {
+    ContractTopic topic;
+    transport::Guid remote{};
+    auto operator<=>(const Met&) const = default;
+  };
+
+  Peer* find_peer(const transport::Guid&);
+  bool agrees(Peer&, const std::string& type) const;
+
+  const transport::Announcement own_;
+  const Lookup lookup_;
+  std::map<Prefix, Peer> peers_;
+  std::vector<ContractMismatch> mismatches_;
+  std::mutex mutex_;
+  std::set<Met> met_;  // and not judged yet
+};
+
+}  // namespace roci::services::node

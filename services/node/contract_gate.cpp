@@ -1,0 +1,78 @@
+#include "services/node/contract_gate.hpp"
+
+#include <utility>
+
+#include "services/log/log.hpp"
+
+namespace roci::services::node {
+namespace {
+
+v1::Event event_of(const ContractMismatch& mismatch) {
+  v1::Event event;
+  event.severity_level(v1::SEVERITY_ERROR);
+  event.code("contract.mismatch");
+  event.text(to_text(mismatch));
+  const auto add = [&event](const char* name, const std::string& value) {
+    v1::Property property;
+    property.name(name);
+    property.value(value);
+    event.properties().push_back(std::move(property));
+  };
+  add("topic", mismatch.topic);
+  add("participant", mismatch.participant);
+  add("own_build", mismatch.own_build);
+  add("own_hash", mismatch.own_hash);
+  add("other_build", mismatch.other_build);
+  add("other_hash", mismatch.other_hash);
+  return event;
+}
+
+}  // namespace
+
+ContractGate::ContractGate(ContractCheck& check, std::function<void(Arrival&&)> pass,
+                           std::function<void()> prepare, std::function<void(const v1::Event&)> tell)
+    : check_(check), pass_(std::move(pass)), prepare_(std::move(prepare)), tell_(std::move(tell)) {}
+
+void ContractGate::arrive(Arrival&& arrival) {
+  if (!held_.empty()) retry_held();
+  switch (check_.judge(arrival.topic->contract, arrival.sample.writer)) {
+    case ContractCheck::Verdict::same:
+      return pass_(std::move(arrival));
+    case ContractCheck::Verdict::different:
+      ++refused_;
+      return;
+    case ContractCheck::Verdict::unknown:
+      held_.push_back(std::move(arrival));
+      if (held_.size() <= kHeldBack) return;
+      held_.pop_front();
+      ++refused_;
+  }
+}
+
+void ContractGate::retry_held() {
+  for (Arrival& arrival : std::exchange(held_, {})) {
+    const auto verdict = check_.judge(arrival.topic->contract, arrival.sample.writer);
+    if (verdict == ContractCheck::Verdict::unknown) {
+      held_.push_back(std::move(arrival));
+    } else if (verdict == ContractCheck::Verdict::same) {
+      pass_(std::move(arrival));
+    } else {
+      ++refused_;
+    }
+  }
+}
+
+void ContractGate::turn(clock::WallTime now) {
+  if (!held_.empty()) retry_held();
+  for (const ContractMismatch& mismatch : check_.take_mismatches()) {
+    log::error(to_text(mismatch));
+    prepare_();
+    untold_.push_back({now + clock::wall_seconds(kTellAfterS), event_of(mismatch)});
+  }
+  while (!untold_.empty() && untold_.front().due <= now) {
+    tell_(untold_.front().event);
+    untold_.pop_front();
+  }
+}
+
+}  // namespace roci::services::node
