@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/clock/wall.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "tests/unit/services/sim_run.hpp"

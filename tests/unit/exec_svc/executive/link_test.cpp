@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "exec_svc/executive/executive.hpp"
 #include "tests/unit/exec_svc/executive/plan_builder.hpp"
 
 namespace roci::exec::testing {

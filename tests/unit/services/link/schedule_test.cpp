@@ -53,8 +53,8 @@ TEST(Schedule, IsOpenInItsWindowsWithoutItsCuts) {
     const auto cuts = intervals(random);
     const Schedule schedule(windows, cuts);
     std::optional<Time> next;
-    Time closes{130s};
-    for (Time time{130s}; time >= 0s; time -= 1s) {
+    Time closes{160s};
+    for (Time time{160s}; time >= 0s; time -= 1s) {
       const bool open = in_one(windows, time) && !in_one(cuts, time);
       ASSERT_EQ(schedule.open(time), open) << round << " " << time.count();
       if (open) next = time;
