@@ -231,6 +231,7 @@ MissionModel read_mission(const std::filesystem::path& mission_folder) {
   require_domain_names(root, domain);
   out.planner = read_planner(root.at("planner"));
   if (const auto executive = root.find("executive")) out.executive = read_executive(*executive);
+  if (const auto ground = root.find("ground")) out.ground = read_ground(*ground, out.contingencies);
   return out;
 }
 

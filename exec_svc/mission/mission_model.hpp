@@ -139,6 +139,12 @@ struct ReactorSettings {
   temporal::Duration standby_term = temporal::seconds(2);  ///< wall time; see standby/lease.hpp
 };
 
+/// What the ground may change in flight by an order.
+struct GroundModel {
+  std::vector<std::string> values;   ///< timelines that the ground owns
+  std::vector<std::string> uploads;  ///< places of the mission file, e.g. "contingencies.wipe-lens"
+};
+
 struct MissionModel {
   std::string name;
   std::string domain_text;
@@ -153,6 +159,7 @@ struct MissionModel {
   std::map<std::string, GoalKind> goal_kinds;
   PlannerSettings planner;
   ReactorSettings executive;
+  GroundModel ground;
 };
 
 /// Throws roci::mission::FileError naming file, line, column and remedy.
