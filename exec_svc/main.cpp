@@ -2,7 +2,7 @@
 
 #include "exec_svc/exec_service.hpp"
 #include "exec_svc/journal/journal.hpp"
-#include "exec_svc/standby/pair_service.hpp"
+#include "exec_svc/pair_service.hpp"
 #include "services/process/service_main.hpp"
 
 namespace {
@@ -12,7 +12,7 @@ void run(const roci::services::process::ServiceOptions& options,
   if (options.run.pair.empty()) {
     roci::services::process::run_service(options, signals, roci::exec::make_service);
   } else {
-    roci::exec::standby::run_pair(options, signals);
+    roci::exec::run_pair(options, signals);
   }
 }
 
@@ -28,4 +28,6 @@ void run_or_refuse(const roci::services::process::ServiceOptions& options,
 
 }  // namespace
 
-int main(int argc, char** argv) { return roci::services::process::service_main(argc, argv, "exec_svc", run_or_refuse); }
+int main(int argc, char** argv) {
+  return roci::services::process::service_main(argc, argv, "exec_svc", run_or_refuse);
+}

@@ -120,6 +120,9 @@ enum class RecoveryAction {
   contingency,  ///< commands of a template, then the same command again or a broken plan (R69, R70)
 };
 
+/// "push", "retry", "contingency".
+const char* to_string(RecoveryAction action);
+
 /// A recovery action was taken, or a contingency ended.
 struct RecoveryStep {
   RecoveryAction action = RecoveryAction::push;

@@ -1,6 +1,7 @@
 /// The follower's side on the wire: takes the leader's journal, says what it has, and finds out when to lead.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,12 +14,16 @@
 
 namespace roci::exec::standby {
 
+/// Sends a goal as its issuer would.
+using TellGoal = std::function<void(const goals::GoalRequest&)>;
+
 class FollowerService {
  public:
   /// On an observer's node, so that it stands outside the simulated clock. All outlive this. `executive`:
-  /// logical name of the pair; what is said by and for another one is passed over.
+  /// logical name of the pair; what is said by and for another one is passed over. `tell_goal` hears of goals that
+  /// this member took in while it led alone and that the leader does not know.
   FollowerService(services::Node& node, std::string executive, Lease& lease, journal::Journal& journal,
-                  PersistedTermFile& persisted_term);
+                  PersistedTermFile& persisted_term, TellGoal tell_goal);
 
   /// Why this member leads, once it does; the node has been stopped then.
   const std::optional<Lease::Turn>& lead() const { return lead_; }
@@ -41,7 +46,7 @@ class FollowerService {
   std::optional<Lease::Turn> lead_;
   bool over_ = false;
   services::Publisher<v1::LeaseMessage> messages_;
-  services::Publisher<v1::Goal> goals_;
+  TellGoal tell_goal_;
 };
 
 }  // namespace roci::exec::standby
