@@ -17,6 +17,7 @@
 #include "exec_svc/journal/journaled_reactor.hpp"
 #include "exec_svc/journal/round_trips.hpp"
 #include "exec_svc/mission_report_service.hpp"
+#include "exec_svc/order_link_service.hpp"
 #include "exec_svc/output_publisher_service.hpp"
 #include "exec_svc/run_files_service.hpp"
 #include "exec_svc/standby/leader_service.hpp"
@@ -95,9 +96,11 @@ class ExecService final : public services::Service {
         crash_(crash_points(node)),
         planner_(node, topics::plan_request),
         publisher_(node, mission_, epoch, crash_),
-        decisions_(node, [this](GivenAnswer answer, std::string line) {
-          take(std::move(answer), std::move(line));
-        }) {
+        decisions_(
+            node, [this](GivenAnswer answer, std::string line) { take(std::move(answer), std::move(line)); }),
+        orders_(
+            node, [this](orders::Order order, std::string line) { take(std::move(order), std::move(line)); },
+            [this](const Event& event) { publisher_.report(event); }) {
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
     journal_.set_text("mission_file", std::filesystem::absolute(settings.mission_file()).string());
     journal_.set_text("executive", node.options().name);
@@ -142,6 +145,7 @@ class ExecService final : public services::Service {
     if (!recovery.resumed) return report_divergence(*recovery.divergence);
     publisher_.send_plan(reactor);
     decisions_.tell(reactor);
+    orders_.tell(reactor);
     if (engine_) engine_->tell(reactor.receipt());
     for (const Event& event : recovery.last_events) publisher_.report(event);
     missed_ = journal_.peers();
@@ -195,6 +199,7 @@ class ExecService final : public services::Service {
   }
 
   void take(const v1::Observation& observation) {
+    if (observation.header().sender() == node_.options().name) return;  // a value that the ground has set
     try {
       inputs_.observations.push_back(from_wire(observation));
     } catch (const services::wire::WireError& error) {
@@ -226,6 +231,13 @@ class ExecService final : public services::Service {
   void take(GivenAnswer answer, std::string line) {
     inputs_.answers.push_back(std::move(answer));
     seen_.push_back(std::move(line));
+    step_soon();
+  }
+
+  void take(orders::Order order, std::string line) {
+    inputs_.ground_orders.push_back(std::move(order));
+    seen_.push_back(std::move(line));
+    crash_.pass("after-order");
     step_soon();
   }
 
@@ -265,6 +277,7 @@ class ExecService final : public services::Service {
   void send(const ReactorOutputs& out, std::uint32_t version) {
     publisher_.send(out, version);
     decisions_.send(out);
+    orders_.send(out);
     const auto is_open = [](const DecisionRecord& decision) {
       return decision.status.state == executive::DecisionState::open;
     };
@@ -337,6 +350,7 @@ class ExecService final : public services::Service {
   } call_;                           // the last one
   OutputPublisher publisher_;
   DecisionLink decisions_;
+  OrderLink orders_;
 };
 
 // With a journal of its own.

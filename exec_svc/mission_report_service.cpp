@@ -16,6 +16,7 @@ v1::MissionStatus mission_status(const Reactor& reactor, const MissionModel& mis
   v1::MissionStatus status;
   const ReactorCounts counts = reactor.counts();
   status.mission(mission.name);
+  status.held(reactor.held());
   status.phase(static_cast<v1::MissionPhase>(reactor.phase()));
   status.plan_version(reactor.plan_version());
   status.replans(counts.replans);

@@ -42,6 +42,18 @@ Entry Entry::load(const std::filesystem::path& file) {
   }
 }
 
+Entry Entry::parse(const std::string& text, const std::string& name) {
+  auto path = std::make_shared<const std::filesystem::path>(name);
+  try {
+    YAML::Node root = YAML::Load(text);
+    if (!root.IsMap()) throw FileError(name + ":1:1: it holds no 'key: value' pairs; see docs/missions.md");
+    return Entry(path, root);
+  } catch (const YAML::Exception& error) {
+    throw FileError(place_of(*path, error.mark) + ": not valid YAML (" + error.msg +
+                    "); mend the syntax there");
+  }
+}
+
 Entry Entry::at(std::string_view key) const {
   if (auto entry = find(key)) return *entry;
   fail("'" + std::string(key) + "' is missing; add it");

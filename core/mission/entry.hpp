@@ -30,6 +30,9 @@ class Entry {
  public:
   /// Reads the root of a file. Throws FileError if it cannot be read, is not YAML, or is not a mapping.
   static Entry load(const std::filesystem::path& file);
+  /// Reads a text that came otherwise; `name` stands for the file in what it says of places. Throws FileError
+  /// as load() does.
+  static Entry parse(const std::string& text, const std::string& name);
 
   /// Returns the value of a key of a mapping; throws FileError if it is missing.
   Entry at(std::string_view key) const;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -68,6 +69,11 @@ class Writer {
   void put(const std::map<K, V>& values) {
     number(values.size());
     for (const auto& [key, value] : values) (*this)(key, value);
+  }
+  template <class T>
+  void put(const std::set<T>& values) {
+    number(values.size());
+    for (const T& value : values) put(value);
   }
   template <class T>
   void put(const std::optional<T>& value) {
@@ -149,6 +155,15 @@ class Reader {
   void get(std::vector<T>& values) {
     values.clear();
     for (std::size_t left = count(); left > 0; --left) get(values.emplace_back());
+  }
+  template <class T>
+  void get(std::set<T>& values) {
+    values.clear();
+    for (std::size_t left = count(); left > 0; --left) {
+      T value{};
+      get(value);
+      values.insert(std::move(value));
+    }
   }
   template <class K, class V>
   void get(std::map<K, V>& values) {

@@ -94,7 +94,8 @@ void Attempts::fail_or_retry(Index activity, Time now, const std::string& reason
 bool Attempts::retry(Index activity, Time now, const std::string& reason) {
   const PlanActivity& planned = state_->plan.activities[activity];
   ActivityRun& run = state_->runs[activity];
-  if (!state_->starting() || run.retries_used >= planned.retries || now > deadlines_->end(activity))
+  if (!state_->starting() || !state_->permissions.recovers || run.retries_used >= planned.retries ||
+      now > deadlines_->end(activity))
     return false;
   const auto within = state_->settings.retry_within.find(planned.name);
   if (within != state_->settings.retry_within.end() && now > plus(*run.started, within->second)) return false;

@@ -24,8 +24,8 @@ std::vector<temporal::Property> filled(std::vector<temporal::Property> arguments
 const Contingency* ContingencyRuns::usable(Index activity) const {
   const PlanActivity& planned = state_->plan.activities[activity];
   const auto found = state_->settings.contingencies.find(planned.contingency);
-  if (!state_->starting() || !state_->runs[activity].started || planned.owner.empty() ||
-      found == state_->settings.contingencies.end())
+  if (!state_->starting() || !state_->permissions.recovers || !state_->runs[activity].started ||
+      planned.owner.empty() || found == state_->settings.contingencies.end())
     return nullptr;
   const bool left = records_[activity].used < found->second.times && !found->second.commands.empty();
   return left ? &found->second : nullptr;

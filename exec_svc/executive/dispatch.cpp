@@ -1,6 +1,7 @@
 #include "exec_svc/executive/dispatch.hpp"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace roci::exec::executive {
@@ -33,6 +34,10 @@ bool Dispatch::try_start(Index activity, Time now) {
   const PlanActivity& planned = state_->plan.activities[activity];
   ActivityRun& run = state_->runs[activity];
   if (run.phase != ActivityPhase::waiting) return false;
+  if (std::string refusal = state_->permissions.refusal(planned.id); !refusal.empty()) {
+    if (run.reason != refusal) state_->change(activity, run.state, std::move(refusal));  // the ground sees it
+    return false;
+  }
   if (!planned.skip_if.empty() && evaluate(planned.skip_if, state_->lookup()) == Truth::yes) {
     state_->skip(activity, "skipped: " + describe(planned.skip_if));
     return true;

@@ -11,6 +11,7 @@ namespace roci::exec::executive {
 
 struct Executive::Impl {
   ExecutiveSettings settings;
+  Permissions permissions;
   TimelineStore store;
   std::unique_ptr<PlanRun> run;
   temporal::FlexiblePlan no_plan;
@@ -48,7 +49,8 @@ std::vector<std::string> Executive::load(temporal::FlexiblePlan plan, temporal::
   if (!faults.empty()) return faults;
   impl_->move_to(now);
   const std::unique_ptr<PlanRun> before = std::move(impl_->run);
-  impl_->run = std::make_unique<PlanRun>(std::move(plan), impl_->settings, impl_->store, impl_->epoch);
+  impl_->run = std::make_unique<PlanRun>(std::move(plan), impl_->settings, impl_->permissions, impl_->store,
+                                         impl_->epoch);
   if (before) impl_->run->adopt(*before, impl_->now);
   return {};
 }
@@ -87,6 +89,21 @@ Outputs Executive::cancel_all(temporal::Time now) {
 
 void Executive::hold_starts(bool hold) {
   if (impl_->run) impl_->run->hold_starts(hold);
+}
+
+void Executive::permit(Permissions permissions) { impl_->permissions = std::move(permissions); }
+
+bool Executive::drop(const std::string& activity, const std::string& reason) {
+  return impl_->run && impl_->run->drop(activity, reason);
+}
+
+void Executive::set_contingency(Contingency contingency) {
+  const std::string name = contingency.name;
+  impl_->settings.contingencies[name] = std::move(contingency);
+}
+
+bool Executive::contingency_under_way(const std::string& name) const {
+  return impl_->run && impl_->run->contingency_under_way(name);
 }
 
 std::vector<StepStatus> Executive::running() const {

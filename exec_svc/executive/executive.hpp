@@ -11,6 +11,7 @@
 #include "core/temporal/flexible_plan.hpp"
 #include "exec_svc/executive/contingency.hpp"
 #include "exec_svc/executive/messages.hpp"
+#include "exec_svc/executive/permissions.hpp"
 
 namespace roci::exec::executive {
 
@@ -74,6 +75,15 @@ class Executive {
 
   /// While held, no activity starts; what runs goes on, and latest starts still pass. load() ends it.
   void hold_starts(bool hold);
+
+  /// What the ground lets the executive do from now on, whatever plan is loaded.
+  void permit(Permissions permissions);
+  /// Leaves out an activity that has not begun; its neighbours keep their order. False: there is none.
+  bool drop(const std::string& activity, const std::string& reason);
+  /// The contingency of that name from now on; it must not be under way.
+  void set_contingency(Contingency contingency);
+  /// Whether some activity runs the contingency of that name.
+  bool contingency_under_way(const std::string& name) const;
 
   /// Activities that were started and have not ended, in plan order.
   std::vector<StepStatus> running() const;

@@ -10,9 +10,9 @@ using temporal::PlanActivity;
 using temporal::Time;
 using temporal::TimePoint;
 
-PlanRun::PlanRun(temporal::FlexiblePlan plan, const ExecutiveSettings& settings, TimelineStore& store,
-                 std::uint64_t epoch)
-    : state_(std::move(plan), settings, store, epoch) {}
+PlanRun::PlanRun(temporal::FlexiblePlan plan, const ExecutiveSettings& settings,
+                 const Permissions& permissions, TimelineStore& store, std::uint64_t epoch)
+    : state_(std::move(plan), settings, permissions, store, epoch) {}
 
 void PlanRun::adopt(PlanRun& before, Time now) {
   withdraw_what_is_gone(before);
@@ -77,6 +77,21 @@ void PlanRun::cancel_all(Time now) {
   exchange_.withdraw_all(now);
   state_.update_outcome();
   decisions_.close();
+}
+
+bool PlanRun::drop(const std::string& activity, const std::string& reason) {
+  const auto found = state_.index_of.find(activity);
+  if (found == state_.index_of.end() || state_.runs[found->second].phase != ActivityPhase::waiting)
+    return false;
+  state_.skip(found->second, reason);
+  return true;
+}
+
+bool PlanRun::contingency_under_way(const std::string& name) const {
+  return std::ranges::any_of(state_.active, [&](Index activity) {
+    return state_.runs[activity].phase == ActivityPhase::contingency &&
+           state_.plan.activities[activity].contingency == name;
+  });
 }
 
 Outputs PlanRun::take_outputs(Time now) {

@@ -20,9 +20,9 @@ namespace roci::exec::executive {
 
 class PlanRun {
  public:
-  /// The plan has passed check(); settings and store outlive the run.
-  PlanRun(temporal::FlexiblePlan plan, const ExecutiveSettings& settings, TimelineStore& store,
-          std::uint64_t epoch);
+  /// The plan has passed check(); settings, permissions and store outlive the run.
+  PlanRun(temporal::FlexiblePlan plan, const ExecutiveSettings& settings, const Permissions& permissions,
+          TimelineStore& store, std::uint64_t epoch);
   PlanRun(const PlanRun&) = delete;
   PlanRun& operator=(const PlanRun&) = delete;
 
@@ -41,6 +41,9 @@ class PlanRun {
   void cancel_all(temporal::Time now);
   /// Keys that are issued from now on carry this epoch; those that were issued keep theirs.
   void begin_epoch(std::uint64_t epoch) { state_.epoch = epoch; }
+  /// False: the plan has no such activity that waits.
+  bool drop(const std::string& activity, const std::string& reason);
+  bool contingency_under_way(const std::string& name) const;
   void hold_starts(bool hold) { dispatch_.hold_starts(hold); }
   /// Asks what became of all that runs.
   void resume(temporal::Time now) { exchange_.query_all(now); }

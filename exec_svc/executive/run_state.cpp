@@ -12,9 +12,10 @@ using temporal::Time;
 using temporal::TimePoint;
 
 RunState::RunState(temporal::FlexiblePlan flexible_plan, const ExecutiveSettings& executive_settings,
-                   TimelineStore& timelines, std::uint64_t current_epoch)
+                   const Permissions& permitted, TimelineStore& timelines, std::uint64_t current_epoch)
     : plan(std::move(flexible_plan)),
       settings(executive_settings),
+      permissions(permitted),
       store(timelines),
       epoch(current_epoch),
       points(plan, executive_settings.start == StartPolicy::latest, executive_settings.only_committed),

@@ -30,14 +30,15 @@ struct CommandOf {
 };
 
 struct RunState {
-  /// The plan has passed check(); settings and store outlive the run.
+  /// The plan has passed check(); settings, permissions and store outlive the run.
   RunState(temporal::FlexiblePlan flexible_plan, const ExecutiveSettings& executive_settings,
-           TimelineStore& timelines, std::uint64_t current_epoch);
+           const Permissions& permitted, TimelineStore& timelines, std::uint64_t current_epoch);
   RunState(const RunState&) = delete;  // parts know it by address
   RunState& operator=(const RunState&) = delete;
 
   temporal::FlexiblePlan plan;
   const ExecutiveSettings& settings;
+  const Permissions& permissions;  ///< of the ground, as they are now
   TimelineStore& store;
   std::uint64_t epoch;  ///< of the executive: keys that it issues carry it for good
   PointDispatcher points;

@@ -12,8 +12,9 @@
 namespace roci::exec::journal {
 
 /// In the order of one turn.
-inline constexpr std::array<std::string_view, 9> kCrashPoints{
+inline constexpr std::array<std::string_view, 10> kCrashPoints{
     "after-goal",          ///< a goal came in
+    "after-order",         ///< an order came in, nothing is decided
     "after-ack",           ///< the owner answered a command: it has been carried out, or is
     "after-answer",        ///< the planner answered
     "before-write-ahead",  ///< all inputs of a turn are there, nothing is journaled

@@ -72,6 +72,11 @@ std::string line_of(const AnswerReceipt& receipt) {
          " outcome=" + std::to_string(static_cast<int>(receipt.result.outcome)) + " " + receipt.result.reason;
 }
 
+std::string line_of(const orders::OrderStatus& order) {
+  return "ordered " + order.key.text() + " stage=" + std::to_string(static_cast<int>(order.stage)) + " " +
+         std::to_string(order.plan_version) + " " + order.reason;
+}
+
 std::string line_of(const Command& command) {
   return "command " + command.activity + " " + std::to_string(command.attempt) +
          " action=" + std::to_string(static_cast<int>(command.action)) + " " + command.owner + " " +
@@ -116,6 +121,8 @@ std::vector<DecisionLine> decisions(temporal::Time now, const ReactorOutputs& ou
   for (const DecisionRecord& decision : out.decisions) lines.push_back({"trace", stamp + line_of(decision)});
   for (const AnswerReceipt& receipt : out.answer_receipts)
     lines.push_back({"trace", stamp + line_of(receipt)});
+  for (const orders::OrderStatus& order : out.order_statuses)
+    lines.push_back({"trace", stamp + line_of(order)});
   if (out.cancelled_call) lines.push_back({"call", "cancel " + std::to_string(*out.cancelled_call)});
   if (out.call) {
     lines.push_back({"call", line_of(*out.call)});
@@ -128,7 +135,8 @@ std::vector<DecisionLine> decisions(temporal::Time now, const ReactorOutputs& ou
 bool is_decision(std::string_view kind, std::string_view text) {
   if (kind == "trace") {
     text.remove_prefix(std::min(text.find(' '), text.size()));
-    constexpr std::array<std::string_view, 4> kDecided{" plan ", " command ", " decision ", " answered "};
+    constexpr std::array<std::string_view, 5> kDecided{" plan ", " command ", " decision ", " answered ",
+                                                       " ordered "};
     return std::ranges::any_of(kDecided, [&](std::string_view word) { return text.starts_with(word); });
   }
   return kind == "goal" || kind == "event" || kind == "step" || kind == "call";

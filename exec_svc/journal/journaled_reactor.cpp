@@ -93,10 +93,13 @@ bool JournaledReactor::replay() {
   return true;
 }
 
-// Goals and plan numbers from the journal, the rest from observations to come.
+// Goals, plan numbers and what the ground leaves to the executive from the journal, the rest from observations to come.
 void JournaledReactor::begin_anew() {
   reactor_ = std::make_unique<Reactor>(*mission_);
   reactor_->restore(journal_->goals(), static_cast<std::uint32_t>(journal_->number("plan_version", 0)));
+  const std::int64_t all = static_cast<std::int64_t>(orders::AutonomyLevel::e4);
+  reactor_->restore_authority(static_cast<orders::AutonomyLevel>(journal_->number("autonomy", all)),
+                              journal_->number("held", 0) != 0);
   journal_->set_number("format", journal::kInputFormat);
   anchor(temporal::Time{0}, "restored");
 }
@@ -121,6 +124,10 @@ void JournaledReactor::write(temporal::Time now, const ReactorInputs& inputs,
     }
   }
   for (const GoalRecord& goal : out.goal_changes) journal_->put_goal(goal);
+  if (!out.order_statuses.empty()) {
+    journal_->set_number("autonomy", static_cast<std::int64_t>(reactor_->autonomy()));
+    journal_->set_number("held", reactor_->held() ? 1 : 0);
+  }
   if (out.adopted) journal_->set_number("plan_version", reactor_->plan_version());
   ++turns_since_anchor_;
   if (reactor_->at_rest() && (out.call || turns_since_anchor_ >= kTurnsUntilAnchor)) anchor(now, "anchor");

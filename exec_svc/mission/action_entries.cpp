@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 namespace roci::exec::mission {
@@ -104,6 +105,22 @@ ActionBinding read_action(const Entry& entry, const std::vector<Component>& comp
     if (!contingencies.contains(out.contingency))
       contingency->fail("no contingency '" + out.contingency +
                         "' in this mission; declare it under 'contingencies'");
+  }
+  return out;
+}
+
+GroundModel read_ground(const Entry& entry, const std::map<std::string, Contingency>& contingencies) {
+  entry.allow_only({"values", "uploads"});
+  GroundModel out;
+  if (const auto values = entry.find("values")) out.values = values->texts();
+  if (const auto uploads = entry.find("uploads")) {
+    static constexpr std::string_view prefix = "contingencies.";
+    for (const Entry& item : uploads->items()) {
+      const std::string target = item.text();
+      if (!target.starts_with(prefix) || !contingencies.contains(target.substr(prefix.size())))
+        item.fail("'" + target + "' is no contingency of this mission; name one as contingencies.NAME");
+      out.uploads.push_back(target);
+    }
   }
   return out;
 }

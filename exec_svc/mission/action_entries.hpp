@@ -18,6 +18,10 @@ executive::Contingency read_contingency(const std::string& name, const roci::mis
 ActionBinding read_action(const roci::mission::Entry& entry, const std::vector<Component>& components,
                           const std::map<std::string, executive::Contingency>& contingencies);
 
+/// What the ground may change in flight; uploads are contingencies of the mission.
+GroundModel read_ground(const roci::mission::Entry& entry,
+                        const std::map<std::string, executive::Contingency>& contingencies);
+
 RecoveryStrategy read_strategy(const roci::mission::Entry& entry);
 executive::StartPolicy read_start(const roci::mission::Entry& entry);
 Replanning read_replanning(const roci::mission::Entry& entry);

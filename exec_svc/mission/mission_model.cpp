@@ -216,6 +216,7 @@ MissionModel read_mission(const std::filesystem::path& folder_or_file, const Exe
   if (domain) require_domain_names(root, *domain);
   out.planner = read_planner(root.at("planner"), out);
   if (const auto executive = root.find("executive")) out.executive = read_executive(*executive);
+  if (const auto ground = root.find("ground")) out.ground = read_ground(*ground, out.contingencies);
   return out;
 }
 

@@ -148,6 +148,12 @@ struct ReactorSettings {
   std::map<std::string, temporal::Duration> round_trips{};
 };
 
+/// What the ground may change in flight by an order.
+struct GroundModel {
+  std::vector<std::string> values;   ///< timelines that the ground owns
+  std::vector<std::string> uploads;  ///< places of the mission file, e.g. "contingencies.wipe-lens"
+};
+
 struct MissionModel {
   std::string name;
   ExecutiveRole role;
@@ -163,6 +169,7 @@ struct MissionModel {
   std::map<std::string, GoalKind> goal_kinds;
   PlannerSettings planner;
   ReactorSettings executive;
+  GroundModel ground;
 
   bool has_domain() const { return !domain_name.empty(); }
 };

@@ -76,7 +76,7 @@ void BackgroundReplan::step(Time now, const ReactorInputs& inputs) {
   if (call_) proceed(now);
   const bool may_begin =
       state.phase != MissionPhase::pausing && (state.phase != MissionPhase::planning || reply != nullptr);
-  if (state.replan_wanted && may_begin) {
+  if (state.replan_due() && may_begin) {
     if (!possible()) {
       stop_.begin_pause(now);
     } else if (!parts_.call.open()) {

@@ -46,6 +46,10 @@ std::string ContinuousPlanning::fault_of(Time now, const temporal::PlanDelta& de
                                          FlexiblePlan& next) const {
   const mission::MissionModel& mission = *parts_.state.mission;
   if (!takes_plans()) return "the robot is not ready for a plan";
+  if (parts_.state.phase == MissionPhase::executing &&
+      parts_.state.authority.level() != orders::AutonomyLevel::e4)
+    return std::string("the running plan stays as it is at autonomy level ") +
+           to_string(parts_.state.authority.level());
   if (delta.added.engine != mission.planner.engine)
     return "it comes from engine '" + delta.added.engine + "', the mission's is '" + mission.planner.engine +
            "'";
@@ -132,6 +136,7 @@ void ContinuousPlanning::forget_ended_plan(Time now) {
   const OutcomeKind kind = executive.outcome().kind;
   const bool ended = kind == OutcomeKind::finished || kind == OutcomeKind::cancelled;
   if (parts_.state.phase == MissionPhase::executing || !ended || executive.plan().activities.empty()) return;
+  if (waits_for_ground()) return;  // it may be launched again
   ended_activities_.clear();
   for (const StepStatus& step : executive.steps())
     if (step.state != temporal::ActivityState::waiting) ended_activities_.push_back(step.activity);
@@ -142,8 +147,13 @@ void ContinuousPlanning::forget_ended_plan(Time now) {
 bool ContinuousPlanning::takes_plans() const {
   const MissionState& state = parts_.state;
   if (state.phase == MissionPhase::executing) return true;
+  if (waits_for_ground()) return false;
   return parts_.plan.outcome().kind != OutcomeKind::cancelling && state.beliefs.unobserved().empty() &&
          state.beliefs.active().empty();
+}
+
+bool ContinuousPlanning::waits_for_ground() const {
+  return parts_.state.phase == MissionPhase::safe && !parts_.state.authority.may_replan();
 }
 
 void ContinuousPlanning::report_receipt() {

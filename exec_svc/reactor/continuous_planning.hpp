@@ -33,6 +33,7 @@ class ContinuousPlanning final : public ReplanningPolicy {
   void await_repair(temporal::Time now, const std::string& reason);
   void forget_ended_plan(temporal::Time now);
   bool takes_plans() const;
+  bool waits_for_ground() const;
   void report_receipt();
 
   PolicyParts parts_;

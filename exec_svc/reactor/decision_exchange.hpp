@@ -36,7 +36,7 @@ class DecisionExchange {
   void close(const GivenAnswer& answer, executive::AnswerResult result, ReactorOutputs& out);
 
   std::map<std::string, DecisionRecord> decisions_;  ///< by id
-  std::map<IssuedKey, AnswerReceipt> receipts_;
+  std::map<orders::IssuedKey, AnswerReceipt> receipts_;
   std::vector<GivenAnswer> judged_by_plan_;  ///< in this step
 };
 

@@ -5,6 +5,7 @@
 #include "exec_svc/archive/plan_fields.hpp"
 #include "exec_svc/executive/message_fields.hpp"
 #include "exec_svc/goals/goal_fields.hpp"
+#include "exec_svc/orders/order_fields.hpp"
 #include "exec_svc/problem/problem_fields.hpp"
 #include "exec_svc/reactor/messages.hpp"
 
@@ -27,10 +28,6 @@ void fields(A& a, archive::Of<PlanReply, A>& v) {
   a(v.call, v.verdict, v.reason, v.blocking, v.plan);
 }
 template <class A>
-void fields(A& a, archive::Of<IssuedKey, A>& v) {
-  a(v.issuer, v.id);
-}
-template <class A>
 void fields(A& a, archive::Of<GivenAnswer, A>& v) {
   a(v.key, v.sample, v.decision, v.choice, v.value);
 }
@@ -45,7 +42,7 @@ void fields(A& a, archive::Of<AnswerReceipt, A>& v) {
 template <class A>
 void fields(A& a, archive::Of<ReactorInputs, A>& v) {
   a(v.restarted, v.epoch, v.goals, v.observations, v.acks, v.losses, v.arrivals, v.models, v.reply, v.deltas);
-  a(v.answers);
+  a(v.answers, v.ground_orders);
 }
 template <class A>
 void fields(A& a, archive::Of<PlannedAction, A>& v) {

@@ -11,6 +11,7 @@
 #include "core/temporal/verdict.hpp"
 #include "exec_svc/executive/messages.hpp"
 #include "exec_svc/goals/goal_set.hpp"
+#include "exec_svc/orders/order.hpp"
 #include "exec_svc/problem/problem.hpp"
 #include "exec_svc/reactor/remaining_plan.hpp"
 
@@ -63,17 +64,9 @@ struct PlanReceipt {
   bool operator==(const PlanReceipt&) const = default;
 };
 
-/// Who gave an answer or an order, under a name of the giver's choice.
-struct IssuedKey {
-  std::string issuer;
-  std::string id;
-  auto operator<=>(const IssuedKey&) const = default;
-  std::string text() const { return issuer + "/" + id; }
-};
-
 /// An answer to a decision, as it came in.
 struct GivenAnswer {
-  IssuedKey key;
+  orders::IssuedKey key;
   goals::SampleId sample;
   std::string decision;
   std::string choice;  ///< one of its choices; or
@@ -88,7 +81,7 @@ struct DecisionRecord {
 
 /// What became of an answer.
 struct AnswerReceipt {
-  IssuedKey key;
+  orders::IssuedKey key;
   goals::SampleId answers;  ///< the sample that brought it
   std::string decision;
   executive::AnswerResult result;
@@ -105,8 +98,9 @@ struct ReactorInputs {
   std::vector<std::string> arrivals;  ///< services that came (back)
   std::vector<ModelVersion> models;
   std::optional<PlanReply> reply;
-  std::vector<temporal::PlanDelta> deltas;  ///< of an engine that plans all the time
-  std::vector<GivenAnswer> answers;         ///< to decisions of the running plan
+  std::vector<temporal::PlanDelta> deltas;   ///< of an engine that plans all the time
+  std::vector<GivenAnswer> answers;          ///< to decisions of the running plan
+  std::vector<orders::Order> ground_orders;  ///< of the ground
 };
 
 /// In the order of MissionPhase in idl/plan.idl.
@@ -140,9 +134,11 @@ struct ReactorOutputs {
   std::optional<PlanRequest> call;
   std::optional<temporal::FlexiblePlan> adopted;  ///< a plan that now runs
   std::optional<PlanReceipt> receipt;
-  std::vector<DecisionRecord> decisions;       ///< those of which the state has changed
-  std::vector<AnswerReceipt> answer_receipts;  ///< one for each answer that was not known
-  std::optional<temporal::Time> wake;          ///< step() is to be called then, if nothing comes before
+  std::vector<DecisionRecord> decisions;            ///< those of which the state has changed
+  std::vector<AnswerReceipt> answer_receipts;       ///< one for each answer that was not known
+  std::vector<orders::OrderStatus> order_statuses;  ///< each stage of an order that was reached
+  std::vector<executive::Observation> values;       ///< that the ground has set
+  std::optional<temporal::Time> wake;               ///< step() is to be called then, if nothing comes before
 };
 
 struct ReactorCounts {

@@ -14,6 +14,11 @@ void MissionState::want_plan(const std::string& reason) {
   replan_reason = reason;
 }
 
+bool MissionState::replan_due() const {
+  if (!replan_wanted || authority.held()) return false;
+  return authority.may_replan() || phase == MissionPhase::idle || phase == MissionPhase::finished;
+}
+
 void MissionState::report(Severity level, std::string code, std::string text) {
   out.events.push_back({level, std::move(code), std::move(text)});
 }

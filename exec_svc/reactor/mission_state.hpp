@@ -8,6 +8,7 @@
 #include "exec_svc/beliefs/beliefs.hpp"
 #include "exec_svc/goals/goal_set.hpp"
 #include "exec_svc/mission/mission_model.hpp"
+#include "exec_svc/orders/authority.hpp"
 #include "exec_svc/reactor/messages.hpp"
 
 namespace roci::exec::reactor {
@@ -20,12 +21,16 @@ struct MissionState {
   beliefs::Beliefs beliefs;
   goals::GoalSet goals;
   MissionPhase phase = MissionPhase::idle;
+  orders::Authority authority;  ///< what the ground leaves to the executive
   bool replan_wanted = false;
   std::string replan_reason;  ///< of the newest wish for a plan, also once it has been granted
   ReactorCounts counts;       ///< of planner calls and replans; goals are counted when asked for
   ReactorOutputs out;         ///< of the step under way
 
   void want_plan(const std::string& reason);
+  /// A wish for a plan, and the ground lets it be granted: below autonomy E4 a plan is only made where none
+  /// runs, under a hold none.
+  bool replan_due() const;
   /// Tells operators.
   void report(Severity level, std::string code, std::string text);
   void set_goal(const goals::GoalKey& key, goals::GoalState goal_state, const std::string& reason,
@@ -37,6 +42,7 @@ struct MissionState {
 
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self) {
+    orders::Authority::fields(archive, self.authority);
     archive(self.phase, self.replan_wanted, self.replan_reason, self.counts);
   }
 };

@@ -53,13 +53,15 @@ void PlanRecovery::note_successes() {
 
 void PlanRecovery::monitor(Time now, bool next_is_coming) {
   const Outcome outcome = plan_->outcome();
+  const bool all = state_->authority.level() == orders::AutonomyLevel::e4;
+  const bool waits = state_->replan_wanted && !state_->replan_due();  // for the end of a hold
   if (outcome.kind == OutcomeKind::broken) {
-    handle_failure(now, outcome);
+    if (!waits || !plan_->invalid()) handle_failure(now, outcome);
   } else if (outcome.kind == OutcomeKind::finished && !next_is_coming) {
     state_->report(Severity::info, "plan.finished", plan_->name() + " finished");
     state_->phase = MissionPhase::idle;
-    if (!state_->goals.open().empty()) state_->want_plan("the plan ended with goals open");
-  } else if (outcome.kind == OutcomeKind::running && !state_->replan_wanted) {
+    if (all && !state_->goals.open().empty()) state_->want_plan("the plan ended with goals open");
+  } else if (outcome.kind == OutcomeKind::running && (!state_->replan_wanted || !all)) {
     if (const auto conflict = plan_->conflict_ahead(now)) break_plan(now, conflict->reason);
   }
 }
@@ -77,6 +79,9 @@ void PlanRecovery::handle_failure(Time now, const Outcome& outcome) {
 void PlanRecovery::break_plan(Time now, const std::string& reason) {
   plan_->invalidate();
   state_->report(Severity::warning, "plan.broken", plan_->name() + " is broken: " + reason);
+  if (state_->authority.level() < orders::AutonomyLevel::e4)
+    return safing_->make_safe(now, plan_->name() + " broke at autonomy level " +
+                                       to_string(state_->authority.level()) + ": " + reason);
   if (policy_.replans) return state_->want_plan(plan_->name() + " is broken");
   if (!policy_.asks_ground)
     state_->give_up(state_->open_goals(),

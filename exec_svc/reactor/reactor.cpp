@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "exec_svc/reactor/decision_exchange.hpp"
+#include "exec_svc/reactor/ground_orders.hpp"
 #include "exec_svc/reactor/inputs.hpp"
 #include "exec_svc/reactor/message_fields.hpp"
 #include "exec_svc/reactor/replanning_policy.hpp"
@@ -31,6 +32,7 @@ struct Reactor::Parts {
   Safing safing{state, plan};
   PlanningCycle planning{state, plan, call, safing};
   PlanRecovery recovery{state, plan, call, safing};
+  GroundOrders ground{state, plan, safing};
   std::unique_ptr<ReplanningPolicy> policy = make_replanning_policy(
       state.mission->executive.replanning, {state, plan, call, safing, planning, recovery});
 };
@@ -50,9 +52,12 @@ void Reactor::restore(const std::vector<GoalRecord>& goals, std::uint32_t last_p
   if (!state.goals.open().empty()) state.want_plan("restarted with open goals");
 }
 
-ReactorOutputs Reactor::step(Time now, const ReactorInputs& inputs) {
+ReactorOutputs Reactor::step(Time now, const ReactorInputs& came_in) {
   MissionState& state = parts_->state;
   state.out = {};
+  std::optional<ReactorInputs> with_orders;  // what the ground sets and answers comes in beside the rest
+  if (!came_in.ground_orders.empty()) parts_->ground.obey(now, with_orders.emplace(came_in));
+  const ReactorInputs& inputs = with_orders ? *with_orders : came_in;
   for (const Observation& observation : inputs.observations)
     state.beliefs.observe(observation.timeline, observation.value);
   take_services(inputs);
@@ -68,7 +73,14 @@ ReactorOutputs Reactor::step(Time now, const ReactorInputs& inputs) {
   parts_->safing.repeat_lost(now);
   finish_if_done();
   parts_->decisions.note_changes(state.out.decisions);
+  parts_->ground.settle();
   return std::move(state.out);
+}
+
+void Reactor::restore_authority(orders::AutonomyLevel level, bool held) {
+  parts_->state.authority.set_level(level);
+  parts_->state.authority.hold_all(held);
+  parts_->ground.reinstate();
 }
 
 void Reactor::take_services(const ReactorInputs& inputs) {
@@ -105,7 +117,8 @@ void Reactor::finish_if_done() {
 
 bool Reactor::at_rest() const {
   const OutcomeKind kind = parts_->plan.outcome().kind;
-  return phase() != MissionPhase::executing &&
+  const bool may_be_relaunched = phase() == MissionPhase::safe && kind == OutcomeKind::cancelled;
+  return phase() != MissionPhase::executing && !may_be_relaunched &&
          (kind == OutcomeKind::idle || kind == OutcomeKind::finished || kind == OutcomeKind::cancelled);
 }
 
@@ -117,6 +130,7 @@ void part_fields(Archive& archive, Parts& parts) {
   MissionState::fields(archive, parts.state);
   RunningPlan::fields(archive, parts.plan);
   DecisionExchange::fields(archive, parts.decisions);
+  GroundOrders::fields(archive, parts.ground);
   PlannerCall::fields(archive, parts.call);
   Safing::fields(archive, parts.safing);
   PlanningCycle::fields(archive, parts.planning);
@@ -145,6 +159,7 @@ void Reactor::restore(std::string_view snapshot) {
   reader(goals, values, assumed, remaining);
   parts_->policy->restore(reader);
   reader.finish();
+  parts_->ground.reinstate();
   MissionState& state = parts_->state;
   for (const GoalRecord& record : goals) state.goals.restore(record);
   std::vector<Observation> observed;
@@ -180,6 +195,16 @@ const std::map<std::string, DecisionRecord>& Reactor::decisions() const {
 }
 
 std::vector<AnswerReceipt> Reactor::answer_receipts() const { return parts_->decisions.receipts(); }
+
+std::vector<orders::OrderStatus> Reactor::order_statuses() const { return parts_->ground.book().all(); }
+
+const std::map<std::string, temporal::Value>& Reactor::ground_values() const {
+  return parts_->ground.values();
+}
+
+orders::AutonomyLevel Reactor::autonomy() const { return parts_->state.authority.level(); }
+
+bool Reactor::held() const { return parts_->state.authority.held(); }
 
 ReactorCounts Reactor::counts() const {
   ReactorCounts counts = parts_->state.counts;

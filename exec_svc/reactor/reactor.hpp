@@ -27,6 +27,9 @@ class Reactor {
   /// Before the first step, after a restart: goals as the journal has them, the last plan version used.
   void restore(const std::vector<goals::GoalRecord>& goals, std::uint32_t last_plan_version);
 
+  /// The same for what the ground leaves to the executive.
+  void restore_authority(orders::AutonomyLevel level, bool held);
+
   ReactorOutputs step(temporal::Time now, const ReactorInputs& inputs);
 
   /// Nothing is commanded and no end of a command awaited: snapshot() is all there is to know.
@@ -48,6 +51,12 @@ class Reactor {
   /// The decisions that plans have asked for, and the newest receipt of each answer.
   const std::map<std::string, DecisionRecord>& decisions() const;
   std::vector<AnswerReceipt> answer_receipts() const;
+  /// Where every order of the ground stands, and the values that it has set.
+  std::vector<orders::OrderStatus> order_statuses() const;
+  const std::map<std::string, temporal::Value>& ground_values() const;
+  orders::AutonomyLevel autonomy() const;
+  /// By order: nothing new starts.
+  bool held() const;
   /// "achieved": every hard goal, and there was one (a console's goals that were rejected do not count:
   /// whoever sent them was told); "partial": some hard goal was not, robot safe; "failed": robot not safe;
   /// empty while open.

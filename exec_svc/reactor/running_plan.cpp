@@ -7,6 +7,7 @@
 
 #include "core/temporal/schedule.hpp"
 #include "exec_svc/reactor/recovery_policy.hpp"
+#include "exec_svc/reactor/relaunch.hpp"
 
 namespace roci::exec::reactor {
 
@@ -85,12 +86,14 @@ std::string RunningPlan::load(temporal::FlexiblePlan plan, Time now) {
 
 /// An engine that plans all the time sends activities in any order and changes a plan of which a part has
 /// happened; a planner's plan comes in the order of its starts, and all of it waits.
-void RunningPlan::watch(const temporal::FlexiblePlan& plan) {
+void RunningPlan::watch(const temporal::FlexiblePlan& plan, bool launched_again) {
   const mission::MissionModel& mission = *state_->mission;
   std::set<std::string> predicted;
   for (const mission::WindowModel& window : mission.windows)
     predicted.insert(mission.has_domain() ? window.fact : window.timeline);
-  const bool new_version = mission.executive.replanning == mission::Replanning::continuous;
+  predicted.insert(mission.ground.values.begin(),
+                   mission.ground.values.end());  // the ground may still set them
+  const bool new_version = mission.executive.replanning == mission::Replanning::continuous || launched_again;
   const temporal::FlexiblePlan watched = new_version ? in_order_of_starts(plan) : plan;
   ConflictMonitor conflicts(watched, predicted, mission.executive.ack_timeout);
   resource_monitor_ = ResourceMonitor(watched);
@@ -102,6 +105,25 @@ void RunningPlan::watch(const temporal::FlexiblePlan& plan) {
     }
   }
   conflict_monitor_ = std::move(conflicts);
+}
+
+std::string RunningPlan::relaunch(Time now, const std::set<std::string>& dropped) {
+  temporal::FlexiblePlan plan = executive_.plan();
+  const std::vector<StepStatus> steps = executive_.steps();
+  const std::set<std::string> without = left_out(steps, dropped);
+  if (std::string fault = relaunch_fault(plan, steps, without, now); !fault.empty()) return fault;
+  plan.version = ++version_;
+  executive_.load(plan, now);
+  invalid_ = false;
+  for (const std::string& activity : without) executive_.drop(activity, "left out by the relaunch");
+  watch(plan, true);
+  begin(now);
+  return "";
+}
+
+StepStatus RunningPlan::step_of(const std::string& activity) const {
+  const std::vector<StepStatus> steps = executive_.steps();
+  return *std::ranges::find(steps, activity, &StepStatus::activity);
 }
 
 void RunningPlan::begin(Time now) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,21 @@ class RunningPlan {
   void give_answers(std::vector<executive::DecisionAnswer> answers) { answers_ = std::move(answers); }
   /// What became of those that it heard in its last step, in their order.
   const std::vector<executive::AnswerResult>& answer_results() const { return answer_results_; }
+  /// What the ground lets the executive do from now on, whatever plan runs.
+  void permit(executive::Permissions permissions) { executive_.permit(std::move(permissions)); }
+  /// Leaves an activity out that has not begun.
+  void drop(const std::string& activity, const std::string& reason) { executive_.drop(activity, reason); }
+  /// Loads the plan that was stopped once more, as the next version, and runs what is left of it without
+  /// these activities. Returns why not; nothing has changed then.
+  std::string relaunch(temporal::Time now, const std::set<std::string>& dropped);
+  /// The contingency from now on. One that is under way must not be replaced.
+  void set_contingency(executive::Contingency contingency) {
+    executive_.set_contingency(std::move(contingency));
+  }
+  bool contingency_under_way(const std::string& name) const { return executive_.contingency_under_way(name); }
+  /// The state of an activity that the plan has.
+  executive::StepStatus step_of(const std::string& activity) const;
+
   /// Asks owners, after a restart, what became of all that runs.
   void resume(temporal::Time now);
   void cancel(temporal::Time now);
@@ -75,7 +91,7 @@ class RunningPlan {
   }
 
  private:
-  void watch(const temporal::FlexiblePlan& plan);
+  void watch(const temporal::FlexiblePlan& plan, bool launched_again = false);
   std::vector<executive::Observation> changed_conditions();
   void forward(executive::Outputs done);
   void report_windows();

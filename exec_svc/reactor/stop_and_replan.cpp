@@ -26,7 +26,7 @@ void StopAndReplan::step(Time now, const ReactorInputs& inputs) {
   if (state.phase == MissionPhase::executing) parts_.recovery.monitor(now, false);
   const bool may_pause =
       state.phase != MissionPhase::pausing && (state.phase != MissionPhase::planning || reply != nullptr);
-  if (state.replan_wanted && may_pause) begin_pause(now);
+  if (state.replan_due() && may_pause) begin_pause(now);
   if (state.phase == MissionPhase::pausing) continue_pause(now);
   parts_.call.cancel_if_stale(state.phase == MissionPhase::planning && !state.replan_wanted);
 }

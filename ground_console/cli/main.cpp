@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "ground_console/cli/orders.hpp"
 #include "ground_console/cli/verbs.hpp"
 #include "ground_console/cli/watch/watch.hpp"
 
@@ -18,6 +19,7 @@ struct Line {
   bool json = false;
   bool waits = false;  // for a mission to run
   cli::GoalArguments goal;
+  cli::OrderArguments order;
   std::size_t count = 0;
   std::vector<std::string> timelines;
   int (*verb)(lib::Client&, const Line&) = nullptr;
@@ -56,6 +58,69 @@ void add_goal_verbs(CLI::App& app, Line& line) {
            [](lib::Client& client, const Line& l) { return cli::list_goals(client, l.json); });
 }
 
+CLI::App* add_order(CLI::App& parent, Line& line, const char* name, const char* help,
+                    roci::v1::OrderKind kind) {
+  CLI::App* command = add_verb(parent, line, name, help, [](lib::Client& client, const Line& l) {
+    return cli::give_order(client, l.order, l.json);
+  });
+  command->preparse_callback([&line, kind](std::size_t) { line.order.kind = kind; });
+  command->add_option("--id", line.order.id, "A name of your choice; the same again is given once");
+  command->add_option("--issuer", line.order.issuer, "Who orders")->capture_default_str();
+  command->add_option("--robot", line.order.robot, "Whose executive (default: the only one)");
+  return command;
+}
+
+void add_order_verbs(CLI::App& app, Line& line) {
+  CLI::App* order = app.add_subcommand("order", "Order the executive; prints what becomes of the order");
+  order->require_subcommand(1);
+  add_order(*order, line, "hold", "Nothing new starts, or one activity does not", roci::v1::ORDER_HOLD)
+      ->add_option("activity", line.order.target, "It alone, as roci plan names it");
+  add_order(*order, line, "release", "End the hold, or that of one activity", roci::v1::ORDER_RELEASE)
+      ->add_option("activity", line.order.target, "It alone");
+  add_order(*order, line, "approve", "At autonomy E1: let an activity start", roci::v1::ORDER_APPROVE)
+      ->add_option("activity", line.order.target, "As roci plan names it")
+      ->required();
+  CLI::App* set =
+      add_order(*order, line, "set", "Set the value of a timeline that the mission gives to the ground",
+                roci::v1::ORDER_SET_VALUE);
+  set->add_option("timeline", line.order.target, "Its name")->required();
+  set->add_option("value", line.order.value, "true, false, a number, or a state with its arguments")
+      ->required();
+  add_order(*order, line, "autonomy", "Set the level of autonomy", roci::v1::ORDER_AUTONOMY)
+      ->add_option(
+          "level", line.order.level,
+          "E1: each activity is approved; E2: no recovery on board, a broken plan makes safe; E3: retries "
+          "and contingencies; E4: everything")
+      ->required();
+  CLI::App* upload = add_order(*order, line, "upload", "Replace something on board, whole or not at all",
+                               roci::v1::ORDER_UPLOAD);
+  upload
+      ->add_option("target", line.order.target, "What the mission lets you replace, e.g. contingencies.NAME")
+      ->required();
+  upload->add_option("file", line.order.file, "The new content")->required();
+  CLI::App* answer =
+      add_order(*order, line, "answer", "Answer a decision; without arguments: list the open ones",
+                roci::v1::ORDER_ANSWER);
+  answer->add_option("decision", line.order.target, "As roci decisions names it");
+  answer->add_option("choice", line.order.choice, "One of its choices");
+  answer->add_option("--value", line.order.bound, "For a decision that asks for a value");
+  answer->callback([&line] {
+    line.verb = [](lib::Client& client, const Line& l) {
+      return l.order.target.empty() ? cli::list_decisions(client, l.json)
+                                    : cli::give_order(client, l.order, l.json);
+    };
+  });
+  add_order(*order, line, "drop", "Leave out an activity that has not begun, or one of a stopped plan",
+            roci::v1::ORDER_DROP)
+      ->add_option("activity", line.order.target, "As roci plan names it")
+      ->required();
+  add_order(*order, line, "relaunch", "Let the plan that was stopped go on with what is left of it",
+            roci::v1::ORDER_RELAUNCH);
+  add_order(*order, line, "safe", "Make the robot safe now, and hold it", roci::v1::ORDER_SAFE);
+  add_verb(app, line, "decisions", "Decisions of the running plan that are open",
+           [](lib::Client& client, const Line& l) { return cli::list_decisions(client, l.json); });
+}
+
 void tell_waiting() {
   std::cerr << "roci: no mission runs on this machine yet; waiting for one (Ctrl-C ends, ./run starts one)\n";
 }
@@ -87,6 +152,7 @@ int main(int argc, char** argv) {
   app.add_option("--peers", line.connection.peers, "Addresses of the hosts, separated by commas");
   app.add_option("--network", line.connection.network, "Network file of this host");
   add_goal_verbs(app, line);
+  add_order_verbs(app, line);
   add_verb(app, line, "status", "Mission, goals, services, newest values",
            [](lib::Client& client, const Line& l) { return cli::show_status(client, l.json); });
   add_verb(app, line, "plan", "The running plan and the state of each activity",

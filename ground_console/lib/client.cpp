@@ -81,7 +81,8 @@ services::process::Connection wait_for_run(const services::process::ConnectionFl
 
 Client::Client(const services::process::Connection& connection)
     : node_(observer(connection), services::transport::open_transport(connection.dds, connection.transport)),
-      goals_(services::advertise(node_, topics::goal)) {
+      goals_(services::advertise(node_, topics::goal)),
+      orders_(services::advertise(node_, topics::order)) {
   follow(topics::mission_status);
   follow(topics::goal);
   follow(topics::goal_status);
@@ -93,6 +94,8 @@ Client::Client(const services::process::Connection& connection)
   follow(topics::event);
   follow(topics::heartbeat);
   follow(topics::exec_member);
+  follow(topics::decision);
+  follow(topics::order_status);
 }
 
 template <class T>
@@ -121,6 +124,28 @@ std::optional<v1::GoalStatus> Client::send_goal(const v1::Goal& goal, millisecon
   };
   if (!wait(answered, limit)) return std::nullopt;
   return statuses.at(key);
+}
+
+std::optional<v1::OrderStatus> Client::send_order(const v1::Order& order,
+                                                  const std::function<void(const v1::OrderStatus&)>& tell,
+                                                  milliseconds limit) {
+  wait_for_mission(limit);
+  orders_.write(order);
+  const auto stages = [&]() -> const auto& { return view_.order(order.issuer(), order.id()); };
+  std::optional<v1::OrderStatus> last;
+  const auto answers_this = [&, number = orders_.written()](const v1::OrderStatus& status) {
+    return status.answers().sender() == node_.options().name && status.answers().seq() == number;
+  };
+  std::size_t seen = 0;
+  do {
+    for (; seen < stages().size(); ++seen) {
+      if (!answers_this(stages()[seen])) continue;
+      last = stages()[seen];
+      tell(*last);
+    }
+    if (last && (last->stage() == v1::ORDER_REFUSED || last->stage() == v1::ORDER_APPLIED)) return last;
+  } while (wait([&] { return stages().size() > seen; }, limit));
+  return last;
 }
 
 bool Client::wait_for_mission(milliseconds limit) {

@@ -41,6 +41,15 @@ class Client {
   /// nothing if none came in time.
   std::optional<v1::GoalStatus> send_goal(const v1::Goal& goal, std::chrono::milliseconds limit);
 
+  /// Sends an order and tells each stage that this very sample reaches, until it is refused or applied; what
+  /// takes longer than `limit` after its last stage is not waited for. Returns the last stage; nothing if no
+  /// executive answered.
+  std::optional<v1::OrderStatus> send_order(const v1::Order& order,
+                                            const std::function<void(const v1::OrderStatus&)>& tell,
+                                            std::chrono::milliseconds limit);
+  /// No other console ever has the same.
+  const std::string& name() const { return node_.options().name; }
+
   /// Waits until the mission's state has come down (late joiners get the newest of everything).
   bool wait_for_mission(std::chrono::milliseconds limit);
 
@@ -51,6 +60,7 @@ class Client {
   MissionView view_;
   services::Node node_;
   services::Publisher<v1::Goal> goals_;
+  services::Publisher<v1::Order> orders_;
 };
 
 }  // namespace roci::console::lib

@@ -108,6 +108,23 @@ void MissionView::take(const v1::Heartbeat& heartbeat) {
   if (!added && age(heartbeat) >= age(entry->second)) entry->second = heartbeat;
 }
 
+void MissionView::take(const v1::Decision& decision) {
+  note_time(decision.header());
+  decisions_[decision.id()] = decision;
+}
+
+void MissionView::take(const v1::OrderStatus& status) {
+  note_time(status.header());
+  orders_[{status.issuer(), status.id()}].push_back(status);
+}
+
+const std::vector<v1::OrderStatus>& MissionView::order(const std::string& issuer,
+                                                       const std::string& id) const {
+  static const std::vector<v1::OrderStatus> kNone;
+  const auto found = orders_.find({issuer, id});
+  return found == orders_.end() ? kNone : found->second;
+}
+
 void MissionView::take(const v1::LeaseMessage& member) {
   v1::LeaseMessage& known = members_[{member.executive(), member.member()}];
   if (member.epoch() >= known.epoch()) known = member;

@@ -13,6 +13,7 @@
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
 #include "roci_idl/motion.h"
+#include "roci_idl/order.h"
 #include "roci_idl/plan.h"
 #include "roci_idl/standby.h"
 
@@ -38,10 +39,16 @@ class MissionView {
   void take(const v1::Hazard& hazard);
   void take(const v1::Heartbeat& heartbeat);
   void take(const v1::LeaseMessage& member);
+  void take(const v1::Decision& decision);
+  void take(const v1::OrderStatus& status);
 
   using GoalKey = std::pair<std::string, std::string>;  ///< issuer, id
 
   const std::optional<v1::MissionStatus>& mission() const { return mission_; }
+  /// Decisions that plans have asked for, by id.
+  const std::map<std::string, v1::Decision>& decisions() const { return decisions_; }
+  /// The stages of an order as they came, oldest first.
+  const std::vector<v1::OrderStatus>& order(const std::string& issuer, const std::string& id) const;
   const std::map<GoalKey, v1::GoalStatus>& goals() const { return goal_statuses_; }
   const v1::Goal* goal(const GoalKey& key) const;                ///< as it was asked for; null if not seen
   const std::optional<v1::Plan>& plan() const { return plan_; }  ///< of the highest version
@@ -77,8 +84,10 @@ class MissionView {
   std::map<std::string, v1::DataProduct> products_;
   std::map<std::string, v1::Heartbeat> heartbeats_;
   std::map<std::pair<std::string, std::string>, v1::LeaseMessage> members_;  ///< by executive and member
-  std::map<std::pair<std::string, std::string>, v1::Hazard> hazards_;  // by finder and id
+  std::map<std::pair<std::string, std::string>, v1::Hazard> hazards_;        // by finder and id
   std::map<std::string, std::vector<Place>> ways_;
+  std::map<std::string, v1::Decision> decisions_;
+  std::map<GoalKey, std::vector<v1::OrderStatus>> orders_;  // by issuer and id
   std::deque<v1::Event> events_;
   std::uint64_t events_seen_ = 0;
   std::int64_t now_us_ = 0;

@@ -141,6 +141,35 @@ TEST_P(ConsoleTest, AnAnswerNamesTheSampleThatItAnswers) {
   seat_.robot().stop();
 }
 
+TEST_P(ConsoleTest, AnOrdersStagesComeDownAsTheyAreReached) {
+  seat_.run().start();
+  Client client(connection());
+  std::vector<v1::OrderStage> stages;
+  const auto give = [&](const std::string& id, v1::OrderKind kind, const std::string& target) {
+    v1::Order order;
+    order.issuer("ground");
+    order.id(id);
+    order.order_kind(kind);
+    order.target(target);
+    order.autonomy(v1::AUTONOMY_E4);
+    stages.clear();
+    return client.send_order(
+        order, [&](const v1::OrderStatus& status) { stages.push_back(status.stage()); }, kLimit);
+  };
+  ASSERT_TRUE(give("1", v1::ORDER_HOLD, ""));
+  EXPECT_THAT(stages, testing::ElementsAre(v1::ORDER_RECEIVED, v1::ORDER_ACCEPTED, v1::ORDER_APPLIED));
+  EXPECT_TRUE(client.wait([&] { return client.view().mission() && client.view().mission()->held(); }, kLimit));
+  const auto refused = give("2", v1::ORDER_HOLD, "nothing");
+  ASSERT_TRUE(refused);
+  EXPECT_THAT(stages, testing::ElementsAre(v1::ORDER_RECEIVED, v1::ORDER_REFUSED));
+  EXPECT_EQ(refused->reason(), "no plan runs");
+  ASSERT_TRUE(give("1", v1::ORDER_HOLD, ""));
+  EXPECT_THAT(stages, testing::ElementsAre(v1::ORDER_APPLIED)) << "it was given before";
+  ASSERT_TRUE(give("3", v1::ORDER_RELEASE, ""));
+  EXPECT_TRUE(client.wait([&] { return !client.view().mission()->held(); }, kLimit));
+  seat_.robot().stop();
+}
+
 TEST_P(ConsoleTest, NobodyAnswers) {
   Client client(connection());
   EXPECT_FALSE(client.wait_for_mission(0ms));

@@ -63,6 +63,7 @@ class ScriptedWorld final : public services::Service {
 std::unique_ptr<Script> make_script(services::Node& node, CameraRobot& robot) {
   if (setting("ROCI_TEST_SCRIPT") == "decisions")
     return make_decision_script(node, robot, setting("ROCI_TEST_RESOLVER"));
+  if (setting("ROCI_TEST_SCRIPT") == "orders") return make_order_script(node, robot);
   throw std::runtime_error("ROCI_TEST_SCRIPT names no script");
 }
 

@@ -40,6 +40,7 @@ class ScriptedEngine {
 
 // ROCI_TEST_SCRIPT=NAME, with ROCI_TEST_RESOLVER for decisions.
 std::unique_ptr<Script> make_script(services::Node& node, CameraRobot& robot);
+std::unique_ptr<Script> make_order_script(services::Node& node, CameraRobot& robot);
 std::unique_ptr<Script> make_decision_script(services::Node& node, CameraRobot& robot,
                                              const std::string& resolver);
 

@@ -23,7 +23,8 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 constexpr char kWipe[] =
-    "commands: [{owner: sim_svc, component: camera, command: image, arguments: {image: wiped}}]\nthen: retry\n";
+    "commands: [{owner: sim_svc, component: camera, command: image, arguments: {image: wiped}}]\nthen: "
+    "retry\n";
 
 class OrderTest : public ReactorTest {
  protected:
@@ -59,18 +60,18 @@ class OrderTest : public ReactorTest {
   }
   void at(double time_s, Order one) {
     other_events.emplace(seconds(time_s),
-                         [this, one = numbered(std::move(one))] { pending.orders.push_back(one); });
+                         [this, one = numbered(std::move(one))] { pending.ground_orders.push_back(one); });
   }
   // Stages of the order with this number, in their order.
   std::vector<OrderStage> stages(int number) const {
     std::vector<OrderStage> out;
-    for (const OrderStatus& status : orders)
+    for (const OrderStatus& status : order_stages)
       if (status.key.id == std::to_string(number)) out.push_back(status.stage);
     return out;
   }
   std::string reason(int number) const {
     std::string out;
-    for (const OrderStatus& status : orders)
+    for (const OrderStatus& status : order_stages)
       if (status.key.id == std::to_string(number)) out = status.reason;
     return out;
   }
@@ -262,7 +263,7 @@ TEST_F(OrderTest, AStoppedPlanIsLaunchedAgainWithoutWhatWasDropped) {
   run(1000, {});
   EXPECT_EQ(stages(4), kApplied);
   EXPECT_EQ(stages(5), kApplied);
-  EXPECT_EQ(orders.back().plan_version, 2U);
+  EXPECT_EQ(order_stages.back().plan_version, 2U);
   EXPECT_THAT(images_begun(), ElementsAre("image-1", "image-2", "image-3"));
   EXPECT_THAT(trace, Contains("plan.relaunched"));
   EXPECT_THAT(trace, Contains("plan.finished"));
@@ -312,7 +313,6 @@ TEST_F(OrderTest, SafeNowStopsAndHoldsUntilTheGroundSaysOtherwise) {
 }
 
 TEST_F(OrderTest, SafeIsSaidWhenNothingIsActiveAnyMore) {
-  robot_is_dead = false;
   at(20, order(OrderKind::safe));
   other_events.emplace(seconds(19), [this] { robot_is_dead = true; });
   run(22, robot_and({photo("1")}));
@@ -327,7 +327,7 @@ TEST_F(OrderTest, IsGivenOnceAndAnsweredAgain) {
   again.key = {"ground", "1"};
   again.sample = {"roci", 0, 7};
   for (const double time_s : {50.0, 60.0})
-    other_events.emplace(seconds(time_s), [this, again] { pending.orders.push_back(again); });
+    other_events.emplace(seconds(time_s), [this, again] { pending.ground_orders.push_back(again); });
   run(1000, {});
   EXPECT_FALSE(reactor.held());
   EXPECT_EQ(stages(1), (std::vector{OrderStage::received, OrderStage::accepted, OrderStage::applied,
@@ -373,7 +373,7 @@ TEST_F(OrderTest, ASnapshotKeepsLevelHoldValuesUploadsAndOrders) {
   reactor = Reactor(mission);
   reactor.restore(snapshot);
   EXPECT_TRUE(reactor.held());
-  EXPECT_EQ(reactor.orders().size(), 4U);
+  EXPECT_EQ(reactor.order_statuses().size(), 4U);
   EXPECT_EQ(reactor.ground_values().at("rover.go"), temporal::Value(true));
   at(11, order(OrderKind::release));
   camera_works = false;

@@ -43,7 +43,7 @@ inline temporal::FlexiblePlan images(const std::vector<std::string>& ids) {
 inline bool is_empty(const reactor::ReactorInputs& inputs) {
   return inputs.goals.empty() && inputs.observations.empty() && inputs.acks.empty() &&
          inputs.losses.empty() && inputs.arrivals.empty() && inputs.models.empty() && !inputs.reply &&
-         inputs.deltas.empty() && inputs.answers.empty();
+         inputs.deltas.empty() && inputs.answers.empty() && inputs.ground_orders.empty();
 }
 
 inline bool asks_for(const reactor::PlanRequest& call, const std::string& goal) {
@@ -106,6 +106,7 @@ class ReactorTest : public ::testing::Test {
     for (const reactor::DecisionRecord& decision : out.decisions)
       decisions.push_back({temporal::to_seconds(now), decision});
     for (const reactor::AnswerReceipt& receipt : out.answer_receipts) receipts.push_back(receipt);
+    for (const orders::OrderStatus& order : out.order_statuses) order_stages.push_back(order);
     for (const executive::Command& command : out.commands) obey(command);
   }
 
@@ -175,6 +176,7 @@ class ReactorTest : public ::testing::Test {
   std::map<std::string, std::string> reasons;
   std::vector<std::pair<double, reactor::DecisionRecord>> decisions;  // as they changed, with their times
   std::vector<reactor::AnswerReceipt> receipts;
+  std::vector<orders::OrderStatus> order_stages;  // each stage as it came
 };
 
 }  // namespace roci::exec::testing

@@ -1,0 +1,34 @@
+/// The line to the ground: orders in, the stages of each out, and the values that the ground has set as
+/// observations for everybody.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "exec_svc/reactor/reactor.hpp"
+#include "services/publisher.hpp"
+
+namespace roci::exec {
+
+class OrderLink {
+ public:
+  /// `take` gets each order that is meant for this executive's robot, with its line of the trace; `report`
+  /// what is wrong with one that cannot be read.
+  OrderLink(services::Node& node, std::function<void(orders::Order, std::string line)> take,
+            std::function<void(const reactor::Event&)> report);
+
+  /// What a step has decided.
+  void send(const reactor::ReactorOutputs& out) const;
+  /// Everything as it stands, for who joins after a restart.
+  void tell(const reactor::Reactor& reactor) const;
+
+ private:
+  void tell(const orders::OrderStatus& status) const;
+  void tell(const executive::Observation& value) const;
+
+  services::Node& node_;
+  services::Publisher<v1::OrderStatus> statuses_;
+  services::Publisher<v1::Observation> observations_;
+};
+
+}  // namespace roci::exec

@@ -1,0 +1,9 @@
+#include "exec_svc/orders/authority.hpp"
+
+namespace roci::exec::orders {
+
+executive::Permissions Authority::permissions() const {
+  return {held_, level_ == AutonomyLevel::e1, level_ >= AutonomyLevel::e3, held_activities_, approved_};
+}
+
+}  // namespace roci::exec::orders

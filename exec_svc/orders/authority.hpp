@@ -1,0 +1,42 @@
+/// How much the executive may do without the ground: the level of autonomy, what is held, what is approved.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "exec_svc/executive/permissions.hpp"
+#include "exec_svc/orders/order.hpp"
+
+namespace roci::exec::orders {
+
+class Authority {
+ public:
+  AutonomyLevel level() const { return level_; }
+  void set_level(AutonomyLevel level) { level_ = level; }
+
+  /// Nothing new starts, and nothing is replanned.
+  bool held() const { return held_; }
+  void hold_all(bool hold) { held_ = hold; }
+  void hold(const std::string& activity) { held_activities_.insert(activity); }
+  /// False: it was not held.
+  bool release(const std::string& activity) { return held_activities_.erase(activity) > 0; }
+  void approve(const std::string& activity) { approved_.insert(activity); }
+
+  /// Whether a plan may take the place of one that runs or broke.
+  bool may_replan() const { return level_ == AutonomyLevel::e4 && !held_; }
+  /// What this comes to for the activities of a plan.
+  executive::Permissions permissions() const;
+
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self) {
+    archive(self.level_, self.held_, self.held_activities_, self.approved_);
+  }
+
+ private:
+  AutonomyLevel level_ = AutonomyLevel::e4;
+  bool held_ = false;
+  std::set<std::string> held_activities_;
+  std::set<std::string> approved_;
+};
+
+}  // namespace roci::exec::orders

@@ -1,0 +1,23 @@
+#include "exec_svc/orders/order.hpp"
+
+#include <array>
+
+namespace roci::exec::orders {
+
+const char* to_string(OrderKind kind) {
+  constexpr std::array names{"hold",   "release", "approve", "set",      "autonomy",
+                             "upload", "answer",  "drop",    "relaunch", "safe"};
+  return names.at(static_cast<std::size_t>(kind));
+}
+
+const char* to_string(AutonomyLevel level) {
+  constexpr std::array names{"E1", "E2", "E3", "E4"};
+  return names.at(static_cast<std::size_t>(level));
+}
+
+const char* to_string(OrderStage stage) {
+  constexpr std::array names{"received", "accepted", "refused", "applied"};
+  return names.at(static_cast<std::size_t>(stage));
+}
+
+}  // namespace roci::exec::orders

@@ -1,0 +1,65 @@
+/// Orders from the ground as plain values: what is ordered, and where an order stands.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/temporal/value.hpp"
+#include "exec_svc/goals/goal_set.hpp"
+#include "exec_svc/orders/issued_key.hpp"
+
+namespace roci::exec::orders {
+
+/// In the order of OrderKind in idl/order.idl.
+enum class OrderKind {
+  hold,       ///< nothing new starts; with a target: this activity does not
+  release,    ///< ends the hold of the same target
+  approve,    ///< the target, an activity, may start
+  set_value,  ///< of a timeline that the ground owns
+  autonomy,   ///< the level from now on
+  upload,     ///< the target gets a new content, whole or not at all
+  answer,     ///< to a decision
+  drop,       ///< the target, an activity that has not begun, is left out
+  relaunch,   ///< the plan that was stopped goes on with what is left of it (R149)
+  safe,       ///< the robot is made safe, and held
+};
+/// "hold", "release", …, "set" for set_value.
+const char* to_string(OrderKind kind);
+
+/// Levels of autonomous execution, after those of ECSS-E-ST-70-11C.
+enum class AutonomyLevel {
+  e1,  ///< each activity waits for an approval; else as e2
+  e2,  ///< the plan runs; nothing is retried or replanned on board, a broken plan makes safe and waits
+  e3,  ///< local recovery (retries, contingencies), no replanning
+  e4,  ///< everything
+};
+/// "E1" to "E4".
+const char* to_string(AutonomyLevel level);
+
+/// An order as it came in; which of the members count depends on its kind.
+struct Order {
+  IssuedKey key;
+  goals::SampleId sample;
+  OrderKind kind = OrderKind::hold;
+  std::string target;
+  temporal::Value content;
+  std::string choice;
+  AutonomyLevel level = AutonomyLevel::e4;
+  std::string upload;
+  std::uint32_t checksum = 0;  ///< CRC-32 of the upload
+};
+
+/// In the order of OrderStage in idl/order.idl.
+enum class OrderStage { received, accepted, refused, applied };
+/// "received", …
+const char* to_string(OrderStage stage);
+
+struct OrderStatus {
+  IssuedKey key;
+  goals::SampleId answers;  ///< the newest sample that brought it
+  OrderStage stage = OrderStage::received;
+  std::string reason;              ///< of a refusal; else what was done, in plain words
+  std::uint32_t plan_version = 0;  ///< with applied: the plan in which it takes effect
+};
+
+}  // namespace roci::exec::orders

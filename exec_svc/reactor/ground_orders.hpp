@@ -1,0 +1,77 @@
+/// Acts on the orders of the ground: each is given once, and answered with its stages. What an order changes
+/// for good stands in the mission's authority, values and uploads.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "exec_svc/orders/order_book.hpp"
+#include "exec_svc/reactor/mission_state.hpp"
+#include "exec_svc/reactor/running_plan.hpp"
+#include "exec_svc/reactor/safing.hpp"
+
+namespace roci::exec::reactor {
+
+class GroundOrders {
+ public:
+  /// All outlive this.
+  GroundOrders(MissionState& state, RunningPlan& plan, Safing& safing)
+      : state_(&state), plan_(&plan), safing_(&safing) {}
+
+  /// Obeys the orders among the inputs, before the plan hears of the step. Values that the ground sets become
+  /// observations among them, answers to decisions answers.
+  void obey(temporal::Time now, ReactorInputs& inputs);
+  /// At the end of a step: says what has been applied by now.
+  void settle();
+
+  const orders::OrderBook& book() const { return book_; }
+  /// The values of the ground's timelines, as they were set.
+  const std::map<std::string, temporal::Value>& values() const { return values_; }
+  /// After restore: the executive gets again what the ground has set for it.
+  void reinstate();
+
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self) {
+    orders::OrderBook::fields(archive, self.book_);
+    archive(self.values_, self.uploads_, self.dropped_, self.awaited_answers_, self.safe_due_);
+  }
+
+ private:
+  /// What becomes of an order at once.
+  struct Ruling {
+    orders::OrderStage stage = orders::OrderStage::applied;
+    std::string reason{};
+  };
+  static Ruling refused(std::string reason) { return {orders::OrderStage::refused, std::move(reason)}; }
+
+  Ruling rule(temporal::Time now, const orders::Order& order, ReactorInputs& inputs);
+  Ruling hold(const orders::Order& order);
+  Ruling release(const orders::Order& order);
+  Ruling approve(const orders::Order& order);
+  Ruling set_value(const orders::Order& order, ReactorInputs& inputs);
+  Ruling set_level(const orders::Order& order);
+  Ruling upload(const orders::Order& order);
+  Ruling drop(const orders::Order& order);
+  Ruling relaunch(temporal::Time now);
+  Ruling make_safe(temporal::Time now, const orders::Order& order);
+
+  std::string fault_of_waiting(const std::string& activity) const;
+  void plan_if_none_runs(const std::string& reason);
+  void move(const orders::IssuedKey& key, const Ruling& ruling);
+  bool stopped() const;
+
+  MissionState* state_;
+  RunningPlan* plan_;
+  Safing* safing_;
+  orders::OrderBook book_;
+  std::map<std::string, temporal::Value> values_;
+  std::map<std::string, std::string> uploads_;        ///< newest text, by target
+  std::map<std::string, orders::IssuedKey> dropped_;  ///< activities that the next relaunch leaves out
+  std::vector<orders::IssuedKey> awaited_answers_;    ///< orders that answer a decision
+  std::vector<orders::IssuedKey> safe_due_;           ///< orders to make safe, until the robot is
+};
+
+}  // namespace roci::exec::reactor

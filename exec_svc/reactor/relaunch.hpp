@@ -1,0 +1,24 @@
+/// Whether a plan that was stopped can go on (R149).
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/temporal/flexible_plan.hpp"
+#include "exec_svc/executive/messages.hpp"
+
+namespace roci::exec::reactor {
+
+/// What of a plan a relaunch leaves out: what was skipped, and what the ground has dropped.
+std::set<std::string> left_out(const std::vector<executive::StepStatus>& steps,
+                               const std::set<std::string>& dropped);
+
+/// Why what is left of the plan cannot be executed from `now` on, in plain words; empty: it can. Of the plan
+/// `steps` tell how far it has come, `without` names what is left out. Its times stay as they were: a start
+/// whose latest time has passed cannot be mended by waiting.
+std::string relaunch_fault(const temporal::FlexiblePlan& plan,
+                           const std::vector<executive::StepStatus>& steps,
+                           const std::set<std::string>& without, temporal::Time now);
+
+}  // namespace roci::exec::reactor
