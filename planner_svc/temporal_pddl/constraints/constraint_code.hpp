@@ -1,11 +1,11 @@
-// The compact form of temporal constraints in which states store them (R28, R29; Stellar section 4.3).
+// States store temporal constraints in this compact form (R28, R29; Stellar section 4.3).
 //
 // A constraint lower ≤ t(j) − t(i) ≤ upper between steps i and j is a 32-bit head, most significant bits
-// first: 15 bits j, 15 bits i, 2 bits kind; written least significant byte first. Kinds:
+// first: 15 bits j, 15 bits i, 2 bits kind; it is written least significant byte first. The kinds are:
 //   00  lower = 0, upper = ∞      01  lower = ε, upper = ∞
 //   10  lower = upper = x, followed by x      11  lower = x, upper = y, followed by x and y
-// x and y are indices into a table of the distinct bounds, as little-endian base-128 varints (Z2: a duration
-// does not fit into the one byte that the paper speaks of).
+// Here x and y are indices into a table of the distinct bounds, as little-endian base-128 varints (Z2: a
+// duration does not fit into the one byte that the paper speaks of).
 #pragma once
 
 #include <cstdint>

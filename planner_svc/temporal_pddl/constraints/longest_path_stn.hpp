@@ -1,5 +1,5 @@
-// A simple temporal network (Dechter, Meiri and Pearl 1991) over time points 0 … n − 1 in its longest-path
-// form, solved as a whole.
+// LongestPathStn is a simple temporal network (Dechter, Meiri and Pearl 1991) over time points 0 … n − 1 in
+// its longest-path form, solved as a whole.
 //
 // It is not temporal::Stn, which keeps a growing network consistent edge by edge: a search asks about a
 // network once, and a batch of Bellman-Ford passes in plan order settles it in mostly one.
@@ -25,7 +25,7 @@ class LongestPathStn {
     points_ = points;
     edges_.clear();
   }
-  /// Adds points behind those that there are.
+  /// Adds points behind the existing ones.
   void extend(std::size_t points) { points_ += points; }
   /// Requires t(to) − t(from) ≥ least. A bound from above is one with the points exchanged and the sign
   /// turned.

@@ -1,7 +1,7 @@
-// From when on a plan leaves each variable free: its release time, as schedulers say.
+// The release time of a variable, as schedulers say, is the time from when on a plan leaves it free.
 //
-// These are what Orderings will ask of the steps to come, seen from a schedule of earliest times, and so
-// lower bounds for every continuation of the plan.
+// Release times are what Orderings will ask of the steps to come, seen from a schedule of earliest times, and
+// so lower bounds for every continuation of the plan.
 #pragma once
 
 #include <span>

@@ -1,4 +1,5 @@
-// How much of a resource every plan still takes, at least: the perfect heuristic of an abstraction.
+// The consumption bound tells how much of a resource every plan still takes, at least: it is the perfect
+// heuristic of an abstraction.
 //
 // It is measured once for all states of the AtemporalAbstraction, by a search from the initial state by what
 // is taken so far, and one back from the goals.

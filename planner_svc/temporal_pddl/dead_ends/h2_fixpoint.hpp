@@ -1,4 +1,4 @@
-// The fixpoint of h²: pairs of literals, found by looking at all operators of a task again and again until
+// The fixpoint of h² relates pairs of literals; it looks at all operators of a task again and again until
 // none relates two more.
 #pragma once
 

@@ -51,8 +51,8 @@ std::string seconds(Duration duration) {
   return text.substr(0, text.size() - 3) + " s";
 }
 
-// Of the actions that are longer than their windows and would bring about what nothing else does, the one
-// that lacks least.
+// Names, of the actions that are longer than their windows and would bring about what nothing else does, the
+// one that lacks least; the text is empty if there is none.
 std::string window_too_short(const GroundModel& model, const std::vector<bool>& reached,
                              const Symbols& symbols, const std::vector<LiftedAction>& actions) {
   const WindowMisfit* nearest = nullptr;
@@ -70,7 +70,7 @@ std::string window_too_short(const GroundModel& model, const std::vector<bool>& 
          seconds(nearest->window) + ": " + seconds(nearest->duration - nearest->window) + " too short";
 }
 
-// Throws if no alternative of the goal survives pruning, naming what stands in the way.
+// Throws if no alternative of the goal survives pruning, and names what stands in the way.
 void require_reachable_goal(const pddl::Problem& problem, const Disjunction& before, const GroundModel& model,
                             const std::vector<bool>& reached, const Symbols& symbols,
                             const std::vector<LiftedAction>& actions) {

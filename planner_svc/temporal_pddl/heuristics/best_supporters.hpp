@@ -1,4 +1,4 @@
-// The best supporters of relaxed propositions by h_add: which operator makes each true with the fewest
+// The best supporters of relaxed propositions by h_add are the operators that make each true with the fewest
 // actions before it (Bonet and Geffner 2001; Keyder and Geffner 2008), weighed by the operator costs.
 //
 // They are explored in order of cost, and only as far as is asked. Comparisons count as propositions; they

@@ -1,4 +1,5 @@
-// When each snap action can happen at the earliest: h_max over time on the relaxed task, with windows.
+// EarliestTimes finds when each snap action can happen at the earliest: h_max over time on the relaxed task,
+// with windows.
 //
 // Facts of the state hold from when the plan so far makes them true; a start waits for all it needs, for the
 // variables it touches and for a window that is long enough; an end comes no sooner than the least duration

@@ -1,4 +1,4 @@
-// What a heuristic tells a search about a state. README.md says how to add one.
+// A heuristic tells a search about a state. README.md says how to add one.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Estimate {
   std::vector<task::SnapId> relaxed_plan;
 };
 
-/// What a heuristic may look at.
+/// Holds what a heuristic may look at.
 struct EvaluationContext {
   task::StateView state;
   std::span<const task::ActionId> running;  ///< the actions that have started and not ended

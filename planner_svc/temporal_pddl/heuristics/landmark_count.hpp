@@ -1,4 +1,5 @@
-// How many landmarks are still to come (Richter and Westphal 2010), beside the estimate of the FF heuristic.
+// The landmark count tells how many landmarks are still to come (Richter and Westphal 2010), beside the
+// estimate of the FF heuristic.
 //
 // Nothing is stored per state: which landmarks a plan has reached follows from its steps.
 #pragma once

@@ -1,4 +1,4 @@
-// Which landmarks come before which, without cycles.
+// Landmark orderings say which landmarks come before which, without cycles.
 #pragma once
 
 #include <vector>

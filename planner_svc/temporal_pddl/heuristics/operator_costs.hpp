@@ -1,4 +1,4 @@
-// Operator costs with goal-threat penalties: an operator that the planner chooses costs 1, and more if it
+// Operator costs carry goal-threat penalties: an operator that the planner chooses costs 1, and more if it
 // would undo goals that hold.
 //
 // A relaxed plan does not see that these have to be brought about once more: without the penalty the last

@@ -48,7 +48,7 @@ class RelaxedTask {
     }
   }
 
-  /// Operators are numbered as the snap actions.
+  /// Returns the cost; operators are numbered as the snap actions.
   std::int64_t cost(task::SnapId op) const { return costs_[op]; }
   std::span<const PropositionId> needs(task::SnapId op) const { return lists_[2 * op.index()]; }
   std::span<const PropositionId> adds(task::SnapId op) const { return lists_[2 * op.index() + 1]; }

@@ -1,5 +1,5 @@
-// Completes the beginning of a plan: best-first search over preferred successors, led by how long the whole
-// will take. It is the repair of large neighbourhood search.
+// Plan completion completes the beginning of a plan by best-first search over preferred successors, led by
+// how long the whole will take. It is the repair of large neighbourhood search.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ class PlanCompletion {
     std::size_t number = 0;  // in order of generation
     search::NodeId node;
     std::vector<task::SnapId> preferred;
-    // The worse one; for a heap.
+    // Orders worse before better, so that a heap has the best at its top.
     bool operator<(const Entry& other) const {
       return std::tie(total, steps, number) > std::tie(other.total, other.steps, other.number);
     }

@@ -1,5 +1,5 @@
-// Greedy best-first search with deferred evaluation: a state is evaluated when it is taken up, and its
-// successors wait with its estimate (Helmert 2006, section 6).
+// Greedy best-first search defers evaluation: a state is evaluated when it is taken up, and its successors
+// wait with its estimate (Helmert 2006, section 6).
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ struct SearchStyle {
 
 class BestFirstSearch final : public ResumableSearch {
  public:
-  /// Keeps `statistics` up to date all the time.
+  /// Prepares the search, which keeps the statistics of the context up to date all the time.
   BestFirstSearch(const SearchContext& context, const Guide& guide, SearchStyle style);
 
   std::optional<SearchOutcome> run(std::size_t evaluations, std::size_t bytes_elsewhere) override;

@@ -1,4 +1,4 @@
-// Asks a guide about a successor: it puts together what a heuristic may look at.
+// This class asks a guide about a successor: it puts together what a heuristic may look at.
 #pragma once
 
 #include <vector>

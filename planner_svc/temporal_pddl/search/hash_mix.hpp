@@ -1,4 +1,4 @@
-// The finalizer of MurmurHash3: every bit of the result hangs on every bit of the argument.
+// This is the finalizer of MurmurHash3: every bit of the result hangs on every bit of the argument.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The prefix of a plan that leads to a stored state, rebuilt by walking back to the root (R27).
+// The prefix of a plan leads to a stored state; it is rebuilt by walking back to the root (R27).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
-/// An action that has started and not ended.
+/// Is an action that has started and not ended.
 struct Running {
   task::ActionId action;
   std::uint32_t step = 0;  ///< the step of its start

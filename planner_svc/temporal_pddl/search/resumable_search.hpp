@@ -1,4 +1,4 @@
-// A search that goes on where it stopped, so that several can take turns.
+// A resumable search goes on where it stopped, so that several can take turns.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// From a state and a snap action to the next state, if there is one.
+// The successor builder leads from a state and a snap action to the next state, if there is one.
 #pragma once
 
 #include <optional>
@@ -44,8 +44,8 @@ class SuccessorBuilder {
   /// and only the order of things matters, the new steps can be late enough for everything, and nothing is
   /// scheduled.
   Rejection build(const PlanPrefix& prefix, task::SnapId snap, Successor& successor);
-  /// Does as build(), but does not ask whether the plan can be scheduled. Returns false if an invariant
-  /// breaks, or no duration is possible.
+  /// Builds the state likewise, but does not ask whether the plan can be scheduled. Returns false if an
+  /// invariant breaks, or no duration is possible.
   bool extend(const PlanPrefix& prefix, task::SnapId snap, Successor& successor);
 
  private:

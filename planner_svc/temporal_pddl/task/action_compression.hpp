@@ -1,4 +1,4 @@
-// How a search takes durative actions: as a start and an end, or compressed into one step (temporal action
+// Searches take a durative action as a start and an end, or compressed into one step (temporal action
 // compression, Coles, Fox, Long and Smith 2009).
 #pragma once
 

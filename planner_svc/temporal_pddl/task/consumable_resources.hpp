@@ -1,5 +1,5 @@
-// Numbers that plans can only use up, and how much of each they may use: energy that nothing restores, a
-// tank, a ceiling of cost.
+// A consumable resource is a number that plans can only use up, with the amount of it that each may use:
+// energy that nothing restores, a tank, a ceiling of cost.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,5 @@
-// Derived facts of a state: the least fixed point of their rules, layer by layer (PDDL 2.2, section 3).
+// The derived facts of a state are the least fixed point of their rules, layer by layer (PDDL 2.2, section
+// 3).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Strong integer ids: each kind of thing has an index type of its own, which indexes vectors and nothing
+// Ids are strong integers: each kind of thing has an index type of its own, which indexes vectors and nothing
 // else.
 #pragma once
 
@@ -35,7 +35,7 @@ using SchemaId = Id<struct SchemaTag>;          // an action of the domain
 using ActionId = Id<struct ActionTag>;          // a ground action
 using SnapId = Id<struct SnapTag>;              // a start, end, instantaneous action or timed literal
 
-/// A vector that only the right kind of id can index.
+/// Is a vector that only the right kind of id can index.
 template <typename IdType, typename T>
 class IdVector {
  public:

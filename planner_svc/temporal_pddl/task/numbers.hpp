@@ -1,4 +1,4 @@
-// Linear expressions over numeric state variables, and the conditions and effects made of them (R3, R4).
+// Numeric conditions and effects are made of linear expressions over numeric state variables (R3, R4).
 #pragma once
 
 #include <bit>
@@ -49,7 +49,7 @@ class NumbersView {
 /// has none yet.
 double evaluate(const LinearExpression& expression, NumbersView values, double duration);
 
-/// How an expression is compared with 0.
+/// Tells how an expression is compared with 0.
 enum class Comparator : std::uint8_t { greater_equal, greater, equal };
 
 struct NumericCondition {

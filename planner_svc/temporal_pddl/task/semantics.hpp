@@ -1,4 +1,4 @@
-// What a snap action asks of a state and does to it.
+// The semantics says what a snap action asks of a state and does to it.
 #pragma once
 
 #include <optional>

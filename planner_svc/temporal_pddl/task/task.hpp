@@ -1,4 +1,4 @@
-// The ground planning task: ⟨P, V, A, I, TILs, G⟩ of Stellar section 2.1 as flat, immutable tables.
+// The ground planning task is ⟨P, V, A, I, TILs, G⟩ of Stellar section 2.1 as flat, immutable tables.
 //
 // Each durative action is split into two snap actions, its start and its end (R10). Static facts and constant
 // fluents are gone; a negative condition is a condition on a fact of its own.

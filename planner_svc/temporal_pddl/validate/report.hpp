@@ -1,4 +1,4 @@
-// What validation found.
+// The report holds what validation found.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ enum class ViolationKind {
   goal,
 };
 
-/// "condition", "invariant", …
+/// Returns the kind in words, as in "undefined value".
 std::string_view to_string(ViolationKind kind);
 
 struct Violation {
@@ -43,7 +43,8 @@ struct Report {
   std::optional<double> metric;  ///< of a valid plan, if the problem has one
 };
 
-/// "plan.txt:3: at 12.500: (drive a b): …", one line per violation; the line number where the step has one.
+/// Prints one line per violation, "plan.txt:3: at 12.500: (drive a b): …", with the line number where the
+/// step has one.
 std::string to_text(const Report& report, const std::vector<pddl::PlanStep>& plan, std::string_view file);
 
 }  // namespace roci::planner::temporal_pddl::validate

@@ -1,5 +1,5 @@
-// Grounds formulas and expressions under a full binding: to disjunctions of ground conjunctions and to
-// linear expressions.
+// The formula grounder turns formulas and expressions under a full binding into disjunctions of ground
+// conjunctions and into linear expressions.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::instantiation {
 
-/// A ground condition may have so many alternatives.
+/// A ground condition may have so many alternatives at most.
 inline constexpr std::size_t kMaxAlternatives = 256;
 
 class FormulaGrounder {

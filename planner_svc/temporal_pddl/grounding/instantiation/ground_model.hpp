@@ -1,5 +1,5 @@
-// The ground model as instantiation leaves it: over atoms of the reachability analysis, before facts are
-// numbered.
+// The ground model is what instantiation leaves: it speaks of atoms of the reachability analysis, before
+// facts are numbered.
 #pragma once
 
 #include <compare>
@@ -14,14 +14,14 @@
 
 namespace roci::planner::temporal_pddl::grounding::instantiation {
 
-/// An atom or its negation.
+/// Is an atom or its negation.
 struct GroundLiteral {
   std::uint32_t atom = 0;
   bool negated = false;
   auto operator<=>(const GroundLiteral&) const = default;
 };
 
-/// A conjunction, all of which must hold. Both lists are sorted and without duplicates.
+/// Is a conjunction, all of which must hold. Both lists are sorted and without duplicates.
 struct Conjunction {
   std::vector<GroundLiteral> literals;
   std::vector<task::NumericCondition> comparisons;
@@ -30,12 +30,12 @@ struct Conjunction {
   auto operator<=>(const Conjunction&) const = default;
 };
 
-/// Alternatives: without any, it is false; with an empty one, it is true.
+/// Lists alternatives: without any it is false, and with an empty one it is true.
 using Disjunction = std::vector<Conjunction>;
 
-/// An entry of a read set: what a condition at the start or at the end of an action reads without asking for
-/// it. These are parts that what never changes decides, alternatives that were not chosen, and conditions of
-/// effects that do not happen. Nobody may change it within ε of that moment either (R6; Fox and Long 2003,
+/// Is an entry of a read set: what a condition at the start or at the end of an action reads without asking
+/// for it. These are parts that what never changes decides, alternatives that were not chosen, and conditions
+/// of effects that do not happen. Nobody may change it within ε of that moment either (R6; Fox and Long 2003,
 /// definition 12).
 struct ReadVariable {
   std::uint32_t index = 0;  ///< the index of an atom or a number
@@ -71,7 +71,7 @@ struct GroundAction {
   std::shared_ptr<const ActionWindows> windows;  ///< is null where any time will do
 };
 
-/// A rule: wherever the body holds, so does the head, a derived atom.
+/// Is a rule: wherever the body holds, so does the head, a derived atom.
 struct GroundRule {
   GroundLiteral head;
   int layer = 0;
@@ -83,7 +83,7 @@ struct TimedChange {
   GroundEffects effects;
 };
 
-/// An action instance that none of its windows has room for.
+/// Is an action instance that none of its windows has room for.
 struct WindowMisfit {
   task::SchemaId schema;
   std::vector<task::ObjectId> arguments;

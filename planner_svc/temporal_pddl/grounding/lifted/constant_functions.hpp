@@ -1,4 +1,5 @@
-// The functions that no action and no timed literal changes: constant fluents and external functions (R35).
+// Constant functions are those that no action and no timed literal changes: constant fluents and external
+// functions (R35).
 #pragma once
 
 #include <functional>
@@ -14,7 +15,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
-/// One tuple that was asked for, and what its owner said.
+/// Holds one tuple that was asked for, and what its owner said.
 struct FunctionUse {
   FunctionCall call;
   FunctionValue answer;

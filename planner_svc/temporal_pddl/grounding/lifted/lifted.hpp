@@ -1,4 +1,4 @@
-// The model with numbers for names, in negation normal form: what instantiation works on.
+// The lifted model has numbers for names and is in negation normal form; instantiation works on it.
 //
 // Variables are slots of a binding: first the parameters of the action, then one per quantified variable.
 #pragma once
@@ -54,7 +54,8 @@ struct LiftedExpression {
 struct LiftedFormula {
   enum class Kind { conjunction, disjunction, forall, exists, atom, not_atom, equal, not_equal, comparison };
   Kind kind = Kind::conjunction;
-  // conjunction (empty: true), disjunction (empty: false); one for forall, exists
+  // Holds the parts of a conjunction (true if empty) or disjunction (false if empty), and one part for forall
+  // and exists.
   std::vector<LiftedFormula> parts;
   std::vector<QuantifiedSlot> quantified;  ///< forall, exists
   LiftedAtom atom;                         ///< atom, not_atom; equal, not_equal: its two arguments
@@ -65,7 +66,7 @@ struct LiftedFormula {
   bool is_true() const { return kind == Kind::conjunction && parts.empty(); }
 };
 
-/// An effect that happens for every value of the quantified slots, if the condition holds: at the start
+/// Is an effect that happens for every value of the quantified slots if the condition holds: at the start
 /// (tested before the start) or at the end (tested before the end).
 struct LiftedEffect {
   enum class Kind { add, remove, numeric };

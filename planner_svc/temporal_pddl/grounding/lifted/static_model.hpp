@@ -1,5 +1,5 @@
-// The static model: what is known before anything happens, that is, which predicates never change and what
-// holds at first.
+// The static model is what is known before anything happens: which predicates never change and what holds at
+// first.
 #pragma once
 
 #include <optional>
@@ -40,8 +40,8 @@ class StaticModel {
   bool possible(const LiftedFormula& formula, Binding& binding) const;
   /// Returns whether all constants in the expression have a value.
   bool defined(const LiftedExpression& expression, const Binding& binding) const;
-  /// Returns the value of an expression without fluents and ?duration; nothing for others, and where a
-  /// constant is undefined.
+  /// Returns the value of an expression without fluents and ?duration. Returns nothing for others, and where
+  /// a constant is undefined.
   std::optional<double> constant_value(const LiftedExpression& expression, const Binding& binding) const;
 
  private:

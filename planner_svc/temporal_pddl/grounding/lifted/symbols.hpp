@@ -1,4 +1,4 @@
-// The names of the model and their numbers.
+// Symbols number the names of the model.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// A table that interns (symbol, objects…): each distinct tuple stands in it once, numbered from 0 in the
+// A tuple table interns (symbol, objects…): each distinct tuple stands in it once, numbered from 0 in the
 // order of its first appearance.
 #pragma once
 

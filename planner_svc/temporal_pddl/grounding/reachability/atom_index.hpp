@@ -1,4 +1,4 @@
-// An index of the atoms known to be reachable: they are found by predicate and by the object at a position.
+// The index finds the atoms known to be reachable by predicate and by the object at a position.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ class AtomIndex {
  private:
   struct Lists {
     std::vector<std::uint32_t> all;
-    // position · objects + object; empty until the first atom
+    // Has the list of an object at a position at index position · objects + object; it is empty until the
+    // first atom.
     std::vector<std::vector<std::uint32_t>> by_place;
   };
 

@@ -1,5 +1,5 @@
-// Relaxed reachability: which atoms and action instances can appear at all if nothing is ever deleted and
-// numbers that change are ignored.
+// Relaxed reachability finds which atoms and action instances can appear at all if nothing is ever deleted
+// and numbers that change are ignored.
 #pragma once
 
 #include <cstdint>

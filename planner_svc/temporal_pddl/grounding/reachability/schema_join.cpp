@@ -53,7 +53,7 @@ SchemaJoin::SchemaJoin(const LiftedAction& action, const StaticModel& static_mod
   }
 }
 
-// One backtracking search over the conditions that are still open.
+// Is one backtracking search over the conditions that are still open.
 struct SchemaJoin::Search {
   const SchemaJoin& schema;
   const TupleTable& atoms;
@@ -83,7 +83,8 @@ struct SchemaJoin::Search {
     return best;
   }
 
-  // Binds the open arguments of `atom` to the objects; false if they do not fit. `bound` gets the new slots.
+  // Binds the open arguments of `atom` to the objects. Returns false if they do not fit; `bound` gets the new
+  // slots.
   bool unify(const LiftedAtom& atom, std::span<const ObjectId> objects, std::vector<std::uint32_t>& bound) {
     for (std::size_t i = 0; i < objects.size(); ++i) {
       const Argument argument = atom.arguments[i];

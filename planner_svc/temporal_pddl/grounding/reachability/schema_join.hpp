@@ -1,6 +1,6 @@
-// Finds the bindings of one action's parameters under which its positive conditions are reachable, without
-// enumerating the product of the parameters' types: a join over the reachable atoms, smallest candidate list
-// first.
+// A schema join finds the bindings of one action's parameters under which its positive conditions are
+// reachable. It joins the reachable atoms, smallest candidate list first, and does not enumerate the product
+// of the parameters' types.
 #pragma once
 
 #include <cstdint>
