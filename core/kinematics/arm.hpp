@@ -1,7 +1,7 @@
-// Rigid serial arm as plain values: what a URDF chain says, with fixed joints folded into the bodies they
-// hold.
+// An arm is a rigid serial chain as plain values: it says what a URDF chain says, with fixed joints folded
+// into the bodies they hold.
 //
-// Body 0 is the base, which stands still; body i+1 is moved by joint i. All lengths in m, angles in rad,
+// Body 0 is the base, which stands still; body i+1 is moved by joint i. All lengths are in m, angles in rad,
 // masses in kg; a joint coordinate is rad (revolute) or m (prismatic) about or along the joint's axis.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace roci::kinematics {
 inline constexpr int kMinJoints = 4;
 inline constexpr int kMaxJoints = 7;
 
-/// It holds one value per joint, base first.
+/// Holds one value per joint, base first.
 using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxJoints, 1>;
 
 enum class JointType { revolute, prismatic };
@@ -31,7 +31,7 @@ struct JointLimits {
 struct Joint {
   std::string name;
   JointType type = JointType::revolute;
-  /// The joint frame at coordinate 0, in the previous body.
+  /// Holds the joint frame at coordinate 0, in the previous body.
   Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< A unit vector in the joint frame.
   JointLimits limits;
@@ -43,14 +43,14 @@ struct Sphere {
   double radius = 0;
 };
 
-/// A capsule is all points within `radius` of a segment of `length` on the z axis, centred on the origin.
+/// Holds all points within `radius` of a segment of `length` on the z axis, centred on the origin.
 struct Capsule {
   double radius = 0;
   double length = 0;
 };
 
 struct Box {
-  /// Full edge lengths in m; the box is centred on the origin.
+  /// Holds full edge lengths in m; the box is centred on the origin.
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
 };
 
@@ -63,7 +63,7 @@ struct CollisionShape {
 struct MassProperties {
   double mass = 0;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< Centre of mass in the body's frame, m.
-  /// About the centre of mass, in the axes of the body's frame, kg·m².
+  /// Holds the inertia about the centre of mass, in the axes of the body's frame, kg·m².
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
 };
 
@@ -80,8 +80,8 @@ struct Arm {
   Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();  ///< The tip link in the last body's frame.
 };
 
-/// True if the coordinates lie within the position limits, up to `tolerance`; false also for a vector of
-/// another size or with a NaN.
+/// Returns whether the coordinates lie within the position limits, up to `tolerance`; a vector of another
+/// size or with a NaN does not.
 bool within_limits(const Arm& arm, const JointVector& q, double tolerance = 0.0);
 
 JointVector clamp_to_limits(const Arm& arm, const JointVector& q);

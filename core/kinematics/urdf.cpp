@@ -46,7 +46,7 @@ MassProperties mass_of(const urdf::Inertial& inertial) {
 
 bool moves(const urdf::Joint& joint) { return joint.type != urdf::Joint::FIXED; }
 
-// Root link first, tip last.
+// Returns the links of the chain, root link first, tip last.
 std::vector<urdf::LinkConstSharedPtr> chain_to(const urdf::ModelInterface& model, const std::string& tip) {
   std::vector<urdf::LinkConstSharedPtr> chain;
   for (urdf::LinkConstSharedPtr link = model.getLink(tip); link != nullptr; link = link->getParent()) {
@@ -84,7 +84,7 @@ class ArmBuilder {
   }
 
  private:
-  // Goes over the joint above `link`; gives the link's pose in the body it belongs to.
+  // Goes over the joint above `link`. Returns the link's pose in the body that it belongs to.
   Eigen::Isometry3d step(const urdf::Link& link, const Eigen::Isometry3d& parent_in_body) {
     const urdf::Joint& joint = *link.parent_joint;
     const Eigen::Isometry3d origin = parent_in_body * pose_of(joint.parent_to_joint_origin_transform);

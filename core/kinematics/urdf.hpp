@@ -1,10 +1,10 @@
-// Reads a serial arm from URDF text: the chain from the document's root link to a named tip.
+// This file reads a serial arm from URDF text: the chain from the document's root link to a named tip.
 //
 // Fixed joints, also of side branches (a camera bracket, the chassis), fold into the bodies they hold; a
 // movable joint off the chain is an error. `continuous` becomes revolute within ±2π. Beyond plain URDF,
-// <limit> may carry `acceleration` (as in URDF 1.2). Collision geometry: a box or sphere as it is; a cylinder
-// longer than wide becomes the capsule around the same axis segment, a flatter one the box around it: both
-// contain it. Meshes are refused.
+// <limit> may carry `acceleration` (as in URDF 1.2). A box or sphere of collision geometry stays as it is; a
+// cylinder longer than wide becomes the capsule around the same axis segment, a flatter one the box around
+// it: both contain it. Meshes are refused.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ namespace roci::kinematics {
 
 struct UrdfOptions {
   std::string tip;  ///< The link that is the tool frame.
-  /// Joints without an acceleration limit reach their speed limit in this time
+  /// Joints without an acceleration limit reach their speed limit in this time.
   double time_to_speed_s = 0.5;
 };
 

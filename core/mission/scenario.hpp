@@ -1,4 +1,4 @@
-// The scenarios of a mission: scenarios/NAME.yaml in its folder.
+// The scenarios of a mission are the files scenarios/NAME.yaml in its folder.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,11 @@
 
 namespace roci::mission {
 
-/// What a service reads: a mission file is named itself or by its folder, whose mission.yaml it then is.
+/// Returns the file that a service reads: a mission file itself, or mission.yaml of a mission folder.
 std::filesystem::path mission_file(const std::filesystem::path& folder_or_file);
 
-/// Reads a scenario of a mission. Throws FileError; for a name that no file has, it lists those that there are.
+/// Reads a scenario of a mission. Throws FileError; for a name that no file has, it lists those that there
+/// are.
 Entry load_scenario(const std::filesystem::path& folder_or_file, const std::string& name);
 
 }  // namespace roci::mission

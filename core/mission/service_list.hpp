@@ -1,4 +1,4 @@
-// The services of a mission: `services:` of mission.yaml. Launcher, roster of the simulated clock,
+// The services of a mission stand in `services:` of mission.yaml. Launcher, roster of the simulated clock,
 // supervisor, rehearsal and systemd units read this list; there is no other.
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace roci::mission {
 
-/// One process of a run.
+/// Is one process of a run.
 struct ServiceEntry {
   std::string name;  ///< logical name, unique in the mission; samples carry it as their sender
-  /// A program beside the launcher, or a path seen from the mission's folder if it holds a '/'.
+  /// Names a program beside the launcher, or a path seen from the mission's folder if it holds a '/'.
   std::string program;
   std::string robot;   ///< whose inner topics it shares; empty: the team's, with those of every robot
   std::string vendor;  ///< DDS vendor in a mixed run; empty: the run's first vendor
@@ -28,22 +28,23 @@ struct ServiceList {
   std::vector<std::string> robots;  ///< as `robots:` names them, in that order
   std::vector<ServiceEntry> services;
 
-  /// Null if there is none of that name.
+  /// Returns the service of that name, or null if there is none.
   const ServiceEntry* find(std::string_view name) const;
   std::vector<std::string> names() const;
-  /// The one with `clock: master`; null if there is none: then the mission can only be flown live.
+  /// Returns the service with `clock: master`, or null if there is none: then the mission can only be flown
+  /// live.
   const ServiceEntry* clock_master() const;
-  /// The only service of a program that serves this robot: its own, else the team's. Empty if there is none
-  /// or a choice.
+  /// Returns the name of the only service of a program that serves this robot: its own, else the team's. The
+  /// name is empty if there is none or a choice.
   std::string serving(std::string_view program, std::string_view robot) const;
 };
 
-/// Reads `robots:` and `services:`. Throws FileError with the place: no list, a name twice or not of letters,
-/// digits, '_',
-/// '-' and '.', an unknown robot, a settings file or a program path that does not exist, two clock masters.
+/// Reads `robots:` and `services:`. Throws FileError with the place if there is no list, a name comes twice
+/// or is not made of letters, digits, '_', '-' and '.', a robot is unknown, a settings file or a program path
+/// does not exist, or there are two clock masters.
 ServiceList read_service_list(const Entry& mission);
 
-/// The list of mission.yaml in that folder. Throws FileError.
+/// Reads the list of mission.yaml in that folder. Throws FileError.
 ServiceList load_service_list(const std::filesystem::path& mission_folder);
 
 }  // namespace roci::mission

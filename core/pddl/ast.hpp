@@ -1,8 +1,9 @@
-// The syntax tree of a PDDL domain or problem: PDDL 2.1 level 3, timed initial literals and derived
+// The syntax tree of a PDDL domain or problem covers PDDL 2.1 level 3, timed initial literals and derived
 // predicates (2.2), timed initial fluents, and :modules of external functions (Stellar section 4.5, R35).
 //
-// Plain values. All names are lower case. A tree from the parser has its types, arities and names checked
-// only after check() (check.hpp). Equality compares what nodes say and ignores where they stand.
+// Its nodes are plain values. All names are lower case. A tree from the parser has its types, arities and
+// names checked only after check() (check.hpp). Equality compares what nodes say and ignores where they
+// stand.
 #pragma once
 
 #include <optional>
@@ -17,7 +18,7 @@ namespace roci::pddl {
 
 // ---- Names, terms, types
 
-/// A variable ("?x", with its question mark) or the name of an object.
+/// Is a variable ("?x", with its question mark) or the name of an object.
 struct Term {
   std::string name;
   SourceLocation where;
@@ -25,7 +26,7 @@ struct Term {
   bool is_variable() const { return !name.empty() && name.front() == '?'; }
 };
 
-/// A variable, object or type with its type(s): several alternatives for `(either a b)`, {"object"} if
+/// Is a variable, object or type with its type(s): several alternatives for `(either a b)`, {"object"} if
 /// untyped.
 struct TypedName {
   std::string name;
@@ -33,14 +34,14 @@ struct TypedName {
   SourceLocation where;
 };
 
-/// A predicate, fluent or external function applied to terms.
+/// Is a predicate, fluent or external function applied to terms.
 struct Atom {
   std::string symbol;
   std::vector<Term> arguments;
   SourceLocation where;
 };
 
-/// Declaration of a predicate, fluent or external function.
+/// Declares a predicate, fluent or external function.
 struct Signature {
   std::string name;
   std::vector<TypedName> parameters;
@@ -61,7 +62,8 @@ struct ContinuousTime {};    ///< #t: parsed so that it can be refused by name (
 
 enum class ArithmeticOperator { add, subtract, multiply, divide };
 
-/// One operand with subtract is the negative; add and multiply take two or more, the others two.
+/// Joins operands: one operand with subtract is the negative; add and multiply take two or more, the others
+/// two.
 struct Arithmetic {
   ArithmeticOperator op = ArithmeticOperator::add;
   std::vector<Expression> operands;
@@ -122,8 +124,8 @@ struct Condition {
   SourceLocation where;
 };
 
-/// The conditions of a durative action, sorted by time (`forall` and `and` around `at start` and the like are
-/// distributed by the parser). What is not asked is the empty And. A plain action has only at_start.
+/// Holds the conditions of a durative action, sorted by time (the parser distributes `forall` and `and`
+/// around `at start` and the like). What is not asked is the empty And. A plain action has only at_start.
 struct TimedCondition {
   Condition at_start;
   Condition over_all;
@@ -147,7 +149,7 @@ struct Assignment {
   Expression value;
 };
 
-/// A conditional effect. The condition may look at another time than the effect's own: the end effect of
+/// Is a conditional effect. The condition may look at another time than the effect's own: the end effect of
 /// `(when (at start (p)) (at end (q)))` has p in condition.at_start. `(at end (when (p) (q)))` has it in
 /// condition.at_end, and a plain action in condition.at_start.
 struct When {
@@ -160,7 +162,7 @@ struct ForallEffect {
   std::vector<Effect> effects;
 };
 
-/// `and` in effects is dissolved into the vector that holds it.
+/// Is one effect; an `and` in effects is dissolved into the vector that holds it.
 struct Effect {
   std::variant<Literal, Assignment, When, ForallEffect> node;
   SourceLocation where;
@@ -178,7 +180,7 @@ struct Action {
 
 enum class TimePoint { start, end };
 
-/// ?duration OP bound, the bound being evaluated at the given point; OP is <=, = or >=.
+/// Says ?duration OP bound, where the bound is evaluated at the given point and OP is <=, = or >=.
 struct DurationConstraint {
   ComparisonOperator op = ComparisonOperator::equal;
   Expression bound;
@@ -186,7 +188,8 @@ struct DurationConstraint {
   SourceLocation where;
 };
 
-/// ⟨pre⊢, eff⊢, pre↔, pre⊣, eff⊣⟩ with bounds on the duration (R2); no constraint at all: any duration ≥ 0.
+/// Is ⟨pre⊢, eff⊢, pre↔, pre⊣, eff⊣⟩ with bounds on the duration (R2); without any constraint every duration
+/// ≥ 0 is allowed.
 struct DurativeAction {
   std::string name;
   std::vector<TypedName> parameters;
@@ -194,12 +197,12 @@ struct DurativeAction {
   TimedCondition condition;
   std::vector<Effect> start_effects;
   std::vector<Effect> end_effects;
-  /// `(increase (f) (* #t 2))`, outside of any `at`; see forbidden.hpp.
+  /// Holds effects as `(increase (f) (* #t 2))`, outside of any `at`; see forbidden.hpp.
   std::vector<Effect> continuous_effects;
   SourceLocation where;
 };
 
-/// (:derived (head ?x - t …) body)
+/// Is `(:derived (head ?x - t …) body)`.
 struct DerivedPredicate {
   Signature head;
   Condition body;
@@ -212,7 +215,8 @@ struct Requirement {
   SourceLocation where;
 };
 
-/// External functions of one owner: objects to numbers, constant for a whole planning call.
+/// Declares the external functions of one owner: they lead from objects to numbers and are constant for a
+/// whole planning call.
 struct Module {
   std::string name;
   std::vector<Signature> functions;
@@ -277,7 +281,7 @@ struct Problem {
   SourceLocation where;
 };
 
-// ---- Equality of what is said, wherever it stands (file names and locations are ignored)
+// Equality compares what is said, wherever it stands (file names and locations are ignored).
 
 bool operator==(const Term&, const Term&);
 bool operator==(const TypedName&, const TypedName&);

@@ -1,4 +1,4 @@
-// std::visit with one lambda per alternative.
+// Overloaded lets std::visit take one lambda per alternative.
 #pragma once
 
 namespace roci::pddl {

@@ -1,5 +1,5 @@
-// The one plan type of all engines: activities + tokens + decision points + a simple temporal network.
-// idl/plan.idl is its wire form; the names there are the names here.
+// FlexiblePlan is the one plan type of all engines: activities, tokens, decision points and a simple temporal
+// network. idl/plan.idl is its wire form; the names there are the names here.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace roci::temporal {
 
 enum class ConstraintKind { ordering, duration, window };
 
-/// lower <= t[to_point] - t[from_point] <= upper. Point 0 is the plan's origin. upper >= 0 (turn it round
-/// otherwise).
+/// Requires lower <= t[to_point] - t[from_point] <= upper. Point 0 is the plan's origin. upper must be >= 0
+/// (a constraint is turned round otherwise).
 struct TemporalConstraint {
   TimePoint from_point = 0;
   TimePoint to_point = 0;
@@ -38,27 +38,28 @@ struct Impact {
   friend bool operator==(const Impact&, const Impact&) = default;
 };
 
-/// What happens when an activity's latest start has passed.
+/// Says what happens when an activity's latest start has passed.
 enum class LatenessPolicy {
   /// The plan is broken (Stellar, R49).
   replan,
   /// It waits on until wait_timeout, and succeeds only after the shortest duration has elapsed (MEXEC, R86,
   /// R98).
   push,
-  /// As replan; moreover it must end before the latest next change of its timeline (SanchoExpress, R144).
+  /// It does as `replan`, and must moreover end before the latest next change of its timeline (SanchoExpress,
+  /// R144).
   deadline,
 };
 
 enum class CommitState { planned, committed };
 
-/// What else fails with an activity that has failed for good.
+/// Says what else fails with an activity that has failed for good.
 enum class FailureScope {
   of_plan,      ///< the plan is broken
   of_activity,  ///< nothing: it fails alone, what needs its effects fails or is skipped when its turn comes
 };
 
 enum class ActivityState { waiting, dispatched, running, succeeded, failed, skipped, cancelled };
-/// It has ended, or never will start.
+/// Returns whether the activity has ended, or never will start.
 constexpr bool is_over(ActivityState state) {
   return state != ActivityState::waiting && state != ActivityState::dispatched &&
          state != ActivityState::running;
@@ -70,7 +71,7 @@ struct Property {
   friend bool operator==(const Property&, const Property&) = default;
 };
 
-/// One command of a sequence; the members mean what they mean in PlanActivity.
+/// Is one command of a sequence; the members mean what they mean in PlanActivity.
 struct PlanCommand {
   std::string owner;
   std::string robot;
@@ -81,8 +82,8 @@ struct PlanCommand {
   friend bool operator==(const PlanCommand&, const PlanCommand&) = default;
 };
 
-/// The executive sends (id, attempt) as a command's key: ids must not be used again in later plans for
-/// anything else.
+/// Is one activity. The executive sends (id, attempt) as a command's key: ids must not be used again in later
+/// plans for anything else.
 struct PlanActivity {
   std::string id;
   std::string name;    ///< action or task name
@@ -93,9 +94,10 @@ struct PlanActivity {
   std::string subsystem;
   std::string command_name;
   std::vector<Property> arguments;
-  /// Longest time from sending the command to its first answer; no_bound: as the executive is set.
+  /// Bounds the time from sending the command to its first answer; no_bound leaves it to the executive's
+  /// settings.
   Duration answer_within = no_bound;
-  /// Commands that follow, each after the end of the one before (R67).
+  /// Holds the commands that follow, each after the end of the one before (R67).
   std::vector<PlanCommand> then;
   TimePoint start_point = 0;  ///< own points: no two activities share one, none is the origin
   TimePoint end_point = 0;
@@ -120,7 +122,7 @@ struct PlanActivity {
   friend bool operator==(const PlanActivity&, const PlanActivity&) = default;
 };
 
-/// A timeline holds a value between two time points.
+/// Says that a timeline holds a value between two time points.
 struct Token {
   std::string timeline;
   Value held;
@@ -129,7 +131,7 @@ struct Token {
   friend bool operator==(const Token&, const Token&) = default;
 };
 
-/// Who resolves a decision at run time.
+/// Says who resolves a decision at run time.
 enum class ResolverKind {
   engine,  ///< the engine that made the plan
   ground,
@@ -143,15 +145,15 @@ struct DecisionChoice {
   friend bool operator==(const DecisionChoice&, const DecisionChoice&) = default;
 };
 
-/// An argument of an activity's command that an answer binds.
+/// Names an argument of an activity's command that an answer binds.
 struct ArgumentBinding {
   std::string activity;
   std::string argument;
   friend bool operator==(const ArgumentBinding&, const ArgumentBinding&) = default;
 };
 
-/// An open choice that is made at run time, before `decide_before` may happen (R131): an answer picks one of
-/// the choices' activities, or binds a value to arguments of activities that have not started.
+/// Is an open choice that is made at run time, before `decide_before` may happen (R131): an answer picks one
+/// of the choices' activities, or binds a value to arguments of activities that have not started.
 struct DecisionPoint {
   std::string id;
   std::string resolver;  ///< service or issuer that is asked; empty: whoever is of the kind
@@ -163,14 +165,14 @@ struct DecisionPoint {
   friend bool operator==(const DecisionPoint&, const DecisionPoint&) = default;
 };
 
-/// How a function value stands to the true one.
+/// Says how a function value stands to the true one.
 enum class FunctionAccuracy {
   exact,
   lower_bound,  ///< never above it: admissible
   estimate,     ///< neither
 };
 
-/// Provenance of a value of an external function on which the plan stands.
+/// Tells the provenance of a value of an external function on which the plan stands.
 struct FunctionValueUse {
   std::string function;
   std::vector<std::string> arguments;
@@ -196,14 +198,14 @@ struct FlexiblePlan {
   friend bool operator==(const FlexiblePlan&, const FlexiblePlan&) = default;
 };
 
-/// Everything wrong with the plan's form, one plain sentence each; empty: it can be executed. Checks ids,
-/// indices, bounds, condition trees, references of parents and choices, and that the network has a solution
-/// in which no point lies before the origin.
+/// Returns everything wrong with the plan's form, one plain sentence each; with none it can be executed. It
+/// checks ids, indices, bounds, condition trees, references of parents and choices, and that the network has
+/// a solution in which no point lies before the origin.
 std::vector<std::string> check(const FlexiblePlan& plan);
 
-/// The plan's whole network. First one constraint of kind duration per activity, at the activity's index
-/// (those of the plan between the same two points are merged into it); then "not before the origin" for every
-/// point, "start before end" for every token, and the plan's other constraints.
+/// Returns the plan's whole network: first one constraint of kind duration per activity, at the activity's
+/// index (those of the plan between the same two points are merged into it); then "not before the origin" for
+/// every point, "start before end" for every token, and the plan's other constraints.
 std::vector<TemporalConstraint> all_constraints(const FlexiblePlan& plan);
 
 }  // namespace roci::temporal
