@@ -1,5 +1,5 @@
-// Does the arm touch itself, its carrier or the ground? Exact shape tests by FCL (Pan, Chitta, Manocha, ICRA
-// 2012).
+// This file tests whether the arm touches itself, its carrier or the ground, by exact shape tests of FCL
+// (Pan, Chitta, Manocha, ICRA 2012).
 #pragma once
 
 #include <memory>
@@ -24,7 +24,7 @@ struct Contact {
 };
 
 /// Tests bodies that are not joined by a joint (those that are may touch at it), and moving bodies against
-/// the ground. Safe to use from several threads.
+/// the ground. It is safe to use from several threads.
 class CollisionChecker {
  public:
   CollisionChecker(kinematics::Arm arm, CollisionRules rules);
@@ -35,9 +35,9 @@ class CollisionChecker {
   /// Returns the first contact in a fixed order of pairs, with surfaces moved out by the margin.
   std::optional<Contact> contact(const kinematics::JointVector& q) const;
 
-  /// True if there is no contact anywhere on the straight joint-space line between the two. It is sampled so
-  /// densely that no point of the arm moves more than twice the margin between samples: nothing can pass
-  /// through unseen.
+  /// Returns true if there is no contact anywhere on the straight joint-space line between the two. The line
+  /// is sampled so densely that no point of the arm moves more than twice the margin between samples: nothing
+  /// can pass through unseen.
   bool line_is_free(const kinematics::JointVector& from, const kinematics::JointVector& to) const;
 
  private:

@@ -1,6 +1,6 @@
-// Electrical energy of a motion, by a geared DC motor at each joint (after Verstraten et al., "Modeling and
-// design of geared DC motors for energy efficiency", Mechatronics 30, 2015, with the motor's own inertia left
-// out):
+// The electrical energy of a motion is computed by a geared DC motor at each joint (after Verstraten et al.,
+// "Modeling and design of geared DC motors for energy efficiency", Mechatronics 30, 2015, with the motor's
+// own inertia left out):
 //
 //   P = idle + Σ_j [ max(0, τ_j · v_j) / efficiency + full_effort_loss · (τ_j / effort limit_j)² ]
 //   τ_j = inverse dynamics (gravity = holding, inertia = kinetic) + friction · sign(v_j) + damping · v_j

@@ -1,4 +1,4 @@
-// Batched duration and energy of motions, each computed once per model version.
+// Estimates give duration and energy of motions in batches, each computed once per model version.
 #pragma once
 
 #include <functional>

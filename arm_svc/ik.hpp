@@ -1,6 +1,7 @@
-// Inverse kinematics by damped least squares: Levenberg-Marquardt steps whose damping is the remaining error
-// (T. Sugihara, "Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt method", IEEE Trans.
-// on Robotics 27(5), 2011), with joints that stand at a limit frozen, from several deterministic starts.
+// Inverse kinematics goes by damped least squares: Levenberg-Marquardt steps whose damping is the remaining
+// error (T. Sugihara, "Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt method", IEEE
+// Trans. on Robotics 27(5), 2011), with joints that stand at a limit frozen, from several deterministic
+// starts.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,8 @@
 
 namespace roci::arm {
 
-/// An axis of the tool frame shall point along a direction of the base frame; turning about it stays free.
+/// Asks that an axis of the tool frame points along a direction of the base frame; turning about it stays
+/// free.
 struct Approach {
   Eigen::Vector3d tool_axis = Eigen::Vector3d::UnitX();
   Eigen::Vector3d direction = -Eigen::Vector3d::UnitZ();

@@ -1,4 +1,4 @@
-// Motions between named poses: trajectory, duration and energy, or the reason why there is none.
+// A motion between named poses has a trajectory, a duration and an energy, or the reason why there is none.
 #pragma once
 
 #include <functional>
@@ -41,7 +41,7 @@ struct Place {
   std::optional<kinematics::JointVector> joints = std::nullopt;
 };
 
-/// A place as joint values, or the reason why it has none.
+/// Is a place as joint values, or the reason why it has none.
 struct ResolvedPlace {
   std::string name;
   MotionStatus status = MotionStatus::found;  ///< Else unknown_pose, unreachable or in_collision.
@@ -59,11 +59,11 @@ class MotionModel {
   /// Joints off a limit by no more than sensor noise (0.01 rad or m) are clamped to it.
   ResolvedPlace resolve(const Place& place) const;
 
-  /// `cancelled` is asked often; it may be empty.
+  /// Plans the motion. `cancelled` is asked often; it may be empty.
   Motion motion(const Place& from, const Place& to, const std::function<bool()>& cancelled = {}) const;
 
   const ArmSetup& setup() const { return setup_; }
-  /// They come in the order of the setup.
+  /// Returns the poses in the order of the setup.
   const std::vector<ResolvedPlace>& poses() const { return poses_; }
   std::uint64_t version() const { return version_; }
 

@@ -1,4 +1,4 @@
-// Between the wire and the path planner: plain translations, no node.
+// This file translates between the wire and the path planner, without a node.
 #pragma once
 
 #include <map>
@@ -22,7 +22,7 @@ struct FunctionAnswer {
   std::map<std::string, std::string> unusable_places;  ///< By object: why no path can begin or end there.
 };
 
-/// Every tuple gets an outcome. An object is a place if it has properties x and y, finite numbers in metres.
+/// Gives every tuple an outcome. An object is a place if it has properties x and y, finite numbers in metres.
 /// A place off the map or inside an obstacle is unreachable. Once stopped, the rest is FUNCTION_FAILED.
 FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request,
                         const std::stop_token& stop);

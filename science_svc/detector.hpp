@@ -1,6 +1,6 @@
-// Finds, in images, what nobody asked for. For now a stand-in for a classifier: the score of an image is
-// drawn from the seed and the square metre where it was taken, not from its pixels; everything after the
-// score is real.
+// The detector finds, in images, what nobody asked for. For now it is a stand-in for a classifier: the score
+// of an image is drawn from the seed and the square metre where it was taken, not from its pixels; everything
+// after the score is real.
 #pragma once
 
 #include <cstdint>
@@ -37,12 +37,12 @@ struct Find {
 
 class Detector {
  public:
-  /// Goals lie inside `map`.
+  /// Prepares a detector whose goals lie inside `map`.
   Detector(DetectorSettings settings, terrain::Grid map, std::uint64_t seed);
 
-  /// In [0, 1), the same for the same seed and square metre.
+  /// Returns a score in [0, 1), the same for the same seed and square metre.
   double score(terrain::Point taken_from) const;
-  /// Each photo is looked at once; nothing where it shows nothing new.
+  /// Looks at a photo, each once. Returns nothing where it shows nothing new.
   std::optional<Find> look(const Photo&, temporal::Time now);
 
  private:

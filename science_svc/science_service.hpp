@@ -1,4 +1,4 @@
-// The detector as a process: images in, opportunistic goals out (R54).
+// This is the detector as a process: images come in, opportunistic goals go out (R54).
 #pragma once
 
 #include <memory>

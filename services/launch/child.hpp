@@ -1,4 +1,4 @@
-// One child process: its output goes to a log file, and it dies with this process.
+// A Child is one child process: its output goes to a log file, and it dies with this process.
 #pragma once
 
 #include <sys/types.h>

@@ -1,4 +1,4 @@
-// The command line of roci-launch.
+// This file reads the command line of roci-launch.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct Options {
   std::string scenario = "nominal";
   std::uint64_t seed = 1;
   bool live = false;
-  /// Mission seconds per second; 0 means as fast as possible.
+  /// Holds mission seconds per second; 0 means as fast as possible.
   std::optional<double> speed;
   bool headless = false;
   bool json = false;
@@ -34,12 +34,13 @@ struct Options {
   services::process::Connection connection;  ///< Its `dds` may be "mixed" or "inproc".
 };
 
-/// The second process of a paired service; it is no member of the roster of its own.
+/// Returns the name of the second process of a paired service; it is no member of the roster of its own.
 std::string standby_of(const std::string& service);
-/// The service that a process is one of; `standby` says whether it is the second one. Null: there is no such process.
+/// Returns the service that a process is one of, or null if there is no such process; `standby` says whether
+/// it is the second one.
 const mission::ServiceEntry* entry_of(const Options&, const std::string& process, bool* standby = nullptr);
 
-/// Throws process::CommandLineEnd, std::invalid_argument, mission::FileError.
+/// Reads the command line. Throws process::CommandLineEnd, std::invalid_argument, mission::FileError.
 Options parse_options(int argc, const char* const* argv, const services::process::Environment&);
 
 }  // namespace roci::services::launch

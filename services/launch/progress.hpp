@@ -1,5 +1,5 @@
-// What the user sees of a run while it flies, from an observer node: mission time, phase, goals, the last
-// event.
+// The progress line shows the user a run while it flies, from an observer node: mission time, phase, goals,
+// the last event.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// A service's own log on standard error, for developers. Operators get events (topics::event).
+// A service logs on standard error, for developers. Operators get events (topics::event).
 #pragma once
 
 #include <string_view>

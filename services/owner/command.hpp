@@ -1,4 +1,4 @@
-// What an owner of commands and its commanders say to each other, as plain values.
+// An owner of commands and its commanders say this to each other, as plain values.
 #pragma once
 
 #include <compare>
@@ -12,7 +12,7 @@
 
 namespace roci::services::owner {
 
-/// The command that breaks off whatever its subsystem runs, whoever commanded that.
+/// This command breaks off whatever its subsystem runs, whoever commanded that.
 inline constexpr char kStopCommand[] = "stop";
 
 /// Names one command for good. A commander that takes over from another one, or from itself after a restart,
@@ -36,7 +36,8 @@ struct Request {
   std::string subsystem{};
   std::string command{};
   std::map<std::string, std::string> arguments{};
-  /// When the step has to be over at the latest; until then the owner may repair (R146). Empty: no limit.
+  /// Holds when the step has to be over at the latest; until then the owner may repair (R146). If it is empty
+  /// there is no limit.
   std::optional<temporal::Time> latest_end{};
 };
 
@@ -44,7 +45,7 @@ struct Request {
 /// the activity. The order is the one of CommandStage in idl/command.idl.
 enum class Stage { accepted, rejected, completed, failed, cancelled, cancel_failed, unknown };
 
-/// What a command came to that ran and ended.
+/// Holds what a command came to that ran and ended.
 struct Results {
   std::optional<temporal::Duration> duration{};  ///< empty: the time since it was accepted
   std::optional<double> energy_j{};              ///< drawn by it alone; empty: not measured
@@ -52,7 +53,7 @@ struct Results {
   bool operator==(const Results&) const = default;
 };
 
-/// A word of the owner on a command: a stable code for programs, a reason in plain words.
+/// Is a word of the owner on a command: a stable code for programs, a reason in plain words.
 struct Word {
   Stage stage = Stage::accepted;
   std::string code{};
@@ -61,7 +62,7 @@ struct Word {
   bool operator==(const Word&) const = default;
 };
 
-/// The word as it goes out.
+/// Is the word as it goes out.
 struct Ack {
   CommandKey key;
   Word word;

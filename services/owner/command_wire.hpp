@@ -1,4 +1,4 @@
-// Between the kit's values and idl/command.idl.
+// This file translates between the kit's values and idl/command.idl.
 #pragma once
 
 #include <string>

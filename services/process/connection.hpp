@@ -1,5 +1,5 @@
-// Where a program joins a run, and over which vendor: from the command line, the environment, a host's
-// network file and the mission file, in this order of precedence.
+// A connection says where a program joins a run, and over which vendor. It comes from the command line, the
+// environment, a host's network file and the mission file, in this order of precedence.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ struct ConnectionFlags {
   std::optional<std::string> dds;      ///< --dds, ROCI_DDS, dds: in the network and mission files
   std::optional<int> domain;           ///< --domain, ROCI_DOMAIN, domain:
   std::optional<std::string> address;  ///< --address, ROCI_ADDRESS, address:
-  /// --peers, ROCI_PEERS (separated by commas), peers: (a list)
+  /// Holds --peers, ROCI_PEERS (separated by commas) or peers: (a list).
   std::optional<std::string> peers;
   std::optional<std::filesystem::path> network;  ///< --network, ROCI_NETWORK: the network file
 };

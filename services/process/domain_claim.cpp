@@ -19,7 +19,7 @@ std::uint16_t claim_port(int domain) {
   return static_cast<std::uint16_t>(transport::first_participant_port(domain) + 239);
 }
 
-// A UDP socket that has the port for itself, or -1.
+// Returns a UDP socket that has the port for itself, or -1.
 int bind_alone(std::uint16_t port) {
   const int udp = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};

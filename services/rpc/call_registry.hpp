@@ -1,4 +1,5 @@
-// The calls of one node: one table and one server for each procedure, by the name of its request topic.
+// The registry holds the calls of one node: one table and one server for each procedure, by the name of its
+// request topic.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// How a call to another service ends.
+// The status of a call says how a call to another service ends.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +16,13 @@ enum class CallStatus {
   cancelled,     ///< The caller cancelled the call before it was sent to anybody.
 };
 
-/// The name above.
+/// Returns the name above.
 const char* to_string(CallStatus);
 
-/// How many calls of one procedure a client may have under way.
+/// A client may have so many calls of one procedure under way.
 inline constexpr std::size_t kMaxPendingCalls = 256;
 
-/// The number of a call among those of one client.
+/// Is the number of a call among those of one client.
 using CallId = std::int64_t;
 
 struct CallStatistics {

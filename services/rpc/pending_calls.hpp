@@ -1,4 +1,4 @@
-// The calls of one client that are under way, without their types.
+// This file has the calls of one client that are under way, without their types.
 #pragma once
 
 #include <cstdint>
