@@ -1,4 +1,4 @@
-// Between the world's plain values and the wire.
+// This file translates between the world's plain values and the wire.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ namespace roci::sim::wire {
 world::TaskKey task_key(const services::owner::CommandKey&);
 services::owner::CommandKey command_key(const world::TaskKey&);
 world::Order order_of(const services::owner::Request&);
-/// The owner's word on a task; a report of a repair is none (CommandServer::repair).
+/// Returns the owner's word on a task; a report of a repair is none (CommandServer::repair).
 services::owner::Word word_of(const world::TaskReport&);
 world::Way way_of(const v1::PathReply&);
 world::Trajectory trajectory_of(const v1::ArmMotionReply&);

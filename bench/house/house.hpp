@@ -1,4 +1,4 @@
-/// A house: the processes of one mission and idle ones beside them, started here, watched over DDS.
+/// A house is the processes of one mission and idle ones beside them, started here, watched over DDS.
 #pragma once
 
 #include <chrono>
@@ -28,7 +28,7 @@ struct HouseOptions {
   double pace = 0;    ///< Mission seconds per second; 0: as fast as possible.
 };
 
-/// What the clock did, as an observer heard it.
+/// Holds what the clock did, as an observer heard it.
 struct ClockFigures {
   double sim_s = 0;               ///< Mission time of the newest step.
   std::uint64_t micro_steps = 0;  ///< Numbered ones; a time of which no step was heard is missed.
@@ -47,15 +47,15 @@ class House {
   /// Listens until the clock runs. Throws std::runtime_error when a process ends before, or after a minute.
   void wait_for_clock();
   void listen(std::chrono::duration<double> time);
-  /// Listens until all processes have ended by themselves; false: some have not, ten minutes later.
+  /// Listens until all processes have ended by themselves. Returns false if some have not, ten minutes later.
   bool wait_for_end();
 
-  /// Seconds from the first process's start; nothing: it has not come.
+  /// These return seconds from the first process's start, or nothing if it has not come.
   std::optional<double> first_step_s() const { return first_step_s_; }
   std::optional<double> first_command_s() const { return first_command_s_; }
   std::optional<double> last_step_s() const { return last_step_s_; }
   const ClockFigures& clock() const { return clock_; }
-  /// Of all processes that live, this one included.
+  /// Returns the figures of all processes that live, this one included.
   ProcessFigures figures() const;
 
  private:

@@ -1,4 +1,4 @@
-/// What the kernel says of a process, from /proc.
+/// This file reads what the kernel says of a process, from /proc.
 #pragma once
 
 #include <sys/types.h>
@@ -13,10 +13,10 @@ struct ProcessFigures {
   int threads = 0;
 };
 
-/// Zeros for a process that is gone.
+/// Returns zeros for a process that is gone.
 ProcessFigures figures_of(pid_t process);
 
-/// The sums over processes.
+/// Returns the sums over processes.
 ProcessFigures figures_of(const std::vector<pid_t>& processes);
 
 }  // namespace roci::bench::house

@@ -22,7 +22,8 @@ bool starts(const Options& options, const std::string& process) {
   return std::ranges::find(options.services, process) != options.services.end();
 }
 
-// Returns whether exec_svc runs here, with its standby if there is one; else another host may count the goals.
+// Returns whether exec_svc runs here, with its standby if there is one; else another host may count the
+// goals.
 bool must_count_goals(const Options& options) {
   return std::ranges::any_of(options.list.services, [&](const mission::ServiceEntry& entry) {
     const bool here = entry.program == kExecutive && starts(options, entry.name);

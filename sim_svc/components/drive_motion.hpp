@@ -10,7 +10,7 @@
 
 namespace roci::sim::components {
 
-/// The true wheels and ground, which the estimators' models only resemble.
+/// Holds the true wheels and ground, which the estimators' models only resemble.
 struct DriveParameters {
   double radius_m = 0.6;           ///< of the disc that the rover covers
   double wheel_speed_m_s = 0.105;  ///< on flat ground, before slip
@@ -37,7 +37,7 @@ struct DriveSample {
   std::size_t next_waypoint = 0;  ///< index into the way-points
 };
 
-/// A whole drive as it happens if nobody interrupts it. Sample i holds at start + i * kDriveStep; the last
+/// Is a whole drive as it happens if nobody interrupts it. Sample i holds at start + i * kDriveStep; the last
 /// one at `end`.
 struct DriveTrace {
   temporal::Time start{};
@@ -47,7 +47,8 @@ struct DriveTrace {
   std::optional<std::size_t> seen_rock;  ///< with `blocked`: index into Ground::hidden_rocks
   double peak_power_w = 0;
 
-  /// Between two samples: linear. Before the start the first, after the end the last sample.
+  /// Interpolates linearly between two samples. Before the start it is the first, after the end the last
+  /// sample.
   DriveSample at(temporal::Time) const;
 };
 

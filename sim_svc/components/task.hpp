@@ -1,4 +1,4 @@
-// A component that is data alone: commands that take time and power and lead from state to state. With it
+// A task component is data alone: commands that take time and power and lead from state to state. With it
 // somebody else's robot flies without any code.
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace roci::sim::components {
 
-/// A state whose words may hold arguments of the command in braces: going-to ({to}).
+/// Is a state whose words may hold arguments of the command in braces: going-to ({to}).
 struct StateTemplate {
   std::string name;
   std::vector<std::string> arguments;
 };
 
-/// What a command does with one of the component's numbers.
+/// Says what a command does with one of the component's numbers.
 struct NumberChange {
   double by = 0;             ///< added evenly over the duration
   std::optional<double> to;  ///< the value at the end, instead
@@ -37,7 +37,7 @@ struct TaskCommand {
   std::map<std::string, NumberChange> changes{};  ///< by number
 };
 
-/// A numeric timeline of the component, `<robot>.<component>.<name>`.
+/// Is a numeric timeline of the component, `<robot>.<component>.<name>`.
 struct TaskNumber {
   std::string name;
   double start = 0;
@@ -50,8 +50,8 @@ struct TaskSettings {
   std::vector<TaskNumber> numbers;
 };
 
-/// The component. A task that is broken off leaves the numbers as they are by then; a number set `to` a value
-/// has it only at the end.
+/// Runs the tasks. A task that is broken off leaves the numbers as they are by then; a number set `to` a
+/// value has it only at the end.
 class TaskComponent final : public world::Component {
  public:
   TaskComponent(TaskSettings, world::RandomStream noise);
@@ -70,7 +70,7 @@ class TaskComponent final : public world::Component {
   double peak_power_w() const override;
   bool moves() const override { return run_ && !settings_.commands[run_->command].changes.empty(); }
   std::vector<world::NamedNumber> numbers() const override;
-  /// The component's numbers, as the task left them.
+  /// Returns the component's numbers, as the task left them.
   std::map<std::string, temporal::Value> results() const override;
 
  private:

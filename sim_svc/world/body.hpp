@@ -8,7 +8,7 @@
 
 namespace roci::sim::world {
 
-/// What a robot has once, whatever its components are.
+/// Holds what a robot has once, whatever its components are.
 struct Body {
   std::optional<Pose> pose;             ///< empty: it stands nowhere on the map
   std::optional<Battery> battery;       ///< empty: its power comes from elsewhere and never ends
