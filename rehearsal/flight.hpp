@@ -38,8 +38,8 @@ struct FlightOptions {
 };
 
 /// Flies the services that the mission names. Returns when the clock's master has ended the run; the summary
-/// stands in run_folder/summary.json. Throws std::invalid_argument for a mission that names a program which is
-/// not linked here or no clock master, and what a service threw while it was made or while it ran.
+/// stands in run_folder/summary.json. Throws std::invalid_argument for a mission that names a program which
+/// is not linked here or no clock master, and what a service threw while it was made or while it ran.
 void fly(const FlightOptions& options);
 
 }  // namespace roci::rehearsal

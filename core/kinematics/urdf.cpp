@@ -66,8 +66,8 @@ class ArmBuilder {
     const auto chain = chain_to(model_, options_.tip);
     arm_.name = model_.getName();
     arm_.bodies.push_back({chain.front()->name, {}, {}});
-    Eigen::Isometry3d in_body =
-        Eigen::Isometry3d::Identity();  // pose of the current link in the current body
+    // This is the pose of the current link in the current body.
+    Eigen::Isometry3d in_body = Eigen::Isometry3d::Identity();
     for (std::size_t i = 0; i < chain.size(); ++i) {
       if (i > 0) in_body = step(*chain[i], in_body);
       const auto next = i + 1 < chain.size() ? chain[i + 1] : nullptr;

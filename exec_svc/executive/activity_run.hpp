@@ -1,4 +1,4 @@
-/// How far one activity of the running plan has come.
+/// An activity's run says how far one activity of the running plan has come.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ enum class ActivityPhase {
   done,
 };
 
-/// What follows when a cancel has been answered.
+/// Says what follows when a cancel has been answered.
 enum class AfterCancel { retry, fail, withdraw };
 
 struct ActivityRun {

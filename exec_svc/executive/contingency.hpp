@@ -1,5 +1,5 @@
-/// What is done about a failed activity before its plan is given up (R69, R70): commands from a template,
-/// sent at once and without a planner.
+/// A contingency is what is done about a failed activity before its plan is given up (R69, R70): commands
+/// from a template, sent at once and without a planner.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@ struct ContingencyCommand {
   std::vector<temporal::Property> arguments;  ///< {name}: the failed command's argument of that name
 };
 
-/// A task that nobody requested; a failure makes an instance of it.
+/// Is a task that nobody requested; a failure makes an instance of it.
 struct Contingency {
   std::string name;
   std::vector<ContingencyCommand> commands;  ///< one after the other
-  /// Then the activity is tried again, if its preconditions hold; else the plan is broken.
+  /// Says whether the activity is tried again then, if its preconditions hold; else the plan is broken.
   bool retries = false;
   std::uint32_t times = 1;                             ///< for one activity
   temporal::Duration within = temporal::seconds(300);  ///< for all of its commands

@@ -1,5 +1,5 @@
-/// Contingencies under way: the commands of a template, one after the other, after an activity has failed
-/// (R69, R70). Others run on meanwhile (R141).
+/// Contingency runs are the contingencies under way: the commands of a template, one after the other, after
+/// an activity has failed (R69, R70). Other activities run on meanwhile (R141).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace roci::exec::executive {
 
-/// A contingency has come to its end.
+/// Says that a contingency has come to its end.
 struct ContingencyEnd {
   Index activity = 0;
   std::string failure;  ///< of the activity, for which it was begun
@@ -21,31 +21,33 @@ struct ContingencyEnd {
 
 class ContingencyRuns {
  public:
-  /// The state outlives this.
+  /// The state must outlive this object.
   explicit ContingencyRuns(RunState& state) : state_(&state), records_(state.plan.activities.size()) {}
 
-  /// The contingency that may still be used for an activity that has been started; null: there is none.
+  /// Returns the contingency that may still be used for an activity that has been started, or null if there
+  /// is none.
   const Contingency* usable(Index activity) const;
-  /// Sends its first command. False: there is none to use.
+  /// Sends its first command. Returns false if there is none to use.
   bool begin(Index activity, temporal::Time now, const std::string& failure);
-  /// No contingency is used for the activity any more.
+  /// Lets no contingency be used for the activity any more.
   void exhaust(Index activity);
 
-  /// Whether the command that it answers is the one that a contingency waits for.
+  /// Returns whether the command that it answers is the one that a contingency waits for.
   bool expects(const CommandAck& ack) const;
   /// Goes on to the next command, or ends.
   std::optional<ContingencyEnd> take(const CommandAck& ack, temporal::Time now);
-  /// Its end, if its commands are done or its time has passed.
+  /// Returns its end, if its commands are done or its time has passed.
   std::optional<ContingencyEnd> check(Index activity, temporal::Time now);
   std::optional<ContingencyEnd> lose_owner(Index activity, const std::string& owner,
                                            const std::string& reason);
   void cancel(Index activity) { send(activity, CommandAction::cancel); }
   /// Asks, after a restart, what became of its command.
   void query(Index activity, temporal::Time now);
-  /// When check() will have something to say.
+  /// Returns when check() will have something to say.
   temporal::Time timer(Index activity) const;
 
-  /// Takes over from the run before what must not come again, the keys of commands; `goes_on`: all of it.
+  /// Takes over from the run before what must not come again, the keys of commands; with `goes_on`, all of
+  /// it.
   void inherit(Index activity, const ContingencyRuns& before, Index activity_before, bool goes_on);
 
  private:

@@ -1,4 +1,5 @@
-/// Until when an activity under way may do what. Derived from the network as it is now; nothing is kept.
+/// Deadlines say until when an activity under way may do what. They are derived from the network as it is
+/// now; nothing is kept.
 #pragma once
 
 #include <vector>
@@ -9,21 +10,21 @@ namespace roci::exec::executive {
 
 class Deadlines {
  public:
-  /// The state outlives this.
+  /// The state must outlive this object.
   explicit Deadlines(const RunState& state);
 
-  /// The latest end under LatenessPolicy::deadline: the latest next change of the timelines that begin a
-  /// token with the activity (R144); no bound under the other policies.
+  /// Returns the latest end under LatenessPolicy::deadline: the latest next change of the timelines that
+  /// begin a token with the activity (R144). It is no_bound under the other policies.
   temporal::Time end(Index activity) const;
-  /// By which a command must have ended to be of use: its deadline, or when it counts as hung. Its owner is
-  /// told, and repairs no longer than that (R146).
+  /// Returns by when a command must have ended to be of use: its deadline, or when it counts as hung. Its
+  /// owner is told, and repairs no longer than that (R146).
   temporal::Time latest_end(Index activity) const;
-  /// When a command counts as hung. An activity without a longest duration is followed as long as its owner
-  /// lives.
+  /// Returns when a command counts as hung. An activity without a longest duration is followed as long as its
+  /// owner lives.
   temporal::Time hung_after(Index activity) const;
-  /// From when on a completed command counts as a success, if its post condition holds (R86).
+  /// Returns from when on a completed command counts as a success, if its post condition holds (R86).
   temporal::Time settled_from(Index activity) const;
-  /// When the activity, which runs no contingency, is to be looked at next.
+  /// Returns when the activity, which runs no contingency, is to be looked at next.
   temporal::Time next_timer(Index activity, temporal::Time now) const;
 
  private:

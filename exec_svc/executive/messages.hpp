@@ -1,4 +1,4 @@
-/// What goes into the executive and what comes out of it: plain values, no DDS.
+/// These plain values go into the executive and come out of it, without DDS.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ enum class CommandAction { execute, cancel, query };
 
 enum class CommandStage { accepted, rejected, completed, failed, cancelled, cancel_failed, unknown };
 
-/// One timeline's newest value.
+/// Is one timeline's newest value.
 struct Observation {
   std::string timeline;
   temporal::Value value;
 };
 
-/// An owner's answer to the command (activity, attempt).
+/// Is an owner's answer to the command (activity, attempt).
 struct CommandAck {
   std::string activity;
   std::uint32_t attempt = 0;
@@ -37,7 +37,7 @@ struct DecisionAnswer {
   std::string choice;
 };
 
-/// What happened since the last step. Each list is in the order of events.
+/// Holds what happened since the last step. Each list is in the order of events.
 struct Inputs {
   std::vector<Observation> observations{};
   std::vector<CommandAck> acks{};
@@ -60,7 +60,7 @@ struct Command {
   std::string robot{};                             ///< whose subsystem; empty: the owner's only one
 };
 
-/// State of one activity; times are mission times.
+/// Is the state of one activity; times are mission times.
 struct StepStatus {
   std::string activity;
   std::string name;
@@ -80,14 +80,14 @@ struct DecisionRequest {
   temporal::Time answer_before = temporal::no_bound;  ///< later answers are ignored
 };
 
-/// What is done about a step that cannot start or fails, and needs no planner; cheapest first.
+/// Says what is done about a step that cannot start or fails, and needs no planner; the cheapest comes first.
 enum class RecoveryAction {
   push,         ///< a start waits for its preconditions, until its wait timeout (R98)
   retry,        ///< the same command again (R99)
   contingency,  ///< commands of a template, then the same command again or a broken plan (R69, R70)
 };
 
-/// A recovery action was taken, or a contingency ended.
+/// Says that a recovery action was taken, or a contingency ended.
 struct RecoveryStep {
   RecoveryAction action = RecoveryAction::push;
   std::string activity;

@@ -1,4 +1,5 @@
-/// One plan under execution: composed of parts that each own one concern, over one shared state.
+/// A plan run is one plan under execution: it is composed of parts that each own one concern, over one shared
+/// state.
 #pragma once
 
 #include <optional>
@@ -20,7 +21,7 @@ namespace roci::exec::executive {
 
 class PlanRun {
  public:
-  /// The plan has passed check(); settings and store outlive the run.
+  /// Takes a plan that has passed check(); settings and store outlive the run.
   PlanRun(temporal::FlexiblePlan plan, const ExecutiveSettings& settings, TimelineStore& store,
           std::uint64_t epoch);
   PlanRun(const PlanRun&) = delete;
@@ -30,7 +31,7 @@ class PlanRun {
   /// cancelled.
   void adopt(PlanRun& before);
 
-  /// False: nothing that matches is awaited.
+  /// Returns false if nothing that matches is awaited.
   bool take_ack(const CommandAck& ack, temporal::Time now) { return exchange_.take_ack(ack, now); }
   bool take_answer(const DecisionAnswer& answer, temporal::Time now) {
     return decisions_.take_answer(answer, now);
@@ -39,18 +40,18 @@ class PlanRun {
   /// Acts on everything that holds at `now`, until nothing more happens.
   void advance(temporal::Time now);
   void cancel_all(temporal::Time now);
-  /// Keys that are issued from now on carry this epoch; those that were issued keep theirs.
+  /// Begins an epoch: keys that are issued from now on carry it, and those that were issued keep theirs.
   void begin_epoch(std::uint64_t epoch) { state_.epoch = epoch; }
   void hold_starts(bool hold) { dispatch_.hold_starts(hold); }
   /// Asks what became of all that runs.
   void resume(temporal::Time now) { exchange_.query_all(now); }
 
-  /// What was said and asked for since the last call, with the outcome as it is now.
+  /// Returns what was said and asked for since the last call, with the outcome as it is now.
   Outputs take_outputs(temporal::Time now);
   const Outcome& outcome() const { return state_.outcome; }
   const temporal::FlexiblePlan& plan() const { return state_.plan; }
   const temporal::PlanActivity* find(const std::string& activity) const;
-  /// Of all activities, in plan order.
+  /// Returns the status of all activities, in plan order.
   std::vector<StepStatus> statuses() const;
   std::vector<StepStatus> upcoming(std::size_t most) const;
   std::vector<StepStatus> running() const;

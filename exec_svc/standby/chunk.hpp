@@ -1,5 +1,5 @@
-/// What goes from the leader's journal to the follower's: a batch, or a part of a whole journal. Plain
-/// values.
+/// Chunks go from the leader's journal to the follower's: each is a batch, or a part of a whole journal, as
+/// plain values.
 #pragma once
 
 #include <cstdint>
@@ -21,17 +21,17 @@ struct Chunk {
   bool operator==(const Chunk&) const = default;
 };
 
-/// CRC-32 over everything but the checksum itself.
+/// Returns the CRC-32 over everything but the checksum itself.
 std::uint32_t checksum(const Chunk& chunk);
 
-/// How much of a whole journal the follower has in a row.
+/// Says how much of a whole journal the follower has in a row.
 struct TransferProgress {
   journal::Position at;
   std::uint32_t parts = 0;
   bool operator==(const TransferProgress&) const = default;
 };
 
-/// Seals each part with its checksum.
+/// Splits a whole journal into parts, each sealed with its checksum.
 std::vector<Chunk> split(std::uint64_t leader, const journal::Position& at, const std::string& whole);
 
 }  // namespace roci::exec::standby

@@ -1,4 +1,5 @@
-/// The follower's side: a journal that takes another one's batches, each once, in order, unharmed.
+/// The journal copy is the follower's side: a journal that takes another one's batches, each once, in order,
+/// unharmed.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +23,11 @@ class JournalCopy {
     corrupt,  ///< refused
     old,      ///< of a leader whose epoch is over; refused
   };
-  /// `epoch`: the latest that the follower knows of.
+  /// Takes a chunk; `epoch` is the latest that the follower knows of.
   Result take(const Chunk& chunk, std::uint64_t epoch);
 
-  /// kOwnPast after a batch that does not fit, though its position does: the whole journal is wanted then.
+  /// Returns how far the copy has come. It is kOwnPast after a batch that does not fit, though its position
+  /// does: the whole journal is wanted then.
   const journal::Position& has() const { return has_; }
   const TransferProgress& arrival() const { return arrival_; }
 

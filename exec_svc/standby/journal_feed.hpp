@@ -1,5 +1,5 @@
-/// The leader's side of the journal's copy: which chunks the follower is to get next, from what it says that
-/// it has. Sends again from there when nothing moves. Pure.
+/// The journal feed is the leader's side of the journal's copy: it says which chunks the follower is to get
+/// next, from what the follower says that it has, and sends again from there when nothing moves. It is pure.
 #pragma once
 
 #include <chrono>
@@ -18,16 +18,16 @@ class JournalFeed {
  public:
   using Moment = std::chrono::microseconds;
 
-  /// `newest`: of the journal when the epoch begins.
+  /// Takes the `newest` position of the journal when the epoch begins.
   JournalFeed(std::uint64_t epoch, const journal::Position& newest);
 
   void add(journal::Batch batch);
   const journal::Position& newest() const { return newest_; }
 
-  /// What the follower says that it has, in its journal and of a whole one under way.
+  /// Takes in what the follower says that it has, in its journal and of a whole one under way.
   void hear(const journal::Position& has, const TransferProgress& arrival, Moment now);
 
-  /// What to send now, in order. `whole`: gives the whole journal as it is now, at newest().
+  /// Returns what to send now, in order. `whole` gives the whole journal as it is now, at newest().
   std::vector<Chunk> due(Moment now, const std::function<std::string()>& whole);
 
  private:

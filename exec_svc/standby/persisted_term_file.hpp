@@ -1,4 +1,4 @@
-/// A member's persisted term on its disk.
+/// This file keeps a member's persisted term on its disk.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ class PersistedTermFile {
   PersistedTermFile(std::filesystem::path file, journal::Durability durability)
       : file_(std::move(file)), durability_(durability) {}
 
-  /// As new if there is no file. Throws JournalError for one that cannot be read.
+  /// Reads the term; it is as new if there is no file. Throws JournalError for one that cannot be read.
   PersistedTerm read() const;
   /// Writes what is new: either all of it stands in the file or nothing. Throws JournalError.
   void keep(const PersistedTerm& persisted_term);

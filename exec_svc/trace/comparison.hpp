@@ -1,4 +1,4 @@
-/// Two traces line by line, after one renaming.
+/// A comparison takes two traces line by line, after one renaming.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace roci::exec::trace {
 
-/// One differing line: where it stands in Comparison::before and ::after; empty on the side that has no such
-/// line.
+/// Is one differing line: it holds where it stands in Comparison::before and ::after, and nothing on the side
+/// that has no such line.
 struct Difference {
   std::optional<std::size_t> before;
   std::optional<std::size_t> after;

@@ -18,8 +18,8 @@ std::string console_vendor(const std::string& dds);
 /// Returns the program of a process: a name in the folder of this one, or a path.
 std::string program_of(const Options&, const std::string& process);
 
-/// Returns the arguments of one service, its program first. `epoch_unix_us` is mission time 0 of a live run. An incarnation
-/// of 0 is not told: the service counts its starts in the run folder.
+/// Returns the arguments of one service, its program first. `epoch_unix_us` is mission time 0 of a live run.
+/// An incarnation of 0 is not told: the service counts its starts in the run folder.
 std::vector<std::string> service_arguments(const Options&, const std::string& service,
                                            std::uint32_t incarnation, std::int64_t epoch_unix_us);
 

@@ -12,8 +12,8 @@
 namespace roci::services::process {
 namespace {
 
-constexpr int kLastDomain =
-    100;  // the ports of higher ones are in the range that the system hands out freely
+// The ports of higher domains are in the range that the system hands out freely.
+constexpr int kLastDomain = 100;
 
 std::uint16_t claim_port(int domain) {
   return static_cast<std::uint16_t>(transport::first_participant_port(domain) + 239);

@@ -17,11 +17,11 @@ enum class ViolationKind {
   time,             ///< start before 0; duration missing, out of place or against the constraints
   condition,        ///< of a start, an end or an instantaneous action
   invariant,        ///< an over-all condition, somewhere strictly inside the action
-  interference,     ///< two happenings less than epsilon apart of which one changes what the other needs or
-                    // changes
+  /// Two happenings less than epsilon apart of which one changes what the other needs or changes.
+  interference,
   conflicting_effects,  ///< one happening sets a fluent in two ways at once
   undefined_value,      ///< an effect computes with a fluent that has no value, or divides by zero
-  goal,
+  goal,                 ///< a goal that does not hold at the end
 };
 
 /// Returns the kind in words, as in "undefined value".

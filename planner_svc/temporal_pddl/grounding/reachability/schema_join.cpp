@@ -60,8 +60,8 @@ struct SchemaJoin::Search {
   const AtomIndex& index;
   SearchLimits& limits;
   const Found& found;
-  std::uint32_t newest =
-      0;  // may be matched by fluents from `trigger` on only, so that no binding is found twice
+  // Only fluents from `trigger` on may match this atom, so that no binding is found twice.
+  std::uint32_t newest = 0;
   std::size_t trigger = 0;
   Binding binding;
   std::vector<const LiftedAtom*> open;
