@@ -14,8 +14,8 @@ namespace roci::arm {
 
 struct MotorModel {
   Eigen::Vector3d gravity{0, 0, -3.71};  ///< m/s² in the base frame
-  double idle_w = 0;                     ///< Of the electronics, all the time.
-  double efficiency = 0.7;               ///< Of gear and motor, 0 < efficiency <= 1.
+  double idle_w = 0;                     ///< The electronics draw it all the time.
+  double efficiency = 0.7;               ///< Gear and motor have it, 0 < efficiency <= 1.
   double full_effort_loss_w = 0;         ///< The copper loss of a joint that exerts its effort limit.
 };
 

@@ -44,7 +44,7 @@ struct Place {
 /// Is a place as joint values, or the reason why it has none.
 struct ResolvedPlace {
   std::string name;
-  MotionStatus status = MotionStatus::found;  ///< Else unknown_pose, unreachable or in_collision.
+  MotionStatus status = MotionStatus::found;  ///< Is unknown_pose, unreachable or in_collision else.
   std::string detail;
   kinematics::JointVector joints;
 };

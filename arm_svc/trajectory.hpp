@@ -14,7 +14,7 @@ namespace roci::arm {
 struct TrajectorySegment {
   kinematics::JointVector from;
   kinematics::JointVector to;
-  double acceleration = 0;  ///< of s, 1/s²: held for ramp_s, then its negative at the end
+  double acceleration = 0;  ///< s has it, 1/s²: it is held for ramp_s, and its negative at the end
   double ramp_s = 0;
   double cruise_s = 0;
 

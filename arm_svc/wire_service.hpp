@@ -18,7 +18,7 @@ v1::FunctionOffer function_offer(const std::string& owner, std::uint64_t model_v
 
 struct FunctionAnswer {
   v1::FunctionReply reply;
-  std::set<std::string> refusals;  ///< why tuples have no value, in words
+  std::set<std::string> refusals;  ///< say in words why tuples have no value
 };
 
 /// Gives every tuple an outcome. An object with properties q0, q1, … (finite numbers, one per joint) is where

@@ -36,7 +36,7 @@ struct PlannerSettings {
   CorridorSettings corridor;
   double waypoint_spacing = 4.0;  ///< m
   double max_piece = 60.0;        ///< Shortcuts try no longer straight piece, m.
-  std::size_t max_corners = 60;   ///< Of a path before shortcuts.
+  std::size_t max_corners = 60;   ///< Bounds a path before shortcuts.
 };
 
 /// Finds fast drives over a map that may gain obstacles. An answer depends on the map and the two ends alone,

@@ -19,7 +19,7 @@ v1::FunctionOffer function_offer(const std::string& owner, std::uint64_t map_ver
 
 struct FunctionAnswer {
   v1::FunctionReply reply;
-  std::map<std::string, std::string> unusable_places;  ///< By object: why no path can begin or end there.
+  std::map<std::string, std::string> unusable_places;  ///< Say by object why no path can begin or end there.
 };
 
 /// Gives every tuple an outcome. An object is a place if it has properties x and y, finite numbers in metres.

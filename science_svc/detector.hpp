@@ -17,9 +17,9 @@ namespace roci::science {
 struct DetectorSettings {
   bool enabled = true;
   double threshold = 0.85;            ///< scores of at least this raise a goal; 0 … 1
-  std::string goal_kind = "photo";    ///< of mission.yaml, with arguments x and y
-  double offset_m = 12;               ///< from where the image was taken to where the goal is
-  temporal::Duration min_interval{};  ///< between two goals
+  std::string goal_kind = "photo";    ///< is a kind of mission.yaml, with arguments x and y
+  double offset_m = 12;               ///< lies between where the image was taken and where the goal is
+  temporal::Duration min_interval{};  ///< lies between two goals
   double merge_m = 10;                ///< a place this near to an earlier goal is the same find
   int limit = 5;                      ///< goals in one run
 };

@@ -19,12 +19,12 @@
 namespace roci::bench::house {
 
 struct HouseOptions {
-  std::filesystem::path bin;  ///< Where the services stand.
+  std::filesystem::path bin;  ///< The services stand there.
   std::filesystem::path mission;
   std::string scenario = "nominal";
   std::string dds = "fastdds";
   std::uint64_t seed = 1;
-  int processes = 7;  ///< With this one, which stands in the place of roci-launch.
+  int processes = 7;  ///< Counts this one, too, which stands in the place of roci-launch.
   double pace = 0;    ///< Mission seconds per second; 0: as fast as possible.
 };
 
@@ -32,7 +32,7 @@ struct HouseOptions {
 struct ClockFigures {
   double sim_s = 0;               ///< Mission time of the newest step.
   std::uint64_t micro_steps = 0;  ///< Numbered ones; a time of which no step was heard is missed.
-  std::uint64_t samples = 0;      ///< Of clocked topics, by all senders.
+  std::uint64_t samples = 0;      ///< Counts those of clocked topics, by all senders.
 };
 
 class House {

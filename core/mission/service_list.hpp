@@ -16,16 +16,16 @@ struct ServiceEntry {
   std::string name;  ///< logical name, unique in the mission; samples carry it as their sender
   /// Names a program beside the launcher, or a path seen from the mission's folder if it holds a '/'.
   std::string program;
-  std::string robot;   ///< whose inner topics it shares; empty: the team's, with those of every robot
+  std::string robot;   ///< its inner topics it shares; empty: the team's, with those of every robot
   std::string vendor;  ///< DDS vendor in a mixed run; empty: the run's first vendor
   std::filesystem::path settings;  ///< the mission file that it reads, mission.yaml unless another is named
   bool clock_master = false;       ///< it drives the simulated clock; at most one does
-  bool paired = false;  ///< with a standby the run has a second process of it (program option --pair)
+  bool paired = false;             ///< the run has a second process of it, a standby (program option --pair)
   std::vector<std::string> arguments;  ///< appended to its command line
 };
 
 struct ServiceList {
-  std::vector<std::string> robots;  ///< as `robots:` names them, in that order
+  std::vector<std::string> robots;  ///< come in the order of `robots:`, as it names them
   std::vector<ServiceEntry> services;
 
   /// Returns the service of that name, or null if there is none.

@@ -211,7 +211,7 @@ struct DerivedPredicate {
 // ---- Domain
 
 struct Requirement {
-  std::string keyword;  ///< with its colon: ":typing"
+  std::string keyword;  ///< has its colon: ":typing"
   SourceLocation where;
 };
 
@@ -224,7 +224,7 @@ struct Module {
 };
 
 struct Domain {
-  std::string file;  ///< as given to the parser, for messages
+  std::string file;  ///< is as given to the parser, for messages
   std::string name;
   std::vector<Requirement> requirements;
   std::vector<TypedName> types;  ///< name and its supertype(s)
@@ -266,7 +266,7 @@ struct Metric {
 };
 
 struct Problem {
-  std::string file;  ///< as given to the parser, for messages
+  std::string file;  ///< is as given to the parser, for messages
   std::string name;
   std::string domain_name;
   std::vector<Requirement> requirements;

@@ -17,8 +17,8 @@ inline constexpr int kMaxNesting = 200;
 /// Is a lower-cased word (name, keyword, variable, number, operator) or a list.
 struct Sexpr {
   bool is_list = false;
-  std::string word;          ///< of a word
-  std::vector<Sexpr> items;  ///< of a list
+  std::string word;          ///< is set for a word
+  std::vector<Sexpr> items;  ///< are set for a list
   SourceLocation where;      ///< first character, a list's "("
   SourceLocation closed;     ///< a list's ")"
 

@@ -87,10 +87,11 @@ struct PlanCommand {
 struct PlanActivity {
   std::string id;
   std::string name;    ///< action or task name
-  std::string level;   ///< of the hierarchy, e.g. "mission" (R130); empty: plans without one
+  std::string level;   ///< says where in the hierarchy it stands, e.g. "mission" (R130); empty: plans without
+                       ///< one
   std::string parent;  ///< activity of the level above; empty: none
   std::string owner;   ///< service that executes the command; empty: no command, internal states only
-  std::string robot;   ///< whose subsystem; empty: the owner's only one
+  std::string robot;   ///< has the subsystem; empty: the owner's only one
   std::string subsystem;
   std::string command_name;
   std::vector<Property> arguments;
@@ -103,12 +104,12 @@ struct PlanActivity {
   TimePoint end_point = 0;
   Duration duration_lower{0};
   Duration duration_upper = no_bound;
-  Duration preferred_start = no_bound;  ///< from the origin (R67); no_bound: none
+  Duration preferred_start = no_bound;  ///< counts from the origin (R67); no_bound: none
   Condition pre;
   Condition maintenance;
   Condition post;
   std::vector<Impact> impacts;
-  Duration wait_timeout = no_bound;  ///< how long it may wait after its earliest start; push needs one
+  Duration wait_timeout = no_bound;  ///< bounds its wait after its earliest start; push needs one
   std::uint32_t retries = 0;
   bool may_skip = false;  ///< skipped instead of failed when it cannot start in time
   Condition skip_if;      ///< not empty and true at the start: skipped
@@ -141,7 +142,7 @@ enum class ResolverKind {
 struct DecisionChoice {
   std::string name;
   std::vector<std::string> activities{};  ///< ids; those of the other choices are skipped
-  Condition rule{};                       ///< of resolver `rule`; empty: always true
+  Condition rule{};                       ///< resolves with resolver `rule`; empty: always true
   friend bool operator==(const DecisionChoice&, const DecisionChoice&) = default;
 };
 

@@ -13,7 +13,7 @@ namespace roci::temporal {
 /// Holds the change. Time points keep their numbers from version to version; those of removed activities stay
 /// unused until the plan comes as a whole again.
 struct PlanDelta {
-  std::uint32_t from_version = 0;  ///< of the plan that changes; 0: none, `added` is the whole plan
+  std::uint32_t from_version = 0;  ///< is that of the plan that changes; 0: none, `added` is the whole plan
   /// Holds id, version, engine, origin, number of points and function values as they become, and activities,
   /// tokens, decisions and constraints that are new. An activity or decision stands in place of that with its
   /// id.

@@ -17,12 +17,12 @@ struct ActivityProgress {
   std::optional<Time> started;
   std::optional<Time> ended;
 };
-using Progress = std::map<std::string, ActivityProgress>;  ///< by activity id; who is not in it waits
+using Progress = std::map<std::string, ActivityProgress>;  ///< goes by activity id; who is not in it waits
 
 enum class ProjectionKind {
-  planned,    ///< by the plan alone, everything at its earliest
-  executed,   ///< by what has started and ended, at the times when it did
-  projected,  ///< by what runs and waits: not before now, at the earliest that the network then allows
+  planned,    ///< the plan alone says so, with everything at its earliest
+  executed,   ///< it has started or ended, at the time when it did
+  projected,  ///< it runs or waits: it comes not before now, at the earliest that the network then allows
 };
 const char* to_string(ProjectionKind kind);
 
@@ -31,7 +31,7 @@ struct ObservedValue {
   Time sampled{0};
   Value value;
 };
-using ObservedValues = std::map<std::string, ObservedValue>;  ///< by timeline
+using ObservedValues = std::map<std::string, ObservedValue>;  ///< goes by timeline
 
 /// Says that the timeline has `value` from `time` on; between two changes a number that is under a rate runs
 /// straight.

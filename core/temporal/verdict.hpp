@@ -16,7 +16,7 @@ enum class Verdict : std::uint8_t {
   out_of_memory,         ///< the budget of memory is spent, nothing is proved
   unsupported,           ///< the engine does not take this input; the reason names the place
   function_unavailable,  ///< an external function's owner did not answer
-  cancelled,             ///< on request of the caller
+  cancelled,             ///< the caller asked for it
   invalid_input,         ///< malformed; the reason names the place
   crashed,               ///< a defect of the engine or of the process around it
   no_reply,              ///< said by the caller: no answer came within its deadline

@@ -18,7 +18,7 @@ struct Gradient {
 struct SiteLayers {
   std::vector<float> elevation;      ///< Metres, at the centre of the cell.
   std::vector<float> rock_height;    ///< Metres of the tallest rock in the cell, 0 where there is none.
-  std::vector<Occupancy> occupancy;  ///< What a map_server reader makes of the cell.
+  std::vector<Occupancy> occupancy;  ///< Says what a map_server reader makes of the cell.
 };
 
 /// Holds the terrain of a mission as values: it is immutable once built, and safe to read from several

@@ -24,8 +24,8 @@ struct Contingency {
   std::vector<ContingencyCommand> commands;  ///< one after the other
   /// Says whether the activity is tried again then, if its preconditions hold; else the plan is broken.
   bool retries = false;
-  std::uint32_t times = 1;                             ///< for one activity
-  temporal::Duration within = temporal::seconds(300);  ///< for all of its commands
+  std::uint32_t times = 1;                             ///< bounds its uses for one activity
+  temporal::Duration within = temporal::seconds(300);  ///< bounds the time of all its commands
 };
 
 }  // namespace roci::exec::executive

@@ -15,8 +15,8 @@ namespace roci::exec::executive {
 /// Says that a contingency has come to its end.
 struct ContingencyEnd {
   Index activity = 0;
-  std::string failure;  ///< of the activity, for which it was begun
-  std::string reason;   ///< why it did not help; empty: all of its commands are done
+  std::string failure;  ///< is the activity's, for which it was begun
+  std::string reason;   ///< says why it did not help; empty: all of its commands are done
 };
 
 class ContingencyRuns {
@@ -53,12 +53,12 @@ class ContingencyRuns {
  private:
   struct Record {
     std::size_t command = 0;  ///< index of the one that runs; as many as there are: all are done
-    std::string command_id;   ///< of the one that was sent
-    std::uint64_t epoch = 0;  ///< of the executive when it was issued
-    temporal::Time since{0};  ///< when the contingency began
+    std::string command_id;   ///< is that of the one that was sent
+    std::uint64_t epoch = 0;  ///< is the executive's when it was issued
+    temporal::Time since{0};  ///< says when the contingency began
     temporal::Time command_since{0};
     bool accepted = false;
-    std::string failure;         ///< of the activity
+    std::string failure;         ///< is the activity's
     std::uint32_t used = 0;      ///< contingencies begun
     std::uint32_t commands = 0;  ///< part of their keys: it is never reset
   };
@@ -68,8 +68,8 @@ class ContingencyRuns {
   ContingencyEnd ended(Index activity, const std::string& reason) const;
 
   RunState* state_;
-  std::vector<Record> records_;                         ///< by activity
-  std::unordered_map<std::string, Index> activity_of_;  ///< by id of a contingency's command
+  std::vector<Record> records_;                         ///< are indexed by activity
+  std::unordered_map<std::string, Index> activity_of_;  ///< goes by the id of a contingency's command
 };
 
 }  // namespace roci::exec::executive

@@ -29,7 +29,7 @@ class Deadlines {
 
  private:
   const RunState* state_;
-  std::vector<std::vector<std::size_t>> tokens_from_;  ///< by activity: tokens that begin with it
+  std::vector<std::vector<std::size_t>> tokens_from_;  ///< lists by activity the tokens that begin with it
 };
 
 }  // namespace roci::exec::executive

@@ -29,7 +29,7 @@ struct CommandAck {
   CommandStage stage = CommandStage::accepted;
   std::string code;
   std::string reason;
-  std::uint64_t epoch = 0;  ///< in which the command was issued; 0: not told, any fits
+  std::uint64_t epoch = 0;  ///< is the one in which the command was issued; 0: not told, any fits
 };
 
 struct DecisionAnswer {
@@ -43,7 +43,7 @@ struct Inputs {
   std::vector<CommandAck> acks{};
   std::vector<std::string> lost_owners{};  ///< services found dead, hung or cut off
   std::vector<DecisionAnswer> answers{};
-  std::uint64_t epoch = 0;  ///< of the executive from this step on; 0: as before
+  std::uint64_t epoch = 0;  ///< is the executive's from this step on; 0: as before
 };
 
 struct Command {
@@ -55,9 +55,10 @@ struct Command {
   std::string command_name;
   std::vector<temporal::Property> arguments;
   temporal::Duration expected{0};                  ///< shortest duration of the activity
-  std::uint64_t epoch = 0;                         ///< in which the key was issued; 0: the commander's own
-  temporal::Time latest_end = temporal::no_bound;  ///< by which its step must have ended
-  std::string robot{};                             ///< whose subsystem; empty: the owner's only one
+  std::uint64_t epoch = 0;                         ///< is the one in which the key was issued; 0: the
+                                                   ///< commander's own
+  temporal::Time latest_end = temporal::no_bound;  ///< is when its step must have ended
+  std::string robot{};                             ///< has the subsystem; empty: the owner's only one
 };
 
 /// Is the state of one activity; times are mission times.
@@ -70,7 +71,7 @@ struct StepStatus {
   temporal::Time latest_start = temporal::no_bound;
   std::optional<temporal::Time> started;
   std::optional<temporal::Time> ended;
-  std::string reason;  ///< why it is in this state, where that is not obvious
+  std::string reason;  ///< says why it is in this state, where that is not obvious
 };
 
 struct DecisionRequest {
@@ -83,7 +84,7 @@ struct DecisionRequest {
 /// Says what is done about a step that cannot start or fails, and needs no planner; the cheapest comes first.
 enum class RecoveryAction {
   push,         ///< a start waits for its preconditions, until its wait timeout (R98)
-  retry,        ///< the same command again (R99)
+  retry,        ///< sends the same command again (R99)
   contingency,  ///< commands of a template, then the same command again or a broken plan (R69, R70)
 };
 
@@ -91,7 +92,7 @@ enum class RecoveryAction {
 struct RecoveryStep {
   RecoveryAction action = RecoveryAction::push;
   std::string activity;
-  std::string reason;  ///< why, and what is done
+  std::string reason;  ///< says why, and what is done
 };
 
 enum class OutcomeKind {
@@ -115,18 +116,18 @@ enum class Breakage {
 
 struct Outcome {
   OutcomeKind kind = OutcomeKind::idle;
-  Breakage breakage = Breakage::none;  ///< of broken
+  Breakage breakage = Breakage::none;  ///< says how a broken plan broke
   std::string activity;                ///< that broke it; for decision_missing the decision
-  std::string reason;                  ///< in plain words
+  std::string reason;                  ///< is in plain words
   std::string contingency;  ///< the one that the activity names; it has been used up, or is none of ours
 };
 
 struct Outputs {
-  std::vector<Command> commands{};    ///< in the order of sending
+  std::vector<Command> commands{};    ///< come in the order of sending
   std::vector<StepStatus> changes{};  ///< every change of state, in the order of events
   std::vector<DecisionRequest> decision_requests{};
   std::vector<RecoveryStep> recoveries{};
-  Outcome outcome{};                          ///< after this step
+  Outcome outcome{};                          ///< holds after this step
   std::optional<temporal::Time> next_wake{};  ///< step again then, if nothing happens before
 };
 

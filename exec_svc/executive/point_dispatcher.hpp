@@ -105,7 +105,7 @@ class PointDispatcher {
   Precedence precedence_;
   temporal::ExecutionWindows windows_;
   std::vector<PointState> points_;
-  std::vector<temporal::TimePoint> ends_;  ///< by activity
+  std::vector<temporal::TimePoint> ends_;  ///< are indexed by activity
   std::set<temporal::TimePoint> ready_;
   Agenda earliest_, latest_;
 };

@@ -29,7 +29,7 @@ std::vector<PointOwner> point_owners(const temporal::FlexiblePlan& plan);
 /// the observed ends among them, which nobody can command; free points and internal ends wait for the starts
 /// among them, which may have conditions.
 struct Precedence {
-  std::vector<std::vector<temporal::TimePoint>> predecessors;  ///< by point, sorted
+  std::vector<std::vector<temporal::TimePoint>> predecessors;  ///< are indexed by point, and sorted
   std::vector<std::vector<temporal::TimePoint>> successors;
   std::vector<std::vector<temporal::TimePoint>> together;  ///< the other starts in the group of a start
 };

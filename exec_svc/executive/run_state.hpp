@@ -16,7 +16,7 @@
 
 namespace roci::exec::executive {
 
-using Index = std::size_t;  ///< of an activity, in plan order
+using Index = std::size_t;  ///< counts activities in plan order
 
 /// Is one command of an activity's sequence; it refers to the plan. Without an owner there is none.
 struct CommandOf {
@@ -25,8 +25,8 @@ struct CommandOf {
   const std::string& subsystem;
   const std::string& command_name;
   const std::vector<temporal::Property>& arguments;
-  temporal::Duration answer_within;  ///< from sending it to its first answer
-  bool last;                         ///< of the sequence
+  temporal::Duration answer_within;  ///< runs from sending it to its first answer
+  bool last;                         ///< says whether it ends the sequence
 };
 
 struct RunState {
@@ -39,7 +39,7 @@ struct RunState {
   temporal::FlexiblePlan plan;
   const ExecutiveSettings& settings;
   TimelineStore& store;
-  std::uint64_t epoch;  ///< of the executive: keys that it issues carry it for good
+  std::uint64_t epoch;  ///< is the executive's: keys that it issues carry it for good
   PointDispatcher points;
   std::vector<ActivityRun> runs;
   std::unordered_map<std::string, Index> index_of;

@@ -40,7 +40,7 @@ class TimelineStore {
   void add(const std::string& timeline, double amount);
 
   std::unordered_map<std::string, temporal::Value> observed_, internal_;
-  std::map<std::string, std::vector<Lasting>> lasting_;  ///< by activity id
+  std::map<std::string, std::vector<Lasting>> lasting_;  ///< goes by activity id
   std::optional<temporal::Time> now_;
 };
 

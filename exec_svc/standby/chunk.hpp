@@ -13,10 +13,10 @@ namespace roci::exec::standby {
 struct Chunk {
   std::uint64_t leader = 0;    ///< epoch of who sends it
   journal::Position after;     ///< a batch: of the journal that it fits
-  journal::Position at;        ///< of the journal with it
-  std::uint32_t part = 0;      ///< of a whole journal: this one, from 0,
-  std::uint32_t parts = 0;     ///< of so many; 0: a batch
-  std::uint32_t checksum = 0;  ///< of all other members
+  journal::Position at;        ///< is where the journal stands with it
+  std::uint32_t part = 0;      ///< numbers this part of a whole journal, from 0
+  std::uint32_t parts = 0;     ///< counts the parts of a whole journal; 0: a batch
+  std::uint32_t checksum = 0;  ///< covers all other members
   std::string bytes;
   bool operator==(const Chunk&) const = default;
 };

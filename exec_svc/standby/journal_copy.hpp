@@ -16,12 +16,12 @@ class JournalCopy {
 
   enum class Result {
     batch,    ///< it is in the journal, on the disk
-    part,     ///< of a whole journal that is not complete
+    part,     ///< it belongs to a whole journal that is not complete
     whole,    ///< complete: the journal is the leader's now
     known,    ///< this journal has it
     gap,      ///< something before it is missing, or this journal has another past
     corrupt,  ///< refused
-    old,      ///< of a leader whose epoch is over; refused
+    old,      ///< its leader's epoch is over; refused
   };
   /// Takes a chunk; `epoch` is the latest that the follower knows of.
   Result take(const Chunk& chunk, std::uint64_t epoch);

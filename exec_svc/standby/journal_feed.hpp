@@ -37,7 +37,7 @@ class JournalFeed {
 
   std::uint64_t epoch_;
   journal::Position newest_;
-  journal::Position oldest_after_;  ///< of the journal before the oldest batch kept
+  journal::Position oldest_after_;  ///< is where the journal stood before the oldest batch kept
   std::deque<Chunk> kept_;          ///< batches of this epoch, without gaps up to newest_
   std::size_t kept_bytes_ = 0;
 
@@ -46,7 +46,7 @@ class JournalFeed {
   TransferProgress arrival_;
   Moment moved_at_{0};        ///< the follower's, or the last time that all was sent again
   std::uint64_t sent_ = 0;    ///< sequence up to which batches are under way
-  std::vector<Chunk> parts_;  ///< of the whole journal under way
+  std::vector<Chunk> parts_;  ///< belong to the whole journal under way
   std::uint32_t sent_parts_ = 0;
 };
 

@@ -22,7 +22,7 @@ class StandDown : public std::runtime_error {
  public:
   StandDown(const std::string& reason, bool is_superseded)
       : std::runtime_error(reason), superseded(is_superseded) {}
-  const bool superseded;  ///< by another leader, for all it knows
+  const bool superseded;  ///< says whether another leader leads, for all it knows
 };
 
 class LeaderService {

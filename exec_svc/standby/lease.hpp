@@ -11,7 +11,7 @@
 
 namespace roci::exec::standby {
 
-using Moment = std::chrono::microseconds;  ///< on a clock that never jumps, of this member alone
+using Moment = std::chrono::microseconds;  ///< counts on a clock that never jumps, of this member alone
 
 enum class Member { first, second };
 enum class Role { following, leading };
@@ -21,14 +21,14 @@ struct LeaseMessage {
   Member member = Member::first;
   Role role = Role::following;
   std::uint64_t epoch = 0;  ///< the highest that it knows of; a leader's own
-  journal::Position has;    ///< of its journal
+  journal::Position has;    ///< is what its journal has
   /// Says of a leader that the other may take over once this message is a term old; says of a follower that
   /// it will.
   bool entitled = false;
   /// Says of a leader what it knows that the other has; with less on its disk the other is not entitled.
   journal::Position receipt;
   bool searching = false;  ///< a follower that has heard no leader for a term
-  Moment said{0};          ///< on the clock of who says it
+  Moment said{0};          ///< counts on the clock of who says it
   Moment echo{0};          ///< the newest `said` heard from the other, on the other's clock
   bool operator==(const LeaseMessage&) const = default;
 };
@@ -37,13 +37,13 @@ struct LeaseMessage {
 /// the same one.
 struct LeaseSettings {
   Moment term = std::chrono::seconds(2);
-  Moment renewal = term / 8;           ///< between two messages
-  Moment progress_timeout = term / 2;  ///< without progress of the other's journal
+  Moment renewal = term / 8;           ///< lies between two messages
+  Moment progress_timeout = term / 2;  ///< bounds the time without progress of the other's journal
   /// A follower may take over from a term after it last heard the leader until a term and this after it said
   /// what that message echoes; later its right has lapsed, so that one that was stopped does not use it late,
   /// and a message that came late gives none.
   Moment takeover_window = term / 2;
-  Moment solo_timeout = 10 * term;  ///< until one leads in doubt that hears nobody
+  Moment solo_timeout = 10 * term;  ///< passes until one leads in doubt that hears nobody
 };
 
 /// Holds what must be on the disk before anything that stands on it is said.
@@ -67,14 +67,14 @@ class Lease {
 
   enum class Change {
     none,
-    lead,        ///< from now on in epoch()
+    lead,        ///< leads from now on in epoch()
     stand_down,  ///< this object has done its work: nothing may be sent, a follower begins anew
     alone,       ///< the follower is gone and has no right any more
     paired,
   };
   struct Turn {
     Change change = Change::none;
-    std::string reason;     ///< of a change, in plain words
+    std::string reason;     ///< says in plain words why it changed
     bool doubtful = false;  ///< lead: the other may have gone on from this journal, unheard
     bool speak = false;     ///< message() is to be sent now
   };
@@ -129,14 +129,14 @@ class Lease {
   bool takeover_forbidden_;    ///< following: the newest leader does not want it to take over
   bool entitled_ = false;      ///< following: by its newest message, with a journal that has
   journal::Position receipt_;  ///< this at least,
-  Moment entitled_since_{0};   ///< when it was said at the earliest
+  Moment entitled_since_{0};   ///< is when it was said at the earliest
   Moment leaderless_since_;
   Moment started_;
 
   std::uint64_t own_epoch_ = 0;  ///< leading
   bool settled_ = false;         ///< had a turn since it leads; opening its endpoints may take a while
   ReplicationState replication_ = ReplicationState::alone;
-  Moment entitled_at_{0};  ///< when this leader last said that the other may take over
+  Moment entitled_at_{0};  ///< is when this leader last said that the other may take over
   Moment replication_since_{0};
   Moment behind_since_{0};  ///< the other's journal, without progress
   bool behind_ = false;

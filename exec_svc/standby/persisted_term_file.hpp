@@ -24,7 +24,7 @@ class PersistedTermFile {
 
   std::filesystem::path file_;
   journal::Durability durability_;
-  std::optional<PersistedTerm> kept_;  ///< as read or written by keep()
+  std::optional<PersistedTerm> kept_;  ///< is as read or written by keep()
 };
 
 }  // namespace roci::exec::standby

@@ -22,9 +22,9 @@ struct Difference {
 struct Comparison {
   std::vector<Line> before;             ///< OLD under its new names.
   std::vector<Line> after;              ///< NEW without what was added.
-  std::vector<Difference> differences;  ///< In order of mission time, without the accepted ones.
+  std::vector<Difference> differences;  ///< Stand in order of mission time, without the accepted ones.
   std::size_t accepted = 0;             ///< Differing lines that the map accepts.
-  Uses uses;                            ///< Of the map's rules.
+  Uses uses;                            ///< Counts those of the map's rules.
 
   bool equal() const { return differences.empty(); }
 };

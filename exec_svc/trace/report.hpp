@@ -11,7 +11,7 @@ namespace roci::exec::trace {
 struct ReportOptions {
   std::size_t shown = 1;    ///< Differences, the first ones.
   std::size_t context = 3;  ///< Lines of each side before a difference.
-  std::size_t width = 200;  ///< Of a shown line; of a longer one the part around the difference is shown.
+  std::size_t width = 200;  ///< Bounds a shown line; of a longer one the part around the difference is shown.
 };
 
 /// Returns one line on the whole, such as "different: 3 lines of 812 (2 more accepted)".

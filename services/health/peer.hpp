@@ -13,7 +13,7 @@ struct PeerChange {
   std::string service;
   std::uint32_t incarnation = 0;
   bool alive = false;
-  std::string cause;  ///< Of a death: "killed", "hung", "left" or "restarted".
+  std::string cause;  ///< Says how it died: "killed", "hung", "left" or "restarted".
 };
 
 }  // namespace roci::services::health

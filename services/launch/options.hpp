@@ -14,7 +14,7 @@ namespace roci::services::launch {
 
 struct Options {
   std::filesystem::path mission;  ///< A folder with mission.yaml.
-  mission::ServiceList list;      ///< Of the mission: who there is to start.
+  mission::ServiceList list;      ///< Names who there is to start in the mission.
   std::string scenario = "nominal";
   std::uint64_t seed = 1;
   bool live = false;
@@ -27,9 +27,10 @@ struct Options {
   std::vector<std::string> services;  ///< Processes that are started here: services and their standbys.
   std::vector<std::string> roster;    ///< The services of the whole run.
   std::string run;                    ///< Identity of the run; every host's launcher has the same.
-  std::string become;                 ///< The one service that this process turns into; empty: the launcher stays.
-  double epoch_s = 0;                 ///< With `become`: mission time 0 of the live run, in seconds since 1970.
-  std::filesystem::path run_folder;   ///< If empty, the launcher chooses one.
+  /// Names the one service that this process turns into; if it is empty, the launcher stays.
+  std::string become;
+  double epoch_s = 0;                ///< With `become`, it is mission time 0 of the live run, s since 1970.
+  std::filesystem::path run_folder;  ///< If empty, the launcher chooses one.
   bool domain_given = false;
   services::process::Connection connection;  ///< Its `dds` may be "mixed" or "inproc".
 };

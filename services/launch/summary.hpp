@@ -11,7 +11,7 @@ struct Summary {
   /// Says that every hard goal was achieved; where exec_svc does not run, that the services ended well.
   bool good = false;
   std::string json;  ///< One line.
-  std::string text;  ///< The same for people.
+  std::string text;  ///< Says the same for people.
 };
 
 /// Completes run_folder/summary.json and reads it. Where exec_svc flew here and left none, the result is

@@ -21,7 +21,7 @@ struct CommandKey {
   std::string activity;
   std::uint32_t attempt = 0;
   std::string commander{};         ///< empty where commanders are not told apart
-  std::uint64_t issued_epoch = 0;  ///< of the commander, when it first sent the command
+  std::uint64_t issued_epoch = 0;  ///< is the commander's when it first sent the command
   auto operator<=>(const CommandKey&) const = default;
 };
 
@@ -30,7 +30,7 @@ enum class Action { execute, cancel, query };
 struct Request {
   CommandKey key;
   Action action = Action::execute;
-  std::uint64_t epoch = 0;  ///< of the sender now
+  std::uint64_t epoch = 0;  ///< is the sender's now
   std::string sender{};     ///< the commander that says this; not always the one of the key
   std::string robot{};      ///< empty: the owner's only one
   std::string subsystem{};

@@ -19,7 +19,7 @@ struct Reception {
     break_off,  ///< end it with word(…, cancelled) or refuse with refuse_cancel()
   };
   Order order = Order::nothing;
-  std::optional<Ack> ack{};  ///< to be sent at once
+  std::optional<Ack> ack{};  ///< is to be sent at once
 };
 
 /// Takes each key once. What repeats it, and every query, gets the last word again. An older epoch than the

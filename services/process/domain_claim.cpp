@@ -45,7 +45,7 @@ bool has_participants(int domain) {
 }  // namespace
 
 DomainClaim::DomainClaim() {
-  // Start at another place in each process, so that many at once seldom collide.
+  // Each process starts at another place, so that many at once seldom collide.
   const int start = static_cast<int>(getpid()) % kLastDomain;
   for (int i = 0; i < kLastDomain; ++i) {
     id_ = 1 + (start + i) % kLastDomain;

@@ -17,7 +17,7 @@ struct RunRecord {
   int domain = 0;
   std::filesystem::path mission;
   std::string scenario;
-  std::string dds;  ///< As given to --dds.
+  std::string dds;  ///< Is as given to --dds.
   std::string address;
   std::vector<std::string> peers;
   std::filesystem::path run_folder;

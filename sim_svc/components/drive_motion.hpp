@@ -12,8 +12,8 @@ namespace roci::sim::components {
 
 /// Holds the true wheels and ground, which the estimators' models only resemble.
 struct DriveParameters {
-  double radius_m = 0.6;           ///< of the disc that the rover covers
-  double wheel_speed_m_s = 0.105;  ///< on flat ground, before slip
+  double radius_m = 0.6;           ///< is that of the disc that the rover covers
+  double wheel_speed_m_s = 0.105;  ///< holds on flat ground, before slip
   double turn_rate_rad_s = 0.19;
   double slip = 0.04;           ///< mean on flat ground, as a share of the wheel speed
   double uphill_slip = 2.5;     ///< added slip is this times sin²(pitch)
@@ -44,7 +44,7 @@ struct DriveTrace {
   temporal::Time end{};
   std::vector<DriveSample> samples;
   DriveEnd outcome = DriveEnd::arrived;
-  std::optional<std::size_t> seen_rock;  ///< with `blocked`: index into Ground::hidden_rocks
+  std::optional<std::size_t> seen_rock;  ///< is with `blocked` an index into Ground::hidden_rocks
   double peak_power_w = 0;
 
   /// Interpolates linearly between two samples. Before the start it is the first, after the end the last

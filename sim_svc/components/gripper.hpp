@@ -15,7 +15,7 @@ struct GripperSettings {
   double drop_s = 29;
   double duration_noise = 0.03;
   double power_w = 15;
-  std::string pick_pose = "sampling";  ///< of the arm, where there is one
+  std::string pick_pose = "sampling";  ///< is a pose of the arm, where there is one
   std::string drop_pose = "deposit";
 };
 

@@ -31,10 +31,10 @@ struct TaskCommand {
   double duration_noise = 0;                   ///< standard deviation as a share of the duration
   double power_w = 0;                          ///< while it runs; negative: it charges the battery
   std::optional<StateTemplate> during{};       ///< while it runs; empty: the command's name
-  std::optional<StateTemplate> then{};         ///< when it is done; empty: the state before
-  std::optional<StateTemplate> stopped{};      ///< when it is broken off; empty: the state before
+  std::optional<StateTemplate> then{};         ///< holds when it is done; empty: the state before
+  std::optional<StateTemplate> stopped{};      ///< holds when it is broken off; empty: the state before
   std::map<std::string, std::string> needs{};  ///< component → name of the state it must be in at the start
-  std::map<std::string, NumberChange> changes{};  ///< by number
+  std::map<std::string, NumberChange> changes{};  ///< go by the name of the number
 };
 
 /// Is a numeric timeline of the component, `<robot>.<component>.<name>`.

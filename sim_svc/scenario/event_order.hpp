@@ -9,7 +9,7 @@ namespace roci::sim::scenario {
 
 struct ExpectedEvent {
   std::string code;
-  std::string part;      ///< of the event's text; empty: any text
+  std::string part;      ///< belongs to the event's text; empty: any text
   bool repeats = false;  ///< once or more
 };
 

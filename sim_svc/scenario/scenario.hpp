@@ -50,7 +50,7 @@ struct Stimulus {
 /// Says how a robot begins.
 struct Start {
   std::optional<world::Pose> pose;
-  std::optional<mission::Entry> pose_entry;  ///< where it stands in the file
+  std::optional<mission::Entry> pose_entry;  ///< is where it stands in the file
   std::optional<double> battery_j;
   std::map<std::string, mission::Entry> components;  ///< component → what its type makes of it
 };
@@ -59,12 +59,12 @@ struct Start {
 struct Scenario {
   std::string description;
   temporal::Duration duration{};        ///< the run ends here at the latest
-  std::map<std::string, Start> starts;  ///< by robot
+  std::map<std::string, Start> starts;  ///< go by robot
   /// Holds settings for every component that has one of the name, instead of the mission's.
   std::map<std::string, mission::Entry> conditions;
   std::vector<world::Rock> rocks;      ///< there from the start, on no map
   std::vector<world::Window> windows;  ///< true ones where they differ from the predicted
-  std::vector<Stimulus> stimuli;       ///< in order of time
+  std::vector<Stimulus> stimuli;       ///< stand in order of time
   std::vector<ExpectedEvent> expect;   ///< empty: anything may happen
 };
 

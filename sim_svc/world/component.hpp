@@ -16,10 +16,10 @@ namespace roci::sim::world {
 
 /// Holds what a component may see and change outside itself while it acts.
 struct Surroundings {
-  const std::string& robot;  ///< whose part it is
+  const std::string& robot;  ///< is the one whose part it is
   Environment& environment;
   Body& body;
-  const ComponentSet& components;  ///< of the same robot, itself included
+  const ComponentSet& components;  ///< are those of the same robot, itself included
   Outputs& out;
 };
 

@@ -28,7 +28,7 @@ struct TaskKey {
   std::string activity;
   std::uint32_t attempt = 0;
   std::string commander{};  ///< empty where commanders are not told apart
-  std::uint64_t epoch = 0;  ///< of the commander, when it first issued the command
+  std::uint64_t epoch = 0;  ///< is the commander's when it first issued the command
   auto operator<=>(const TaskKey&) const = default;
 };
 
@@ -58,9 +58,9 @@ enum class TaskStage { accepted, rejected, repairing, completed, failed, cancell
 
 /// Holds what a task came to that ran and ended.
 struct Results {
-  temporal::Duration duration{};                  ///< from its begin to its end
+  temporal::Duration duration{};                  ///< runs from its begin to its end
   double energy_j = 0;                            ///< that its component used for it
-  std::map<std::string, temporal::Value> values;  ///< by name, as the component has them
+  std::map<std::string, temporal::Value> values;  ///< go by name, as the component has them
   bool operator==(const Results&) const = default;
 };
 
@@ -73,7 +73,7 @@ struct TaskReport {
   std::string code;
   std::string reason;
   temporal::Time at{};
-  std::optional<Results> results{};  ///< of a task that ran and ended
+  std::optional<Results> results{};  ///< are set for a task that ran and ended
   bool operator==(const TaskReport&) const = default;
 };
 
@@ -126,7 +126,7 @@ struct MotionWanted {
   std::string service;  ///< who is asked
   std::string robot;
   std::string from;            ///< pose by name
-  std::vector<double> joints;  ///< where the arm stands, rad or m
+  std::vector<double> joints;  ///< say where the arm stands, rad or m
   std::string to;              ///< pose by name
   bool operator==(const MotionWanted&) const = default;
 };

@@ -30,7 +30,7 @@ struct LiteralRange {
 /// Tells what an operator makes of one value of a variable.
 struct ValueTransition {
   Literal from;  ///< is kNoLiteral for "a does not run", which is no literal
-  Literal to;    ///< likewise
+  Literal to;    ///< is kNoLiteral likewise
 };
 
 /// Is a variable that may have one of several values before an operator.

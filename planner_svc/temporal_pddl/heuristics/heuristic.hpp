@@ -27,7 +27,7 @@ struct Estimate {
 struct EvaluationContext {
   task::StateView state;
   std::span<const task::ActionId> running;  ///< the actions that have started and not ended
-  std::uint32_t timed_done = 0;             ///< how many timed literals have happened
+  std::uint32_t timed_done = 0;             ///< counts the timed literals that have happened
   /// Tells the schedule of earliest times of the plan; it is null, and `started` is empty, where nothing is
   /// known of it.
   const constraints::ReleaseTimes* release_times = nullptr;

@@ -23,7 +23,7 @@ using PropositionId = task::Id<struct PropositionTag>;
 
 enum class CostMeasure {
   duration,  ///< the least duration of each action, in microseconds
-  metric,    ///< what each adds to the metric at first, in millionths
+  metric,    ///< counts what each adds to the metric at first, in millionths
 };
 
 class RelaxedTask {

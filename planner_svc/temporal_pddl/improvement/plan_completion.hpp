@@ -26,7 +26,7 @@ struct CompletionRule {
   bool by_makespan = false;
   bool lookahead = false;       ///< whether the plan of that schedule is followed as far as it goes
   std::int64_t weight = 1;      ///< the weight of what is to come
-  std::size_t evaluations = 0;  ///< how many at most
+  std::size_t evaluations = 0;  ///< bounds how many there are
 };
 
 class PlanCompletion {

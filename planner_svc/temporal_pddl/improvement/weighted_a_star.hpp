@@ -12,7 +12,7 @@ namespace roci::planner::temporal_pddl::improvement {
 
 struct SearchEffort {
   std::int64_t weight = 1;      ///< the weight of the estimate against what is done so far
-  std::size_t evaluations = 0;  ///< how many at most
+  std::size_t evaluations = 0;  ///< bounds how many there are
 };
 
 struct BetterPlan {

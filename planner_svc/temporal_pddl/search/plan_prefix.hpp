@@ -25,12 +25,12 @@ struct PlanPrefix {
   std::vector<std::uint32_t> start_of;
   std::vector<constraints::StepConstraint> constraints;  ///< the constraints between steps
   std::vector<Running> running;                          ///< the running actions in order of their starts
-  std::vector<task::ActionId> running_actions;           ///< the same
+  std::vector<task::ActionId> running_actions;           ///< names the actions of `running`, in its order
   /// No step may be later than this; it is set for complete plans, see GoalTest.
   temporal::Duration deadline = temporal::no_bound;
   temporal::Duration closing_time{0};  ///< `closing_step` may be no earlier than this; set likewise
   std::uint32_t closing_step = 0;
-  std::uint32_t timed_done = 0;  ///< how many timed literals are among the steps
+  std::uint32_t timed_done = 0;  ///< counts the timed literals among the steps
 };
 
 /// Refills `prefix`, keeping its memory.

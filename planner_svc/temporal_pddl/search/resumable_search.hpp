@@ -13,7 +13,7 @@ namespace roci::planner::temporal_pddl::search {
 struct SearchOutcome {
   std::optional<PlanPrefix> plan;       ///< is none if there is no plan
   std::vector<task::Word> final_state;  ///< the state after the last step of the plan
-  std::string reason;                   ///< what stood in the way, if there is no plan
+  std::string reason;                   ///< says what stood in the way, if there is no plan
 };
 
 class ResumableSearch {

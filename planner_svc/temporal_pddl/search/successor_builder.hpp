@@ -21,7 +21,7 @@ struct Successor {
   PlanPrefix prefix;  ///< is that of the new state; its node is not set
   /// Holds the earliest times of the steps of the prefix, if build() has scheduled them.
   std::vector<temporal::Duration> times;
-  std::size_t new_constraints = 0;  ///< how many of prefix.constraints the transition added, at their end
+  std::size_t new_constraints = 0;  ///< counts the prefix.constraints that the transition added, at their end
 };
 
 class SuccessorBuilder {

@@ -15,7 +15,7 @@ struct ConsumableResource {
   NumberId number;
   double sign = 1;                 ///< −1 where the number rises and must not rise above −floor
   double floor = 0;                ///< the least allowed value of sign · number
-  IdVector<SnapId, double> taken;  ///< what each snap action takes at least
+  IdVector<SnapId, double> taken;  ///< is what each snap action takes at least
 
   /// Returns what is left to be taken in a state.
   double left(const Task& task, StateView state) const {

@@ -87,17 +87,18 @@ struct Task {
   std::vector<std::string> objects, predicates, functions, schemas;
   IdVector<FactId, FactName> fact_names;
   FlatLists<ObjectId> atom_arguments;
-  FlatLists<ObjectId> action_arguments;  ///< by ActionId, the parameters of the schema
+  FlatLists<ObjectId> action_arguments;  ///< are by ActionId the parameters of the schema
   std::vector<std::string> number_names;
 
   // ---- Snap actions, by SnapId
   IdVector<SnapId, Snap> snaps;
   FlatLists<FactId> conditions;              ///< pre⊢ or pre⊣
-  FlatLists<NumericCondition> comparisons;   ///< likewise
+  FlatLists<NumericCondition> comparisons;   ///< belong to pre⊢ or pre⊣, too
   FlatLists<FactId> adds, deletes;           ///< are applied deletes first, then adds
   FlatLists<NumericEffect> numeric_effects;  ///< are all evaluated in the state before
   FlatLists<VariableId> reads, writes;       ///< are what orderings go by (R22, R23)
-  FlatLists<TimeWindow> windows;  ///< when the snap action may happen (R33); an empty list allows any time
+  FlatLists<TimeWindow> windows;  ///< says when the snap action may happen (R33); an empty list allows any
+                                  ///< time
 
   // ---- Actions, by ActionId
   IdVector<ActionId, Action> actions;
@@ -107,7 +108,7 @@ struct Task {
   /// One of these must contain the whole action; an empty list allows any time.
   FlatLists<TimeWindow> span_windows;
   FlatLists<DurationRule> duration_rules;
-  FlatLists<VariableId> derived_invariant_reads;  ///< what the derived facts among the invariants hang on
+  FlatLists<VariableId> derived_invariant_reads;  ///< is what the derived facts among the invariants hang on
   /// These facts must be false before the start; see Action::compression_safe.
   FlatLists<FactId> absent_for_compression;
 
@@ -115,7 +116,7 @@ struct Task {
   /// Stand in order of time; those that windows replace are not among them.
   std::vector<TimedStep> timed_steps;
   std::vector<Goal> goals;                   ///< alternatives
-  FlatLists<VariableId> derived_goal_reads;  ///< what the derived facts in each goal hang on
+  FlatLists<VariableId> derived_goal_reads;  ///< is what the derived facts in each goal hang on
   IdVector<FactId, bool> is_derived;
   DerivedFacts derived;
   Metric metric;

@@ -28,7 +28,7 @@ enum class EventKind { timed_literal, timed_value, instant, start, end };
 struct Event {
   pddl::Microseconds time{0};
   EventKind kind = EventKind::instant;
-  std::size_t index = 0;  ///< of the step, the timed literal or the timed value
+  std::size_t index = 0;  ///< numbers the step, the timed literal or the timed value
 
   auto operator<=>(const Event&) const = default;
 };

@@ -88,13 +88,13 @@ struct WindowMisfit {
   task::SchemaId schema;
   std::vector<task::ObjectId> arguments;
   std::vector<std::uint32_t> adds;  ///< atoms
-  temporal::Duration duration{0};   ///< at least
+  temporal::Duration duration{0};   ///< is the least that the action takes
   temporal::Duration window{0};     ///< the longest
 };
 
 struct GroundModel {
   lifted::TupleTable atoms;
-  std::vector<bool> derived;   ///< by atom
+  std::vector<bool> derived;   ///< is indexed by atom
   lifted::TupleTable numbers;  ///< fluents that change; their index is the NumberId
   task::ExpressionPool expressions;
   std::vector<std::uint32_t> initial_atoms;
@@ -103,12 +103,13 @@ struct GroundModel {
   /// Holds sorted lists, of which the first is empty. Neighbours with equal read sets share one.
   std::vector<std::vector<ReadVariable>> read_sets = std::vector<std::vector<ReadVariable>>(1);
   std::vector<WindowMisfit> window_misfits;  ///< taken out of `actions`
-  std::vector<GroundRule> rules;             ///< by layer
-  std::vector<TimedChange> timed;            ///< by time, one per instant
+  std::vector<GroundRule> rules;             ///< stand in order of layers
+  std::vector<TimedChange> timed;            ///< stand in order of time, one per instant
   Disjunction goal;
   task::Metric metric;
-  std::vector<bool> only_metric_asks;          ///< by number: nothing else does, and it is never assigned
-  std::vector<std::string> unreachable_goals;  ///< as text, if `goal` has no alternative from the beginning
+  std::vector<bool> only_metric_asks;          ///< is indexed by number: nothing else asks for it, and it is
+                                               ///< never assigned
+  std::vector<std::string> unreachable_goals;  ///< are texts, if `goal` has no alternative from the beginning
 
   const std::vector<ReadVariable>& read_set_of(const GroundAction& action) const {
     return read_sets[action.read_sets];

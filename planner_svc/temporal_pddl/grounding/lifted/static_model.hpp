@@ -27,7 +27,7 @@ class StaticModel {
   const Symbols& symbols() const { return symbols_; }
   const ConstantFunctions& constants() const { return constants_; }
   const TupleTable& initial_atoms() const { return initial_; }          ///< timed literals at time 0 included
-  const std::vector<TimedAtom>& timed_atoms() const { return timed_; }  ///< by time
+  const std::vector<TimedAtom>& timed_atoms() const { return timed_; }  ///< stand in order of time
 
   bool is_derived(task::PredicateId predicate) const { return derived_[predicate]; }
   bool is_static(task::PredicateId predicate) const { return static_[predicate]; }

@@ -16,7 +16,7 @@ struct FunctionSymbol {
   std::string name;
   std::string module;                                   ///< empty: a fluent of the domain
   std::vector<std::vector<task::ObjectId>> parameters;  ///< the objects that each may be
-  pddl::SourceLocation declared;                        ///< in the domain's file
+  pddl::SourceLocation declared;                        ///< is a place in the domain's file
 };
 
 /// Is built from a checked model: every name that is looked up is there.

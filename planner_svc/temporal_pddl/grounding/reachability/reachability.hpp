@@ -14,8 +14,8 @@
 namespace roci::planner::temporal_pddl::grounding::reachability {
 
 struct Reachability {
-  lifted::TupleTable atoms;   ///< also some that are only read
-  std::vector<bool> reached;  ///< by atom
+  lifted::TupleTable atoms;   ///< has also some that are only read
+  std::vector<bool> reached;  ///< is indexed by atom
   /// Holds the instances of each action, as the objects of its parameters. Their starts are reachable and
   /// nothing static speaks against them; whether their ends are reachable is left to prune().
   task::IdVector<task::SchemaId, task::FlatLists<task::ObjectId>> instances;

@@ -11,7 +11,7 @@ namespace roci::planner::temporal_pddl::grounding::simplification {
 /// Holds what a literal hangs on: changes outside of these lists cannot make it false. Of a listed literal,
 /// only its becoming false can.
 struct Support {
-  std::vector<instantiation::GroundLiteral> literals;  ///< of atoms that are not derived; sorted
+  std::vector<instantiation::GroundLiteral> literals;  ///< are of atoms that are not derived, and sorted
   std::vector<task::NumberId> numbers;                 ///< sorted
 };
 
