@@ -12,12 +12,14 @@
 
 namespace roci::arm {
 
+/// Says what is tested, and how near things may come.
 struct CollisionRules {
   std::optional<double> ground_z;  ///< Level ground in the base frame, m; without it there is free space.
   double margin = 0.01;            ///< Every surface is moved outwards by this, m.
   std::vector<std::pair<std::string, std::string>> may_touch;  ///< These pairs of links are never tested.
 };
 
+/// Names two things that touch.
 struct Contact {
   std::string first;   ///< A link.
   std::string second;  ///< A link, or "ground".

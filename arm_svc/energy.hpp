@@ -12,6 +12,7 @@
 
 namespace roci::arm {
 
+/// Holds the parameters of the model above, in SI units.
 struct MotorModel {
   Eigen::Vector3d gravity{0, 0, -3.71};  ///< m/s² in the base frame
   double idle_w = 0;                     ///< The electronics draw it all the time.
@@ -19,6 +20,7 @@ struct MotorModel {
   double full_effort_loss_w = 0;         ///< The copper loss of a joint that exerts its effort limit.
 };
 
+/// Holds what a motion uses, and how near its motors come to their limits.
 struct EnergyUse {
   double energy_j = 0;
   double peak_load = 0;  ///< The largest |τ_j| / effort limit on the way; above 1 the motors fail.

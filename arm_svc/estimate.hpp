@@ -12,11 +12,13 @@
 
 namespace roci::arm {
 
+/// Names a motion by its two ends.
 struct PlacePair {
   Place from;
   Place to;
 };
 
+/// Holds duration (s) and energy (J) of a motion, or why it has none.
 struct Estimate {
   MotionStatus status = MotionStatus::found;
   std::string detail;

@@ -8,6 +8,7 @@
 
 namespace roci::arm {
 
+/// Takes values one after the other; their order counts.
 class Fingerprint {
  public:
   Fingerprint& add(std::string_view text);

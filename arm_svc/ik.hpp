@@ -27,6 +27,7 @@ struct ToolTarget {
   std::optional<Eigen::Quaterniond> orientation;
 };
 
+/// Bounds the search and says when a solution is near enough.
 struct IkOptions {
   double position_tolerance = 1e-5;  ///< m
   double angle_tolerance = 1e-4;     ///< rad
@@ -36,6 +37,7 @@ struct IkOptions {
   std::size_t solutions = 1;  ///< The search stops after so many distinct ones.
 };
 
+/// Says how far the tool is from its target.
 struct ToolError {
   double position = 0;  ///< m
   double angle = 0;     ///< rad; it is 0 where the target leaves orientation free.

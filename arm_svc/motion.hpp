@@ -14,6 +14,7 @@
 
 namespace roci::arm {
 
+/// Says whether there is a motion, or why not.
 enum class MotionStatus {
   found,
   unknown_pose,  ///< The mission's data have no pose of that name.
@@ -26,6 +27,7 @@ enum class MotionStatus {
 
 std::string_view name_of(MotionStatus status);
 
+/// Is a motion with its duration (s) and energy (J), or the reason why there is none.
 struct Motion {
   MotionStatus status = MotionStatus::found;
   std::string detail;     ///< It names the pose, link or joint; it is empty when found.

@@ -19,6 +19,7 @@ using JointPath = std::vector<kinematics::JointVector>;
 
 enum class SearchFailure { budget_spent, cancelled };
 
+/// Bounds a search by work, never by time.
 struct SearchBudget {
   unsigned iterations = 2000;
   std::function<bool()> cancelled;  ///< It is asked often, and may be empty.

@@ -19,6 +19,7 @@ struct NamedPose {
   std::variant<kinematics::JointVector, ToolTarget> where;
 };
 
+/// Holds all that motions depend on.
 struct ArmSetup {
   kinematics::Arm arm;
   std::vector<NamedPose> poses;  ///< Their names are unique.

@@ -21,12 +21,14 @@ struct TrajectorySegment {
   double duration_s() const { return 2.0 * ramp_s + cruise_s; }
 };
 
+/// Holds the state of all joints at one time.
 struct JointState {
   kinematics::JointVector position;      ///< rad or m
   kinematics::JointVector velocity;      ///< per s
   kinematics::JointVector acceleration;  ///< per s²; at a change of phase that of the later phase
 };
 
+/// Is a motion in time, from rest to rest in each segment.
 struct Trajectory {
   std::vector<TrajectorySegment> segments;
 
@@ -45,6 +47,7 @@ Trajectory time_path(const kinematics::Arm& arm, const JointPath& path);
 double line_duration_s(const kinematics::Arm& arm, const kinematics::JointVector& from,
                        const kinematics::JointVector& to);
 
+/// Holds where the joints stand at a time since the start.
 struct TrajectorySample {
   double time_s = 0;
   kinematics::JointVector position;

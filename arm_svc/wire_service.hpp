@@ -16,6 +16,7 @@ inline constexpr const char* kModule = "arm";
 /// Returns what module `arm` offers: arm_move_time [s] and arm_move_energy [J] of (from, to).
 v1::FunctionOffer function_offer(const std::string& owner, std::uint64_t model_version);
 
+/// Holds the reply, and what is worth an event.
 struct FunctionAnswer {
   v1::FunctionReply reply;
   std::set<std::string> refusals;  ///< say in words why tuples have no value

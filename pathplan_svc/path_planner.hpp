@@ -10,6 +10,7 @@
 
 namespace roci::pathplan {
 
+/// Says whether there is a path, or why not.
 enum class PathStatus : std::uint8_t {
   found,
   unreachable,    ///< It is proved: the ends lie in regions of free cells that do not meet.
@@ -32,6 +33,7 @@ struct PathOutcome {
   double energy = 0;  ///< J
 };
 
+/// Bounds the work of a planner and shapes its way-points.
 struct PlannerSettings {
   CorridorSettings corridor;
   double waypoint_spacing = 4.0;  ///< m

@@ -17,6 +17,7 @@ inline constexpr const char* kModule = "pathplan";
 /// of (from, to).
 v1::FunctionOffer function_offer(const std::string& owner, std::uint64_t map_version);
 
+/// Holds the reply, and what is worth an event.
 struct FunctionAnswer {
   v1::FunctionReply reply;
   std::map<std::string, std::string> unusable_places;  ///< Say by object why no path can begin or end there.

@@ -31,6 +31,7 @@ services::node::NodeOptions node_options(const std::filesystem::path& mission, c
 /// linked.
 services::MakeService* make_of(const mission::ServiceEntry&);
 
+/// Says what is flown, where and how fast.
 struct FlightOptions {
   services::RunSettings run;
   int domain = 1;   ///< flights with different domains do not hear each other

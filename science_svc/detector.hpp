@@ -14,6 +14,7 @@
 
 namespace roci::science {
 
+/// Says what counts as a find, and how many goals may come of it; lengths are in m.
 struct DetectorSettings {
   bool enabled = true;
   double threshold = 0.85;            ///< scores of at least this raise a goal; 0 … 1
@@ -24,17 +25,20 @@ struct DetectorSettings {
   int limit = 5;                      ///< goals in one run
 };
 
+/// Is an image by the place from which it was taken.
 struct Photo {
   std::string id;
   terrain::Point taken_from;
 };
 
+/// Is a place that deserves a goal.
 struct Find {
   std::string id;
   terrain::Point place;
   double score = 0;  ///< 0 … 1
 };
 
+/// Answers by its settings and its seed alone, and remembers what it has found.
 class Detector {
  public:
   /// Prepares a detector whose goals lie inside `map`.

@@ -10,6 +10,7 @@
 
 namespace roci::bench {
 
+/// Is what goes to and fro.
 struct Ball {
   std::int64_t sequence = 0;
   double x_m = 0;
@@ -18,12 +19,14 @@ struct Ball {
 
 enum class Side { client, server };
 
+/// Says which end of the ping-pong a port is.
 struct PortOptions {
   Side side = Side::client;
   int domain = 0;
   std::function<void(const Ball&)> on_ball;  // called from a vendor thread
 };
 
+/// Is the interface of one end.
 class Port {
  public:
   virtual ~Port() = default;

@@ -1,4 +1,4 @@
-/// A house is the processes of one mission and idle ones beside them, started here, watched over DDS.
+// A house is the processes of one mission and idle ones beside them, started here, watched over DDS.
 #pragma once
 
 #include <chrono>
@@ -18,6 +18,7 @@
 
 namespace roci::bench::house {
 
+/// Says which mission flies, and in how many processes.
 struct HouseOptions {
   std::filesystem::path bin;  ///< The services stand there.
   std::filesystem::path mission;
@@ -35,6 +36,7 @@ struct ClockFigures {
   std::uint64_t samples = 0;      ///< Counts those of clocked topics, by all senders.
 };
 
+/// Starts the processes of a house and ends them with itself.
 class House {
  public:
   /// Starts the processes; their logs go to `run_folder`. Throws std::system_error and

@@ -1,4 +1,4 @@
-/// This file reads what the kernel says of a process, from /proc.
+// This file reads what the kernel says of a process, from /proc.
 #pragma once
 
 #include <sys/types.h>
@@ -7,6 +7,7 @@
 
 namespace roci::bench::house {
 
+/// Holds what one process, or several, take.
 struct ProcessFigures {
   double pss_mb = 0;  ///< Proportional set size: pages that several processes share count by shares.
   double cpu_s = 0;   ///< User and system time since its start.

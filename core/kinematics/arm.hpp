@@ -20,6 +20,7 @@ using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kM
 
 enum class JointType { revolute, prismatic };
 
+/// Bounds position, speed, acceleration and effort of one joint.
 struct JointLimits {
   double lower = 0;         ///< rad or m
   double upper = 0;         ///< rad or m
@@ -28,6 +29,7 @@ struct JointLimits {
   double effort = 0;        ///< N·m or N, > 0
 };
 
+/// Is one movable joint with its place on the previous body.
 struct Joint {
   std::string name;
   JointType type = JointType::revolute;
@@ -39,6 +41,7 @@ struct Joint {
   double damping = 0;   ///< viscous friction, N·m·s/rad or N·s/m
 };
 
+/// Is centred on the origin; the radius is in m.
 struct Sphere {
   double radius = 0;
 };
@@ -49,17 +52,20 @@ struct Capsule {
   double length = 0;
 };
 
+/// Is centred on the origin, with its sides along the axes.
 struct Box {
   /// Holds full edge lengths in m; the box is centred on the origin.
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
 };
 
+/// Is a shape that is fixed to a body.
 struct CollisionShape {
   std::string link;                                        ///< The URDF link that the shape came from.
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< The shape's, in the body's frame.
   std::variant<Sphere, Capsule, Box> form;
 };
 
+/// Holds mass (kg), centre and inertia of a rigid body.
 struct MassProperties {
   double mass = 0;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< Centre of mass in the body's frame, m.
@@ -67,12 +73,14 @@ struct MassProperties {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
 };
 
+/// Is a rigid body of the arm with all that is fixed to it.
 struct Body {
   std::string name;  ///< The first URDF link of the body.
   MassProperties mass;
   std::vector<CollisionShape> shapes;
 };
 
+/// Is the whole arm; body i+1 hangs on body i by joint i.
 struct Arm {
   std::string name;
   std::vector<Joint> joints;                               ///< kMinJoints..kMaxJoints

@@ -14,12 +14,14 @@
 
 namespace roci::kinematics {
 
+/// Says what the URDF itself leaves open.
 struct UrdfOptions {
   std::string tip;  ///< The link that is the tool frame.
   /// Joints without an acceleration limit reach their speed limit in this time.
   double time_to_speed_s = 0.5;
 };
 
+/// Says why a document is no arm, and where.
 struct UrdfError {
   std::string file;
   int line = 0;         ///< Counted from 1; 0 stands for the document as a whole.

@@ -24,6 +24,7 @@ struct ServiceEntry {
   std::vector<std::string> arguments;  ///< appended to its command line
 };
 
+/// Holds the processes of a run in the order of the mission file.
 struct ServiceList {
   std::vector<std::string> robots;  ///< come in the order of `robots:`, as it names them
   std::vector<ServiceEntry> services;

@@ -52,6 +52,7 @@ struct Signature {
 
 struct Expression;
 
+/// Is a number as it stands in the text.
 struct Number {
   double value = 0;
 };
@@ -79,46 +80,55 @@ struct Expression {
 
 struct Condition;
 
-struct And {  // empty: true
+/// Holds if all parts hold; without parts it holds.
+struct And {
   std::vector<Condition> parts;
 };
 
-struct Or {  // empty: false
+/// Holds if one of the parts holds; without parts it does not hold.
+struct Or {
   std::vector<Condition> parts;
 };
 
+/// Holds if the body does not.
 struct Not {
   Box<Condition> body;
 };
 
+/// Holds if the premise does not, or the conclusion does.
 struct Imply {
   Box<Condition> premise;
   Box<Condition> conclusion;
 };
 
+/// Holds if the body does for every choice of objects.
 struct Forall {
   std::vector<TypedName> variables;
   Box<Condition> body;
 };
 
+/// Holds if the body does for some choice of objects.
 struct Exists {
   std::vector<TypedName> variables;
   Box<Condition> body;
 };
 
-struct TermEquality {  // (= ?x ?y): the same object
+/// Holds if both terms are the same object: (= ?x ?y).
+struct TermEquality {
   Term left;
   Term right;
 };
 
 enum class ComparisonOperator { less, less_equal, equal, greater_equal, greater };
 
+/// Compares two numeric expressions.
 struct Comparison {
   ComparisonOperator op = ComparisonOperator::equal;
   Expression left;
   Expression right;
 };
 
+/// Is a condition of any form.
 struct Condition {
   std::variant<And, Or, Not, Imply, Forall, Exists, Atom, TermEquality, Comparison> node;
   SourceLocation where;
@@ -136,6 +146,7 @@ struct TimedCondition {
 
 struct Effect;
 
+/// Is an atom or its negation.
 struct Literal {
   Atom atom;
   bool negated = false;
@@ -143,6 +154,7 @@ struct Literal {
 
 enum class AssignmentOperator { assign, increase, decrease, scale_up, scale_down };
 
+/// Changes a fluent to, or by, the value of an expression.
 struct Assignment {
   AssignmentOperator op = AssignmentOperator::assign;
   Atom fluent;
@@ -157,6 +169,7 @@ struct When {
   std::vector<Effect> effects;
 };
 
+/// Has its effects for every choice of objects.
 struct ForallEffect {
   std::vector<TypedName> variables;
   std::vector<Effect> effects;
@@ -170,6 +183,7 @@ struct Effect {
 
 // ---- Actions
 
+/// Is an instantaneous action, (:action …).
 struct Action {
   std::string name;
   std::vector<TypedName> parameters;
@@ -210,6 +224,7 @@ struct DerivedPredicate {
 
 // ---- Domain
 
+/// Is one entry of (:requirements …).
 struct Requirement {
   std::string keyword;  ///< has its colon: ":typing"
   SourceLocation where;
@@ -223,6 +238,7 @@ struct Module {
   SourceLocation where;
 };
 
+/// Is a whole domain file; its lists keep the order of the text.
 struct Domain {
   std::string file;  ///< is as given to the parser, for messages
   std::string name;
@@ -240,24 +256,28 @@ struct Domain {
 
 // ---- Problem
 
-struct InitialValue {  // (= (f a) 3)
+/// Is an entry of :init: (= (f a) 3).
+struct InitialValue {
   Atom fluent;
   double value = 0;
 };
 
-struct TimedLiteral {  // (at 5 (p)), (at 7 (not (p)))
+/// Is a timed initial literal, (at 5 (p)) or (at 7 (not (p))), with its time in seconds.
+struct TimedLiteral {
   double time = 0;
   Literal literal;
   SourceLocation where;
 };
 
-struct TimedValue {  // (at 5 (= (f a) 3))
+/// Is a timed initial fluent, (at 5 (= (f a) 3)), with its time in seconds.
+struct TimedValue {
   double time = 0;
   Atom fluent;
   double value = 0;
   SourceLocation where;
 };
 
+/// Is the (:metric …) of a problem.
 struct Metric {
   enum class Sense { minimize, maximize };
   Sense sense = Sense::minimize;
@@ -265,6 +285,7 @@ struct Metric {
   SourceLocation where;
 };
 
+/// Is a whole problem file; its lists keep the order of the text.
 struct Problem {
   std::string file;  ///< is as given to the parser, for messages
   std::string name;

@@ -13,6 +13,7 @@
 
 namespace roci::pddl::grammar {
 
+/// Names the file that is read, and throws ParseError for it.
 class Source {
  public:
   explicit Source(std::string_view file) : file_(file) {}
@@ -58,6 +59,7 @@ TimedCondition read_timed_condition(const Sexpr& s, const Source& source);
 /// Reads effects of one moment; the conditions of their `when` belong to the same moment.
 std::vector<Effect> read_effects(const Sexpr& s, TimePoint moment, const Source& source);
 
+/// Holds the effects of a durative action by the time at which they happen.
 struct DurativeEffects {
   std::vector<Effect> at_start;
   std::vector<Effect> at_end;

@@ -10,6 +10,8 @@
 
 namespace roci::pddl {
 
+/// Takes a line apart. Everything that expects something throws ParseError, with the place, where it is
+/// missing.
 class LineScanner {
  public:
   /// Takes `text` without its newline; a comment begins at a ';'.

@@ -12,6 +12,7 @@ namespace roci::pddl {
 /// Evaluation may recurse once per layer.
 inline constexpr int kMaxLayers = 16;
 
+/// Holds the layers of a domain's derived predicates.
 struct Strata {
   /// Maps a derived predicate to its layer, from 0. A body depends negatively on lower layers only,
   /// positively on lower ones or its own.

@@ -12,11 +12,12 @@
 
 namespace roci::temporal {
 
+/// Says what a node does, in the order of ConditionOp in idl/condition.idl.
 enum class ConditionOp {
-  always,    ///< CONDITION_TRUE
-  all_of,    ///< CONDITION_AND: followed by child_count subtrees
-  any_of,    ///< CONDITION_OR: followed by child_count subtrees
-  negation,  ///< CONDITION_NOT: followed by one subtree
+  always,    ///< always holds
+  all_of,    ///< is followed by child_count subtrees
+  any_of,    ///< is followed by child_count subtrees
+  negation,  ///< is followed by one subtree
   eq,
   ne,
   lt,
@@ -25,6 +26,7 @@ enum class ConditionOp {
   gt
 };
 
+/// Is one node of a condition's tree; its subtrees follow it in the array.
 struct ConditionNode {
   ConditionOp op = ConditionOp::always;
   std::uint32_t child_count = 0;

@@ -30,6 +30,7 @@ struct TemporalConstraint {
 enum class ImpactKind { assign, delta, rate };  ///< rate: per second
 enum class ImpactWhen { at_start, at_end, during };
 
+/// Says what an activity does to a timeline, and when.
 struct Impact {
   std::string timeline;
   ImpactKind kind = ImpactKind::assign;
@@ -65,6 +66,7 @@ constexpr bool is_over(ActivityState state) {
          state != ActivityState::running;
 }
 
+/// Is a named word, as an argument of a command is.
 struct Property {
   std::string name;
   std::string value;
@@ -139,6 +141,7 @@ enum class ResolverKind {
   rule,  ///< the choices' own conditions: the first choice whose rule holds is taken
 };
 
+/// Is one of the ways in which a decision may go.
 struct DecisionChoice {
   std::string name;
   std::vector<std::string> activities{};  ///< ids; those of the other choices are skipped
@@ -185,6 +188,7 @@ struct FunctionValueUse {
   friend bool operator==(const FunctionValueUse&, const FunctionValueUse&) = default;
 };
 
+/// Is a whole plan; times are relative to `origin`.
 struct FlexiblePlan {
   std::string id;
   std::uint32_t version = 0;

@@ -19,6 +19,7 @@ struct ActivityProgress {
 };
 using Progress = std::map<std::string, ActivityProgress>;  ///< goes by activity id; who is not in it waits
 
+/// Says on what a projected change rests.
 enum class ProjectionKind {
   planned,    ///< the plan alone says so, with everything at its earliest
   executed,   ///< it has started or ended, at the time when it did

@@ -23,6 +23,7 @@ struct Crater {
   std::int64_t depth;
 };
 
+/// Is a closed ring of rocks of one height.
 struct RockRing {
   std::int64_t x;
   std::int64_t y;

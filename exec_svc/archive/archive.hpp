@@ -1,5 +1,5 @@
-/// The archive turns plain values into bytes and back, exactly: every double and every string, also one that
-/// is no text. The fields of each type are listed once, beside it (*_fields.hpp), for both ways.
+// The archive turns plain values into bytes and back, exactly: every double and every string, also one that
+// is no text. The fields of each type are listed once, beside it (*_fields.hpp), for both ways.
 #pragma once
 
 #include <bit>
@@ -24,6 +24,7 @@ class ArchiveError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Turns values into bytes, one after the other.
 class Writer {
  public:
   static constexpr bool writes = true;
@@ -86,6 +87,7 @@ class Writer {
   std::string bytes_;
 };
 
+/// Turns the bytes of a Writer back into values, in the same order.
 class Reader {
  public:
   static constexpr bool writes = false;
@@ -186,6 +188,7 @@ class Reader {
 template <class T, class Archive>
 using Of = std::conditional_t<Archive::writes, const T, T>;
 
+/// Returns the bytes of one value.
 template <class T>
 std::string to_bytes(const T& value) {
   Writer writer;

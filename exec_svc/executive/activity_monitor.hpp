@@ -1,4 +1,4 @@
-/// The activity monitor watches the conditions and timers of activities under way (R84-R86).
+// The activity monitor watches the conditions and timers of activities under way (R84-R86).
 #pragma once
 
 #include "exec_svc/executive/attempts.hpp"
@@ -9,6 +9,7 @@
 
 namespace roci::exec::executive {
 
+/// Fails activities whose conditions or time limits are broken, and lets those succeed that have settled.
 class ActivityMonitor {
  public:
   /// All arguments must outlive the monitor.

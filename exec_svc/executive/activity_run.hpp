@@ -1,4 +1,4 @@
-/// An activity's run says how far one activity of the running plan has come.
+// An activity's run says how far one activity of the running plan has come.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 namespace roci::exec::executive {
 
+/// Says how far an activity has come, finer than ActivityState, which everybody sees.
 enum class ActivityPhase {
   waiting,
   sent,         ///< command sent, no answer yet
@@ -22,6 +23,7 @@ enum class ActivityPhase {
 /// Says what follows when a cancel has been answered.
 enum class AfterCancel { retry, fail, withdraw };
 
+/// Holds all that the run knows of one activity.
 struct ActivityRun {
   ActivityPhase phase = ActivityPhase::waiting;
   temporal::ActivityState state = temporal::ActivityState::waiting;

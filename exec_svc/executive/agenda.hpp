@@ -1,4 +1,4 @@
-/// An agenda holds times to come of things whose time may still change.
+// An agenda holds times to come of things whose time may still change.
 #pragma once
 
 #include <algorithm>

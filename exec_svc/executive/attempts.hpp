@@ -1,4 +1,4 @@
-/// Attempts at an activity begin and end here: by start, success, failure, another attempt, cancel.
+// Attempts at an activity begin and end here: by start, success, failure, another attempt, cancel.
 #pragma once
 
 #include <string>
@@ -10,6 +10,7 @@
 
 namespace roci::exec::executive {
 
+/// Leads activities through their attempts: start, success, failure, retry and cancel.
 class Attempts {
  public:
   /// All arguments must outlive this object.

@@ -1,5 +1,5 @@
-/// A contingency is what is done about a failed activity before its plan is given up (R69, R70): commands
-/// from a template, sent at once and without a planner.
+// A contingency is what is done about a failed activity before its plan is given up (R69, R70): commands
+// from a template, sent at once and without a planner.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,7 @@
 
 namespace roci::exec::executive {
 
+/// Is one command of a contingency's template.
 struct ContingencyCommand {
   std::string owner;
   std::string subsystem;

@@ -1,5 +1,5 @@
-/// Contingency runs are the contingencies under way: the commands of a template, one after the other, after
-/// an activity has failed (R69, R70). Other activities run on meanwhile (R141).
+// Contingency runs are the contingencies under way: the commands of a template, one after the other, after
+// an activity has failed (R69, R70). Other activities run on meanwhile (R141).
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,7 @@ struct ContingencyEnd {
   std::string reason;   ///< says why it did not help; empty: all of its commands are done
 };
 
+/// Holds by activity the contingency that is under way or was used.
 class ContingencyRuns {
  public:
   /// The state must outlive this object.

@@ -1,5 +1,5 @@
-/// Deadlines say until when an activity under way may do what. They are derived from the network as it is
-/// now; nothing is kept.
+// Deadlines say until when an activity under way may do what. They are derived from the network as it is
+// now; nothing is kept.
 #pragma once
 
 #include <vector>
@@ -8,6 +8,7 @@
 
 namespace roci::exec::executive {
 
+/// Answers from the network as it is when it is asked.
 class Deadlines {
  public:
   /// The state must outlive this object.

@@ -1,5 +1,5 @@
-/// Dispatch lets points happen that may happen now: starts, ends without command, free points. It says why a
-/// start that is due may not happen, and breaks the plan when it never can (R47-R50).
+// Dispatch lets points happen that may happen now: starts, ends without command, free points. It says why a
+// start that is due may not happen, and breaks the plan when it never can (R47-R50).
 #pragma once
 
 #include "exec_svc/executive/attempts.hpp"
@@ -8,6 +8,7 @@
 
 namespace roci::exec::executive {
 
+/// Starts what is due and may start, and owns nothing but whether starts are held.
 class Dispatch {
  public:
   /// All arguments must outlive this object.

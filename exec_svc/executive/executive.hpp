@@ -1,5 +1,5 @@
-/// The executive runs any FlexiblePlan on the plan's own temporal network. It is a functional core: it has no
-/// clock and no I/O, and the same inputs give the same outputs.
+// The executive runs any FlexiblePlan on the plan's own temporal network. It is a functional core: it has no
+// clock and no I/O, and the same inputs give the same outputs.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-/// These plain values go into the executive and come out of it, without DDS.
+// These plain values go into the executive and come out of it, without DDS.
 #pragma once
 
 #include <cstdint>
@@ -32,6 +32,7 @@ struct CommandAck {
   std::uint64_t epoch = 0;  ///< is the one in which the command was issued; 0: not told, any fits
 };
 
+/// Is the answer to a decision.
 struct DecisionAnswer {
   std::string decision;
   std::string choice;
@@ -46,6 +47,7 @@ struct Inputs {
   std::uint64_t epoch = 0;  ///< is the executive's from this step on; 0: as before
 };
 
+/// Is what the executive asks of an owner.
 struct Command {
   CommandAction action = CommandAction::execute;
   std::string activity;
@@ -74,6 +76,7 @@ struct StepStatus {
   std::string reason;  ///< says why it is in this state, where that is not obvious
 };
 
+/// Asks a resolver to choose.
 struct DecisionRequest {
   std::string decision;
   std::string resolver;
@@ -95,6 +98,7 @@ struct RecoveryStep {
   std::string reason;  ///< says why, and what is done
 };
 
+/// Says how a plan's run stands.
 enum class OutcomeKind {
   idle,  ///< no plan loaded
   running,
@@ -104,6 +108,7 @@ enum class OutcomeKind {
   cancelled,   ///< nothing of the plan runs any more, or its owner did not answer the cancel in time
 };
 
+/// Says how a plan broke.
 enum class Breakage {
   none,
   late_start,         ///< an activity's latest start has passed (R49)
@@ -114,6 +119,7 @@ enum class Breakage {
   decision_missing,   ///< no answer in time
 };
 
+/// Says how the plan's run stands, and who broke it.
 struct Outcome {
   OutcomeKind kind = OutcomeKind::idle;
   Breakage breakage = Breakage::none;  ///< says how a broken plan broke
@@ -122,6 +128,7 @@ struct Outcome {
   std::string contingency;  ///< the one that the activity names; it has been used up, or is none of ours
 };
 
+/// Holds what one step says and asks for.
 struct Outputs {
   std::vector<Command> commands{};    ///< come in the order of sending
   std::vector<StepStatus> changes{};  ///< every change of state, in the order of events

@@ -1,5 +1,5 @@
-/// The owner exchange covers what is exchanged with the owners of commands beyond the command itself: their
-/// answers, cancels and what becomes of them, queries after a restart, and that an owner is gone.
+// The owner exchange covers what is exchanged with the owners of commands beyond the command itself: their
+// answers, cancels and what becomes of them, queries after a restart, and that an owner is gone.
 #pragma once
 
 #include <string>
@@ -11,6 +11,7 @@
 
 namespace roci::exec::executive {
 
+/// Gives each answer of an owner to the attempt that it belongs to, and ignores what nobody awaits.
 class OwnerExchange {
  public:
   /// All arguments must outlive this object.

@@ -1,5 +1,5 @@
-/// A plan run is one plan under execution: it is composed of parts that each own one concern, over one shared
-/// state.
+// A plan run is one plan under execution: it is composed of parts that each own one concern, over one shared
+// state.
 #pragma once
 
 #include <optional>
@@ -19,6 +19,7 @@
 
 namespace roci::exec::executive {
 
+/// Runs one plan to its outcome; it is replaced as a whole by the run of the next plan.
 class PlanRun {
  public:
   /// Takes a plan that has passed check(); settings and store outlive the run.

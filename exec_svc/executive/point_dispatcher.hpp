@@ -1,4 +1,4 @@
-/// The point dispatcher decides which time points of a plan may happen now, by the plan's network alone.
+// The point dispatcher decides which time points of a plan may happen now, by the plan's network alone.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 
 namespace roci::exec::executive {
 
+/// Keeps for each time point what it still waits for; an event costs what it moves.
 class PointDispatcher {
  public:
   /// Takes a plan that has passed check(). With latest_starts, starts are due at the end of their windows,

@@ -1,4 +1,4 @@
-/// Precedence says which time points must have happened before which.
+// Precedence says which time points must have happened before which.
 #pragma once
 
 #include <vector>
@@ -15,6 +15,7 @@ enum class PointRole : char {
   observed_end,  ///< the owner of a command reports its end: contingent
 };
 
+/// Says whose a time point is.
 struct PointOwner {
   PointRole role = PointRole::free;
   std::size_t activity = 0;  ///< not for free points

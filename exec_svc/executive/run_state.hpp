@@ -1,5 +1,5 @@
-/// The run state is what all parts of a plan's run share: the plan, its network, how far its activities have
-/// come, and what is said and asked for. Each part owns what else it needs.
+// The run state is what all parts of a plan's run share: the plan, its network, how far its activities have
+// come, and what is said and asked for. Each part owns what else it needs.
 #pragma once
 
 #include <cstddef>
@@ -29,6 +29,7 @@ struct CommandOf {
   bool last;                         ///< says whether it ends the sequence
 };
 
+/// Is shared by the parts of one run, which know it by its address.
 struct RunState {
   /// Takes a plan that has passed check(); settings and store outlive the run.
   RunState(temporal::FlexiblePlan flexible_plan, const ExecutiveSettings& executive_settings,

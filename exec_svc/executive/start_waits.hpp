@@ -1,5 +1,5 @@
-/// Start waits hold the activities whose start is due and that wait for their preconditions, and until when
-/// (R68, R98).
+// Start waits hold the activities whose start is due and that wait for their preconditions, and until when
+// (R68, R98).
 #pragma once
 
 #include <optional>
@@ -10,6 +10,7 @@
 
 namespace roci::exec::executive {
 
+/// Knows which activities wait for their start, and until when.
 class StartWaits {
  public:
   /// The state must outlive this object.

@@ -1,4 +1,4 @@
-/// The timeline store holds values of timelines as conditions see them.
+// The timeline store holds values of timelines as conditions see them.
 #pragma once
 
 #include <map>

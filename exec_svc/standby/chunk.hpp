@@ -1,5 +1,5 @@
-/// Chunks go from the leader's journal to the follower's: each is a batch, or a part of a whole journal, as
-/// plain values.
+// Chunks go from the leader's journal to the follower's: each is a batch, or a part of a whole journal, as
+// plain values.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 namespace roci::exec::standby {
 
+/// Is one message of the journal's copy.
 struct Chunk {
   std::uint64_t leader = 0;    ///< epoch of who sends it
   journal::Position after;     ///< a batch: of the journal that it fits

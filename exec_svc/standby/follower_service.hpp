@@ -1,5 +1,5 @@
-/// This is the follower's side on the wire: it takes the leader's journal, says what it has, and finds out
-/// when to lead.
+// This is the follower's side on the wire: it takes the leader's journal, says what it has, and finds out
+// when to lead.
 #pragma once
 
 #include <optional>
@@ -14,6 +14,7 @@
 
 namespace roci::exec::standby {
 
+/// Follows until it is this member's turn to lead or the run is over; then it stops the node.
 class FollowerService {
  public:
   /// Stands on an observer's node, and so outside the simulated clock. All arguments must outlive it.

@@ -1,5 +1,5 @@
-/// The journal copy is the follower's side: a journal that takes another one's batches, each once, in order,
-/// unharmed.
+// The journal copy is the follower's side: a journal that takes another one's batches, each once, in order,
+// unharmed.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 namespace roci::exec::standby {
 
+/// Takes only what fits on the journal as it is, or a whole journal in its place.
 class JournalCopy {
  public:
   explicit JournalCopy(journal::Journal& journal) : journal_(&journal), has_(journal.position()) {}

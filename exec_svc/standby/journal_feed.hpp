@@ -1,5 +1,5 @@
-/// The journal feed is the leader's side of the journal's copy: it says which chunks the follower is to get
-/// next, from what the follower says that it has, and sends again from there when nothing moves. It is pure.
+// The journal feed is the leader's side of the journal's copy: it says which chunks the follower is to get
+// next, from what the follower says that it has, and sends again from there when nothing moves. It is pure.
 #pragma once
 
 #include <chrono>
@@ -14,6 +14,7 @@
 
 namespace roci::exec::standby {
 
+/// Keeps the newest batches; a follower that lacks an older one gets the whole journal.
 class JournalFeed {
  public:
   using Moment = std::chrono::microseconds;

@@ -1,5 +1,5 @@
-/// This is the leader's side on the wire: it keeps the lease, feeds the follower, and lets out what was
-/// decided once the follower has it.
+// This is the leader's side on the wire: it keeps the lease, feeds the follower, and lets out what was
+// decided once the follower has it.
 #pragma once
 
 #include <deque>
@@ -25,6 +25,7 @@ class StandDown : public std::runtime_error {
   const bool superseded;  ///< says whether another leader leads, for all it knows
 };
 
+/// Lets nothing out that the follower should have and has not.
 class LeaderService {
  public:
   /// Takes a `lease` that leads already; its epoch begins in the journal. All arguments must outlive this

@@ -1,5 +1,5 @@
-/// The lease says who of a pair of executives leads: it is a state machine over what the members say of
-/// themselves. It is pure. The README has the rules.
+// The lease says who of a pair of executives leads: it is a state machine over what the members say of
+// themselves. It is pure. The README has the rules.
 #pragma once
 
 #include <chrono>
@@ -53,6 +53,7 @@ struct PersistedTerm {
   bool operator==(const PersistedTerm&) const = default;
 };
 
+/// Decides for one member; no epoch has two leaders.
 class Lease {
  public:
   /// With `superseded`, this member led until another one did.

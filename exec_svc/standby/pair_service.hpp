@@ -1,4 +1,4 @@
-/// This is the process of one member of a pair: it follows, leads, follows again, until the run is over.
+// This is the process of one member of a pair: it follows, leads, follows again, until the run is over.
 #pragma once
 
 #include "services/process/service_options.hpp"

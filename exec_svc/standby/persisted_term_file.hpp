@@ -1,4 +1,4 @@
-/// This file keeps a member's persisted term on its disk.
+// This file keeps a member's persisted term on its disk.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,7 @@
 
 namespace roci::exec::standby {
 
+/// Reads and writes the term of one member.
 class PersistedTermFile {
  public:
   PersistedTermFile(std::filesystem::path file, journal::Durability durability)

@@ -1,4 +1,4 @@
-/// This file has lease messages and chunks in their wire form, and the clock that they count on.
+// This file has lease messages and chunks in their wire form, and the clock that they count on.
 #pragma once
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-/// A comparison takes two traces line by line, after one renaming.
+// A comparison takes two traces line by line, after one renaming.
 #pragma once
 
 #include <cstddef>
@@ -19,6 +19,7 @@ struct Difference {
   bool operator==(const Difference&) const = default;
 };
 
+/// Holds what a comparison found, with the lines that it compared.
 struct Comparison {
   std::vector<Line> before;             ///< OLD under its new names.
   std::vector<Line> after;              ///< NEW without what was added.

@@ -1,5 +1,5 @@
-/// Patterns are POSIX extended regular expressions over lines of any length (GNU's `\w`, `\s`, `\S`, `\b`
-/// included).
+// Patterns are POSIX extended regular expressions over lines of any length (GNU's `\w`, `\s`, `\S`, `\b`
+// included).
 #pragma once
 
 #include <cstddef>
@@ -15,6 +15,7 @@ class PatternError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Is a compiled expression.
 class Pattern {
  public:
   /// Compiles the expression. Throws PatternError with the reason.

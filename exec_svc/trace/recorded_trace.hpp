@@ -1,5 +1,5 @@
-/// A recorded trace is what a run left as its trace: lines with their mission time, in the order in which
-/// they were written. Two runs are the same run when these lines are the same.
+// A recorded trace is what a run left as its trace: lines with their mission time, in the order in which
+// they were written. Two runs are the same run when these lines are the same.
 #pragma once
 
 #include <cstddef>

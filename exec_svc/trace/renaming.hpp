@@ -1,4 +1,4 @@
-/// A trace map is applied to lines here: OLD gets the new names, and NEW loses what was added.
+// A trace map is applied to lines here: OLD gets the new names, and NEW loses what was added.
 #pragma once
 
 #include <cstddef>

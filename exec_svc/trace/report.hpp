@@ -1,4 +1,4 @@
-/// The report tells people what a comparison found.
+// The report tells people what a comparison found.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 
 namespace roci::exec::trace {
 
+/// Says how much of the differences is shown.
 struct ReportOptions {
   std::size_t shown = 1;    ///< Differences, the first ones.
   std::size_t context = 3;  ///< Lines of each side before a difference.

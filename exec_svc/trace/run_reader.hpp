@@ -1,4 +1,4 @@
-/// This file reads traces from where runs leave them.
+// This file reads traces from where runs leave them.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
-/// A trace map is one committed renaming between two versions of the code: it says what the lines of OLD are
-/// called in NEW, what NEW has in addition, and which differences remain, each with its reason. The README
-/// publishes the file's schema.
+// A trace map is one committed renaming between two versions of the code: it says what the lines of OLD are
+// called in NEW, what NEW has in addition, and which differences remain, each with its reason. The README
+// publishes the file's schema.
 #pragma once
 
 #include <filesystem>
@@ -63,6 +63,7 @@ struct Accepted {
   Place place;
 };
 
+/// Holds the rules of one map file, in the order of the file.
 struct TraceMap {
   NewNames names;  ///< Words that are neither the kind of a line nor the name of a field.
   NewNames kinds;  ///< The first words of lines.

@@ -1,5 +1,5 @@
-/// A trace stands as text, one line each; this file writes and reads it. The first line names the format and
-/// its version; docs/formats.md publishes it.
+// A trace stands as text, one line each; this file writes and reads it. The first line names the format and
+// its version; docs/formats.md publishes it.
 #pragma once
 
 #include <iosfwd>

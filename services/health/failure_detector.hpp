@@ -14,6 +14,7 @@
 
 namespace roci::services::health {
 
+/// Holds the state of each service and tells of each change once.
 class FailureDetector {
  public:
   explicit FailureDetector(clock::WallDuration hang_limit) : hang_limit_(hang_limit) {}

@@ -11,6 +11,7 @@
 
 namespace roci::services::health {
 
+/// Sends a heartbeat every quarter of a second as long as its loop turns.
 class HeartbeatSender {
  public:
   using Send = std::function<void(const v1::Heartbeat&)>;

@@ -9,6 +9,7 @@
 
 namespace roci::services::health {
 
+/// Holds the socket to the supervisor.
 class WatchdogNotifier {
  public:
   /// Takes the value of NOTIFY_SOCKET: a path, or @ and an abstract name; an empty one means that nobody

@@ -10,6 +10,7 @@
 
 namespace roci::services::launch {
 
+/// Says how a process ended.
 struct Ending {
   bool exited = false;  ///< It ended by itself, with `code`; otherwise the signal `code` ended it.
   int code = 0;
@@ -17,6 +18,7 @@ struct Ending {
 
 std::string to_string(const Ending&);
 
+/// Owns one running process.
 class Child {
  public:
   /// Runs `program` with `arguments` (the name first) in this process's environment and `more` of it

@@ -8,6 +8,7 @@
 
 namespace roci::services::launch {
 
+/// Owns a datagram socket with an abstract name of its own.
 class NotifySocket {
  public:
   NotifySocket();  ///< Throws std::system_error.

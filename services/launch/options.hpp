@@ -12,6 +12,7 @@
 
 namespace roci::services::launch {
 
+/// Holds what the command line and the mission say of a run.
 struct Options {
   std::filesystem::path mission;  ///< A folder with mission.yaml.
   mission::ServiceList list;      ///< Names who there is to start in the mission.

@@ -11,6 +11,7 @@
 
 namespace roci::services::launch {
 
+/// Follows a run and shows it.
 class Progress {
  public:
   /// `shown` asks for a line on standard error that is rewritten on a terminal, else for one line a change.

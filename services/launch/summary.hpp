@@ -7,6 +7,7 @@
 
 namespace roci::services::launch {
 
+/// Holds the outcome for programs and for people.
 struct Summary {
   /// Says that every hard goal was achieved; where exec_svc does not run, that the services ended well.
   bool good = false;

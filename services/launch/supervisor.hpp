@@ -32,6 +32,7 @@ struct RunFailure {
   bool bad_input = false;  ///< The user must mend the mission file or the command line.
 };
 
+/// Starts the services, starts dead ones again by the RestartPolicy, and winds the run up.
 class Supervisor {
  public:
   struct Hooks {

@@ -19,6 +19,7 @@
 
 namespace roci::services::launch {
 
+/// Keeps for each process when its loop last turned and whether it is heard.
 class Watchdog {
  public:
   /// Bounds how long a service may read files and journals before the first turn of its loop.

@@ -27,6 +27,7 @@ struct CommandKey {
 
 enum class Action { execute, cancel, query };
 
+/// Is what a commander asks: a command, a cancel or a query.
 struct Request {
   CommandKey key;
   Action action = Action::execute;

@@ -12,6 +12,7 @@
 
 namespace roci::services::process {
 
+/// Holds what one source says; what it does not say is left to the next one.
 struct ConnectionFlags {
   std::optional<std::string> dds;      ///< --dds, ROCI_DDS, dds: in the network and mission files
   std::optional<int> domain;           ///< --domain, ROCI_DOMAIN, domain:
@@ -21,6 +22,7 @@ struct ConnectionFlags {
   std::optional<std::filesystem::path> network;  ///< --network, ROCI_NETWORK: the network file
 };
 
+/// Holds what is needed to open a transport and to join a run.
 struct Connection {
   std::string dds;
   std::string run{};  // identity of the run, where it is known; else the first that is heard

@@ -12,6 +12,7 @@ namespace roci::services::process {
 /// one. It rises when a key changes its meaning or goes; a record that names no version is of version 1.
 inline constexpr int kRunRecordFormat = 1;
 
+/// Holds what a tool needs to join a run.
 struct RunRecord {
   std::int64_t pid = 0;  ///< The launcher's.
   int domain = 0;

@@ -11,6 +11,7 @@
 
 namespace roci::services::process {
 
+/// Holds what a service process is told.
 struct ServiceOptions {
   RunSettings run;
   node::NodeOptions node;

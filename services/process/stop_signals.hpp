@@ -6,6 +6,7 @@
 
 namespace roci::services::process {
 
+/// Owns the thread that waits for the signals.
 class StopSignals {
  public:
   /// Blocks the signals for all threads that start later, so it must be created before any other thread.

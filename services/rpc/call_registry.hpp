@@ -11,6 +11,7 @@
 
 namespace roci::services::rpc {
 
+/// Holds tables and servers, which are null until they are made.
 class CallRegistry {
  public:
   std::shared_ptr<PendingCalls>& table(const std::string& procedure) { return tables_[procedure]; }

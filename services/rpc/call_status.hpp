@@ -6,6 +6,7 @@
 
 namespace roci::services::rpc {
 
+/// Says how a call ended.
 enum class CallStatus {
   ok,
   timeout,       ///< No answer came before the deadline.
@@ -25,6 +26,7 @@ inline constexpr std::size_t kMaxPendingCalls = 256;
 /// Is the number of a call among those of one client.
 using CallId = std::int64_t;
 
+/// Counts what went over one procedure.
 struct CallStatistics {
   std::uint64_t sent = 0;     ///< Requests, repetitions included.
   std::uint64_t late = 0;     ///< Replies to calls that had ended.

@@ -19,6 +19,7 @@ class NodeImpl;
 
 namespace roci::services::rpc {
 
+/// Ends each call exactly once, with its reply or a reason.
 class PendingCalls {
  public:
   struct Call {

@@ -17,6 +17,7 @@ namespace roci::services::rpc {
 
 inline constexpr std::size_t kCachedReplies = 256;
 
+/// Lets each request be handled once.
 class ReplyCache {
  public:
   using Id = std::pair<std::array<std::uint8_t, 16>, std::int64_t>;

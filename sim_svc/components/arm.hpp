@@ -9,6 +9,7 @@
 
 namespace roci::sim::components {
 
+/// Holds the settings of an arm (README.md).
 struct ArmSettings {
   ArmParameters motion;
   std::string planner = "arm_svc";     ///< the service that is asked for trajectories

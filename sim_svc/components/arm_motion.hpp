@@ -7,6 +7,7 @@
 
 namespace roci::sim::components {
 
+/// Holds how the true arm moves and what that takes.
 struct ArmParameters {
   double joint_lag_s = 0.25;
   double speed_noise = 0.03;  ///< standard deviation of the speed of a whole motion, as a share of it
@@ -15,6 +16,7 @@ struct ArmParameters {
   double power_per_speed_w = 25;  ///< per rad/s, summed over the joints
 };
 
+/// Holds where the arm stands at one time of a motion.
 struct ArmSample {
   std::vector<double> joints;
   double energy_j = 0;  ///< used since the start of the motion

@@ -10,6 +10,7 @@
 
 namespace roci::sim::components {
 
+/// Holds the settings of a camera (README.md); noises are standard deviations, as shares.
 struct CameraSettings {
   double duration_s = 38.5;
   double duration_noise = 0.02;

@@ -11,6 +11,7 @@
 
 namespace roci::sim::components {
 
+/// Holds the settings of a drive (README.md).
 struct DriveSettings {
   DriveParameters motion;
   double detours = 0;                    ///< rocks that one drive looks at and asks a way around

@@ -31,6 +31,7 @@ struct DriveParameters {
 
 enum class DriveEnd { arrived, blocked, stuck, collision };
 
+/// Holds where the body is at one time of a drive.
 struct DriveSample {
   world::Pose pose;
   double energy_j = 0;            ///< used since the start of the drive

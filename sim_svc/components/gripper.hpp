@@ -10,6 +10,7 @@
 
 namespace roci::sim::components {
 
+/// Holds the settings of a gripper (README.md); the noise is a standard deviation, as a share.
 struct GripperSettings {
   double pick_s = 58;
   double drop_s = 29;

@@ -9,6 +9,7 @@
 
 namespace roci::sim::components {
 
+/// Holds the settings of a radio (README.md); the noise is a standard deviation, as a share.
 struct RadioSettings {
   double rate_bit_s = 98000;
   double rate_noise = 0.02;

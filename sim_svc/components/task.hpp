@@ -24,6 +24,7 @@ struct NumberChange {
   std::optional<double> to;  ///< the value at the end, instead
 };
 
+/// Is a command of a task component.
 struct TaskCommand {
   std::string name;
   std::vector<std::string> arguments{};
@@ -44,6 +45,7 @@ struct TaskNumber {
   double resolution = 1e-3;
 };
 
+/// Holds the settings of a task component.
 struct TaskSettings {
   StateTemplate start{"idle", {}};
   std::vector<TaskCommand> commands;

@@ -7,6 +7,7 @@
 
 namespace roci::sim::scenario {
 
+/// Is an event that the scenario expects.
 struct ExpectedEvent {
   std::string code;
   std::string part;      ///< belongs to the event's text; empty: any text

@@ -42,6 +42,7 @@ struct HazardStimulus {
   world::Rock rock;
 };
 
+/// Is something that the scenario lets happen at a time.
 struct Stimulus {
   temporal::Time at{};
   std::variant<GoalStimulus, RecallStimulus, HazardStimulus, world::Disturbance> what;

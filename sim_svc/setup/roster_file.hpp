@@ -15,6 +15,7 @@ struct ComponentEntry {
   mission::Entry entry;
 };
 
+/// Is a robot as `simulation.robots` of mission.yaml lists it.
 struct RobotEntry {
   std::string name;
   std::vector<ComponentEntry> components;

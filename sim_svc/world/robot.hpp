@@ -34,12 +34,14 @@ struct PowerSetup {
 /// Makes the component with its own source of noise.
 using MakeComponent = std::function<std::unique_ptr<Component>(RandomStream noise)>;
 
+/// Says how one component of a robot is made.
 struct ComponentSetup {
   std::string name;
   std::string type;
   MakeComponent make;
 };
 
+/// Says what a robot is made of.
 struct RobotSetup {
   std::string name;
   std::optional<Pose> pose;         ///< empty: it stands nowhere on the map
@@ -56,6 +58,7 @@ struct Begun {
   Task task;
 };
 
+/// Runs the tasks of one robot's components; the world calls it in order of time.
 class Robot {
  public:
   /// `first` says that it is the first robot of the world. A component of it that is the first of its type

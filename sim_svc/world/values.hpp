@@ -147,6 +147,7 @@ struct JointTarget {
   std::vector<double> joints;
 };
 
+/// Holds the points of a motion in ascending order of time.
 struct Trajectory {
   std::vector<JointTarget> targets;
 };

@@ -14,6 +14,7 @@
 
 namespace roci::sim::world {
 
+/// Says what a world is made of.
 struct WorldSetup {
   Ground ground;
   std::vector<Window> windows;
@@ -27,6 +28,7 @@ struct Order {
   Task task;
 };
 
+/// Holds the true state of all robots and of what they share.
 class World {
  public:
   /// Makes the world. Throws std::invalid_argument when two robots, or two components of one, have the same

@@ -20,6 +20,7 @@ namespace roci::planner::temporal_pddl::constraints {
 /// A plan has at most so many steps, as their numbers have 15 bits: 0 … 32,766 (R30).
 inline constexpr std::size_t kMaxSteps = 32767;
 
+/// Requires lower ≤ t(to) − t(from) ≤ upper between two steps of a plan.
 struct StepConstraint {
   std::uint32_t from = 0;  ///< i
   std::uint32_t to = 0;    ///< j
@@ -28,6 +29,7 @@ struct StepConstraint {
   bool operator==(const StepConstraint&) const = default;
 };
 
+/// Interns the distinct bounds of a search, so that a code can name each by a small index.
 class BoundTable {
  public:
   std::uint32_t intern(temporal::Duration bound);

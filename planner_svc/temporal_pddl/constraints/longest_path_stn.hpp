@@ -17,6 +17,7 @@ namespace roci::planner::temporal_pddl::constraints {
 /// Stands for the length of a path that does not exist; it is below every bound that a network can have.
 inline constexpr temporal::Duration kNoPath = temporal::Duration::min();
 
+/// Holds the points and constraints of one network, which it solves as often as it is asked.
 class LongestPathStn {
  public:
   explicit LongestPathStn(std::size_t points = 0) : points_(points) {}

@@ -19,6 +19,7 @@
 
 namespace roci::planner::temporal_pddl::constraints {
 
+/// Finds the orderings of a new step (R22, R23). The task must outlive it.
 class Orderings {
  public:
   Orderings(const task::Task& task, temporal::Duration epsilon);

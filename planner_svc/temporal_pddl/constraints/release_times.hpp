@@ -12,6 +12,7 @@
 
 namespace roci::planner::temporal_pddl::constraints {
 
+/// Measures the release times of one plan after the other. The task must outlive it.
 class ReleaseTimes {
  public:
   explicit ReleaseTimes(const task::Task& task) : task_(task), times_(task.variables()) {}

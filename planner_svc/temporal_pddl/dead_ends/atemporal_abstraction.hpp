@@ -14,6 +14,7 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
+/// Leads from keys of abstract states to their successors. The task must outlive it.
 class AtemporalAbstraction {
  public:
   /// Holds the words of a state and behind them the running actions in ascending order, two to a word.

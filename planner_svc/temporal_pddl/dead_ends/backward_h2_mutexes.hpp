@@ -10,6 +10,7 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
+/// Holds the pairs that were found. A state with one of them is a dead end.
 class BackwardH2Mutexes {
  public:
   /// Finds the pairs for searches that take the actions as `steps` does: where each is one step, more pairs

@@ -17,6 +17,7 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
+/// Holds the bound of all measured states; it never exceeds what a plan really takes.
 class ConsumptionBound {
  public:
   /// Measures the bound, or returns nothing if more than max_states states lie within what may be taken.

@@ -16,6 +16,7 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
+/// Is the interface of a safe detector.
 class DeadEndDetector {
  public:
   virtual ~DeadEndDetector() = default;

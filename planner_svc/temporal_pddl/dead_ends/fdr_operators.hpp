@@ -21,6 +21,7 @@ namespace roci::planner::temporal_pddl::dead_ends {
 using Literal = std::uint32_t;
 constexpr Literal kNoLiteral = std::numeric_limits<Literal>::max();
 
+/// Holds the literals from `begin` on and before `end`.
 struct LiteralRange {
   Literal begin = 0;
   Literal end = 0;
@@ -39,6 +40,7 @@ struct UndeterminedVariable {
   bool settled;              ///< whether all lead to the same value
 };
 
+/// Shows one operator of FdrOperators; it is valid as long as these.
 struct FdrOperator {
   std::span<const ValueTransition> fixed;       ///< the variables that may have one value only
   std::span<const UndeterminedVariable> loose;  ///< the others that it touches
@@ -51,6 +53,7 @@ struct FdrOperator {
   }
 };
 
+/// Holds all operators of a task for one way to take actions. The task must outlive it.
 class FdrOperators {
  public:
   /// Makes the operators. Where actions are always compressed, each is one; else each is one where the

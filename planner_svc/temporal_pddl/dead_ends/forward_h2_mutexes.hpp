@@ -10,6 +10,7 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
+/// Holds which pairs of literals may hold together; all others are mutex.
 class ForwardH2Mutexes {
  public:
   /// Finds the pairs. Returns nothing if `go_on` has stopped it.

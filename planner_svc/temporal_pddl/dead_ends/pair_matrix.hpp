@@ -36,6 +36,7 @@ class Bits {
   std::vector<BitWord> words_;
 };
 
+/// Holds a relation over the numbers 0 … size − 1 that is symmetric at all times.
 class PairMatrix {
  public:
   PairMatrix() = default;

@@ -13,6 +13,7 @@
 
 namespace roci::planner::temporal_pddl::grounding {
 
+/// Holds what grounding gives: the task, and the names and constants of the model for reports.
 struct Grounding {
   lifted::Symbols symbols;
   lifted::ConstantFunctions constants;

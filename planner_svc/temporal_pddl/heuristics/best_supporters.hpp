@@ -17,6 +17,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Finds best supporters in one state after the other. All that it is given must outlive it.
 class BestSupporters {
  public:
   BestSupporters(const task::Task& task, const RelaxedTask& relaxed, const NumericRelaxation& numbers);

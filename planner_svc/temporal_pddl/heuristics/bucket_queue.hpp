@@ -14,6 +14,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Gives the entries in order of cost; its costs never sink between two restarts.
 class BucketQueue {
  public:
   using Cost = std::uint32_t;

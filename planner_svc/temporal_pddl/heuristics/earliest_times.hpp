@@ -17,6 +17,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Measures earliest times after one plan after the other. All that it is given must outlive it.
 class EarliestTimes {
  public:
   EarliestTimes(const task::Task& task, const RelaxedTask& relaxed);

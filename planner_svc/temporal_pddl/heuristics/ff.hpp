@@ -19,6 +19,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Estimates what is still to come by a relaxed plan. The task must outlive it.
 class FfHeuristic final : public Heuristic {
  public:
   /// Estimates the task; `measure` is what Estimate::cost counts.

@@ -10,6 +10,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Holds what a heuristic says of one state.
 struct Estimate {
   bool dead_end = false;  ///< whether it is proved that no plan goes through this state
   /// Sums the durations still to come, in microseconds, or what else CostMeasure counts.
@@ -35,6 +36,7 @@ struct EvaluationContext {
   std::span<const task::SnapId> steps = {};     ///< the steps of the plan so far
 };
 
+/// Is the interface of all heuristics; none of them changes what it looks at.
 class Heuristic {
  public:
   virtual ~Heuristic() = default;

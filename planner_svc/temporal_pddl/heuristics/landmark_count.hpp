@@ -12,6 +12,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Adds the landmark count to the estimate of `ff`. All that it is given must outlive it.
 class LandmarkCount final : public Heuristic {
  public:
   /// Finds the landmarks of the initial state of the task. Throws what SearchLimits::poll() throws.

@@ -22,6 +22,7 @@ struct NumericAchiever {
   task::SnapId op;
 };
 
+/// Holds the comparisons of a task, numbered from 0. The task must outlive it.
 class NumericRelaxation {
  public:
   explicit NumericRelaxation(const task::Task& task);

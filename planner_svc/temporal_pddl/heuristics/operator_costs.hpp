@@ -15,6 +15,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Holds the cost of each operator in the state at hand. All that it is given must outlive it.
 class OperatorCosts {
  public:
   using Cost = std::uint32_t;

@@ -24,6 +24,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Makes one relaxed plan after the other. All that it is given must outlive it.
 class RelaxedPlan {
  public:
   RelaxedPlan(const task::Task& task, const RelaxedTask& relaxed, const NumericRelaxation& numbers,

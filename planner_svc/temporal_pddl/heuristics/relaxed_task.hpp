@@ -21,11 +21,13 @@ namespace roci::planner::temporal_pddl::heuristics {
 
 using PropositionId = task::Id<struct PropositionTag>;
 
+/// Says what an operator costs.
 enum class CostMeasure {
   duration,  ///< the least duration of each action, in microseconds
   metric,    ///< counts what each adds to the metric at first, in millionths
 };
 
+/// Holds the propositions and operators of a task: a proposition is a fact or "action a runs".
 class RelaxedTask {
  public:
   explicit RelaxedTask(const task::Task& task, CostMeasure measure = CostMeasure::duration);

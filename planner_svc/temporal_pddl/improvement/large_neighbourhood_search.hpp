@@ -13,6 +13,7 @@
 
 namespace roci::planner::temporal_pddl::improvement {
 
+/// Varies plans of one task; it never makes one worse in metric and makespan.
 class LargeNeighbourhoodSearch {
  public:
   LargeNeighbourhoodSearch(const search::SearchContext& context, std::span<const search::Guide> guides);

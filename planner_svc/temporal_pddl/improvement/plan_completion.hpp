@@ -29,6 +29,7 @@ struct CompletionRule {
   std::size_t evaluations = 0;  ///< bounds how many there are
 };
 
+/// Completes one beginning after the other and keeps its memory in between.
 class PlanCompletion {
  public:
   explicit PlanCompletion(const search::SearchContext& context);

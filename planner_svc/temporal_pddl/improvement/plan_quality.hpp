@@ -10,6 +10,7 @@
 
 namespace roci::planner::temporal_pddl::improvement {
 
+/// Compares plans: the lower one is better.
 struct PlanQuality {
   std::int64_t metric = 0;         ///< Task::metric in millionths; it is 0 where that is the time alone
   temporal::Duration makespan{0};  ///< the time of the last start or end of an action

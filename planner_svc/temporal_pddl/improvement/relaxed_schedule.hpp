@@ -14,6 +14,7 @@
 
 namespace roci::planner::temporal_pddl::improvement {
 
+/// Measures one state after the other. The task must outlive it.
 class RelaxedSchedule {
  public:
   explicit RelaxedSchedule(const task::Task& task);

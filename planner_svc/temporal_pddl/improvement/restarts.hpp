@@ -12,6 +12,7 @@
 
 namespace roci::planner::temporal_pddl::improvement {
 
+/// Makes one restart after the other. All that it is given must outlive it.
 class Restarts {
  public:
   /// Prepares restarts in which the guide prunes and ff estimates single goals.

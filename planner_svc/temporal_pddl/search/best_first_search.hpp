@@ -22,11 +22,13 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Says how a best-first search takes its steps.
 struct SearchStyle {
   task::ActionCompression steps = task::ActionCompression::where_safe;
   bool lookahead = false;  ///< whether relaxed plans are followed
 };
 
+/// Searches by estimates; it is complete where it compresses only what is safe.
 class BestFirstSearch final : public ResumableSearch {
  public:
   /// Prepares the search, which keeps the statistics of the context up to date all the time.

@@ -26,6 +26,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Searches by novelty; it is not complete.
 class BestFirstWidthSearch final : public ResumableSearch {
  public:
   /// Prepares the search, which keeps the statistics of the context up to date all the time.

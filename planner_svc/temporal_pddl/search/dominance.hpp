@@ -24,6 +24,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Remembers plans and says of a new one whether it is dominated. All that it is given must outlive it.
 class Dominance {
  public:
   /// Prepares an empty set of plans. With `end_counts` the time of the last step matters, because plans have

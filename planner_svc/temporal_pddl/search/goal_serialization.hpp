@@ -25,6 +25,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Searches goal by goal; it is not complete.
 class GoalSerialization final : public ResumableSearch {
  public:
   GoalSerialization(const SearchContext& context, const Guide& guide, heuristics::FfHeuristic& ff,

@@ -16,6 +16,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Tests plans of one task. All that it is given must outlive it.
 class GoalTest {
  public:
   GoalTest(const task::Task& task, TemporalCheck& check, temporal::Duration epsilon);

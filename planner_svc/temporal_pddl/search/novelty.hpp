@@ -11,6 +11,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Remembers for each fact the lowest estimate with which it was seen. The task must outlive it.
 class Novelty {
  public:
   explicit Novelty(const task::Task& task)

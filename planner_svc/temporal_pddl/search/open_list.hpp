@@ -17,6 +17,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Names a successor that has not been built yet.
 struct OpenEntry {
   NodeId parent;
   task::SnapId snap;
@@ -27,6 +28,7 @@ struct Ranks {
   Priority by_plan, by_landmarks, by_novelty;
 };
 
+/// Holds the successors that wait, and counts its bytes.
 class OpenList {
  public:
   /// Says which queues there are beside those by the estimate of the plan. Without any, each successor waits

@@ -12,6 +12,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Remembers facts and pairs of facts by kind of state, in a fixed number of bytes.
 class PairNovelty {
  public:
   static constexpr int kNothingNew = 3;

@@ -18,6 +18,7 @@ struct Running {
   NodeId before;           ///< the state in which it started
 };
 
+/// Is a plan up to a stored state, with its temporal constraints.
 struct PlanPrefix {
   NodeId node;
   std::vector<task::SnapId> steps;

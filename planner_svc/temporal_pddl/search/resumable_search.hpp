@@ -10,12 +10,14 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Holds how a search has ended: with a plan, or with the reason why there is none.
 struct SearchOutcome {
   std::optional<PlanPrefix> plan;       ///< is none if there is no plan
   std::vector<task::Word> final_state;  ///< the state after the last step of the plan
   std::string reason;                   ///< says what stood in the way, if there is no plan
 };
 
+/// Is the interface of the members of the portfolio.
 class ResumableSearch {
  public:
   virtual ~ResumableSearch() = default;

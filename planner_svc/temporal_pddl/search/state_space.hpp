@@ -14,6 +14,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Stores states and builds their successors, for one search. The task must outlive it.
 class StateSpace {
  public:
   StateSpace(const task::Task& task, temporal::Duration epsilon, task::ActionCompression steps)

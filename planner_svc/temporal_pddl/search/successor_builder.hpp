@@ -15,6 +15,7 @@ namespace roci::planner::temporal_pddl::search {
 
 enum class Rejection { none, logical, temporal };
 
+/// Is a state that has been built and may be stored.
 struct Successor {
   Transition transition;
   std::vector<task::Word> state;
@@ -24,6 +25,7 @@ struct Successor {
   std::size_t new_constraints = 0;  ///< counts the prefix.constraints that the transition added, at their end
 };
 
+/// Builds successors of stored states. All that it is given must outlive it.
 class SuccessorBuilder {
  public:
   SuccessorBuilder(const task::Task& task, const StateStore& store, TemporalCheck& check,

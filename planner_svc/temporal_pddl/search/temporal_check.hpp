@@ -15,6 +15,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Checks one plan after the other and keeps its memory in between. The task must outlive it.
 class TemporalCheck {
  public:
   TemporalCheck(const task::Task& task, temporal::Duration epsilon);

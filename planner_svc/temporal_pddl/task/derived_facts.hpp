@@ -13,6 +13,7 @@
 
 namespace roci::planner::temporal_pddl::task {
 
+/// Makes the head true wherever its conditions and comparisons hold.
 struct DerivationRule {
   FactId head;
   int layer = 0;
@@ -20,6 +21,7 @@ struct DerivationRule {
   std::vector<NumericCondition> comparisons;
 };
 
+/// Holds the rules of a task and sets the derived facts of its states.
 class DerivedFacts {
  public:
   DerivedFacts() = default;

@@ -11,6 +11,7 @@
 
 namespace roci::planner::temporal_pddl::task {
 
+/// Is an index that only serves things of one kind; one that is made without a value is none.
 template <typename Tag>
 struct Id {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();

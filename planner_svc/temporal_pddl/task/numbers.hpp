@@ -52,6 +52,7 @@ double evaluate(const LinearExpression& expression, NumbersView values, double d
 /// Tells how an expression is compared with 0.
 enum class Comparator : std::uint8_t { greater_equal, greater, equal };
 
+/// Compares an expression with 0.
 struct NumericCondition {
   ExpressionId expression;
   Comparator comparator = Comparator::greater_equal;

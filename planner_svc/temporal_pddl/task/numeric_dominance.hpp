@@ -6,6 +6,7 @@
 
 namespace roci::planner::temporal_pddl::task {
 
+/// Says which values of a number are at least as good as a given one.
 enum class NumericDominance : std::uint8_t {
   none,    ///< nothing depends on the number
   higher,  ///< whatever is possible with a value is possible with any higher one

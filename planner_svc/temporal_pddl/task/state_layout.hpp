@@ -19,6 +19,7 @@ namespace roci::planner::temporal_pddl::task {
 using StateView = std::span<const Word>;
 using MutableState = std::span<Word>;
 
+/// Reads and writes the facts and numbers of packed states.
 class StateLayout {
  public:
   struct Variable {

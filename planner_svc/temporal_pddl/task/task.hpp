@@ -22,6 +22,7 @@ namespace roci::planner::temporal_pddl::task {
 /// Names what temporal constraints are about (v of R22, R23): a fact or a number.
 using VariableId = Id<struct VariableTag>;
 
+/// Says what a snap action is.
 enum class SnapKind : std::uint8_t {
   start,
   end,
@@ -31,6 +32,7 @@ enum class SnapKind : std::uint8_t {
   derivation,
 };
 
+/// Is an instant at which a state changes (snap action, R10).
 struct Snap {
   SnapKind kind = SnapKind::start;
   ActionId action;  ///< is none for timed_literal and derivation
@@ -45,6 +47,7 @@ struct DurationRule {
   bool at_end = false;
 };
 
+/// Is a ground action; its snap actions carry conditions and effects.
 struct Action {
   SchemaId schema;
   SnapId start;
@@ -56,11 +59,13 @@ struct Action {
   bool instantaneous() const { return start == end; }
 };
 
+/// Is a timed literal that happens at its time by itself.
 struct TimedStep {
   SnapId snap;
   temporal::Duration time{0};
 };
 
+/// Is one alternative of the goal; all of it must hold.
 struct Goal {
   std::vector<FactId> facts;
   std::vector<NumericCondition> comparisons;
@@ -82,6 +87,7 @@ struct FactName {
   bool negated = false;
 };
 
+/// Holds the whole ground task; nothing changes it once it is built.
 struct Task {
   // ---- Names
   std::vector<std::string> objects, predicates, functions, schemas;

@@ -11,6 +11,7 @@
 
 namespace roci::planner::temporal_pddl::validate {
 
+/// Names what a violation breaks.
 enum class ViolationKind {
   unknown_action,   ///< the domain has no action of this name
   wrong_arguments,  ///< number, unknown object, or type
@@ -27,6 +28,7 @@ enum class ViolationKind {
 /// Returns the kind in words, as in "undefined value".
 std::string_view to_string(ViolationKind kind);
 
+/// Tells one thing that a plan breaks, where and when.
 struct Violation {
   ViolationKind kind = ViolationKind::goal;
   std::optional<std::size_t> step;  ///< index into the plan; none: the goal
@@ -36,6 +38,7 @@ struct Violation {
   std::string message;              ///< the whole story in a sentence, without step and time
 };
 
+/// Holds the verdict on a plan with everything that it breaks.
 struct Report {
   bool valid = false;
   std::vector<Violation> violations;  ///< stand in order of time; later ones may follow from earlier ones

@@ -11,6 +11,7 @@
 
 namespace roci::planner::temporal_pddl::validate {
 
+/// Holds the world at one moment; a fact that is not in it is false.
 struct State {
   std::unordered_set<std::string> facts;
   std::unordered_map<std::string, double> values;  ///< absent: undefined
@@ -22,12 +23,14 @@ struct Reads {
   std::vector<std::string> values;
 };
 
+/// Changes one fluent by an operand.
 struct NumericChange {
   std::string fluent;
   pddl::AssignmentOperator op = pddl::AssignmentOperator::assign;
   double operand = 0;
 };
 
+/// Holds what one happening, or several of one moment, change.
 struct Changes {
   std::vector<std::string> deleted;
   std::vector<std::string> added;

@@ -12,6 +12,7 @@
 
 namespace roci::planner::temporal_pddl::validate {
 
+/// Holds the tolerances of a validation, in microseconds.
 struct Options {
   /// Happenings that interfere must be at least this far apart (Z4).
   pddl::Microseconds epsilon{1000};

@@ -10,6 +10,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::instantiation {
 
+/// Appends ground actions to a model. The formula grounder must outlive it.
 class ActionInstantiator {
  public:
   explicit ActionInstantiator(FormulaGrounder& formulas) : formulas_(formulas) {}

@@ -15,6 +15,7 @@ namespace roci::planner::temporal_pddl::grounding::instantiation {
 /// A ground condition may have so many alternatives at most.
 inline constexpr std::size_t kMaxAlternatives = 256;
 
+/// Grounds formulas of one model. All that it is given must outlive it.
 class FormulaGrounder {
  public:
   /// Takes in `touched` those of the atoms that hold at first which some effect is about. The others are

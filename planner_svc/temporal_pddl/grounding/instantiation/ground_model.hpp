@@ -44,6 +44,7 @@ struct ReadVariable {
   auto operator<=>(const ReadVariable&) const = default;
 };
 
+/// Holds what happens at one end of an action or at a timed literal.
 struct GroundEffects {
   std::vector<std::uint32_t> adds, deletes;  ///< atoms, sorted; no atom is in both
   std::vector<task::NumericEffect> numeric;
@@ -58,6 +59,7 @@ struct ActionWindows {
   task::TimeWindows start = task::any_time(), end = task::any_time(), span = task::any_time();
 };
 
+/// Is an action instance with one choice among the alternatives of its conditions.
 struct GroundAction {
   task::SchemaId schema;
   std::vector<task::ObjectId> arguments;
@@ -78,6 +80,7 @@ struct GroundRule {
   Conjunction body;
 };
 
+/// Holds what happens by itself at one time.
 struct TimedChange {
   temporal::Duration time{0};
   GroundEffects effects;
@@ -92,6 +95,7 @@ struct WindowMisfit {
   temporal::Duration window{0};     ///< the longest
 };
 
+/// Holds the whole problem over atoms and numbers, which are named by their indices.
 struct GroundModel {
   lifted::TupleTable atoms;
   std::vector<bool> derived;   ///< is indexed by atom

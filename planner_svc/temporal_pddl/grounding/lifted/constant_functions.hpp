@@ -21,6 +21,7 @@ struct FunctionUse {
   FunctionValue answer;
 };
 
+/// Knows the value of each constant function on each tuple.
 class ConstantFunctions {
  public:
   /// Takes the fluents that are constant in this model, with their initial values.

@@ -13,6 +13,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
+/// Is an argument of an atom or a function: a slot of the binding, or an object.
 struct Argument {
   bool is_slot = false;
   std::uint32_t index = 0;  ///< the index of a slot, else of an object
@@ -25,16 +26,19 @@ inline task::ObjectId resolve(Argument argument, const Binding& binding) {
   return argument.is_slot ? binding[argument.index] : task::ObjectId(argument.index);
 }
 
+/// Is a slot of a quantified variable with the objects that it may take.
 struct QuantifiedSlot {
   std::uint32_t slot = 0;
   std::vector<task::ObjectId> domain;
 };
 
+/// Is a predicate with arguments.
 struct LiftedAtom {
   task::PredicateId predicate;
   std::vector<Argument> arguments;
 };
 
+/// Is a numeric expression over slots and objects.
 struct LiftedExpression {
   enum class Kind {
     number,
@@ -51,6 +55,7 @@ struct LiftedExpression {
   pddl::SourceLocation where;
 };
 
+/// Is a condition in negation normal form.
 struct LiftedFormula {
   enum class Kind { conjunction, disjunction, forall, exists, atom, not_atom, equal, not_equal, comparison };
   Kind kind = Kind::conjunction;
@@ -83,12 +88,14 @@ struct LiftedEffect {
   bool conditional() const { return !start_condition.is_true() || !end_condition.is_true(); }
 };
 
+/// Constrains ?duration by a bound that is evaluated at the start or at the end.
 struct LiftedDuration {
   pddl::ComparisonOperator op = pddl::ComparisonOperator::equal;
   LiftedExpression bound;
   pddl::TimePoint at = pddl::TimePoint::start;
 };
 
+/// Is an action, or a rule of a derived predicate, over slots.
 struct LiftedAction {
   std::string name;
   bool durative = true;

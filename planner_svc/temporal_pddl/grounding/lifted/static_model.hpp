@@ -12,6 +12,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
+/// Is a timed initial literal.
 struct TimedAtom {
   double time = 0;  ///< seconds, > 0
   task::PredicateId predicate;
@@ -19,6 +20,7 @@ struct TimedAtom {
   bool negated = false;
 };
 
+/// Answers what is known before anything happens. Symbols and constants must outlive it.
 class StaticModel {
  public:
   StaticModel(const pddl::Problem& problem, const std::vector<LiftedAction>& actions, const Symbols& symbols,

@@ -12,6 +12,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
+/// Describes a fluent or an external function.
 struct FunctionSymbol {
   std::string name;
   std::string module;                                   ///< empty: a fluent of the domain

@@ -13,6 +13,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
+/// Numbers tuples; a number stays what it is as the table grows.
 class TupleTable {
  public:
   std::uint32_t intern(std::uint32_t symbol, std::span<const task::ObjectId> objects);

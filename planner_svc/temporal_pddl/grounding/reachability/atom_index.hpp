@@ -10,6 +10,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::reachability {
 
+/// Holds the numbers of the reachable atoms, each list in ascending order.
 class AtomIndex {
  public:
   AtomIndex(std::size_t predicates, std::size_t objects) : objects_(objects), predicates_(predicates) {}

@@ -13,6 +13,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::reachability {
 
+/// Holds what relaxed reachability has found.
 struct Reachability {
   lifted::TupleTable atoms;   ///< has also some that are only read
   std::vector<bool> reached;  ///< is indexed by atom

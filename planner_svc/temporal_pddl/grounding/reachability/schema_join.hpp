@@ -14,6 +14,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::reachability {
 
+/// Joins for one action. The action must outlive it.
 class SchemaJoin {
  public:
   SchemaJoin(const lifted::LiftedAction& action, const lifted::StaticModel& static_model);

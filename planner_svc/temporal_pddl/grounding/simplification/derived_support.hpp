@@ -15,6 +15,7 @@ struct Support {
   std::vector<task::NumberId> numbers;                 ///< sorted
 };
 
+/// Answers for the rules of one ground model, which must outlive it.
 class DerivedSupport {
  public:
   explicit DerivedSupport(const instantiation::GroundModel& model);
