@@ -6,17 +6,14 @@
 
 namespace roci::planner {
 
-using temporal_pddl::adapter::PlanningAnswer;
-using temporal_pddl::adapter::PlanningCall;
-
-void CallRecords::keep(const PlanningCall& call, const PlanningAnswer& answer, double wall_s) {
+void CallRecords::keep(const engine::Answer& answer, double wall_s) {
   if (folder_.empty()) return;
   std::error_code ignored;
   std::filesystem::create_directories(folder_, ignored);
-  const auto file = [this](const char* ending) { return folder_ / (std::to_string(last_) + ending); };
+  const auto file = [this](const std::string& ending) { return folder_ / (std::to_string(last_) + ending); };
   do {
     ++last_;
-  } while (std::filesystem::exists(file(".pddl"), ignored));
+  } while (std::filesystem::exists(file(".json"), ignored));
   const nlohmann::json outcome{{"verdict", to_string(answer.verdict)},
                                {"reason", answer.reason},
                                {"wall_s", wall_s},
@@ -24,9 +21,7 @@ void CallRecords::keep(const PlanningCall& call, const PlanningAnswer& answer, d
                                {"expanded", answer.statistics.expanded},
                                {"from_remaining", answer.statistics.from_remaining},
                                {"actions", answer.plan ? answer.plan->activities.size() : 0}};
-  std::ofstream(file(".pddl")) << call.problem_text;
-  std::ofstream(file(".values")) << pddl::print(answer.function_values);
-  if (!call.remaining.empty()) std::ofstream(file(".remaining")) << pddl::print_plan(call.remaining);
+  for (const engine::RecordFile& part : answer.record) std::ofstream(file(part.ending)) << part.text;
   std::ofstream(file(".json")) << outcome.dump(2) << "\n";
 }
 

@@ -1,12 +1,14 @@
-// Keeps every planning call of a run as files, so that the planner alone can make it again (R41):
+// Keeps every planning call of a run as files, so that its engine alone can make it again (R41). Of
+// temporal_pddl:
 //   roci-plan DOMAIN planner_calls/3.pddl --functions planner_calls/3.values --remaining
 //   planner_calls/3.remaining
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
-#include "planner_svc/temporal_pddl/adapter/planning_call.hpp"
+#include "planner_svc/engine/answer.hpp"
 
 namespace roci::planner {
 
@@ -16,11 +18,10 @@ class CallRecords {
   /// are there already.
   explicit CallRecords(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// N.pddl: the problem; N.values: the function values that it was given; N.remaining: what remained of an
-  /// earlier plan, if anything; N.json: verdict, reason, wall_s, evaluated, expanded, actions. What cannot be
-  /// written is left out: a record is no reason to end a mission.
-  void keep(const temporal_pddl::adapter::PlanningCall& call,
-            const temporal_pddl::adapter::PlanningAnswer& answer, double wall_s);
+  /// Writes the engine's own record of the call, N with each of its endings, and N.json: verdict, reason,
+  /// wall_s, evaluated, expanded, from_remaining, actions. What cannot be written is left out: a record is no
+  /// reason to end a mission.
+  void keep(const engine::Answer& answer, double wall_s);
 
  private:
   std::filesystem::path folder_;

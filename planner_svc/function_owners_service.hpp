@@ -7,38 +7,54 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "planner_svc/function_source.hpp"
+#include "planner_svc/engine/function_source.hpp"
+#include "planner_svc/engine/request.hpp"
 #include "roci_idl/function.h"
 #include "services/rpc.hpp"
 
 namespace roci::planner {
 
+/// The newest offers by module and owner.
+using FunctionOffers = std::map<std::pair<std::string, std::string>, v1::FunctionOffer>;
+
+/// Who is to be asked; or nobody, with the reason in words.
+struct OwnerChoice {
+  const v1::FunctionOffer* offer = nullptr;
+  std::string reason{};
+};
+
+/// The owner of the module that belongs to this robot, else the one that belongs to none. `robot` empty: any
+/// owner fits. Where several fit, those that are not alive do not count.
+OwnerChoice choose_owner(const FunctionOffers& offers, const std::string& module_name,
+                         const std::string& robot, const std::function<bool(const std::string&)>& alive);
+
 class FunctionOwners {
  public:
-  using Done = std::function<void(std::vector<FunctionValue>)>;
+  using Done = std::function<void(std::vector<engine::FunctionValue>)>;
 
   /// `timeout`: of one batch.
   FunctionOwners(services::Node& node, temporal::Duration timeout);
   FunctionOwners(const FunctionOwners&) = delete;
   FunctionOwners& operator=(const FunctionOwners&) = delete;
 
-  /// `calls`: at least one, of one function. `done` gets one value for each, perhaps before this returns.
-  void ask(const std::vector<FunctionCall>& calls, const std::vector<v1::PlanObject>& objects, Done done);
+  /// `calls`: at least one, of one function. Asks the owner that answers for the request's robot, else the
+  /// one that answers for all. `done` gets one value for each, perhaps before this returns; all are
+  /// unavailable, with the reason, if nobody or more than one owner fits.
+  void ask(const std::vector<engine::FunctionCall>& calls, const engine::Request& request, Done done);
 
   /// The batch under way is wanted no more, its `done` will not run. False: none was under way.
   bool forget();
 
  private:
-  std::string no_offer(const std::string& module_name) const;
-
   services::Node& node_;
   temporal::Duration timeout_;
   services::Client<v1::FunctionRequest, v1::FunctionReply> client_;
-  std::map<std::string, v1::FunctionOffer> offers_;  // by module
-  std::uint64_t asked_ = 0;                          // batches so far
-  std::optional<std::uint64_t> asking_;              // the one under way
+  FunctionOffers offers_;
+  std::uint64_t asked_ = 0;              // batches so far
+  std::optional<std::uint64_t> asking_;  // the one under way
 };
 
 }  // namespace roci::planner

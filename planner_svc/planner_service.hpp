@@ -1,5 +1,4 @@
-// The planner as a process: answers PlanRequest with a plan or a verdict; asks the owners of external
-// functions for values.
+// The planner as a process: hosts the engines that it is shipped with.
 #pragma once
 
 #include <memory>
@@ -8,6 +7,7 @@
 
 namespace roci::planner {
 
+/// host_engines() with the table of engines.cpp.
 std::unique_ptr<services::Service> make_service(services::Node&, const services::RunSettings&);
 
 }  // namespace roci::planner

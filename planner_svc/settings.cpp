@@ -1,14 +1,29 @@
 #include "planner_svc/settings.hpp"
 
+#include <fstream>
+#include <iterator>
+
 #include "core/mission/entry.hpp"
 #include "core/mission/scenario.hpp"
 
 namespace roci::planner {
+namespace {
+
+std::string text_of(const roci::mission::Entry& name) {
+  std::ifstream file(name.resolve(name.text()), std::ios::binary);
+  if (!file) name.fail("model file '" + name.text() + "' cannot be read; check the path and its permissions");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
 
 Settings read_settings(const std::filesystem::path& mission) {
   Settings out;
-  const auto planner = roci::mission::Entry::load(roci::mission::mission_file(mission)).find("planner");
+  const auto root = roci::mission::Entry::load(roci::mission::mission_file(mission));
+  if (const auto model = root.find("model")) out.model = text_of(*model);
+  const auto planner = root.find("planner");
   if (!planner) return out;
+  out.engine = planner->text_or("engine", "");
   out.function_timeout = temporal::seconds(planner->number_or("function_timeout_s", 20));
   if (const auto simulated = planner->find("simulated")) {
     simulated->allow_only({"base_s", "per_evaluation_s"});

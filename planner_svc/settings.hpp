@@ -2,19 +2,23 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/temporal/duration.hpp"
 
 namespace roci::planner {
 
 struct Settings {
+  std::string engine;  ///< that the mission names; empty: none
+  std::string model;   ///< text of the mission's model in that engine's language; empty: the mission has none
   temporal::Duration function_timeout = temporal::seconds(20);  ///< for one batch of values
   /// Mission time that a call takes under the simulated clock.
   double simulated_base_s = 0.5;
   double simulated_per_evaluation_s = 0.0005;
 };
 
-/// `planner` in mission.yaml of the folder; defaults for what is not there. Throws as mission::Entry does.
+/// `planner` in mission.yaml of the folder, and the text of the file that `model` names there; defaults for
+/// what is not there. Throws as mission::Entry does.
 Settings read_settings(const std::filesystem::path& mission);
 
 }  // namespace roci::planner

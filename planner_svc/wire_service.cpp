@@ -3,31 +3,64 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::planner {
+
+using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionValue, engine::Provenance,
+    engine::RemainingAction;
+
 namespace {
 
-using temporal_pddl::adapter::PlanningAnswer;
-using temporal_pddl::adapter::PlanningCall;
-
 constexpr std::size_t kMostRemaining = 1000;
-constexpr temporal::Duration kLatest = std::chrono::seconds(1'000'000'000);  // as pddl::parse_plan
+constexpr temporal::Duration kLatest = std::chrono::seconds(1'000'000'000);  // some thirty years
 
 bool in_reach(temporal::Duration time) { return time >= temporal::Duration{0} && time <= kLatest; }
 
-std::vector<pddl::PlanStep> from_wire(const std::vector<v1::RemainingAction>& remaining) {
-  std::vector<pddl::PlanStep> out;
+std::vector<RemainingAction> from_wire(const std::vector<v1::RemainingAction>& remaining) {
+  std::vector<RemainingAction> out;
   for (std::size_t i = 0; i < std::min(remaining.size(), kMostRemaining); ++i) {
-    pddl::PlanStep step;
-    step.start = temporal::Duration(remaining[i].start_us());
-    step.duration = temporal::Duration(remaining[i].duration_us());
-    if (!in_reach(step.start) || !in_reach(*step.duration)) continue;
-    step.action.symbol = remaining[i].name();
-    for (const std::string& object : remaining[i].arguments()) step.action.arguments.push_back({object, {}});
-    out.push_back(std::move(step));
+    const v1::RemainingAction& action = remaining[i];
+    const temporal::Duration start(action.start_us());
+    const temporal::Duration duration(action.duration_us());
+    if (in_reach(start) && in_reach(duration))
+      out.push_back({action.name(), action.arguments(), start, duration});
   }
+  return out;
+}
+
+std::vector<temporal::Property> from_wire(const std::vector<v1::Property>& in) {
+  std::vector<temporal::Property> out;
+  out.reserve(in.size());
+  for (const v1::Property& property : in) out.push_back({property.name(), property.value()});
+  return out;
+}
+
+engine::GoalClass from_wire(v1::GoalClass in) {
+  return static_cast<engine::GoalClass>(std::min<std::uint32_t>(in, v1::GOAL_OPPORTUNISTIC));
+}
+
+temporal::Time or_none(std::int64_t time_us, bool none) {
+  return none ? temporal::no_bound : temporal::Time(time_us);
+}
+
+std::optional<temporal::Time> if_happened(std::int64_t time_us) {
+  return time_us < 0 ? std::nullopt : std::optional(temporal::Time(time_us));
+}
+
+engine::Goal from_wire(const v1::PlanGoal& in) {
+  engine::Goal out;
+  out.issuer = in.issuer();
+  out.id = in.id();
+  out.achieved = services::wire::from_wire(in.achieved());
+  out.importance = from_wire(in.importance());
+  out.utility = temporal::RankVector(in.utility());
+  out.priority = in.priority();
+  out.preferred = or_none(in.preferred_us(), in.preferred_us() < 0);
+  out.opens = temporal::Time(in.opens_us());
+  out.closes = or_none(in.closes_us(), in.closes_us() == 0);
   return out;
 }
 
@@ -65,25 +98,43 @@ FunctionOutcome outcome_of(services::rpc::CallStatus failure) {
 
 }  // namespace
 
-PlanningCall from_wire(const v1::PlanRequest& in) {
-  PlanningCall out;
+engine::Request from_wire(const v1::PlanRequest& in) {
+  engine::Request out;
   out.engine = in.engine();
-  out.domain_text = in.model();
+  out.robot = in.header().robot();
+  out.origin = temporal::Time(in.origin_us());
+  out.model = in.model();
   out.problem_text = in.problem_text();
+  for (const v1::NamedValue& value : in.state())
+    out.state.insert_or_assign(value.name(), services::wire::from_wire(value.held()));
+  for (const v1::PredictedValue& value : in.predictions())
+    out.predictions.push_back(
+        {value.timeline(), temporal::Time(value.at_us()), services::wire::from_wire(value.held())});
+  for (const v1::PlanGoal& goal : in.goals()) out.goals.push_back(from_wire(goal));
+  for (const v1::PlanObject& object : in.objects())
+    out.objects.push_back({object.name(), object.object_type(), from_wire(object.properties())});
   out.remaining = from_wire(in.remaining());
-  out.evaluations = in.budget().work();
+  out.work = in.budget().work();
   out.memory_bytes = static_cast<std::size_t>(in.budget().memory_mb()) << 20U;
   return out;
 }
 
-v1::PlanReply to_wire(const PlanningAnswer& in) {
+v1::PlanReply to_wire(const engine::Answer& in) {
   v1::PlanReply out;
   out.verdict_code(static_cast<v1::Verdict>(in.verdict));
   out.reason(in.reason);
+  for (const engine::BlockingGoal& goal : in.blocking) {
+    v1::BlockingGoal wire;
+    wire.issuer(goal.issuer);
+    wire.id(goal.id);
+    wire.timeline(goal.timeline);
+    wire.reason(goal.reason);
+    out.blocking().push_back(std::move(wire));
+  }
   if (in.plan) out.solution(services::wire::to_wire(*in.plan));
   out.statistics().expanded(in.statistics.expanded);
   out.statistics().evaluated(in.statistics.evaluated);
-  out.statistics().function_tuples(in.function_values.size());
+  out.statistics().function_tuples(in.statistics.function_tuples);
   out.statistics().bytes_per_state(in.statistics.bytes_per_state);
   out.statistics().from_remaining(in.statistics.from_remaining);
   return out;
@@ -96,26 +147,30 @@ v1::PlanReply cancelled_reply() {
   return reply;
 }
 
-v1::FunctionRequest to_wire(const std::vector<FunctionCall>& calls, std::vector<v1::PlanObject> objects) {
+v1::FunctionRequest to_wire(const std::vector<FunctionCall>& calls,
+                            const std::vector<engine::Object>& objects) {
+  v1::FunctionRequest out;
   std::map<std::string, std::uint32_t> index;
-  for (std::size_t i = 0; i < objects.size(); ++i)
-    index.emplace(objects[i].name(), static_cast<std::uint32_t>(i));
+  const auto add = [&](const std::string& name) {
+    const auto [found, added] = index.emplace(name, static_cast<std::uint32_t>(out.objects().size()));
+    if (added) {
+      out.objects().emplace_back();
+      out.objects().back().name(name);
+    }
+    return found->second;
+  };
+  for (const engine::Object& object : objects) {
+    v1::PlanObject& wire = out.objects()[add(object.name)];
+    wire.object_type(object.type);
+    for (const temporal::Property& property : object.properties)
+      wire.properties().push_back(services::wire::to_wire(property));
+  }
   v1::FunctionBatch batch;
   batch.function(calls.front().function);
   batch.arity(static_cast<std::uint32_t>(calls.front().arguments.size()));
-  for (const FunctionCall& call : calls) {
-    for (const std::string& argument : call.arguments) {
-      const auto [found, added] = index.emplace(argument, static_cast<std::uint32_t>(objects.size()));
-      if (added) {
-        objects.emplace_back();
-        objects.back().name(argument);
-      }
-      batch.tuples().push_back(found->second);
-    }
-  }
-  v1::FunctionRequest out;
+  for (const FunctionCall& call : calls)
+    for (const std::string& argument : call.arguments) batch.tuples().push_back(add(argument));
   out.module_name(calls.front().module);
-  out.objects(std::move(objects));
   out.batches({std::move(batch)});
   return out;
 }
@@ -140,6 +195,41 @@ std::vector<FunctionValue> values_of(const std::vector<FunctionCall>& calls, con
     values.push_back({from_wire(outcome, number), number, provenance, reason_of(outcome)});
   }
   return values;
+}
+
+engine::Goal from_wire(const v1::Goal& in) {
+  engine::Goal out;
+  out.issuer = in.issuer();
+  out.id = in.id();
+  out.kind = in.goal_kind();
+  out.arguments = from_wire(in.arguments());
+  out.importance = from_wire(in.importance());
+  out.utility = temporal::RankVector(in.utility());
+  out.priority = in.priority();
+  out.preferred = or_none(in.preferred_us(), in.preferred_us() < 0);
+  out.opens = temporal::Time(in.opens_us());
+  out.closes = or_none(in.closes_us(), in.closes_us() == 0);
+  return out;
+}
+
+engine::Observation from_wire(const v1::Observation& in) {
+  return {in.timeline(), services::wire::from_wire(in.observed()), temporal::Time(in.sampled_us())};
+}
+
+engine::StepStatus from_wire(const v1::StepStatus& in) {
+  engine::StepStatus out;
+  out.plan_version = in.plan_version();
+  out.activity = in.activity();
+  out.progress.state =
+      static_cast<temporal::ActivityState>(std::min<std::uint32_t>(in.state(), v1::ACTIVITY_CANCELLED));
+  out.progress.started = if_happened(in.started_us());
+  out.progress.ended = if_happened(in.ended_us());
+  out.cause = in.cause();
+  return out;
+}
+
+engine::Receipt from_wire(const v1::PlanReceipt& in) {
+  return {in.version(), in.refused(), in.reason(), in.conflict(), in.open()};
 }
 
 }  // namespace roci::planner

@@ -1,5 +1,5 @@
-// The one table of topics: type, name, QoS, and whether the topic takes part in the simulated clock's
-// barrier. Clocked types carry a SampleHeader named `header`, which the node fills in.
+// The one table of topics: type, name, QoS, whether the topic takes part in the simulated clock's barrier, and whom it
+// reaches: everyone of the run, the services of one robot, or the team (transport/scope.hpp). Clocked types carry a SampleHeader named `header`, which the node fills in.
 #pragma once
 
 #include "roci_idl/clock.h"
@@ -14,6 +14,7 @@
 #include "roci_idl/rpc.h"
 #include "roci_idl/standby.h"
 #include "services/transport/qos.hpp"
+#include "services/transport/scope.hpp"
 
 namespace roci::services {
 
@@ -23,50 +24,52 @@ struct Topic {
   const char* type_name;
   transport::Qos qos;
   transport::Clocking clocking;
+  transport::Scope scope;
 };
 
 namespace topics {
 
 using enum transport::Clocking;
+using enum transport::Scope;
 using transport::Qos;
 
 // clang-format off
 
-inline constexpr Topic<v1::ClockReady>    clock_ready   {"roci/clock/ready",      "roci::v1::ClockReady",    Qos::state, wall};
-inline constexpr Topic<v1::ClockStep>     clock_step    {"roci/clock/step",       "roci::v1::ClockStep",     Qos::state, wall};
-inline constexpr Topic<v1::ClockDone>     clock_done    {"roci/clock/done",       "roci::v1::ClockDone",     Qos::state, wall};
-inline constexpr Topic<v1::Heartbeat>     heartbeat     {"roci/heartbeat",        "roci::v1::Heartbeat",     Qos::state, wall};
-inline constexpr Topic<v1::TimeProbe>     time_probe    {"roci/clock/probe",      "roci::v1::TimeProbe",     Qos::stream, wall};
+inline constexpr Topic<v1::ClockReady>    clock_ready   {"roci/clock/ready",      "roci::v1::ClockReady",    Qos::state, wall, everyone};
+inline constexpr Topic<v1::ClockStep>     clock_step    {"roci/clock/step",       "roci::v1::ClockStep",     Qos::state, wall, everyone};
+inline constexpr Topic<v1::ClockDone>     clock_done    {"roci/clock/done",       "roci::v1::ClockDone",     Qos::state, wall, everyone};
+inline constexpr Topic<v1::Heartbeat>     heartbeat     {"roci/heartbeat",        "roci::v1::Heartbeat",     Qos::state, wall, everyone};
+inline constexpr Topic<v1::TimeProbe>     time_probe    {"roci/clock/probe",      "roci::v1::TimeProbe",     Qos::stream, wall, everyone};
 
-inline constexpr Topic<v1::LeaseMessage>  exec_member   {"roci/exec/member",      "roci::v1::LeaseMessage",  Qos::state, wall};
-inline constexpr Topic<v1::JournalChunk>  exec_journal  {"roci/exec/journal",     "roci::v1::JournalChunk",  Qos::request, wall};
+inline constexpr Topic<v1::LeaseMessage>  exec_member   {"roci/exec/member",      "roci::v1::LeaseMessage",  Qos::state, wall, robot};
+inline constexpr Topic<v1::JournalChunk>  exec_journal  {"roci/exec/journal",     "roci::v1::JournalChunk",  Qos::request, wall, robot};
 
-inline constexpr Topic<v1::Event>         event         {"roci/event",            "roci::v1::Event",         Qos::event, clocked};
-inline constexpr Topic<v1::Goal>          goal          {"roci/goal",             "roci::v1::Goal",          Qos::state, clocked};
-inline constexpr Topic<v1::GoalStatus>    goal_status   {"roci/goal/status",      "roci::v1::GoalStatus",    Qos::state, clocked};
-inline constexpr Topic<v1::Command>       command       {"roci/command",          "roci::v1::Command",       Qos::request, clocked};
-inline constexpr Topic<v1::CommandAck>    command_ack   {"roci/command/ack",      "roci::v1::CommandAck",    Qos::state, clocked};
-inline constexpr Topic<v1::Observation>   observation   {"roci/observation",      "roci::v1::Observation",   Qos::state, clocked};
-inline constexpr Topic<v1::DataProduct>   data_product  {"roci/product",          "roci::v1::DataProduct",   Qos::state, clocked};
-inline constexpr Topic<v1::Hazard>        hazard        {"roci/hazard",           "roci::v1::Hazard",        Qos::state, clocked};
-inline constexpr Topic<v1::Plan>          plan          {"roci/plan",             "roci::v1::Plan",          Qos::state, clocked};
-inline constexpr Topic<v1::StepStatus>    step_status   {"roci/plan/step",        "roci::v1::StepStatus",    Qos::state, clocked};
-inline constexpr Topic<v1::MissionStatus> mission_status{"roci/mission",          "roci::v1::MissionStatus", Qos::state, clocked};
-inline constexpr Topic<v1::FunctionOffer> function_offer{"roci/function/offer",   "roci::v1::FunctionOffer", Qos::state, clocked};
+inline constexpr Topic<v1::Event>         event         {"roci/event",            "roci::v1::Event",         Qos::event, clocked, everyone};
+inline constexpr Topic<v1::Goal>          goal          {"roci/goal",             "roci::v1::Goal",          Qos::state, clocked, team};
+inline constexpr Topic<v1::GoalStatus>    goal_status   {"roci/goal/status",      "roci::v1::GoalStatus",    Qos::state, clocked, team};
+inline constexpr Topic<v1::Command>       command       {"roci/command",          "roci::v1::Command",       Qos::request, clocked, robot};
+inline constexpr Topic<v1::CommandAck>    command_ack   {"roci/command/ack",      "roci::v1::CommandAck",    Qos::state, clocked, robot};
+inline constexpr Topic<v1::Observation>   observation   {"roci/observation",      "roci::v1::Observation",   Qos::state, clocked, robot};
+inline constexpr Topic<v1::DataProduct>   data_product  {"roci/product",          "roci::v1::DataProduct",   Qos::state, clocked, team};
+inline constexpr Topic<v1::Hazard>        hazard        {"roci/hazard",           "roci::v1::Hazard",        Qos::state, clocked, team};
+inline constexpr Topic<v1::Plan>          plan          {"roci/plan",             "roci::v1::Plan",          Qos::state, clocked, robot};
+inline constexpr Topic<v1::StepStatus>    step_status   {"roci/plan/step",        "roci::v1::StepStatus",    Qos::state, clocked, robot};
+inline constexpr Topic<v1::MissionStatus> mission_status{"roci/mission",          "roci::v1::MissionStatus", Qos::state, clocked, team};
+inline constexpr Topic<v1::FunctionOffer> function_offer{"roci/function/offer",   "roci::v1::FunctionOffer", Qos::state, clocked, robot};
 
 // Orders from the ground, and open decisions of the running plan with their answers.
-inline constexpr Topic<v1::Order>         order         {"roci/order",            "roci::v1::Order",         Qos::state, clocked};
-inline constexpr Topic<v1::OrderStatus>   order_status  {"roci/order/status",     "roci::v1::OrderStatus",   Qos::state, clocked};
-inline constexpr Topic<v1::Decision>      decision      {"roci/decision",         "roci::v1::Decision",      Qos::state, clocked};
-inline constexpr Topic<v1::DecisionAnswer>  decision_answer {"roci/decision/answer",  "roci::v1::DecisionAnswer",  Qos::state, clocked};
-inline constexpr Topic<v1::DecisionReceipt> decision_receipt{"roci/decision/receipt", "roci::v1::DecisionReceipt", Qos::state, clocked};
+inline constexpr Topic<v1::Order>         order         {"roci/order",            "roci::v1::Order",         Qos::state, clocked, robot};
+inline constexpr Topic<v1::OrderStatus>   order_status  {"roci/order/status",     "roci::v1::OrderStatus",   Qos::state, clocked, robot};
+inline constexpr Topic<v1::Decision>      decision      {"roci/decision",         "roci::v1::Decision",      Qos::state, clocked, robot};
+inline constexpr Topic<v1::DecisionAnswer>  decision_answer {"roci/decision/answer",  "roci::v1::DecisionAnswer",  Qos::state, clocked, robot};
+inline constexpr Topic<v1::DecisionReceipt> decision_receipt{"roci/decision/receipt", "roci::v1::DecisionReceipt", Qos::state, clocked, robot};
 
 // An engine that plans all the time uses these.
-inline constexpr Topic<v1::PlanDelta>     plan_delta    {"roci/planner/delta",    "roci::v1::PlanDelta",     Qos::request, clocked};
-inline constexpr Topic<v1::PlanReceipt>   plan_receipt  {"roci/planner/receipt",  "roci::v1::PlanReceipt",   Qos::state, clocked};
+inline constexpr Topic<v1::PlanDelta>     plan_delta    {"roci/planner/delta",    "roci::v1::PlanDelta",     Qos::request, clocked, robot};
+inline constexpr Topic<v1::PlanReceipt>   plan_receipt  {"roci/planner/receipt",  "roci::v1::PlanReceipt",   Qos::state, clocked, robot};
 
 // Every procedure below uses this.
-inline constexpr Topic<v1::CallCancel>    call_cancel   {"roci/call/cancel",      "roci::v1::CallCancel",    Qos::request, clocked};
+inline constexpr Topic<v1::CallCancel>    call_cancel   {"roci/call/cancel",      "roci::v1::CallCancel",    Qos::request, clocked, robot};
 
 /// A remote procedure is a pair of topics with the DDS-RPC headers.
 template <class Request, class Reply>
@@ -76,17 +79,17 @@ struct Procedure {
 };
 
 inline constexpr Procedure<v1::PlanRequest, v1::PlanReply> plan_request{
-    {"roci/planner/request", "roci::v1::PlanRequest", Qos::request, clocked},
-    {"roci/planner/reply", "roci::v1::PlanReply", Qos::request, clocked}};
+    {"roci/planner/request", "roci::v1::PlanRequest", Qos::request, clocked, robot},
+    {"roci/planner/reply", "roci::v1::PlanReply", Qos::request, clocked, robot}};
 inline constexpr Procedure<v1::FunctionRequest, v1::FunctionReply> function_call{
-    {"roci/function/request", "roci::v1::FunctionRequest", Qos::request, clocked},
-    {"roci/function/reply", "roci::v1::FunctionReply", Qos::request, clocked}};
+    {"roci/function/request", "roci::v1::FunctionRequest", Qos::request, clocked, robot},
+    {"roci/function/reply", "roci::v1::FunctionReply", Qos::request, clocked, robot}};
 inline constexpr Procedure<v1::PathRequest, v1::PathReply> path_request{
-    {"roci/path/request", "roci::v1::PathRequest", Qos::request, clocked},
-    {"roci/path/reply", "roci::v1::PathReply", Qos::request, clocked}};
+    {"roci/path/request", "roci::v1::PathRequest", Qos::request, clocked, robot},
+    {"roci/path/reply", "roci::v1::PathReply", Qos::request, clocked, robot}};
 inline constexpr Procedure<v1::ArmMotionRequest, v1::ArmMotionReply> arm_motion{
-    {"roci/arm/request", "roci::v1::ArmMotionRequest", Qos::request, clocked},
-    {"roci/arm/reply", "roci::v1::ArmMotionReply", Qos::request, clocked}};
+    {"roci/arm/request", "roci::v1::ArmMotionRequest", Qos::request, clocked, robot},
+    {"roci/arm/reply", "roci::v1::ArmMotionReply", Qos::request, clocked, robot}};
 
 // clang-format on
 

@@ -31,11 +31,12 @@ def judge(flight: Flight, calm: Flight) -> Judgement:
     out.counts["goals"] = len(flight.goals)
     out.counts["goals lost"] = len(lost)
     out.faults += [f"lost goal {key}" for key in lost]
-    keys = Counter((one["activity"], one["attempt"]) for one in flight.begun)
+    keys = Counter((one["commander"], one["activity"], one["attempt"]) for one in flight.begun)
     doubled = {key: count for key, count in keys.items() if count > 1}
     out.counts["commands"] = len(flight.begun)
     out.counts["commands doubled"] = sum(doubled.values()) - len(doubled)
-    out.faults += [f"{activity} attempt {attempt} begun {count} times" for (activity, attempt), count in doubled.items()]
+    out.faults += [f"{activity} attempt {attempt} of {commander} begun {count} times"
+                   for (commander, activity, attempt), count in doubled.items()]
     out.counts["resumed"] = sum(event.startswith("executive.resumed") for event in flight.events)
     anew = [event for event in flight.events if event.startswith("journal.diverged")]
     out.counts["planned anew"] = len(anew)

@@ -91,6 +91,9 @@ enum class RecoveryAction {
   contingency,  ///< commands of a template, then the same command again or a broken plan (R69, R70)
 };
 
+/// Returns "push", "retry" or "contingency".
+const char* to_string(RecoveryAction action);
+
 /// Says that a recovery action was taken, or a contingency ended.
 struct RecoveryStep {
   RecoveryAction action = RecoveryAction::push;

@@ -82,6 +82,9 @@ Journal::Database::Database(const std::filesystem::path& file, Durability durabi
     execute(kSchema);
     append_record =
         std::make_unique<Statement>(*this, "INSERT INTO record(time_us, kind, text) VALUES(?,?,?)");
+  } catch (const NewerJournal& error) {
+    close();
+    throw NewerJournal(file.string() + " is not a usable journal: " + error.what());
   } catch (const JournalError& error) {
     close();
     throw JournalError(file.string() + " is not a usable journal (" + error.what() +

@@ -26,7 +26,7 @@ void settle_format(sqlite3* database) {
   const int version = stated_version(database);
   if (version == kFormat) return;
   if (version > kFormat) {
-    throw JournalError("it is of format " + std::to_string(version) + ", this version reads up to " +
+    throw NewerJournal("it is of format " + std::to_string(version) + ", this version reads up to " +
                        std::to_string(kFormat) + "; go on with the version that wrote it");
   }
   const std::string stated = "PRAGMA user_version = " + std::to_string(kFormat);

@@ -18,7 +18,7 @@ inline constexpr int kFormat = 1;
 inline constexpr std::int64_t kInputFormat = 6;
 
 /// Leaves an open journal at kFormat. A journal that states no version is of version 1, as baseline-05 wrote
-/// them; older versions are brought up here, step by step. Throws JournalError for a newer one; nothing has
+/// them; older versions are brought up here, step by step. Throws NewerJournal for a newer one; nothing has
 /// changed then.
 void settle_format(sqlite3* database);
 

@@ -24,6 +24,13 @@ class JournalError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A newer version of the code wrote the journal. No restart mends that: a process ends with code 2
+/// (docs/exit-codes.md).
+class NewerJournal : public JournalError {
+ public:
+  using JournalError::JournalError;
+};
+
 enum class Durability {
   process,  ///< survives the death of the process; commits do not wait for the disk
   power,    ///< survives the loss of power

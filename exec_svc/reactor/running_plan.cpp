@@ -24,18 +24,6 @@ namespace {
 /// size of the plan.
 constexpr std::size_t kReportedAhead = 32;
 
-const char* code_of(RecoveryAction action) {
-  switch (action) {
-    case RecoveryAction::push:
-      return "recovery.push";
-    case RecoveryAction::retry:
-      return "recovery.retry";
-    case RecoveryAction::contingency:
-      return "recovery.contingency";
-  }
-  return "recovery";
-}
-
 temporal::FlexiblePlan in_order_of_starts(const temporal::FlexiblePlan& plan) {
   temporal::FlexiblePlan out = plan;
   const auto times = temporal::earliest_schedule(plan.point_count, temporal::all_constraints(plan));
@@ -73,7 +61,8 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
       resource_monitor_.charge_again(recovery.activity, [this](const std::string& timeline) {
         return state_->beliefs.lookup(timeline);
       });
-    state_->report(Severity::info, code_of(recovery.action), recovery.activity + ": " + recovery.reason);
+    state_->report(Severity::info, std::string("recovery.") + to_string(recovery.action),
+                   recovery.activity + ": " + recovery.reason);
   }
   forward(std::move(done));
   if (!state_->out.steps.empty() && state_->phase == MissionPhase::executing) report_windows();

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "exec_svc/standby/standby_wire_service.hpp"
-#include "exec_svc/wire_service.hpp"
 
 namespace roci::exec::standby {
 
@@ -14,7 +13,7 @@ using journal::Journal;
 namespace topics = services::topics;
 
 FollowerService::FollowerService(services::Node& node, std::string executive, Lease& lease, Journal& journal,
-                                 PersistedTermFile& persisted_term)
+                                 PersistedTermFile& persisted_term, TellGoal tell_goal)
     : node_(node),
       executive_(std::move(executive)),
       lease_(&lease),
@@ -22,12 +21,11 @@ FollowerService::FollowerService(services::Node& node, std::string executive, Le
       persisted_term_(&persisted_term),
       copy_(journal),
       messages_(services::advertise(node, topics::exec_member)),
-      goals_(services::advertise(node, topics::goal)) {
+      tell_goal_(std::move(tell_goal)) {
   services::subscribe(node, topics::exec_member, [this](const v1::LeaseMessage& member) { hear(member); });
-  services::subscribe(node, topics::exec_journal,
-                      [this](const v1::JournalChunk& chunk) {
-                        if (chunk.executive() == executive_) take(from_wire(chunk));
-                      });
+  services::subscribe(node, topics::exec_journal, [this](const v1::JournalChunk& chunk) {
+    if (chunk.executive() == executive_) take(from_wire(chunk));
+  });
   services::subscribe(node, topics::clock_step, [this](const v1::ClockStep& step) {
     over_ = over_ || step.last();
     if (over_) node_.stop();
@@ -59,7 +57,7 @@ void FollowerService::ask_again(const std::vector<GoalRecord>& earlier) {
     const bool open = goal.state == GoalState::pending || goal.state == GoalState::planned;
     const bool known = std::ranges::any_of(
         goals, [&](const GoalRecord& other) { return other.request.key == goal.request.key; });
-    if (open && !known) goals_.write(exec::to_wire(goal.request));
+    if (open && !known) tell_goal_(goal.request);
   }
 }
 
@@ -73,6 +71,8 @@ void FollowerService::turn() {
   node_.stop();
 }
 
-void FollowerService::say() { messages_.write(to_wire(lease_->message(copy_.has()), copy_.arrival(), executive_)); }
+void FollowerService::say() {
+  messages_.write(to_wire(lease_->message(copy_.has()), copy_.arrival(), executive_));
+}
 
 }  // namespace roci::exec::standby

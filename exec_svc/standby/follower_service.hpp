@@ -2,6 +2,7 @@
 // when to lead.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,13 +15,17 @@
 
 namespace roci::exec::standby {
 
+/// Sends a goal as its issuer would.
+using TellGoal = std::function<void(const goals::GoalRequest&)>;
+
 /// Follows until it is this member's turn to lead or the run is over; then it stops the node.
 class FollowerService {
  public:
   /// Stands on an observer's node, and so outside the simulated clock. All arguments must outlive it.
   /// `executive` is the logical name of the pair; what is said by and for another one is passed over.
+  /// `tell_goal` hears of goals that this member took in while it led alone and that the leader does not know.
   FollowerService(services::Node& node, std::string executive, Lease& lease, journal::Journal& journal,
-                  PersistedTermFile& persisted_term);
+                  PersistedTermFile& persisted_term, TellGoal tell_goal);
 
   /// Says why this member leads, once it does; the node has been stopped then.
   const std::optional<Lease::Turn>& lead() const { return lead_; }
@@ -43,7 +48,7 @@ class FollowerService {
   std::optional<Lease::Turn> lead_;
   bool over_ = false;
   services::Publisher<v1::LeaseMessage> messages_;
-  services::Publisher<v1::Goal> goals_;
+  TellGoal tell_goal_;
 };
 
 }  // namespace roci::exec::standby

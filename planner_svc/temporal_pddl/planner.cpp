@@ -25,6 +25,7 @@ namespace roci::planner::temporal_pddl {
 
 using call::Budget, call::Monitor, call::Options, call::PlanningFailure, call::SearchLimits, call::Statistics;
 using dead_ends::DeadEndDetectors, dead_ends::MutexDeadEnds, dead_ends::ResourceDeadEnds;
+using engine::FunctionSource;
 using extraction::build_plan;
 using grounding::Grounding, grounding::ground, grounding::ground_remaining_plan;
 using grounding::lifted::ModelFailure;

@@ -6,7 +6,7 @@
 
 #include "core/pddl/ast.hpp"
 #include "core/pddl/plan_text.hpp"
-#include "planner_svc/function_source.hpp"
+#include "planner_svc/engine/function_source.hpp"
 #include "planner_svc/temporal_pddl/call/options.hpp"
 #include "planner_svc/temporal_pddl/call/search_limits.hpp"
 #include "planner_svc/temporal_pddl/result.hpp"
@@ -17,7 +17,7 @@ namespace roci::planner::temporal_pddl {
 /// deterministic: equal arguments (and answers of `functions`) give equal results, unless time or
 /// cancellation ended it. `remaining` is what is left of an earlier plan; if it can be completed at little
 /// cost, that is the first plan.
-Result plan(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
+Result plan(const pddl::Domain& domain, const pddl::Problem& problem, engine::FunctionSource& functions,
             const call::Budget& budget, const call::Monitor& monitor, const call::Options& options = {},
             std::span<const pddl::PlanStep> remaining = {});
 

@@ -22,7 +22,7 @@ struct Result {
   std::optional<pddl::Diagnostic> where;  ///< of unsupported and invalid_input: the place in the model
   std::optional<extraction::Plan> plan;   ///< is there with solved alone
   call::Statistics statistics;
-  std::vector<grounding::lifted::FunctionUse> functions;  ///< every tuple that was asked for
+  std::vector<engine::FunctionUse> functions;  ///< every tuple that was asked for
 };
 
 }  // namespace roci::planner::temporal_pddl

@@ -3,10 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/clock/stream_topic.hpp"
+
 namespace roci::services::clock {
 
 ClockMaster::ClockMaster(std::string name, std::vector<std::string> roster, std::uint32_t micro_step_cap)
     : name_(std::move(name)), roster_(std::move(roster)), cap_(micro_step_cap) {}
+
+bool ClockMaster::hears(const Member& member, const std::string& stream) {
+  return find_subscription(member.subscriptions, stream) != member.subscriptions.end();
+}
 
 void ClockMaster::ready(const v1::ClockReady& ready) {
   const auto member = members_.find(ready.service());
@@ -28,7 +34,7 @@ void ClockMaster::done(const v1::ClockDone& done) {
     if (count.total() <= total) continue;
     total = count.total();
     for (auto& [service, other] : members_) {
-      if (other.subscriptions.contains(count.topic())) other.input = true;
+      if (hears(other, count.topic())) other.input = true;
     }
   }
   const bool answers = temporal::Time(done.time_us()) == time_ && done.micro_step() == micro_step_;

@@ -65,6 +65,7 @@ class ClockMaster {
     bool owes = false;
     std::optional<temporal::Time> wish;
   };
+  static bool hears(const Member&, const std::string& stream);
   void admit();
   void begin_step(temporal::Time);
   v1::ClockStep step() const;

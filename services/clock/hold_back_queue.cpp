@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "services/clock/stream_topic.hpp"
+
 namespace roci::services::clock {
 namespace {
 
@@ -36,7 +38,7 @@ void HoldBackQueue::add(const std::string& topic, const v1::SampleHeader& header
 }
 
 bool HoldBackQueue::awaited(const v1::ClockStep& step, const v1::StreamCount& count) const {
-  const auto input = inputs_.find(count.topic());
+  const auto input = find_subscription(inputs_, count.topic());
   if (input == inputs_.end() || !in_roster(step, count)) return false;
   return joined_ || input->second.durability == Durability::transient_local;
 }
@@ -67,13 +69,25 @@ std::vector<std::string> HoldBackQueue::missing(const v1::ClockStep& step) const
   return streams;
 }
 
+std::vector<const v1::StreamCount*> HoldBackQueue::grown(const v1::ClockStep& step) const {
+  std::vector<const v1::StreamCount*> counts;
+  for (const v1::StreamCount& count : step.totals()) {
+    if (find_subscription(inputs_, count.topic()) == inputs_.end()) continue;
+    const auto stream = streams_.find(key_of(count));
+    if (count.total() > (stream == streams_.end() ? 0 : stream->second.delivered)) counts.push_back(&count);
+  }
+  std::ranges::sort(counts, {}, [](const v1::StreamCount* count) {
+    return std::tuple(topic_of(count->topic()), std::string_view(count->sender()), count->incarnation());
+  });
+  return counts;
+}
+
 std::vector<Delivery> HoldBackQueue::take(const v1::ClockStep& step) {
   std::vector<Delivery> deliveries;
-  for (const v1::StreamCount& count : step.totals()) {
-    if (!inputs_.contains(count.topic())) continue;
+  for (const v1::StreamCount* announced : grown(step)) {
+    const v1::StreamCount& count = *announced;
     const StreamKey key = key_of(count);
     Stream& stream = streams_[key];
-    if (count.total() <= stream.delivered) continue;
     if (joined_) {
       deliver(key, stream, count.total(), deliveries);
     } else {
@@ -92,13 +106,13 @@ void HoldBackQueue::deliver(const StreamKey& key, Stream& stream, std::uint64_t 
                             std::vector<Delivery>& deliveries) const {
   const auto end = stream.held.upper_bound(total);
   for (auto sample = stream.held.begin(); sample != end; ++sample) {
-    deliveries.push_back({key.topic, std::move(sample->second)});
+    deliveries.push_back({std::string(topic_of(key.topic)), std::move(sample->second)});
   }
 }
 
 void HoldBackQueue::deliver_history(const StreamKey& key, Stream& stream, std::uint64_t total,
                                     std::vector<Delivery>& deliveries) const {
-  const Input& input = inputs_.at(key.topic);
+  const Input& input = find_subscription(inputs_, key.topic)->second;
   if (input.durability != Durability::transient_local) return;
   std::set<std::string> seen;
   std::vector<Delivery> newest_first;
@@ -107,7 +121,7 @@ void HoldBackQueue::deliver_history(const StreamKey& key, Stream& stream, std::u
     --sample;
     const Key instance = input.key_of(sample->second.get());
     if (!seen.emplace(instance.begin(), instance.end()).second) continue;
-    newest_first.push_back({key.topic, std::move(sample->second)});
+    newest_first.push_back({std::string(topic_of(key.topic)), std::move(sample->second)});
   }
   deliveries.insert(deliveries.end(), std::make_move_iterator(newest_first.rbegin()),
                     std::make_move_iterator(newest_first.rend()));

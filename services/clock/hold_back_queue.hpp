@@ -2,7 +2,8 @@
 // them in the order that all participants share (the hold-back queue of totally ordered multicast; Coulouris
 // et al., Distributed Systems, 2011, section 15.4). Pure.
 //
-// A stream is (topic, sender, incarnation); its samples are numbered without gaps from 1. A step announces
+// A stream is (topic, sender, incarnation), where the topic may name the sender's robot (stream_topic.hpp); its samples
+// are numbered without gaps from 1. A step announces
 // the total of every stream; the participant acts once it holds them all, and then sees each exactly once, in
 // the order (topic, sender, incarnation, number). In its first step it is new: of the samples announced then
 // it gets the newest of each key of state topics, as a late joiner does, and nothing of the others.
@@ -29,7 +30,7 @@ struct StreamKey {
 };
 
 struct Delivery {
-  std::string topic;
+  std::string topic;  ///< Without the robot of the stream.
   std::shared_ptr<const void> value;
 };
 
@@ -44,7 +45,7 @@ class HoldBackQueue {
   using Key = std::vector<std::uint8_t>;  ///< The serialized key of an instance.
   using KeyOf = std::function<Key(const void* value)>;
 
-  /// `key_of` tells the instances of a topic apart.
+  /// `key_of` tells the instances of a topic apart. `topic` may name a robot, or kEveryRobot.
   void subscribe(const std::string& topic, Durability, KeyOf key_of);
   void add(const std::string& topic, const v1::SampleHeader&, std::shared_ptr<const void> value);
 
@@ -67,6 +68,8 @@ class HoldBackQueue {
     std::map<std::uint64_t, std::shared_ptr<const void>> held;
     void close_gaps();
   };
+  /// The streams with samples to deliver, in the order of delivery.
+  std::vector<const v1::StreamCount*> grown(const v1::ClockStep&) const;
   bool has_all(const v1::StreamCount&) const;
   bool awaited(const v1::ClockStep&, const v1::StreamCount&) const;
   void deliver(const StreamKey&, Stream&, std::uint64_t total, std::vector<Delivery>&) const;

@@ -55,7 +55,7 @@ TopicSpec spec_of(const Topic<T>& topic) {
       return std::as_const(static_cast<const T*>(value)->header()).run();
     };
   }
-  return {topic.name, topic.qos, topic.clocking, std::move(codec)};
+  return {topic.name, topic.qos, topic.clocking, topic.scope, std::move(codec)};
 }
 
 }  // namespace roci::services::node

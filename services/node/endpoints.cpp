@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "services/clock/stream_topic.hpp"
 #include "services/log/log.hpp"
 #include "services/transport/qos.hpp"
 
@@ -17,11 +18,16 @@ void check_same_type(const TopicSpec& known, const TopicSpec& wanted) {
 
 }  // namespace
 
+std::string stream_topic(const TopicSpec& topic, const std::string& robot) {
+  return topic.scope == transport::Scope::robot ? clock::stream_topic(topic.name, robot) : topic.name;
+}
+
 TopicWriter::TopicWriter(const NodeOptions& options, const RunIdentity& run, Now now, const TopicSpec& topic,
                          transport::Transport& transport, std::function<void()> on_matched)
     : options_(options), run_(run), now_(std::move(now)), topic_(topic) {
   const transport::EndpointDescription endpoint{
-      topic.name, topic.codec.type, transport::writer_qos(topic.qos, topic.clocking, options.clock)};
+      topic.name, topic.codec.type, transport::writer_qos(topic.qos, topic.clocking, options.clock),
+      transport::partitions_of(topic.scope, options.robot)};
   writer_ = transport.create_writer(endpoint, {[on_matched = std::move(on_matched)](int) { on_matched(); }});
 }
 
@@ -77,7 +83,8 @@ TopicReader& Endpoints::in(const TopicSpec& topic) {
     input = std::make_unique<TopicReader>();
     input->topic = topic;
     const transport::EndpointDescription endpoint{
-        topic.name, topic.codec.type, transport::reader_qos(topic.qos, topic.clocking, options_.clock)};
+        topic.name, topic.codec.type, transport::reader_qos(topic.qos, topic.clocking, options_.clock),
+        transport::partitions_of(topic.scope, options_.robot)};
     transport::ReaderEvents events;
     events.on_sample = [this, target = input.get()](transport::Sample&& sample) {
       inbox_.push(Arrival{target, std::move(sample)});
@@ -102,6 +109,11 @@ std::vector<TopicSpec> Endpoints::clocked_inputs() const {
   return topics;
 }
 
+std::vector<std::string> Endpoints::heard_streams(const TopicSpec& topic) const {
+  if (topic.scope != transport::Scope::robot) return {topic.name};
+  return clock::inner_subscriptions(topic.name, options_.robot);
+}
+
 std::vector<v1::StreamCount> Endpoints::take_growth() {
   std::vector<v1::StreamCount> growth;
   for (const auto& [name, stream] : out_) {
@@ -109,7 +121,7 @@ std::vector<v1::StreamCount> Endpoints::take_growth() {
     if (stream->topic().clocking == transport::Clocking::wall || stream->total() == reported) continue;
     reported = stream->total();
     v1::StreamCount count;
-    count.topic(name);
+    count.topic(stream_topic(stream->topic(), options_.robot));
     count.sender(options_.name);
     count.incarnation(options_.incarnation);
     count.total(reported);

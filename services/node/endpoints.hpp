@@ -16,6 +16,7 @@
 #include "services/node/inbox.hpp"
 #include "services/node/node_options.hpp"
 #include "services/node/run_identity.hpp"
+#include "services/transport/scope.hpp"
 #include "services/transport/transport.hpp"
 
 namespace roci::services::node {
@@ -34,8 +35,12 @@ struct TopicSpec {
   std::string name;
   transport::Qos qos = transport::Qos::state;
   transport::Clocking clocking = transport::Clocking::wall;
+  transport::Scope scope = transport::Scope::everyone;
   Codec codec;
 };
+
+/// The name under which the simulated clock counts the samples that a service of `robot` writes on the topic.
+std::string stream_topic(const TopicSpec&, const std::string& robot);
 
 /// Writes all samples of one node on one topic.
 class TopicWriter {
@@ -89,6 +94,8 @@ class Endpoints {
   TopicReader* find_in(const std::string& topic);
 
   std::vector<TopicSpec> clocked_inputs() const;  ///< They are sorted by name.
+  /// Returns the streams of a topic that this node hears (clock/stream_topic.hpp), as the clock names them.
+  std::vector<std::string> heard_streams(const TopicSpec&) const;
   /// Returns the clocked streams with samples that it has not yet reported.
   std::vector<v1::StreamCount> take_growth();
   void begin_micro_step();

@@ -31,7 +31,7 @@ class SimLoop : public Loop {
     if (header.incarnation() == 0) {
       outside_.push_back({&input, std::move(value)});
     } else {
-      held_back_.add(input.topic.name, header, std::move(value));
+      held_back_.add(stream_topic(input.topic, header.robot()), header, std::move(value));
     }
   }
 
@@ -59,8 +59,10 @@ class SimLoop : public Loop {
     ready.service(node_.options.name);
     ready.incarnation(node_.options.incarnation);
     for (const TopicSpec& topic : node_.endpoints.clocked_inputs()) {
-      held_back_.subscribe(topic.name, durability_of(topic.qos), topic.codec.key);
-      ready.subscriptions().push_back(topic.name);
+      for (const std::string& stream : node_.endpoints.heard_streams(topic)) {
+        held_back_.subscribe(stream, durability_of(topic.qos), topic.codec.key);
+        ready.subscriptions().push_back(stream);
+      }
     }
     barrier_->open(ready);
   }

@@ -37,7 +37,12 @@ void apply_mission_file(const std::filesystem::path& folder, Connection& connect
 
 void apply_network_file(const std::filesystem::path& file, Connection& connection) {
   const auto network = mission::Entry::load(file);
-  network.allow_only({"dds", "domain", "address", "peers", "partition", "vendor_xml"});
+  if (const auto partition = network.find("partition")) {
+    partition->fail(
+        "nobody sets a DDS partition: partitions follow from the robot that a service belongs to; remove "
+        "'partition', and give runs that must not hear each other domains of their own");
+  }
+  network.allow_only({"dds", "domain", "address", "peers", "vendor_xml"});
   connection.dds = network.text_or("dds", connection.dds);
   auto& transport = connection.transport;
   if (const auto domain = network.find("domain")) {
@@ -45,7 +50,6 @@ void apply_network_file(const std::filesystem::path& file, Connection& connectio
   }
   transport.address = network.text_or("address", transport.address);
   if (const auto peers = network.find("peers")) transport.peers = peers->texts();
-  transport.partition = network.text_or("partition", transport.partition);
   if (const auto xml = network.find("vendor_xml")) transport.vendor_xml = xml->resolve(xml->text());
 }
 

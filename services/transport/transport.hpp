@@ -38,6 +38,8 @@ struct EndpointDescription {
   std::string topic;
   TypeDescription type;
   QosSettings qos;
+  /// They follow from the topic's scope (partitions_of in scope.hpp); empty: the partition "".
+  std::vector<std::string> partitions{};
 };
 
 /// The payload of the last two, of keyed topics alone, holds at least the key (deserialize_key).
@@ -89,7 +91,6 @@ struct TransportOptions {
   /// The one interface address that is used; never any other is.
   std::string address = "127.0.0.1";
   std::vector<std::string> peers = {"127.0.0.1"};  ///< These hosts are asked for participants, unicast.
-  std::string partition{};                         ///< Empty: there is none.
   /// The path of a vendor's own XML, which is used instead of the defaults if not empty.
   std::string vendor_xml{};
 };

@@ -50,6 +50,9 @@ TEST(ArchitectureTest, EachRuleCanBeBroken) {
   EXPECT_THAT(broken(source), ElementsAre(HasSubstr("asks the system for the time")));
   source.lines = {"if (mission == \"planetary\") return;"};
   EXPECT_THAT(broken(source), ElementsAre(HasSubstr("missions are data")));
+  source.lines = {"endpoint.partitions = {\"roci.team\"};"};
+  EXPECT_THAT(broken(source),
+              ElementsAre(HasSubstr("names a DDS partition"), HasSubstr("names a DDS partition")));
   source.lines.assign(601, "");
   EXPECT_THAT(broken(source), ElementsAre(HasSubstr("601 lines")));
 }

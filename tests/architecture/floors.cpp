@@ -21,6 +21,7 @@ const std::vector<House> kHouses = {
      {"services/clock/", "services/log/", "services/wire/", "services/transport/", "services/vendors/",
       "services/topics.hpp", "services/health/", "services/node/", "services/rpc/", "services/",
       "services/owner/", "services/process/", "services/launch/"}},
+    {"planner_svc/", {"planner_svc/engine/", "planner_svc/temporal_pddl/", "planner_svc/"}},
     {"sim_svc/",
      {"sim_svc/world/", "sim_svc/setup/", "sim_svc/components/", "sim_svc/scenario/", "sim_svc/"}},
 };

@@ -4,12 +4,14 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 namespace roci::architecture {
 namespace {
 
 const std::string kEngine = "planner_svc/temporal_pddl";
+const std::string kTable = "planner_svc/engines.cpp";
 
 // From the bottom to the top; "" is the engine's own folder. planner_svc/temporal_pddl/README.md tells them
 // in the same order.
@@ -29,7 +31,8 @@ const std::vector<std::string> kFloors = {"call",
                                           "improvement",
                                           "extraction",
                                           "",
-                                          "adapter"};
+                                          "adapter",
+                                          "cli"};
 
 // Folders that work on the ground task alone.
 const std::set<std::string> kWithoutModel = {"call",      "task",   "constraints", "heuristics",
@@ -46,6 +49,7 @@ std::optional<std::string> folder_in_engine(const std::string& path) {
 }
 
 bool is_validator(const std::string& folder) { return folder == "validate"; }
+bool is_checker(const std::string& folder) { return folder == "checker"; }
 
 std::optional<std::size_t> floor_of(const std::string& folder) {
   const auto found = std::find(kFloors.begin(), kFloors.end(), folder);
@@ -60,7 +64,11 @@ std::string forbids(const std::string& from, const std::string& to) {
     const bool engine = to.starts_with("planner_svc/") && !(target && is_validator(*target));
     return engine ? "the validator shares only core/pddl" : "";
   }
-  if (target && is_validator(*target)) return from == "adapter" ? "" : "engines never see the validator";
+  if (is_checker(from)) {
+    const bool engine = target && !is_validator(*target) && !is_checker(*target);
+    return engine ? "the checker sees the validator and nothing of the engine" : "";
+  }
+  if (target && (is_validator(*target) || is_checker(*target))) return "engines never see the validator";
   if (kWithoutModel.contains(from) && to.starts_with("core/pddl/")) return "the search never sees PDDL text";
   if (!target) return "";
   if (kWithoutModel.contains(from) && target->starts_with("grounding"))
@@ -110,7 +118,31 @@ class Reach {
   std::map<std::string, const SourceFile*> files_;
 };
 
+// "temporal_pddl" of planner_svc/temporal_pddl/…; empty for the seam itself and what hosts engines.
+std::string engine_of(const std::string& path) {
+  constexpr std::string_view kPlanner = "planner_svc/";
+  if (!path.starts_with(kPlanner)) return "";
+  const auto slash = path.find('/', kPlanner.size());
+  if (slash == std::string::npos) return "";
+  const std::string folder = path.substr(kPlanner.size(), slash - kPlanner.size());
+  return folder == "engine" ? "" : folder;
+}
+
 }  // namespace
+
+std::vector<std::string> broken_seam_rules(const std::vector<SourceFile>& files) {
+  std::vector<std::string> out;
+  for (const SourceFile& file : files) {
+    if (file.path == kTable) continue;
+    for (const std::string& include : file.includes) {
+      const std::string engine = engine_of(include);
+      if (engine.empty() || engine == engine_of(file.path)) continue;
+      out.push_back(file.path + ": includes " + include + "; none but " + kTable +
+                    " knows an engine, see planner_svc/engine/");
+    }
+  }
+  return out;
+}
 
 std::vector<std::string> broken_planner_rules(const std::vector<SourceFile>& files) {
   std::vector<std::string> out;
@@ -118,7 +150,7 @@ std::vector<std::string> broken_planner_rules(const std::vector<SourceFile>& fil
   for (const SourceFile& file : files) {
     const std::optional<std::string> folder = folder_in_engine(file.path);
     if (!folder) continue;
-    if (!is_validator(*folder) && !floor_of(*folder))
+    if (!is_validator(*folder) && !is_checker(*folder) && !floor_of(*folder))
       out.push_back(file.path + ": stands on no floor; give its folder a place in planner_rules.cpp");
     reach.check(file, *folder, out);
   }

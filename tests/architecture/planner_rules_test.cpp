@@ -71,12 +71,35 @@ TEST(PlannerRules, TheValidatorIsIndependent) {
       broken_planner_rules({in_engine("validate/a.cpp", {"core/pddl/x.hpp", engine("validate/b.hpp")}),
                             {"core/pddl/x.hpp", {engine("grounding/grounder.hpp")}, {}}}),
       ElementsAre(HasSubstr("the validator shares only core/pddl")));
-  EXPECT_THAT(broken_planner_rules({in_engine("validate/a.cpp", {"planner_svc/function_source.hpp"})}),
+  EXPECT_THAT(broken_planner_rules({in_engine("validate/a.cpp", {"planner_svc/engine/function_source.hpp"})}),
               ElementsAre(HasSubstr("the validator shares only core/pddl")));
   EXPECT_THAT(broken_planner_rules({in_engine("improvement/a.cpp", {engine("validate/validator.hpp")})}),
               ElementsAre(HasSubstr("engines never see the validator")));
-  EXPECT_THAT(broken_planner_rules({in_engine("adapter/a.cpp", {engine("validate/validator.hpp")})}),
+  EXPECT_THAT(broken_planner_rules({in_engine("adapter/a.cpp", {engine("checker/pddl_checker.hpp")})}),
+              ElementsAre(HasSubstr("engines never see the validator")));
+}
+
+TEST(PlannerRules, TheCheckerSeesTheValidatorAlone) {
+  EXPECT_THAT(broken_planner_rules({in_engine(
+                  "checker/a.cpp", {engine("validate/validator.hpp"), "planner_svc/engine/checker.hpp"})}),
               IsEmpty());
+  EXPECT_THAT(broken_planner_rules({in_engine("checker/a.cpp", {engine("task/task.hpp")})}),
+              ElementsAre(HasSubstr("nothing of the engine")));
+}
+
+// To add an engine touches the table and its own folder.
+TEST(PlannerRules, NobodyButTheTableKnowsAnEngine) {
+  const auto broken = [](const std::string& path, const std::string& include) {
+    return broken_seam_rules({{path, {include}, {}}});
+  };
+  EXPECT_THAT(broken("planner_svc/engines.cpp", engine("adapter/pddl_engine.hpp")), IsEmpty());
+  EXPECT_THAT(broken("planner_svc/temporal_pddl/search/a.cpp", engine("task/task.hpp")), IsEmpty());
+  EXPECT_THAT(broken("planner_svc/timeline_htn/a.cpp", "planner_svc/engine/checker.hpp"), IsEmpty());
+  for (const std::string path : {"planner_svc/settings.cpp", "planner_svc/engine/table.cpp",
+                                 "planner_svc/timeline_htn/a.cpp", "rehearsal/programs.cpp"}) {
+    EXPECT_THAT(broken(path, engine("adapter/pddl_engine.hpp")),
+                ElementsAre(HasSubstr("none but planner_svc/engines.cpp knows an engine")));
+  }
 }
 
 TEST(PlannerRules, AFolderWithoutAFloorIsTold) {

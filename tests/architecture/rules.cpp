@@ -137,6 +137,20 @@ void check_torn_comments(const SourceFile& file, Complaints& out) {
   }
 }
 
+// The partitions of an endpoint follow from its topic's scope and its service's robot, in one place.
+void check_partitions(const SourceFile& file, Complaints& out) {
+  if (file.under("services/vendors") || file.path.starts_with("services/transport/scope.")) return;
+  if (file.path == "services/transport/transport.hpp" || file.path == "services/node/endpoints.cpp") return;
+  for (const std::string& line : file.lines) {
+    for (const char* sign : {"\"roci.inner", "\"roci.team", "partitions_of(", ".partitions", "PartitionQos",
+                             "dds_qset_partition"}) {
+      if (line.find(sign) == std::string::npos) continue;
+      out.push_back(file.path + ": names a DDS partition (" + sign +
+                    "); they follow from the topic table and the service's robot");
+    }
+  }
+}
+
 void check_missions(const SourceFile& file, Complaints& out) {
   for (const std::string& line : file.lines) {
     for (const char* mission : {"\"planetary\"", "\"orbital\"", "\"europa\"", "\"faster\""}) {
@@ -158,12 +172,14 @@ std::vector<std::string> broken_rules(const std::vector<SourceFile>& files) {
     check_clock(file, out);
     check_size_and_names(file, out);
     check_missions(file, out);
+    check_partitions(file, out);
     check_torn_comments(file, out);
   }
   std::ranges::copy(foreign_namespaces(files), std::back_inserter(out));
   std::ranges::copy(upward_includes(files), std::back_inserter(out));
   const Complaints planner = broken_planner_rules(files);
   out.insert(out.end(), planner.begin(), planner.end());
+  std::ranges::copy(broken_seam_rules(files), std::back_inserter(out));
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include "roci_idl/command.h"
 #include "roci_idl/motion.h"
+#include "services/transport/scope.hpp"
 #include "tests/contract/support/inbox.hpp"
 #include "tests/contract/support/pairing.hpp"
 #include "tests/contract/support/profiles.hpp"
@@ -64,17 +65,57 @@ TEST_P(Isolation, TwoDomainsDoNotHearEachOther) {
 }
 
 TEST_P(Isolation, TwoPartitionsDoNotHearEachOther) {
-  const auto sender_a = open_writing({.partition = "a"}), sender_b = open_writing({.partition = "b"});
-  const auto receiver = open_reading({.partition = "b"});
-  const auto writer_a = sender_a->create_writer(goal_endpoint(latched(1)), {});
-  const auto writer_b = sender_b->create_writer(goal_endpoint(latched(1)), {});
+  const auto in = [](const std::string& partition) {
+    auto description = goal_endpoint(latched(1));
+    description.partitions = {partition};
+    return description;
+  };
+  const auto sender_a = open_writing(), sender_b = open_writing();
+  const auto receiver = open_reading();
+  const auto writer_a = sender_a->create_writer(in("a"), {});
+  const auto writer_b = sender_b->create_writer(in("b"), {});
   ASSERT_TRUE(writer_a->write(goal("a", 1)));
   ASSERT_TRUE(writer_b->write(goal("b", 2)));
   Inbox inbox;
-  const auto reader = receiver->create_reader(goal_endpoint(latched(1)), inbox.reader_events());
+  const auto reader = receiver->create_reader(in("b"), inbox.reader_events());
   ASSERT_TRUE(inbox.wait_for_samples(1));
   EXPECT_THAT(inbox.goals(), ElementsAre("b=2"));
   EXPECT_EQ(inbox.matched(), 1);
+}
+
+std::string name_of_scope(const transport::EndpointDescription& endpoint) {
+  std::string text;
+  for (const std::string& partition : endpoint.partitions) text += (text.empty() ? "" : ",") + partition;
+  return text.empty() ? "none" : text;
+}
+
+// Every pair of partitions that topics have: the writer's sample arrives exactly where it is meant to.
+TEST_P(Isolation, PartitionsFollowFromScopeAndRobot) {
+  const auto endpoint_of = [](transport::Scope scope, const std::string& robot) {
+    auto description = goal_endpoint(latched(1));
+    description.partitions = transport::partitions_of(scope, robot);
+    return description;
+  };
+  const std::vector<transport::EndpointDescription> kinds{
+      endpoint_of(transport::Scope::everyone, "a"), endpoint_of(transport::Scope::team, "a"),
+      endpoint_of(transport::Scope::robot, ""), endpoint_of(transport::Scope::robot, "a"),
+      endpoint_of(transport::Scope::robot, "b")};
+  const std::vector<std::vector<std::string>> heard_by{
+      {"0=1"}, {"1=1"}, {"2=1", "3=1", "4=1"}, {"2=1", "3=1"}, {"2=1", "4=1"}};
+  const auto sender = open_writing();
+  std::vector<std::unique_ptr<transport::Writer>> writers;
+  for (const auto& kind : kinds) {
+    writers.push_back(sender->create_writer(kind, {}));
+    ASSERT_TRUE(writers.back()->write(goal(std::to_string(writers.size() - 1), 1)));
+  }
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    Inbox inbox;
+    const auto receiver = open_reading();
+    const auto reader = receiver->create_reader(kinds[i], inbox.reader_events());
+    EXPECT_TRUE(inbox.wait_for_samples(heard_by[i].size())) << name_of_scope(kinds[i]);
+    EXPECT_TRUE(inbox.wait_for_match(static_cast<int>(heard_by[i].size()))) << name_of_scope(kinds[i]);
+    EXPECT_THAT(inbox.goals(), testing::UnorderedElementsAreArray(heard_by[i])) << name_of_scope(kinds[i]);
+  }
 }
 
 TEST_P(Isolation, ATwoMegabyteSampleArrivesWhole) {

@@ -79,14 +79,16 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
   void start_leader() {
     leader_lease_.emplace(Member::first, LeaseSettings{}, PersistedTerm{1, true}, false, -10s + moment());
     ASSERT_EQ(leader_lease_->turn(leader_journal_->position(), moment()).change, Lease::Change::lead);
-    leader_node_.emplace(options_of("exec_svc", services::clock::ClockMode::live), transport(GetParam().leader));
+    leader_node_.emplace(options_of("exec_svc", services::clock::ClockMode::live),
+                         transport(GetParam().leader));
     leader_.emplace(*leader_node_, "exec_svc", *leader_lease_, *leader_journal_, leader_standing_);
   }
   void start_follower() {
     follower_lease_.emplace(Member::second, LeaseSettings{}, PersistedTerm{}, false, moment());
     follower_node_.emplace(options_of("exec_svc.second", services::clock::ClockMode::observer),
                            transport(GetParam().follower));
-    follower_.emplace(*follower_node_, "exec_svc", *follower_lease_, *follower_journal_, follower_standing_);
+    follower_.emplace(*follower_node_, "exec_svc", *follower_lease_, *follower_journal_, follower_standing_,
+                      [](const goals::GoalRequest&) {});
   }
   void stop_leader() {
     leader_.reset();
@@ -263,7 +265,8 @@ TEST_P(StandbyTest, TheFollowerLeadsWhenTheLeaderIsGoneAndTheOldOneStandsDown) {
   ASSERT_TRUE(wait([&] { return sent_ == 0; }));
   const auto stopped_at = services::clock::wall_now();
   ASSERT_TRUE([&] {  // the leader's loop stands still
-    while (!follower_->lead() && services::clock::wall_now() < stopped_at + kLimit) follower_node_->spin_once(5ms);
+    while (!follower_->lead() && services::clock::wall_now() < stopped_at + kLimit)
+      follower_node_->spin_once(5ms);
     return follower_->lead().has_value();
   }());
   EXPECT_EQ(follower_lease_->epoch(), 4U);

@@ -3,6 +3,7 @@
 // goal, and is told (docs/exit-codes.md).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -57,6 +58,22 @@ class SpoiltMission {
  private:
   fs::path folder_;
 };
+
+// No restart mends it: the run ends at once, and the journal is as it was.
+TEST(NewerJournal, EndsTheRunWithCodeTwoAndTheRemedy) {
+  const fs::path folder = fs::temp_directory_path() / ("roci_newer_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  sqlite3* database = nullptr;
+  sqlite3_open((folder / "journal.sqlite").c_str(), &database);
+  sqlite3_exec(database, "PRAGMA user_version = 99; CREATE TABLE kept(x)", nullptr, nullptr, nullptr);
+  sqlite3_close(database);
+  const Ended ended = run("timeout 60 exec_svc --mission " + std::string(ROCI_SOURCE_DIR) +
+                          "/missions/planetary --run-folder " + folder.string() + " 2>&1");
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("journal.sqlite is not a usable journal: it is of format 99"),
+                                  HasSubstr("go on with the version that wrote it")));
+  fs::remove_all(folder);
+}
 
 // What a unit of systemd starts: the service that the mission's list has under this name.
 TEST(Become, TheProcessTurnsIntoAServiceOfTheList) {

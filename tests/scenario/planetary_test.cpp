@@ -1,15 +1,21 @@
 // The planetary mission, flown by every service as a process of its own over each transport.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <future>
 #include <map>
 #include <ostream>
 #include <string>
 #include <tuple>
 
+#include "services/process/domain_claim.hpp"
 #include "tests/scenario/flight.hpp"
 
 namespace roci::scenario {
 namespace {
+
+namespace fs = std::filesystem;
 
 const std::string kMission = std::string(ROCI_SOURCE_DIR) + "/missions/planetary";
 
@@ -96,6 +102,28 @@ TEST(PlanetaryTraceTest, ABadNetworkChangesNothing) {
                           " --dds mixed --seed 1 --speed max --headless --json");
   const std::string reference = fly(kMission, "inproc", 1).summary.value("trace_sha256", "no trace");
   EXPECT_EQ(last_line_as_json(ended.output).value("trace_sha256", ""), reference);
+}
+
+// Two whole runs with the same names, robot and topics on one domain, at the same time: each is obeyed by its own
+// services alone, which say that they hear the other one.
+TEST(PlanetaryTraceTest, TwoRunsOnOneDomainDoNotObeyEachOther) {
+  const services::process::DomainClaim domain;
+  const fs::path folder = fs::temp_directory_path() / ("roci_two_runs_" + std::to_string(::getpid()));
+  const auto flown = [&](const std::string& name, std::uint64_t seed) {
+    return std::async(std::launch::async, [&, name, seed] {
+      return fly(kMission, "cyclonedds", seed,
+                 "--domain " + std::to_string(domain.id()) + " --run " + name + " --run-folder " +
+                     (folder / name).string());
+    });
+  };
+  auto first = flown("first", 1), second = flown("second", 2);
+  EXPECT_EQ(first.get().summary.value("trace_sha256", ""),
+            fly(kMission, "inproc", 1).summary.value("trace_sha256", "no trace"));
+  EXPECT_EQ(second.get().summary.value("trace_sha256", ""),
+            fly(kMission, "inproc", 2).summary.value("trace_sha256", "no trace"));
+  const Ended heard = run("grep -l 'hears another run' " + (folder / "*" / "*.log").string() + " | wc -l");
+  EXPECT_GT(std::stoi(heard.output), 1);
+  fs::remove_all(folder);
 }
 
 TEST(PlanetaryTraceTest, AnUnknownMissionIsAMistakeOfTheUser) {

@@ -8,7 +8,7 @@
 
 namespace roci::planner::temporal_pddl::extraction {
 
-using grounding::lifted::FunctionUse;
+using engine::FunctionOutcome, engine::FunctionUse;
 using temporal::Duration;
 
 namespace {

@@ -11,7 +11,6 @@ namespace roci::planner::temporal_pddl::extraction {
 /// objects; conditions compare facts ("(at place-1)" = true) and single fluents ("(battery)" >= 30). Timed
 /// literals become windows from the origin, so that every time point left belongs to an activity. Conditions
 /// that no single timeline decides are left to the network.
-temporal::FlexiblePlan export_plan(const Plan& plan,
-                                   const std::vector<grounding::lifted::FunctionUse>& functions);
+temporal::FlexiblePlan export_plan(const Plan& plan, const std::vector<engine::FunctionUse>& functions);
 
 }  // namespace roci::planner::temporal_pddl::extraction

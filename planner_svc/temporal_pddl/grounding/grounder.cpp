@@ -25,11 +25,12 @@ namespace roci::planner::temporal_pddl::grounding {
 
 using call::Options, call::PlanningFailure, call::SearchLimits;
 using encoding::build_task;
+using engine::FunctionSource, engine::FunctionUse;
 using instantiation::Disjunction, instantiation::GroundLiteral, instantiation::GroundModel,
     instantiation::WindowMisfit, instantiation::instantiate;
 using invariants::Compression, invariants::find_compression, invariants::find_mutex_groups;
-using lifted::ConstantFunctions, lifted::FunctionUse, lifted::LiftedAction, lifted::StaticModel,
-    lifted::Symbols, lifted::lower_actions;
+using lifted::ConstantFunctions, lifted::LiftedAction, lifted::StaticModel, lifted::Symbols,
+    lifted::lower_actions;
 using reachability::explore;
 using simplification::drop_irrelevant_effects, simplification::extract_timed_windows,
     simplification::literal_index, simplification::prune, simplification::settle_read_sets,

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/pddl/ast.hpp"
-#include "planner_svc/function_source.hpp"
+#include "planner_svc/engine/function_source.hpp"
 #include "planner_svc/temporal_pddl/call/options.hpp"
 #include "planner_svc/temporal_pddl/call/search_limits.hpp"
 #include "planner_svc/temporal_pddl/grounding/lifted/constant_functions.hpp"
@@ -23,8 +23,8 @@ struct Grounding {
 /// Grounds the model. `used` gets every external value, whatever happens. Throws PlanningFailure
 /// (`unsupported` with the place in the model, `unsolvable` with the goal that nothing can reach,
 /// `function_unavailable`), and what SearchLimits throws.
-Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
+Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, engine::FunctionSource& functions,
                  const call::Options& options, call::SearchLimits& limits,
-                 std::vector<lifted::FunctionUse>& used);
+                 std::vector<engine::FunctionUse>& used);
 
 }  // namespace roci::planner::temporal_pddl::grounding

@@ -18,9 +18,11 @@ QosPtr participant_qos(const transport::TransportOptions& options) {
   return qos;
 }
 
-QosPtr partition_qos(const transport::TransportOptions& options) {
+QosPtr partition_qos(const std::vector<std::string>& partitions) {
   QosPtr qos(dds_create_qos());
-  if (!options.partition.empty()) dds_qset_partition1(qos.get(), options.partition.c_str());
+  std::vector<const char*> names;
+  for (const std::string& partition : partitions) names.push_back(partition.c_str());
+  if (!names.empty()) dds_qset_partition(qos.get(), static_cast<std::uint32_t>(names.size()), names.data());
   return qos;
 }
 
@@ -30,11 +32,7 @@ class CycloneTransport : public transport::Transport {
       : domain_(join_domain(options)),
         participant_(checked(dds_create_participant(static_cast<dds_domainid_t>(options.domain),
                                                     participant_qos(options).get(), nullptr),
-                             "a participant in domain " + std::to_string(options.domain))),
-        publisher_(checked(dds_create_publisher(participant_, partition_qos(options).get(), nullptr),
-                           "a publisher")),
-        subscriber_(checked(dds_create_subscriber(participant_, partition_qos(options).get(), nullptr),
-                            "a subscriber")) {}
+                             "a participant in domain " + std::to_string(options.domain))) {}
 
   ~CycloneTransport() override { dds_delete(participant_); }
 
@@ -42,15 +40,38 @@ class CycloneTransport : public transport::Transport {
 
   std::unique_ptr<transport::Writer> create_writer(const transport::EndpointDescription& endpoint,
                                                    transport::WriterEvents events) override {
-    return std::make_unique<CycloneWriter>(publisher_, topic_of(endpoint), endpoint, std::move(events));
+    return std::make_unique<CycloneWriter>(publisher_in(endpoint.partitions), topic_of(endpoint), endpoint,
+                                           std::move(events));
   }
 
   std::unique_ptr<transport::Reader> create_reader(const transport::EndpointDescription& endpoint,
                                                    transport::ReaderEvents events) override {
-    return std::make_unique<CycloneReader>(subscriber_, topic_of(endpoint), endpoint, std::move(events));
+    return std::make_unique<CycloneReader>(subscriber_in(endpoint.partitions), topic_of(endpoint), endpoint,
+                                           std::move(events));
   }
 
  private:
+  // DDS gives partitions to publishers and subscribers: there is one of each for the endpoints that share theirs.
+  dds_entity_t publisher_in(const std::vector<std::string>& partitions) {
+    const std::lock_guard lock(mutex_);
+    dds_entity_t& publisher = publishers_[partitions];
+    if (publisher == 0) {
+      publisher = checked(dds_create_publisher(participant_, partition_qos(partitions).get(), nullptr),
+                          "a publisher");
+    }
+    return publisher;
+  }
+
+  dds_entity_t subscriber_in(const std::vector<std::string>& partitions) {
+    const std::lock_guard lock(mutex_);
+    dds_entity_t& subscriber = subscribers_[partitions];
+    if (subscriber == 0) {
+      subscriber = checked(dds_create_subscriber(participant_, partition_qos(partitions).get(), nullptr),
+                           "a subscriber");
+    }
+    return subscriber;
+  }
+
   // Topics live as long as the participant; both ends of a topic share it.
   TopicHandle topic_of(const transport::EndpointDescription& endpoint) {
     const std::lock_guard lock(mutex_);
@@ -71,9 +92,9 @@ class CycloneTransport : public transport::Transport {
 
   const std::shared_ptr<Domain> domain_;
   const dds_entity_t participant_;
-  const dds_entity_t publisher_;
-  const dds_entity_t subscriber_;
   std::mutex mutex_;
+  std::map<std::vector<std::string>, dds_entity_t> publishers_;
+  std::map<std::vector<std::string>, dds_entity_t> subscribers_;
   std::map<std::string, TopicHandle> topics_;
 };
 

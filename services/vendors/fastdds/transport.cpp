@@ -28,10 +28,10 @@ void switch_intraprocess_delivery_off() {
   eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
 }
 
-dds::PartitionQosPolicy partition_of(const transport::TransportOptions& options) {
-  dds::PartitionQosPolicy partition;
-  if (!options.partition.empty()) partition.push_back(options.partition.c_str());
-  return partition;
+dds::PartitionQosPolicy partition_qos(const std::vector<std::string>& partitions) {
+  dds::PartitionQosPolicy policy;
+  for (const std::string& partition : partitions) policy.push_back(partition.c_str());
+  return policy;
 }
 
 class FastTransport : public transport::Transport {
@@ -46,12 +46,6 @@ class FastTransport : public transport::Transport {
       throw transport::TransportError("Fast DDS cannot join domain " + std::to_string(options.domain) +
                                       "; the domain id must be from 0 to 232, its UDP ports must be free");
     }
-    dds::PublisherQos publisher_qos;
-    publisher_qos.partition() = partition_of(options);
-    publisher_ = participant_->create_publisher(publisher_qos);
-    dds::SubscriberQos subscriber_qos;
-    subscriber_qos.partition() = partition_of(options);
-    subscriber_ = participant_->create_subscriber(subscriber_qos);
   }
 
   ~FastTransport() override {
@@ -63,15 +57,40 @@ class FastTransport : public transport::Transport {
 
   std::unique_ptr<transport::Writer> create_writer(const transport::EndpointDescription& endpoint,
                                                    transport::WriterEvents events) override {
-    return std::make_unique<FastWriter>(*publisher_, topic_of(endpoint), endpoint, std::move(events));
+    return std::make_unique<FastWriter>(publisher_in(endpoint.partitions), topic_of(endpoint), endpoint,
+                                        std::move(events));
   }
 
   std::unique_ptr<transport::Reader> create_reader(const transport::EndpointDescription& endpoint,
                                                    transport::ReaderEvents events) override {
-    return std::make_unique<FastReader>(*subscriber_, topic_of(endpoint), endpoint, std::move(events));
+    return std::make_unique<FastReader>(subscriber_in(endpoint.partitions), topic_of(endpoint), endpoint,
+                                        std::move(events));
   }
 
  private:
+  // DDS gives partitions to publishers and subscribers: there is one of each for the endpoints that share theirs.
+  dds::Publisher& publisher_in(const std::vector<std::string>& partitions) {
+    const std::lock_guard lock(mutex_);
+    dds::Publisher*& publisher = publishers_[partitions];
+    if (publisher) return *publisher;
+    dds::PublisherQos qos;
+    qos.partition() = partition_qos(partitions);
+    publisher = participant_->create_publisher(qos);
+    if (!publisher) throw transport::TransportError("Fast DDS refused a publisher");
+    return *publisher;
+  }
+
+  dds::Subscriber& subscriber_in(const std::vector<std::string>& partitions) {
+    const std::lock_guard lock(mutex_);
+    dds::Subscriber*& subscriber = subscribers_[partitions];
+    if (subscriber) return *subscriber;
+    dds::SubscriberQos qos;
+    qos.partition() = partition_qos(partitions);
+    subscriber = participant_->create_subscriber(qos);
+    if (!subscriber) throw transport::TransportError("Fast DDS refused a subscriber");
+    return *subscriber;
+  }
+
   // Topics live as long as the participant; both ends of a topic share it.
   dds::Topic& topic_of(const transport::EndpointDescription& endpoint) {
     const std::lock_guard lock(mutex_);
@@ -91,9 +110,9 @@ class FastTransport : public transport::Transport {
   }
 
   dds::DomainParticipant* participant_ = nullptr;
-  dds::Publisher* publisher_ = nullptr;
-  dds::Subscriber* subscriber_ = nullptr;
   std::mutex mutex_;
+  std::map<std::vector<std::string>, dds::Publisher*> publishers_;
+  std::map<std::vector<std::string>, dds::Subscriber*> subscribers_;
   std::map<std::string, dds::Topic*> topics_;
 };
 

@@ -2,42 +2,41 @@
 
 #include <map>
 
+#include "services/vendors/inproc/partitions.hpp"
+
 namespace roci::services::vendors::inproc {
 namespace {
 
-// Topic and type by name, and a reader asks for no more than the writer offers.
+// Topic and type by name, a partition in common, and a reader asks for no more than the writer offers.
 bool match(const transport::EndpointDescription& writer, const transport::EndpointDescription& reader) {
   return writer.topic == reader.topic && writer.type.name == reader.type.name &&
-         writer.type.keyed == reader.type.keyed && writer.qos.reliable >= reader.qos.reliable &&
+         writer.type.keyed == reader.type.keyed && partitions_match(writer.partitions, reader.partitions) &&
+         writer.qos.reliable >= reader.qos.reliable &&
          writer.qos.transient_local >= reader.qos.transient_local;
 }
 
 }  // namespace
 
-void Bus::add(const std::string& partition, const std::shared_ptr<WriterEnd>& writer) {
+void Bus::add(const std::shared_ptr<WriterEnd>& writer) {
   const std::lock_guard lock(mutex_);
-  writers_.push_back({partition, writer});
+  writers_.push_back(writer);
   for (const auto& reader : readers_) {
-    if (reader.partition == partition && match(writer->description(), reader.end->description())) {
-      writer->attach(reader.end);
-    }
+    if (match(writer->description(), reader->description())) writer->attach(reader);
   }
 }
 
-void Bus::add(const std::string& partition, const std::shared_ptr<ReaderEnd>& reader) {
+void Bus::add(const std::shared_ptr<ReaderEnd>& reader) {
   const std::lock_guard lock(mutex_);
-  readers_.push_back({partition, reader});
+  readers_.push_back(reader);
   for (const auto& writer : writers_) {
-    if (writer.partition == partition && match(writer.end->description(), reader->description())) {
-      writer.end->attach(reader);
-    }
+    if (match(writer->description(), reader->description())) writer->attach(reader);
   }
 }
 
 void Bus::remove(const std::shared_ptr<WriterEnd>& writer) {
   {
     const std::lock_guard lock(mutex_);
-    std::erase_if(writers_, [&writer](const auto& entry) { return entry.end == writer; });
+    std::erase(writers_, writer);
   }
   writer->close();
 }
@@ -45,8 +44,8 @@ void Bus::remove(const std::shared_ptr<WriterEnd>& writer) {
 void Bus::remove(const std::shared_ptr<ReaderEnd>& reader) {
   {
     const std::lock_guard lock(mutex_);
-    std::erase_if(readers_, [&reader](const auto& entry) { return entry.end == reader; });
-    for (const auto& writer : writers_) writer.end->detach(reader);
+    std::erase(readers_, reader);
+    for (const auto& writer : writers_) writer->detach(reader);
   }
   reader->close();
 }

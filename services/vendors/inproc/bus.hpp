@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
-#include <string>
 #include <vector>
 
 #include "services/transport/transport.hpp"
@@ -15,8 +14,8 @@ namespace roci::services::vendors::inproc {
 
 class Bus {
  public:
-  void add(const std::string& partition, const std::shared_ptr<WriterEnd>&);
-  void add(const std::string& partition, const std::shared_ptr<ReaderEnd>&);
+  void add(const std::shared_ptr<WriterEnd>&);
+  void add(const std::shared_ptr<ReaderEnd>&);
   void remove(const std::shared_ptr<WriterEnd>&);
   void remove(const std::shared_ptr<ReaderEnd>&);
 
@@ -24,16 +23,10 @@ class Bus {
   std::uint64_t next_id();
 
  private:
-  template <class End>
-  struct Entry {
-    std::string partition;
-    std::shared_ptr<End> end;
-  };
-
   std::mutex mutex_;
   std::uint64_t last_id_ = 0;
-  std::vector<Entry<WriterEnd>> writers_;
-  std::vector<Entry<ReaderEnd>> readers_;
+  std::vector<std::shared_ptr<WriterEnd>> writers_;
+  std::vector<std::shared_ptr<ReaderEnd>> readers_;
 };
 
 /// The bus of a domain lives as long as one of its participants holds it.

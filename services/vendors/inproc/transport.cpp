@@ -46,7 +46,7 @@ class InprocReader : public transport::Reader {
 class InprocTransport : public transport::Transport {
  public:
   explicit InprocTransport(const transport::TransportOptions& options)
-      : domain_(options.domain), partition_(options.partition), bus_(bus_of_domain(options.domain)) {}
+      : domain_(options.domain), bus_(bus_of_domain(options.domain)) {}
 
   std::string_view vendor() const override { return "inproc"; }
 
@@ -57,7 +57,7 @@ class InprocTransport : public transport::Transport {
     auto end =
         std::make_shared<WriterEnd>(description, std::move(events), dispatcher_, id, guid_of(domain_, id));
     auto writer = std::make_unique<InprocWriter>(bus_, end);
-    bus_->add(partition_, end);
+    bus_->add(end);
     return writer;
   }
 
@@ -66,7 +66,7 @@ class InprocTransport : public transport::Transport {
     check_type(description);
     auto end = std::make_shared<ReaderEnd>(description, std::move(events), dispatcher_, bus_->next_id());
     auto reader = std::make_unique<InprocReader>(bus_, end);
-    bus_->add(partition_, end);
+    bus_->add(end);
     return reader;
   }
 
@@ -82,7 +82,6 @@ class InprocTransport : public transport::Transport {
   }
 
   const int domain_;
-  const std::string partition_;
   const std::shared_ptr<Bus> bus_;
   std::mutex mutex_;
   std::map<std::string, std::string> types_;  // of the topics

@@ -95,6 +95,22 @@ TEST_F(ClockMasterTest, ReadersOfGrownStreamsActInTheNextMicroStep) {
   EXPECT_EQ(next.totals()[0].total(), 2U);
 }
 
+TEST(ClockMasterOfRobots, OnlyThoseWhoHearARobotActOnItsInnerStreams) {
+  ClockMaster master("world", {"a", "b", "world"}, 100);
+  master.ready(ready("a", 1, {"t", "t@rover"}));
+  master.ready(ready("b", 1, {"t", "t@lander"}));
+  master.ready(ready("world", 1, {"t", "t@*"}));
+  const auto step = master.issue(0s);
+  master.done(done("a", step, -1, {count("t@rover", "a", 1)}));
+  master.done(done("b", step));
+  master.done(done("world", step));
+  const auto next = master.issue(0s);
+  EXPECT_THAT(next.participants(), ElementsAre("a", "world"));
+  master.done(done("a", next));
+  master.done(done("world", next, -1, {count("t", "world", 1)}));
+  EXPECT_THAT(master.issue(0s).participants(), ElementsAre("a", "b", "world"));
+}
+
 TEST_F(ClockMasterTest, TimeJumpsToTheEarliestWish) {
   const auto step = first_step();
   master.done(done("a", step, 9'000'000));

@@ -88,6 +88,9 @@ TEST_F(ConnectionTest, MistakesAreNamedWithTheirPlace) {
   EXPECT_THAT(error_of(), HasSubstr("network.yaml:2:1: "));
   flags.network = write("network.yaml", "domain: 500\n");
   EXPECT_THAT(error_of(), HasSubstr("network.yaml:1:9: domain 500 is not between 0 and 232"));
+  flags.network = write("network.yaml", "domain: 5\npartition: red\n");
+  EXPECT_THAT(error_of(),
+              HasSubstr("network.yaml:2:12: nobody sets a DDS partition: partitions follow from the robot"));
   flags.network.reset();
   variables["ROCI_DOMAIN"] = "x7";
   EXPECT_THAT(error_of(), HasSubstr("ROCI_DOMAIN: \"x7\" is not a domain number"));

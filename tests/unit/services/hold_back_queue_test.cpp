@@ -5,6 +5,8 @@
 
 #include <random>
 
+#include "services/clock/stream_topic.hpp"
+
 namespace roci::services::clock {
 namespace {
 
@@ -69,6 +71,40 @@ class HoldBackQueueTest : public testing::Test {
   void join() { follower.take(step_with({"a", "b"}, {})); }
   HoldBackQueue follower;
 };
+
+// Inner topics of robots: what another robot's services write never comes, so nobody waits for it.
+TEST(HoldBackQueueOfARobot, WaitsForItsOwnRobotAndForThoseWithoutOne) {
+  HoldBackQueue rover;
+  for (const auto& stream : inner_subscriptions("event", "rover"))
+    rover.subscribe(stream, Durability::volatile_, key_of);
+  rover.take(step_with({"a", "b", "c"}, {}));
+  const auto step =
+      step_with({"a", "b", "c"}, {{"event", "c", 1}, {"event@lander", "b", 1}, {"event@rover", "a", 1}});
+  EXPECT_THAT(rover.missing(step), ElementsAre("event c#1 0/1", "event@rover a#1 0/1"));
+  rover.add("event", header("c", 1), value("x=c"));
+  rover.add("event@rover", header("a", 1), value("x=a"));
+  ASSERT_TRUE(rover.complete(step));
+  EXPECT_THAT(texts(rover.take(step)), ElementsAre("x=a", "x=c")) << "by sender, whatever robot it is of";
+}
+
+TEST(HoldBackQueueOfARobot, WithoutARobotItWaitsForAll) {
+  HoldBackQueue world;
+  for (const auto& topic : {"event", "event/late"}) {
+    for (const auto& stream : inner_subscriptions(topic, ""))
+      world.subscribe(stream, Durability::volatile_, key_of);
+  }
+  world.take(step_with({"a", "b"}, {}));
+  const auto step =
+      step_with({"a", "b"}, {{"event/late", "b", 1}, {"event@lander", "b", 1}, {"event@rover", "a", 1}});
+  EXPECT_EQ(world.missing(step).size(), 3U);
+  world.add("event/late", header("b", 1), value("x=late"));
+  world.add("event@lander", header("b", 1), value("x=b"));
+  world.add("event@rover", header("a", 1), value("x=a"));
+  ASSERT_TRUE(world.complete(step));
+  const auto deliveries = world.take(step);
+  EXPECT_THAT(texts(deliveries), ElementsAre("x=a", "x=b", "x=late")) << "by topic, then by sender";
+  EXPECT_EQ(deliveries.front().topic, "event");
+}
 
 TEST_F(HoldBackQueueTest, IsCompleteWithExactlyTheAnnouncedSamples) {
   join();

@@ -9,6 +9,8 @@
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
 using call::PlanningFailure;
+using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionSource, engine::FunctionUse,
+    engine::FunctionValue, engine::Provenance;
 using task::FunctionId;
 using task::ObjectId;
 using temporal::Verdict;

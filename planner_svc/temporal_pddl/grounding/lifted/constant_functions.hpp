@@ -8,18 +8,12 @@
 #include <vector>
 
 #include "core/pddl/ast.hpp"
-#include "planner_svc/function_source.hpp"
+#include "planner_svc/engine/function_source.hpp"
 #include "planner_svc/temporal_pddl/grounding/lifted/lifted.hpp"
 #include "planner_svc/temporal_pddl/grounding/lifted/symbols.hpp"
 #include "planner_svc/temporal_pddl/grounding/lifted/tuple_table.hpp"
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
-
-/// Holds one tuple that was asked for, and what its owner said.
-struct FunctionUse {
-  FunctionCall call;
-  FunctionValue answer;
-};
 
 /// Knows the value of each constant function on each tuple.
 class ConstantFunctions {
@@ -31,8 +25,8 @@ class ConstantFunctions {
   /// Asks `source` for all external functions on all typed tuples, one batch per function (R37), and appends
   /// every tuple with its answer to `used`. Throws ModelFailure (function_unavailable), naming function and
   /// tuple, if an answer is neither a value nor "unreachable", and PlanningFailure (cancelled).
-  void load_external(FunctionSource& source, const std::function<bool()>& cancelled, const Symbols& symbols,
-                     std::vector<FunctionUse>& used);
+  void load_external(engine::FunctionSource& source, const std::function<bool()>& cancelled,
+                     const Symbols& symbols, std::vector<engine::FunctionUse>& used);
 
   bool is_constant(task::FunctionId function) const { return constant_[function]; }
   /// Returns nothing if the constant is undefined or unreachable there, so that no action instance can use

@@ -114,10 +114,9 @@ void ScriptedWorld::note(const Outputs& outputs) {
     if (!command.arguments.empty()) arguments[command.activity] = command.arguments.front().value;
     answer(command);
   }
-  static constexpr std::array recovery_actions{"push", "retry", "contingency"};
   for (const RecoveryStep& recovery : outputs.recoveries)
-    recoveries.push_back(at + recovery_actions.at(static_cast<std::size_t>(recovery.action)) + " " +
-                         recovery.activity + ": " + recovery.reason);
+    recoveries.push_back(at + std::string(to_string(recovery.action)) + " " + recovery.activity + ": " +
+                         recovery.reason);
   for (const DecisionRequest& request : outputs.decision_requests) {
     std::string line = at + "ask " + request.resolver + ": " + request.decision + "?";
     for (const std::string& choice : request.choices) line += " " + choice;

@@ -4,10 +4,13 @@
 #include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
 
 namespace roci::planner::temporal_pddl {
+
+using engine::NoFunctions;
+
 namespace {
 
-using extraction::to_ipc;
 using call::Budget, call::Monitor, call::Options, call::Statistics;
+using extraction::to_ipc;
 using temporal::Verdict;
 
 // Counts x up to a goal that needs many steps, without an end if the goal is out of reach.

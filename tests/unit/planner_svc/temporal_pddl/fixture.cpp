@@ -5,10 +5,11 @@
 
 namespace roci::planner::temporal_pddl::testing {
 
-using grounding::ground;
 using call::Budget, call::Monitor, call::Options, call::SearchLimits;
+using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionSource, engine::FunctionUse,
+    engine::FunctionValue, engine::NoFunctions;
+using grounding::ground;
 using grounding::Grounding;
-using grounding::lifted::FunctionUse;
 using task::ActionId, task::FactId, task::NumberId, task::Task;
 
 Model model(const std::string& domain, const std::string& problem) {

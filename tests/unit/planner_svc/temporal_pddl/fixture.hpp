@@ -19,21 +19,21 @@ struct Model {
 Model model(const std::string& domain, const std::string& problem);
 
 // Answers from a map by application, "(f a b)"; what is not in it is unavailable. Counts batches and calls.
-class MapFunctions final : public FunctionSource {
+class MapFunctions final : public engine::FunctionSource {
  public:
-  std::map<std::string, FunctionValue> answers;
+  std::map<std::string, engine::FunctionValue> answers;
   std::size_t batches = 0;
   std::size_t calls = 0;
 
   void set(const std::string& application, double value);
-  void set(const std::string& application, FunctionOutcome outcome);
-  std::vector<FunctionValue> evaluate(std::span<const FunctionCall> asked,
-                                      const std::function<bool()>& cancelled) override;
+  void set(const std::string& application, engine::FunctionOutcome outcome);
+  std::vector<engine::FunctionValue> evaluate(std::span<const engine::FunctionCall> asked,
+                                              const std::function<bool()>& cancelled) override;
 };
 
 grounding::Grounding grounded(const Model& model, const call::Options& options = {});
 Result solved(const Model& model, const call::Options& options = {}, const call::Budget& budget = {});
-Result solved(const Model& model, FunctionSource& functions, const call::Options& options = {});
+Result solved(const Model& model, engine::FunctionSource& functions, const call::Options& options = {});
 
 // The ids of a grounding's things by their names; none if there are none.
 task::FactId fact(const task::Task& task, const std::string& name);

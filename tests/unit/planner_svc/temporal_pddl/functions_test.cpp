@@ -6,9 +6,12 @@
 #include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
 
 namespace roci::planner::temporal_pddl {
+
+using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionSource, engine::FunctionUse,
+    engine::FunctionValue;
+
 namespace {
 
-using grounding::lifted::FunctionUse;
 using temporal::Verdict;
 using testing::MapFunctions;
 

@@ -12,17 +12,20 @@
 #include "tests/unit/planner_svc/temporal_pddl/validated.hpp"
 
 namespace roci::planner::temporal_pddl {
+
+using engine::NoFunctions;
+
 namespace {
 
-using extraction::to_ipc;
-using improvement::eliminate_useless_actions;
-using improvement::quality_of;
-using dead_ends::DeadEndDetectors;
 using call::Budget, call::Monitor, call::Options, call::SearchLimits, call::Statistics;
 using constraints::ReleaseTimes;
+using dead_ends::DeadEndDetectors;
 using extraction::Activity;
+using extraction::to_ipc;
 using heuristics::CostMeasure, heuristics::FfHeuristic;
+using improvement::eliminate_useless_actions;
 using improvement::LargeNeighbourhoodSearch, improvement::PlanReplay, improvement::RelaxedSchedule;
+using improvement::quality_of;
 using search::Guide;
 using task::Action, task::SnapId, task::Task, task::Word;
 using temporal::Duration, temporal::Verdict, temporal::no_bound;

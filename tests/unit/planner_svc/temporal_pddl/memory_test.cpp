@@ -35,6 +35,9 @@ void operator delete(void* memory) noexcept { give_back(memory); }
 void operator delete(void* memory, std::size_t) noexcept { give_back(memory); }
 
 namespace roci::planner::temporal_pddl {
+
+using engine::NoFunctions;
+
 namespace {
 
 using call::Budget;

@@ -8,6 +8,9 @@
 #include "tests/unit/planner_svc/temporal_pddl/validated.hpp"
 
 namespace roci::planner::temporal_pddl {
+
+using engine::FunctionOutcome;
+
 namespace {
 
 using temporal::Verdict;

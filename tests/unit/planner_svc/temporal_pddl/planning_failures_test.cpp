@@ -6,6 +6,9 @@
 #include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
 
 namespace roci::planner::temporal_pddl {
+
+using engine::NoFunctions;
+
 namespace {
 
 using temporal::Verdict;

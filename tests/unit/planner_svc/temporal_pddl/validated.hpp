@@ -13,10 +13,10 @@ namespace roci::planner::temporal_pddl::testing {
 inline void expect_valid(const Model& model, const Result& result, const call::Options& options = {}) {
   ASSERT_EQ(result.verdict, temporal::Verdict::solved) << result.reason;
   pddl::FunctionTable table;
-  for (const grounding::lifted::FunctionUse& use : result.functions) {
+  for (const engine::FunctionUse& use : result.functions) {
     std::string application = "(" + use.call.function;
     for (const auto& argument : use.call.arguments) application += " " + argument;
-    const bool value = use.answer.outcome == FunctionOutcome::value;
+    const bool value = use.answer.outcome == engine::FunctionOutcome::value;
     table[application + ")"] = value ? std::optional(use.answer.value) : std::nullopt;
   }
   const auto steps = pddl::parse_plan(to_ipc(*result.plan), "plan");

@@ -1,4 +1,4 @@
-#include "exec_svc/standby/pair_service.hpp"
+#include "exec_svc/pair_service.hpp"
 
 #include <chrono>
 #include <condition_variable>
@@ -10,18 +10,29 @@
 #include "exec_svc/standby/follower_service.hpp"
 #include "exec_svc/standby/leader_service.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
+#include "exec_svc/wire_service.hpp"
 #include "services/health/watchdog_notifier.hpp"
 #include "services/log/log.hpp"
 #include "services/node.hpp"
 #include "services/process/service_options.hpp"
 #include "services/process/stop_signals.hpp"
+#include "services/publisher.hpp"
 #include "services/transport/transport.hpp"
 
-namespace roci::exec::standby {
+namespace roci::exec {
 
 using journal::Durability;
 using journal::Journal;
 using mission::read_mission;
+using standby::FollowerService;
+using standby::LeaderService;
+using standby::Lease;
+using standby::LeaseSettings;
+using standby::Member;
+using standby::member_of;
+using standby::moment;
+using standby::PersistedTermFile;
+using standby::StandDown;
 
 namespace {
 
@@ -110,7 +121,7 @@ class PairProcess {
  private:
   void log(const Lease::Turn& turn, const Lease& lease) const {
     services::log::info("exec_svc (" + options_.run.pair + ") leads in epoch " +
-                       std::to_string(lease.epoch()) + ": " + turn.reason);
+                        std::to_string(lease.epoch()) + ": " + turn.reason);
   }
 
   // Opens the transport. A member that was connected before waits for its network to come back. Returns null
@@ -124,7 +135,8 @@ class PairProcess {
         return transport;
       } catch (const services::transport::TransportError& error) {
         if (!connected_before_) throw;
-        if (!std::exchange(told, true)) services::log::warning(std::string("exec_svc waits: ") + error.what());
+        if (!std::exchange(told, true))
+          services::log::warning(std::string("exec_svc waits: ") + error.what());
       }
     }
     return nullptr;
@@ -138,7 +150,9 @@ class PairProcess {
     options.name += "." + options_.run.pair;
     options.clock = services::clock::ClockMode::observer;
     services::Node node(options, std::move(transport));
-    FollowerService following(node, options_.node.name, lease, journal_, persisted_term_);
+    const auto goals = services::advertise(node, services::topics::goal);
+    FollowerService following(node, options_.node.name, lease, journal_, persisted_term_,
+                              [&goals](const goals::GoalRequest& goal) { goals.write(to_wire(goal)); });
     node.on_turn([this] { watchdog_.notify(); });
     const InterruptibleNode reach(stop_, node);
     node.run();
@@ -185,4 +199,4 @@ void run_pair(const services::process::ServiceOptions& options, services::proces
   PairProcess(options, signals).run();
 }
 
-}  // namespace roci::exec::standby
+}  // namespace roci::exec

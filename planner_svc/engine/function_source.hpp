@@ -1,4 +1,4 @@
-// Where the planner's engines get the values of external functions (R35, R36): in batches, from whoever owns
+// Where engines get the values of external functions (R35, R36): in batches, from whoever owns
 // them.
 //
 // The interface is synchronous and holds no clock: a source that asks another process waits there under its
@@ -13,7 +13,7 @@
 
 #include "core/temporal/duration.hpp"
 
-namespace roci::planner {
+namespace roci::planner::engine {
 
 /// One tuple of one function of one module.
 struct FunctionCall {
@@ -54,6 +54,12 @@ struct FunctionValue {
   std::string reason;  ///< the owner's own words, may be empty
 };
 
+/// One tuple that was asked for, and what its owner said.
+struct FunctionUse {
+  FunctionCall call;
+  FunctionValue answer;
+};
+
 class FunctionSource {
  public:
   virtual ~FunctionSource() = default;
@@ -72,4 +78,4 @@ class NoFunctions final : public FunctionSource {
                                       const std::function<bool()>& cancelled) override;
 };
 
-}  // namespace roci::planner
+}  // namespace roci::planner::engine

@@ -4,9 +4,9 @@
 #include "services/process/service_options.hpp"
 #include "services/process/stop_signals.hpp"
 
-namespace roci::exec::standby {
+namespace roci::exec {
 
 /// Runs one member; RunSettings::pair says which one it is, and both may have the same run folder.
 void run_pair(const services::process::ServiceOptions& options, services::process::StopSignals& signals);
 
-}  // namespace roci::exec::standby
+}  // namespace roci::exec

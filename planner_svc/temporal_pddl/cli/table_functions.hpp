@@ -4,22 +4,22 @@
 #include <string>
 
 #include "core/pddl/function_table.hpp"
-#include "planner_svc/function_source.hpp"
+#include "planner_svc/engine/function_source.hpp"
 
-namespace roci::planner::cli {
+namespace roci::planner::temporal_pddl::cli {
 
 /// Tuples that are not in the table are unavailable. `owner` is given as who says so.
-class TableFunctions final : public FunctionSource {
+class TableFunctions final : public engine::FunctionSource {
  public:
   TableFunctions(pddl::FunctionTable table, std::string owner)
       : table_(std::move(table)), owner_(std::move(owner)) {}
 
-  std::vector<FunctionValue> evaluate(std::span<const FunctionCall> calls,
-                                      const std::function<bool()>& cancelled) override;
+  std::vector<engine::FunctionValue> evaluate(std::span<const engine::FunctionCall> calls,
+                                              const std::function<bool()>& cancelled) override;
 
  private:
   pddl::FunctionTable table_;
   std::string owner_;
 };
 
-}  // namespace roci::planner::cli
+}  // namespace roci::planner::temporal_pddl::cli

@@ -19,22 +19,24 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pddl/check.hpp"
-#include "planner_svc/cli/table_functions.hpp"
+#include "planner_svc/temporal_pddl/cli/table_functions.hpp"
 #include "planner_svc/temporal_pddl/extraction/plan_text.hpp"
 #include "planner_svc/temporal_pddl/planner.hpp"
 
-namespace roci::planner::cli {
+namespace roci::planner::temporal_pddl::cli {
+
+using engine::FunctionSource, engine::NoFunctions;
+
 namespace {
 
+using call::Budget;
+using call::Monitor;
+using call::Options;
+using call::Statistics;
+using call::WindowExtraction;
+using extraction::Plan;
+using extraction::to_ipc;
 using temporal::Verdict;
-using temporal_pddl::Result;
-using temporal_pddl::call::Budget;
-using temporal_pddl::call::Monitor;
-using temporal_pddl::call::Options;
-using temporal_pddl::call::Statistics;
-using temporal_pddl::call::WindowExtraction;
-using temporal_pddl::extraction::Plan;
-using temporal_pddl::extraction::to_ipc;
 
 constexpr int kUsageError = 64;
 
@@ -237,6 +239,6 @@ int run_command_line(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace roci::planner::cli
+}  // namespace roci::planner::temporal_pddl::cli
 
-int main(int argc, char** argv) { return roci::planner::cli::run_command_line(argc, argv); }
+int main(int argc, char** argv) { return roci::planner::temporal_pddl::cli::run_command_line(argc, argv); }

@@ -1,6 +1,8 @@
-#include "planner_svc/cli/table_functions.hpp"
+#include "planner_svc/temporal_pddl/cli/table_functions.hpp"
 
-namespace roci::planner::cli {
+namespace roci::planner::temporal_pddl::cli {
+
+using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionValue;
 
 std::vector<FunctionValue> TableFunctions::evaluate(std::span<const FunctionCall> calls,
                                                     const std::function<bool()>&) {
@@ -20,4 +22,4 @@ std::vector<FunctionValue> TableFunctions::evaluate(std::span<const FunctionCall
   return answers;
 }
 
-}  // namespace roci::planner::cli
+}  // namespace roci::planner::temporal_pddl::cli

@@ -1,6 +1,6 @@
-#include "planner_svc/function_source.hpp"
+#include "planner_svc/engine/function_source.hpp"
 
-namespace roci::planner {
+namespace roci::planner::engine {
 
 const char* to_string(FunctionOutcome outcome) {
   switch (outcome) {
@@ -29,4 +29,4 @@ std::vector<FunctionValue> NoFunctions::evaluate(std::span<const FunctionCall> c
   return std::vector<FunctionValue>(calls.size());
 }
 
-}  // namespace roci::planner
+}  // namespace roci::planner::engine

@@ -1,0 +1,51 @@
+// What an engine answers to a request.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/temporal/flexible_plan.hpp"
+#include "core/temporal/verdict.hpp"
+
+namespace roci::planner::engine {
+
+/// A goal that stands in the way of a plan, and what it lacks.
+struct BlockingGoal {
+  std::string issuer;
+  std::string id;
+  std::string timeline;  ///< that nothing brings about, or that runs out; empty: not known
+  std::string reason;    ///< in words
+  friend bool operator==(const BlockingGoal&, const BlockingGoal&) = default;
+};
+
+/// Work that does not depend on the machine, but for `bytes_per_state`.
+struct Statistics {
+  std::uint64_t expanded = 0;
+  std::uint64_t evaluated = 0;  ///< the simulated duration of a call counts these
+  std::uint64_t function_tuples = 0;
+  double bytes_per_state = 0;
+  bool from_remaining = false;  ///< whether the first plan was made of what remained of an earlier one
+};
+
+/// A file by which a call can be made again without the service: N.pddl, N.values.
+struct RecordFile {
+  std::string ending;  ///< with its dot
+  std::string text;
+};
+
+struct Answer {
+  temporal::Verdict verdict = temporal::Verdict::crashed;
+  std::string reason;  ///< in words, with file, line and column where the input is at fault
+  /// With unsolvable: the goals that are out of reach; none: all together are.
+  std::vector<BlockingGoal> blocking;
+  std::optional<temporal::FlexiblePlan> plan;  ///< is there with solved alone
+  Statistics statistics;
+  std::vector<RecordFile> record;
+};
+
+/// An answer without a plan.
+Answer without_plan(temporal::Verdict verdict, std::string reason);
+
+}  // namespace roci::planner::engine

@@ -1,0 +1,36 @@
+// The independent check that every plan of an engine passes before it leaves the planner.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/temporal/flexible_plan.hpp"
+#include "core/temporal/projection.hpp"
+#include "planner_svc/engine/function_source.hpp"
+#include "planner_svc/engine/request.hpp"
+
+namespace roci::planner::engine {
+
+/// A plan with all that it must fit.
+struct CheckedPlan {
+  const Request& request;
+  std::span<const FunctionUse> values;  ///< as the owners gave them in this call
+  const temporal::FlexiblePlan& plan;
+  const temporal::FlexiblePlan* before = nullptr;  ///< the version that it changes; null: there is none
+  /// How far the executed version has come; null: none is executed.
+  const temporal::Progress* progress = nullptr;
+};
+
+/// Shares no more with its engine than the reader of the model, so that a fault of the engine cannot hide
+/// itself.
+class Checker {
+ public:
+  virtual ~Checker() = default;
+
+  /// Everything that is wrong with the plan as an answer to the request, one plain sentence each; empty: it
+  /// may be sent. It may throw: then the plan is not sent either.
+  virtual std::vector<std::string> faults(const CheckedPlan& checked) const = 0;
+};
+
+}  // namespace roci::planner::engine

@@ -1,0 +1,33 @@
+#include "planner_svc/engine_host_service.hpp"
+
+#include <optional>
+
+#include "planner_svc/answering_host_service.hpp"
+#include "planner_svc/settings.hpp"
+#include "planner_svc/stepped_host_service.hpp"
+
+namespace roci::planner {
+namespace {
+
+class EngineHost final : public services::Service {
+ public:
+  EngineHost(services::Node& node, const services::RunSettings& run, const engine::Table& table)
+      : settings_(read_settings(run.mission_file())), answering_(node, run, settings_, table) {
+    if (engine::stepped_named(table, settings_.engine) != nullptr)
+      stepped_.emplace(node, settings_, table.at(settings_.engine));
+  }
+
+ private:
+  Settings settings_;
+  AnsweringHost answering_;
+  std::optional<SteppedHost> stepped_;
+};
+
+}  // namespace
+
+std::unique_ptr<services::Service> host_engines(services::Node& node, const services::RunSettings& settings,
+                                                const engine::Table& table) {
+  return std::make_unique<EngineHost>(node, settings, table);
+}
+
+}  // namespace roci::planner

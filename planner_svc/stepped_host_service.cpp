@@ -1,0 +1,245 @@
+#include "planner_svc/stepped_host_service.hpp"
+
+#include <algorithm>
+#include <exception>
+
+#include "planner_svc/engine/checked_answer.hpp"
+#include "planner_svc/wire_service.hpp"
+#include "services/wire/plan_wire.hpp"
+
+namespace roci::planner {
+
+using engine::BlockingGoal, engine::GoalState, engine::MakeStepped, engine::Receipt, engine::StepInputs;
+using temporal::FlexiblePlan, temporal::PlanDelta, temporal::Time;
+
+namespace {
+
+namespace topics = services::topics;
+
+bool is_open(GoalState state) { return state == GoalState::pending || state == GoalState::planned; }
+
+std::string version_text(std::uint32_t version) { return "version " + std::to_string(version); }
+
+}  // namespace
+
+SteppedHost::SteppedHost(services::Node& node, const Settings& settings, const engine::TableEntry& entry)
+    : node_(node),
+      entry_(entry),
+      setup_{settings.engine, node.options().robot, settings.model},
+      engine_(std::get<MakeStepped>(entry.make)(setup_)),
+      checker_(entry.make_checker()),
+      deltas_(services::advertise(node, topics::plan_delta)),
+      events_(services::advertise(node, topics::event)),
+      worker_(node) {
+  subscribe_all();
+  step_soon();
+}
+
+void SteppedHost::subscribe_all() {
+  services::subscribe(node_, topics::goal, [this](const v1::Goal& goal) { hear_goal(goal); });
+  services::subscribe(node_, topics::goal_status,
+                      [this](const v1::GoalStatus& status) { hear_status(status); });
+  services::subscribe(node_, topics::plan, [this](const v1::Plan& plan) { hear_plan(plan); });
+  services::subscribe(node_, topics::plan_receipt, [this](const v1::PlanReceipt& receipt) {
+    if (is_ours(receipt.header())) hear_receipt(from_wire(receipt));
+  });
+  services::subscribe(node_, topics::step_status, [this](const v1::StepStatus& step) {
+    if (!is_ours(step.header())) return;
+    heard_.steps.push_back(from_wire(step));
+    progress_.insert_or_assign(step.activity(), heard_.steps.back().progress);
+    step_soon();
+  });
+  services::subscribe(node_, topics::observation, [this](const v1::Observation& observation) {
+    try {
+      heard_.observations.push_back(from_wire(observation));
+    } catch (const services::wire::WireError&) {
+      return;  // the executive tells it
+    }
+    state_.insert_or_assign(observation.timeline(), heard_.observations.back().value);
+    step_soon();
+  });
+}
+
+// Team topics carry the words of all robots.
+bool SteppedHost::is_ours(const v1::SampleHeader& header) const {
+  return setup_.robot.empty() || header.robot().empty() || header.robot() == setup_.robot;
+}
+
+void SteppedHost::hear_goal(const v1::Goal& goal) {
+  if (!setup_.robot.empty() && !goal.robot().empty() && goal.robot() != setup_.robot) return;
+  HeardGoal& heard = goals_[{goal.issuer(), goal.id()}];
+  engine::Goal now = from_wire(goal);
+  const bool changed = heard.goal != now;
+  heard.goal = std::move(now);
+  note_goal({goal.issuer(), goal.id()}, heard, changed);
+}
+
+void SteppedHost::hear_status(const v1::GoalStatus& status) {
+  if (!is_ours(status.header())) return;
+  HeardGoal& heard = goals_[{status.issuer(), status.id()}];
+  heard.state = static_cast<GoalState>(std::min<std::uint32_t>(status.goal_state(), v1::GOAL_RECALLED));
+  note_goal({status.issuer(), status.id()}, heard, false);
+}
+
+// A goal is the engine's from the executive's word that it is open to its word that it is not.
+void SteppedHost::note_goal(const Key& key, HeardGoal& heard, bool changed) {
+  const bool open = heard.goal && heard.state && is_open(*heard.state);
+  if (open && (changed || !heard.told)) {
+    heard.told = true;
+    heard_.goals.push_back(*heard.goal);
+    step_soon();
+  } else if (!open && heard.told) {
+    heard.told = false;
+    heard_.ended_goals.push_back({key.first, key.second, *heard.state});
+    step_soon();
+  }
+}
+
+// A version that this process did not send was made before its restart.
+void SteppedHost::hear_plan(const v1::Plan& plan) {
+  if (!is_ours(plan.header()) || plan.engine() != setup_.engine) return;
+  last_version_ = std::max(last_version_, plan.version());
+  if (history_.version(plan.version()) != nullptr) return;
+  try {
+    heard_.executed = services::wire::from_wire(plan);
+  } catch (const services::wire::WireError&) {
+    return;
+  }
+  history_.keep(*heard_.executed);
+  take_receipt();
+  step_soon();
+}
+
+void SteppedHost::hear_receipt(const Receipt& receipt) {
+  newest_ = receipt;
+  last_version_ = std::max({last_version_, receipt.version, receipt.refused});
+  take_receipt();
+}
+
+// It is no use before the version that it speaks of is known.
+void SteppedHost::take_receipt() {
+  if (!newest_ || (newest_->version != 0 && history_.version(newest_->version) == nullptr)) return;
+  heard_.receipt = newest_;
+  if (newest_->version != 0) {
+    history_.forget_before(newest_->version);
+  } else {
+    progress_.clear();
+  }
+  step_soon();
+}
+
+void SteppedHost::step_soon() {
+  if (due_ || stepping_) return;  // the end of a step looks for what came meanwhile
+  due_ = true;
+  node_.at(node_.now(), [this] { begin_step(); });
+}
+
+void SteppedHost::begin_step() {
+  due_ = false;
+  if (stepping_) return;
+  stepping_ = true;
+  if (wake_) node_.cancel(*std::exchange(wake_, std::nullopt));
+  StepInputs inputs = std::exchange(heard_, {});
+  inputs.now = node_.now();
+  inputs.last_version = last_version_;
+  worker_.compute(
+      [engine = engine_, inputs = std::move(inputs)](const std::stop_token&) {
+        StepResult result;
+        try {
+          result.output = engine->step(inputs);
+        } catch (const std::exception& error) {
+          result.error = error.what();
+        }
+        return result;
+      },
+      [this, now = node_.now()](StepResult result) { end_step(now, std::move(result)); });
+}
+
+void SteppedHost::end_step(Time now, StepResult result) {
+  stepping_ = false;
+  const bool heard_more = !heard_.goals.empty() || !heard_.ended_goals.empty() ||
+                          !heard_.observations.empty() || !heard_.steps.empty() || heard_.receipt ||
+                          heard_.executed;
+  if (!result.error.empty()) {
+    report(v1::SEVERITY_ERROR, "planner.defect",
+           "engine '" + setup_.engine + "' failed and is made anew: " + result.error);
+    make_anew();
+  } else {
+    if (result.output.delta) send(now, *result.output.delta);
+    tell_blocking(std::move(result.output.blocking));
+    const auto wake = result.output.wake;
+    if (wake && *wake > node_.now())
+      wake_ = node_.at(*wake, [this] {
+        wake_.reset();
+        begin_step();
+      });
+  }
+  if (heard_more) step_soon();
+}
+
+void SteppedHost::send(Time now, const PlanDelta& delta) {
+  FlexiblePlan next;
+  const std::string refusal = refusal_of(now, delta, next);
+  last_version_ = std::max(last_version_, delta.added.version);
+  if (refusal.empty()) {
+    deltas_.write(services::wire::to_wire(delta));
+    history_.keep(std::move(next));
+    return;
+  }
+  report(v1::SEVERITY_ERROR, "planner.defect",
+         version_text(delta.added.version) + " of engine '" + setup_.engine + "' is " + refusal);
+  // The engine hears it with its next step, which this alone does not bring about: a defect must not spin.
+  heard_.receipt = newest_.value_or(Receipt{});
+  heard_.receipt->refused = delta.added.version;
+  heard_.receipt->reason = refusal;
+}
+
+std::string SteppedHost::refusal_of(Time now, const PlanDelta& delta, FlexiblePlan& next) const {
+  if (delta.added.version <= last_version_)
+    return "not above " + version_text(last_version_) + ", the newest there was";
+  if (std::string fault = history_.apply(delta, next); !fault.empty()) return "no change of a plan: " + fault;
+  engine::Request situation;
+  situation.engine = setup_.engine;
+  situation.robot = setup_.robot;
+  situation.origin = now;
+  situation.model = setup_.model;
+  situation.state = state_;
+  for (const auto& [key, heard] : goals_)
+    if (heard.told) situation.goals.push_back(*heard.goal);
+  const FlexiblePlan* before = history_.version(delta.from_version);
+  return engine::refusal_of(*checker_, {situation, {}, next, before, before ? &progress_ : nullptr});
+}
+
+// The new engine hears again all that still counts, with the next thing that is heard.
+void SteppedHost::make_anew() {
+  engine_ = std::get<MakeStepped>(entry_.make)(setup_);
+  heard_ = {};
+  for (const auto& [key, heard] : goals_)
+    if (heard.told) heard_.goals.push_back(*heard.goal);
+  for (const auto& [timeline, value] : state_) heard_.observations.push_back({timeline, value, node_.now()});
+  heard_.receipt = newest_;
+  if (newest_ && newest_->version != 0)
+    if (const FlexiblePlan* executed = history_.version(newest_->version)) heard_.executed = *executed;
+  for (const auto& [activity, progress] : progress_)
+    heard_.steps.push_back({newest_ ? newest_->version : 0, activity, progress, ""});
+}
+
+void SteppedHost::tell_blocking(std::vector<BlockingGoal> blocking) {
+  for (const BlockingGoal& goal : blocking) {
+    if (std::ranges::find(blocking_, goal) != blocking_.end()) continue;
+    report(v1::SEVERITY_WARNING, "planner.blocked",
+           "goal " + goal.issuer + "/" + goal.id +
+               " cannot be planned: " + (goal.timeline.empty() ? "" : goal.timeline + ": ") + goal.reason);
+  }
+  blocking_ = std::move(blocking);
+}
+
+void SteppedHost::report(v1::Severity severity, const std::string& code, const std::string& text) {
+  v1::Event event;
+  event.severity_level(severity);
+  event.code(code);
+  event.text(text);
+  events_.write(std::move(event));
+}
+
+}  // namespace roci::planner

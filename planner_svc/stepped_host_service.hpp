@@ -1,0 +1,87 @@
+// Steps an engine that plans all the time, and sends the versions of its plan.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner_svc/engine/plan_history.hpp"
+#include "planner_svc/engine/table.hpp"
+#include "planner_svc/settings.hpp"
+#include "roci_idl/goal.h"
+#include "roci_idl/health.h"
+#include "roci_idl/plan.h"
+#include "roci_idl/planner.h"
+#include "services/publisher.hpp"
+#include "services/worker.hpp"
+
+namespace roci::planner {
+
+/// What is heard within one turn of the loop is one step. Under the simulated clock steps have their place in
+/// mission time and take none of it. A version that the engine's checker refuses is told (event
+/// "planner.defect") and never sent.
+class SteppedHost {
+ public:
+  /// All outlive this. `entry` makes an engine that plans all the time. Throws what it throws.
+  SteppedHost(services::Node& node, const Settings& settings, const engine::TableEntry& entry);
+  SteppedHost(const SteppedHost&) = delete;
+  SteppedHost& operator=(const SteppedHost&) = delete;
+
+ private:
+  using Key = std::pair<std::string, std::string>;  // issuer, id
+  struct HeardGoal {
+    std::optional<engine::Goal> goal;
+    std::optional<engine::GoalState> state;  // as the executive says
+    bool told = false;                       // to the engine, as open
+  };
+  struct StepResult {
+    engine::StepOutput output;
+    std::string error;  // what the engine threw
+  };
+
+  void subscribe_all();
+  bool is_ours(const v1::SampleHeader& header) const;
+  void hear_goal(const v1::Goal& goal);
+  void hear_status(const v1::GoalStatus& status);
+  void note_goal(const Key& key, HeardGoal& heard, bool changed);
+  void hear_plan(const v1::Plan& plan);
+  void hear_receipt(const engine::Receipt& receipt);
+  void take_receipt();
+  void step_soon();
+  void begin_step();
+  void end_step(temporal::Time now, StepResult result);
+  void send(temporal::Time now, const temporal::PlanDelta& delta);
+  std::string refusal_of(temporal::Time now, const temporal::PlanDelta& delta,
+                         temporal::FlexiblePlan& next) const;
+  void make_anew();
+  void tell_blocking(std::vector<engine::BlockingGoal> blocking);
+  void report(v1::Severity severity, const std::string& code, const std::string& text);
+
+  services::Node& node_;
+  const engine::TableEntry& entry_;
+  engine::Setup setup_;
+  std::shared_ptr<engine::SteppedEngine> engine_;
+  std::unique_ptr<engine::Checker> checker_;
+  services::Publisher<v1::PlanDelta> deltas_;
+  services::Publisher<v1::Event> events_;
+
+  engine::StepInputs heard_;               // since the step before
+  std::map<Key, HeardGoal> goals_;         // all of this run
+  engine::Timelines state_;                // newest observations
+  temporal::Progress progress_;            // of the executed version
+  std::optional<engine::Receipt> newest_;  // receipt
+  engine::PlanHistory history_;
+  std::uint32_t last_version_ = 0;
+  std::vector<engine::BlockingGoal> blocking_;  // as told
+
+  bool due_ = false;       // a step comes in this turn
+  bool stepping_ = false;  // one is under way
+  std::optional<services::Node::TimerId> wake_;
+  services::Worker worker_;
+};
+
+}  // namespace roci::planner

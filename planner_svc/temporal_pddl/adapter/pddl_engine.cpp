@@ -1,0 +1,98 @@
+#include "planner_svc/temporal_pddl/adapter/pddl_engine.hpp"
+
+#include <exception>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "core/pddl/function_table.hpp"
+#include "core/pddl/parser.hpp"
+#include "core/pddl/plan_text.hpp"
+#include "planner_svc/temporal_pddl/extraction/flexible_plan_export.hpp"
+#include "planner_svc/temporal_pddl/planner.hpp"
+
+namespace roci::planner::temporal_pddl::adapter {
+
+using call::Budget, call::Monitor, call::Options;
+using engine::Answer, engine::FunctionOutcome, engine::FunctionSource, engine::FunctionUse, engine::Limits,
+    engine::RemainingAction, engine::Request;
+using temporal::Verdict;
+
+namespace {
+
+// Evaluations spent on better plans once there is one: some 60 ms in the missions at hand.
+constexpr std::size_t kImprovementEvaluations = 1000;
+
+std::vector<pddl::PlanStep> steps_of(const std::vector<RemainingAction>& remaining) {
+  std::vector<pddl::PlanStep> out;
+  out.reserve(remaining.size());
+  for (const RemainingAction& action : remaining) {
+    pddl::PlanStep step;
+    step.start = action.start;
+    step.duration = action.duration;
+    step.action.symbol = action.name;
+    for (const std::string& object : action.arguments) step.action.arguments.push_back({object, {}});
+    out.push_back(std::move(step));
+  }
+  return out;
+}
+
+// A tuple without a value stands in it as unreachable.
+pddl::FunctionTable table_of(const std::vector<FunctionUse>& uses) {
+  pddl::FunctionTable table;
+  for (const FunctionUse& use : uses) {
+    std::string application = "(" + use.call.function;
+    for (const std::string& argument : use.call.arguments) application += " " + argument;
+    const bool has_value = use.answer.outcome == FunctionOutcome::value;
+    table[application + ")"] = has_value ? std::optional(use.answer.value) : std::nullopt;
+  }
+  return table;
+}
+
+Answer plan_for(const Request& request, const Limits& limits, FunctionSource& functions,
+                const std::vector<pddl::PlanStep>& remaining, std::vector<FunctionUse>& used) {
+  const pddl::Domain domain = pddl::parse_domain(request.model, "domain");
+  const pddl::Problem problem = pddl::parse_problem(request.problem_text, "problem");
+  Budget budget;
+  if (request.work != 0) budget.evaluations = request.work;
+  if (request.memory_bytes != 0) budget.memory_bytes = request.memory_bytes;
+  budget.out_of_time = limits.out_of_time;
+  Monitor monitor;
+  monitor.cancelled = limits.cancelled;
+  Options options;
+  options.improvement_evaluations = kImprovementEvaluations;
+  Result result = temporal_pddl::plan(domain, problem, functions, budget, monitor, options, remaining);
+  Answer out;
+  out.verdict = result.verdict;
+  out.reason = std::move(result.reason);
+  out.statistics.expanded = result.statistics.expanded;
+  out.statistics.evaluated = result.statistics.evaluated;
+  out.statistics.bytes_per_state = result.statistics.bytes_per_state;
+  out.statistics.from_remaining = result.statistics.from_remaining;
+  if (result.plan) out.plan = export_plan(*result.plan, result.functions);
+  used = std::move(result.functions);
+  return out;
+}
+
+}  // namespace
+
+Answer PddlEngine::answer(const Request& request, const Limits& limits, FunctionSource& functions) {
+  const std::vector<pddl::PlanStep> remaining = steps_of(request.remaining);
+  std::vector<FunctionUse> used;
+  Answer out;
+  try {
+    out = plan_for(request, limits, functions, remaining, used);
+  } catch (const pddl::ParseError& error) {
+    out = engine::without_plan(Verdict::invalid_input, error.what());
+  } catch (const std::bad_alloc&) {
+    out = engine::without_plan(Verdict::out_of_memory,
+                       "memory ran out outside the search; give the call a larger budget");
+  } catch (const std::exception& error) {
+    out = engine::without_plan(Verdict::crashed, error.what());
+  }
+  out.record = {{".pddl", request.problem_text}, {".values", pddl::print(table_of(used))}};
+  if (!remaining.empty()) out.record.push_back({".remaining", pddl::print_plan(remaining)});
+  return out;
+}
+
+}  // namespace roci::planner::temporal_pddl::adapter

@@ -1,0 +1,68 @@
+#include "planner_svc/temporal_pddl/checker/pddl_checker.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "core/pddl/function_table.hpp"
+#include "core/pddl/parser.hpp"
+#include "core/pddl/plan_text.hpp"
+#include "core/temporal/schedule.hpp"
+#include "planner_svc/temporal_pddl/validate/validator.hpp"
+
+namespace roci::planner::temporal_pddl::checker {
+
+using engine::CheckedPlan, engine::FunctionOutcome, engine::FunctionUse;
+using temporal::Duration, temporal::FlexiblePlan, temporal::PlanActivity;
+
+namespace {
+
+pddl::FunctionTable table_of(std::span<const FunctionUse> uses) {
+  pddl::FunctionTable table;
+  for (const FunctionUse& use : uses) {
+    std::string application = "(" + use.call.function;
+    for (const std::string& argument : use.call.arguments) application += " " + argument;
+    const bool has_value = use.answer.outcome == FunctionOutcome::value;
+    table[application + ")"] = has_value ? std::optional(use.answer.value) : std::nullopt;
+  }
+  return table;
+}
+
+bool is_durative(const pddl::Domain& domain, const std::string& name) {
+  return std::ranges::find(domain.durative_actions, name, &pddl::DurativeAction::name) !=
+         domain.durative_actions.end();
+}
+
+std::vector<pddl::PlanStep> steps_of(const FlexiblePlan& plan, const pddl::Domain& domain,
+                                     const std::vector<Duration>& times) {
+  std::vector<pddl::PlanStep> steps;
+  for (const PlanActivity& activity : plan.activities) {
+    pddl::PlanStep step;
+    step.start = times[activity.start_point];
+    step.action.symbol = activity.name;
+    for (const temporal::Property& object : activity.arguments)
+      step.action.arguments.push_back({object.value, {}});
+    if (is_durative(domain, activity.name)) step.duration = times[activity.end_point] - step.start;
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
+}  // namespace
+
+std::vector<std::string> PddlChecker::faults(const CheckedPlan& checked) const {
+  const FlexiblePlan& plan = checked.plan;
+  if (std::vector<std::string> faults = temporal::check(plan); !faults.empty()) return faults;
+  const auto times = temporal::earliest_schedule(plan.point_count, temporal::all_constraints(plan));
+  if (!times) return {"its network has no schedule"};
+  const pddl::Domain domain = pddl::parse_domain(checked.request.model, "domain");
+  const pddl::Problem problem = pddl::parse_problem(checked.request.problem_text, "problem");
+  const std::vector<pddl::PlanStep> steps = steps_of(plan, domain, *times);
+  const validate::Report report = validate::validate(domain, problem, steps, table_of(checked.values));
+  if (report.valid) return {};
+  return {validate::to_text(report, steps, "plan")};
+}
+
+}  // namespace roci::planner::temporal_pddl::checker

@@ -1,0 +1,66 @@
+// Who is asked for the values of a module that several services offer.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner_svc/function_owners_service.hpp"
+
+namespace roci::planner {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+// "owner" or "owner of robot", each offering module roads.
+FunctionOffers offers_of(const std::vector<std::pair<std::string, std::string>>& owners) {
+  FunctionOffers offers;
+  for (const auto& [owner, robot] : owners) {
+    v1::FunctionOffer& offer = offers[{"roads", owner}];
+    offer.module_name("roads");
+    offer.owner(owner);
+    offer.header().robot(robot);
+  }
+  return offers;
+}
+
+std::string chosen(const FunctionOffers& offers, const std::string& robot, const std::string& dead = "") {
+  const OwnerChoice choice =
+      choose_owner(offers, "roads", robot, [&](const std::string& owner) { return owner != dead; });
+  return choice.offer != nullptr ? choice.offer->owner() : choice.reason;
+}
+
+TEST(FunctionOwnersChoice, TheRobotsOwnOwnerGoesBeforeOneForAll) {
+  const FunctionOffers offers = offers_of({{"roads_a", "primary"}, {"roads_b", "scout"}, {"roads", ""}});
+  EXPECT_EQ(chosen(offers, "primary"), "roads_a");
+  EXPECT_EQ(chosen(offers, "scout"), "roads_b");
+  EXPECT_EQ(chosen(offers, "third"), "roads");
+}
+
+TEST(FunctionOwnersChoice, WhoHasNoRobotTakesTheOnlyOwner) {
+  EXPECT_EQ(chosen(offers_of({{"roads_a", "primary"}}), ""), "roads_a");
+}
+
+TEST(FunctionOwnersChoice, AnotherRobotsOwnerIsNotAsked) {
+  EXPECT_THAT(chosen(offers_of({{"roads_a", "primary"}}), "scout"),
+              AllOf(HasSubstr("for robot 'scout'"), HasSubstr("roads_a of primary")));
+}
+
+TEST(FunctionOwnersChoice, AnAmbiguityIsRefusedInWords) {
+  EXPECT_THAT(chosen(offers_of({{"roads_a", "primary"}, {"roads_b", "scout"}}), ""),
+              AllOf(HasSubstr("several services offer module 'roads'"),
+                    HasSubstr("roads_a of primary, roads_b of scout"), HasSubstr("'services'")));
+  EXPECT_THAT(chosen(offers_of({{"roads_a", ""}, {"roads_b", ""}}), "scout"), HasSubstr("roads_a, roads_b"));
+}
+
+TEST(FunctionOwnersChoice, WhoIsGoneCountsOnlyWhereThereIsNoOther) {
+  EXPECT_EQ(chosen(offers_of({{"roads_a", ""}, {"roads_b", ""}}), "", "roads_a"), "roads_b");
+  EXPECT_EQ(chosen(offers_of({{"roads_a", ""}}), "", "roads_a"), "roads_a") << "its loss is told by the call";
+}
+
+TEST(FunctionOwnersChoice, NoOfferIsToldWithWhatThereIs) {
+  EXPECT_EQ(choose_owner(offers_of({{"roads_a", ""}}), "raods", "", {}).reason,
+            "no service offers module 'raods'; offered are: roads");
+  EXPECT_EQ(choose_owner({}, "roads", "", {}).reason, "no service offers module 'roads'; offered are: none");
+}
+
+}  // namespace
+}  // namespace roci::planner
