@@ -14,15 +14,15 @@ namespace roci::arm {
 
 /// Says what is tested, and how near things may come.
 struct CollisionRules {
-  std::optional<double> ground_z;  ///< Level ground in the base frame, m; without it there is free space.
+  std::optional<double> ground_z;  ///< Is level ground in the base frame, m; without it space is free.
   double margin = 0.01;            ///< Every surface is moved outwards by this, m.
   std::vector<std::pair<std::string, std::string>> may_touch;  ///< These pairs of links are never tested.
 };
 
 /// Names two things that touch.
 struct Contact {
-  std::string first;   ///< A link.
-  std::string second;  ///< A link, or "ground".
+  std::string first;   ///< Names a link.
+  std::string second;  ///< Names a link, or "ground".
 };
 
 /// Tests bodies that are not joined by a joint (those that are may touch at it), and moving bodies against

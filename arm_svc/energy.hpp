@@ -17,13 +17,13 @@ struct MotorModel {
   Eigen::Vector3d gravity{0, 0, -3.71};  ///< m/s² in the base frame
   double idle_w = 0;                     ///< The electronics draw it all the time.
   double efficiency = 0.7;               ///< Gear and motor have it, 0 < efficiency <= 1.
-  double full_effort_loss_w = 0;         ///< The copper loss of a joint that exerts its effort limit.
+  double full_effort_loss_w = 0;         ///< Is the copper loss of a joint that exerts its effort limit.
 };
 
 /// Holds what a motion uses, and how near its motors come to their limits.
 struct EnergyUse {
   double energy_j = 0;
-  double peak_load = 0;  ///< The largest |τ_j| / effort limit on the way; above 1 the motors fail.
+  double peak_load = 0;  ///< Is the largest |τ_j| / effort limit on the way; above 1 the motors fail.
   std::size_t peak_joint = 0;
 };
 

@@ -32,7 +32,7 @@ struct IkOptions {
   double position_tolerance = 1e-5;  ///< m
   double angle_tolerance = 1e-4;     ///< rad
   int starts = 48;
-  int iterations = 80;  ///< Per start.
+  int iterations = 80;  ///< Bounds each start.
   std::uint64_t seed = 1;
   std::size_t solutions = 1;  ///< The search stops after so many distinct ones.
 };

@@ -46,7 +46,7 @@ struct Place {
 /// Is a place as joint values, or the reason why it has none.
 struct ResolvedPlace {
   std::string name;
-  MotionStatus status = MotionStatus::found;  ///< Is unknown_pose, unreachable or in_collision else.
+  MotionStatus status = MotionStatus::found;  ///< Is found, unknown_pose, unreachable or in_collision.
   std::string detail;
   kinematics::JointVector joints;
 };

@@ -31,8 +31,8 @@ struct HouseOptions {
 
 /// Holds what the clock did, as an observer heard it.
 struct ClockFigures {
-  double sim_s = 0;               ///< Mission time of the newest step.
-  std::uint64_t micro_steps = 0;  ///< Numbered ones; a time of which no step was heard is missed.
+  double sim_s = 0;               ///< Is the mission time of the newest step.
+  std::uint64_t micro_steps = 0;  ///< Counts numbered ones; a time of which no step was heard is missed.
   std::uint64_t samples = 0;      ///< Counts those of clocked topics, by all senders.
 };
 

@@ -9,8 +9,8 @@ namespace roci::bench::house {
 
 /// Holds what one process, or several, take.
 struct ProcessFigures {
-  double pss_mb = 0;  ///< Proportional set size: pages that several processes share count by shares.
-  double cpu_s = 0;   ///< User and system time since its start.
+  double pss_mb = 0;  ///< Is the proportional set size: pages that processes share count by shares.
+  double cpu_s = 0;   ///< Counts user and system time since its start.
   int threads = 0;
 };
 

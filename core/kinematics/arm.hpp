@@ -35,7 +35,7 @@ struct Joint {
   JointType type = JointType::revolute;
   /// Holds the joint frame at coordinate 0, in the previous body.
   Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< A unit vector in the joint frame.
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Is a unit vector in the joint frame.
   JointLimits limits;
   double friction = 0;  ///< Coulomb friction, N·m or N
   double damping = 0;   ///< viscous friction, N·m·s/rad or N·s/m
@@ -60,22 +60,22 @@ struct Box {
 
 /// Is a shape that is fixed to a body.
 struct CollisionShape {
-  std::string link;                                        ///< The URDF link that the shape came from.
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< The shape's, in the body's frame.
+  std::string link;                                        ///< Names the URDF link that the shape came from.
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< Is the shape's, in the body's frame.
   std::variant<Sphere, Capsule, Box> form;
 };
 
 /// Holds mass (kg), centre and inertia of a rigid body.
 struct MassProperties {
   double mass = 0;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< Centre of mass in the body's frame, m.
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< Is the centre of mass in the body's frame, m.
   /// Holds the inertia about the centre of mass, in the axes of the body's frame, kg·m².
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
 };
 
 /// Is a rigid body of the arm with all that is fixed to it.
 struct Body {
-  std::string name;  ///< The first URDF link of the body.
+  std::string name;  ///< Names the first URDF link of the body.
   MassProperties mass;
   std::vector<CollisionShape> shapes;
 };
@@ -85,7 +85,7 @@ struct Arm {
   std::string name;
   std::vector<Joint> joints;                               ///< kMinJoints..kMaxJoints
   std::vector<Body> bodies;                                ///< joints.size() + 1
-  Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();  ///< The tip link in the last body's frame.
+  Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();  ///< Is the tip link in the last body's frame.
 };
 
 /// Returns whether the coordinates lie within the position limits, up to `tolerance`; a vector of another

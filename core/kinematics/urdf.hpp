@@ -16,7 +16,7 @@ namespace roci::kinematics {
 
 /// Says what the URDF itself leaves open.
 struct UrdfOptions {
-  std::string tip;  ///< The link that is the tool frame.
+  std::string tip;  ///< Names the link that is the tool frame.
   /// Joints without an acceleration limit reach their speed limit in this time.
   double time_to_speed_s = 0.5;
 };
@@ -24,8 +24,8 @@ struct UrdfOptions {
 /// Says why a document is no arm, and where.
 struct UrdfError {
   std::string file;
-  int line = 0;         ///< Counted from 1; 0 stands for the document as a whole.
-  std::string element;  ///< E.g. "joint 'elbow'" or "robot".
+  int line = 0;         ///< Counts from 1; 0 stands for the document as a whole.
+  std::string element;  ///< Reads as "joint 'elbow'" or "robot".
   std::string message;  ///< It says what is wrong and how to mend it.
 };
 

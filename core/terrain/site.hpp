@@ -16,8 +16,8 @@ struct Gradient {
 
 /// Holds the layers of a site, each with grid.cell_count() values by rows from the south.
 struct SiteLayers {
-  std::vector<float> elevation;      ///< Metres, at the centre of the cell.
-  std::vector<float> rock_height;    ///< Metres of the tallest rock in the cell, 0 where there is none.
+  std::vector<float> elevation;      ///< Is in metres, at the centre of the cell.
+  std::vector<float> rock_height;    ///< Is that of the tallest rock in the cell, m, or 0.
   std::vector<Occupancy> occupancy;  ///< Says what a map_server reader makes of the cell.
 };
 

@@ -21,10 +21,10 @@ struct Difference {
 
 /// Holds what a comparison found, with the lines that it compared.
 struct Comparison {
-  std::vector<Line> before;             ///< OLD under its new names.
-  std::vector<Line> after;              ///< NEW without what was added.
+  std::vector<Line> before;             ///< Are those of OLD under its new names.
+  std::vector<Line> after;              ///< Are those of NEW without what was added.
   std::vector<Difference> differences;  ///< Stand in order of mission time, without the accepted ones.
-  std::size_t accepted = 0;             ///< Differing lines that the map accepts.
+  std::size_t accepted = 0;             ///< Counts differing lines that the map accepts.
   Uses uses;                            ///< Counts those of the map's rules.
 
   bool equal() const { return differences.empty(); }

@@ -25,7 +25,7 @@ class TraceError : public std::runtime_error {
 struct Line {
   temporal::Time time{0};
   std::string text;
-  std::size_t number = 0;  ///< Its place in the trace that it came from, from 1 on.
+  std::size_t number = 0;  ///< Is its place in the trace that it came from, from 1 on.
 
   std::string_view kind() const { return std::string_view(text).substr(0, text.find(' ')); }
   bool operator==(const Line&) const = default;

@@ -10,8 +10,8 @@ namespace roci::exec::trace {
 
 /// Says how much of the differences is shown.
 struct ReportOptions {
-  std::size_t shown = 1;    ///< Differences, the first ones.
-  std::size_t context = 3;  ///< Lines of each side before a difference.
+  std::size_t shown = 1;    ///< Counts the differences that are shown, the first ones.
+  std::size_t context = 3;  ///< Counts the lines of each side before a difference.
   std::size_t width = 200;  ///< Bounds a shown line; of a longer one the part around the difference is shown.
 };
 

@@ -65,9 +65,9 @@ struct Accepted {
 
 /// Holds the rules of one map file, in the order of the file.
 struct TraceMap {
-  NewNames names;  ///< Words that are neither the kind of a line nor the name of a field.
-  NewNames kinds;  ///< The first words of lines.
-  NewNames keys;   ///< Words before an equals sign.
+  NewNames names;  ///< Rename words that are neither the kind of a line nor the name of a field.
+  NewNames kinds;  ///< Rename the first words of lines.
+  NewNames keys;   ///< Rename words before an equals sign.
   std::vector<Rewrite> rewrites;
   std::vector<Addition> additions;
   std::vector<FreeOrder> free_orders;

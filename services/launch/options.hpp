@@ -14,7 +14,7 @@ namespace roci::services::launch {
 
 /// Holds what the command line and the mission say of a run.
 struct Options {
-  std::filesystem::path mission;  ///< A folder with mission.yaml.
+  std::filesystem::path mission;  ///< Is a folder with mission.yaml.
   mission::ServiceList list;      ///< Names who there is to start in the mission.
   std::string scenario = "nominal";
   std::uint64_t seed = 1;
@@ -24,10 +24,10 @@ struct Options {
   bool headless = false;
   bool json = false;
   bool standby = false;               ///< Services that can be paired have a second process.
-  double watchdog_s = 10;             ///< Silence after which a service counts as hung; 0: never.
-  std::vector<std::string> services;  ///< Processes that are started here: services and their standbys.
-  std::vector<std::string> roster;    ///< The services of the whole run.
-  std::string run;                    ///< Identity of the run; every host's launcher has the same.
+  double watchdog_s = 10;             ///< Is the silence after which a service counts as hung; 0: never.
+  std::vector<std::string> services;  ///< Are started here: services and their standbys.
+  std::vector<std::string> roster;    ///< Are the services of the whole run.
+  std::string run;                    ///< Is the identity of the run; every host's launcher has the same.
   /// Names the one service that this process turns into; if it is empty, the launcher stays.
   std::string become;
   double epoch_s = 0;                ///< With `become`, it is mission time 0 of the live run, s since 1970.

@@ -11,7 +11,7 @@ namespace roci::services::launch {
 struct Summary {
   /// Says that every hard goal was achieved; where exec_svc does not run, that the services ended well.
   bool good = false;
-  std::string json;  ///< One line.
+  std::string json;  ///< Is one line.
   std::string text;  ///< Says the same for people.
 };
 

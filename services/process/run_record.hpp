@@ -14,7 +14,7 @@ inline constexpr int kRunRecordFormat = 1;
 
 /// Holds what a tool needs to join a run.
 struct RunRecord {
-  std::int64_t pid = 0;  ///< The launcher's.
+  std::int64_t pid = 0;  ///< Is the launcher's.
   int domain = 0;
   std::filesystem::path mission;
   std::string scenario;

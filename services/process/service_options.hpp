@@ -16,8 +16,8 @@ struct ServiceOptions {
   RunSettings run;
   node::NodeOptions node;
   Connection connection;
-  std::string notify_socket;       ///< Its supervisor's, for WatchdogNotifier; empty: there is none.
-  bool count_incarnation = false;  ///< Nobody gave one: it is counted in the run folder.
+  std::string notify_socket;       ///< Is its supervisor's, for WatchdogNotifier; empty: there is none.
+  bool count_incarnation = false;  ///< Says that nobody gave one: it is counted in the run folder.
 };
 
 /// Is thrown when the command line ends the program: by --help (code 0) or a mistake (code 2). what() is text

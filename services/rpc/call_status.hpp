@@ -28,9 +28,9 @@ using CallId = std::int64_t;
 
 /// Counts what went over one procedure.
 struct CallStatistics {
-  std::uint64_t sent = 0;     ///< Requests, repetitions included.
-  std::uint64_t late = 0;     ///< Replies to calls that had ended.
-  std::uint64_t foreign = 0;  ///< Replies to calls of other clients.
+  std::uint64_t sent = 0;     ///< Counts requests, repetitions included.
+  std::uint64_t late = 0;     ///< Counts replies to calls that had ended.
+  std::uint64_t foreign = 0;  ///< Counts replies to calls of other clients.
 };
 
 }  // namespace roci::services::rpc

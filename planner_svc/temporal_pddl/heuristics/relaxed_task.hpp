@@ -1,4 +1,4 @@
-// The task without time and numbers (R15): what the FF heuristic computes on.
+// The relaxed task is the task without time and numbers (R15); the FF heuristic computes on it.
 //
 // Propositions are the facts and, for each durative action a, r_a: "a is running" (R18). Operators are the
 // snap actions; deletes do not exist.
