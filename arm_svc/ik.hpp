@@ -43,6 +43,7 @@ struct ToolError {
   double angle = 0;     ///< rad; it is 0 where the target leaves orientation free.
 };
 
+/// Returns how far the tool is from the target when the joints stand at `q`.
 ToolError tool_error(const kinematics::Arm& arm, const kinematics::JointVector& q, const ToolTarget& target);
 
 /// Returns distinct solutions within the joint limits in the order found. If there are none, no start led to

@@ -25,6 +25,7 @@ enum class MotionStatus {
   cancelled,
 };
 
+/// Returns the name above.
 std::string_view name_of(MotionStatus status);
 
 /// Is a motion with its duration (s) and energy (J), or the reason why there is none.

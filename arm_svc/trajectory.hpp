@@ -38,6 +38,7 @@ struct Trajectory {
   JointState at(double time_s) const;
 };
 
+/// Returns the state at a time since the start of the segment, which is clamped to its duration.
 JointState state_in(const TrajectorySegment& segment, double time_s);
 
 /// Puts time along the path. Parts of no length are left out; a path that goes nowhere gives no segments.

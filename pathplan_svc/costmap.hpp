@@ -25,6 +25,7 @@ struct Disc {
 /// the edge of the map; the centre of a `disc` cell lies in a disc.
 enum class CellState : std::uint8_t { free, margin, steep, rough, rock, unknown, disc };
 
+/// Returns the name above.
 const char* to_string(CellState state);
 
 /// Says where the rover's centre may be, and what the ground there is like. Tilt and roughness come from a

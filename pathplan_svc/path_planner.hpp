@@ -20,6 +20,7 @@ enum class PathStatus : std::uint8_t {
   goal_blocked,
 };
 
+/// Returns the name above.
 const char* to_string(PathStatus status);
 
 /// Holds way-points from start to goal (both included), at most PlannerSettings::waypoint_spacing apart, and

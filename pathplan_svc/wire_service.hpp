@@ -28,6 +28,8 @@ struct FunctionAnswer {
 FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request,
                         const std::stop_token& stop);
 
+/// Finds a path. The reply names the version of the map on which it stands, and says in words why there is no
+/// path.
 v1::PathReply find_path(PathPlanner& planner, const v1::PathRequest& request);
 
 }  // namespace roci::pathplan

@@ -8,6 +8,7 @@
 
 namespace roci::sim {
 
+/// Makes the service. Throws mission::FileError when mission or scenario cannot be read.
 std::unique_ptr<services::Service> make_service(services::Node&, const services::RunSettings&);
 
 }  // namespace roci::sim

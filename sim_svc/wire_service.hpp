@@ -14,6 +14,7 @@
 
 namespace roci::sim::wire {
 
+/// These translate what comes in.
 world::TaskKey task_key(const services::owner::CommandKey&);
 services::owner::CommandKey command_key(const world::TaskKey&);
 world::Order order_of(const services::owner::Request&);
@@ -22,6 +23,7 @@ services::owner::Word word_of(const world::TaskReport&);
 world::Way way_of(const v1::PathReply&);
 world::Trajectory trajectory_of(const v1::ArmMotionReply&);
 
+/// These translate what goes out.
 v1::Observation to_wire(const world::Observed&);
 v1::DataProduct to_wire(const world::Image&);
 v1::Hazard to_wire(const world::RockSeen&, const std::string& finder);

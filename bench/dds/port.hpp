@@ -34,6 +34,7 @@ class Port {
   virtual bool matched() const = 0;  // both topics of the pair
 };
 
+/// These open ports on a vendor's own API, and on our transport over a vendor.
 std::unique_ptr<Port> open_fastdds(PortOptions);
 std::unique_ptr<Port> open_cyclonedds(PortOptions);
 std::unique_ptr<Port> open_ours(const std::string& vendor, PortOptions);

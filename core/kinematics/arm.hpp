@@ -92,6 +92,7 @@ struct Arm {
 /// size or with a NaN does not.
 bool within_limits(const Arm& arm, const JointVector& q, double tolerance = 0.0);
 
+/// Returns the coordinates moved into the position limits. `q` has one value per joint.
 JointVector clamp_to_limits(const Arm& arm, const JointVector& q);
 
 }  // namespace roci::kinematics

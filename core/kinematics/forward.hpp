@@ -16,6 +16,7 @@ using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, kM
 /// not looked at.
 std::vector<Eigen::Isometry3d> body_poses(const Arm& arm, const JointVector& q);
 
+/// Returns the pose of the tool frame in the base frame.
 Eigen::Isometry3d tool_pose(const Arm& arm, const JointVector& q);
 
 /// These take body poses that body_poses() gave.

@@ -20,6 +20,7 @@ struct Failure {
 /// Returns "joint 'elbow'" for a named element, "limit" for another.
 std::string label(const tinyxml2::XMLElement& element);
 
+/// Throws Failure for the element, with its line.
 [[noreturn]] void fail(const tinyxml2::XMLElement& element, const std::string& message);
 
 /// Returns the attribute. Throws Failure if it is missing or empty.

@@ -85,6 +85,7 @@ class FormulaChecker {
   std::vector<const TypedName*> bound_;
 };
 
+/// Reports every type of the names that nobody declared.
 void check_types(const std::vector<TypedName>& names, const Symbols& symbols, Findings& findings);
 
 /// Checks the types of the variables, and that none stands twice.

@@ -46,11 +46,14 @@ std::vector<Signature> read_functions(std::span<const Sexpr> items, const Source
 
 // ---- grammar_expressions.cpp
 
+/// Reads a numeric expression.
 Expression read_expression(const Sexpr& s, const Source& source);
 std::optional<ComparisonOperator> as_comparison(std::string_view word);
 
 // ---- grammar_conditions.cpp
 
+/// Reads the condition of a plain action or a goal; the other function sorts that of a durative action by
+/// time.
 Condition read_condition(const Sexpr& s, const Source& source);
 TimedCondition read_timed_condition(const Sexpr& s, const Source& source);
 
@@ -65,10 +68,12 @@ struct DurativeEffects {
   std::vector<Effect> at_end;
   std::vector<Effect> continuous;
 };
+/// Reads the effects of a durative action.
 DurativeEffects read_durative_effects(const Sexpr& s, const Source& source);
 
 // ---- grammar_actions.cpp
 
+/// These read an action from its `(:action …)` or `(:durative-action …)`.
 Action read_action(const Sexpr& s, const Source& source);
 DurativeAction read_durative_action(const Sexpr& s, const Source& source);
 

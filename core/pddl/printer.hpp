@@ -9,6 +9,7 @@
 
 namespace roci::pddl {
 
+/// These print whole files.
 std::string print(const Domain& domain);
 std::string print(const Problem& problem);
 

@@ -22,6 +22,7 @@ struct Strata {
   std::string failed;
 };
 
+/// Finds the layers of the domain's derived predicates.
 Strata stratify(const Domain& domain);
 
 }  // namespace roci::pddl

@@ -13,6 +13,7 @@ using Time = Duration;  ///< since the mission epoch
 /// Means "no upper bound". Its negative is "no lower bound"; sums with it saturate (see plus()).
 inline constexpr Duration no_bound = Duration::max();
 
+/// Returns whether the duration is neither no_bound nor its negative.
 constexpr bool bounded(Duration d) { return d != no_bound && d != -no_bound; }
 
 /// Returns a + b, where an unbounded operand makes the sum unbounded. Only one of them may be unbounded, or
@@ -25,9 +26,11 @@ constexpr Duration plus(Duration a, Duration b) {
   return Duration{sum};
 }
 
+/// Returns the duration rounded to microseconds. The value must be finite and fit into 64 bits.
 constexpr Duration seconds(double s) {
   return Duration{static_cast<std::int64_t>(s * 1e6 + (s < 0 ? -0.5 : 0.5))};
 }
+/// Returns the duration in seconds; no_bound is a very large number.
 constexpr double to_seconds(Duration d) { return static_cast<double>(d.count()) * 1e-6; }
 
 /// Prints "12.5 s" or "unbounded".

@@ -25,6 +25,7 @@ enum class ProjectionKind {
   executed,   ///< it has started or ended, at the time when it did
   projected,  ///< it runs or waits: it comes not before now, at the earliest that the network then allows
 };
+/// Returns the name above.
 const char* to_string(ProjectionKind kind);
 
 /// Holds what was seen of a timeline: its value, as its owner sampled it.

@@ -17,6 +17,7 @@ struct State {
 /// Is none, a boolean, a number or a state, in the order of ValueKind in idl/basic.idl.
 using Value = std::variant<std::monostate, bool, double, State>;
 
+/// Returns a state as a value.
 inline Value state(std::string name, std::vector<std::string> arguments = {}) {
   return State{std::move(name), std::move(arguments)};
 }

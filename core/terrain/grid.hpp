@@ -11,6 +11,7 @@ struct Point {
   bool operator==(const Point&) const = default;
 };
 
+/// Returns the distance in metres.
 inline double distance(Point a, Point b) {
   return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
 }

@@ -93,6 +93,7 @@ class Executive {
   struct TokenStatus {
     std::optional<temporal::Time> started, ended;
   };
+  /// Returns one entry for each token, in plan order.
   std::vector<TokenStatus> tokens() const;
 
   /// Returns the value that conditions see: as observed, else as internal activities left it.

@@ -35,6 +35,7 @@ struct Precedence {
   std::vector<std::vector<temporal::TimePoint>> together;  ///< the other starts in the group of a start
 };
 
+/// Finds the precedence of a network's points; `owners` has one entry per point.
 Precedence precedence_of(const std::vector<temporal::TemporalConstraint>& constraints,
                          const std::vector<PointOwner>& owners);
 

@@ -22,6 +22,7 @@ v1::LeaseMessage to_wire(const LeaseMessage& message, const TransferProgress& ar
 LeaseMessage from_wire(const v1::LeaseMessage& member);
 TransferProgress arrival_of(const v1::LeaseMessage& member);
 
+/// These translate chunks; `executive` is the logical name of the pair.
 v1::JournalChunk to_wire(const Chunk& chunk, const std::string& executive);
 Chunk from_wire(const v1::JournalChunk& chunk);
 

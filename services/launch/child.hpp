@@ -16,6 +16,7 @@ struct Ending {
   int code = 0;
 };
 
+/// Says the ending in words.
 std::string to_string(const Ending&);
 
 /// Owns one running process.

@@ -5,6 +5,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Returns the mixed bits; different arguments have different results.
 constexpr std::uint64_t mix(std::uint64_t h) {
   h ^= h >> 33;
   h *= 0xff51afd7ed558ccdull;

@@ -23,6 +23,7 @@ struct ConsumableResource {
   }
 };
 
+/// Returns all consumable resources of the task.
 std::vector<ConsumableResource> find_consumable_resources(const Task& task);
 
 }  // namespace roci::planner::temporal_pddl::task

@@ -29,6 +29,7 @@ struct LinearExpression {
   auto operator<=>(const LinearExpression&) const = default;
 };
 
+/// These return a + b and factor · a, in the form above.
 LinearExpression sum(const LinearExpression& a, const LinearExpression& b);
 LinearExpression scaled(const LinearExpression& a, double factor);
 

@@ -18,11 +18,13 @@ struct TimeWindow {
 /// Holds disjoint intervals in ascending order.
 using TimeWindows = std::vector<TimeWindow>;
 
+/// Returns the one window that holds every time.
 inline TimeWindows any_time() { return {TimeWindow{}}; }
 inline bool is_any_time(std::span<const TimeWindow> windows) {
   return windows.size() == 1 && windows.front() == TimeWindow{};
 }
 
+/// Returns the times that lie in both.
 TimeWindows intersection(std::span<const TimeWindow> a, std::span<const TimeWindow> b);
 
 /// Cuts each window by `from_open` and `from_close` at its ends, where it has them, and returns what is

@@ -76,6 +76,7 @@ class FormulaGrounder {
 /// Returns whether it may be that not all parts of the formula that can change are in all alternatives.
 bool has_choice(const lifted::LiftedFormula& formula);
 
+/// Returns what is true: one empty alternative.
 Disjunction always();
 bool is_certain(const Disjunction& alternatives);
 /// Returns all ways to satisfy both; contradictions and alternatives that another one implies are dropped.

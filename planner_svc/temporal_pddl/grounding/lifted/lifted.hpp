@@ -22,6 +22,7 @@ struct Argument {
 /// Binds one object to each slot; unbound slots hold none.
 using Binding = std::vector<task::ObjectId>;
 
+/// Returns the object that the argument is under the binding.
 inline task::ObjectId resolve(Argument argument, const Binding& binding) {
   return argument.is_slot ? binding[argument.index] : task::ObjectId(argument.index);
 }

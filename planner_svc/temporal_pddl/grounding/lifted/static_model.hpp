@@ -75,6 +75,8 @@ void for_each_value(const std::vector<QuantifiedSlot>& slots, Binding& binding, 
 /// Returns whether left OP right holds.
 bool compare(pddl::ComparisonOperator op, double left, double right);
 
+/// Returns the operands combined from left to right; there is at least one, and a single one with subtract is
+/// negated.
 double combine(pddl::ArithmeticOperator op, const std::vector<double>& operands);
 
 }  // namespace roci::planner::temporal_pddl::grounding::lifted

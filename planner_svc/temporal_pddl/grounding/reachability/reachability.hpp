@@ -22,6 +22,7 @@ struct Reachability {
   task::IdVector<task::SchemaId, task::FlatLists<task::ObjectId>> instances;
 };
 
+/// Explores the model from its initial atoms and timed literals. Throws what SearchLimits throws.
 Reachability explore(const std::vector<lifted::LiftedAction>& actions,
                      const lifted::StaticModel& static_model, call::SearchLimits& limits);
 
