@@ -23,7 +23,8 @@ class FollowerService {
  public:
   /// Stands on an observer's node, and so outside the simulated clock. All arguments must outlive it.
   /// `executive` is the logical name of the pair; what is said by and for another one is passed over.
-  /// `tell_goal` hears of goals that this member took in while it led alone and that the leader does not know.
+  /// `tell_goal` hears of goals that this member took in while it led alone and that the leader does not
+  /// know.
   FollowerService(services::Node& node, std::string executive, Lease& lease, journal::Journal& journal,
                   PersistedTermFile& persisted_term, TellGoal tell_goal);
 
