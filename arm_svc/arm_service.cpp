@@ -48,7 +48,7 @@ class ArmService : public services::Service {
         [this, request](const std::stop_token& stop) { return evaluate(cache_, model_, request, stop); },
         [this, responder](FunctionAnswer answer) {
           for (const std::string& refusal : answer.refusals) {
-            // Once each, although every replanning asks again.
+            // Each refusal is told once, although every replanning asks again.
             if (reported_.insert(refusal).second) report("motion.refused", refusal);
           }
           answer.reply.owner(node_.options().name);

@@ -31,7 +31,8 @@ std::shared_ptr<fcl::CollisionGeometryd> geometry_of(const Box& b) {
   return std::make_shared<fcl::Boxd>(b.size);
 }
 
-// How far the shape reaches below its own origin when its z axis and sides are turned by `pose`, m.
+// These return how far the shape reaches below its own origin when its z axis and sides are turned by `pose`,
+// in m.
 double depth_below(const Sphere& s, const Eigen::Isometry3d&) { return s.radius; }
 double depth_below(const Capsule& c, const Eigen::Isometry3d& pose) {
   return c.radius + 0.5 * c.length * std::abs(pose.linear()(2, 2));
@@ -123,7 +124,7 @@ std::optional<Contact> CollisionChecker::contact(const JointVector& q) const {
 bool CollisionChecker::line_is_free(const JointVector& from, const JointVector& to) const {
   const double travel = scene_->displacement.dot((to - from).cwiseAbs());
   const int steps = std::max(1, static_cast<int>(std::ceil(travel / (2.0 * scene_->rules.margin))));
-  // The middle first: on a blocked line it is the likeliest to show it.
+  // The middle comes first: on a blocked line it is the likeliest to show it.
   for (int stride = 1 << 30; stride > 0; stride /= 2) {
     if (stride > steps) continue;
     for (int i = stride; i < steps; i += 2 * stride) {

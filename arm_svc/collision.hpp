@@ -1,5 +1,5 @@
-// Does the arm touch itself, its carrier or the ground? Exact shape tests by FCL (Pan, Chitta, Manocha, ICRA
-// 2012).
+// This file tests whether the arm touches itself, its carrier or the ground, by exact shape tests of FCL
+// (Pan, Chitta, Manocha, ICRA 2012).
 #pragma once
 
 #include <memory>
@@ -12,19 +12,21 @@
 
 namespace roci::arm {
 
+/// Says what is tested, and how near things may come.
 struct CollisionRules {
-  std::optional<double> ground_z;  ///< Level ground in the base frame, m; without it there is free space.
+  std::optional<double> ground_z;  ///< Is level ground in the base frame, m; without it space is free.
   double margin = 0.01;            ///< Every surface is moved outwards by this, m.
   std::vector<std::pair<std::string, std::string>> may_touch;  ///< These pairs of links are never tested.
 };
 
+/// Names two things that touch.
 struct Contact {
-  std::string first;   ///< A link.
-  std::string second;  ///< A link, or "ground".
+  std::string first;   ///< Names a link.
+  std::string second;  ///< Names a link, or "ground".
 };
 
 /// Tests bodies that are not joined by a joint (those that are may touch at it), and moving bodies against
-/// the ground. Safe to use from several threads.
+/// the ground. It is safe to use from several threads.
 class CollisionChecker {
  public:
   CollisionChecker(kinematics::Arm arm, CollisionRules rules);
@@ -35,9 +37,9 @@ class CollisionChecker {
   /// Returns the first contact in a fixed order of pairs, with surfaces moved out by the margin.
   std::optional<Contact> contact(const kinematics::JointVector& q) const;
 
-  /// True if there is no contact anywhere on the straight joint-space line between the two. It is sampled so
-  /// densely that no point of the arm moves more than twice the margin between samples: nothing can pass
-  /// through unseen.
+  /// Returns true if there is no contact anywhere on the straight joint-space line between the two. The line
+  /// is sampled so densely that no point of the arm moves more than twice the margin between samples: nothing
+  /// can pass through unseen.
   bool line_is_free(const kinematics::JointVector& from, const kinematics::JointVector& to) const;
 
  private:

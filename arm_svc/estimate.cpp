@@ -3,8 +3,8 @@
 namespace roci::arm {
 namespace {
 
-constexpr std::size_t kMostKept =
-    20000;  // places given by joint values come and go; named ones stay far below
+// Places given by joint values come and go; named ones stay far below this number.
+constexpr std::size_t kMostKept = 20000;
 
 std::vector<double> values_of(const kinematics::JointVector& q) { return {q.data(), q.data() + q.size()}; }
 

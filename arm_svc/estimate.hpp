@@ -1,4 +1,4 @@
-// Batched duration and energy of motions, each computed once per model version.
+// Estimates give duration and energy of motions in batches, each computed once per model version.
 #pragma once
 
 #include <functional>
@@ -12,11 +12,13 @@
 
 namespace roci::arm {
 
+/// Names a motion by its two ends.
 struct PlacePair {
   Place from;
   Place to;
 };
 
+/// Holds duration (s) and energy (J) of a motion, or why it has none.
 struct Estimate {
   MotionStatus status = MotionStatus::found;
   std::string detail;

@@ -1,5 +1,5 @@
-// A 64-bit fingerprint of values (FNV-1a over their bits): equal values, equal fingerprint, on every run and
-// host.
+// A fingerprint is 64 bits of values (FNV-1a over their bits): equal values have an equal fingerprint, on
+// every run and host.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +8,7 @@
 
 namespace roci::arm {
 
+/// Takes values one after the other; their order counts.
 class Fingerprint {
  public:
   Fingerprint& add(std::string_view text);

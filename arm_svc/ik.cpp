@@ -24,7 +24,8 @@ constexpr double kAngleWeight = 0.1;    // m² per rad²: an error of 1 rad coun
 constexpr double kSameSolution = 1e-3;  // rad or m
 constexpr double kStalledStep = 1e-9;   // rad or m
 
-// Rotation vector that turns `from` onto `to` (unit vectors); opposite vectors turn about any normal.
+// Returns the rotation vector that turns `from` onto `to` (unit vectors); opposite vectors turn about any
+// normal.
 Eigen::Vector3d turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d normal = from.cross(to);
   const double sine = normal.norm(), cosine = from.dot(to);
@@ -59,7 +60,8 @@ Twist weights_for(const ToolTarget& target) {
   return weights;
 }
 
-// Angular rows less their part along the direction of an approach: turning about it costs and gains nothing.
+// Takes their part along the direction of an approach out of the angular rows: turning about it costs and
+// gains nothing.
 void free_the_turn(Jacobian& jacobian, const Eigen::Isometry3d& tool, const ToolTarget& target) {
   if (!target.approach) return;
   const Eigen::Vector3d axis = tool.linear() * target.approach->tool_axis.normalized();
@@ -67,7 +69,7 @@ void free_the_turn(Jacobian& jacobian, const Eigen::Isometry3d& tool, const Tool
   jacobian.bottomRows<3>() = (across * jacobian.bottomRows<3>()).eval();
 }
 
-// One damped step, with the joints that stand at a limit and would be pushed over it left out.
+// Returns one damped step; joints that stand at a limit and would be pushed over it are left out.
 JointVector damped_step(const Arm& arm, const JointVector& q, const Jacobian& jacobian, const Twist& error,
                         const Twist& weights) {
   const JointVector pull = jacobian.transpose() * weights.cwiseProduct(error);

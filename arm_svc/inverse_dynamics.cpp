@@ -11,8 +11,8 @@ using Eigen::Vector3d;
 using kinematics::JointType;
 using kinematics::JointVector;
 
-// Motion of a body's frame, all in base axes; the linear acceleration is that of the frame's origin, less
-// gravity.
+// Holds the motion of a body's frame, all in base axes; the linear acceleration is that of the frame's
+// origin, less gravity.
 struct BodyMotion {
   Vector3d turn_rate = Vector3d::Zero();
   Vector3d turn_acceleration = Vector3d::Zero();
@@ -41,7 +41,7 @@ BodyMotion moved_by(const BodyMotion& previous, JointType type, const Vector3d& 
   return motion;
 }
 
-// Force and moment that make the body move as it does.
+// Returns the force and moment that make the body move as it does.
 Wrench wrench_of(const kinematics::MassProperties& mass, const Eigen::Isometry3d& pose,
                  const BodyMotion& motion) {
   const Vector3d centre = pose.linear() * mass.centre;

@@ -1,5 +1,5 @@
-// Joint forces of a motion: the recursive Newton-Euler algorithm (Luh, Walker, Paul, 1980; Featherstone,
-// Rigid Body Dynamics Algorithms, 2008, section 5.3), in the axes of the base frame.
+// Joint forces of a motion come from the recursive Newton-Euler algorithm (Luh, Walker, Paul, 1980;
+// Featherstone, Rigid Body Dynamics Algorithms, 2008, section 5.3), in the axes of the base frame.
 #pragma once
 
 #include "arm_svc/trajectory.hpp"

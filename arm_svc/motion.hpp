@@ -1,4 +1,4 @@
-// Motions between named poses: trajectory, duration and energy, or the reason why there is none.
+// A motion between named poses has a trajectory, a duration and an energy, or the reason why there is none.
 #pragma once
 
 #include <functional>
@@ -14,6 +14,7 @@
 
 namespace roci::arm {
 
+/// Says whether there is a motion, or why not.
 enum class MotionStatus {
   found,
   unknown_pose,  ///< The mission's data have no pose of that name.
@@ -24,8 +25,10 @@ enum class MotionStatus {
   cancelled,
 };
 
+/// Returns the name above.
 std::string_view name_of(MotionStatus status);
 
+/// Is a motion with its duration (s) and energy (J), or the reason why there is none.
 struct Motion {
   MotionStatus status = MotionStatus::found;
   std::string detail;     ///< It names the pose, link or joint; it is empty when found.
@@ -41,10 +44,10 @@ struct Place {
   std::optional<kinematics::JointVector> joints = std::nullopt;
 };
 
-/// A place as joint values, or the reason why it has none.
+/// Is a place as joint values, or the reason why it has none.
 struct ResolvedPlace {
   std::string name;
-  MotionStatus status = MotionStatus::found;  ///< Else unknown_pose, unreachable or in_collision.
+  MotionStatus status = MotionStatus::found;  ///< Is found, unknown_pose, unreachable or in_collision.
   std::string detail;
   kinematics::JointVector joints;
 };
@@ -59,11 +62,11 @@ class MotionModel {
   /// Joints off a limit by no more than sensor noise (0.01 rad or m) are clamped to it.
   ResolvedPlace resolve(const Place& place) const;
 
-  /// `cancelled` is asked often; it may be empty.
+  /// Plans the motion. `cancelled` is asked often; it may be empty.
   Motion motion(const Place& from, const Place& to, const std::function<bool()>& cancelled = {}) const;
 
   const ArmSetup& setup() const { return setup_; }
-  /// They come in the order of the setup.
+  /// Returns the poses in the order of the setup.
   const std::vector<ResolvedPlace>& poses() const { return poses_; }
   std::uint64_t version() const { return version_; }
 

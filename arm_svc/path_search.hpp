@@ -1,6 +1,6 @@
-// Joint-space paths by OMPL's RRTConnect (Kuffner, LaValle, ICRA 2000).
+// Joint-space paths come from OMPL's RRTConnect (Kuffner, LaValle, ICRA 2000).
 //
-// Deterministic: every sample comes from a generator seeded by the query alone (OMPL's own seed is
+// They are deterministic: every sample comes from a generator seeded by the query alone (OMPL's own seed is
 // process-wide), the nearest neighbour search is exact, and the budget is iterations, so that neither earlier
 // queries nor the speed of the machine change a path.
 #pragma once
@@ -19,12 +19,14 @@ using JointPath = std::vector<kinematics::JointVector>;
 
 enum class SearchFailure { budget_spent, cancelled };
 
+/// Bounds a search by work, never by time.
 struct SearchBudget {
   unsigned iterations = 2000;
   std::function<bool()> cancelled;  ///< It is asked often, and may be empty.
 };
 
-/// `from` and `to` must be within the limits and free of contact. The straight line is tried first.
+/// Finds a path. `from` and `to` must be within the limits and free of contact. The straight line is tried
+/// first.
 std::variant<JointPath, SearchFailure> find_path(const kinematics::Arm& arm, const CollisionChecker& checker,
                                                  const kinematics::JointVector& from,
                                                  const kinematics::JointVector& to,

@@ -1,4 +1,5 @@
-// Seeded joint vectors: the only randomness in this folder, and always from a generator the caller seeded.
+// Seeded joint vectors are the only randomness in this folder, and always come from a generator that the
+// caller seeded.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +9,10 @@
 
 namespace roci::arm {
 
-/// Is uniform in [0, 1), the same on every standard library.
+/// Returns a number uniform in [0, 1), the same on every standard library.
 inline double unit_sample(std::mt19937_64& rng) { return static_cast<double>(rng() >> 11) * 0x1p-53; }
 
-/// Is uniform within the position limits.
+/// Returns joint values uniform within the position limits.
 kinematics::JointVector sample_coordinates(const kinematics::Arm& arm, std::mt19937_64& rng);
 
 /// Returns a seed that depends on the bits of both vectors and on nothing that happened before.

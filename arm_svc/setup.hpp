@@ -1,4 +1,4 @@
-// Everything the arm service plans with, as mission data says it: one plain value.
+// The setup is everything that the arm service plans with, as mission data says it, in one plain value.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,13 @@
 
 namespace roci::arm {
 
-/// Plans may name this place of the arm.
+/// Is a place of the arm that plans may name.
 struct NamedPose {
   std::string name;
   std::variant<kinematics::JointVector, ToolTarget> where;
 };
 
+/// Holds all that motions depend on.
 struct ArmSetup {
   kinematics::Arm arm;
   std::vector<NamedPose> poses;  ///< Their names are unique.

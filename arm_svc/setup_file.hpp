@@ -1,6 +1,6 @@
-// Reads an ArmSetup from mission data: a URDF and a file of poses.
+// This file reads an ArmSetup from mission data: a URDF and a file of poses.
 //
-// The file of poses (m, rad, W, m/s²; base frame = the URDF's root link):
+// The file of poses goes in m, rad, W and m/s²; its base frame is the URDF's root link:
 //   tip: scoop_tip                    link that is the tool frame
 //   tool_axis: [1, 0, 0]              axis of the tool frame that `approach` turns; default x
 //   time_to_speed: 0.5                s, for joints without an acceleration limit
@@ -20,7 +20,8 @@
 
 namespace roci::arm {
 
-/// Throws mission::FileError: file, line (and column in YAML), what is wrong and the remedy.
+/// Reads the setup. Throws mission::FileError with file, line (and column in YAML), what is wrong and the
+/// remedy.
 ArmSetup load_setup(const std::filesystem::path& urdf, const std::filesystem::path& poses);
 
 }  // namespace roci::arm

@@ -11,7 +11,7 @@ namespace {
 
 using kinematics::JointVector;
 
-// A point `fraction` of the way through part `part` of the path.
+// Is a point `fraction` of the way through part `part` of the path.
 struct PathPoint {
   std::size_t part;
   double fraction;
@@ -42,7 +42,8 @@ JointPath with_line(const JointPath& path, const PathPoint& a, const PathPoint& 
   return cut;
 }
 
-// Way-points that can be skipped outright; each trial costs one line, and few way-points mean few stops.
+// Drops way-points that can be skipped outright; each trial costs one line, and few way-points mean few
+// stops.
 JointPath without_detours(const kinematics::Arm& arm, const CollisionChecker& checker, JointPath path) {
   for (std::size_t i = 0; i + 2 < path.size(); ++i) {
     for (std::size_t j = path.size() - 1; j > i + 1; --j) {

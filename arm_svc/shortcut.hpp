@@ -1,6 +1,6 @@
-// Path smoothing by shortcuts (Geraerts, Overmars, "Creating high-quality paths for motion planning", IJRR
-// 26(8), 2007): a straight line between two points of the path replaces what lies between them if it is free
-// and faster.
+// Shortcuts smooth a path (Geraerts, Overmars, "Creating high-quality paths for motion planning", IJRR 26(8),
+// 2007): a straight line between two points of the path replaces what lies between them if it is free and
+// faster.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace roci::arm {
 
-/// Never slower than `path`, same ends, free of contact if `path` is. `seed` chooses the trial points.
+/// Returns a path with the same ends that is never slower than `path`, and free of contact if `path` is.
+/// `seed` chooses the trial points.
 JointPath shortened(const kinematics::Arm& arm, const CollisionChecker& checker, JointPath path, int trials,
                     std::uint64_t seed);
 

@@ -1,6 +1,6 @@
-// Time along a joint path: each straight part is run from rest to rest with a trapezoidal speed profile that
-// all joints share (Siciliano et al., Robotics: Modelling, Planning and Control, 2009, section 4.2), as fast
-// as the velocity and acceleration limits of the slowest joint allow.
+// A trajectory puts time along a joint path: each straight part is run from rest to rest with a trapezoidal
+// speed profile that all joints share (Siciliano et al., Robotics: Modelling, Planning and Control, 2009,
+// section 4.2), as fast as the velocity and acceleration limits of the slowest joint allow.
 #pragma once
 
 #include <vector>
@@ -10,47 +10,52 @@
 
 namespace roci::arm {
 
-/// One straight part; progress s runs from 0 to 1.
+/// Is one straight part; progress s runs from 0 to 1.
 struct TrajectorySegment {
   kinematics::JointVector from;
   kinematics::JointVector to;
-  double acceleration = 0;  ///< of s, 1/s²: held for ramp_s, then its negative at the end
+  double acceleration = 0;  ///< s has it, 1/s²: it is held for ramp_s, and its negative at the end
   double ramp_s = 0;
   double cruise_s = 0;
 
   double duration_s() const { return 2.0 * ramp_s + cruise_s; }
 };
 
+/// Holds the state of all joints at one time.
 struct JointState {
   kinematics::JointVector position;      ///< rad or m
   kinematics::JointVector velocity;      ///< per s
   kinematics::JointVector acceleration;  ///< per s²; at a change of phase that of the later phase
 };
 
+/// Is a motion in time, from rest to rest in each segment.
 struct Trajectory {
   std::vector<TrajectorySegment> segments;
 
   double duration_s() const;
-  /// Needs at least one segment; times outside [0, duration] give the first or last state at rest.
+  /// Returns the state at a time; times outside [0, duration] give the first or last state at rest. There
+  /// must be at least one segment.
   JointState at(double time_s) const;
 };
 
+/// Returns the state at a time since the start of the segment, which is clamped to its duration.
 JointState state_in(const TrajectorySegment& segment, double time_s);
 
-/// Parts of no length are left out; a path that goes nowhere gives no segments.
+/// Puts time along the path. Parts of no length are left out; a path that goes nowhere gives no segments.
 Trajectory time_path(const kinematics::Arm& arm, const JointPath& path);
 
-/// Time that time_path() gives to the straight line between the two, s.
+/// Returns the time in s that time_path() gives to the straight line between the two.
 double line_duration_s(const kinematics::Arm& arm, const kinematics::JointVector& from,
                        const kinematics::JointVector& to);
 
+/// Holds where the joints stand at a time since the start.
 struct TrajectorySample {
   double time_s = 0;
   kinematics::JointVector position;
   kinematics::JointVector velocity;
 };
 
-/// Samples `period_s` apart, and at every segment's start and end.
+/// Returns samples `period_s` apart, and at every segment's start and end.
 std::vector<TrajectorySample> sampled(const Trajectory& trajectory, double period_s);
 
 }  // namespace roci::arm

@@ -24,7 +24,7 @@ JointVector joints_of(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-// Empty: not a place of this arm.
+// Returns nothing for what is not a place of this arm.
 std::optional<Place> place_of(const v1::PlanObject& object, std::size_t joints) {
   if (wire::property(object, "q0") == nullptr) return Place{object.name()};
   std::vector<double> values;

@@ -53,7 +53,7 @@ fs::path file_of(const services::process::ServiceOptions& options, const std::st
   return run_file(run, options.node.name, name);
 }
 
-// The node that is open now, for the thread that hears of signals.
+// Holds the node that is open now, for the thread that hears of signals.
 class StopRequest {
  public:
   void ask() {
@@ -66,7 +66,7 @@ class StopRequest {
     const std::scoped_lock lock(mutex_);
     return asked_;
   }
-  // At most for this time.
+  // Waits for this time at most, and no longer than until somebody asks.
   void wait(std::chrono::milliseconds longest) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, longest, [this] { return asked_; });
@@ -84,7 +84,7 @@ class StopRequest {
   bool asked_ = false;
 };
 
-// Within reach of signals for as long as it lives.
+// Keeps the node within reach of signals for as long as it lives.
 class InterruptibleNode {
  public:
   InterruptibleNode(StopRequest& stop, services::Node& node) : stop_(stop) { stop_.reach(&node); }
@@ -128,7 +128,8 @@ class PairProcess {
                         std::to_string(lease.epoch()) + ": " + turn.reason);
   }
 
-  // A member that was connected before waits for its network to come back; none: it was asked to stop.
+  // Opens the transport. A member that was connected before waits for its network to come back. Returns null
+  // if it was asked to stop.
   std::unique_ptr<services::transport::Transport> connect() {
     for (bool told = false; !stop_.asked(); stop_.wait(kReconnectPause)) {
       watchdog_.notify();
@@ -145,7 +146,7 @@ class PairProcess {
     return nullptr;
   }
 
-  // Nothing: the run is over.
+  // Follows until it is this member's turn to lead. Returns nothing if the run is over.
   std::optional<Lease::Turn> follow(Lease& lease) {
     auto transport = connect();
     if (!transport) return std::nullopt;
@@ -162,8 +163,8 @@ class PairProcess {
     return following.run_is_over() || stop_.asked() ? std::nullopt : following.lead();
   }
 
-  // Nothing: the run is over. Under the simulated clock the epoch is the incarnation, so the clock drops who
-  // led before.
+  // Leads until another member does. Returns nothing if the run is over. Under the simulated clock the epoch
+  // is the incarnation, so the clock drops who led before.
   std::optional<StandDown> lead(Lease& lease, const Lease::Turn& turn) {
     auto transport = connect();
     if (!transport) return std::nullopt;

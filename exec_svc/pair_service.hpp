@@ -1,4 +1,4 @@
-/// The process of one member of a pair: follows, leads, follows again, until the run is over.
+// This is the process of one member of a pair: it follows, leads, follows again, until the run is over.
 #pragma once
 
 #include "services/process/service_options.hpp"
@@ -6,7 +6,7 @@
 
 namespace roci::exec {
 
-/// RunSettings::pair says which member this is; both may have the same run folder.
+/// Runs one member; RunSettings::pair says which one it is, and both may have the same run folder.
 void run_pair(const services::process::ServiceOptions& options, services::process::StopSignals& signals);
 
 }  // namespace roci::exec

@@ -34,10 +34,11 @@ void set_point(ob::State* state, terrain::Point p) {
   values[1] = p.y;
 }
 
-// Uniform in [0, 1): the standard leaves its distributions to the library, this is the same with every one.
+// Returns a number uniform in [0, 1): the standard leaves its distributions to the library, and this is the
+// same with every one.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-// First the points of the guide in order, then points beside it, all of them free.
+// Gives first the points of the guide in order, then points beside it, all of them free.
 class CorridorSampler : public ob::StateSampler {
  public:
   CorridorSampler(const ob::StateSpace* space, const Costmap& map, Polyline guide, double half_width,
@@ -101,7 +102,7 @@ class DriveTime : public ob::OptimizationObjective {
   const DriveModel& drive_;
 };
 
-// FMT* with neighbours by distance from a plain list: OMPL's default tree draws its pivots from the
+// Is FMT* with neighbours by distance from a plain list: OMPL's default tree draws its pivots from the
 // process-wide seed, and driving time, which it would use as distance, is no metric.
 class ListFmt : public ompl::geometric::FMT {
  public:

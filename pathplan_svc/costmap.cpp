@@ -12,8 +12,8 @@ bool positive(double v) { return std::isfinite(v) && v > 0; }
 
 double square(double v) { return v * v; }
 
-// Least-squares plane through the elevations of a square window around a cell, and the largest distance from
-// it.
+// Holds the least-squares plane through the elevations of a square window around a cell, and the largest
+// distance from it.
 struct Plane {
   double east;
   double north;

@@ -6,42 +6,44 @@
 
 namespace roci::pathplan {
 
-/// What the rover can bear. Radii and heights in metres.
+/// Says what the rover can bear. Radii and heights are in metres.
 struct RoverLimits {
-  double radius = 0.8;           ///< of the circle around the rover, whatever its heading
+  double radius = 0.8;           ///< has the circle around the rover, whatever its heading
   double max_slope = 0.35;       ///< radians, of the plane under the rover
   double rock_clearance = 0.25;  ///< rocks above this height are obstacles
   double max_roughness = 0.30;   ///< largest distance of the ground from the plane under the rover
 };
 
-/// An obstacle known at run time or a keep-out zone of the mission, metres.
+/// Is an obstacle known at run time or a keep-out zone of the mission, in metres.
 struct Disc {
   terrain::Point centre;
   double radius = 0;
   bool operator==(const Disc&) const = default;
 };
 
-/// Why a cell may not be entered. `margin`: nearer than the rover's radius to a rock, a disc or the edge of
-/// the map; `disc`: its centre lies in a disc.
+/// Says why a cell may not be entered. A `margin` cell is nearer than the rover's radius to a rock, a disc or
+/// the edge of the map; the centre of a `disc` cell lies in a disc.
 enum class CellState : std::uint8_t { free, margin, steep, rough, rock, unknown, disc };
 
+/// Returns the name above.
 const char* to_string(CellState state);
 
-/// Where the rover's centre may be, and what the ground there is like. Tilt and roughness come from a plane
-/// fitted to the cells under the rover, as in Goldberg, Maimone, Matthies, "Stereo vision and rover
+/// Says where the rover's centre may be, and what the ground there is like. Tilt and roughness come from a
+/// plane fitted to the cells under the rover, as in Goldberg, Maimone, Matthies, "Stereo vision and rover
 /// navigation software for planetary exploration", IEEE Aerospace 2002.
 ///
-/// Sound for the whole cell, not for its centre alone: each point of a free cell keeps the rover's radius
-/// from every occupied cell and disc. A cell blocked for its slope blocks the rover's centre only.
+/// A verdict is sound for the whole cell, not for its centre alone: each point of a free cell keeps the
+/// rover's radius from every occupied cell and disc. A cell blocked for its slope blocks the rover's centre
+/// only.
 class Costmap {
  public:
-  /// Throws std::invalid_argument for limits that are not positive and finite.
+  /// Fits the map to the site. Throws std::invalid_argument for limits that are not positive and finite.
   Costmap(const terrain::Site& site, const RoverLimits& limits);
 
   const terrain::Grid& grid() const { return grid_; }
   const RoverLimits& limits() const { return limits_; }
 
-  /// Starts at 1 and grows with each change of a cell.
+  /// Returns a number that starts at 1 and grows with each change of a cell.
   std::uint64_t version() const { return version_; }
 
   CellState state(std::size_t index) const { return state_[index]; }
@@ -51,14 +53,14 @@ class Costmap {
     return grid_.contains(p) && state(grid_.cell_of(p)) == CellState::free;
   }
 
-  /// Of the fitted plane.
+  /// Returns the gradient of the fitted plane.
   terrain::Gradient gradient(std::size_t index) const { return {east_[index], north_[index]}; }
-  /// 0 smooth … 1 the roughest that is allowed.
+  /// Returns the roughness, from 0 for smooth to 1 for the roughest that is allowed.
   double roughness(std::size_t index) const { return roughness_[index]; }
 
-  /// These discs and no others block from now on. True, and a new version, if any cell changed. Throws
-  /// std::invalid_argument for a centre that is not finite or a radius that is negative or not finite; the
-  /// map is then as before.
+  /// Lets these discs and no others block from now on. Returns whether any cell changed, which makes a new
+  /// version. Throws std::invalid_argument for a centre that is not finite or a radius that is negative or
+  /// not finite; the map is then as before.
   bool set_discs(const std::vector<Disc>& discs);
 
  private:

@@ -2,30 +2,30 @@
 
 namespace roci::pathplan {
 
-/// What a metre of map (measured horizontally) costs.
+/// Says what a metre of map (measured horizontally) costs.
 struct Pace {
   double time = 0;    ///< s / m
   double energy = 0;  ///< J / m, from the battery
 };
 
-/// Time and energy of driving, a quasi-static model.
+/// Computes time and energy of driving by a quasi-static model.
 ///
-/// Energy: the force along the slope is m g (mu cos a + sin a), braking gives nothing back (Rowe and Ross,
-/// "Optimal grid-free path planning across arbitrarily contoured terrain with anisotropic friction and
-/// gravity effects", IEEE Trans. Robotics and Automation 6(5), 1990). Per horizontal metre that is m g max(0,
-/// mu + grade). Wheels that slip by s turn 1 / (1 - s) times as far. To this the electronics add their power
-/// for the time it takes.
+/// The energy follows the force along the slope, m g (mu cos a + sin a), and braking gives nothing back (Rowe
+/// and Ross, "Optimal grid-free path planning across arbitrarily contoured terrain with anisotropic friction
+/// and gravity effects", IEEE Trans. Robotics and Automation 6(5), 1990). Per horizontal metre that is m g
+/// max(0, mu + grade). Wheels that slip by s turn 1 / (1 - s) times as far. To this the electronics add their
+/// power for the time it takes.
 ///
-/// Speed: nominal on level smooth ground; uphill, slip takes its share, growing in proportion to the grade (a
-/// straight line through what Heverly et al., "Traverse performance characterization for the Mars Science
-/// Laboratory rover", J. Field Robotics 30(6), 2013, show to grow with slope); rough ground is driven more
-/// slowly, in proportion. Changes of direction are turns on the spot. The figures below are a 180 kg rover of
-/// this project, not of these papers.
+/// The speed is nominal on level smooth ground; uphill, slip takes its share, growing in proportion to the
+/// grade (a straight line through what Heverly et al., "Traverse performance characterization for the Mars
+/// Science Laboratory rover", J. Field Robotics 30(6), 2013, show to grow with slope); rough ground is driven
+/// more slowly, in proportion. Changes of direction are turns on the spot. The figures below are a 180 kg
+/// rover of this project, not of these papers.
 struct DriveModel {
   double speed = 0.10;          ///< m/s on level smooth ground, > 0
   double slip_per_grade = 0.8;  ///< share of wheel travel lost per unit of uphill grade (tangent)
   double max_slip = 0.6;        ///< 0 … 1, not included
-  /// Share of the speed lost on the roughest ground allowed, 0 … 1, not included
+  /// Holds the share of the speed lost on the roughest ground allowed, 0 … 1, not included.
   double rough_slowdown = 0.5;
   double turn_rate = 0.10;           ///< rad/s on the spot, > 0
   double mass = 180;                 ///< kg
@@ -35,15 +35,15 @@ struct DriveModel {
   double idle_power = 40;            ///< W, electronics while under way
   double turn_power = 60;            ///< W, drives and steering while turning, on top of idle_power
 
-  /// `grade`: rise per horizontal metre along the direction of travel; `roughness`: 0 smooth … 1 roughest
-  /// allowed.
+  /// Returns the pace. `grade` is the rise per horizontal metre along the direction of travel; `roughness`
+  /// goes from 0 for smooth to 1 for the roughest allowed.
   Pace pace(double grade, double roughness) const;
 
-  /// Seconds and joules of a turn on the spot by `angle` radians, of either sign.
+  /// These return seconds and joules of a turn on the spot by `angle` radians, of either sign.
   double turn_time(double angle) const;
   double turn_energy(double angle) const;
 
-  /// Seconds per metre that no ground is driven faster than.
+  /// Returns the seconds per metre that no ground is driven faster than.
   double fastest() const { return 1 / speed; }
 };
 

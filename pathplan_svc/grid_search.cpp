@@ -11,11 +11,11 @@ namespace roci::pathplan {
 namespace {
 
 constexpr std::size_t kMoves = 8;
-// East, then counter-clockwise; the odd ones are diagonal.
+// The moves go from east counter-clockwise; the odd ones are diagonal.
 constexpr std::array<terrain::Cell, kMoves> kMove{
     {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
-// The moves that are allowed from a free cell; calls visit(number of the move, index of the neighbour).
+// Calls visit(number of the move, index of the neighbour) for the moves that are allowed from a free cell.
 template <typename Visit>
 void for_each_move(const Costmap& map, std::size_t index, Visit visit) {
   const terrain::Cell c = map.grid().cell_at(index);

@@ -22,8 +22,8 @@ class Regions {
   std::size_t count_ = 0;
 };
 
-/// The fastest drives over the grid from one cell to every cell of its region (Dijkstra), exact for moves
-/// between the centres of neighbouring cells and without turns.
+/// Holds the fastest drives over the grid from one cell to every cell of its region (Dijkstra), exact for
+/// moves between the centres of neighbouring cells and without turns.
 class SearchTree {
  public:
   /// Returns the centres from the source to `target`, both included; none if there is no way.
@@ -49,7 +49,7 @@ class GridSearch {
   SearchTree from(const Costmap& map, terrain::Cell source) const;
 
  private:
-  // Seconds from the centre to the border, by cell and by the eight directions.
+  // Holds the seconds from the centre to the border, by cell and by the eight directions.
   std::vector<float> half_move_;
 };
 

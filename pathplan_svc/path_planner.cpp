@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMaxTrees = 256;
 constexpr std::size_t kMaxAnswers = 16384;
 
-// From the coordinates of the ends (FNV-1a over their bytes).
+// Returns a seed from the coordinates of the ends (FNV-1a over their bytes).
 std::uint64_t seed_of(terrain::Point from, terrain::Point to) {
   const std::array<double, 4> ends{from.x, from.y, to.x, to.y};
   std::array<unsigned char, sizeof ends> bytes;
@@ -29,8 +29,8 @@ PathOutcome refusal(PathStatus status, CellState blocked_by = CellState::free) {
   return outcome;
 }
 
-// The nearest centre of a free cell that a straight line through margin reaches; the point itself where it
-// is free.
+// Returns the nearest centre of a free cell that a straight line through margin reaches, or the point itself
+// where it is free.
 std::optional<terrain::Point> leave_margin(const Costmap& map, terrain::Point from) {
   if (map.is_free(from)) return from;
   const terrain::Grid& grid = map.grid();

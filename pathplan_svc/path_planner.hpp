@@ -10,6 +10,7 @@
 
 namespace roci::pathplan {
 
+/// Says whether there is a path, or why not.
 enum class PathStatus : std::uint8_t {
   found,
   unreachable,    ///< It is proved: the ends lie in regions of free cells that do not meet.
@@ -19,10 +20,11 @@ enum class PathStatus : std::uint8_t {
   goal_blocked,
 };
 
+/// Returns the name above.
 const char* to_string(PathStatus status);
 
-/// It holds way-points from start to goal (both included), at most PlannerSettings::waypoint_spacing apart,
-/// and what the drive costs (segment.hpp). Empty and zero unless found.
+/// Holds way-points from start to goal (both included), at most PlannerSettings::waypoint_spacing apart, and
+/// what the drive costs (segment.hpp). It is empty and zero unless found.
 struct PathOutcome {
   PathStatus status = PathStatus::found;
   CellState blocked_by = CellState::free;
@@ -32,15 +34,17 @@ struct PathOutcome {
   double energy = 0;  ///< J
 };
 
+/// Bounds the work of a planner and shapes its way-points.
 struct PlannerSettings {
   CorridorSettings corridor;
   double waypoint_spacing = 4.0;  ///< m
   double max_piece = 60.0;        ///< Shortcuts try no longer straight piece, m.
-  std::size_t max_corners = 60;   ///< Of a path before shortcuts.
+  std::size_t max_corners = 60;   ///< Bounds a path before shortcuts.
 };
 
-/// Fast drives over a map that may gain obstacles. An answer depends on the map and the two ends alone, never
-/// on earlier questions; answers and search trees are kept until the map changes. One thread at a time.
+/// Finds fast drives over a map that may gain obstacles. An answer depends on the map and the two ends alone,
+/// never on earlier questions; answers and search trees are kept until the map changes. One thread may use it
+/// at a time.
 ///
 /// A goal must be free. A start in the margin of an obstacle (one that was seen while the rover stood there)
 /// is left by the shortest straight line to a free cell.
@@ -59,7 +63,8 @@ class PathPlanner {
 
  private:
   PathOutcome plan(terrain::Point from, terrain::Point to);
-  // Both ends free and in one region. Never slower than the exact way over the grid, turns included.
+  // Takes ends that are both free and in one region. The result is never slower than the exact way over the
+  // grid, turns included.
   Polyline fastest(terrain::Point from, terrain::Point to);
   const SearchTree& tree_from(terrain::Cell source);
   PathOutcome finish(const Polyline& corners) const;

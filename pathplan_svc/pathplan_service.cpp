@@ -56,7 +56,7 @@ class PathplanService : public services::Service {
         });
   }
 
-  // Each place once per map, although every replanning asks again.
+  // Each place is told once per map, although every replanning asks again.
   void report_unusable(const std::map<std::string, std::string>& places) {
     for (const auto& [place, why] : places) {
       if (!reported_.insert(place + ": " + why).second) continue;

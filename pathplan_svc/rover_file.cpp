@@ -10,7 +10,7 @@
 namespace roci::pathplan {
 namespace {
 
-// A key, where its value goes, and the values that make sense: `above` excluded, `most` included.
+// Names a key, where its value goes, and the values that make sense: `above` is excluded, `most` included.
 struct Key {
   std::string_view name;
   double* value;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// One axis of the walk: the share of the segment at which the next border of a cell is crossed.
+// Is one axis of the walk: the share of the segment at which the next border of a cell is crossed.
 struct Axis {
   int step;
   double next;

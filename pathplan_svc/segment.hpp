@@ -17,7 +17,7 @@ struct SegmentCost {
   double energy = 0;  ///< J
 };
 
-/// Both ends must lie on the map.
+/// Measures the drive. Both ends must lie on the map.
 SegmentCost measure(const Costmap& map, const DriveModel& drive, terrain::Point from, terrain::Point to);
 
 /// Makes the test alone, which is cheaper: it stops at the first blocked cell.
@@ -36,7 +36,7 @@ SegmentCost measure(const Costmap& map, const DriveModel& drive, const Polyline&
 double heading(terrain::Point from, terrain::Point to);
 /// Returns the size of the turn between two headings, 0 … pi.
 double turn_between(double heading_before, double heading_after);
-/// The turn that stands for the unknown heading at the start, radians.
+/// Stands for the turn of unknown size at the start, in radians.
 inline constexpr double kFirstTurn = 1.5707963267948966;
 
 /// Returns the same line with intermediate points, so that neighbours are at most `spacing` metres apart.

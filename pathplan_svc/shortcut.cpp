@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The straight piece from one corner to a later one.
+// Is the straight piece from one corner to a later one.
 struct Piece {
   double time = kInfinity;
   double heading = 0;

@@ -1,4 +1,4 @@
-// Between the wire and the path planner: plain translations, no node.
+// This file translates between the wire and the path planner, without a node.
 #pragma once
 
 #include <map>
@@ -17,16 +17,19 @@ inline constexpr const char* kModule = "pathplan";
 /// of (from, to).
 v1::FunctionOffer function_offer(const std::string& owner, std::uint64_t map_version);
 
+/// Holds the reply, and what is worth an event.
 struct FunctionAnswer {
   v1::FunctionReply reply;
-  std::map<std::string, std::string> unusable_places;  ///< By object: why no path can begin or end there.
+  std::map<std::string, std::string> unusable_places;  ///< Say by object why no path can begin or end there.
 };
 
-/// Every tuple gets an outcome. An object is a place if it has properties x and y, finite numbers in metres.
+/// Gives every tuple an outcome. An object is a place if it has properties x and y, finite numbers in metres.
 /// A place off the map or inside an obstacle is unreachable. Once stopped, the rest is FUNCTION_FAILED.
 FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request,
                         const std::stop_token& stop);
 
+/// Finds a path. The reply names the version of the map on which it stands, and says in words why there is no
+/// path.
 v1::PathReply find_path(PathPlanner& planner, const v1::PathRequest& request);
 
 }  // namespace roci::pathplan

@@ -16,13 +16,13 @@
 namespace roci::rehearsal {
 namespace {
 
-// A node with its service; the service goes first.
+// Is a node with its service; the service goes first.
 struct Seat {
   std::unique_ptr<services::Node> node;
   std::unique_ptr<services::Service> service;
 };
 
-// The first failure of a flight's threads; it stops them all.
+// Holds the first failure of a flight's threads, which stops them all.
 class FirstFailure {
  public:
   void set(std::exception_ptr error) {

@@ -1,4 +1,4 @@
-// One flight of a mission with all services in this process, over the inproc transport, on the simulated
+// A flight runs a mission once with all services in this process, over the inproc transport, on the simulated
 // clock.
 #pragma once
 
@@ -10,25 +10,28 @@
 
 namespace roci::rehearsal {
 
-/// A program by the name that it has as a process.
+/// Is a program by the name that it has as a process.
 struct Program {
   std::string name;
   services::MakeService* make;
 };
 
-/// The programs that are linked here: those that a mission's list of services may name in a rehearsal.
+/// Returns the programs that are linked here: those that a mission's list of services may name in a
+/// rehearsal.
 const std::vector<Program>& programs();
 
-/// The mission's services in the order in which a rehearsal makes them: the clock's master last.
+/// Returns the mission's services in the order in which a rehearsal makes them: the clock's master last.
 std::vector<mission::ServiceEntry> crew_of(const std::filesystem::path& mission);
 
-/// The node of one of them; `pace` as in FlightOptions.
+/// Returns the options of the node of one of them; `pace` is as in FlightOptions.
 services::node::NodeOptions node_options(const std::filesystem::path& mission, const mission::ServiceEntry&,
                                          double pace);
 
-/// Of a linked program. Throws std::invalid_argument for another.
+/// Returns how a linked program makes its service. Throws std::invalid_argument for a program that is not
+/// linked.
 services::MakeService* make_of(const mission::ServiceEntry&);
 
+/// Says what is flown, where and how fast.
 struct FlightOptions {
   services::RunSettings run;
   int domain = 1;   ///< flights with different domains do not hear each other
@@ -36,8 +39,8 @@ struct FlightOptions {
 };
 
 /// Flies the services that the mission names. Returns when the clock's master has ended the run; the summary
-/// stands in run_folder/summary.json. Throws std::invalid_argument for a mission that names a program which is
-/// not linked here or no clock master, and what a service threw while it was made or while it ran.
+/// stands in run_folder/summary.json. Throws std::invalid_argument for a mission that names a program which
+/// is not linked here or no clock master, and what a service threw while it was made or while it ran.
 void fly(const FlightOptions& options);
 
 }  // namespace roci::rehearsal

@@ -1,4 +1,4 @@
-// roci-rehearse: flies a mission N times with all services in one process and reports each flight and the
+// roci-rehearse flies a mission N times with all services in one process and reports each flight and the
 // totals.
 #include <CLI/CLI.hpp>
 #include <cstdlib>
@@ -26,7 +26,7 @@ struct Arguments {
   std::string folder;
 };
 
-// docs/exit-codes.md, "Runs".
+// docs/exit-codes.md lists these under "Runs".
 enum ExitCode { kAchieved = 0, kNotAchieved = 1, kBadInput = 2, kServiceFailed = 3 };
 
 nlohmann::json summary_of(const std::filesystem::path& run_folder) {

@@ -11,14 +11,14 @@ constexpr std::uint64_t kScoreSalt = 1;
 constexpr std::uint64_t kBearingSalt = 2;
 constexpr int kBearings = 8;
 
-// The finalizer of SplitMix64 (see core/terrain/lattice_noise.hpp for the paper).
+// Is the finalizer of SplitMix64 (core/terrain/lattice_noise.hpp names the paper).
 std::uint64_t scrambled(std::uint64_t value) {
   value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9ull;
   value = (value ^ (value >> 27)) * 0x94d049bb133111ebull;
   return value ^ (value >> 31);
 }
 
-// In [0, 1).
+// Returns a number in [0, 1) from the seed and the square metre.
 double draw(std::uint64_t seed, std::uint64_t salt, terrain::Point p) {
   const auto metre = [](double coordinate) {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(coordinate)));
@@ -54,7 +54,7 @@ std::optional<Find> Detector::look(const Photo& photo, temporal::Time now) {
   return finds_.back();
 }
 
-// The first bearing, counted from a drawn one, that leads to a place on the map.
+// Returns the place on the map at the first bearing, counted from a drawn one, that leads to one.
 std::optional<terrain::Point> Detector::place_near(terrain::Point p) const {
   const double first = draw(seed_, kBearingSalt, p);
   for (int i = 0; i < kBearings; ++i) {

@@ -1,4 +1,4 @@
-// The detector as a process: images in, opportunistic goals out (R54).
+// This is the detector as a process: images come in, opportunistic goals go out (R54).
 #pragma once
 
 #include <memory>
@@ -7,6 +7,7 @@
 
 namespace roci::science {
 
+/// Makes the service. Throws mission::FileError when mission or scenario cannot be read.
 std::unique_ptr<services::Service> make_service(services::Node&, const services::RunSettings&);
 
 }  // namespace roci::science

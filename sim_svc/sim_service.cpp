@@ -143,7 +143,7 @@ class SimService final : public services::Service, private owner::Driver {
         });
   }
 
-  // Why a call gave nothing to follow: "no-path" when there is none, "path-call" when nobody said so.
+  // Returns why a call gave nothing to follow: "no-path" when there is none, "path-call" when nobody said so.
   template <class Reply>
   static std::optional<Failure> refusal(const services::CallResult<Reply>& result, const std::string& what) {
     if (result.status != services::rpc::CallStatus::ok) {
@@ -199,7 +199,7 @@ class SimService final : public services::Service, private owner::Driver {
     order_.note(code, text);
   }
 
-  // What was really done, for whoever asks after the run whether anything was done twice.
+  // Writes what was really done, for whoever asks after the run whether anything was done twice.
   void report_begun() const {
     nlohmann::json report = nlohmann::json::array();
     for (const world::Begun& one : world_.begun()) {
@@ -215,7 +215,7 @@ class SimService final : public services::Service, private owner::Driver {
     std::ofstream(run_folder_ / "begun.json") << report.dump(1) << "\n";
   }
 
-  // For whoever started the run; the summary takes it up as `expected`.
+  // Writes the result for whoever started the run; the summary takes it up as `expected`.
   void report_order() const {
     const std::string fault = order_.final_fault();
     events_.write(fault.empty()

@@ -1,4 +1,4 @@
-// Between the world's plain values and the wire.
+// This file translates between the world's plain values and the wire.
 #pragma once
 
 #include <string>
@@ -14,14 +14,16 @@
 
 namespace roci::sim::wire {
 
+/// These translate what comes in.
 world::TaskKey task_key(const services::owner::CommandKey&);
 services::owner::CommandKey command_key(const world::TaskKey&);
 world::Order order_of(const services::owner::Request&);
-/// The owner's word on a task; a report of a repair is none (CommandServer::repair).
+/// Returns the owner's word on a task; a report of a repair is none (CommandServer::repair).
 services::owner::Word word_of(const world::TaskReport&);
 world::Way way_of(const v1::PathReply&);
 world::Trajectory trajectory_of(const v1::ArmMotionReply&);
 
+/// These translate what goes out.
 v1::Observation to_wire(const world::Observed&);
 v1::DataProduct to_wire(const world::Image&);
 v1::Hazard to_wire(const world::RockSeen&, const std::string& finder);

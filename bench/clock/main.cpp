@@ -1,6 +1,7 @@
-// bench_clock: how many micro-steps per second the simulated clock makes with seven services over one transport, each
-// in its own process (inproc: on its own thread). One round is three micro-steps: the master's timer fires and writes a
-// sample, the six others read it and write one each, the master reads those. Prints one JSON object.
+// bench_clock measures how many micro-steps per second the simulated clock makes with seven services over one
+// transport, each in its own process (inproc: on its own thread). One round is three micro-steps: the
+// master's timer fires and writes a sample, the six others read it and write one each, the master reads
+// those. It prints one JSON object.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>

@@ -1,7 +1,7 @@
 // roci-bench-dds [--rounds N] [--pings N] [--seed N]
-// Round trips between two processes on loopback: each vendor's bare API against our transport over the same
-// vendor, in one run and in turns, so that both see the same machine. Writes one JSON record to standard
-// output.
+// It measures round trips between two processes on loopback: each vendor's bare API against our transport
+// over the same vendor, in one run and in turns, so that both see the same machine. It writes one JSON record
+// to standard output.
 #include <sched.h>
 #include <unistd.h>
 
@@ -29,9 +29,9 @@ using Clock = std::chrono::steady_clock;
 using services::contract::ChildProcess;
 
 const std::vector<std::string> kVendors = {"fastdds", "cyclonedds"};
-// bare: the vendor's API; ours: writer and reader of our transport; call: services/rpc.hpp on top of it;
-// tuples: 1,000 argument tuples in one request of ours; reaction: from an observation to the executive's
-// command.
+// The kinds are bare (the vendor's API), ours (writer and reader of our transport), call (services/rpc.hpp on
+// top of it), tuples (1,000 argument tuples in one request of ours) and reaction (from an observation to the
+// executive's command).
 const std::vector<std::string> kKinds = {"bare", "ours", "call", "tuples", "reaction"};
 
 std::unique_ptr<Port> open(const std::string& variant, PortOptions options) {
@@ -46,7 +46,7 @@ std::unique_ptr<Port> open(const std::string& variant, PortOptions options) {
   throw std::invalid_argument("unknown variant " + variant);
 }
 
-// From the vendor's thread to the one that works, as in a service.
+// Hands over from the vendor's thread to the one that works, as in a service.
 class Mailbox {
  public:
   void put(const Ball& ball) {
@@ -54,7 +54,7 @@ class Mailbox {
     balls_.push_back(ball);
     changed_.notify_one();
   }
-  // Throws when nothing comes for 10 s.
+  // Takes the next ball. Throws when nothing comes for 10 s.
   Ball take() {
     std::unique_lock lock(mutex_);
     if (!changed_.wait_for(lock, std::chrono::seconds(10), [this] { return !balls_.empty(); })) {
@@ -79,8 +79,8 @@ void send(Port& port, const Ball& ball) {
   }
 }
 
-// Client and servers each on a processor of their own, all variants alike: where the scheduler happens to put
-// a thread is worth more than what is measured here.
+// Client and servers each stand on a processor of their own, all variants alike: where the scheduler happens
+// to put a thread is worth more than what is measured here.
 void pin_to(unsigned processor) {
   cpu_set_t set;
   CPU_ZERO(&set);

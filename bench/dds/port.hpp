@@ -1,6 +1,6 @@
-// One end of a ping-pong over DDS: sends a path request or its reply (about 108 bytes of CDR) and hands over
-// what it receives. Built on our transports and, for comparison, directly on each vendor's API with its
-// generated types.
+// A port is one end of a ping-pong over DDS: it sends a path request or its reply (about 108 bytes of CDR)
+// and hands over what it receives. There are ports on our transports and, for comparison, directly on each
+// vendor's API with its generated types.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 namespace roci::bench {
 
+/// Is what goes to and fro.
 struct Ball {
   std::int64_t sequence = 0;
   double x_m = 0;
@@ -18,12 +19,14 @@ struct Ball {
 
 enum class Side { client, server };
 
+/// Says which end of the ping-pong a port is.
 struct PortOptions {
   Side side = Side::client;
   int domain = 0;
   std::function<void(const Ball&)> on_ball;  // called from a vendor thread
 };
 
+/// Is the interface of one end.
 class Port {
  public:
   virtual ~Port() = default;
@@ -31,18 +34,19 @@ class Port {
   virtual bool matched() const = 0;  // both topics of the pair
 };
 
+/// These open ports on a vendor's own API, and on our transport over a vendor.
 std::unique_ptr<Port> open_fastdds(PortOptions);
 std::unique_ptr<Port> open_cyclonedds(PortOptions);
 std::unique_ptr<Port> open_ours(const std::string& vendor, PortOptions);
 
-// A function request with 1,000 tuples of two objects there, 1,000 numbers and outcomes back.
+// Sends a function request with 1,000 tuples of two objects there, and 1,000 numbers and outcomes back.
 std::unique_ptr<Port> open_ours_with_tuples(const std::string& vendor, PortOptions);
 
-// A call over services/rpc.hpp between two nodes: loops, health and repetition included.
+// Makes a call over services/rpc.hpp between two nodes: loops, health and repetition are included.
 std::unique_ptr<Port> open_calls(const std::string& vendor, PortOptions);
 
-// An observation to exec_svc there, the command that waited for it back: event loop, reactor and the journal's
-// write to disk included.
+// Sends an observation to exec_svc there, and the command that waited for it back: event loop, reactor and
+// the journal's write to disk are included.
 std::unique_ptr<Port> open_reaction(const std::string& vendor, PortOptions);
 
 }  // namespace roci::bench

@@ -1,5 +1,5 @@
-// The executive between an observation and the command that waited for it: exec_svc as it is, live, with its
-// journal; the client plays the robot and the planner.
+// This port measures the executive between an observation and the command that waited for it: exec_svc runs
+// as it is, live, with its journal; the client plays the robot and the planner.
 #include <unistd.h>
 
 #include <atomic>
@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 namespace topics = services::topics;
 
-// More than any bench plays; the cost of an event does not depend on it (bench_executive).
+// A plan has more activities than any bench plays; the cost of an event does not depend on it
+// (bench_executive).
 constexpr std::size_t kActivities = 8000;
 
 std::unique_ptr<services::Node> open_node(const std::string& name, const std::string& vendor, int domain) {
@@ -31,7 +32,7 @@ std::unique_ptr<services::Node> open_node(const std::string& name, const std::st
       options, services::transport::open_transport(vendor, {.domain = domain, .participant = name}));
 }
 
-// Images one after the other; each waits for the camera to be observed idle after the one before.
+// Returns images one after the other; each waits for the camera to be observed idle after the one before.
 temporal::FlexiblePlan chain_of_images() {
   temporal::FlexiblePlan plan;
   for (std::size_t i = 0; i < kActivities; ++i) {
@@ -80,8 +81,8 @@ class ExecutivePort : public Port {
   std::jthread loop_;
 };
 
-// send(): the camera is observed idle and the image that is being taken is reported complete, in one go; the
-// command for the next one is the answer.
+// With send(), the camera is observed idle and the image that is being taken is reported complete, in one go;
+// the command for the next one is the answer.
 class RobotPort : public Port {
  public:
   RobotPort(const std::string& vendor, PortOptions options)
@@ -118,7 +119,7 @@ class RobotPort : public Port {
     robot_->stop();
   }
 
-  // False as long as no image is being taken.
+  // Returns false as long as no image is being taken.
   bool send(const Ball& ball) override {
     const auto turn = turn_.exchange(kNoTurn);
     if (turn == kNoTurn) return false;

@@ -1,6 +1,7 @@
 // bench_executive [--sizes N …] [--shapes S …] [--steps N] [--seed N]
-// What one event costs the executive, by size and shape of the plan: a stand-in owner accepts each command at
-// once and ends it after 10 to 12 s. Prints one JSON object; times are in microseconds of processor time.
+// It measures what one event costs the executive, by size and shape of the plan: a stand-in owner accepts
+// each command at once and ends it after 10 to 12 s. It prints one JSON object; times are in microseconds of
+// processor time.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <ctime>
@@ -24,7 +25,7 @@ double processor_us() {
   return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
 }
 
-// The owner's answers to come, by time.
+// Holds the owner's answers to come, by time.
 using Answers = std::multimap<Time, exec::executive::CommandAck>;
 
 void obey(const exec::executive::Outputs& outputs, Time now, std::mt19937_64& random, Answers& answers) {
@@ -52,7 +53,7 @@ nlohmann::json figures(std::vector<double> us) {
           {"max_us", us.back()}};
 }
 
-// At most `steps` steps: enough to see what one costs.
+// Makes at most `steps` steps, which is enough to see what one costs.
 nlohmann::json measure(const std::string& shape, std::size_t size, std::size_t steps, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   temporal::FlexiblePlan plan = bench::plan_of(shape, size, random);

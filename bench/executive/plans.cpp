@@ -35,7 +35,7 @@ void join_chain(FlexiblePlan& plan, Duration most) {
   for (std::size_t i = 1; i < plan.activities.size(); ++i) after(plan, i - 1, i, most);
 }
 
-// Groups of kFanWidth in parallel; the first activity of a group follows all of the group before it.
+// Puts groups of kFanWidth in parallel; the first activity of a group follows all of the group before it.
 void join_fan(FlexiblePlan& plan) {
   for (std::size_t i = 1; i < plan.activities.size(); ++i) {
     const std::size_t place = i % (kFanWidth + 1);

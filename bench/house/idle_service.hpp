@@ -1,4 +1,4 @@
-/// A service that belongs to the clock's roster, hears what most services hear and has nothing to do.
+// An idle service belongs to the clock's roster, hears what most services hear and has nothing to do.
 #pragma once
 
 #include "services/service.hpp"

@@ -1,6 +1,6 @@
-// bench_house: what a house of so many processes costs. For each size the mission's services are started with
-// idle ones beside them, twice: at pace 1 before the first goal, for memory, threads and idle CPU, and as
-// fast as possible to the end of the mission, for its speed. Prints one JSON object.
+// bench_house measures what a house of so many processes costs. For each size the mission's services are
+// started with idle ones beside them, twice: at pace 1 before the first goal, for memory, threads and idle
+// CPU, and as fast as possible to the end of the mission, for its speed. It prints one JSON object.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -76,7 +76,7 @@ void measure_flight(house::HouseOptions options, const fs::path& folder, json& o
   out["samples_per_micro_step"] = static_cast<double>(clock.samples) / static_cast<double>(clock.micro_steps);
 }
 
-// The same as Markdown, for docs/house.md.
+// Prints the same as Markdown, for docs/house.md.
 void print_table(const json& houses) {
   std::cout << "| processes | start | first command | memory (PSS) | threads | idle CPU | mission s per s | "
                "CPU of a flight | "
@@ -119,7 +119,7 @@ int bench(const Arguments& arguments) {
   return 0;
 }
 
-// This program as one of the idle services: its name stands in the place of the program's.
+// Makes this program one of the idle services; the service's name stands in the place of the program's.
 int be_idle(int argc, char** argv) {
   constexpr int kBefore = 2;
   return roci::services::process::service_main(argc - kBefore, argv + kBefore, argv[kBefore],

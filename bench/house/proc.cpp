@@ -27,7 +27,7 @@ ProcessFigures figures_of(pid_t process) {
   const std::string stat = file(process, "stat");
   const std::size_t name_end = stat.rfind(')');
   if (name_end == std::string::npos) return out;
-  // proc(5): the fields after the name, from the third one (state) on.
+  // These are the fields of proc(5) after the name, from the third one (state) on.
   std::istringstream fields(stat.substr(name_end + 2));
   std::string field;
   for (int number = 3; number <= 20 && fields >> field; ++number) {

@@ -1,8 +1,10 @@
-// roci-bench-limited REPORT SECONDS MEGABYTES COMMAND ARGUMENTS...: runs a command under limits of CPU time
-// and address space; REPORT gets "STATUS CPU_SECONDS PEAK_KIB". STATUS: its exit code, or the negated signal.
+// roci-bench-limited REPORT SECONDS MEGABYTES COMMAND ARGUMENTS...
+// It runs a command under limits of CPU time and address space. REPORT gets "STATUS CPU_SECONDS PEAK_KIB",
+// where STATUS is the exit code, or the negated signal.
 //
-// A small process of its own, because the kernel counts what the parent had in memory at the fork as part of
-// the child's peak: under Python that is 12 MB. It ends with the code of the command, or 128 and the signal.
+// It is a small process of its own, because the kernel counts what the parent had in memory at the fork as
+// part of the child's peak, which Python makes large. It ends with the code of the command, or 128 and the
+// signal.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
-// bench_mission: flies a mission with the launcher, in real processes, and reports what an operator waits
-// for: seconds from the start of the launcher to the first command on the topic, seconds of the whole run;
-// and what the planner cost: calls, the slowest, its peak memory. Prints one JSON object for each run.
+// bench_mission flies a mission with the launcher, in real processes, and reports what an operator waits for:
+// seconds from the start of the launcher to the first command on the topic, seconds of the whole run; and
+// what the planner cost: calls, the slowest, its peak memory. It prints one JSON object for each run.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>

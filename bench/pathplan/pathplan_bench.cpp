@@ -1,5 +1,5 @@
-// Path planning on the planetary site. Seeded queries between free places; run from anywhere:
-//   build/release/bench/bench_pathplan
+// This bench plans paths on the planetary site, by seeded queries between free places. It runs from anywhere:
+// build/release/bench/bench_pathplan
 #include <benchmark/benchmark.h>
 
 #include <random>
@@ -37,7 +37,7 @@ void build(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(PathPlanner(site, {}, {}));
 }
 
-// Each from a place that was not asked about before: grid search included.
+// Each path leads from a place that was not asked about before, so that the grid search is included.
 void first_path(benchmark::State& state) {
   PathPlanner planner = planetary();
   const auto places = free_places(planner.map(), 200000, 1);

@@ -18,7 +18,8 @@ Eigen::Isometry3d joint_motion(const Joint& joint, double coordinate) {
   return motion;
 }
 
-// Radius about the body's origin within which the body's shapes, its tool and the next joint's origin lie.
+// Returns the radius about the body's origin within which the body's shapes, its tool and the next joint's
+// origin lie.
 double body_extent(const Arm& arm, std::size_t body) {
   double extent = 0;
   for (const CollisionShape& shape : arm.bodies[body].shapes) {

@@ -1,5 +1,5 @@
-// Forward and differential kinematics of a serial arm (Siciliano et al., Robotics: Modelling, Planning and
-// Control, 2009, sections 2.9 and 3.1).
+// This file has the forward and differential kinematics of a serial arm (Siciliano et al., Robotics:
+// Modelling, Planning and Control, 2009, sections 2.9 and 3.1).
 #pragma once
 
 #include <vector>
@@ -8,14 +8,15 @@
 
 namespace roci::kinematics {
 
-/// Rows 0..2 are the velocity of the tool's origin, m/s; rows 3..5 its angular velocity, rad/s; both in the
-/// base frame.
+/// Holds in rows 0..2 the velocity of the tool's origin, m/s, and in rows 3..5 its angular velocity, rad/s,
+/// both in the base frame.
 using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, kMaxJoints>;
 
 /// Returns the pose of every body in the base frame, body 0 first. `q` has one value per joint; limits are
 /// not looked at.
 std::vector<Eigen::Isometry3d> body_poses(const Arm& arm, const JointVector& q);
 
+/// Returns the pose of the tool frame in the base frame.
 Eigen::Isometry3d tool_pose(const Arm& arm, const JointVector& q);
 
 /// These take body poses that body_poses() gave.

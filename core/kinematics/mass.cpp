@@ -3,7 +3,7 @@
 namespace roci::kinematics {
 namespace {
 
-// Inertia of a point mass at `arm` about the origin.
+// Returns the inertia of a point mass at `arm` about the origin.
 Eigen::Matrix3d point_inertia(double mass, const Eigen::Vector3d& arm) {
   return mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
 }

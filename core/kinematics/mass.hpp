@@ -1,4 +1,4 @@
-// Mass properties of rigidly joined parts.
+// This file joins the mass properties of rigidly joined parts.
 #pragma once
 
 #include "core/kinematics/arm.hpp"

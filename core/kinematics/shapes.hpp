@@ -1,4 +1,4 @@
-// Measures of collision shapes.
+// This file measures collision shapes.
 #pragma once
 
 #include "core/kinematics/arm.hpp"

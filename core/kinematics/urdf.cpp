@@ -46,7 +46,7 @@ MassProperties mass_of(const urdf::Inertial& inertial) {
 
 bool moves(const urdf::Joint& joint) { return joint.type != urdf::Joint::FIXED; }
 
-// Root link first, tip last.
+// Returns the links of the chain, root link first, tip last.
 std::vector<urdf::LinkConstSharedPtr> chain_to(const urdf::ModelInterface& model, const std::string& tip) {
   std::vector<urdf::LinkConstSharedPtr> chain;
   for (urdf::LinkConstSharedPtr link = model.getLink(tip); link != nullptr; link = link->getParent()) {
@@ -66,8 +66,8 @@ class ArmBuilder {
     const auto chain = chain_to(model_, options_.tip);
     arm_.name = model_.getName();
     arm_.bodies.push_back({chain.front()->name, {}, {}});
-    Eigen::Isometry3d in_body =
-        Eigen::Isometry3d::Identity();  // pose of the current link in the current body
+    // This is the pose of the current link in the current body.
+    Eigen::Isometry3d in_body = Eigen::Isometry3d::Identity();
     for (std::size_t i = 0; i < chain.size(); ++i) {
       if (i > 0) in_body = step(*chain[i], in_body);
       const auto next = i + 1 < chain.size() ? chain[i + 1] : nullptr;
@@ -84,7 +84,7 @@ class ArmBuilder {
   }
 
  private:
-  // Goes over the joint above `link`; gives the link's pose in the body it belongs to.
+  // Goes over the joint above `link`. Returns the link's pose in the body that it belongs to.
   Eigen::Isometry3d step(const urdf::Link& link, const Eigen::Isometry3d& parent_in_body) {
     const urdf::Joint& joint = *link.parent_joint;
     const Eigen::Isometry3d origin = parent_in_body * pose_of(joint.parent_to_joint_origin_transform);

@@ -1,10 +1,10 @@
-// Reads a serial arm from URDF text: the chain from the document's root link to a named tip.
+// This file reads a serial arm from URDF text: the chain from the document's root link to a named tip.
 //
 // Fixed joints, also of side branches (a camera bracket, the chassis), fold into the bodies they hold; a
 // movable joint off the chain is an error. `continuous` becomes revolute within ±2π. Beyond plain URDF,
-// <limit> may carry `acceleration` (as in URDF 1.2). Collision geometry: a box or sphere as it is; a cylinder
-// longer than wide becomes the capsule around the same axis segment, a flatter one the box around it: both
-// contain it. Meshes are refused.
+// <limit> may carry `acceleration` (as in URDF 1.2). A box or sphere of collision geometry stays as it is; a
+// cylinder longer than wide becomes the capsule around the same axis segment, a flatter one the box around
+// it: both contain it. Meshes are refused.
 #pragma once
 
 #include <string>
@@ -14,16 +14,18 @@
 
 namespace roci::kinematics {
 
+/// Says what the URDF itself leaves open.
 struct UrdfOptions {
-  std::string tip;  ///< The link that is the tool frame.
-  /// Joints without an acceleration limit reach their speed limit in this time
+  std::string tip;  ///< Names the link that is the tool frame.
+  /// Joints without an acceleration limit reach their speed limit in this time.
   double time_to_speed_s = 0.5;
 };
 
+/// Says why a document is no arm, and where.
 struct UrdfError {
   std::string file;
-  int line = 0;         ///< Counted from 1; 0 stands for the document as a whole.
-  std::string element;  ///< E.g. "joint 'elbow'" or "robot".
+  int line = 0;         ///< Counts from 1; 0 stands for the document as a whole.
+  std::string element;  ///< Reads as "joint 'elbow'" or "robot".
   std::string message;  ///< It says what is wrong and how to mend it.
 };
 

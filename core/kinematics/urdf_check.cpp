@@ -111,7 +111,8 @@ void check_joint(const XMLElement& joint, UrdfNotes& notes) {
   check_dynamics(joint);
 }
 
-// Links must form one tree: every link at most once a child, no way round, one root.
+// Checks that the links form one tree: every link is at most once a child, there is no way round, and there
+// is one root.
 void check_tree(const XMLElement& robot, const UrdfNotes& notes) {
   std::map<std::string, std::string> parent_of;
   for (const XMLElement* joint = robot.FirstChildElement("joint"); joint != nullptr;

@@ -1,4 +1,4 @@
-// The checks that give URDF errors a line: urdfdom keeps no positions, so the document is read with tinyxml2
+// These checks give URDF errors a line: urdfdom keeps no positions, so the document is read with tinyxml2
 // first.
 #pragma once
 
@@ -11,16 +11,16 @@
 
 namespace roci::kinematics {
 
-/// Later stages need this from the document and urdfdom does not keep.
+/// Holds what later stages need from the document and urdfdom does not keep.
 struct UrdfNotes {
   std::map<std::string, int> link_line;
   std::map<std::string, int> joint_line;
-  std::map<std::string, double> acceleration;  ///< Of the joints whose <limit> gives one.
+  std::map<std::string, double> acceleration;  ///< Has the joints whose <limit> gives one.
 };
 
-/// A document that passes has: unique names, known joint types, finite numbers, limits with lower < upper and
-/// positive velocity and effort on every movable joint, no zero axis, no mesh in <collision>, positive sizes,
-/// and links that form one tree.
+/// Checks a document. One that passes has unique names, known joint types, finite numbers, limits with lower
+/// < upper and positive velocity and effort on every movable joint, no zero axis, no mesh in <collision>,
+/// positive sizes, and links that form one tree. Returns the first error otherwise, under the name `file`.
 std::variant<UrdfNotes, UrdfError> check_urdf(const std::string& text, const std::string& file);
 
 }  // namespace roci::kinematics

@@ -1,4 +1,4 @@
-// Reading numbers out of URDF elements, with errors that name the element and its line.
+// This file reads numbers out of URDF elements, with errors that name the element and its line.
 #pragma once
 
 #include <tinyxml2.h>
@@ -10,26 +10,28 @@
 
 namespace roci::kinematics::xml {
 
-/// Thrown inside the URDF reader only; check_urdf() turns it into its return value.
+/// Is thrown inside the URDF reader only; check_urdf() turns it into its return value.
 struct Failure {
   int line;
   std::string element;
   std::string message;
 };
 
-/// "joint 'elbow'" for a named element, "limit" for another.
+/// Returns "joint 'elbow'" for a named element, "limit" for another.
 std::string label(const tinyxml2::XMLElement& element);
 
+/// Throws Failure for the element, with its line.
 [[noreturn]] void fail(const tinyxml2::XMLElement& element, const std::string& message);
 
-/// The attribute, which must be there and not be empty.
+/// Returns the attribute. Throws Failure if it is missing or empty.
 std::string required_text(const tinyxml2::XMLElement& element, const char* attribute);
 
-/// Exactly `count` finite numbers from an attribute; `fallback` where the attribute is missing.
+/// Returns exactly `count` finite numbers from an attribute, or `fallback` where the attribute is missing.
+/// Throws Failure for anything else.
 std::vector<double> numbers(const tinyxml2::XMLElement& element, const char* attribute, std::size_t count,
                             const std::vector<double>& fallback);
 
-/// One finite number; the attribute must be there.
+/// Returns one finite number. Throws Failure for anything else, and where the attribute is missing.
 double required_number(const tinyxml2::XMLElement& element, const char* attribute);
 
 }  // namespace roci::kinematics::xml

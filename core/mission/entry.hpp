@@ -1,4 +1,4 @@
-// Mission files (YAML) read with errors that name file, line, column and remedy.
+// Mission files (YAML) are read with errors that name file, line, column and remedy.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,14 @@ class Node;
 
 namespace roci::mission {
 
-/// It says in what(): "file:line:column: what is wrong; remedy".
+/// Says in what(): "file:line:column: what is wrong; remedy".
 class FileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// One value of a mission file with its place in it. Every accessor throws FileError when the value is not of
-/// the kind asked for.
+/// Is one value of a mission file with its place in it. Every accessor throws FileError when the value is not
+/// of the kind asked for.
 class Entry {
  public:
   /// Reads the root of a file. Throws FileError if it cannot be read, is not YAML, or is not a mapping.

@@ -1,4 +1,4 @@
-// The scenarios of a mission: scenarios/NAME.yaml in its folder.
+// The scenarios of a mission are the files scenarios/NAME.yaml in its folder.
 #pragma once
 
 #include <filesystem>

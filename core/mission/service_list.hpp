@@ -1,4 +1,4 @@
-// The services of a mission: `services:` of mission.yaml. Launcher, roster of the simulated clock,
+// The services of a mission stand in `services:` of mission.yaml. Launcher, roster of the simulated clock,
 // supervisor, rehearsal and systemd units read this list; there is no other.
 #pragma once
 
@@ -11,27 +11,29 @@
 
 namespace roci::mission {
 
-/// One process of a run.
+/// Is one process of a run.
 struct ServiceEntry {
   std::string name;  ///< logical name, unique in the mission; samples carry it as their sender
-  /// A program beside the launcher, or a path seen from the mission's folder if it holds a '/'.
+  /// Names a program beside the launcher, or a path seen from the mission's folder if it holds a '/'.
   std::string program;
-  std::string robot;   ///< whose inner topics it shares; empty: the team's, with those of every robot
+  std::string robot;   ///< its inner topics it shares; empty: the team's, with those of every robot
   std::string vendor;  ///< DDS vendor in a mixed run; empty: the run's first vendor
   std::filesystem::path settings;  ///< the mission file that it reads, mission.yaml unless another is named
   bool clock_master = false;       ///< it drives the simulated clock; at most one does
-  bool paired = false;  ///< with a standby the run has a second process of it (program option --pair)
+  bool paired = false;             ///< the run has a second process of it, a standby (program option --pair)
   std::vector<std::string> arguments;  ///< appended to its command line
 };
 
+/// Holds the processes of a run in the order of the mission file.
 struct ServiceList {
-  std::vector<std::string> robots;  ///< as `robots:` names them, in that order
+  std::vector<std::string> robots;  ///< come in the order of `robots:`, as it names them
   std::vector<ServiceEntry> services;
 
-  /// Null if there is none of that name.
+  /// Returns the service of that name, or null if there is none.
   const ServiceEntry* find(std::string_view name) const;
   std::vector<std::string> names() const;
-  /// The one with `clock: master`; null if there is none: then the mission can only be flown live.
+  /// Returns the service with `clock: master`, or null if there is none: then the mission can only be flown
+  /// live.
   const ServiceEntry* clock_master() const;
   /// Those that run this program, in the order of the list.
   std::vector<const ServiceEntry*> of_program(std::string_view program) const;
@@ -43,12 +45,12 @@ struct ServiceList {
   std::string serving(std::string_view program, std::string_view robot) const;
 };
 
-/// Reads `robots:` and `services:`. Throws FileError with the place: no list, a name twice or not of letters,
-/// digits, '_',
-/// '-' and '.', an unknown robot, a settings file or a program path that does not exist, two clock masters.
+/// Reads `robots:` and `services:`. Throws FileError with the place if there is no list, a name comes twice
+/// or is not made of letters, digits, '_', '-' and '.', a robot is unknown, a settings file or a program path
+/// does not exist, or there are two clock masters.
 ServiceList read_service_list(const Entry& mission);
 
-/// The list of mission.yaml in that folder. Throws FileError.
+/// Reads the list of mission.yaml in that folder. Throws FileError.
 ServiceList load_service_list(const std::filesystem::path& mission_folder);
 
 }  // namespace roci::mission

@@ -1,8 +1,9 @@
-// The syntax tree of a PDDL domain or problem: PDDL 2.1 level 3, timed initial literals and derived
+// The syntax tree of a PDDL domain or problem covers PDDL 2.1 level 3, timed initial literals and derived
 // predicates (2.2), timed initial fluents, and :modules of external functions (Stellar section 4.5, R35).
 //
-// Plain values. All names are lower case. A tree from the parser has its types, arities and names checked
-// only after check() (check.hpp). Equality compares what nodes say and ignores where they stand.
+// Its nodes are plain values. All names are lower case. A tree from the parser has its types, arities and
+// names checked only after check() (check.hpp). Equality compares what nodes say and ignores where they
+// stand.
 #pragma once
 
 #include <optional>
@@ -17,7 +18,7 @@ namespace roci::pddl {
 
 // ---- Names, terms, types
 
-/// A variable ("?x", with its question mark) or the name of an object.
+/// Is a variable ("?x", with its question mark) or the name of an object.
 struct Term {
   std::string name;
   SourceLocation where;
@@ -25,7 +26,7 @@ struct Term {
   bool is_variable() const { return !name.empty() && name.front() == '?'; }
 };
 
-/// A variable, object or type with its type(s): several alternatives for `(either a b)`, {"object"} if
+/// Is a variable, object or type with its type(s): several alternatives for `(either a b)`, {"object"} if
 /// untyped.
 struct TypedName {
   std::string name;
@@ -33,14 +34,14 @@ struct TypedName {
   SourceLocation where;
 };
 
-/// A predicate, fluent or external function applied to terms.
+/// Is a predicate, fluent or external function applied to terms.
 struct Atom {
   std::string symbol;
   std::vector<Term> arguments;
   SourceLocation where;
 };
 
-/// Declaration of a predicate, fluent or external function.
+/// Declares a predicate, fluent or external function.
 struct Signature {
   std::string name;
   std::vector<TypedName> parameters;
@@ -51,6 +52,7 @@ struct Signature {
 
 struct Expression;
 
+/// Is a number as it stands in the text.
 struct Number {
   double value = 0;
 };
@@ -61,7 +63,8 @@ struct ContinuousTime {};    ///< #t: parsed so that it can be refused by name (
 
 enum class ArithmeticOperator { add, subtract, multiply, divide };
 
-/// One operand with subtract is the negative; add and multiply take two or more, the others two.
+/// Joins operands: one operand with subtract is the negative; add and multiply take two or more, the others
+/// two.
 struct Arithmetic {
   ArithmeticOperator op = ArithmeticOperator::add;
   std::vector<Expression> operands;
@@ -77,53 +80,62 @@ struct Expression {
 
 struct Condition;
 
-struct And {  // empty: true
+/// Holds if all parts hold; without parts it holds.
+struct And {
   std::vector<Condition> parts;
 };
 
-struct Or {  // empty: false
+/// Holds if one of the parts holds; without parts it does not hold.
+struct Or {
   std::vector<Condition> parts;
 };
 
+/// Holds if the body does not.
 struct Not {
   Box<Condition> body;
 };
 
+/// Holds if the premise does not, or the conclusion does.
 struct Imply {
   Box<Condition> premise;
   Box<Condition> conclusion;
 };
 
+/// Holds if the body does for every choice of objects.
 struct Forall {
   std::vector<TypedName> variables;
   Box<Condition> body;
 };
 
+/// Holds if the body does for some choice of objects.
 struct Exists {
   std::vector<TypedName> variables;
   Box<Condition> body;
 };
 
-struct TermEquality {  // (= ?x ?y): the same object
+/// Holds if both terms are the same object: (= ?x ?y).
+struct TermEquality {
   Term left;
   Term right;
 };
 
 enum class ComparisonOperator { less, less_equal, equal, greater_equal, greater };
 
+/// Compares two numeric expressions.
 struct Comparison {
   ComparisonOperator op = ComparisonOperator::equal;
   Expression left;
   Expression right;
 };
 
+/// Is a condition of any form.
 struct Condition {
   std::variant<And, Or, Not, Imply, Forall, Exists, Atom, TermEquality, Comparison> node;
   SourceLocation where;
 };
 
-/// The conditions of a durative action, sorted by time (`forall` and `and` around `at start` and the like are
-/// distributed by the parser). What is not asked is the empty And. A plain action has only at_start.
+/// Holds the conditions of a durative action, sorted by time (the parser distributes `forall` and `and`
+/// around `at start` and the like). What is not asked is the empty And. A plain action has only at_start.
 struct TimedCondition {
   Condition at_start;
   Condition over_all;
@@ -134,6 +146,7 @@ struct TimedCondition {
 
 struct Effect;
 
+/// Is an atom or its negation.
 struct Literal {
   Atom atom;
   bool negated = false;
@@ -141,13 +154,14 @@ struct Literal {
 
 enum class AssignmentOperator { assign, increase, decrease, scale_up, scale_down };
 
+/// Changes a fluent to, or by, the value of an expression.
 struct Assignment {
   AssignmentOperator op = AssignmentOperator::assign;
   Atom fluent;
   Expression value;
 };
 
-/// A conditional effect. The condition may look at another time than the effect's own: the end effect of
+/// Is a conditional effect. The condition may look at another time than the effect's own: the end effect of
 /// `(when (at start (p)) (at end (q)))` has p in condition.at_start. `(at end (when (p) (q)))` has it in
 /// condition.at_end, and a plain action in condition.at_start.
 struct When {
@@ -155,12 +169,13 @@ struct When {
   std::vector<Effect> effects;
 };
 
+/// Has its effects for every choice of objects.
 struct ForallEffect {
   std::vector<TypedName> variables;
   std::vector<Effect> effects;
 };
 
-/// `and` in effects is dissolved into the vector that holds it.
+/// Is one effect; an `and` in effects is dissolved into the vector that holds it.
 struct Effect {
   std::variant<Literal, Assignment, When, ForallEffect> node;
   SourceLocation where;
@@ -168,6 +183,7 @@ struct Effect {
 
 // ---- Actions
 
+/// Is an instantaneous action, (:action …).
 struct Action {
   std::string name;
   std::vector<TypedName> parameters;
@@ -178,7 +194,7 @@ struct Action {
 
 enum class TimePoint { start, end };
 
-/// ?duration OP bound, the bound being evaluated at the given point; OP is <=, = or >=.
+/// Says ?duration OP bound, where the bound is evaluated at the given point and OP is <=, = or >=.
 struct DurationConstraint {
   ComparisonOperator op = ComparisonOperator::equal;
   Expression bound;
@@ -186,7 +202,8 @@ struct DurationConstraint {
   SourceLocation where;
 };
 
-/// ⟨pre⊢, eff⊢, pre↔, pre⊣, eff⊣⟩ with bounds on the duration (R2); no constraint at all: any duration ≥ 0.
+/// Is ⟨pre⊢, eff⊢, pre↔, pre⊣, eff⊣⟩ with bounds on the duration (R2); without any constraint every duration
+/// ≥ 0 is allowed.
 struct DurativeAction {
   std::string name;
   std::vector<TypedName> parameters;
@@ -194,12 +211,12 @@ struct DurativeAction {
   TimedCondition condition;
   std::vector<Effect> start_effects;
   std::vector<Effect> end_effects;
-  /// `(increase (f) (* #t 2))`, outside of any `at`; see forbidden.hpp.
+  /// Holds effects as `(increase (f) (* #t 2))`, outside of any `at`; see forbidden.hpp.
   std::vector<Effect> continuous_effects;
   SourceLocation where;
 };
 
-/// (:derived (head ?x - t …) body)
+/// Is `(:derived (head ?x - t …) body)`.
 struct DerivedPredicate {
   Signature head;
   Condition body;
@@ -207,20 +224,23 @@ struct DerivedPredicate {
 
 // ---- Domain
 
+/// Is one entry of (:requirements …).
 struct Requirement {
-  std::string keyword;  ///< with its colon: ":typing"
+  std::string keyword;  ///< has its colon: ":typing"
   SourceLocation where;
 };
 
-/// External functions of one owner: objects to numbers, constant for a whole planning call.
+/// Declares the external functions of one owner: they lead from objects to numbers and are constant for a
+/// whole planning call.
 struct Module {
   std::string name;
   std::vector<Signature> functions;
   SourceLocation where;
 };
 
+/// Is a whole domain file; its lists keep the order of the text.
 struct Domain {
-  std::string file;  ///< as given to the parser, for messages
+  std::string file;  ///< is as given to the parser, for messages
   std::string name;
   std::vector<Requirement> requirements;
   std::vector<TypedName> types;  ///< name and its supertype(s)
@@ -236,24 +256,28 @@ struct Domain {
 
 // ---- Problem
 
-struct InitialValue {  // (= (f a) 3)
+/// Is an entry of :init: (= (f a) 3).
+struct InitialValue {
   Atom fluent;
   double value = 0;
 };
 
-struct TimedLiteral {  // (at 5 (p)), (at 7 (not (p)))
+/// Is a timed initial literal, (at 5 (p)) or (at 7 (not (p))), with its time in seconds.
+struct TimedLiteral {
   double time = 0;
   Literal literal;
   SourceLocation where;
 };
 
-struct TimedValue {  // (at 5 (= (f a) 3))
+/// Is a timed initial fluent, (at 5 (= (f a) 3)), with its time in seconds.
+struct TimedValue {
   double time = 0;
   Atom fluent;
   double value = 0;
   SourceLocation where;
 };
 
+/// Is the (:metric …) of a problem.
 struct Metric {
   enum class Sense { minimize, maximize };
   Sense sense = Sense::minimize;
@@ -261,8 +285,9 @@ struct Metric {
   SourceLocation where;
 };
 
+/// Is a whole problem file; its lists keep the order of the text.
 struct Problem {
-  std::string file;  ///< as given to the parser, for messages
+  std::string file;  ///< is as given to the parser, for messages
   std::string name;
   std::string domain_name;
   std::vector<Requirement> requirements;
@@ -277,7 +302,7 @@ struct Problem {
   SourceLocation where;
 };
 
-// ---- Equality of what is said, wherever it stands (file names and locations are ignored)
+// Equality compares what is said, wherever it stands (file names and locations are ignored).
 
 bool operator==(const Term&, const Term&);
 bool operator==(const TypedName&, const TypedName&);

@@ -1,4 +1,4 @@
-// operator== of the tree: member by member, without locations and file names.
+// operator== of the tree goes member by member, without locations and file names.
 #include <tuple>
 
 #include "core/pddl/ast.hpp"

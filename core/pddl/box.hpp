@@ -1,4 +1,5 @@
-// A value of a type that may still be incomplete: what lets a syntax tree hold itself and stay a plain value.
+// A Box holds a value of a type that may still be incomplete: so a syntax tree can hold itself and stay a
+// plain value.
 #pragma once
 
 #include <memory>
@@ -6,7 +7,7 @@
 
 namespace roci::pddl {
 
-/// Owns one T on the heap; copies deeply. Never empty, except after it was moved from.
+/// Owns one T on the heap and copies it deeply. It is never empty, except after it was moved from.
 template <typename T>
 class Box {
  public:

@@ -1,4 +1,4 @@
-// What a parsed domain or problem must satisfy beyond grammar: names are used with their declared arity and
+// A parsed domain or problem must satisfy more than grammar: names are used with their declared arity and
 // types; predicates, functions, modules and actions are declared once; variables are bound once; derived
 // predicates are stratified and nobody's effect; external functions are nobody's fluent; ?duration,
 // total-time and #t stand where they have a meaning. As IPC files need it, a type or object declared again
@@ -12,12 +12,12 @@
 
 namespace roci::pddl {
 
-/// All findings in textual order of their discovery; empty: fine.
+/// Returns all findings in the order of their discovery; there are none if all is well.
 std::vector<Diagnostic> check(const Domain& domain);
-/// Takes a domain without findings.
+/// Returns the findings in a problem; the domain must be one without findings.
 std::vector<Diagnostic> check(const Problem& problem, const Domain& domain);
 
-/// Parse and check in one; throw the first finding as ParseError.
+/// These parse and check in one, and throw the first finding as ParseError.
 Domain load_domain(std::string_view text, std::string_view file);
 Problem load_problem(std::string_view text, std::string_view file, const Domain& domain);
 

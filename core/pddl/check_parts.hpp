@@ -1,4 +1,4 @@
-// Internal to core/pddl: the checks that domain and problem share.
+// This file is internal to core/pddl: it has the checks that domain and problem share.
 #pragma once
 
 #include <map>
@@ -26,14 +26,14 @@ class Findings {
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// Where an expression stands decides what it may mention.
+/// Tells what an expression may mention, which depends on where it stands.
 struct ExpressionContext {
   bool duration = false;         ///< ?duration
   bool total_time = false;       ///< total-time
   bool continuous_time = false;  ///< #t
 };
 
-/// Everything declared, by name. Points into the domain, which must outlive it.
+/// Knows everything declared, by name. It points into the domain, which must outlive it.
 class Symbols {
  public:
   explicit Symbols(const Domain& domain);
@@ -43,7 +43,7 @@ class Symbols {
   const Signature* find_predicate(const std::string& name) const;
   const Signature* find_fluent(const std::string& name) const;
   const Signature* find_external(const std::string& name) const;
-  /// All types an object was declared with, in one or several declarations.
+  /// Returns all types that an object was declared with, in one or several declarations, or null.
   const std::vector<std::string>* find_object_types(const std::string& name) const;
   bool is_derived(const std::string& name) const { return derived_.contains(name); }
   const TypeTree& types() const { return types_; }
@@ -85,9 +85,10 @@ class FormulaChecker {
   std::vector<const TypedName*> bound_;
 };
 
+/// Reports every type of the names that nobody declared.
 void check_types(const std::vector<TypedName>& names, const Symbols& symbols, Findings& findings);
 
-/// … and no variable stands twice.
+/// Checks the types of the variables, and that none stands twice.
 void check_variables(const std::vector<TypedName>& variables, const Symbols& symbols, Findings& findings);
 
 }  // namespace roci::pddl

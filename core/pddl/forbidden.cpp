@@ -38,7 +38,7 @@ std::set<std::string> changing_fluents(const Domain& domain, const Problem& prob
   return changing;
 }
 
-// 0: constant, 1: linear, 2: neither, in the fluents that change.
+// Returns the degree in the fluents that change: 0 for constant, 1 for linear, 2 for neither.
 int degree(const Expression& expression, const std::set<std::string>& changing) {
   const Arithmetic* arithmetic = std::get_if<Arithmetic>(&expression.node);
   if (!arithmetic) {

@@ -1,5 +1,5 @@
-// Values of external functions as text, where no service gives them (`--functions FILE`): one tuple per line,
-// `;` for comments.
+// A function table gives values of external functions as text, where no service gives them (`--functions
+// FILE`). It has one tuple per line, and `;` begins a comment:
 //   (traverse_time a b) 12.5
 //   (traverse_time a c) unreachable
 #pragma once
@@ -11,14 +11,14 @@
 
 namespace roci::pddl {
 
-/// The printed application, "(traverse_time a b)", to its value; nullopt: unreachable, that is, no action
-/// that needs the value exists. What is not in the table is unknown.
+/// Maps the printed application, "(traverse_time a b)", to its value. An empty value says unreachable: no
+/// action that needs it exists. What is not in the table is unknown.
 using FunctionTable = std::map<std::string, std::optional<double>, std::less<>>;
 
-/// Throws ParseError: another form, or a tuple that stands twice with different values.
+/// Reads a table. Throws ParseError for another form, or a tuple that stands twice with different values.
 FunctionTable parse_function_table(std::string_view text, std::string_view file);
 
-/// One tuple per line; parsed again, it is the same table to the last bit.
+/// Prints one tuple per line; parsed again, it is the same table to the last bit.
 std::string print(const FunctionTable& table);
 
 }  // namespace roci::pddl

@@ -6,7 +6,7 @@ namespace roci::pddl::grammar {
 
 namespace {
 
-// The `:keyword VALUE` pairs of an action.
+// Holds the `:keyword VALUE` pairs of an action.
 class Fields {
  public:
   Fields(const Sexpr& action, std::initializer_list<std::string_view> known, const Source& source)
@@ -28,7 +28,7 @@ class Fields {
     }
   }
 
-  // nullptr if absent
+  // Returns nullptr if the key is absent.
   const Sexpr* find(const std::string& key) const {
     const auto it = fields_.find(key);
     return it == fields_.end() ? nullptr : &require_list(*it->second, "a list after " + key, source_);

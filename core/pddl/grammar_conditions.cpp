@@ -79,7 +79,7 @@ Condition conjunction(std::vector<Condition> parts, SourceLocation where) {
 
 void add_timed(const Sexpr& s, PartsByTime& out, const Source& source);
 
-// The quantifier is distributed over the times: forall x (at start p) and (at end q) = two foralls.
+// Distributes the quantifier over the times: forall x (at start p) and (at end q) make two foralls.
 void add_forall(const Sexpr& s, PartsByTime& out, const Source& source) {
   require_parts(s, 2, "(forall (?x - TYPE …) CONDITION)", source);
   const auto variables = read_variables(s.items[1], source);

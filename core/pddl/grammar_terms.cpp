@@ -40,7 +40,7 @@ const Sexpr& require_list(const Sexpr& s, std::string_view what, const Source& s
 
 namespace {
 
-// `t` or `(either t u …)`
+// Reads `t` or `(either t u …)`.
 std::vector<std::string> read_type(const Sexpr& s, const Source& source) {
   if (!s.is_list) return {read_name(s, "a type", source)};
   if (s.head() != "either" || s.items.size() < 2) {

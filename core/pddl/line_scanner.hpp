@@ -1,5 +1,5 @@
-// Internal to core/pddl: reads one line of a line-oriented file (plans, tables of function values) from left
-// to right.
+// This file is internal to core/pddl: it reads one line of a line-oriented file (plans, tables of function
+// values) from left to right.
 #pragma once
 
 #include <functional>
@@ -10,20 +10,22 @@
 
 namespace roci::pddl {
 
+/// Takes a line apart. Everything that expects something throws ParseError, with the place, where it is
+/// missing.
 class LineScanner {
  public:
-  /// `text` without its newline; from a ';' on it is a comment.
+  /// Takes `text` without its newline; a comment begins at a ';'.
   LineScanner(std::string_view text, std::string_view file, int line);
 
-  /// Skip blanks, then look or take.
+  /// These skip blanks, then look or take.
   bool at_end();
   bool take(char c);
   void expect(char c, std::string_view remedy);
   void expect_end(std::string_view remedy);
-  /// Up to the next blank, parenthesis, bracket or colon, lower-cased; may be empty.
+  /// Takes what stands before the next blank, parenthesis, bracket or colon, lower-cased; it may be empty.
   std::string take_word();
   double expect_number(std::string_view what);
-  /// `(name object …)` without variables.
+  /// Takes `(name object …)` without variables. Throws ParseError for anything else.
   Atom expect_ground_atom(std::string_view what);
 
   SourceLocation here() const { return {line_, static_cast<int>(next_) + 1}; }

@@ -1,8 +1,9 @@
-// std::visit with one lambda per alternative.
+// Overloaded lets std::visit take one lambda per alternative.
 #pragma once
 
 namespace roci::pddl {
 
+/// Is callable with whatever one of its lambdas takes.
 template <typename... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;

@@ -24,7 +24,7 @@ Literal read_literal(const Sexpr& s, const Source& source) {
   return {read_atom(s.items[1], "a fact", source), true};
 }
 
-// (at NUMBER FACT): tells a timed fact from the atom of a predicate named `at`.
+// Tells a timed fact, (at NUMBER FACT), from the atom of a predicate named `at`.
 bool is_timed(const Sexpr& s) {
   return s.head() == "at" && s.items.size() == 3 && s.items[2].is_list && !s.items[1].is_list &&
          as_number(s.items[1].word);

@@ -50,7 +50,7 @@ std::string print_timed(const TimedCondition& condition) {
   return text + ")";
 }
 
-// When effects happen: in a plain action, or at a time of a durative one.
+// Says when effects happen: in a plain action, or at a time of a durative one.
 enum class Moment { plain, start, end, continuous };
 
 std::string at_moment(Moment moment, std::string effect) {

@@ -5,7 +5,7 @@ namespace roci::pddl {
 
 namespace {
 
-// One entry per line: a problem may hold tens of thousands.
+// Prints one entry per line, since a problem may hold tens of thousands.
 class Section {
  public:
   explicit Section(std::string_view keyword) : text_("  (" + std::string(keyword)) {}

@@ -1,4 +1,4 @@
-// Internal to core/pddl: what the printers of fragments, actions and whole files share.
+// This file is internal to core/pddl: the printers of fragments, actions and whole files share it.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace roci::pddl {
 
-/// "?x - rover ?y - (either site base)"
+/// Prints "?x - rover ?y - (either site base)".
 std::string print_typed_names(const std::vector<TypedName>& names);
-/// "(f ?x - t)"
+/// Prints "(f ?x - t)".
 std::string print_signature(const Signature& signature);
 
-/// Whole `(:action …)` and `(:durative-action …)` blocks, indented by two.
+/// These print whole `(:action …)` and `(:durative-action …)` blocks, indented by two.
 std::string print_action(const Action& action);
 std::string print_action(const DurativeAction& action);
 

@@ -1,4 +1,5 @@
-// The parenthesised skeleton of PDDL text: tokens and lists with their places, before any meaning.
+// This file reads the parenthesised skeleton of PDDL text: tokens and lists with their places, before any
+// meaning.
 #pragma once
 
 #include <optional>
@@ -10,27 +11,28 @@
 
 namespace roci::pddl {
 
-/// Deepest accepted nesting of parentheses; everything that walks a syntax tree may recurse this deep.
+/// Bounds the accepted nesting of parentheses; everything that walks a syntax tree may recurse this deep.
 inline constexpr int kMaxNesting = 200;
 
-/// A lower-cased word (name, keyword, variable, number, operator) or a list.
+/// Is a lower-cased word (name, keyword, variable, number, operator) or a list.
 struct Sexpr {
   bool is_list = false;
-  std::string word;          ///< of a word
-  std::vector<Sexpr> items;  ///< of a list
+  std::string word;          ///< is set for a word
+  std::vector<Sexpr> items;  ///< are set for a list
   SourceLocation where;      ///< first character, a list's "("
   SourceLocation closed;     ///< a list's ")"
 
   bool is_word(std::string_view text) const { return !is_list && word == text; }
-  /// The word in front of a list: "and" of (and …); empty for words and for lists that begin with a list.
+  /// Returns the word in front of a list, as "and" of (and …); it is empty for words and for lists that begin
+  /// with a list.
   std::string_view head() const;
 };
 
-/// Reads exactly one list, `;` comments aside. Throws ParseError: a parenthesis without partner, text after
-/// the list, nesting beyond kMaxNesting, a byte that PDDL does not know, no list at all.
+/// Reads exactly one list, `;` comments aside. Throws ParseError for a parenthesis without partner, text
+/// after the list, nesting beyond kMaxNesting, a byte that PDDL does not know, or no list at all.
 Sexpr read_sexpr(std::string_view text, std::string_view file);
 
-/// The word as a finite decimal number ("5", "-0.5", ".5", "1e3"), if it is one.
+/// Returns the word as a finite decimal number ("5", "-0.5", ".5", "1e3"), if it is one.
 std::optional<double> as_number(std::string_view word);
 
 }  // namespace roci::pddl

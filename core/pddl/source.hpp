@@ -1,4 +1,4 @@
-// Where something stands in a text, and how an error there is told.
+// This file says where something stands in a text, and how an error there is told.
 #pragma once
 
 #include <stdexcept>
@@ -6,7 +6,8 @@
 
 namespace roci::pddl {
 
-/// 1-based line and column (counted in bytes). {0, 0}: made by a program, not read from a text.
+/// Holds a line and a column, both from 1, the column in bytes. {0, 0} was made by a program and not read
+/// from a text.
 struct SourceLocation {
   int line = 0;
   int column = 0;
@@ -14,7 +15,7 @@ struct SourceLocation {
   auto operator<=>(const SourceLocation&) const = default;
 };
 
-/// One thing wrong with an input: where, what, and what to do about it.
+/// Tells one thing wrong with an input: where, what, and what to do about it.
 struct Diagnostic {
   std::string file;
   SourceLocation where;
@@ -22,10 +23,10 @@ struct Diagnostic {
   std::string remedy;
 };
 
-/// "file:line:column: error: message (remedy)"
+/// Prints "file:line:column: error: message (remedy)".
 std::string to_string(const Diagnostic& diagnostic);
 
-/// Thrown for any text that cannot be taken as what it claims to be; what() is to_string(diagnostic()).
+/// Is thrown for any text that cannot be taken as what it claims to be; what() is to_string(diagnostic()).
 class ParseError : public std::runtime_error {
  public:
   explicit ParseError(Diagnostic diagnostic);

@@ -1,4 +1,5 @@
-// The order in which derived predicates can be evaluated (PDDL 2.2: negation only of what is settled before).
+// Stratification finds the order in which derived predicates can be evaluated (PDDL 2.2 negates only what is
+// settled before).
 #pragma once
 
 #include <map>
@@ -11,15 +12,17 @@ namespace roci::pddl {
 /// Evaluation may recurse once per layer.
 inline constexpr int kMaxLayers = 16;
 
+/// Holds the layers of a domain's derived predicates.
 struct Strata {
-  /// Derived predicate to its layer, from 0. A body depends negatively on lower layers only, positively on
-  /// lower ones or its own.
+  /// Maps a derived predicate to its layer, from 0. A body depends negatively on lower layers only,
+  /// positively on lower ones or its own.
   std::map<std::string, int> layer;
-  /// A predicate that depends on its own negation, or needs more than kMaxLayers; then the layers mean
-  /// nothing. Empty if there is none.
+  /// Names a predicate that depends on its own negation, or needs more than kMaxLayers; then the layers mean
+  /// nothing. It is empty if there is none.
   std::string failed;
 };
 
+/// Finds the layers of the domain's derived predicates.
 Strata stratify(const Domain& domain);
 
 }  // namespace roci::pddl

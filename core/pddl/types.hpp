@@ -1,4 +1,4 @@
-// The type hierarchy of a domain, and its objects by type.
+// This file has the type hierarchy of a domain, and its objects by type.
 #pragma once
 
 #include <map>
@@ -12,39 +12,40 @@
 
 namespace roci::pddl {
 
-/// "object" is above every type. A type that is only named as a supertype exists too. Cycles are tolerated
-/// here (their types are all above one another) and refused by check().
+/// Knows which types are above which; "object" is above every type. A type that is only named as a supertype
+/// exists too. Cycles are tolerated here (their types are all above one another) and refused by check().
 class TypeTree {
  public:
   explicit TypeTree(const Domain& domain);
 
   bool knows(std::string_view type) const;
-  /// The type itself, all above it, and "object"; empty for unknown types.
+  /// Returns the type itself, all above it, and "object"; there are none for unknown types.
   std::set<std::string> ancestors(std::string_view type) const;
-  /// Is every `type` an `ancestor`? Reflexive; false for unknown types.
+  /// Returns whether every `type` is an `ancestor`. Every known type is one of itself; unknown types are
+  /// none.
   bool is_a(std::string_view type, std::string_view ancestor) const;
-  /// May a thing of one of the types `given` stand where one of the types `wanted` is asked for, whichever of
-  /// `given` it has?
+  /// Returns whether a thing of one of the types `given` may stand where one of the types `wanted` is asked
+  /// for, whichever of `given` it has.
   bool accepts(const std::vector<std::string>& wanted, const std::vector<std::string>& given) const;
 
  private:
   std::map<std::string, std::set<std::string, std::less<>>, std::less<>> ancestors_;
 };
 
-/// Constants of the domain and objects of the problem, numbered from 0 in the order of their first
-/// declaration (constants first). An object that is declared again has the types of all its declarations.
-/// Holds no reference to domain or problem.
+/// Numbers the constants of the domain and the objects of the problem from 0, in the order of their first
+/// declaration (constants first). An object that is declared again has the types of all its declarations. The
+/// table holds no reference to domain or problem.
 class ObjectTable {
  public:
   ObjectTable(const Domain& domain, const Problem& problem);
 
   std::size_t size() const { return objects_.size(); }
   const TypedName& operator[](std::size_t object) const { return objects_[object]; }
-  /// -1 if there is none of this name
+  /// Returns the number of the object, or -1 if there is none of this name.
   int find(std::string_view name) const;
-  /// Does the object have one of the types?
+  /// Returns whether the object has one of the types.
   bool has_type(std::size_t object, const std::vector<std::string>& types) const;
-  /// All objects of one of the types, ascending.
+  /// Returns all objects of one of the types, ascending.
   std::vector<int> of_types(const std::vector<std::string>& types) const;
   const TypeTree& types() const { return types_; }
 

@@ -14,7 +14,7 @@ bool is_ordering(ConditionOp op) { return op >= ConditionOp::lt; }
 Truth truth_of(bool holds) { return holds ? Truth::yes : Truth::no; }
 
 /// Combines finished subtrees, last one on top. Value is what a subtree is reduced to; leaf(node) and
-/// join(node, children) make one. Nothing if the tree is malformed.
+/// join(node, children) make one. Returns nothing if the tree is malformed.
 template <typename Value, typename Leaf, typename Join>
 std::optional<Value> fold(const Condition& condition, Leaf leaf, Join join) {
   std::vector<Value> finished;
@@ -82,7 +82,7 @@ std::string describe_leaf(const ConditionNode& node) {
   return node.timeline + symbol(node.op) + to_text(node.operand);
 }
 
-/// What a subtree says, and what of it does not hold now.
+/// Holds what a subtree says, and what of it does not hold now.
 struct Finding {
   Truth truth = Truth::yes;
   std::string text{};

@@ -24,7 +24,7 @@ std::vector<LazyShortestPaths::Edge> mirrored(std::vector<LazyShortestPaths::Edg
   return edges;
 }
 
-/// A schedule satisfies every constraint: it is a feasible potential.
+/// Returns a schedule that satisfies every constraint: it is a feasible potential.
 std::vector<Duration> potential_of(std::size_t point_count,
                                    const std::vector<TemporalConstraint>& constraints) {
   std::optional<std::vector<Duration>> schedule = earliest_schedule(point_count, constraints);

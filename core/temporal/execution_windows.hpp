@@ -1,4 +1,4 @@
-// Windows of a plan's time points while it is executed.
+// Execution windows bound a plan's time points while it is executed.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace roci::temporal {
 
-/// [earliest, latest] of every point that has not happened, from those that have and the constraints between
-/// them. An event replaces every constraint into its point by its real time, so an event that contradicts the
-/// network makes no inconsistency: it only moves the windows of others (a latest time may then lie in the
-/// past). Durations are contingent in just this sense. Times are mission times. A window is computed when it
-/// is asked for: cost per event as of LazyShortestPaths.
+/// Gives [earliest, latest] of every point that has not happened, from those that have and the constraints
+/// between them. An event replaces every constraint into its point by its real time, so an event that
+/// contradicts the network makes no inconsistency: it only moves the windows of others (a latest time may
+/// then lie in the past). Durations are contingent in just this sense. Times are mission times. A window is
+/// computed when it is asked for; what an event costs is as of LazyShortestPaths.
 class ExecutionWindows {
  public:
   /// The constraints must be consistent and bound every point from below by the origin, as all_constraints()
@@ -26,27 +26,27 @@ class ExecutionWindows {
   void happen(TimePoint point, Time at);
   /// Takes back the happen() just made.
   void undo_happen(TimePoint point);
-  /// New bounds for a constraint whose from point has happened and whose to point has not.
+  /// Sets new bounds for a constraint whose from point has happened and whose to point has not.
   void set_bounds(std::size_t constraint, Duration lower, Duration upper);
-  /// The point will not happen: its constraints are gone.
+  /// Takes the point out, as it will not happen: its constraints are gone.
   void drop(TimePoint point);
 
-  /// Computes the windows of all points at once: for whoever asks for many.
+  /// Computes the windows of all points at once, for whoever asks for many.
   void settle() const;
 
-  /// Windows that were known and that the last operation may have moved; `before` of earliest changes is
-  /// negated.
+  /// These return the windows that were known and that the last operation may have moved; `before` of
+  /// earliest changes is negated.
   const std::vector<LazyShortestPaths::Change>& latest_changes() const { return latest_.changes(); }
   const std::vector<LazyShortestPaths::Change>& earliest_changes() const { return earliest_.changes(); }
 
-  /// As of LazyShortestPaths.
+  /// Counts as LazyShortestPaths::work() does.
   std::uint64_t work() const { return latest_.work() + earliest_.work(); }
 
  private:
   ExecutionWindows(std::vector<LazyShortestPaths::Edge> edges, std::vector<Duration> potential, Time origin);
 
-  // Two edges per constraint: 2c is the upper bound, 2c + 1 the lower. The field of earliest times is the
-  // mirror: reversed edges, negated values.
+  // Each constraint has two edges: 2c is the upper bound, 2c + 1 the lower. The field of earliest times is
+  // the mirror: reversed edges, negated values.
   LazyShortestPaths latest_;
   LazyShortestPaths earliest_;
 };

@@ -1,5 +1,5 @@
-// The one plan type of all engines: activities + tokens + decision points + a simple temporal network.
-// idl/plan.idl is its wire form; the names there are the names here.
+// FlexiblePlan is the one plan type of all engines: activities, tokens, decision points and a simple temporal
+// network. idl/plan.idl is its wire form; the names there are the names here.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace roci::temporal {
 
 enum class ConstraintKind { ordering, duration, window };
 
-/// lower <= t[to_point] - t[from_point] <= upper. Point 0 is the plan's origin. upper >= 0 (turn it round
-/// otherwise).
+/// Requires lower <= t[to_point] - t[from_point] <= upper. Point 0 is the plan's origin. upper must be >= 0
+/// (a constraint is turned round otherwise).
 struct TemporalConstraint {
   TimePoint from_point = 0;
   TimePoint to_point = 0;
@@ -30,6 +30,7 @@ struct TemporalConstraint {
 enum class ImpactKind { assign, delta, rate };  ///< rate: per second
 enum class ImpactWhen { at_start, at_end, during };
 
+/// Says what an activity does to a timeline, and when.
 struct Impact {
   std::string timeline;
   ImpactKind kind = ImpactKind::assign;
@@ -38,39 +39,41 @@ struct Impact {
   friend bool operator==(const Impact&, const Impact&) = default;
 };
 
-/// What happens when an activity's latest start has passed.
+/// Says what happens when an activity's latest start has passed.
 enum class LatenessPolicy {
   /// The plan is broken (Stellar, R49).
   replan,
   /// It waits on until wait_timeout, and succeeds only after the shortest duration has elapsed (MEXEC, R86,
   /// R98).
   push,
-  /// As replan; moreover it must end before the latest next change of its timeline (SanchoExpress, R144).
+  /// It does as `replan`, and must moreover end before the latest next change of its timeline (SanchoExpress,
+  /// R144).
   deadline,
 };
 
 enum class CommitState { planned, committed };
 
-/// What else fails with an activity that has failed for good.
+/// Says what else fails with an activity that has failed for good.
 enum class FailureScope {
   of_plan,      ///< the plan is broken
   of_activity,  ///< nothing: it fails alone, what needs its effects fails or is skipped when its turn comes
 };
 
 enum class ActivityState { waiting, dispatched, running, succeeded, failed, skipped, cancelled };
-/// It has ended, or never will start.
+/// Returns whether the activity has ended, or never will start.
 constexpr bool is_over(ActivityState state) {
   return state != ActivityState::waiting && state != ActivityState::dispatched &&
          state != ActivityState::running;
 }
 
+/// Is a named word, as an argument of a command is.
 struct Property {
   std::string name;
   std::string value;
   friend bool operator==(const Property&, const Property&) = default;
 };
 
-/// One command of a sequence; the members mean what they mean in PlanActivity.
+/// Is one command of a sequence; the members mean what they mean in PlanActivity.
 struct PlanCommand {
   std::string owner;
   std::string robot;
@@ -81,32 +84,34 @@ struct PlanCommand {
   friend bool operator==(const PlanCommand&, const PlanCommand&) = default;
 };
 
-/// The executive sends (id, attempt) as a command's key: ids must not be used again in later plans for
-/// anything else.
+/// Is one activity. The executive sends (id, attempt) as a command's key: ids must not be used again in later
+/// plans for anything else.
 struct PlanActivity {
   std::string id;
   std::string name;    ///< action or task name
-  std::string level;   ///< of the hierarchy, e.g. "mission" (R130); empty: plans without one
+  std::string level;   ///< says where in the hierarchy it stands, e.g. "mission" (R130); empty: plans without
+                       ///< one
   std::string parent;  ///< activity of the level above; empty: none
   std::string owner;   ///< service that executes the command; empty: no command, internal states only
-  std::string robot;   ///< whose subsystem; empty: the owner's only one
+  std::string robot;   ///< has the subsystem; empty: the owner's only one
   std::string subsystem;
   std::string command_name;
   std::vector<Property> arguments;
-  /// Longest time from sending the command to its first answer; no_bound: as the executive is set.
+  /// Bounds the time from sending the command to its first answer; no_bound leaves it to the executive's
+  /// settings.
   Duration answer_within = no_bound;
-  /// Commands that follow, each after the end of the one before (R67).
+  /// Holds the commands that follow, each after the end of the one before (R67).
   std::vector<PlanCommand> then;
   TimePoint start_point = 0;  ///< own points: no two activities share one, none is the origin
   TimePoint end_point = 0;
   Duration duration_lower{0};
   Duration duration_upper = no_bound;
-  Duration preferred_start = no_bound;  ///< from the origin (R67); no_bound: none
+  Duration preferred_start = no_bound;  ///< counts from the origin (R67); no_bound: none
   Condition pre;
   Condition maintenance;
   Condition post;
   std::vector<Impact> impacts;
-  Duration wait_timeout = no_bound;  ///< how long it may wait after its earliest start; push needs one
+  Duration wait_timeout = no_bound;  ///< bounds its wait after its earliest start; push needs one
   std::uint32_t retries = 0;
   bool may_skip = false;  ///< skipped instead of failed when it cannot start in time
   Condition skip_if;      ///< not empty and true at the start: skipped
@@ -120,7 +125,7 @@ struct PlanActivity {
   friend bool operator==(const PlanActivity&, const PlanActivity&) = default;
 };
 
-/// A timeline holds a value between two time points.
+/// Says that a timeline holds a value between two time points.
 struct Token {
   std::string timeline;
   Value held;
@@ -129,29 +134,30 @@ struct Token {
   friend bool operator==(const Token&, const Token&) = default;
 };
 
-/// Who resolves a decision at run time.
+/// Says who resolves a decision at run time.
 enum class ResolverKind {
   engine,  ///< the engine that made the plan
   ground,
   rule,  ///< the choices' own conditions: the first choice whose rule holds is taken
 };
 
+/// Is one of the ways in which a decision may go.
 struct DecisionChoice {
   std::string name;
   std::vector<std::string> activities{};  ///< ids; those of the other choices are skipped
-  Condition rule{};                       ///< of resolver `rule`; empty: always true
+  Condition rule{};                       ///< resolves with resolver `rule`; empty: always true
   friend bool operator==(const DecisionChoice&, const DecisionChoice&) = default;
 };
 
-/// An argument of an activity's command that an answer binds.
+/// Names an argument of an activity's command that an answer binds.
 struct ArgumentBinding {
   std::string activity;
   std::string argument;
   friend bool operator==(const ArgumentBinding&, const ArgumentBinding&) = default;
 };
 
-/// An open choice that is made at run time, before `decide_before` may happen (R131): an answer picks one of
-/// the choices' activities, or binds a value to arguments of activities that have not started.
+/// Is an open choice that is made at run time, before `decide_before` may happen (R131): an answer picks one
+/// of the choices' activities, or binds a value to arguments of activities that have not started.
 struct DecisionPoint {
   std::string id;
   std::string resolver;  ///< service or issuer that is asked; empty: whoever is of the kind
@@ -163,14 +169,14 @@ struct DecisionPoint {
   friend bool operator==(const DecisionPoint&, const DecisionPoint&) = default;
 };
 
-/// How a function value stands to the true one.
+/// Says how a function value stands to the true one.
 enum class FunctionAccuracy {
   exact,
   lower_bound,  ///< never above it: admissible
   estimate,     ///< neither
 };
 
-/// Provenance of a value of an external function on which the plan stands.
+/// Tells the provenance of a value of an external function on which the plan stands.
 struct FunctionValueUse {
   std::string function;
   std::vector<std::string> arguments;
@@ -182,6 +188,7 @@ struct FunctionValueUse {
   friend bool operator==(const FunctionValueUse&, const FunctionValueUse&) = default;
 };
 
+/// Is a whole plan; times are relative to `origin`.
 struct FlexiblePlan {
   std::string id;
   std::uint32_t version = 0;
@@ -196,14 +203,14 @@ struct FlexiblePlan {
   friend bool operator==(const FlexiblePlan&, const FlexiblePlan&) = default;
 };
 
-/// Everything wrong with the plan's form, one plain sentence each; empty: it can be executed. Checks ids,
-/// indices, bounds, condition trees, references of parents and choices, and that the network has a solution
-/// in which no point lies before the origin.
+/// Returns everything wrong with the plan's form, one plain sentence each; with none it can be executed. It
+/// checks ids, indices, bounds, condition trees, references of parents and choices, and that the network has
+/// a solution in which no point lies before the origin.
 std::vector<std::string> check(const FlexiblePlan& plan);
 
-/// The plan's whole network. First one constraint of kind duration per activity, at the activity's index
-/// (those of the plan between the same two points are merged into it); then "not before the origin" for every
-/// point, "start before end" for every token, and the plan's other constraints.
+/// Returns the plan's whole network: first one constraint of kind duration per activity, at the activity's
+/// index (those of the plan between the same two points are merged into it); then "not before the origin" for
+/// every point, "start before end" for every token, and the plan's other constraints.
 std::vector<TemporalConstraint> all_constraints(const FlexiblePlan& plan);
 
 }  // namespace roci::temporal

@@ -7,10 +7,10 @@
 namespace roci::temporal {
 namespace {
 
-// Points that one search may go through before all values are computed at once.
+// One search may go through so many points before all values are computed at once.
 constexpr std::size_t kLongSearch = 128;
 
-/// Indices of the edges grouped by one of their ends: those of point p stand at [begin[p], begin[p + 1]).
+/// Groups the indices of the edges by one of their ends: those of point p stand at [begin[p], begin[p + 1]).
 template <typename EndOf>
 void group(const std::vector<LazyShortestPaths::Edge>& edges, std::size_t point_count, EndOf end_of,
            std::vector<std::uint32_t>& begin, std::vector<std::uint32_t>& grouped) {
@@ -144,7 +144,7 @@ void LazyShortestPaths::lower_floor(Duration floor) {
   }
 }
 
-/// Makes the value of one point known; false, and nothing changed, if that leads too far.
+/// Makes the value of one point known. Returns false, with nothing changed, if that leads too far.
 bool LazyShortestPaths::search(TimePoint target) const {
   std::vector<Entry> heap;
   std::vector<TimePoint> touched{target};
@@ -196,7 +196,7 @@ void LazyShortestPaths::settle() const {
   rebase();
 }
 
-/// Dijkstra forward from all known values.
+/// Goes forward from all known values (Dijkstra).
 void LazyShortestPaths::compute_all() const {
   std::vector<Entry> heap;
   const auto relax = [&](const Edge& edge) {

@@ -1,4 +1,4 @@
-// Shortest distances from points with fixed values, computed where they are asked for.
+// LazyShortestPaths computes the shortest distances from points with fixed values where they are asked for.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,14 @@
 
 namespace roci::temporal {
 
-/// value(head) = min over edges of value(tail) + weight, except where a value is fixed. Edges may be
-/// reweighed, points fixed or cut off. A change only forgets the values that may depend on it and are known;
-/// a value is computed again when somebody asks, by a backward Dijkstra search on reduced costs that ends as
-/// soon as nothing farther away can be smaller: every value lies at or above floor + potential. A search that
-/// grows too long computes all values at once and takes them as the new potential, under which the searches
-/// after it are short again. So an event costs the values that somebody has asked for and that it may move.
+/// Keeps value(head) = min over edges of value(tail) + weight, except where a value is fixed. Edges may be
+/// reweighed, points fixed or cut off.
+///
+/// A change only forgets the values that may depend on it and are known; a value is computed again when
+/// somebody asks, by a backward Dijkstra search on reduced costs that ends as soon as nothing farther away
+/// can be smaller: every value lies at or above floor + potential. A search that grows too long computes all
+/// values at once and takes them as the new potential, under which the searches after it are short again. So
+/// an event costs the values that somebody has asked for and that it may move.
 class LazyShortestPaths {
  public:
   struct Edge {
@@ -24,22 +26,24 @@ class LazyShortestPaths {
     Duration weight;  ///< no_bound: absent
   };
 
-  /// potential: potential[head] <= potential[tail] + weight for every edge. All values start unbounded.
+  /// Takes edges with a potential for which potential[head] <= potential[tail] + weight on every edge. All
+  /// values start unbounded.
   LazyShortestPaths(std::vector<Edge> edges, std::vector<Duration> potential);
 
   Duration value(TimePoint point) const;
   bool fixed(TimePoint point) const { return fixed_[point] != 0; }
 
-  /// From now on the value is given; edges into the point have no effect.
+  /// Gives the point this value from now on; edges into the point have no effect.
   void fix(TimePoint point, Duration value);
   /// Takes back the last operation, which must have been a fix().
   void undo_fix(TimePoint point);
-  /// A smaller weight only where the tail is fixed.
+  /// Gives the edge another weight, which may be smaller only where the tail is fixed.
   void reweigh(std::uint32_t edge, Duration weight);
   /// Takes all edges of the point away; it must not be fixed.
   void cut_off(TimePoint point);
 
-  /// Points whose value was known, and which the last operation may have changed, with the value before.
+  /// Names a point whose value was known, and which the last operation may have changed, with the value
+  /// before.
   struct Change {
     TimePoint point;
     Duration before;
@@ -49,7 +53,8 @@ class LazyShortestPaths {
   /// Computes every value that is not known.
   void settle() const;
 
-  /// Edges looked at since the beginning: what the operations and questions so far have cost.
+  /// Returns how many edges were looked at since the beginning: what the operations and questions so far have
+  /// cost.
   std::uint64_t work() const { return work_; }
 
  private:
@@ -69,7 +74,7 @@ class LazyShortestPaths {
   std::vector<Change> changes_;
   std::uint64_t rebases_at_fix_ = 0;
 
-  // What is known of the values; asking for one adds to it.
+  // These hold what is known of the values; asking for one adds to it.
   mutable std::vector<Duration> potential_, value_;
   mutable std::vector<char> known_;
   mutable std::vector<char> passed_;          // not known, but known values were computed through it

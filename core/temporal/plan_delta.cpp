@@ -16,7 +16,7 @@ std::pair<TimePoint, TimePoint> key_of(const TemporalConstraint& constraint) {
   return {constraint.from_point, constraint.to_point};
 }
 
-// Items with an id: what of `to` is new or changed; ids that are gone.
+// Finds, among items with an id, what of `to` is new or changed, and the ids that are gone.
 template <class Item>
 void difference_by_id(const std::vector<Item>& from, const std::vector<Item>& to, std::vector<Item>& added,
                       std::vector<std::string>& removed) {
@@ -30,7 +30,7 @@ void difference_by_id(const std::vector<Item>& from, const std::vector<Item>& to
     if (left.contains(key_of(item))) removed.push_back(key_of(item));
 }
 
-// Places of equal items in a list, each to be taken once.
+// Holds the places of equal items in a list, each to be taken once.
 template <class Item>
 class Places {
  public:
@@ -64,7 +64,7 @@ void difference_by_value(const std::vector<Item>& from, const std::vector<Item>&
     if (places.left(i)) removed.push_back(from[i]);
 }
 
-// False: something to be removed is not there.
+// Returns false if something to be removed is not there.
 template <class Item>
 bool apply_by_id(const std::vector<Item>& added, const std::vector<std::string>& removed,
                  std::vector<Item>& items) {

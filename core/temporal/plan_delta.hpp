@@ -1,5 +1,5 @@
-// What changes from one version of a plan to the next: how an engine that plans all the time sends its plan
-// (R66, R81).
+// A plan delta says what changes from one version of a plan to the next: so an engine that plans all the time
+// sends its plan (R66, R81).
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,13 @@
 
 namespace roci::temporal {
 
-/// Time points keep their numbers from version to version; those of removed activities stay unused until the
-/// plan comes as a whole again.
+/// Holds the change. Time points keep their numbers from version to version; those of removed activities stay
+/// unused until the plan comes as a whole again.
 struct PlanDelta {
-  std::uint32_t from_version = 0;  ///< of the plan that changes; 0: none, `added` is the whole plan
-  /// Id, version, engine, origin, number of points and function values as they become; activities, tokens,
-  /// decisions and constraints that are new. An activity or decision stands in place of that with its id.
+  std::uint32_t from_version = 0;  ///< is that of the plan that changes; 0: none, `added` is the whole plan
+  /// Holds id, version, engine, origin, number of points and function values as they become, and activities,
+  /// tokens, decisions and constraints that are new. An activity or decision stands in place of that with its
+  /// id.
   FlexiblePlan added;
   std::vector<std::string> removed_activities;
   std::vector<std::string> removed_decisions;
@@ -24,12 +25,12 @@ struct PlanDelta {
   friend bool operator==(const PlanDelta&, const PlanDelta&) = default;
 };
 
-/// Turns `from` into `to`, but for the order of their items.
+/// Returns what turns `from` into `to`, but for the order of their items.
 PlanDelta difference(const FlexiblePlan& from, const FlexiblePlan& to);
 
-/// Changes the plan; items that stay keep their order, new ones follow. Returns what is wrong, empty if
-/// nothing: another version than the delta is of, an item to be removed that is not there. The plan has then
-/// not changed.
+/// Changes the plan; items that stay keep their order, new ones follow. Returns what is wrong (another
+/// version than the delta is of, an item to be removed that is not there), and the plan has then not changed;
+/// the text is empty if nothing is.
 std::string apply(const PlanDelta& delta, FlexiblePlan& plan);
 
 }  // namespace roci::temporal

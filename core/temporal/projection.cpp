@@ -8,7 +8,7 @@
 namespace roci::temporal {
 namespace {
 
-// When an activity starts and ends, and which of that has come about. Nothing: it does not.
+// Says when an activity starts and ends, and which of that has come about. What is empty does not happen.
 struct Span {
   std::optional<Time> start, end;
   ProjectionKind start_kind = ProjectionKind::planned;
@@ -32,8 +32,8 @@ ActivityProgress progress_of(const PlanActivity& activity, const Progress& progr
   return found == progress.end() ? ActivityProgress{} : found->second;
 }
 
-// The earliest times that are left: what has happened stands, what has not comes no earlier than now, and no
-// deadline is asked, since a missed one does not end a projection.
+// Returns the earliest times that are left: what has happened stands, what has not comes no earlier than now,
+// and no deadline is asked, since a missed one does not end a projection.
 std::vector<Duration> earliest_now(const FlexiblePlan& plan, const Progress& progress, Time now) {
   enum class Point { open, fixed, gone };
   std::vector<Point> points(plan.point_count, Point::open);
@@ -81,7 +81,7 @@ std::vector<Span> real_spans(const FlexiblePlan& plan, const Progress& progress,
   return out;
 }
 
-// One impact at one end of its activity. At one time ends come before starts, but an activity's own start
+// Is one impact at one end of its activity. At one time ends come before starts, but an activity's own start
 // before its end.
 struct Event {
   Time time{0};
@@ -113,7 +113,7 @@ std::map<std::string, std::vector<Event>> events_of(const FlexiblePlan& plan,
   return out;
 }
 
-// A value under impacts, from event to event.
+// Carries a value under impacts from event to event.
 class Sweep {
  public:
   explicit Sweep(Value initial) : value_(std::move(initial)) {}
@@ -171,7 +171,7 @@ namespace {
 
 using Changes = std::vector<ProjectedChange>;
 
-// Whether the observation shows what the event has done.
+// Returns whether the observation shows what the event has done.
 bool shown_in(const Event& event, const ObservedValue& seen) {
   return event.kind == ProjectionKind::executed && event.time <= seen.sampled;
 }

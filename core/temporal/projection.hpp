@@ -1,5 +1,5 @@
-// A plan's timelines over time: what it foresaw, what has come about of it, and what is still to come
-// (R71, R72, R76).
+// A projection shows a plan's timelines over time: what it foresaw, what has come about of it, and what is
+// still to come (R71, R72, R76).
 #pragma once
 
 #include <map>
@@ -11,29 +11,32 @@
 
 namespace roci::temporal {
 
-/// How far an activity has come; times are mission times.
+/// Says how far an activity has come; times are mission times.
 struct ActivityProgress {
   ActivityState state = ActivityState::waiting;
   std::optional<Time> started;
   std::optional<Time> ended;
 };
-using Progress = std::map<std::string, ActivityProgress>;  ///< by activity id; who is not in it waits
+using Progress = std::map<std::string, ActivityProgress>;  ///< goes by activity id; who is not in it waits
 
+/// Says on what a projected change rests.
 enum class ProjectionKind {
-  planned,    ///< by the plan alone, everything at its earliest
-  executed,   ///< by what has started and ended, at the times when it did
-  projected,  ///< by what runs and waits: not before now, at the earliest that the network then allows
+  planned,    ///< the plan alone says so, with everything at its earliest
+  executed,   ///< it has started or ended, at the time when it did
+  projected,  ///< it runs or waits: it comes not before now, at the earliest that the network then allows
 };
+/// Returns the name above.
 const char* to_string(ProjectionKind kind);
 
-/// What was seen of a timeline: its value, as its owner sampled it.
+/// Holds what was seen of a timeline: its value, as its owner sampled it.
 struct ObservedValue {
   Time sampled{0};
   Value value;
 };
-using ObservedValues = std::map<std::string, ObservedValue>;  ///< by timeline
+using ObservedValues = std::map<std::string, ObservedValue>;  ///< goes by timeline
 
-/// The timeline has `value` from `time` on; between two changes a number that is under a rate runs straight.
+/// Says that the timeline has `value` from `time` on; between two changes a number that is under a rate runs
+/// straight.
 struct ProjectedChange {
   Time time{0};
   Value value;
@@ -41,11 +44,11 @@ struct ProjectedChange {
   std::string activity;
 };
 
-/// By timeline: the planned changes, then the executed ones, then the projected ones, each in the order of
-/// time. The projected values of a timeline that was observed start at that observation (R76): what was
-/// executed until it was sampled is in it, and stands among the executed changes without an activity; what
-/// runs on (a rate) or comes later acts on it. Other numbers start with their value in `initial`, else with
-/// 0: they are then the change since the plan began, as the planned numbers always are. What failed, was
+/// Returns by timeline the planned changes, then the executed ones, then the projected ones, each in the
+/// order of time. The projected values of a timeline that was observed start at that observation (R76): what
+/// was executed until it was sampled is in it, and stands among the executed changes without an activity;
+/// what runs on (a rate) or comes later acts on it. Other numbers start with their value in `initial`, else
+/// with 0: they are then the change since the plan began, as the planned numbers always are. What failed, was
 /// skipped or cancelled has no effect at its end. Of activities that exclude each other (decision points) all
 /// that are not skipped count. Only timelines that the plan changes are in the result. The plan must have
 /// passed check().

@@ -1,5 +1,5 @@
-// Utility by rank (MEXEC, section IV.C.1, R113): scores of the same rank add up, and any gain of a higher
-// rank outweighs every gain of the lower ones.
+// Utility goes by rank (MEXEC, section IV.C.1, R113): scores of the same rank add up, and any gain of a
+// higher rank outweighs every gain of the lower ones.
 #pragma once
 
 #include <compare>
@@ -11,8 +11,9 @@
 
 namespace roci::temporal {
 
-/// Scores by rank, the highest rank first. A rank that is not there counts as 0, so that vectors of any two
-/// lengths can be compared and added. What the ranks mean, and the range of a score, is the mission's to say.
+/// Holds scores by rank, the highest rank first. A rank that is not there counts as 0, so that vectors of any
+/// two lengths can be compared and added. What the ranks mean, and the range of a score, is the mission's to
+/// say.
 class RankVector {
  public:
   RankVector() = default;
@@ -20,21 +21,22 @@ class RankVector {
   explicit RankVector(std::vector<double> scores) : scores_(std::move(scores)) { trim(); }
 
   double operator[](std::size_t rank) const { return rank < scores_.size() ? scores_[rank] : 0.0; }
-  /// Without the zeros at the end: equal vectors have equal scores.
+  /// Returns the scores without the zeros at the end: equal vectors have equal scores.
   const std::vector<double>& scores() const { return scores_; }
-  /// No score is infinite or not a number; such vectors have no order.
+  /// Returns whether no score is infinite or not a number; vectors with such a score have no order.
   bool finite() const;
 
   RankVector& operator+=(const RankVector& other);
   RankVector& operator-=(const RankVector& other);
-  /// Each score by the same factor, e.g. utility per energy (Z12).
+  /// Multiplies each score by the same factor, for example to utility per energy (Z12).
   RankVector& operator*=(double factor);
 
   friend RankVector operator+(RankVector a, const RankVector& b) { return a += b; }
   friend RankVector operator-(RankVector a, const RankVector& b) { return a -= b; }
   friend RankVector operator*(RankVector a, double factor) { return a *= factor; }
 
-  /// Lexicographic from the highest rank on; unordered where a score that decides is not a number.
+  /// Compares lexicographically from the highest rank on; vectors are unordered where a score that decides is
+  /// not a number.
   friend std::partial_ordering operator<=>(const RankVector& a, const RankVector& b);
   friend bool operator==(const RankVector&, const RankVector&) = default;
 
@@ -44,7 +46,7 @@ class RankVector {
   std::vector<double> scores_;
 };
 
-/// "0", "0.5", "[1, 0, 0.25]": one rank as a plain number.
+/// Prints "0", "0.5" or "[1, 0, 0.25]"; one rank is a plain number.
 std::string to_text(const RankVector& utility);
 
 }  // namespace roci::temporal

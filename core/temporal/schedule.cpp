@@ -23,8 +23,8 @@ Raises raises_of(std::size_t point_count, const std::vector<TemporalConstraint>&
   return raises;
 }
 
-/// Place of each point in an order in which the raises by 0 or more lead forward; points on circles of them
-/// come last.
+/// Returns the place of each point in an order in which the raises by 0 or more lead forward; points on
+/// circles of them come last.
 std::vector<std::uint32_t> topological_ranks(const Raises& raises) {
   std::vector<std::uint32_t> waiting(raises.size(), 0);
   for (const auto& from : raises)

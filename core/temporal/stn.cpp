@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int32_t no_edge = -1;
 
-/// Lowest key first; the point breaks ties, so that runs are repeatable.
+/// Gives the lowest key first; the point breaks ties, so that runs are repeatable.
 using Queue = std::priority_queue<std::pair<Duration, TimePoint>, std::vector<std::pair<Duration, TimePoint>>,
                                   std::greater<>>;
 
@@ -71,8 +71,8 @@ void Stn::remove_last_edge() {
   edges_.pop_back();
 }
 
-/// Makes the potential feasible for the added edge too; false, and the potential unchanged, if a negative
-/// cycle passes through it. It stays feasible if that edge is taken out again.
+/// Makes the potential feasible for the added edge too. Returns false, with the potential unchanged, if a
+/// negative cycle passes through it. It stays feasible if that edge is taken out again.
 bool Stn::repair_potential(const Edge& added) {
   const Duration excess = potential_[added.from] + added.weight - potential_[added.to];
   if (excess >= Duration{0}) return true;

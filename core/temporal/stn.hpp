@@ -1,4 +1,4 @@
-// Simple temporal network (Dechter, Meiri, Pearl 1991) with incremental consistency and windows.
+// Stn is a simple temporal network (Dechter, Meiri, Pearl 1991) with incremental consistency and windows.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,16 @@ namespace roci::temporal {
 using TimePoint = std::uint32_t;
 inline constexpr TimePoint origin_point = 0;
 
-/// Earliest and latest time relative to the origin; -no_bound / no_bound where nothing bounds it.
+/// Holds the earliest and latest time relative to the origin; they are -no_bound / no_bound where nothing
+/// bounds them.
 struct Window {
   Duration lower = -no_bound;
   Duration upper = no_bound;
   friend bool operator==(const Window&, const Window&) = default;
 };
 
-/// Time points 0..size()-1, point 0 is the origin. Consistent at all times: a constraint that would make it
-/// inconsistent is refused. A checkpoint is a copy (five flat arrays).
+/// Has time points 0..size()-1, of which point 0 is the origin, and is consistent at all times: a constraint
+/// that would make it inconsistent is refused. A checkpoint is a copy (five flat arrays).
 ///
 /// add() keeps a feasible potential by the incremental algorithm of Cotton and Maler (2006) and then lets the
 /// distances from and to the origin sink by Dijkstra on reduced costs: work is local to what the constraint
@@ -32,11 +33,11 @@ class Stn {
   TimePoint add_point();
   std::size_t size() const { return potential_.size(); }
 
-  /// lower <= t[to] - t[from] <= upper. False, and nothing changed, if that contradicts the network.
-  /// Points must exist; lower = -no_bound and upper = no_bound leave that side open.
+  /// Requires lower <= t[to] - t[from] <= upper. Returns false, with nothing changed, if that contradicts the
+  /// network. Points must exist; lower = -no_bound and upper = no_bound leave that side open.
   [[nodiscard]] bool add(TimePoint from, TimePoint to, Duration lower, Duration upper = no_bound);
 
-  /// The minimal window: shortest paths to and from the origin.
+  /// Returns the minimal window: shortest paths to and from the origin.
   Window window(TimePoint point) const;
 
  private:

@@ -1,5 +1,5 @@
-// How a call to a planning engine ended, whatever the engine: the one word for it in engines, executive, wire
-// and console.
+// A verdict says how a call to a planning engine ended, whatever the engine: engines, executive, wire and
+// console all use it.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace roci::temporal {
 
-/// In the order of Verdict in idl/planner.idl.
+/// Has the order of Verdict in idl/planner.idl.
 enum class Verdict : std::uint8_t {
   solved,                ///< a plan came with it
   unsolvable,            ///< proved: no plan achieves all goals
@@ -16,20 +16,20 @@ enum class Verdict : std::uint8_t {
   out_of_memory,         ///< the budget of memory is spent, nothing is proved
   unsupported,           ///< the engine does not take this input; the reason names the place
   function_unavailable,  ///< an external function's owner did not answer
-  cancelled,             ///< on request of the caller
+  cancelled,             ///< the caller asked for it
   invalid_input,         ///< malformed; the reason names the place
   crashed,               ///< a defect of the engine or of the process around it
   no_reply,              ///< said by the caller: no answer came within its deadline
 };
 
-/// "solved", "out_of_memory", …: the name above.
+/// Returns the name above: "solved", "out_of_memory", …
 const char* to_string(Verdict verdict);
 
-/// Whether it says something about the goals (they do not fit, or no way was found within the budget) rather
-/// than about the services or the input.
+/// Returns whether it says something about the goals (they do not fit, or no way was found within the budget)
+/// rather than about the services or the input.
 bool speaks_of_goals(Verdict verdict);
 
-/// The verdict of that name; nothing for any other text.
+/// Returns the verdict of that name, or nothing for any other text.
 std::optional<Verdict> verdict_named(std::string_view name);
 
 }  // namespace roci::temporal

@@ -4,13 +4,14 @@
 
 namespace roci::terrain {
 
-/// A position in the map frame in metres: x points east, y north.
+/// Is a position in the map frame in metres: x points east, y north.
 struct Point {
   double x = 0;
   double y = 0;
   bool operator==(const Point&) const = default;
 };
 
+/// Returns the distance in metres.
 inline double distance(Point a, Point b) {
   return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
 }
@@ -40,14 +41,15 @@ struct Grid {
   }
 
   bool contains(Cell c) const { return c.column >= 0 && c.row >= 0 && c.column < columns && c.row < rows; }
-  /// True exactly for the points whose cell_of() lies on the map; false for NaN.
+  /// Returns true exactly for the points whose cell_of() lies on the map; a NaN gives false.
   bool contains(Point p) const {
     const double column = std::floor((p.x - origin.x) / resolution);
     const double row = std::floor((p.y - origin.y) / resolution);
     return column >= 0 && row >= 0 && column < columns && row < rows;
   }
 
-  /// Gives a cell outside the map for a point outside it; the point must be finite and within 2^31 cells.
+  /// Returns the cell of a point, which lies outside the map if the point does. The point must be finite and
+  /// within 2^31 cells.
   Cell cell_of(Point p) const {
     return {static_cast<int>(std::floor((p.x - origin.x) / resolution)),
             static_cast<int>(std::floor((p.y - origin.y) / resolution))};

@@ -11,7 +11,7 @@ std::uint64_t mix(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-// -kOne … kOne at a lattice point.
+// Returns the value at a lattice point, from -kOne to kOne.
 std::int64_t value_at(std::uint64_t seed, std::int64_t column, std::int64_t row) {
   const std::uint64_t place =
       (static_cast<std::uint64_t>(column) << 32) ^ (static_cast<std::uint64_t>(row) & 0xffffffff);

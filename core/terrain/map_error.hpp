@@ -4,8 +4,8 @@
 
 namespace roci::terrain {
 
-/// It is thrown for a map that cannot be used. what() reads "file:line:column: what is wrong; remedy" (line
-/// and column only where the fault has a place in a text).
+/// Is thrown for a map that cannot be used. what() reads "file:line:column: what is wrong; remedy" (line and
+/// column only where the fault has a place in a text).
 class MapError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

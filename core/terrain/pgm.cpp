@@ -45,7 +45,7 @@ class Reader {
     return static_cast<int>(value);
   }
 
-  // What follows the single white space after the header of a raw image.
+  // Returns what follows the single white space after the header of a raw image.
   std::string_view raster() {
     if (at_ == bytes_.size() || std::isspace(static_cast<unsigned char>(bytes_[at_])) == 0) {
       fail("one white space must stand between the largest value and the pixels");

@@ -7,7 +7,7 @@
 
 namespace roci::terrain {
 
-/// A grey image as the netpbm PGM format has it (netpbm.sourceforge.net/doc/pgm.html): rows from the top
+/// Is a grey image as the netpbm PGM format has it (netpbm.sourceforge.net/doc/pgm.html): rows from the top
 /// (north) down, values 0 … max_value, max_value 1 … 65535.
 struct GreyImage {
   int width = 0;
@@ -20,7 +20,7 @@ struct GreyImage {
 /// how errors call the text. Throws MapError with line (header, P2) or the number of missing bytes (P5).
 GreyImage parse_pgm(std::string_view bytes, const std::string& name);
 
-/// Throws MapError when the file cannot be read or parsed.
+/// Reads an image. Throws MapError when the file cannot be read or parsed.
 GreyImage read_pgm(const std::filesystem::path& file);
 
 /// Writes raw PGM (P5). `comment` becomes one line of the header, unless it is empty.

@@ -9,7 +9,7 @@
 namespace roci::terrain {
 namespace {
 
-// The four cells whose centres surround a point, and how far between them the point lies (0 … 1).
+// Holds the four cells whose centres surround a point, and how far between them the point lies (0 … 1).
 struct Patch {
   Cell low;
   Cell high;

@@ -8,30 +8,32 @@ namespace roci::terrain {
 
 enum class Occupancy : std::uint8_t { free, unknown, occupied };
 
-/// The rise per metre towards east and north.
+/// Holds the rise per metre towards east and north.
 struct Gradient {
   double east = 0;
   double north = 0;
 };
 
-/// The layers of a site, each with grid.cell_count() values by rows from the south.
+/// Holds the layers of a site, each with grid.cell_count() values by rows from the south.
 struct SiteLayers {
-  std::vector<float> elevation;      ///< Metres, at the centre of the cell.
-  std::vector<float> rock_height;    ///< Metres of the tallest rock in the cell, 0 where there is none.
-  std::vector<Occupancy> occupancy;  ///< What a map_server reader makes of the cell.
+  std::vector<float> elevation;      ///< Is in metres, at the centre of the cell.
+  std::vector<float> rock_height;    ///< Is that of the tallest rock in the cell, m, or 0.
+  std::vector<Occupancy> occupancy;  ///< Says what a map_server reader makes of the cell.
 };
 
-/// The terrain of a mission as values: it is immutable once built, and safe to read from several threads.
+/// Holds the terrain of a mission as values: it is immutable once built, and safe to read from several
+/// threads.
 class Site {
  public:
-  /// Throws MapError when the grid is empty or a layer has the wrong size or a value that is not finite.
+  /// Takes the layers of a grid. Throws MapError when the grid is empty or a layer has the wrong size or a
+  /// value that is not finite.
   Site(Grid grid, SiteLayers layers);
 
   const Grid& grid() const { return grid_; }
   const SiteLayers& layers() const { return layers_; }
 
-  /// Interpolates bilinearly between the centres of cells, in metres; outside the outermost centres the value
-  /// of the border.
+  /// Returns metres, interpolated bilinearly between the centres of cells; outside the outermost centres it
+  /// is the value of the border.
   double elevation(Point p) const;
   double elevation(Cell c) const { return layers_.elevation[grid_.index(c)]; }
 
@@ -42,10 +44,10 @@ class Site {
   /// Returns the angle of steepest ascent in radians, 0 … π/2.
   double slope(Point p) const;
 
-  /// Returns metres; 0 outside the map.
+  /// Returns the height of the rock there in metres; it is 0 outside the map.
   double rock_height(Point p) const;
   double rock_height(Cell c) const { return layers_.rock_height[grid_.index(c)]; }
-  /// Is `unknown` outside the map.
+  /// Returns what is there; it is `unknown` outside the map.
   Occupancy occupancy(Point p) const;
   Occupancy occupancy(Cell c) const { return layers_.occupancy[grid_.index(c)]; }
 

@@ -42,7 +42,8 @@ bool read_graded(const Entry& map) {
   return mode->text() == "scale";
 }
 
-// Share of darkness (of brightness, if negated) above which a pixel is occupied, below which it is free.
+// Holds the share of darkness (of brightness, if negated) above which a pixel is occupied, and below which it
+// is free.
 struct Thresholds {
   double occupied;
   double free;
@@ -78,7 +79,7 @@ GreyImage read_image(const Entry& owner) {
   return read_pgm(path);
 }
 
-// Pixel of the image (rows from the north) that shows a cell (rows from the south).
+// Returns the pixel of the image (rows from the north) that shows a cell (rows from the south).
 std::size_t pixel_of(const Grid& grid, Cell c) { return grid.index({c.column, grid.rows - 1 - c.row}); }
 
 void fill_rocks(SiteLayers& layers, const Grid& grid, const GreyImage& image, const Thresholds& t,

@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t kBlackHeight = 1000;  // height [mm] of the rock that a black pixel stands for
 constexpr double kPi = 3.14159265358979323846;
 
-// A layer in millimetres, by rows from the north as images are.
+// Is a layer in millimetres, by rows from the north as images are.
 class Layer {
  public:
   Layer(int side, std::int64_t resolution) : side_(side), resolution_(resolution) {
@@ -61,8 +61,8 @@ void add_hills(Layer& ground, const SiteRecipe& recipe) {
   }
 }
 
-// Inside the rim a parabola from -depth to the rim's height; outside the rim falls off with the square of
-// the distance squared, to nothing at twice the radius.
+// Adds a parabola from -depth to the rim's height inside the rim; outside, the rim falls off with the square
+// of the distance squared, to nothing at twice the radius.
 void add_crater(Layer& ground, const Crater& crater) {
   const std::int64_t radius2 = square(crater.diameter / 2);
   const std::int64_t rim = crater.depth / 10;
@@ -121,7 +121,7 @@ void scatter_rocks(Layer& rocks, const SiteRecipe& recipe) {
   }
 }
 
-// One and a half cells thick, so that it has no gap even between diagonal neighbours.
+// Adds a ring one and a half cells thick, so that it has no gap even between diagonal neighbours.
 void add_ring(Layer& rocks, const RockRing& ring, std::int64_t resolution) {
   const std::int64_t inner = ring.radius - resolution * 3 / 4;
   const std::int64_t outer = ring.radius + resolution * 3 / 4;

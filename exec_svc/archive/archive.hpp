@@ -1,5 +1,5 @@
-/// Plain values as bytes and back, exactly: every double and every string, also one that is no text. The
-/// fields of each type are listed once, beside it (*_fields.hpp), for both ways.
+// The archive turns plain values into bytes and back, exactly: every double and every string, also one that
+// is no text. The fields of each type are listed once, beside it (*_fields.hpp), for both ways.
 #pragma once
 
 #include <bit>
@@ -19,12 +19,13 @@
 
 namespace roci::exec::archive {
 
-/// Bytes that are not what a Writer wrote.
+/// Is thrown for bytes that are not what a Writer wrote.
 class ArchiveError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
+/// Turns values into bytes, one after the other.
 class Writer {
  public:
   static constexpr bool writes = true;
@@ -43,7 +44,7 @@ class Writer {
   template <class T>
   requires std::integral<T> || std::is_enum_v<T>
   void put(T value) {
-    /// Small numbers of either sign are short.
+    /// The zigzag form keeps small numbers of either sign short.
     const auto wide = static_cast<std::int64_t>(value);
     number(static_cast<std::uint64_t>(wide) << 1 ^ static_cast<std::uint64_t>(wide >> 63));
   }
@@ -92,13 +93,14 @@ class Writer {
   std::string bytes_;
 };
 
+/// Turns the bytes of a Writer back into values, in the same order.
 class Reader {
  public:
   static constexpr bool writes = false;
 
   explicit Reader(std::string_view bytes) : rest_(bytes) {}
 
-  /// Throw ArchiveError.
+  /// Reads the values. Throws ArchiveError.
   template <class... Ts>
   void operator()(Ts&... values) {
     (get(values), ...);
@@ -197,10 +199,11 @@ class Reader {
   std::string_view rest_;
 };
 
-/// The second parameter of fields(archive, value): const where the archive writes.
+/// Is the second parameter of fields(archive, value): it is const where the archive writes.
 template <class T, class Archive>
 using Of = std::conditional_t<Archive::writes, const T, T>;
 
+/// Returns the bytes of one value.
 template <class T>
 std::string to_bytes(const T& value) {
   Writer writer;
@@ -208,7 +211,7 @@ std::string to_bytes(const T& value) {
   return writer.take();
 }
 
-/// Throws ArchiveError.
+/// Reads a value from bytes that hold nothing else. Throws ArchiveError.
 template <class T>
 T from_bytes(std::string_view bytes) {
   T out{};

@@ -1,4 +1,4 @@
-/// The fields of plans and what they are made of, each type once, for writing and reading.
+// This file lists the fields of plans and what they are made of, each type once, for writing and reading.
 #pragma once
 
 #include "core/temporal/flexible_plan.hpp"

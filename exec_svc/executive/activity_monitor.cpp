@@ -46,7 +46,7 @@ bool ActivityMonitor::check_contingency(Index activity, Time now) {
   return end.has_value();
 }
 
-/// A command or a cancel that was not answered in time.
+/// Looks for a command or a cancel that was not answered in time.
 bool ActivityMonitor::check_command(Index activity, Time now) {
   const PlanActivity& planned = state_->plan.activities[activity];
   const ActivityRun& run = state_->runs[activity];
@@ -71,7 +71,8 @@ bool ActivityMonitor::check_command(Index activity, Time now) {
   return true;
 }
 
-/// True if it failed. A condition that its own start brings about is given the settle time to become true.
+/// Returns whether it failed. A condition that its own start brings about is given the settle time to become
+/// true.
 bool ActivityMonitor::check_maintenance(Index activity, Time now) {
   const PlanActivity& planned = state_->plan.activities[activity];
   ActivityRun& run = state_->runs[activity];

@@ -1,4 +1,4 @@
-/// Watches the conditions and timers of activities under way (R84-R86).
+// The activity monitor watches the conditions and timers of activities under way (R84-R86).
 #pragma once
 
 #include "exec_svc/executive/attempts.hpp"
@@ -9,9 +9,10 @@
 
 namespace roci::exec::executive {
 
+/// Fails activities whose conditions or time limits are broken, and lets those succeed that have settled.
 class ActivityMonitor {
  public:
-  /// All outlive this.
+  /// All arguments must outlive the monitor.
   ActivityMonitor(RunState& state, ContingencyRuns& contingencies, const Deadlines& deadlines,
                   Attempts& attempts, OwnerExchange& exchange)
       : state_(&state),
@@ -20,13 +21,13 @@ class ActivityMonitor {
         attempts_(&attempts),
         exchange_(&exchange) {}
 
-  /// True: something happened, and another look is due.
+  /// Returns whether something happened, so that another look is due.
   bool check(temporal::Time now);
   /// From then on the longest duration of an activity that takes longer no longer bounds its end (nor,
   /// through it, the latest times of others): an overrun breaks nothing by itself. Under
   /// LatenessPolicy::deadline it does.
   void note_overruns(temporal::Time now);
-  /// When an activity under way is to be looked at next; no bound: never.
+  /// Returns when an activity under way is to be looked at next, or no_bound.
   temporal::Time next_timer(Index activity, temporal::Time now) const;
 
  private:

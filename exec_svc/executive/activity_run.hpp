@@ -1,4 +1,4 @@
-/// How far one activity of the running plan has come.
+// An activity's run says how far one activity of the running plan has come.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 namespace roci::exec::executive {
 
+/// Says how far an activity has come, finer than ActivityState, which everybody sees.
 enum class ActivityPhase {
   waiting,
   sent,         ///< command sent, no answer yet
@@ -19,15 +20,16 @@ enum class ActivityPhase {
   done,
 };
 
-/// What follows when a cancel has been answered.
+/// Says what follows when a cancel has been answered.
 enum class AfterCancel { retry, fail, withdraw };
 
+/// Holds all that the run knows of one activity.
 struct ActivityRun {
   ActivityPhase phase = ActivityPhase::waiting;
   temporal::ActivityState state = temporal::ActivityState::waiting;
   std::uint32_t attempt = 0;  ///< part of the command's key: each command sent anew counts, none is reset
-  std::size_t command = 0;    ///< of the activity's sequence, the one under way
-  std::uint64_t epoch = 0;    ///< of the executive when it issued this attempt: part of the key, too
+  std::size_t command = 0;    ///< is the place in the activity's sequence of the one under way
+  std::uint64_t epoch = 0;    ///< is the executive's when it issued this attempt: it is part of the key, too
   std::uint32_t issued = 0;   ///< the newest attempt that was sent
   std::uint32_t retries_used = 0;
   std::optional<temporal::Time> started, ended;

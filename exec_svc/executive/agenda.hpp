@@ -1,4 +1,4 @@
-/// Times to come of things whose time may still change.
+// An agenda holds times to come of things whose time may still change.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace roci::exec::executive {
 
-/// A changed time is entered again; entries that no longer hold are dropped when they come up, or all at once
-/// when they would be the most. Ties by point.
+/// Holds entries in order of time, then of point. A changed time is entered again; entries that no longer
+/// hold are dropped when they come up, or all at once when they would be the most.
 class Agenda {
  public:
   using Entry = std::pair<temporal::Time, temporal::TimePoint>;
@@ -23,7 +23,7 @@ class Agenda {
     std::push_heap(entries_.begin(), entries_.end(), std::greater<>{});
   }
 
-  /// The first entry that holds(time, point).
+  /// Returns the first entry for which holds(time, point) is true, and drops those before it.
   template <typename Holds>
   std::optional<Entry> first(Holds holds) {
     const auto stale = [&](const Entry& entry) { return !holds(entry.first, entry.second); };

@@ -90,7 +90,8 @@ void Attempts::fail_or_retry(Index activity, Time now, const std::string& reason
   if (!retry(activity, now, reason)) fail(activity, now, Breakage::activity_failed, reason, false);
 }
 
-/// R99: the same activity again at once, if its preconditions still hold; its duration counts from now.
+/// Tries the same activity again at once (R99), if its preconditions still hold; its duration counts from
+/// now.
 bool Attempts::retry(Index activity, Time now, const std::string& reason) {
   const PlanActivity& planned = state_->plan.activities[activity];
   ActivityRun& run = state_->runs[activity];

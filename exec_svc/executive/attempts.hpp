@@ -1,4 +1,4 @@
-/// How attempts at an activity begin and end: start, success, failure, another attempt, cancel.
+// Attempts at an activity begin and end here: by start, success, failure, another attempt, cancel.
 #pragma once
 
 #include <string>
@@ -10,28 +10,29 @@
 
 namespace roci::exec::executive {
 
+/// Leads activities through their attempts: start, success, failure, retry and cancel.
 class Attempts {
  public:
-  /// All outlive this.
+  /// All arguments must outlive this object.
   Attempts(RunState& state, ContingencyRuns& contingencies, const Deadlines& deadlines)
       : state_(&state), contingencies_(&contingencies), deadlines_(&deadlines) {}
 
   void start(Index activity, temporal::Time now);
-  /// Sends the next command of its sequence. False: there is none.
+  /// Sends the next command of its sequence. Returns false if there is none.
   bool send_next(Index activity, temporal::Time now);
   void succeed(Index activity, temporal::Time now);
-  /// The activity has failed: its contingency begins, or it fails alone, where the plan says so, or the plan is
-  /// broken. `still_commanded`: its owner may be at work, and is asked to stop first.
+  /// Ends the activity as failed: its contingency begins, or it fails alone, where the plan says so, or the
+  /// plan is broken. With `still_commanded`, its owner may be at work, and is asked to stop first.
   void fail(Index activity, temporal::Time now, Breakage breakage, const std::string& reason,
             bool still_commanded);
-  /// As fail(), but the activity is tried again if it may be.
+  /// Does as fail(), but tries the activity again if it may.
   void fail_or_retry(Index activity, temporal::Time now, const std::string& reason);
   /// Asks its owner to stop it.
   void cancel(Index activity, temporal::Time now, AfterCancel after, const std::string& reason);
-  /// After its contingency: the activity again, or a broken plan.
+  /// Goes on after its contingency: the activity comes again, or the plan is broken.
   void resume_after(const ContingencyEnd& end, temporal::Time now);
-  /// Ends come as they come; two that came in the wrong order cannot be mended by waiting: the plan is
-  /// broken. Looks at those since the last call.
+  /// Looks at the ends since the last call. Ends come as they come; two that came in the wrong order cannot
+  /// be mended by waiting: the plan is broken.
   void check_order_of_ends();
 
  private:

@@ -1,5 +1,5 @@
-/// What is done about a failed activity before its plan is given up (R69, R70): commands from a template,
-/// sent at once and without a planner.
+// A contingency is what is done about a failed activity before its plan is given up (R69, R70): commands
+// from a template, sent at once and without a planner.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,7 @@
 
 namespace roci::exec::executive {
 
+/// Is one command of a contingency's template.
 struct ContingencyCommand {
   std::string owner;
   std::string subsystem;
@@ -19,14 +20,14 @@ struct ContingencyCommand {
   std::string robot{};                        ///< whose subsystem; empty: the owner's only one
 };
 
-/// A task that nobody requested; a failure makes an instance of it.
+/// Is a task that nobody requested; a failure makes an instance of it.
 struct Contingency {
   std::string name;
   std::vector<ContingencyCommand> commands;  ///< one after the other
-  /// Then the activity is tried again, if its preconditions hold; else the plan is broken.
+  /// Says whether the activity is tried again then, if its preconditions hold; else the plan is broken.
   bool retries = false;
-  std::uint32_t times = 1;                             ///< for one activity
-  temporal::Duration within = temporal::seconds(300);  ///< for all of its commands
+  std::uint32_t times = 1;                             ///< bounds its uses for one activity
+  temporal::Duration within = temporal::seconds(300);  ///< bounds the time of all its commands
 };
 
 }  // namespace roci::exec::executive

@@ -1,5 +1,5 @@
-/// Contingencies under way: the commands of a template, one after the other, after an activity has failed
-/// (R69, R70). Others run on meanwhile (R141).
+// Contingency runs are the contingencies under way: the commands of a template, one after the other, after
+// an activity has failed (R69, R70). Other activities run on meanwhile (R141).
 #pragma once
 
 #include <cstdint>
@@ -12,51 +12,54 @@
 
 namespace roci::exec::executive {
 
-/// A contingency has come to its end.
+/// Says that a contingency has come to its end.
 struct ContingencyEnd {
   Index activity = 0;
-  std::string failure;  ///< of the activity, for which it was begun
-  std::string reason;   ///< why it did not help; empty: all of its commands are done
+  std::string failure;  ///< is the activity's, for which it was begun
+  std::string reason;   ///< says why it did not help; empty: all of its commands are done
 };
 
+/// Holds by activity the contingency that is under way or was used.
 class ContingencyRuns {
  public:
-  /// The state outlives this.
+  /// The state must outlive this object.
   explicit ContingencyRuns(RunState& state) : state_(&state), records_(state.plan.activities.size()) {}
 
-  /// The contingency that may still be used for an activity that has been started; null: there is none.
+  /// Returns the contingency that may still be used for an activity that has been started, or null if there
+  /// is none.
   const Contingency* usable(Index activity) const;
-  /// Sends its first command. False: there is none to use.
+  /// Sends its first command. Returns false if there is none to use.
   bool begin(Index activity, temporal::Time now, const std::string& failure);
-  /// No contingency is used for the activity any more.
+  /// Lets no contingency be used for the activity any more.
   void exhaust(Index activity);
 
-  /// Whether the command that it answers is the one that a contingency waits for.
+  /// Returns whether the command that it answers is the one that a contingency waits for.
   bool expects(const CommandAck& ack) const;
   /// Goes on to the next command, or ends.
   std::optional<ContingencyEnd> take(const CommandAck& ack, temporal::Time now);
-  /// Its end, if its commands are done or its time has passed.
+  /// Returns its end, if its commands are done or its time has passed.
   std::optional<ContingencyEnd> check(Index activity, temporal::Time now);
   std::optional<ContingencyEnd> lose_owner(Index activity, const std::string& owner,
                                            const std::string& reason);
   void cancel(Index activity) { send(activity, CommandAction::cancel); }
   /// Asks, after a restart, what became of its command.
   void query(Index activity, temporal::Time now);
-  /// When check() will have something to say.
+  /// Returns when check() will have something to say.
   temporal::Time timer(Index activity) const;
 
-  /// Takes over from the run before what must not come again, the keys of commands; `goes_on`: all of it.
+  /// Takes over from the run before what must not come again, the keys of commands; with `goes_on`, all of
+  /// it.
   void inherit(Index activity, const ContingencyRuns& before, Index activity_before, bool goes_on);
 
  private:
   struct Record {
     std::size_t command = 0;  ///< index of the one that runs; as many as there are: all are done
-    std::string command_id;   ///< of the one that was sent
-    std::uint64_t epoch = 0;  ///< of the executive when it was issued
-    temporal::Time since{0};  ///< when the contingency began
+    std::string command_id;   ///< is that of the one that was sent
+    std::uint64_t epoch = 0;  ///< is the executive's when it was issued
+    temporal::Time since{0};  ///< says when the contingency began
     temporal::Time command_since{0};
     bool accepted = false;
-    std::string failure;         ///< of the activity
+    std::string failure;         ///< is the activity's
     std::uint32_t used = 0;      ///< contingencies begun
     std::uint32_t commands = 0;  ///< part of their keys: it is never reset
     std::uint32_t queries = 0;   ///< how often its owner was asked because no answer came over a link
@@ -68,8 +71,8 @@ class ContingencyRuns {
   ContingencyEnd ended(Index activity, const std::string& reason) const;
 
   RunState* state_;
-  std::vector<Record> records_;                         ///< by activity
-  std::unordered_map<std::string, Index> activity_of_;  ///< by id of a contingency's command
+  std::vector<Record> records_;                         ///< are indexed by activity
+  std::unordered_map<std::string, Index> activity_of_;  ///< goes by the id of a contingency's command
 };
 
 }  // namespace roci::exec::executive

@@ -1,4 +1,5 @@
-/// Until when an activity under way may do what. Derived from the network as it is now; nothing is kept.
+// Deadlines say until when an activity under way may do what. They are derived from the network as it is
+// now; nothing is kept.
 #pragma once
 
 #include <vector>
@@ -7,21 +8,22 @@
 
 namespace roci::exec::executive {
 
+/// Answers from the network as it is when it is asked.
 class Deadlines {
  public:
-  /// The state outlives this.
+  /// The state must outlive this object.
   explicit Deadlines(const RunState& state);
 
-  /// The latest end under LatenessPolicy::deadline: the latest next change of the timelines that begin a
-  /// token with the activity (R144); no bound under the other policies.
+  /// Returns the latest end under LatenessPolicy::deadline: the latest next change of the timelines that
+  /// begin a token with the activity (R144). It is no_bound under the other policies.
   temporal::Time end(Index activity) const;
-  /// By which a command must have ended to be of use: its deadline, or when it counts as hung. Its owner is
-  /// told, and repairs no longer than that (R146).
+  /// Returns by when a command must have ended to be of use: its deadline, or when it counts as hung. Its
+  /// owner is told, and repairs no longer than that (R146).
   temporal::Time latest_end(Index activity) const;
-  /// When a command counts as hung. An activity without a longest duration is followed as long as its owner
-  /// lives.
+  /// Returns when a command counts as hung. An activity without a longest duration is followed as long as its
+  /// owner lives.
   temporal::Time hung_after(Index activity) const;
-  /// From when on a completed command counts as a success, if its post condition holds (R86).
+  /// Returns from when on a completed command counts as a success, if its post condition holds (R86).
   temporal::Time settled_from(Index activity) const;
   /// How long observations may take to follow a start or an end of it.
   temporal::Duration settle_time(Index activity) const;
@@ -30,7 +32,7 @@ class Deadlines {
 
  private:
   const RunState* state_;
-  std::vector<std::vector<std::size_t>> tokens_from_;  ///< by activity: tokens that begin with it
+  std::vector<std::vector<std::size_t>> tokens_from_;  ///< lists by activity the tokens that begin with it
 };
 
 }  // namespace roci::exec::executive

@@ -53,7 +53,7 @@ bool Dispatch::try_start(Index activity, Time now) {
   return true;
 }
 
-/// Its own, else those of an activity that must start at the same time; in words.
+/// Returns its own unmet preconditions, else those of an activity that must start at the same time, in words.
 std::string Dispatch::unmet_preconditions(Index activity) const {
   const PlanActivity& planned = state_->plan.activities[activity];
   std::string unmet = explain(planned.pre, state_->lookup());

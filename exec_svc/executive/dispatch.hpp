@@ -1,5 +1,5 @@
-/// Lets points happen that may happen now: starts, ends without command, free points. Says why a start that
-/// is due may not happen, and breaks the plan when it never can (R47-R50).
+// Dispatch lets points happen that may happen now: starts, ends without command, free points. It says why a
+// start that is due may not happen, and breaks the plan when it never can (R47-R50).
 #pragma once
 
 #include "exec_svc/executive/attempts.hpp"
@@ -8,19 +8,20 @@
 
 namespace roci::exec::executive {
 
+/// Starts what is due and may start, and owns nothing but whether starts are held.
 class Dispatch {
  public:
-  /// All outlive this.
+  /// All arguments must outlive this object.
   Dispatch(RunState& state, StartWaits& waits, Attempts& attempts)
       : state_(&state), waits_(&waits), attempts_(&attempts) {}
 
-  /// True: something happened, and another look is due.
+  /// Returns whether something happened, so that another look is due.
   bool let_happen(temporal::Time now);
-  /// Skips, or fails, what could not start within its wait. True: something was.
+  /// Skips, or fails, what could not start within its wait. Returns whether something was.
   bool expire_waits(temporal::Time now);
-  /// A start whose latest time has passed breaks the plan (R49).
+  /// Breaks the plan if the latest time of a start has passed (R49).
   void break_if_late(temporal::Time now);
-  /// While held, nothing starts; latest starts still pass.
+  /// Holds or releases all starts. While held, nothing starts; latest starts still pass.
   void hold_starts(bool hold) { starts_held_ = hold; }
 
  private:

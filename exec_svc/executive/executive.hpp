@@ -1,5 +1,5 @@
-/// The executive: runs any FlexiblePlan on the plan's own temporal network. A functional core: no clock, no
-/// I/O, the same inputs give the same outputs.
+// The executive runs any FlexiblePlan on the plan's own temporal network. It is a functional core: it has no
+// clock and no I/O, and the same inputs give the same outputs.
 #pragma once
 
 #include <cstdint>
@@ -15,24 +15,28 @@
 
 namespace roci::exec::executive {
 
-/// When an activity starts within its window (R144). Latest: at its upper bound, if it has one.
+/// Says when an activity starts within its window (R144). With `latest` it starts at its upper bound, if it
+/// has one.
 enum class StartPolicy { earliest, latest };
 
-/// Bounds of waits that no plan states, and what plans name but do not hold.
+/// Bounds waits that no plan states, and holds what plans name but do not hold.
 struct ExecutiveSettings {
   temporal::Duration ack_timeout = temporal::seconds(5);  ///< command sent -> accepted, rejected or completed
   temporal::Duration cancel_timeout = temporal::seconds(5);  ///< cancel sent -> any answer
-  temporal::Duration settle_time = temporal::seconds(2);     ///< for observations to follow a start or an end
-  /// For pre conditions, where nothing else bounds it.
+  temporal::Duration settle_time = temporal::seconds(2);     ///< is what observations have to follow a start
+                                                             ///< or an end
+  /// Bounds the wait for pre conditions, where nothing else bounds it.
   temporal::Duration default_wait = temporal::seconds(3600);
-  temporal::Duration decision_timeout = temporal::seconds(600);  ///< where decide_before has no latest time
+  temporal::Duration decision_timeout = temporal::seconds(600);  ///< counts where decide_before has no latest
+                                                                 ///< time
   double overrun_factor = 3.0;  ///< a command fails as hung after this many times its longest duration ...
   temporal::Duration overrun_grace = temporal::seconds(600);  ///< ... plus this
   StartPolicy start = StartPolicy::earliest;
-  /// What is not committed waits for a version of the plan that commits it (R78).
+  /// Says whether what is not committed waits for a version of the plan that commits it (R78).
   bool only_committed = false;
-  std::map<std::string, Contingency> contingencies{};  ///< by name, as PlanActivity::contingency names them
-  /// After its start, by PlanActivity::name; else no bound.
+  std::map<std::string, Contingency> contingencies{};  ///< go by name, as PlanActivity::contingency names
+                                                       ///< them
+  /// Bounds retries from the first start on, by PlanActivity::name; a name that is not here has no bound.
   std::map<std::string, temporal::Duration> retry_within{};
   /// The owners that a link of the scenario joins to the executive, with the light time there and back. What
   /// they say comes later by that, and what they are told may be lost.
@@ -47,9 +51,9 @@ struct ExecutiveSettings {
   }
 };
 
-/// Rules (docs in README.md): a start whose predecessors happened at t <= lb starts at lb, in (lb, ub] at
-/// once, after ub the plan is broken (R49). Observed ends replace durations: an activity that takes longer
-/// breaks nothing by itself.
+/// Runs one plan after the other by these rules (README.md): a start whose predecessors happened at t <= lb
+/// starts at lb, in (lb, ub] at once, after ub the plan is broken (R49). Observed ends replace durations: an
+/// activity that takes longer breaks nothing by itself.
 class Executive {
  public:
   explicit Executive(ExecutiveSettings settings = {});
@@ -62,18 +66,20 @@ class Executive {
   /// Returns check(plan); if that is not empty, nothing has changed.
   std::vector<std::string> load(temporal::FlexiblePlan plan, temporal::Time now);
 
-  /// Advances to `now` (never before the time of the call before). Also without a plan: observations are
-  /// kept.
+  /// Advances to `now` (never before the time of the call before). It also does so without a plan, as
+  /// observations are kept.
   Outputs step(temporal::Time now, const Inputs& inputs);
 
   /// After a restart, with the state of before: asks the owners of everything that runs what became of it.
   /// What an owner never heard of is sent again under its key; a cancel that it never heard of too.
   Outputs resume(temporal::Time now);
 
-  /// First phase of the cancel: asks the owners of everything that runs; step() takes their answers.
+  /// Begins the first phase of the cancel: asks the owners of everything that runs; step() takes their
+  /// answers.
   Outputs cancel_all(temporal::Time now);
 
-  /// While held, no activity starts; what runs goes on, and latest starts still pass. load() ends it.
+  /// Holds or releases all starts. While held, no activity starts; what runs goes on, and latest starts still
+  /// pass. load() ends it.
   void hold_starts(bool hold);
 
   /// What the ground lets the executive do from now on, whatever plan is loaded.
@@ -90,29 +96,31 @@ class Executive {
 
   Outcome outcome() const;
   const temporal::FlexiblePlan& plan() const;
-  /// The plan's activity of this id; null if it has none.
+  /// Returns the plan's activity of this id, or null if it has none.
   const temporal::PlanActivity* activity(const std::string& id) const;
 
-  /// All activities in plan order, with the windows of the plan's network as of the last event: work in the
-  /// size of the plan.
+  /// Returns all activities in plan order, with the windows of the plan's network as of the last event; this
+  /// takes work in the size of the plan.
   std::vector<StepStatus> steps() const;
 
-  /// The first `most` waiting activities in plan order, as in steps(): work in their number.
+  /// Returns the first `most` waiting activities in plan order, as in steps(); this takes work in their
+  /// number.
   std::vector<StepStatus> upcoming(std::size_t most) const;
 
-  /// Edges of the network looked at for windows since the plan was loaded.
+  /// Returns how many edges of the network were looked at for windows since the plan was loaded.
   std::uint64_t window_work() const;
 
-  /// Start and end of each token of the plan, in plan order, as far as they have happened.
+  /// Holds start and end of one token of the plan, as far as they have happened.
   struct TokenStatus {
     std::optional<temporal::Time> started, ended;
   };
+  /// Returns one entry for each token, in plan order.
   std::vector<TokenStatus> tokens() const;
 
-  /// The value that conditions see: as observed, else as internal activities left it.
+  /// Returns the value that conditions see: as observed, else as internal activities left it.
   std::optional<temporal::Value> value_of(const std::string& timeline) const;
 
-  /// Acks and decision answers that matched nothing that is awaited.
+  /// These count acks and decision answers that matched nothing that is awaited.
   std::uint64_t ignored_acks() const;
   std::uint64_t ignored_answers() const;
 

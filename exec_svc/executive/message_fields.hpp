@@ -1,4 +1,5 @@
-/// The fields of the executive's messages for the archive, each type once, for writing and reading.
+// This file lists the fields of the executive's messages for the archive, each type once, for writing and
+// reading.
 #pragma once
 
 #include "exec_svc/archive/archive.hpp"

@@ -1,4 +1,4 @@
-/// What goes into the executive and what comes out of it: plain values, no DDS.
+// These plain values go into the executive and come out of it, without DDS.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,20 @@ enum class CommandAction { execute, cancel, query };
 
 enum class CommandStage { accepted, rejected, completed, failed, cancelled, cancel_failed, unknown };
 
-/// One timeline's newest value.
+/// Is one timeline's newest value.
 struct Observation {
   std::string timeline;
   temporal::Value value;
 };
 
-/// An owner's answer to the command (activity, attempt).
+/// Is an owner's answer to the command (activity, attempt).
 struct CommandAck {
   std::string activity;
   std::uint32_t attempt = 0;
   CommandStage stage = CommandStage::accepted;
   std::string code;
   std::string reason;
-  std::uint64_t epoch = 0;  ///< in which the command was issued; 0: not told, any fits
+  std::uint64_t epoch = 0;  ///< is the one in which the command was issued; 0: not told, any fits
 };
 
 /// An answer to an open decision of the plan.
@@ -55,15 +55,16 @@ struct AnswerResult {
   std::string reason{};  ///< in plain words; empty: it was taken
 };
 
-/// What happened since the last step. Each list is in the order of events.
+/// Holds what happened since the last step. Each list is in the order of events.
 struct Inputs {
   std::vector<Observation> observations{};
   std::vector<CommandAck> acks{};
   std::vector<std::string> lost_owners{};  ///< services found dead, hung or cut off
   std::vector<DecisionAnswer> answers{};
-  std::uint64_t epoch = 0;  ///< of the executive from this step on; 0: as before
+  std::uint64_t epoch = 0;  ///< is the executive's from this step on; 0: as before
 };
 
+/// Is what the executive asks of an owner.
 struct Command {
   CommandAction action = CommandAction::execute;
   std::string activity;
@@ -73,12 +74,13 @@ struct Command {
   std::string command_name;
   std::vector<temporal::Property> arguments;
   temporal::Duration expected{0};                  ///< shortest duration of the activity
-  std::uint64_t epoch = 0;                         ///< in which the key was issued; 0: the commander's own
-  temporal::Time latest_end = temporal::no_bound;  ///< by which its step must have ended
-  std::string robot{};                             ///< whose subsystem; empty: the owner's only one
+  std::uint64_t epoch = 0;                         ///< is the one in which the key was issued; 0: the
+                                                   ///< commander's own
+  temporal::Time latest_end = temporal::no_bound;  ///< is when its step must have ended
+  std::string robot{};                             ///< has the subsystem; empty: the owner's only one
 };
 
-/// State of one activity; times are mission times.
+/// Is the state of one activity; times are mission times.
 struct StepStatus {
   std::string activity;
   std::string name;
@@ -88,7 +90,7 @@ struct StepStatus {
   temporal::Time latest_start = temporal::no_bound;
   std::optional<temporal::Time> started;
   std::optional<temporal::Time> ended;
-  std::string reason;  ///< why it is in this state, where that is not obvious
+  std::string reason;  ///< says why it is in this state, where that is not obvious
 };
 
 /// How far a decision that was asked for has come, in the order of DecisionState in idl/order.idl.
@@ -113,23 +115,24 @@ struct DecisionStatus {
   friend bool operator==(const DecisionStatus&, const DecisionStatus&) = default;
 };
 
-/// What is done about a step that cannot start or fails, and needs no planner; cheapest first.
+/// Says what is done about a step that cannot start or fails, and needs no planner; the cheapest comes first.
 enum class RecoveryAction {
   push,         ///< a start waits for its preconditions, until its wait timeout (R98)
-  retry,        ///< the same command again (R99)
+  retry,        ///< sends the same command again (R99)
   contingency,  ///< commands of a template, then the same command again or a broken plan (R69, R70)
 };
 
-/// "push", "retry", "contingency".
+/// Returns "push", "retry" or "contingency".
 const char* to_string(RecoveryAction action);
 
-/// A recovery action was taken, or a contingency ended.
+/// Says that a recovery action was taken, or a contingency ended.
 struct RecoveryStep {
   RecoveryAction action = RecoveryAction::push;
   std::string activity;
-  std::string reason;  ///< why, and what is done
+  std::string reason;  ///< says why, and what is done
 };
 
+/// Says how a plan's run stands.
 enum class OutcomeKind {
   idle,  ///< no plan loaded
   running,
@@ -139,6 +142,7 @@ enum class OutcomeKind {
   cancelled,   ///< nothing of the plan runs any more, or its owner did not answer the cancel in time
 };
 
+/// Says how a plan broke.
 enum class Breakage {
   none,
   late_start,         ///< an activity's latest start has passed (R49)
@@ -149,21 +153,23 @@ enum class Breakage {
   decision_missing,   ///< no answer in time
 };
 
+/// Says how the plan's run stands, and who broke it.
 struct Outcome {
   OutcomeKind kind = OutcomeKind::idle;
-  Breakage breakage = Breakage::none;  ///< of broken
+  Breakage breakage = Breakage::none;  ///< says how a broken plan broke
   std::string activity;                ///< that broke it; for decision_missing the decision
-  std::string reason;                  ///< in plain words
+  std::string reason;                  ///< is in plain words
   std::string contingency;  ///< the one that the activity names; it has been used up, or is none of ours
 };
 
+/// Holds what one step says and asks for.
 struct Outputs {
   std::vector<Command> commands{};          ///< in the order of sending
   std::vector<StepStatus> changes{};        ///< every change of state, in the order of events
   std::vector<DecisionStatus> decisions{};  ///< every change of state, in the order of events
   std::vector<AnswerResult> answers{};      ///< of the step's answers, in their order
   std::vector<RecoveryStep> recoveries{};
-  Outcome outcome{};                          ///< after this step
+  Outcome outcome{};                          ///< holds after this step
   std::optional<temporal::Time> next_wake{};  ///< step again then, if nothing happens before
 };
 

@@ -174,8 +174,8 @@ void OwnerExchange::query_all(Time now) {
   }
 }
 
-/// False: the ack is taken like any other. Only a query is answered with `unknown` while no cancel was sent;
-/// late or not, the same key may always be sent again.
+/// Returns false if the ack is to be taken like any other. Only a query is answered with `unknown` while no
+/// cancel was sent; late or not, the same key may always be sent again.
 bool OwnerExchange::take_query_answer(Index activity, const CommandAck& ack, Time now) {
   ActivityRun& run = state_->runs[activity];
   const bool asked = std::exchange(run.asked, false);

@@ -1,5 +1,5 @@
-/// What is exchanged with the owners of commands beyond the command itself: their answers, cancels and what
-/// becomes of them, queries after a restart, and that an owner is gone.
+// The owner exchange covers what is exchanged with the owners of commands beyond the command itself: their
+// answers, cancels and what becomes of them, queries after a restart, and that an owner is gone.
 #pragma once
 
 #include <string>
@@ -11,17 +11,19 @@
 
 namespace roci::exec::executive {
 
+/// Gives each answer of an owner to the attempt that it belongs to, and ignores what nobody awaits.
 class OwnerExchange {
  public:
-  /// All outlive this.
+  /// All arguments must outlive this object.
   OwnerExchange(RunState& state, ContingencyRuns& contingencies, const Deadlines& deadlines,
                 Attempts& attempts)
       : state_(&state), contingencies_(&contingencies), deadlines_(&deadlines), attempts_(&attempts) {}
 
-  /// False: nothing that matches is awaited.
+  /// Returns false if nothing that matches is awaited.
   bool take_ack(const CommandAck& ack, temporal::Time now);
   void lose_owner(const std::string& owner, temporal::Time now);
-  /// The cancel did not take: the command may still be running, and no contingency is begun on top of it.
+  /// Takes in that the cancel did not take: the command may still be running, and no contingency is begun on
+  /// top of it.
   void give_cancel_up(Index activity, temporal::Time now, const std::string& answer);
   /// Ends everything: asks owners to stop, closes what no owner works on.
   void withdraw_all(temporal::Time now);

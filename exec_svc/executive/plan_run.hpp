@@ -1,4 +1,5 @@
-/// One plan under execution: composed of parts that each own one concern, over one shared state.
+// A plan run is one plan under execution: it is composed of parts that each own one concern, over one shared
+// state.
 #pragma once
 
 #include <optional>
@@ -18,6 +19,7 @@
 
 namespace roci::exec::executive {
 
+/// Runs one plan to its outcome; it is replaced as a whole by the run of the next plan.
 class PlanRun {
  public:
   /// The plan has passed check(); settings, permissions and store outlive the run.
@@ -30,7 +32,7 @@ class PlanRun {
   /// cancelled.
   void adopt(PlanRun& before, temporal::Time now);
 
-  /// False: nothing that matches is awaited.
+  /// Returns false if nothing that matches is awaited.
   bool take_ack(const CommandAck& ack, temporal::Time now) { return exchange_.take_ack(ack, now); }
   AnswerResult take_answer(const DecisionAnswer& answer, temporal::Time now) {
     return decisions_.take_answer(answer, now);
@@ -39,7 +41,7 @@ class PlanRun {
   /// Acts on everything that holds at `now`, until nothing more happens.
   void advance(temporal::Time now);
   void cancel_all(temporal::Time now);
-  /// Keys that are issued from now on carry this epoch; those that were issued keep theirs.
+  /// Begins an epoch: keys that are issued from now on carry it, and those that were issued keep theirs.
   void begin_epoch(std::uint64_t epoch) { state_.epoch = epoch; }
   /// False: the plan has no such activity that waits.
   bool drop(const std::string& activity, const std::string& reason);
@@ -48,12 +50,12 @@ class PlanRun {
   /// Asks what became of all that runs.
   void resume(temporal::Time now) { exchange_.query_all(now); }
 
-  /// What was said and asked for since the last call, with the outcome as it is now.
+  /// Returns what was said and asked for since the last call, with the outcome as it is now.
   Outputs take_outputs(temporal::Time now);
   const Outcome& outcome() const { return state_.outcome; }
   const temporal::FlexiblePlan& plan() const { return state_.plan; }
   const temporal::PlanActivity* find(const std::string& activity) const;
-  /// Of all activities, in plan order.
+  /// Returns the status of all activities, in plan order.
   std::vector<StepStatus> statuses() const;
   std::vector<StepStatus> upcoming(std::size_t most) const;
   std::vector<StepStatus> running() const;

@@ -156,8 +156,8 @@ void PointDispatcher::enter_times(TimePoint point) {
     if (bounded(due)) earliest_.enter(due, point);
   }
   if (points_[point].unreached > 0) return;
-  const Time upper =
-      windows_.window(point).upper;  // of ends too: from now on it is known, and told when it moves
+  // Ends are asked for, too: from now on their windows are known, and told when they move.
+  const Time upper = windows_.window(point).upper;
   const bool may_be_late = owners_[point].role != PointRole::start || points_[point].may_be_late;
   if (!may_be_late && bounded(upper)) latest_.enter(upper, point);
 }
@@ -188,7 +188,7 @@ void PointDispatcher::begin(TimePoint point) {
   reach(point);
 }
 
-/// Looks for late starts go on behind what has begun and behind what cannot be late itself.
+/// Lets looks for late starts go on behind what has begun and behind what cannot be late itself.
 void PointDispatcher::reach(TimePoint point) {
   std::vector<TimePoint> reached{point};
   while (!reached.empty()) {
@@ -215,8 +215,8 @@ void PointDispatcher::satisfied(TimePoint point) {
   }
 }
 
-/// Tells the successors; dropped ones among them pass it on. A loop, since chains of dropped points may be
-/// long.
+/// Tells the successors; dropped ones among them pass it on. It is a loop, since chains of dropped points may
+/// be long.
 void PointDispatcher::pass(TimePoint point) {
   std::vector<TimePoint> passing{point};
   while (!passing.empty()) {

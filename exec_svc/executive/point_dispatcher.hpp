@@ -1,4 +1,4 @@
-/// Decides which time points of a plan may happen now, by the plan's network alone.
+// The point dispatcher decides which time points of a plan may happen now, by the plan's network alone.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,22 @@
 
 namespace roci::exec::executive {
 
+/// Keeps for each time point what it still waits for; an event costs what it moves.
 class PointDispatcher {
  public:
-  /// The plan has passed check(). latest_starts: starts are due at the end of their windows, where these have
-  /// one (R144), and otherwise at their preferred time, or as near to it as the window allows (R67). only_committed: what is not committed never starts, and is never late (R78).
+  /// Takes a plan that has passed check(). With latest_starts, starts are due at the end of their windows,
+  /// where these have one (R144), and otherwise at their preferred time, or as near to it as the window
+  /// allows (R67). With only_committed, what is not committed never starts, and is never late (R78).
   explicit PointDispatcher(const temporal::FlexiblePlan& plan, bool latest_starts = false,
                            bool only_committed = false);
 
   temporal::Window window(temporal::TimePoint point) const { return windows_.window(point); }
   /// Makes window() cheap for every point.
   void settle() const { windows_.settle(); }
-  /// What the windows have cost so far, as of temporal::LazyShortestPaths.
+  /// Returns what the windows have cost so far, as of temporal::LazyShortestPaths.
   std::uint64_t work() const { return windows_.work(); }
   const PointOwner& owner(temporal::TimePoint point) const { return owners_[point]; }
-  /// As planned.
+  /// Returns the bounds of the duration as planned.
   temporal::Window duration(std::size_t activity) const {
     return {constraints_[activity].lower, constraints_[activity].upper};
   }
@@ -36,33 +38,33 @@ class PointDispatcher {
   /// Makes a point wait for something that is not in the network; as often as it is held it must be released.
   void hold(temporal::TimePoint point);
   void release(temporal::TimePoint point);
-  /// Its predecessors have happened: only holds, if any, are in its way.
+  /// only_held() returns whether the predecessors have happened: only holds, if any, are in its way then.
   bool held(temporal::TimePoint point) const { return points_[point].holds > 0; }
   bool only_held(temporal::TimePoint point) const { return points_[point].pending == points_[point].holds; }
 
-  /// Points whose predecessors have all begun (an end has begun when its activity has started) and which
-  /// have become due since the last call. They may still wait for predecessors to end.
+  /// Returns points whose predecessors have all begun (an end has begun when its activity has started) and
+  /// which have become due since the last call. They may still wait for predecessors to end.
   std::vector<temporal::TimePoint> advance(temporal::Time now);
   bool due(temporal::TimePoint point) const { return points_[point].due; }
 
-  /// Points other than observed ends that wait for nothing any more, in order of index.
+  /// Returns the points other than observed ends that wait for nothing any more, in order of index.
   const std::set<temporal::TimePoint>& ready() const { return ready_; }
 
-  /// Lets a ready point happen. False if some other point had to come before it by constraints that lead
-  /// around several points: it then waits for that one. (So dispatch is exact on networks that are not
+  /// Lets a ready point happen. Returns false if some other point had to come before it by constraints that
+  /// lead around several points: it then waits for that one. (So dispatch is exact on networks that are not
   /// minimal.)
   bool try_happen(temporal::TimePoint point, temporal::Time now);
-  /// An event that nobody can refuse.
+  /// Takes in an event that nobody can refuse.
   void happen(temporal::TimePoint point, temporal::Time at);
-  /// The point will never happen. What waited for it waits for its predecessors instead.
+  /// Takes a point out that will never happen. What waited for it waits for its predecessors instead.
   void drop(temporal::TimePoint point);
-  /// New duration bounds of a started activity.
+  /// Sets new duration bounds of a started activity.
   void set_duration(std::size_t activity, temporal::Duration lower, temporal::Duration upper);
 
-  /// A start that has to happen before its latest time, which lies before now; the earliest such. (A start
+  /// Returns the earliest start that has to happen before its latest time, which lies before now. (A start
   /// whose time has passed has a predecessor whose time has passed, so those next to the front suffice.)
   std::optional<temporal::TimePoint> late_start(temporal::Time now);
-  /// When, after now, advance() or late_start() will next have something new; no_bound: never.
+  /// Returns when, after now, advance() or late_start() will next have something new, or no_bound.
   temporal::Time next_time(temporal::Time now);
 
  private:
@@ -87,7 +89,7 @@ class PointDispatcher {
   void note_changes();
   void take_back(temporal::TimePoint point);
   temporal::Time due_time(temporal::TimePoint point) const;
-  /// It is due later than it may happen, and not after its latest time.
+  /// Returns whether the point is due later than it may happen, and not after its latest time.
   bool waits(temporal::TimePoint point) const;
   bool near(temporal::TimePoint point) const { return points_[point].unbegun == 0; }
   bool watched(temporal::TimePoint point) const;
@@ -104,7 +106,7 @@ class PointDispatcher {
   Precedence precedence_;
   temporal::ExecutionWindows windows_;
   std::vector<PointState> points_;
-  std::vector<temporal::TimePoint> ends_;  ///< by activity
+  std::vector<temporal::TimePoint> ends_;  ///< are indexed by activity
   std::set<temporal::TimePoint> ready_;
   Agenda earliest_, latest_;
 };

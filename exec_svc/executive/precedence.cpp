@@ -11,7 +11,7 @@ namespace {
 
 using Links = std::vector<std::vector<TimePoint>>;
 
-/// Tarjan's strongly connected components without recursion.
+/// Finds strongly connected components by Tarjan's algorithm without recursion.
 class Components {
  public:
   explicit Components(const Links& links) : links_(links), order_(links.size(), 0), low_(links.size(), 0) {

@@ -1,5 +1,5 @@
-/// What all parts of a plan's run share: the plan, its network, how far its activities have come, and what is
-/// said and asked for. Each part owns what else it needs.
+// The run state is what all parts of a plan's run share: the plan, its network, how far its activities have
+// come, and what is said and asked for. Each part owns what else it needs.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,9 @@
 
 namespace roci::exec::executive {
 
-using Index = std::size_t;  ///< of an activity, in plan order
+using Index = std::size_t;  ///< counts activities in plan order
 
-/// One command of an activity's sequence; refers to the plan. Without an owner there is none.
+/// Is one command of an activity's sequence; it refers to the plan. Without an owner there is none.
 struct CommandOf {
   const std::string& owner;
   const std::string& robot;
@@ -29,6 +29,7 @@ struct CommandOf {
   bool last;                         ///< of the sequence
 };
 
+/// Is shared by the parts of one run, which know it by its address.
 struct RunState {
   /// The plan has passed check(); settings, permissions and store outlive the run.
   RunState(temporal::FlexiblePlan flexible_plan, const ExecutiveSettings& executive_settings,
@@ -40,7 +41,7 @@ struct RunState {
   const ExecutiveSettings& settings;
   const Permissions& permissions;  ///< of the ground, as they are now
   TimelineStore& store;
-  std::uint64_t epoch;  ///< of the executive: keys that it issues carry it for good
+  std::uint64_t epoch;  ///< is the executive's: keys that it issues carry it for good
   PointDispatcher points;
   std::vector<ActivityRun> runs;
   std::unordered_map<std::string, Index> index_of;
@@ -51,7 +52,7 @@ struct RunState {
   Outcome outcome;
   Outputs outputs;  ///< since they were taken last
 
-  /// Activities may start and fail; else what runs is only followed to its end.
+  /// Returns whether activities may start and fail; else what runs is only followed to its end.
   bool starting() const { return outcome.kind == OutcomeKind::running; }
   temporal::Lookup lookup() const;
   StepStatus status(Index activity) const;
@@ -62,19 +63,19 @@ struct RunState {
 
   /// The activity's state as everybody sees it. Every change is told.
   void change(Index activity, temporal::ActivityState state, std::string reason);
-  /// Its phase, which is the run's own.
+  /// Changes the activity's phase, which is the run's own.
   void enter(Index activity, ActivityPhase phase, temporal::Time now);
   void send(Index activity, CommandAction action);
-  /// The command of the activity's sequence that is under way, or comes first.
+  /// Returns the command of the activity's sequence that is under way, or comes first.
   CommandOf command(Index activity) const;
-  /// Points that may happen now: starts of higher priority first, then in order of index.
+  /// Returns the points that may happen now: starts of higher priority first, then in order of index.
   std::vector<temporal::TimePoint> ready_points() const;
-  /// It ends, with its impacts on timelines that nobody observes.
+  /// Ends the activity, with its impacts on timelines that nobody observes.
   void close(Index activity, temporal::Time now, temporal::ActivityState state, const std::string& reason);
-  /// It will not start; its neighbours keep their order.
+  /// Takes the activity out, as it will not start; its neighbours keep their order.
   void skip(Index activity, const std::string& reason);
   void report_recovery(RecoveryAction action, Index activity, std::string reason);
-  /// The first reason stands.
+  /// Breaks the plan; the first reason stands.
   void break_plan(Breakage breakage, const std::string& who, const std::string& reason,
                   const std::string& contingency);
   void update_outcome();

@@ -1,4 +1,5 @@
-/// Activities whose start is due and that wait for their preconditions, and until when (R68, R98).
+// Start waits hold the activities whose start is due and that wait for their preconditions, and until when
+// (R68, R98).
 #pragma once
 
 #include <optional>
@@ -9,9 +10,10 @@
 
 namespace roci::exec::executive {
 
+/// Knows which activities wait for their start, and until when.
 class StartWaits {
  public:
-  /// The state outlives this.
+  /// The state must outlive this object.
   explicit StartWaits(RunState& state) : state_(&state) {}
 
   /// Begins the wait of an activity with a stated wait timeout, if its time has come. The timeout counts from
@@ -20,9 +22,9 @@ class StartWaits {
   void consider(Index activity, temporal::Time now);
   /// Begins a wait for at most `bound`; one that has begun goes on as it is.
   void begin(Index activity, temporal::Time now, temporal::Duration bound);
-  /// An activity whose wait is over by now; it is not named again.
+  /// Returns an activity whose wait is over by now; it is not named again.
   std::optional<Index> take_expired(temporal::Time now);
-  /// The end of the wait that ends first.
+  /// Returns the end of the wait that ends first.
   std::optional<temporal::Time> next_end();
 
  private:

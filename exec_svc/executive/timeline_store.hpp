@@ -1,4 +1,4 @@
-/// Values of timelines as conditions see them.
+// The timeline store holds values of timelines as conditions see them.
 #pragma once
 
 #include <map>
@@ -22,7 +22,7 @@ class TimelineStore {
   /// Lets the rates of running activities act up to now.
   void advance(temporal::Time now);
 
-  /// Impacts at the start, and those that last while the activity runs.
+  /// Applies the impacts at the start, and those that last while the activity runs.
   void begin(const temporal::PlanActivity& activity);
   /// Ends the lasting ones (a delta is taken back, an assignment gives way to the value before it) and, if
   /// the activity succeeded, adds those at the end.
@@ -40,7 +40,7 @@ class TimelineStore {
   void add(const std::string& timeline, double amount);
 
   std::unordered_map<std::string, temporal::Value> observed_, internal_;
-  std::map<std::string, std::vector<Lasting>> lasting_;  ///< by activity id
+  std::map<std::string, std::vector<Lasting>> lasting_;  ///< goes by activity id
   std::optional<temporal::Time> now_;
 };
 

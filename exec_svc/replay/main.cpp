@@ -1,4 +1,4 @@
-// roci-replay: a run of the executive again, from its journal. Exit codes: docs/exit-codes.md.
+// roci-replay makes a run of the executive again, from its journal. docs/exit-codes.md has its exit codes.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>

@@ -1,5 +1,5 @@
-/// What goes from the leader's journal to the follower's: a batch, or a part of a whole journal. Plain
-/// values.
+// Chunks go from the leader's journal to the follower's: each is a batch, or a part of a whole journal, as
+// plain values.
 #pragma once
 
 #include <cstdint>
@@ -10,28 +10,29 @@
 
 namespace roci::exec::standby {
 
+/// Is one message of the journal's copy.
 struct Chunk {
   std::uint64_t leader = 0;    ///< epoch of who sends it
   journal::Position after;     ///< a batch: of the journal that it fits
-  journal::Position at;        ///< of the journal with it
-  std::uint32_t part = 0;      ///< of a whole journal: this one, from 0,
-  std::uint32_t parts = 0;     ///< of so many; 0: a batch
-  std::uint32_t checksum = 0;  ///< of all other members
+  journal::Position at;        ///< is where the journal stands with it
+  std::uint32_t part = 0;      ///< numbers this part of a whole journal, from 0
+  std::uint32_t parts = 0;     ///< counts the parts of a whole journal; 0: a batch
+  std::uint32_t checksum = 0;  ///< covers all other members
   std::string bytes;
   bool operator==(const Chunk&) const = default;
 };
 
-/// CRC-32 over everything but the checksum itself.
+/// Returns the CRC-32 over everything but the checksum itself.
 std::uint32_t checksum(const Chunk& chunk);
 
-/// How much of a whole journal the follower has in a row.
+/// Says how much of a whole journal the follower has in a row.
 struct TransferProgress {
   journal::Position at;
   std::uint32_t parts = 0;
   bool operator==(const TransferProgress&) const = default;
 };
 
-/// Seals each part with its checksum.
+/// Splits a whole journal into parts, each sealed with its checksum.
 std::vector<Chunk> split(std::uint64_t leader, const journal::Position& at, const std::string& whole);
 
 }  // namespace roci::exec::standby

@@ -50,7 +50,7 @@ void FollowerService::take(const Chunk& chunk) {
   if (taken != JournalCopy::Result::known) say();
 }
 
-// Goals that this member took in while it led alone, and that the leader never heard of.
+// Asks again for goals that this member took in while it led alone, and that the leader never heard of.
 void FollowerService::ask_again(const std::vector<GoalRecord>& earlier) {
   const std::vector<GoalRecord> goals = journal_->goals();
   for (const GoalRecord& goal : earlier) {

@@ -1,4 +1,5 @@
-/// The follower's side on the wire: takes the leader's journal, says what it has, and finds out when to lead.
+// This is the follower's side on the wire: it takes the leader's journal, says what it has, and finds out
+// when to lead.
 #pragma once
 
 #include <functional>
@@ -17,17 +18,19 @@ namespace roci::exec::standby {
 /// Sends a goal as its issuer would.
 using TellGoal = std::function<void(const goals::GoalRequest&)>;
 
+/// Follows until it is this member's turn to lead or the run is over; then it stops the node.
 class FollowerService {
  public:
-  /// On an observer's node, so that it stands outside the simulated clock. All outlive this. `executive`:
-  /// logical name of the pair; what is said by and for another one is passed over. `tell_goal` hears of goals that
-  /// this member took in while it led alone and that the leader does not know.
+  /// Stands on an observer's node, and so outside the simulated clock. All arguments must outlive it.
+  /// `executive` is the logical name of the pair; what is said by and for another one is passed over.
+  /// `tell_goal` hears of goals that this member took in while it led alone and that the leader does not
+  /// know.
   FollowerService(services::Node& node, std::string executive, Lease& lease, journal::Journal& journal,
                   PersistedTermFile& persisted_term, TellGoal tell_goal);
 
-  /// Why this member leads, once it does; the node has been stopped then.
+  /// Says why this member leads, once it does; the node has been stopped then.
   const std::optional<Lease::Turn>& lead() const { return lead_; }
-  /// The simulated clock has come to its end, and with it the run.
+  /// Returns whether the simulated clock has come to its end, and with it the run.
   bool run_is_over() const { return over_; }
 
  private:

@@ -1,4 +1,5 @@
-/// The follower's side: a journal that takes another one's batches, each once, in order, unharmed.
+// The journal copy is the follower's side: a journal that takes another one's batches, each once, in order,
+// unharmed.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +10,25 @@
 
 namespace roci::exec::standby {
 
+/// Takes only what fits on the journal as it is, or a whole journal in its place.
 class JournalCopy {
  public:
   explicit JournalCopy(journal::Journal& journal) : journal_(&journal), has_(journal.position()) {}
 
   enum class Result {
     batch,    ///< it is in the journal, on the disk
-    part,     ///< of a whole journal that is not complete
+    part,     ///< it belongs to a whole journal that is not complete
     whole,    ///< complete: the journal is the leader's now
     known,    ///< this journal has it
     gap,      ///< something before it is missing, or this journal has another past
     corrupt,  ///< refused
-    old,      ///< of a leader whose epoch is over; refused
+    old,      ///< its leader's epoch is over; refused
   };
-  /// `epoch`: the latest that the follower knows of.
+  /// Takes a chunk; `epoch` is the latest that the follower knows of.
   Result take(const Chunk& chunk, std::uint64_t epoch);
 
-  /// kOwnPast after a batch that does not fit, though its position does: the whole journal is wanted then.
+  /// Returns how far the copy has come. It is kOwnPast after a batch that does not fit, though its position
+  /// does: the whole journal is wanted then.
   const journal::Position& has() const { return has_; }
   const TransferProgress& arrival() const { return arrival_; }
 

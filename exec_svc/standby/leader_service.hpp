@@ -1,5 +1,5 @@
-/// The leader's side on the wire: keeps the lease, feeds the follower, and lets out what was decided once the
-/// follower has it.
+// This is the leader's side on the wire: it keeps the lease, feeds the follower, and lets out what was
+// decided once the follower has it.
 #pragma once
 
 #include <deque>
@@ -17,28 +17,31 @@
 
 namespace roci::exec::standby {
 
-/// Leaves Node::run() of a leader that is none any more.
+/// Is what leaves Node::run() when a leader is none any more.
 class StandDown : public std::runtime_error {
  public:
   StandDown(const std::string& reason, bool is_superseded)
       : std::runtime_error(reason), superseded(is_superseded) {}
-  const bool superseded;  ///< by another leader, for all it knows
+  const bool superseded;  ///< says whether another leader leads, for all it knows
 };
 
+/// Lets nothing out that the follower should have and has not.
 class LeaderService {
  public:
-  /// `lease` leads already; its epoch begins in the journal. All outlive this.
+  /// Takes a `lease` that leads already; its epoch begins in the journal. All arguments must outlive this
+  /// object.
   LeaderService(services::Node& node, std::string executive, Lease& lease, journal::Journal& journal,
                 PersistedTermFile& persisted_term);
 
-  /// What was decided with the journal's newest commit: `send` runs now or later, in the order of these
-  /// calls, unless this leader stands down before. Under the simulated clock the micro-step lasts until then.
+  /// Lets out what was decided with the journal's newest commit: `send` runs now or later, in the order of
+  /// these calls, unless this leader stands down before. Under the simulated clock the micro-step lasts until
+  /// then.
   void send_once_copied(std::function<void()> send);
-  /// An owner refused a command of this epoch. Throws StandDown.
+  /// Takes in that an owner refused a command of this epoch. Throws StandDown.
   void refused();
 
   std::uint64_t epoch() const { return lease_->epoch(); }
-  /// For operators, since the last call.
+  /// Returns what operators are to be told since the last call.
   std::vector<reactor::Event> take_events() { return std::exchange(events_, {}); }
 
  private:

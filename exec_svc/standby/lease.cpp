@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::uint64_t kNear = 64;  // batches; so close a follower is waited for
 
-// The next after `highest` of a member's own epochs: odd ones of the first, even ones of the second.
+// Returns the next epoch after `highest` of a member's own: the first has the odd ones, the second the even
+// ones.
 std::uint64_t next_epoch(Member self, std::uint64_t highest) {
   const std::uint64_t next = highest + 1;
   const bool odd = next % 2 == 1;
@@ -130,7 +131,7 @@ Lease::Turn Lease::keep_leading(const Position& newest, Moment now) {
     persisted_term_.alone = false;
     return {Change::stand_down, "an owner obeys a later epoch"};
   }
-  // Alone too: to others it was dead meanwhile, so it joins them anew.
+  // This holds alone, too: to others it was dead meanwhile, so it joins them anew.
   if (std::exchange(settled_, true) && now - spoke_at_ >= settings_.term) {
     return {Change::stand_down,
             "it stood still for " + milliseconds_text(now - spoke_at_) + ", longer than its lease"};

@@ -1,5 +1,5 @@
-/// Who of a pair of executives leads: a state machine over what the members say of themselves. Pure. See the
-/// README for the rules.
+// The lease says who of a pair of executives leads: it is a state machine over what the members say of
+// themselves. It is pure. The README has the rules.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@
 
 namespace roci::exec::standby {
 
-using Moment = std::chrono::microseconds;  ///< on a clock that never jumps, of this member alone
+using Moment = std::chrono::microseconds;  ///< counts on a clock that never jumps, of this member alone
 
 enum class Member { first, second };
 enum class Role { following, leading };
@@ -21,78 +21,82 @@ struct LeaseMessage {
   Member member = Member::first;
   Role role = Role::following;
   std::uint64_t epoch = 0;  ///< the highest that it knows of; a leader's own
-  journal::Position has;    ///< of its journal
-  /// A leader: the other may take over once this message is a term old. A follower: it will.
+  journal::Position has;    ///< is what its journal has
+  /// Says of a leader that the other may take over once this message is a term old; says of a follower that
+  /// it will.
   bool entitled = false;
-  /// A leader: what it knows that the other has; with less on its disk it is not entitled.
+  /// Says of a leader what it knows that the other has; with less on its disk the other is not entitled.
   journal::Position receipt;
   bool searching = false;  ///< a follower that has heard no leader for a term
-  Moment said{0};          ///< on the clock of who says it
+  Moment said{0};          ///< counts on the clock of who says it
   Moment echo{0};          ///< the newest `said` heard from the other, on the other's clock
   bool operator==(const LeaseMessage&) const = default;
 };
 
-/// All times follow from the term, for how long a leader's message holds. Both members must have the same one.
+/// Holds times that all follow from the term, for how long a leader's message holds. Both members must have
+/// the same one.
 struct LeaseSettings {
   Moment term = std::chrono::seconds(2);
-  Moment renewal = term / 8;           ///< between two messages
-  Moment progress_timeout = term / 2;  ///< without progress of the other's journal
+  Moment renewal = term / 8;           ///< lies between two messages
+  Moment progress_timeout = term / 2;  ///< bounds the time without progress of the other's journal
   /// A follower may take over from a term after it last heard the leader until a term and this after it said
   /// what that message echoes; later its right has lapsed, so that one that was stopped does not use it late,
   /// and a message that came late gives none.
   Moment takeover_window = term / 2;
-  Moment solo_timeout = 10 * term;  ///< until one leads in doubt that hears nobody
+  Moment solo_timeout = 10 * term;  ///< passes until one leads in doubt that hears nobody
 };
 
-/// What must be on the disk before anything that stands on it is said.
+/// Holds what must be on the disk before anything that stands on it is said.
 struct PersistedTerm {
   std::uint64_t epoch = 0;  ///< the highest heard of or used
   bool alone = false;       ///< led in that epoch while the other was not entitled
   bool operator==(const PersistedTerm&) const = default;
 };
 
+/// Decides for one member; no epoch has two leaders.
 class Lease {
  public:
-  /// `superseded`: this member led until another one did.
+  /// With `superseded`, this member led until another one did.
   Lease(Member self, const LeaseSettings& settings, const PersistedTerm& persisted_term, bool superseded,
         Moment now);
 
   void hear(const LeaseMessage& message, Moment now);
-  /// Something of the leader of this epoch's journal came.
+  /// Takes in that something of the leader of this epoch's journal came.
   void hear_leader(std::uint64_t epoch, Moment now);
-  /// An owner refused this leader: somebody leads in a later epoch.
+  /// Takes in that an owner refused this leader: somebody leads in a later epoch.
   void refused() { refused_ = true; }
 
   enum class Change {
     none,
-    lead,        ///< from now on in epoch()
+    lead,        ///< leads from now on in epoch()
     stand_down,  ///< this object has done its work: nothing may be sent, a follower begins anew
     alone,       ///< the follower is gone and has no right any more
     paired,
   };
   struct Turn {
     Change change = Change::none;
-    std::string reason;     ///< of a change, in plain words
+    std::string reason;     ///< says in plain words why it changed
     bool doubtful = false;  ///< lead: the other may have gone on from this journal, unheard
     bool speak = false;     ///< message() is to be sent now
   };
-  /// To be called often, and after everything heard. When persisted_term() has changed, it goes to the disk before
-  /// anything else is done.
+  /// Says what to do now; it is to be called often, and after everything heard. When persisted_term() has
+  /// changed, it goes to the disk before anything else is done.
   Turn turn(const journal::Position& newest, Moment now);
 
-  /// Whether what was decided at this position of the journal may be sent. To be asked right before sending.
+  /// Returns whether what was decided at this position of the journal may be sent. It is to be asked right
+  /// before sending.
   bool may_send(const journal::Position& decided, Moment now) const;
 
   LeaseMessage message(const journal::Position& newest) const;
   const PersistedTerm& persisted_term() const { return persisted_term_; }
-  /// Of a leader that stands down: another one leads.
+  /// Returns, of a leader that stands down, whether another one leads.
   bool superseded() const { return refused_ || persisted_term_.epoch > own_epoch_; }
   Role role() const { return role_; }
   std::uint64_t epoch() const { return persisted_term_.epoch; }
 
  private:
-  /// Of a leader. joining: the follower is nearly there, and receipts are waited for; parting: its right has
-  /// been taken back, and it may not know.
+  /// Is the state of a leader. One that is catching_up waits for receipts, as the follower is nearly there;
+  /// one that is revoking has taken the follower's right back, which the follower may not know.
   enum class ReplicationState { alone, catching_up, paired, revoking };
   struct Heard {
     LeaseMessage message;
@@ -109,7 +113,8 @@ class Lease {
   bool wins(const LeaseMessage& other, const journal::Position& newest) const;
   bool expired(Moment now) const { return now - entitled_at_ >= settings_.term; }
   bool heard_lately(Moment now) const { return other_ && now - other_->at <= settings_.term; }
-  /// When the newest message of the other was said at the earliest, on this clock; nothing: long ago.
+  /// Returns when the newest message of the other was said at the earliest, on this clock, or nothing if that
+  /// is long ago.
   std::optional<Moment> sent_since() const;
   bool other_has(const journal::Position& position) const;
   bool other_is_near(const journal::Position& newest) const;
@@ -125,14 +130,14 @@ class Lease {
   bool takeover_forbidden_;    ///< following: the newest leader does not want it to take over
   bool entitled_ = false;      ///< following: by its newest message, with a journal that has
   journal::Position receipt_;  ///< this at least,
-  Moment entitled_since_{0};   ///< when it was said at the earliest
+  Moment entitled_since_{0};   ///< is when it was said at the earliest
   Moment leaderless_since_;
   Moment started_;
 
   std::uint64_t own_epoch_ = 0;  ///< leading
   bool settled_ = false;         ///< had a turn since it leads; opening its endpoints may take a while
   ReplicationState replication_ = ReplicationState::alone;
-  Moment entitled_at_{0};  ///< when this leader last said that the other may take over
+  Moment entitled_at_{0};  ///< is when this leader last said that the other may take over
   Moment replication_since_{0};
   Moment behind_since_{0};  ///< the other's journal, without progress
   bool behind_ = false;

@@ -1,4 +1,4 @@
-/// A member's persisted term on its disk.
+// This file keeps a member's persisted term on its disk.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,13 @@
 
 namespace roci::exec::standby {
 
+/// Reads and writes the term of one member.
 class PersistedTermFile {
  public:
   PersistedTermFile(std::filesystem::path file, journal::Durability durability)
       : file_(std::move(file)), durability_(durability) {}
 
-  /// As new if there is no file. Throws JournalError for one that cannot be read.
+  /// Reads the term; it is as new if there is no file. Throws JournalError for one that cannot be read.
   PersistedTerm read() const;
   /// Writes what is new: either all of it stands in the file or nothing. Throws JournalError.
   void keep(const PersistedTerm& persisted_term);
@@ -24,7 +25,7 @@ class PersistedTermFile {
 
   std::filesystem::path file_;
   journal::Durability durability_;
-  std::optional<PersistedTerm> kept_;  ///< as read or written by keep()
+  std::optional<PersistedTerm> kept_;  ///< is as read or written by keep()
 };
 
 }  // namespace roci::exec::standby

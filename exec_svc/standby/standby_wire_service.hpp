@@ -1,4 +1,4 @@
-/// Lease messages and chunks in their wire form, and the clock that they count on.
+// This file has lease messages and chunks in their wire form, and the clock that they count on.
 #pragma once
 
 #include <stdexcept>
@@ -10,18 +10,19 @@
 
 namespace roci::exec::standby {
 
-/// The steady clock of this host.
+/// Returns the time on the steady clock of this host.
 Moment moment();
 
 std::string name_of(Member member);  ///< "first", "second"
 Member member_of(const std::string& name);
 
-/// `executive`: logical name of the pair.
+/// Translates a message; `executive` is the logical name of the pair.
 v1::LeaseMessage to_wire(const LeaseMessage& message, const TransferProgress& arrival,
                          const std::string& executive);
 LeaseMessage from_wire(const v1::LeaseMessage& member);
 TransferProgress arrival_of(const v1::LeaseMessage& member);
 
+/// These translate chunks; `executive` is the logical name of the pair.
 v1::JournalChunk to_wire(const Chunk& chunk, const std::string& executive);
 Chunk from_wire(const v1::JournalChunk& chunk);
 

@@ -7,14 +7,14 @@
 namespace roci::exec::trace {
 namespace {
 
-/// A row of neighbouring lines: [begin, end).
+/// Is a row of neighbouring lines: [begin, end).
 struct Row {
   std::size_t begin = 0;
   std::size_t end = 0;
   std::size_t size() const { return end - begin; }
 };
 
-/// The lines of one side that have no partner, between two lines that have.
+/// Holds the lines of each side that have no partner, between two lines that have.
 struct Gap {
   std::vector<std::size_t> before;
   std::vector<std::size_t> after;
@@ -48,7 +48,8 @@ class Comparer {
     return out_.before[before].text == out_.after[after].text;
   }
 
-  /// The longest common row of lines by dynamic programming (Wagner and Fischer 1974), and what lies between.
+  /// Finds the longest common row of lines by dynamic programming (Wagner and Fischer 1974), and returns what
+  /// lies between.
   std::vector<Gap> gaps_between(Row before, Row after) const {
     while (before.size() > 0 && after.size() > 0 && same(before.begin, after.begin)) {
       ++before.begin;

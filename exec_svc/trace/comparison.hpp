@@ -1,4 +1,4 @@
-/// Two traces line by line, after one renaming.
+// A comparison takes two traces line by line, after one renaming.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,21 @@
 
 namespace roci::exec::trace {
 
-/// One differing line: where it stands in Comparison::before and ::after; empty on the side that has no such
-/// line.
+/// Is one differing line: it holds where it stands in Comparison::before and ::after, and nothing on the side
+/// that has no such line.
 struct Difference {
   std::optional<std::size_t> before;
   std::optional<std::size_t> after;
   bool operator==(const Difference&) const = default;
 };
 
+/// Holds what a comparison found, with the lines that it compared.
 struct Comparison {
-  std::vector<Line> before;             ///< OLD under its new names.
-  std::vector<Line> after;              ///< NEW without what was added.
-  std::vector<Difference> differences;  ///< In order of mission time, without the accepted ones.
-  std::size_t accepted = 0;             ///< Differing lines that the map accepts.
-  Uses uses;                            ///< Of the map's rules.
+  std::vector<Line> before;             ///< Are those of OLD under its new names.
+  std::vector<Line> after;              ///< Are those of NEW without what was added.
+  std::vector<Difference> differences;  ///< Stand in order of mission time, without the accepted ones.
+  std::size_t accepted = 0;             ///< Counts differing lines that the map accepts.
+  Uses uses;                            ///< Counts those of the map's rules.
 
   bool equal() const { return differences.empty(); }
 };

@@ -1,5 +1,5 @@
-/// The lines of a trace in a journal's SQLite file, without the executive's own code: of every version of the
-/// journal that there ever was (docs/formats.md).
+// This file reads the lines of a trace in a journal's SQLite file, without the executive's own code: it
+// reads every version of the journal that there ever was (docs/formats.md).
 #pragma once
 
 #include <filesystem>

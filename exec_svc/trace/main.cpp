@@ -1,5 +1,5 @@
-// roci-trace: prints the trace of a run, and compares the traces of two builds. Exit codes:
-// docs/exit-codes.md.
+// roci-trace prints the trace of a run, and compares the traces of two builds. docs/exit-codes.md has its
+// exit codes.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>
@@ -34,7 +34,7 @@ trace::RecordedTrace read(const fs::path& run, const Options& options) {
   return out;
 }
 
-// Two runs that never began are not the same run.
+// Reads a run that flew: two runs that never began are not the same run.
 trace::RecordedTrace read_flown(const fs::path& run, const Options& options) {
   trace::RecordedTrace out = read(run, options);
   if (out.lines.empty()) throw trace::TraceError(run.string() + " has no line of a trace; fly it again");
@@ -60,7 +60,7 @@ int compare_one(const trace::TraceMap& map, const Options& options) {
 
 using Runs = std::map<std::string, fs::path>;
 
-// Each run of OLD with the run of the same name of NEW.
+// Compares each run of OLD with the run of the same name of NEW.
 int compare_all(const Runs& before, const Runs& after, const trace::TraceMap& map, const Options& options) {
   std::size_t different = 0;
   trace::Uses uses;

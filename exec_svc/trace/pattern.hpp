@@ -1,4 +1,5 @@
-/// POSIX extended regular expressions over lines of any length (GNU's `\w`, `\s`, `\S`, `\b` included).
+// Patterns are POSIX extended regular expressions over lines of any length (GNU's `\w`, `\s`, `\S`, `\b`
+// included).
 #pragma once
 
 #include <cstddef>
@@ -8,18 +9,19 @@
 
 namespace roci::exec::trace {
 
-/// An expression or a replacement that is not valid.
+/// Is thrown for an expression or a replacement that is not valid.
 class PatternError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
+/// Is a compiled expression.
 class Pattern {
  public:
-  /// Throws PatternError with the reason.
+  /// Compiles the expression. Throws PatternError with the reason.
   explicit Pattern(const std::string& expression);
 
-  /// Whether it matches somewhere in the text; `^` and `$` are the ends of the text.
+  /// Returns whether it matches somewhere in the text; `^` and `$` are the ends of the text.
   bool found_in(const std::string& text) const;
 
   /// Throws PatternError when the replacement names a group that the expression has not, or an escape other

@@ -12,7 +12,7 @@ bool in_word(char c) {
          byte == '_' || byte == '-' || byte == '.' || byte >= 0x80;
 }
 
-/// The end of the word that begins here; `from` itself where none does.
+/// Returns the end of the word that begins here, or `from` itself where none does.
 std::size_t end_of_word(std::string_view text, std::size_t from) {
   std::size_t end = from;
   while (end < text.size() && in_word(text[end])) ++end;
@@ -43,7 +43,7 @@ bool is_of(const std::optional<std::string>& kind, std::string_view text) {
   return !kind || text.substr(0, text.find(' ')) == *kind;
 }
 
-/// Whether the line stays.
+/// Takes out of the line what was added. Returns whether the line stays.
 bool strip(std::string& text, const TraceMap& map, Uses& uses) {
   for (const Addition& addition : map.additions) {
     if (!is_of(addition.kind, text) || !addition.pattern.found_in(text)) continue;

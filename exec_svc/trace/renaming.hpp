@@ -1,4 +1,4 @@
-/// A trace map applied to lines: new names for OLD, and NEW without what was added.
+// A trace map is applied to lines here: OLD gets the new names, and NEW loses what was added.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +12,18 @@
 
 namespace roci::exec::trace {
 
-/// How often each rule of a map was of use.
+/// Counts how often each rule of a map was of use.
 using Uses = std::map<Place, std::size_t>;
 
-/// A word is a row of letters, digits, `_`, `-` and `.` that does not end with `-` or `.`; bytes beyond ASCII
-/// are letters.
+/// Returns whether the text is one word: a row of letters, digits, `_`, `-` and `.` that does not end with
+/// `-` or `.`; bytes beyond ASCII are letters.
 bool is_word(std::string_view text);
 
-/// The text of an OLD line as NEW calls it. All words are renamed at once, so that two names may change
-/// places; then the rewrites go over the text, in the order of the file.
+/// Returns the text of an OLD line as NEW calls it. All words are renamed at once, so that two names may
+/// change places; then the rewrites go over the text, in the order of the file.
 std::string renamed(const std::string& text, const TraceMap& map, Uses& uses);
 
-/// These lines without those, and without those parts, that the map says were added.
+/// Returns these lines without those, and without those parts, that the map says were added.
 std::vector<Line> without_additions(std::vector<Line> lines, const TraceMap& map, Uses& uses);
 
 }  // namespace roci::exec::trace

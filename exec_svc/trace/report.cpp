@@ -12,7 +12,7 @@ std::string in_one_line(std::string text) {
   return text;
 }
 
-/// The part of the text around `at`.
+/// Returns the part of the text around `at`.
 std::string part(const std::string& text, std::size_t at, std::size_t width) {
   if (text.size() <= width) return in_one_line(text);
   const std::size_t begin = at < width / 2 ? 0 : std::min(at - width / 2, text.size() - width);
@@ -31,7 +31,7 @@ std::size_t first_difference(const Comparison& comparison, const Difference& dif
   return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
 }
 
-/// How many lines of one side stand before a difference.
+/// Returns how many lines of one side stand before a difference.
 std::size_t standing_before(const std::vector<Line>& lines, std::optional<std::size_t> at,
                             temporal::Time time) {
   if (at) return *at;

@@ -1,4 +1,4 @@
-/// What a comparison found, for people.
+// The report tells people what a comparison found.
 #pragma once
 
 #include <cstddef>
@@ -8,21 +8,22 @@
 
 namespace roci::exec::trace {
 
+/// Says how much of the differences is shown.
 struct ReportOptions {
-  std::size_t shown = 1;    ///< Differences, the first ones.
-  std::size_t context = 3;  ///< Lines of each side before a difference.
-  std::size_t width = 200;  ///< Of a shown line; of a longer one the part around the difference is shown.
+  std::size_t shown = 1;    ///< Counts the differences that are shown, the first ones.
+  std::size_t context = 3;  ///< Counts the lines of each side before a difference.
+  std::size_t width = 200;  ///< Bounds a shown line; of a longer one the part around the difference is shown.
 };
 
-/// One line on the whole, e.g. "different: 3 lines of 812 (2 more accepted)".
+/// Returns one line on the whole, such as "different: 3 lines of 812 (2 more accepted)".
 std::string verdict(const Comparison& comparison);
 
-/// The first differences, each with the lines before it: `-` stands before lines of OLD, `+` before those of
-/// NEW, with their numbers in their traces. Empty when there is none.
+/// Returns the first differences, each with the lines before it: `-` stands before lines of OLD, `+` before
+/// those of NEW, with their numbers in their traces. The text is empty when there is none.
 std::string differences(const Comparison& comparison, const ReportOptions& options = {});
 
-/// A line for each rule of the map that `uses` has not; accepted differences alone, or also new names,
-/// rewrites and additions. Empty when each was of use.
+/// Returns a line for each rule of the map that `uses` has not; it looks at accepted differences alone, or
+/// also at new names, rewrites and additions. The text is empty when each was of use.
 std::string useless_rules(const TraceMap& map, const Uses& uses, const std::string& scenario, bool all);
 
 }  // namespace roci::exec::trace

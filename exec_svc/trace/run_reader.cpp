@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The newest version of summary.json that is understood here; one that names none is of version 1.
+/// This is the newest version of summary.json that is understood here; one that names none is of version 1.
 constexpr int kSummaryFormat = 1;
 
 constexpr char kSummary[] = "summary.json";

@@ -1,4 +1,4 @@
-/// Traces from where runs leave them.
+// This file reads traces from where runs leave them.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,8 @@ namespace roci::exec::trace {
 /// than this code.
 RecordedTrace read_run(const std::filesystem::path& run, bool decisions);
 
-/// The runs of a folder that is no run itself, by name: its texts NAME.trace and its run folders NAME. Empty
-/// for anything else.
+/// Returns the runs of a folder that is no run itself, by name: its texts NAME.trace and its run folders
+/// NAME. There are none for anything else.
 std::map<std::string, std::filesystem::path> runs_in(const std::filesystem::path& folder);
 
 }  // namespace roci::exec::trace

@@ -1,6 +1,6 @@
-/// One committed renaming between two versions of the code: what the lines of OLD are called in NEW, what NEW
-/// has in addition, and which differences remain, each with its reason. The README publishes the file's
-/// schema.
+// A trace map is one committed renaming between two versions of the code: it says what the lines of OLD are
+// called in NEW, what NEW has in addition, and which differences remain, each with its reason. The README
+// publishes the file's schema.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +14,20 @@
 
 namespace roci::exec::trace {
 
-/// The newest version of the file that this code reads.
+/// This is the newest version of the file that this code reads.
 inline constexpr int kMapFormat = 1;
 
-/// Where a rule stands ("file:line:column") names it in reports and counts.
+/// Says where a rule stands ("file:line:column"), by which reports and counts name it.
 using Place = std::string;
 
-/// One word for another one.
+/// Is one word for another one.
 struct NewName {
   std::string to;
   Place place;
 };
 using NewNames = std::map<std::string, NewName, std::less<>>;
 
-/// A rewrite of OLD lines; without a kind, of lines of any kind.
+/// Is a rewrite of OLD lines; without a kind, it is one of lines of any kind.
 struct Rewrite {
   std::optional<std::string> kind;
   Pattern pattern;
@@ -35,7 +35,8 @@ struct Rewrite {
   Place place;
 };
 
-/// What is taken out of NEW lines before they are compared: whole lines, or what a pattern matches in them.
+/// Says what is taken out of NEW lines before they are compared: whole lines, or what a pattern matches in
+/// them.
 struct Addition {
   std::optional<std::string> kind;
   Pattern pattern;
@@ -44,16 +45,16 @@ struct Addition {
   Place place;
 };
 
-/// Lines of these kinds may stand in another order within one mission time.
+/// Names kinds of lines that may stand in another order within one mission time.
 struct FreeOrder {
   std::vector<std::string> kinds;
   std::string reason;
   Place place;
 };
 
-/// A difference that remains. With `before` alone it is a line that only OLD has, with `after` alone one that
-/// only NEW has, with both a line that stands for the other one at the same mission time. Patterns see OLD
-/// lines with their new names.
+/// Is a difference that remains. With `before` alone it is a line that only OLD has, with `after` alone one
+/// that only NEW has, with both a line that stands for the other one at the same mission time. Patterns see
+/// OLD lines with their new names.
 struct Accepted {
   Pattern scenario;
   std::optional<Pattern> before;
@@ -62,10 +63,11 @@ struct Accepted {
   Place place;
 };
 
+/// Holds the rules of one map file, in the order of the file.
 struct TraceMap {
-  NewNames names;  ///< Words that are neither the kind of a line nor the name of a field.
-  NewNames kinds;  ///< The first words of lines.
-  NewNames keys;   ///< Words before an equals sign.
+  NewNames names;  ///< Rename words that are neither the kind of a line nor the name of a field.
+  NewNames kinds;  ///< Rename the first words of lines.
+  NewNames keys;   ///< Rename words before an equals sign.
   std::vector<Rewrite> rewrites;
   std::vector<Addition> additions;
   std::vector<FreeOrder> free_orders;

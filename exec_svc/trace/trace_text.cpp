@@ -31,7 +31,7 @@ bool number(std::string_view text, T& out) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// The reader of one text; it knows the place for its errors.
+/// Reads one text; it knows the place for its errors.
 class Parser {
  public:
   Parser(std::istream& in, const std::string& name) : in_(in), name_(name) {}

@@ -1,5 +1,5 @@
-/// A trace as text, one line each, and back. The first line names the format and its version; docs/formats.md
-/// publishes it.
+// A trace stands as text, one line each; this file writes and reads it. The first line names the format and
+// its version; docs/formats.md publishes it.
 #pragma once
 
 #include <iosfwd>
@@ -9,7 +9,7 @@
 
 namespace roci::exec::trace {
 
-/// The newest version of the text that this code reads; it writes this one.
+/// This is the newest version of the text that this code reads; it writes this one.
 inline constexpr int kTextFormat = 1;
 
 /// Writes the first line and then each line as `MICROSECONDS TEXT`. A line feed in a text is written as `\n`,

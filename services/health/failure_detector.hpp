@@ -1,6 +1,6 @@
-// Tells which services are alive, from their heartbeats and from what the transport says of their writers: an
-// unreliable failure detector (Chandra and Toueg, 1996), which may suspect a service that is only slow. Wall
-// time.
+// The failure detector tells which services are alive, from their heartbeats and from what the transport says
+// of their writers. It is an unreliable failure detector (Chandra and Toueg, 1996), which may suspect a
+// service that is only slow. Its time is wall time.
 #pragma once
 
 #include <map>
@@ -14,14 +14,15 @@
 
 namespace roci::services::health {
 
+/// Holds the state of each service and tells of each change once.
 class FailureDetector {
  public:
   explicit FailureDetector(clock::WallDuration hang_limit) : hang_limit_(hang_limit) {}
 
   void heartbeat(const v1::Heartbeat&, clock::WallTime now);
-  /// Something other than a heartbeat has shown that the service lives.
+  /// Takes in that something other than a heartbeat has shown that the service lives.
   void seen(const std::string& service, std::uint32_t incarnation, clock::WallTime now);
-  /// The transport no longer knows a living writer of this service's heartbeat.
+  /// Takes in that the transport no longer knows a living writer of this service's heartbeat.
   void writer_lost(const std::string& service);
   /// Declares dead whoever has been silent for longer than the limit.
   void check(clock::WallTime now);

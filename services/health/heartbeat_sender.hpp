@@ -1,4 +1,5 @@
-// The heartbeat of a service. The work loop itself calls beat(), so that a hung loop goes silent.
+// The heartbeat of a service goes out from its work loop: the loop itself calls beat(), so that a hung loop
+// goes silent.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +11,12 @@
 
 namespace roci::services::health {
 
+/// Sends a heartbeat every quarter of a second as long as its loop turns.
 class HeartbeatSender {
  public:
   using Send = std::function<void(const v1::Heartbeat&)>;
 
-  /// `identity`: who beats (service, incarnation, mission, robot, vendor); the rest is filled in here.
+  /// `identity` says who beats (service, incarnation, mission, robot, vendor); the rest is filled in here.
   HeartbeatSender(v1::Heartbeat identity, Send);
 
   /// The loop calls it in each of its turns; it sends when it is time. A degraded service works, but not as it

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kCannotRun = 127;
 
-// Between fork and exec: async-signal-safe calls only. A process group of its own keeps the terminal's Ctrl-C
-// away; the launcher passes it on in the right order.
+// Runs between fork and exec, and so makes async-signal-safe calls only. A process group of its own keeps the
+// terminal's Ctrl-C away; the launcher passes it on in the right order.
 [[noreturn]] void become(const char* program, char* const* arguments, char* const* environment, int log,
                          pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -35,7 +35,7 @@ constexpr int kCannotRun = 127;
 
 std::string_view name_of(std::string_view variable) { return variable.substr(0, variable.find('=')); }
 
-// This process's own, but for the variables that `more` sets.
+// Returns this process's own environment, but for the variables that `more` sets.
 std::vector<std::string> environment_with(const std::vector<std::string>& more) {
   std::vector<std::string> out = more;
   for (char** variable = environ; *variable != nullptr; ++variable) {

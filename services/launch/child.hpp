@@ -1,4 +1,4 @@
-// One child process: its output goes to a log file, and it dies with this process.
+// A Child is one child process: its output goes to a log file, and it dies with this process.
 #pragma once
 
 #include <sys/types.h>
@@ -10,13 +10,16 @@
 
 namespace roci::services::launch {
 
+/// Says how a process ended.
 struct Ending {
   bool exited = false;  ///< It ended by itself, with `code`; otherwise the signal `code` ended it.
   int code = 0;
 };
 
+/// Says the ending in words.
 std::string to_string(const Ending&);
 
+/// Owns one running process.
 class Child {
  public:
   /// Runs `program` with `arguments` (the name first) in this process's environment and `more` of it

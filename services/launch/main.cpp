@@ -1,4 +1,4 @@
-// roci-launch: flies a mission with every service in its own process; see README.md in this folder.
+// roci-launch flies a mission with every service in its own process; see README.md in this folder.
 #include <unistd.h>
 
 #include <atomic>
@@ -17,7 +17,7 @@ namespace {
 namespace launch = roci::services::launch;
 namespace process = roci::services::process;
 
-// This process becomes another program, which stands beside it unless it is a path.
+// Turns this process into another program, which stands beside it unless it is a path.
 int become(const std::filesystem::path& name, std::vector<std::string> arguments) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
   std::vector<char*> pointers;

@@ -46,7 +46,8 @@ std::vector<std::string> checked_services(const std::string& list, const Options
   return names.empty() ? options.list.names() : names;
 }
 
-// A run that one launcher flies alone is like no other; hosts that share one are told its name, or take the mission's.
+// A run that one launcher flies alone is like no other; hosts that share one are told its name, or take the
+// mission's.
 std::string default_run(const Options& options) {
   const std::string mission = options.mission.filename().string();
   if (options.services.size() < options.list.services.size()) return mission;

@@ -1,4 +1,4 @@
-// The command line of roci-launch.
+// This file reads the command line of roci-launch.
 #pragma once
 
 #include <cstdint>
@@ -12,34 +12,37 @@
 
 namespace roci::services::launch {
 
+/// Holds what the command line and the mission say of a run.
 struct Options {
-  std::filesystem::path mission;  ///< A folder with mission.yaml.
-  mission::ServiceList list;      ///< Of the mission: who there is to start.
+  std::filesystem::path mission;  ///< Is a folder with mission.yaml.
+  mission::ServiceList list;      ///< Names who there is to start in the mission.
   std::string scenario = "nominal";
   std::uint64_t seed = 1;
   bool live = false;
-  /// Mission seconds per second; 0 means as fast as possible.
+  /// Holds mission seconds per second; 0 means as fast as possible.
   std::optional<double> speed;
   bool headless = false;
   bool json = false;
   bool standby = false;               ///< Services that can be paired have a second process.
-  double watchdog_s = 10;             ///< Silence after which a service counts as hung; 0: never.
-  std::vector<std::string> services;  ///< Processes that are started here: services and their standbys.
-  std::vector<std::string> roster;    ///< The services of the whole run.
-  std::string run;                    ///< Identity of the run; every host's launcher has the same.
-  std::string become;                 ///< The one service that this process turns into; empty: the launcher stays.
-  double epoch_s = 0;                 ///< With `become`: mission time 0 of the live run, in seconds since 1970.
-  std::filesystem::path run_folder;   ///< If empty, the launcher chooses one.
+  double watchdog_s = 10;             ///< Is the silence after which a service counts as hung; 0: never.
+  std::vector<std::string> services;  ///< Are started here: services and their standbys.
+  std::vector<std::string> roster;    ///< Are the services of the whole run.
+  std::string run;                    ///< Is the identity of the run; every host's launcher has the same.
+  /// Names the one service that this process turns into; if it is empty, the launcher stays.
+  std::string become;
+  double epoch_s = 0;                ///< With `become`, it is mission time 0 of the live run, s since 1970.
+  std::filesystem::path run_folder;  ///< If empty, the launcher chooses one.
   bool domain_given = false;
   services::process::Connection connection;  ///< Its `dds` may be "mixed" or "inproc".
 };
 
-/// The second process of a paired service; it is no member of the roster of its own.
+/// Returns the name of the second process of a paired service; it is no member of the roster of its own.
 std::string standby_of(const std::string& service);
-/// The service that a process is one of; `standby` says whether it is the second one. Null: there is no such process.
+/// Returns the service that a process is one of, or null if there is no such process; `standby` says whether
+/// it is the second one.
 const mission::ServiceEntry* entry_of(const Options&, const std::string& process, bool* standby = nullptr);
 
-/// Throws process::CommandLineEnd, std::invalid_argument, mission::FileError.
+/// Reads the command line. Throws process::CommandLineEnd, std::invalid_argument, mission::FileError.
 Options parse_options(int argc, const char* const* argv, const services::process::Environment&);
 
 }  // namespace roci::services::launch

@@ -1,4 +1,4 @@
-// What roci-launch starts: one command line for each service. Pure.
+// The process plan says what roci-launch starts: one command line for each service. It is pure.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,17 @@
 
 namespace roci::services::launch {
 
-/// Of a process. "mixed": what the service's entry names, else the first vendor; a standby is on another than its service.
+/// Returns the vendor of a process. In a "mixed" run it is what the service's entry names, else the first
+/// vendor; a standby is on another than its service.
 std::string vendor_of(const Options&, const std::string& process);
-/// Of a console: in a mixed run on another vendor than most services.
+/// Returns the vendor of a console: in a mixed run it is another one than most services have.
 std::string console_vendor(const std::string& dds);
 
-/// The program of a process: a name in the folder of this one, or a path.
+/// Returns the program of a process: a name in the folder of this one, or a path.
 std::string program_of(const Options&, const std::string& process);
 
-/// Returns the arguments of one service, its program first. `epoch_unix_us` is mission time 0 of a live run. An incarnation
-/// of 0 is not told: the service counts its starts in the run folder.
+/// Returns the arguments of one service, its program first. `epoch_unix_us` is mission time 0 of a live run.
+/// An incarnation of 0 is not told: the service counts its starts in the run folder.
 std::vector<std::string> service_arguments(const Options&, const std::string& service,
                                            std::uint32_t incarnation, std::int64_t epoch_unix_us);
 

@@ -1,5 +1,5 @@
-// What the user sees of a run while it flies, from an observer node: mission time, phase, goals, the last
-// event.
+// The progress line shows the user a run while it flies, from an observer node: mission time, phase, goals,
+// the last event.
 #pragma once
 
 #include <chrono>
@@ -11,6 +11,7 @@
 
 namespace roci::services::launch {
 
+/// Follows a run and shows it.
 class Progress {
  public:
   /// `shown` asks for a line on standard error that is rewritten on a terminal, else for one line a change.

@@ -1,4 +1,4 @@
-// When a service that ended is started again. Pure.
+// The restart policy says when a service that ended is started again. It is pure.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,8 @@ class RestartPolicy {
   static constexpr clock::WallDuration kFirstPause = std::chrono::milliseconds(200);
   static constexpr clock::WallDuration kLongestPause = std::chrono::seconds(10);
   static constexpr clock::WallDuration kHealthyAfter = std::chrono::seconds(30);
-  /// Passes between the starts of a service whose network went out after it had run, for as long as it takes.
+  /// This pause passes between the starts of a service whose network went out after it had run, for as long
+  /// as it takes.
   static constexpr clock::WallDuration kNetworkPause = std::chrono::seconds(2);
 
   /// Returns the pause until the next start; without one the service is given up.

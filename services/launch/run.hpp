@@ -1,4 +1,4 @@
-// One run of a mission on this host, from the first process to the summary.
+// A run takes a mission on this host from the first process to the summary.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@ namespace roci::services::launch {
 /// docs/exit-codes.md lists these under "Runs".
 enum ExitCode { kAchieved = 0, kNotAchieved = 1, kBadInput = 2, kServiceFailed = 3 };
 
-/// `stop_asked` tells how often the user has asked for the end so far. Prints the outcome. Throws
-/// transport::TransportError and std::system_error when the run cannot begin.
+/// Flies the mission and prints the outcome. `stop_asked` tells how often the user has asked for the end so
+/// far. Throws transport::TransportError and std::system_error when the run cannot begin.
 ExitCode fly(Options, const std::function<int()>& stop_asked);
 
 }  // namespace roci::services::launch

@@ -23,7 +23,8 @@ bool starts(const Options& options, const std::string& process) {
   return std::ranges::find(options.services, process) != options.services.end();
 }
 
-// No: they may well be counted on another host.
+// Returns whether exec_svc runs here, with its standby if there is one; else another host may count the
+// goals.
 bool must_count_goals(const Options& options) {
   return std::ranges::any_of(options.list.services, [&](const mission::ServiceEntry& entry) {
     const bool here = entry.program == kExecutive && starts(options, entry.name);
@@ -31,7 +32,7 @@ bool must_count_goals(const Options& options) {
   });
 }
 
-// What exec_svc wrote here, if it did.
+// Returns what exec_svc wrote here, if it did.
 json read(const Options& options) {
   std::ifstream in(options.run_folder / services::kSummaryFile);
   json summary = json::parse(in, nullptr, false);
@@ -64,7 +65,7 @@ void complete(json& summary, const Options& options, const char* result) {
   if (!links.empty()) summary["links"] = process::as_json(links);
 }
 
-// A line of its own, if the scenario says what is to happen.
+// Returns a line of its own, if the scenario says what is to happen.
 std::string expected_text(const json& summary) {
   const auto expected = summary.find("expected");
   if (expected == summary.end() || !expected->is_object()) return "";

@@ -1,4 +1,4 @@
-// The outcome of a run: what exec_svc wrote to summary.json, and what only the launcher knows.
+// The outcome of a run joins what exec_svc wrote to summary.json and what only the launcher knows.
 #pragma once
 
 #include <string>
@@ -7,11 +7,12 @@
 
 namespace roci::services::launch {
 
+/// Holds the outcome for programs and for people.
 struct Summary {
-  /// Every hard goal was achieved; where exec_svc does not run, the services ended well.
+  /// Says that every hard goal was achieved; where exec_svc does not run, that the services ended well.
   bool good = false;
-  std::string json;  ///< One line.
-  std::string text;  ///< The same for people.
+  std::string json;  ///< Is one line.
+  std::string text;  ///< Says the same for people.
 };
 
 /// Completes run_folder/summary.json and reads it. Where exec_svc flew here and left none, the result is

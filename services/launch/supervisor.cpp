@@ -35,7 +35,7 @@ void Supervisor::launch(const std::string& name, Service& service, clock::WallTi
 }
 
 void Supervisor::turn(clock::WallTime now) {
-  // The master first: its end explains those of the others.
+  // The master comes first: its end explains those of the others.
   if (const auto master = services_.find(master_); master != services_.end()) look_after(*master, now);
   for (auto& entry : services_) look_after(entry, now);
   kill_hung(now);

@@ -1,4 +1,4 @@
-// Keeps the service processes of one host running until the run is over.
+// The supervisor keeps the service processes of one host running until the run is over.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace roci::services::launch {
 
-/// Exit codes of services (docs/exit-codes.md) that a new start does not mend.
+/// Lists exit codes of services (docs/exit-codes.md) that a new start does not mend.
 enum ServiceExit {
   kServiceStopped = 0,
   kServiceBadInput = 2,
@@ -32,6 +32,7 @@ struct RunFailure {
   bool bad_input = false;  ///< The user must mend the mission file or the command line.
 };
 
+/// Starts the services, starts dead ones again by the RestartPolicy, and winds the run up.
 class Supervisor {
  public:
   struct Hooks {
@@ -43,12 +44,12 @@ class Supervisor {
              Hooks);
 
   void start(clock::WallTime now);  ///< Throws what Hooks::start throws.
-  /// Looks after ended and hung children, due restarts, and the end of the run.
+  /// Looks after ended and hung children, due restarts, and the end of the run. It is to be called often.
   void turn(clock::WallTime now);
   /// Asks the run to end; the second time less politely.
   void stop(clock::WallTime now);
 
-  /// It must be told of every notification, and of whom the launcher hears.
+  /// Returns the watchdog, which must be told of every notification, and of whom the launcher hears.
   Watchdog& watchdog() { return watchdog_; }
 
   bool finished() const;
@@ -80,7 +81,7 @@ class Supervisor {
   Watchdog watchdog_;
   Hooks hooks_;
   std::optional<RunFailure> failure_;
-  // The end of the run in three stages: services leave by themselves, then SIGTERM, then SIGKILL.
+  // The run ends in three stages: services leave by themselves, then SIGTERM comes, then SIGKILL.
   std::optional<clock::WallTime> terminate_at_;
   std::optional<clock::WallTime> kill_at_;
 };

@@ -1,4 +1,4 @@
-// Which services of a launcher are hung. Pure.
+// The watchdog tells which services of a launcher are hung. It is pure.
 //
 // Two signs are watched for each process: that its loop turns (health/watchdog_notifier.hpp), and that it is
 // heard over DDS. A service whose loop turns but whose DDS has locked up is dead to all others, and only a
@@ -19,9 +19,10 @@
 
 namespace roci::services::launch {
 
+/// Keeps for each process when its loop last turned and whether it is heard.
 class Watchdog {
  public:
-  /// A service has so long for reading files and journals, before the first turn of its loop.
+  /// Bounds how long a service may read files and journals before the first turn of its loop.
   static constexpr double kStartLimitS = 60;
 
   /// `limit_s` bounds the silence of a service, in seconds; 0 means that nobody ever counts as hung.
@@ -32,7 +33,7 @@ class Watchdog {
   void kick(pid_t, clock::WallTime now);
   /// Takes what the launcher's own node hears of the services of all hosts.
   void heard(const services::health::PeerChange&, clock::WallTime now);
-  /// True once the service's loop has turned since it was started.
+  /// Returns whether the service's loop has turned since it was started.
   bool ran(const std::string& service) const;
 
   struct Hung {

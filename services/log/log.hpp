@@ -1,10 +1,11 @@
-// A service's own log on standard error, for developers. Operators get events (topics::event).
+// A service logs on standard error, for developers. Operators get events (topics::event).
 #pragma once
 
 #include <string_view>
 
 namespace roci::services::log {
 
+/// Each writes one line.
 void info(std::string_view);
 void warning(std::string_view);
 void error(std::string_view);

@@ -1,4 +1,4 @@
-// What an owner of commands and its commanders say to each other, as plain values.
+// An owner of commands and its commanders say this to each other, as plain values.
 #pragma once
 
 #include <compare>
@@ -12,7 +12,7 @@
 
 namespace roci::services::owner {
 
-/// The command that breaks off whatever its subsystem runs, whoever commanded that.
+/// This command breaks off whatever its subsystem runs, whoever commanded that.
 inline constexpr char kStopCommand[] = "stop";
 
 /// Names one command for good. A commander that takes over from another one, or from itself after a restart,
@@ -21,22 +21,24 @@ struct CommandKey {
   std::string activity;
   std::uint32_t attempt = 0;
   std::string commander{};         ///< empty where commanders are not told apart
-  std::uint64_t issued_epoch = 0;  ///< of the commander, when it first sent the command
+  std::uint64_t issued_epoch = 0;  ///< is the commander's when it first sent the command
   auto operator<=>(const CommandKey&) const = default;
 };
 
 enum class Action { execute, cancel, query };
 
+/// Is what a commander asks: a command, a cancel or a query.
 struct Request {
   CommandKey key;
   Action action = Action::execute;
-  std::uint64_t epoch = 0;  ///< of the sender now
+  std::uint64_t epoch = 0;  ///< is the sender's now
   std::string sender{};     ///< the commander that says this; not always the one of the key
   std::string robot{};      ///< empty: the owner's only one
   std::string subsystem{};
   std::string command{};
   std::map<std::string, std::string> arguments{};
-  /// When the step has to be over at the latest; until then the owner may repair (R146). Empty: no limit.
+  /// Holds when the step has to be over at the latest; until then the owner may repair (R146). If it is empty
+  /// there is no limit.
   std::optional<temporal::Time> latest_end{};
 };
 
@@ -44,7 +46,7 @@ struct Request {
 /// the activity. The order is the one of CommandStage in idl/command.idl.
 enum class Stage { accepted, rejected, completed, failed, cancelled, cancel_failed, unknown };
 
-/// What a command came to that ran and ended.
+/// Holds what a command came to that ran and ended.
 struct Results {
   std::optional<temporal::Duration> duration{};  ///< empty: the time since it was accepted
   std::optional<double> energy_j{};              ///< drawn by it alone; empty: not measured
@@ -52,7 +54,7 @@ struct Results {
   bool operator==(const Results&) const = default;
 };
 
-/// A word of the owner on a command: a stable code for programs, a reason in plain words.
+/// Is a word of the owner on a command: a stable code for programs, a reason in plain words.
 struct Word {
   Stage stage = Stage::accepted;
   std::string code{};
@@ -61,7 +63,7 @@ struct Word {
   bool operator==(const Word&) const = default;
 };
 
-/// The word as it goes out.
+/// Is the word as it goes out.
 struct Ack {
   CommandKey key;
   Word word;

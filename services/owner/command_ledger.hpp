@@ -1,5 +1,5 @@
-// The rules that any owner of commands keeps, as a functional core: requests and the owner's own words go in,
-// acknowledgements and orders come out; the time is an argument.
+// The ledger keeps the rules that any owner of commands keeps, as a functional core: requests and the owner's
+// own words go in, acknowledgements and orders come out; the time is an argument.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace roci::services::owner {
 
-/// What the owner has to do about a request.
+/// Says what the owner has to do about a request.
 struct Reception {
   enum class Order {
     nothing,    ///< the acknowledgement, if there is one, says all
@@ -19,33 +19,35 @@ struct Reception {
     break_off,  ///< end it with word(…, cancelled) or refuse with refuse_cancel()
   };
   Order order = Order::nothing;
-  std::optional<Ack> ack{};  ///< to be sent at once
+  std::optional<Ack> ack{};  ///< is to be sent at once
 };
 
-/// Each key is taken once. What repeats it, and every query, gets the last word again. An older epoch than
-/// the newest one of the same sender is refused, and told the newest. A cancel has two phases: the order
-/// to break off, and how that went. What ended keeps its last word for good.
+/// Takes each key once. What repeats it, and every query, gets the last word again. An older epoch than the
+/// newest one of the same sender is refused, and told the newest. A cancel has two phases: the order to break
+/// off, and how that went. What ended keeps its last word for good.
 class CommandLedger {
  public:
   Reception receive(const Request&, temporal::Time now);
 
-  /// The owner's word on a command that it took and that has no last word yet: accepted, rejected, completed,
-  /// failed or cancelled. Empty, and without effect: there is no such command.
+  /// Takes the owner's word on a command that it took and that has no last word yet: accepted, rejected,
+  /// completed, failed or cancelled. Returns nothing, without effect, if there is no such command.
   std::optional<Ack> say(const CommandKey&, Word, temporal::Time now);
-  /// The command runs on although somebody wanted it cancelled. Empty: nobody does.
+  /// Takes in that the command runs on although somebody wanted it cancelled. Returns nothing if nobody does.
   std::optional<Ack> refuse_cancel(const CommandKey&, std::string reason, temporal::Time now);
 
-  /// The owner tries again by itself (R146): it says so, and a success will look like any other. Empty: there
-  /// is no such running command, or its latest end has passed, and the owner fails it.
+  /// Takes in that the owner tries again by itself (R146): it says so, and a success will look like any
+  /// other. Returns nothing if there is no such running command, or its latest end has passed, and the owner
+  /// fails it.
   std::optional<Ack> repair(const CommandKey&, std::string reason, temporal::Time now);
-  /// When the first repaired command must have ended; empty: none is limited.
+  /// Returns when the first repaired command must have ended, or nothing if none is limited.
   std::optional<temporal::Time> next_overrun() const;
-  /// The repaired commands that have not ended in time, each once: the owner breaks them off as failed.
+  /// Returns the repaired commands that have not ended in time, each once: the owner breaks them off as
+  /// failed.
   std::vector<CommandKey> take_overruns(temporal::Time now);
 
-  /// The commands of the robot's subsystem that have no last word.
+  /// Returns the commands of the robot's subsystem that have no last word.
   std::vector<CommandKey> open(const std::string& robot, const std::string& subsystem) const;
-  /// The key's last word; stage `unknown` for a key never taken.
+  /// Returns the key's last word, with stage `unknown` for a key never taken.
   Ack answer(const CommandKey&, temporal::Time now) const;
 
  private:

@@ -1,5 +1,5 @@
-// The commands of one owner on its node: requests come in by the topic `command`, the ledger applies the
-// rules, the driver does what is to be done, and its words go out by `command_ack`.
+// The command server takes the commands of one owner on its node: requests come in by the topic `command`,
+// the ledger applies the rules, the driver does what is to be done, and its words go out by `command_ack`.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,17 @@
 
 namespace roci::services::owner {
 
-/// What an owner does by itself. It answers through the server, within the call or later, on the node's loop.
+/// Is what an owner does by itself. It answers through the server, within the call or later, on the node's
+/// loop.
 class Driver {
  public:
   virtual ~Driver() = default;
-  /// Called before each request: what has happened by now is said first.
+  /// Is called before each request, so that what has happened by now is said first.
   virtual void catch_up() {}
-  /// A new command. The answer is say(accepted) or say(rejected), and one last word when it has ended.
+  /// Carries out a new command. The answer is say(accepted) or say(rejected), and one last word when it has
+  /// ended.
   virtual void carry_out(const Request&) = 0;
-  /// The command is to end early; `why` is the word to say when it has (cancelled on request, stopped, or
+  /// Ends the command early; `why` is the word to say when it has ended (cancelled on request, stopped, or
   /// failed by an overrun). A driver that cannot break off says refuse_cancel().
   virtual void break_off(const CommandKey&, const Word& why) = 0;
 };
@@ -36,10 +38,10 @@ class CommandServer {
   /// driver that knows its subsystems better gets stops by carry_out(), like other commands.
   void leave_stops_to_driver() { driver_stops_ = true; }
 
-  /// False: the ledger has no such command, or it has ended (command_ledger.hpp).
+  /// These return false if the ledger has no such command, or it has ended (command_ledger.hpp).
   bool say(const CommandKey&, Word);
   bool refuse_cancel(const CommandKey&, std::string reason);
-  /// False: there is no time for a repair, and the driver fails the command.
+  /// Returns false if there is no time for a repair; the driver fails the command then.
   bool repair(const CommandKey&, std::string reason);
 
  private:

@@ -1,4 +1,4 @@
-// Between the kit's values and idl/command.idl.
+// This file translates between the kit's values and idl/command.idl.
 #pragma once
 
 #include <string>
@@ -8,6 +8,7 @@
 
 namespace roci::services::owner {
 
+/// These translate one way and the other; the ledger judges the values.
 Request from_wire(const v1::Command&);
 v1::CommandAck to_wire(const Ack&, const std::string& owner);
 

@@ -1,5 +1,5 @@
-// Where a program joins a run, and over which vendor: from the command line, the environment, a host's
-// network file and the mission file, in this order of precedence.
+// A connection says where a program joins a run, and over which vendor. It comes from the command line, the
+// environment, a host's network file and the mission file, in this order of precedence.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,17 @@
 
 namespace roci::services::process {
 
+/// Holds what one source says; what it does not say is left to the next one.
 struct ConnectionFlags {
   std::optional<std::string> dds;      ///< --dds, ROCI_DDS, dds: in the network and mission files
   std::optional<int> domain;           ///< --domain, ROCI_DOMAIN, domain:
   std::optional<std::string> address;  ///< --address, ROCI_ADDRESS, address:
-  /// --peers, ROCI_PEERS (separated by commas), peers: (a list)
+  /// Holds --peers, ROCI_PEERS (separated by commas) or peers: (a list).
   std::optional<std::string> peers;
   std::optional<std::filesystem::path> network;  ///< --network, ROCI_NETWORK: the network file
 };
 
+/// Holds what is needed to open a transport and to join a run.
 struct Connection {
   std::string dds;
   std::string run{};  // identity of the run, where it is known; else the first that is heard

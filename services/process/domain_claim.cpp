@@ -12,14 +12,14 @@
 namespace roci::services::process {
 namespace {
 
-constexpr int kLastDomain =
-    100;  // the ports of higher ones are in the range that the system hands out freely
+// The ports of higher domains are in the range that the system hands out freely.
+constexpr int kLastDomain = 100;
 
 std::uint16_t claim_port(int domain) {
   return static_cast<std::uint16_t>(transport::first_participant_port(domain) + 239);
 }
 
-// A UDP socket that has the port for itself, or -1.
+// Returns a UDP socket that has the port for itself, or -1.
 int bind_alone(std::uint16_t port) {
   const int udp = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
@@ -45,7 +45,7 @@ bool has_participants(int domain) {
 }  // namespace
 
 DomainClaim::DomainClaim() {
-  // Start at another place in each process, so that many at once seldom collide.
+  // Each process starts at another place, so that many at once seldom collide.
   const int start = static_cast<int>(getpid()) % kLastDomain;
   for (int i = 0; i < kLastDomain; ++i) {
     id_ = 1 + (start + i) % kLastDomain;

@@ -1,5 +1,5 @@
-// Domain ids that are free on this machine, so that missions and tests run side by side without hearing each
-// other.
+// A domain claim finds a domain id that is free on this machine, so that missions and tests run side by side
+// without hearing each other.
 #pragma once
 
 namespace roci::services::process {
@@ -9,7 +9,7 @@ namespace roci::services::process {
 /// the claim over fork(), not over exec().
 class DomainClaim {
  public:
-  /// Throws TransportError when all are taken.
+  /// Claims a domain id. Throws TransportError when all are taken.
   DomainClaim();
   ~DomainClaim();
   DomainClaim(const DomainClaim&) = delete;

@@ -8,7 +8,7 @@
 
 namespace roci::services::process {
 
-// A thread of its own that takes no lock: nobody knows who holds which.
+// A thread of its own ends the process and takes no lock, since nobody knows who holds which.
 void force_exit_after(std::chrono::milliseconds limit, int code, std::string last_words) {
   last_words += "; it did not end by itself, so it was ended\n";
   std::thread([limit, code, words = std::move(last_words)] {

@@ -1,5 +1,5 @@
-// The last resort of a process whose transport does not let go of it (docs/dds.md, "An open fault of Fast
-// DDS").
+// A forced exit is the last resort of a process whose transport does not let go of it (docs/dds.md, "An open
+// fault of Fast DDS").
 #pragma once
 
 #include <chrono>

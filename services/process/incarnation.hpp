@@ -1,4 +1,4 @@
-// How often a service was started in a run, where nobody counts for it.
+// The incarnation says how often a service was started in a run, where nobody counts for it.
 #pragma once
 
 #include <cstdint>

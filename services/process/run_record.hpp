@@ -1,4 +1,4 @@
-// What a running mission leaves for tools on the same machine to find it by.
+// A running mission leaves this record, by which tools on the same machine find it.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,17 @@
 
 namespace roci::services::process {
 
-/// The newest version of the record's schema (docs/formats.md) that this code reads; it writes this one. It
-/// rises when a key changes its meaning or goes; a record that names no version is of version 1.
+/// This is the newest version of the record's schema (docs/formats.md) that this code reads; it writes this
+/// one. It rises when a key changes its meaning or goes; a record that names no version is of version 1.
 inline constexpr int kRunRecordFormat = 1;
 
+/// Holds what a tool needs to join a run.
 struct RunRecord {
-  std::int64_t pid = 0;  ///< The launcher's.
+  std::int64_t pid = 0;  ///< Is the launcher's.
   int domain = 0;
   std::filesystem::path mission;
   std::string scenario;
-  std::string dds;  ///< As given to --dds.
+  std::string dds;  ///< Is as given to --dds.
   std::string address;
   std::vector<std::string> peers;
   std::filesystem::path run_folder;
@@ -28,7 +29,7 @@ struct RunRecord {
   bool operator==(const RunRecord&) const = default;
 };
 
-/// Returns $XDG_RUNTIME_DIR/rocinante, else /tmp/rocinante-<uid>; created for this user alone.
+/// Returns $XDG_RUNTIME_DIR/rocinante, else /tmp/rocinante-<uid>; it is created for this user alone.
 std::filesystem::path runtime_folder();
 
 /// Publishes the record of a run for as long as this object lives.
@@ -46,8 +47,8 @@ class PublishedRun {
 /// Returns the runs whose launcher lives, newest first. Records of dead ones are passed over.
 std::vector<RunRecord> find_runs(const std::filesystem::path& folder);
 
-/// Those records of a newer format whose launcher may live, in words with a remedy; find_runs() does not read
-/// them.
+/// Tells of those records of a newer format whose launcher may live, in words with a remedy; find_runs() does
+/// not read them.
 std::vector<std::string> refused_runs(const std::filesystem::path& folder);
 
 }  // namespace roci::services::process

@@ -16,7 +16,7 @@
 namespace roci::services::process {
 namespace {
 
-// docs/exit-codes.md, "Services".
+// docs/exit-codes.md lists these under "Services".
 enum ExitCode { kStopped = 0, kFailed = 1, kBadInput = 2, kNoTransport = 3, kClockGone = 4 };
 
 ExitCode code_for(const std::exception& error) {

@@ -1,4 +1,4 @@
-// The main() of a service process.
+// This is the main() of a service process.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ int service_main(int argc, char** argv, const std::string& name, MakeService* ma
 
 using RunProcess = void(const ServiceOptions&, StopSignals&);
 
-/// The same for a process that opens its nodes itself, one after the other.
+/// Does the same for a process that opens its nodes itself, one after the other.
 int service_main(int argc, char** argv, const std::string& name, RunProcess* run);
 
 /// Runs one service on one node until it is stopped.

@@ -1,4 +1,4 @@
-// The command line of every service process.
+// This file reads the command line of every service process.
 #pragma once
 
 #include <memory>
@@ -12,6 +12,7 @@
 
 namespace roci::services::process {
 
+/// Holds what a service process is told.
 struct ServiceOptions {
   RunSettings run;
   node::NodeOptions node;
@@ -21,18 +22,19 @@ struct ServiceOptions {
   bool count_incarnation = false;  ///< Nobody gave one: it is counted in the run folder.
 };
 
-/// The command line ended the program: --help (code 0) or a mistake (code 2). what() is text for the user.
+/// Is thrown when the command line ends the program: by --help (code 0) or a mistake (code 2). what() is text
+/// for the user.
 class CommandLineEnd : public std::runtime_error {
  public:
   CommandLineEnd(int code, const std::string& text) : std::runtime_error(text), exit_code(code) {}
   const int exit_code;
 };
 
-/// Throws CommandLineEnd, and what resolve_connection throws.
+/// Reads the command line. Throws CommandLineEnd, and what resolve_connection throws.
 ServiceOptions parse_service_options(int argc, const char* const* argv, const std::string& name,
                                      const Environment&);
 
-/// Throws transport::TransportError, also for inproc, which joins no processes.
+/// Opens the transport. Throws transport::TransportError, also for inproc, which joins no processes.
 std::unique_ptr<transport::Transport> connect(const Connection&);
 
 }  // namespace roci::services::process

@@ -1,4 +1,4 @@
-// SIGTERM and SIGINT as a plain function call on a thread of its own, for programs that stop cleanly.
+// SIGTERM and SIGINT come as a plain function call on a thread of its own, for programs that stop cleanly.
 #pragma once
 
 #include <functional>
@@ -6,9 +6,10 @@
 
 namespace roci::services::process {
 
+/// Owns the thread that waits for the signals.
 class StopSignals {
  public:
-  /// Create it before any other thread: it blocks the signals for all threads that start later.
+  /// Blocks the signals for all threads that start later, so it must be created before any other thread.
   StopSignals();
   ~StopSignals();
   StopSignals(const StopSignals&) = delete;

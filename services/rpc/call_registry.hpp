@@ -1,4 +1,5 @@
-// The calls of one node: one table and one server for each procedure, by the name of its request topic.
+// The registry holds the calls of one node: one table and one server for each procedure, by the name of its
+// request topic.
 #pragma once
 
 #include <map>
@@ -10,6 +11,7 @@
 
 namespace roci::services::rpc {
 
+/// Holds tables and servers, which are null until they are made.
 class CallRegistry {
  public:
   std::shared_ptr<PendingCalls>& table(const std::string& procedure) { return tables_[procedure]; }

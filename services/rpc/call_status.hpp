@@ -1,4 +1,4 @@
-// How a call to another service ends.
+// The status of a call says how a call to another service ends.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +6,7 @@
 
 namespace roci::services::rpc {
 
+/// Says how a call ended.
 enum class CallStatus {
   ok,
   timeout,       ///< No answer came before the deadline.
@@ -16,19 +17,20 @@ enum class CallStatus {
   cancelled,     ///< The caller cancelled the call before it was sent to anybody.
 };
 
-/// The name above.
+/// Returns the name above.
 const char* to_string(CallStatus);
 
-/// How many calls of one procedure a client may have under way.
+/// A client may have so many calls of one procedure under way.
 inline constexpr std::size_t kMaxPendingCalls = 256;
 
-/// The number of a call among those of one client.
+/// Is the number of a call among those of one client.
 using CallId = std::int64_t;
 
+/// Counts what went over one procedure.
 struct CallStatistics {
-  std::uint64_t sent = 0;     ///< Requests, repetitions included.
-  std::uint64_t late = 0;     ///< Replies to calls that had ended.
-  std::uint64_t foreign = 0;  ///< Replies to calls of other clients.
+  std::uint64_t sent = 0;     ///< Counts requests, repetitions included.
+  std::uint64_t late = 0;     ///< Counts replies to calls that had ended.
+  std::uint64_t foreign = 0;  ///< Counts replies to calls of other clients.
 };
 
 }  // namespace roci::services::rpc

@@ -1,4 +1,4 @@
-// The calls of one client that are under way, without their types.
+// This file has the calls of one client that are under way, without their types.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,7 @@ class NodeImpl;
 
 namespace roci::services::rpc {
 
+/// Ends each call exactly once, with its reply or a reason.
 class PendingCalls {
  public:
   struct Call {

@@ -1,6 +1,6 @@
-// One server of a procedure, without its types. It makes calls at-most-once (Birrell and Nelson, 1984): it
-// knows which requests it has seen, their answers, and which of them were cancelled, before they came or
-// after.
+// The reply cache is one server of a procedure, without its types. It makes calls at-most-once (Birrell and
+// Nelson, 1984): it knows which requests it has seen, their answers, and which of them were cancelled, before
+// they came or after.
 #pragma once
 
 #include <array>
@@ -17,6 +17,7 @@ namespace roci::services::rpc {
 
 inline constexpr std::size_t kCachedReplies = 256;
 
+/// Lets each request be handled once.
 class ReplyCache {
  public:
   using Id = std::pair<std::array<std::uint8_t, 16>, std::int64_t>;
@@ -28,7 +29,7 @@ class ReplyCache {
   void answered(const Id&, SendAgain);
 
   void cancel(const Id&);
-  /// `handler` runs once, when this request is cancelled before its answer; at once if it already is.
+  /// Runs `handler` once, when this request is cancelled before its answer, or at once if it already is.
   void on_cancel(const Id&, std::function<void()> handler);
 
  private:
@@ -44,7 +45,7 @@ class ReplyCache {
   std::deque<Id> order_;  // oldest first; bounds known_
 };
 
-/// The duty to answer one request, and the writer that does it.
+/// Is the duty to answer one request, with the writer that does it.
 class PendingReply {
  public:
   using Write = std::function<void(const void* reply)>;

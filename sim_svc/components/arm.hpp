@@ -9,6 +9,7 @@
 
 namespace roci::sim::components {
 
+/// Holds the settings of an arm (README.md).
 struct ArmSettings {
   ArmParameters motion;
   std::string planner = "arm_svc";     ///< the service that is asked for trajectories
@@ -18,14 +19,14 @@ struct ArmSettings {
   std::vector<double> start_joints;  ///< rad or m, one per joint
 };
 
-/// An arm: move (from, to) asks for a trajectory between named poses and tracks it; a stop on the way leaves
-/// it at the stop pose. It does not move while the body drives.
+/// Is an arm: move (from, to) asks for a trajectory between named poses and tracks it; a stop on the way
+/// leaves it at the stop pose. It does not move while the body drives.
 class Arm final : public world::Component, public world::Manipulator, public world::BodyInterlock {
  public:
   Arm(ArmSettings, world::RandomStream noise);
 
   std::vector<world::CommandForm> commands() const override { return {{"move", {"from", "to"}}}; }
-  /// idle-pose (pose), going-to (pose).
+  /// Returns idle-pose (pose) or going-to (pose).
   temporal::State state() const override;
   bool busy() const override { return target_.has_value(); }
   std::optional<std::string> pose() const override;
@@ -42,7 +43,7 @@ class Arm final : public world::Component, public world::Manipulator, public wor
   double energy_j(temporal::Time from, temporal::Time to) const override;
   double peak_power_w() const override { return trace_ ? trace_->peak_power_w : 0; }
   bool moves() const override { return next_change().has_value(); }
-  /// q0, q1, …: the joints.
+  /// Returns the joints as q0, q1, …
   std::vector<world::NamedNumber> numbers() const override;
 
  private:

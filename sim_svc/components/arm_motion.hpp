@@ -7,6 +7,7 @@
 
 namespace roci::sim::components {
 
+/// Holds how the true arm moves and what that takes.
 struct ArmParameters {
   double joint_lag_s = 0.25;
   double speed_noise = 0.03;  ///< standard deviation of the speed of a whole motion, as a share of it
@@ -15,31 +16,32 @@ struct ArmParameters {
   double power_per_speed_w = 25;  ///< per rad/s, summed over the joints
 };
 
+/// Holds where the arm stands at one time of a motion.
 struct ArmSample {
   std::vector<double> joints;
   double energy_j = 0;  ///< used since the start of the motion
 };
 
-/// A whole motion as it happens if nobody interrupts it; sample i holds at start + i * kArmStep.
+/// Is a whole motion as it happens if nobody interrupts it; sample i holds at start + i * kArmStep.
 struct ArmTrace {
   temporal::Time start{};
   std::vector<ArmSample> samples;
   double peak_power_w = 0;
 
   temporal::Time end() const;
-  /// The last sample at or before the time.
+  /// Returns the last sample at or before the time.
   const ArmSample& at(temporal::Time) const;
 };
 
 inline constexpr temporal::Duration kArmStep{50000};
 
-/// Each joint follows the trajectory as a first-order lag; the speed of the whole motion is off by a factor
-/// drawn from the noise. Ends when the trajectory has ended and every joint has settled. `targets` has
-/// ascending times and as many joints per point as `from`; see motion_fault().
+/// Works out a motion: each joint follows the trajectory as a first-order lag, and the speed of the whole
+/// motion is off by a factor drawn from the noise. It ends when the trajectory has ended and every joint has
+/// settled. `targets` has ascending times and as many joints per point as `from`; see motion_fault().
 ArmTrace simulate_arm(const ArmParameters&, temporal::Time start, const std::vector<double>& from,
                       const std::vector<world::JointTarget>& targets, world::RandomStream& noise);
 
-/// Empty, or why an arm that stands at `from` cannot follow the trajectory.
+/// Says why an arm that stands at `from` cannot follow the trajectory; the text is empty if it can.
 std::string motion_fault(const std::vector<double>& from, const std::vector<world::JointTarget>& targets);
 
 }  // namespace roci::sim::components

@@ -10,6 +10,7 @@
 
 namespace roci::sim::components {
 
+/// Holds the settings of a camera (README.md); noises are standard deviations, as shares.
 struct CameraSettings {
   double duration_s = 38.5;
   double duration_noise = 0.02;
@@ -19,14 +20,14 @@ struct CameraSettings {
   double image_noise = 0.02;  ///< standard deviation of a pixel, as a share of white
 };
 
-/// A camera on a body that stands on the ground: image (image) takes a picture of what lies ahead, which is
-/// on board when it is done. The body stands still meanwhile.
+/// Is a camera on a body that stands on the ground: image (image) takes a picture of what lies ahead, which
+/// is on board when it is done. The body stands still meanwhile.
 class Camera final : public world::Component, public world::BodyInterlock {
  public:
   Camera(CameraSettings, world::RandomStream noise);
 
   std::vector<world::CommandForm> commands() const override { return {{"image", {"image"}}}; }
-  /// idle, imaging.
+  /// Returns idle or imaging.
   temporal::State state() const override;
   bool busy() const override { return shot_.has_value(); }
   world::Ending forbids_driving() const override;
@@ -38,7 +39,7 @@ class Camera final : public world::Component, public world::BodyInterlock {
 
   double energy_j(temporal::Time from, temporal::Time to) const override;
   double peak_power_w() const override { return busy() ? settings_.power_w : 0; }
-  /// bytes: of the image.
+  /// Returns the bytes of the image.
   std::map<std::string, temporal::Value> results() const override { return {{"bytes", last_bytes_}}; }
 
  private:

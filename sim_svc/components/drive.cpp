@@ -99,7 +99,7 @@ Ending Drive::finish(Surroundings& around) {
   return Failure{"blocked", "a rock that the map does not show lies on the way (" + rock + ")"};
 }
 
-// Whether the drive repairs what stopped it: it looks at the rock and will ask for a way around.
+// Returns whether the drive repairs what stopped it: it looks at the rock and will ask for a way around.
 bool Drive::looks_around(const DriveTrace& trace, const std::string& rock, Surroundings& around) {
   const Time looked = trace.end + temporal::seconds(settings_.look_s);
   if (detours_ >= settings_.detours || (target_->latest_end && looked >= *target_->latest_end)) return false;
@@ -111,7 +111,7 @@ bool Drive::looks_around(const DriveTrace& trace, const std::string& rock, Surro
   return true;
 }
 
-// The id under which the rock that ended the trace is known from now on.
+// Returns the id under which the rock that ended the trace is known from now on.
 std::string Drive::see_rock(const DriveTrace& trace, Surroundings& around) {
   const std::size_t index = *trace.seen_rock;
   auto& known = around.environment.known_rocks;

@@ -11,24 +11,26 @@
 
 namespace roci::sim::components {
 
+/// Holds the settings of a drive (README.md).
 struct DriveSettings {
   DriveParameters motion;
   double detours = 0;                    ///< rocks that one drive looks at and asks a way around
   double look_s = 20;                    ///< a look at such a rock takes this long
   std::string planner = "pathplan_svc";  ///< the service that is asked for paths
-  std::string stop_place = "here";       ///< where the body stands at the start and after a stop on the way
+  std::string stop_place = "here";       ///< is where the body stands at the start and after a stop on the
+                                         ///< way
 };
 
-/// Wheels: drive (to, x, y) asks for a path and follows it; a stop on the way leaves the body at the stop
-/// place. Before a hidden rock it stands, looks, and asks for a path around (a repair of its own, R146), as
-/// long as there are detours and time left.
+/// Drives on wheels: drive (to, x, y) asks for a path and follows it; a stop on the way leaves the body at
+/// the stop place. Before a hidden rock it stands, looks, and asks for a path around (a repair of its own,
+/// R146), as long as there are detours and time left.
 class Drive final : public world::Component, public world::Mobility {
  public:
-  /// The body stands at the stop place; it must have a pose, and the world a site.
+  /// Starts with the body at the stop place; it must have a pose, and the world a site.
   Drive(DriveSettings, world::RandomStream noise);
 
   std::vector<world::CommandForm> commands() const override { return {{"drive", {"to", "x", "y"}}}; }
-  /// idle-at (place), going-to (place).
+  /// Returns idle-at (place) or going-to (place).
   temporal::State state() const override;
   bool busy() const override { return target_.has_value(); }
   std::optional<std::string> place() const override;
@@ -46,7 +48,7 @@ class Drive final : public world::Component, public world::Mobility {
   double energy_j(temporal::Time from, temporal::Time to) const override;
   double peak_power_w() const override { return trace_ ? trace_->peak_power_w : 0; }
   bool moves() const override { return next_change().has_value(); }
-  /// detours: rocks that the drive went around.
+  /// Returns as `detours` how many rocks the drive went around.
   std::map<std::string, temporal::Value> results() const override { return {{"detours", last_detours_}}; }
 
  private:

@@ -80,7 +80,7 @@ class Drive {
     return trace.outcome != DriveEnd::arrived;
   }
 
-  // The first hidden rock that the rover would touch on the way-points within its sight.
+  // Returns the first hidden rock that the rover would touch on the way-points within its sight.
   std::optional<std::size_t> rock_on_the_way() const {
     for (std::size_t i = 0; i < ground_.hidden_rocks.size(); ++i) {
       const Rock& rock = ground_.hidden_rocks[i];
@@ -94,7 +94,7 @@ class Drive {
     return std::nullopt;
   }
 
-  // Way-points come closer, or the rover turns towards the next one.
+  // Returns whether way-points come closer, or the rover turns towards the next one.
   bool made_progress() {
     const double distance = terrain::distance(here(), way_[now_.next_waypoint]);
     if (distance < best_distance_ - kProgressMetres) {
@@ -150,7 +150,8 @@ class Drive {
     return p_.wheel_speed_m_s * std::max(0.1, 1 - p_.slope_slowdown * std::sin(slope));
   }
 
-  // Mean by pitch, times one plus a noise that remembers the last seconds (an Ornstein-Uhlenbeck process).
+  // Returns the mean by pitch, times one plus a noise that remembers the last seconds (an Ornstein-Uhlenbeck
+  // process).
   double slip(double pitch) {
     const double memory = std::exp(-kStepSeconds / kSlipMemorySeconds);
     slip_noise_ = memory * slip_noise_ + p_.slip_noise * std::sqrt(1 - memory * memory) * noise_.normal();

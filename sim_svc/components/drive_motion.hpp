@@ -10,10 +10,10 @@
 
 namespace roci::sim::components {
 
-/// The true wheels and ground, which the estimators' models only resemble.
+/// Holds the true wheels and ground, which the estimators' models only resemble.
 struct DriveParameters {
-  double radius_m = 0.6;           ///< of the disc that the rover covers
-  double wheel_speed_m_s = 0.105;  ///< on flat ground, before slip
+  double radius_m = 0.6;           ///< is that of the disc that the rover covers
+  double wheel_speed_m_s = 0.105;  ///< holds on flat ground, before slip
   double turn_rate_rad_s = 0.19;
   double slip = 0.04;           ///< mean on flat ground, as a share of the wheel speed
   double uphill_slip = 2.5;     ///< added slip is this times sin²(pitch)
@@ -31,23 +31,25 @@ struct DriveParameters {
 
 enum class DriveEnd { arrived, blocked, stuck, collision };
 
+/// Holds where the body is at one time of a drive.
 struct DriveSample {
   world::Pose pose;
   double energy_j = 0;            ///< used since the start of the drive
   std::size_t next_waypoint = 0;  ///< index into the way-points
 };
 
-/// A whole drive as it happens if nobody interrupts it. Sample i holds at start + i * kDriveStep; the last
+/// Is a whole drive as it happens if nobody interrupts it. Sample i holds at start + i * kDriveStep; the last
 /// one at `end`.
 struct DriveTrace {
   temporal::Time start{};
   temporal::Time end{};
   std::vector<DriveSample> samples;
   DriveEnd outcome = DriveEnd::arrived;
-  std::optional<std::size_t> seen_rock;  ///< with `blocked`: index into Ground::hidden_rocks
+  std::optional<std::size_t> seen_rock;  ///< is with `blocked` an index into Ground::hidden_rocks
   double peak_power_w = 0;
 
-  /// Between two samples: linear. Before the start the first, after the end the last sample.
+  /// Interpolates linearly between two samples. Before the start it is the first, after the end the last
+  /// sample.
   DriveSample at(temporal::Time) const;
 };
 

@@ -10,18 +10,19 @@
 
 namespace roci::sim::components {
 
+/// Holds the settings of a gripper (README.md); the noise is a standard deviation, as a share.
 struct GripperSettings {
   double pick_s = 58;
   double drop_s = 29;
   double duration_noise = 0.03;
   double power_w = 15;
-  std::string pick_pose = "sampling";  ///< of the arm, where there is one
+  std::string pick_pose = "sampling";  ///< is a pose of the arm, where there is one
   std::string drop_pose = "deposit";
 };
 
-/// A gripper: pick (sample, place) and drop (sample, place). A sample that nobody touched lies where the
-/// first pick looks for it. The body, if it can drive, stands at the place; the arm, if there is one, is at
-/// the pose; both rest while it works.
+/// Is a gripper: it takes pick (sample, place) and drop (sample, place). A sample that nobody touched lies
+/// where the first pick looks for it. The body, if it can drive, stands at the place; the arm, if there is
+/// one, is at the pose; both rest while it works.
 class Gripper final : public world::Component,
                       public world::SampleHolder,
                       public world::BodyInterlock,
@@ -32,7 +33,7 @@ class Gripper final : public world::Component,
   std::vector<world::CommandForm> commands() const override {
     return {{"pick", {"sample", "place"}}, {"drop", {"sample", "place"}}};
   }
-  /// empty, holding (sample), working.
+  /// Returns empty, holding (sample) or working.
   temporal::State state() const override;
   bool busy() const override { return work_.has_value(); }
   std::optional<std::string> held() const override { return held_; }
@@ -42,12 +43,12 @@ class Gripper final : public world::Component,
   world::Ending begin(const world::Task&, temporal::Time now, world::Surroundings&) override;
   std::optional<temporal::Time> next_change() const override;
   world::Ending finish(world::Surroundings&) override;
-  /// Opens (pick) or keeps hold (drop): as before the work.
+  /// Opens (pick) or keeps hold (drop), so that all is as before the work.
   void halt(temporal::Time, world::Surroundings&) override { work_.reset(); }
 
   double energy_j(temporal::Time from, temporal::Time to) const override;
   double peak_power_w() const override { return busy() ? settings_.power_w : 0; }
-  /// sample.<name>: in-place (place), held, dropped (place), of each sample that it touched.
+  /// Returns in-place (place), held or dropped (place) as sample.<name>, for each sample that it touched.
   std::vector<world::NamedState> states() const override;
 
  private:

@@ -18,7 +18,7 @@ constexpr double kFarthest = 20;
 constexpr double kFieldOfView = std::numbers::pi / 3;
 constexpr double kSunElevation = 0.5;  // rad, in the west
 
-// Lambert's law for the ground's normal (-east, -north, 1).
+// Returns the light by Lambert's law for the ground's normal (-east, -north, 1).
 double lit(const terrain::Gradient& gradient) {
   const double facing = std::sin(kSunElevation) + gradient.east * std::cos(kSunElevation);
   return std::max(0.0,

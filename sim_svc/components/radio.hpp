@@ -9,6 +9,7 @@
 
 namespace roci::sim::components {
 
+/// Holds the settings of a radio (README.md); the noise is a standard deviation, as a share.
 struct RadioSettings {
   double rate_bit_s = 98000;
   double rate_noise = 0.02;
@@ -16,14 +17,14 @@ struct RadioSettings {
   std::string window = "comm.window";  ///< timeline that says when the other side is in view
 };
 
-/// A radio: send (image) sends an image on board at the radio's rate, only while the window is open; when the
-/// window closes before the end, the send fails and the image stays stored.
+/// Is a radio: send (image) sends an image on board at the radio's rate, only while the window is open; when
+/// the window closes before the end, the send fails and the image stays stored.
 class Radio final : public world::Component {
  public:
   Radio(RadioSettings, world::RandomStream noise);
 
   std::vector<world::CommandForm> commands() const override { return {{"send", {"image"}}}; }
-  /// idle, sending.
+  /// Returns idle or sending.
   temporal::State state() const override;
   bool busy() const override { return transfer_.has_value(); }
 

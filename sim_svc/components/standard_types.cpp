@@ -1,4 +1,4 @@
-// Names and ranges of the settings of each type; their defaults stand with the types.
+// This file has the names and ranges of the settings of each type; their defaults stand with the types.
 #include "sim_svc/components/standard_types.hpp"
 
 #include <memory>

@@ -1,4 +1,4 @@
-// A component that is data alone: commands that take time and power and lead from state to state. With it
+// A task component is data alone: commands that take time and power and lead from state to state. With it
 // somebody else's robot flies without any code.
 #pragma once
 
@@ -12,18 +12,19 @@
 
 namespace roci::sim::components {
 
-/// A state whose words may hold arguments of the command in braces: going-to ({to}).
+/// Is a state whose words may hold arguments of the command in braces: going-to ({to}).
 struct StateTemplate {
   std::string name;
   std::vector<std::string> arguments;
 };
 
-/// What a command does with one of the component's numbers.
+/// Says what a command does with one of the component's numbers.
 struct NumberChange {
   double by = 0;             ///< added evenly over the duration
   std::optional<double> to;  ///< the value at the end, instead
 };
 
+/// Is a command of a task component.
 struct TaskCommand {
   std::string name;
   std::vector<std::string> arguments{};
@@ -31,27 +32,28 @@ struct TaskCommand {
   double duration_noise = 0;                   ///< standard deviation as a share of the duration
   double power_w = 0;                          ///< while it runs; negative: it charges the battery
   std::optional<StateTemplate> during{};       ///< while it runs; empty: the command's name
-  std::optional<StateTemplate> then{};         ///< when it is done; empty: the state before
-  std::optional<StateTemplate> stopped{};      ///< when it is broken off; empty: the state before
+  std::optional<StateTemplate> then{};         ///< holds when it is done; empty: the state before
+  std::optional<StateTemplate> stopped{};      ///< holds when it is broken off; empty: the state before
   std::map<std::string, std::string> needs{};  ///< component → name of the state it must be in at the start
-  std::map<std::string, NumberChange> changes{};  ///< by number
+  std::map<std::string, NumberChange> changes{};  ///< go by the name of the number
 };
 
-/// A numeric timeline of the component, `<robot>.<component>.<name>`.
+/// Is a numeric timeline of the component, `<robot>.<component>.<name>`.
 struct TaskNumber {
   std::string name;
   double start = 0;
   double resolution = 1e-3;
 };
 
+/// Holds the settings of a task component.
 struct TaskSettings {
   StateTemplate start{"idle", {}};
   std::vector<TaskCommand> commands;
   std::vector<TaskNumber> numbers;
 };
 
-/// The component. A task that is broken off leaves the numbers as they are by then; a number set `to` a value
-/// has it only at the end.
+/// Runs the tasks. A task that is broken off leaves the numbers as they are by then; a number set `to` a
+/// value has it only at the end.
 class TaskComponent final : public world::Component {
  public:
   TaskComponent(TaskSettings, world::RandomStream noise);
@@ -70,7 +72,7 @@ class TaskComponent final : public world::Component {
   double peak_power_w() const override;
   bool moves() const override { return run_ && !settings_.commands[run_->command].changes.empty(); }
   std::vector<world::NamedNumber> numbers() const override;
-  /// The component's numbers, as the task left them.
+  /// Returns the component's numbers, as the task left them.
   std::map<std::string, temporal::Value> results() const override;
 
  private:

@@ -26,7 +26,7 @@ double number(const Entry& map, std::string_view key, double fallback,
   return entry ? at_least(*entry, least) : fallback;
 }
 
-// A name, or a list of a name and its arguments.
+// Reads a name, or a list of a name and its arguments.
 StateTemplate read_state(const Entry& entry) {
   if (!entry.is_sequence()) return {entry.text(), {}};
   std::vector<std::string> words = entry.texts();
@@ -36,7 +36,7 @@ StateTemplate read_state(const Entry& entry) {
   return out;
 }
 
-// Braces name arguments of the command.
+// Reads a state in which braces name arguments of the command.
 StateTemplate read_state_of(const Entry& entry, const TaskCommand& command) {
   StateTemplate out = read_state(entry);
   std::vector<std::string> words = out.arguments;

@@ -7,14 +7,15 @@
 
 namespace roci::sim::scenario {
 
+/// Is an event that the scenario expects.
 struct ExpectedEvent {
   std::string code;
-  std::string part;      ///< of the event's text; empty: any text
+  std::string part;      ///< belongs to the event's text; empty: any text
   bool repeats = false;  ///< once or more
 };
 
 /// Watches whether the events of a run come as its scenario expects: of those whose codes stand in the list
-/// exactly the listed ones, in this order. Others may lie between.
+/// exactly the listed ones come, in this order. Others may lie between.
 class EventOrder {
  public:
   explicit EventOrder(std::vector<ExpectedEvent>);
@@ -22,9 +23,9 @@ class EventOrder {
   void note(std::string_view code, std::string_view text);
 
   std::size_t expected() const { return expected_.size(); }
-  /// Empty while everything came as expected; else the first event that did not, once and for all.
+  /// Names the first event that did not come as expected, once and for all; the text is empty while all did.
   const std::string& fault() const { return fault_; }
-  /// The fault of a run that ends now: fault(), or what is still missing.
+  /// Returns the fault of a run that ends now: fault(), or what is still missing.
   std::string final_fault() const;
 
  private:

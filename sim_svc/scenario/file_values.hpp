@@ -4,11 +4,11 @@
 
 namespace roci::sim::scenario {
 
-/// A number that is no less than `least`; throws mission::FileError.
+/// Reads a number that is no less than `least`; throws mission::FileError.
 double at_least(const mission::Entry&, double least);
-/// Seconds of mission time, from 0 to 30 years; throws mission::FileError.
+/// Reads seconds of mission time, from 0 to 30 years; throws mission::FileError.
 temporal::Time time_of(const mission::Entry&);
-/// x, y and radius, in metres; throws mission::FileError.
+/// Reads x, y and radius, in metres; throws mission::FileError.
 world::Rock read_rock(const mission::Entry&);
 
 }  // namespace roci::sim::scenario

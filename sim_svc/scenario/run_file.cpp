@@ -27,7 +27,8 @@ std::shared_ptr<const terrain::Site> load_ground(const Entry& site) {
   }
 }
 
-// The predicted windows, with those of the scenario in place of the predicted ones of the same timeline.
+// Returns the predicted windows, with those of the scenario in place of the predicted ones of the same
+// timeline.
 std::vector<Window> true_windows(const Entry& mission, const std::vector<Window>& overriding) {
   std::vector<Window> out;
   if (const auto predicted = mission.find("windows")) out = read_windows(*predicted);

@@ -8,7 +8,7 @@
 
 namespace roci::sim::scenario {
 
-/// All that a run of the simulator needs.
+/// Holds all that a run of the simulator needs.
 struct RunSetup {
   world::WorldSetup world;
   Scenario scenario;

@@ -17,7 +17,7 @@ namespace roci::sim::scenario {
 
 enum class Importance { hard, optional, opportunistic };
 
-/// A goal that somebody else than the robot publishes during the run.
+/// Is a goal that somebody else than the robot publishes during the run.
 struct GoalStimulus {
   std::string issuer;
   std::string id;
@@ -42,29 +42,30 @@ struct HazardStimulus {
   world::Rock rock;
 };
 
+/// Is something that the scenario lets happen at a time.
 struct Stimulus {
   temporal::Time at{};
   std::variant<GoalStimulus, RecallStimulus, HazardStimulus, world::Disturbance> what;
 };
 
-/// How a robot begins.
+/// Says how a robot begins.
 struct Start {
   std::optional<world::Pose> pose;
-  std::optional<mission::Entry> pose_entry;  ///< where it stands in the file
+  std::optional<mission::Entry> pose_entry;  ///< is where it stands in the file
   std::optional<double> battery_j;
   std::map<std::string, mission::Entry> components;  ///< component → what its type makes of it
 };
 
-/// What happens in a run: scenarios/<name>.yaml of a mission.
+/// Says what happens in a run: scenarios/<name>.yaml of a mission.
 struct Scenario {
   std::string description;
   temporal::Duration duration{};        ///< the run ends here at the latest
-  std::map<std::string, Start> starts;  ///< by robot
-  /// Settings that hold for every component that has one of the name, instead of the mission's.
+  std::map<std::string, Start> starts;  ///< go by robot
+  /// Holds settings for every component that has one of the name, instead of the mission's.
   std::map<std::string, mission::Entry> conditions;
   std::vector<world::Rock> rocks;      ///< there from the start, on no map
   std::vector<world::Window> windows;  ///< true ones where they differ from the predicted
-  std::vector<Stimulus> stimuli;       ///< in order of time
+  std::vector<Stimulus> stimuli;       ///< stand in order of time
   std::vector<ExpectedEvent> expect;   ///< empty: anything may happen
 };
 

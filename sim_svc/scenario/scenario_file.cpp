@@ -16,7 +16,7 @@ using world::Window;
 
 namespace {
 
-// What a robot's start may say: its pose, its battery, and something for each component that wants it.
+// Reads what a robot's start may say: its pose, its battery, and something for each component that wants it.
 Start read_robot_start(const Entry& entry, const RobotEntry& robot) {
   std::set<std::string, std::less<>> known{"x", "y", "heading", "battery"};
   for (const auto& component : robot.components) known.insert(component.name);
@@ -36,7 +36,7 @@ Start read_robot_start(const Entry& entry, const RobotEntry& robot) {
   return out;
 }
 
-// Of the only robot, or by robot.
+// Reads the start of the only robot, or those by robot.
 void read_starts(const Entry& root, const Roster& roster, Scenario& out) {
   const auto entry = root.find("start");
   if (entry && roster.size() > 1) {
@@ -65,7 +65,7 @@ void read_world(const Entry& entry, Scenario& out) {
   }
 }
 
-// "code", or "code: part of the text"; a code that ends in + may come several times.
+// Reads "code", or "code: part of the text"; a code that ends in + may come several times.
 ExpectedEvent read_expected(const Entry& entry) {
   ExpectedEvent out;
   if (entry.is_mapping()) {

@@ -75,7 +75,7 @@ EnergyLoss read_loss(const Entry& entry, const RobotEntry& robot) {
   return {robot.name, at_least(entry, 0)};
 }
 
-// Whom the stimulus concerns.
+// Returns the robot whom the stimulus concerns.
 const RobotEntry& robot_of(const Entry& entry, const Roster& roster) {
   const auto name = entry.find("robot");
   if (const RobotEntry* robot = robot_named(roster, name ? name->text() : "")) return *robot;

@@ -12,19 +12,19 @@ namespace roci::sim::setup {
 /// Reads a component's settings, and says how to make it. It keeps values, no entry of a file.
 using ReadComponent = std::function<world::MakeComponent(Settings&)>;
 
-/// One kind of component, as mission.yaml names it by `type`.
+/// Is one kind of component, as mission.yaml names it by `type`.
 struct ComponentType {
   ReadComponent read;
   bool on_ground = false;  ///< its robot needs a place on the map at the start, and the mission a site
 };
 
-/// The types of components that a mission may name. components/standard_types.hpp has those that come with
-/// the simulator; a test or another program adds its own.
+/// Holds the types of components that a mission may name. components/standard_types.hpp has those that come
+/// with the simulator; a test or another program adds its own.
 class Registry {
  public:
-  /// Throws std::invalid_argument when there is a type of that name.
+  /// Adds a type. Throws std::invalid_argument when there is one of that name.
   void add(const std::string& type, ComponentType);
-  /// Null: there is none.
+  /// Returns the type of that name, or null if there is none.
   const ComponentType* find(std::string_view type) const;
   std::string types() const;  ///< "arm, camera, …"
 

@@ -9,7 +9,7 @@ using mission::Entry;
 
 namespace {
 
-// A number of the section that is no less than `least`; the fallback where it is not given.
+// Returns a number of the section that is no less than `least`, or the fallback where it is not given.
 double number(const Entry& section, std::string_view key, double fallback, double least = 0) {
   const auto entry = section.find(key);
   if (!entry) return fallback;
@@ -40,7 +40,7 @@ world::TelemetryParameters read_telemetry(const Entry& entry) {
   return out;
 }
 
-// A name becomes part of a timeline's.
+// Reads a name, which becomes part of a timeline's.
 std::string read_name(const Entry& entry) {
   const std::string name = entry.text();
   if (name.empty() || name.find_first_of(". *{}") != std::string::npos) {
@@ -49,7 +49,7 @@ std::string read_name(const Entry& entry) {
   return name;
 }
 
-// Names that the robot's own timelines and its start have.
+// The robot's own timelines and its start have these names.
 constexpr std::array<std::string_view, 6> kTaken{"x", "y", "heading", "battery", "image", "sample"};
 
 ComponentEntry read_component(const Entry& entry, const Registry& registry) {

@@ -8,13 +8,14 @@
 
 namespace roci::sim::setup {
 
-/// A component as `simulation.robots` of mission.yaml lists it.
+/// Is a component as `simulation.robots` of mission.yaml lists it.
 struct ComponentEntry {
   std::string name;
   std::string type;
   mission::Entry entry;
 };
 
+/// Is a robot as `simulation.robots` of mission.yaml lists it.
 struct RobotEntry {
   std::string name;
   std::vector<ComponentEntry> components;
@@ -26,14 +27,14 @@ struct RobotEntry {
   std::string component_names() const;  ///< "nav, arm, …"
 };
 
-/// The robots of a mission, in the order of the file; never empty.
+/// Holds the robots of a mission, in the order of the file; it is never empty.
 using Roster = std::vector<RobotEntry>;
 
 /// Reads `simulation` of mission.yaml: which robots there are and what they are made of. The components' own
 /// settings stay unread. Throws mission::FileError with place and remedy.
 Roster read_roster(const mission::Entry& simulation, const Registry&);
 
-/// The robot of that name, or the only one when the name is empty; null: there is none.
+/// Returns the robot of that name, or the only one when the name is empty. Returns null if there is none.
 const RobotEntry* robot_named(const Roster&, std::string_view name);
 std::string robot_names(const Roster&);  ///< "rover, scout"
 

@@ -3,7 +3,7 @@
 
 namespace roci::sim::world {
 
-/// A robot's store of energy and what always draws from it or charges it.
+/// Describes a robot's store of energy and what always draws from it or charges it.
 struct PowerParameters {
   double capacity_j = 1000000;
   double idle_w = 14;           ///< drawn all the time
@@ -12,17 +12,17 @@ struct PowerParameters {
   double day_s = 88775;         ///< length of a day, by default a Martian one
 };
 
-/// Power of the panel, W: the positive half of a cosine over the day.
+/// Returns the power of the panel in W: the positive half of a cosine over the day.
 double solar_power_w(const PowerParameters&, temporal::Time);
 
-/// An ideal store between 0 and its capacity.
+/// Is an ideal store between 0 and its capacity.
 class Battery {
  public:
   Battery(double energy_j, double capacity_j);
   double energy_j() const { return energy_j_; }
   /// Adds (or, negative, takes) energy; what does not fit is lost.
   void add(double joules);
-  /// True from the moment the store is empty until it holds a hundredth of its capacity again.
+  /// Returns true from the moment the store is empty until it holds a hundredth of its capacity again.
   bool flat() const { return flat_; }
 
  private:

@@ -8,11 +8,11 @@
 
 namespace roci::sim::world {
 
-/// What a robot has once, whatever its components are.
+/// Holds what a robot has once, whatever its components are.
 struct Body {
   std::optional<Pose> pose;             ///< empty: it stands nowhere on the map
   std::optional<Battery> battery;       ///< empty: its power comes from elsewhere and never ends
-  std::map<std::string, Image> images;  ///< on board, by id
+  std::map<std::string, Image> images;  ///< are on board, by id
 };
 
 }  // namespace roci::sim::world

@@ -1,5 +1,5 @@
-// What components of one robot know of each other: not who is there, but what somebody there can do. A
-// component implements those that are true of it; the others find it by them (ComponentSet), whatever its
+// Components of one robot know of each other not who is there, but what somebody there can do. A component
+// implements those capabilities that are true of it; the others find it by them (ComponentSet), whatever its
 // name and type.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace roci::sim::world {
 class Mobility {
  public:
   virtual ~Mobility() = default;
-  /// Name of the place where the body stands; empty while it moves.
+  /// Returns the name of the place where the body stands; there is none while it moves.
   virtual std::optional<std::string> place() const = 0;
 };
 
@@ -22,7 +22,7 @@ class Mobility {
 class Manipulator {
  public:
   virtual ~Manipulator() = default;
-  /// Name of the pose in which it rests; empty while it moves.
+  /// Returns the name of the pose in which it rests; there is none while it moves.
   virtual std::optional<std::string> pose() const = 0;
 };
 
@@ -37,7 +37,7 @@ class SampleHolder {
 class BodyInterlock {
  public:
   virtual ~BodyInterlock() = default;
-  /// Why the body must stand still; empty: it may move.
+  /// Says why the body must stand still; it may move if there is no reason.
   virtual Ending forbids_driving() const = 0;
 };
 
@@ -45,7 +45,7 @@ class BodyInterlock {
 class ManipulatorInterlock {
  public:
   virtual ~ManipulatorInterlock() = default;
-  /// Why they must stand still; empty: they may move.
+  /// Says why manipulators must stand still; they may move if there is no reason.
   virtual Ending forbids_reaching() const = 0;
 };
 

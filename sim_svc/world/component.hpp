@@ -14,75 +14,76 @@
 
 namespace roci::sim::world {
 
-/// What a component may see and change outside itself while it acts.
+/// Holds what a component may see and change outside itself while it acts.
 struct Surroundings {
-  const std::string& robot;  ///< whose part it is
+  const std::string& robot;  ///< is the one whose part it is
   Environment& environment;
   Body& body;
-  const ComponentSet& components;  ///< of the same robot, itself included
+  const ComponentSet& components;  ///< are those of the same robot, itself included
   Outputs& out;
 };
 
-/// A command of a component with the arguments that it needs.
+/// Is a command of a component with the arguments that it needs.
 struct CommandForm {
   std::string name;
   std::vector<std::string> arguments;
 };
 
-/// A state timeline beside the component's own, `<robot>.<name>`: of a thing that it handles (sample.soil).
+/// Is a state timeline beside the component's own, `<robot>.<name>`, of a thing that it handles
+/// (sample.soil).
 struct NamedState {
   std::string name;
   temporal::State state;
 };
 
-/// A number timeline of the component, `<robot>.<component>.<name>`, reported in steps of `resolution`.
+/// Is a number timeline of the component, `<robot>.<component>.<name>`, reported in steps of `resolution`.
 struct NamedNumber {
   std::string name;
   double value = 0;
   double resolution = 1e-3;
 };
 
-/// What the robot asks of each of its parts. begin() is called only while it is not busy; next_change() and
-/// finish() only matter while it is. Between calls everything is a function of time, so that results do not
-/// depend on how the world is sliced. `stop` needs no code: the robot halts the component.
+/// Says what the robot asks of each of its parts. begin() is called only while it is not busy; next_change()
+/// and finish() only matter while it is. Between calls everything is a function of time, so that results do
+/// not depend on how the world is sliced. `stop` needs no code: the robot halts the component.
 class Component {
  public:
   virtual ~Component() = default;
 
   virtual std::vector<CommandForm> commands() const = 0;
-  /// Value of the timeline `<robot>.<component>`.
+  /// Returns the value of the timeline `<robot>.<component>`.
   virtual temporal::State state() const = 0;
   virtual bool busy() const = 0;
 
   /// Begins the task, or says why it cannot. The arguments that commands() names are there.
   virtual Ending begin(const Task&, temporal::Time now, Surroundings&) = 0;
-  /// When a running task ends or changes by itself; empty: it waits for an answer.
+  /// Returns when a running task ends or changes by itself, or nothing while it waits for an answer.
   virtual std::optional<temporal::Time> next_change() const = 0;
-  /// At next_change(): how the task ended; if it goes on, the component is still busy().
+  /// Says, at next_change(), how the task ended; if it goes on, the component is still busy().
   virtual Ending finish(Surroundings&) = 0;
   /// Breaks the running task off at once.
   virtual void halt(temporal::Time now, Surroundings&) = 0;
 
-  /// Whether the task waits for another service (PathWanted, MotionWanted); answer() goes on with its answer,
-  /// which is no Failure: that one ends the task.
+  /// Returns whether the task waits for another service (PathWanted, MotionWanted). answer() goes on with
+  /// that service's answer, which is no Failure: that one ends the task.
   virtual bool waits_for_answer() const { return false; }
   virtual Ending answer(const Answer&, temporal::Time now, Surroundings&);
 
   /// Brings what the component says, and the body that it moves, up to `now`.
   virtual void settle(temporal::Time /*now*/, Body&) {}
-  /// The ground is another one from now on.
+  /// Takes in that the ground is another one from now on.
   virtual void ground_changed(temporal::Time /*now*/, Surroundings&) {}
 
-  /// Used by the running task in [from, to), J; negative: it charges the battery.
+  /// Returns what the running task uses in [from, to), in J; if it is negative, it charges the battery.
   virtual double energy_j(temporal::Time /*from*/, temporal::Time /*to*/) const { return 0; }
-  /// No less than the task will use at any time, W.
+  /// Returns a power in W that is no less than the task will use at any time.
   virtual double peak_power_w() const { return 0; }
 
   virtual std::vector<NamedState> states() const { return {}; }
   virtual std::vector<NamedNumber> numbers() const { return {}; }
-  /// Whether the robot's numbers change quickly now, so that they are reported often.
+  /// Returns whether the robot's numbers change quickly now, so that they are reported often.
   virtual bool moves() const { return false; }
-  /// Named values of the task that finish() has just ended.
+  /// Returns named values of the task that finish() has just ended.
   virtual std::map<std::string, temporal::Value> results() const { return {}; }
 };
 

@@ -8,12 +8,12 @@ namespace roci::sim::world {
 
 class Component;
 
-/// The components of one robot, as they see each other, in the order of the mission file.
+/// Holds the components of one robot, as they see each other, in the order of the mission file.
 class ComponentSet {
  public:
   void add(std::string name, const Component* component) { all_.emplace_back(std::move(name), component); }
 
-  /// The component of that name; null: there is none.
+  /// Returns the component of that name, or null if there is none.
   const Component* named(std::string_view name) const {
     for (const auto& [own, component] : all_) {
       if (own == name) return component;
@@ -21,7 +21,7 @@ class ComponentSet {
     return nullptr;
   }
 
-  /// The first component with the capability (capabilities.hpp); null: none has it.
+  /// Returns the first component with the capability (capabilities.hpp), or null if none has it.
   template <class Capability>
   const Capability* find() const {
     for (const auto& [name, component] : all_) {
@@ -30,7 +30,7 @@ class ComponentSet {
     return nullptr;
   }
 
-  /// All with the capability.
+  /// Returns all components with the capability.
   template <class Capability>
   std::vector<const Capability*> all() const {
     std::vector<const Capability*> out;

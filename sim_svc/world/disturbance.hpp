@@ -6,19 +6,19 @@
 
 namespace roci::sim::world {
 
-/// A component breaks: its task fails, and so does every new one until `until`.
+/// Breaks a component: its task fails, and so does every new one until `until`.
 struct ComponentFault {
   std::string robot;
   std::string component;
   temporal::Time until{};
 };
 
-/// A rock that no map shows is there from now on.
+/// Puts a rock that no map shows there from now on.
 struct RockFall {
   Rock rock;
 };
 
-/// Energy is gone from the robot's battery at once.
+/// Takes energy from the robot's battery at once.
 struct EnergyLoss {
   std::string robot;
   double joules = 0;

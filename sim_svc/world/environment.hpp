@@ -10,20 +10,20 @@
 
 namespace roci::sim::world {
 
-/// A boulder that no map shows, in metres.
+/// Is a boulder that no map shows, in metres.
 struct Rock {
   double x = 0;
   double y = 0;
   double radius = 0;
 };
 
-/// The true ground.
+/// Is the true ground.
 struct Ground {
   std::shared_ptr<const terrain::Site> site;  ///< empty in a world without ground
   std::vector<Rock> hidden_rocks;
 };
 
-/// What all robots of a world share.
+/// Holds what all robots of a world share.
 struct Environment {
   Ground ground;
   std::vector<Window> windows;

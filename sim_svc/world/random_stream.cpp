@@ -6,7 +6,8 @@
 namespace roci::sim::world {
 namespace {
 
-// FNV-1a over the name, started from the seed, then the finalizer of SplitMix64 so that near seeds lie apart.
+// Mixes by FNV-1a over the name, started from the seed, and then by the finalizer of SplitMix64, so that near
+// seeds lie apart.
 std::uint64_t mixed(std::uint64_t seed, std::string_view name) {
   std::uint64_t hash = 14695981039346656037ull ^ seed;
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;

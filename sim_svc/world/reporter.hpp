@@ -7,11 +7,11 @@
 
 namespace roci::sim::world {
 
-/// Turns what is true into observations: only what changed since it was last reported.
+/// Turns what is true into observations; it reports only what changed since it was last reported.
 class Reporter {
  public:
   void report(const std::string& timeline, temporal::Value value, temporal::Time at, Outputs& out);
-  /// Rounded to a multiple of the sensor's resolution.
+  /// Reports the value rounded to a multiple of the sensor's resolution.
   void report_number(const std::string& timeline, double value, double resolution, temporal::Time at,
                      Outputs& out);
 

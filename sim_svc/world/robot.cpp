@@ -59,7 +59,7 @@ bool Robot::runs(const TaskKey& key) const {
                      [&](const Part& p) { return p.running && p.running->key == key; });
 }
 
-// Why the command is none for this component, or none for now.
+// Returns why the command is none for this component, or none for now.
 Ending Robot::refusal_of(const Part& one, const Task& task) const {
   const auto forms = one.component->commands();
   const auto form =

@@ -1,5 +1,5 @@
-// A robot: a body and components, each with its running task. It decides which commands its components take
-// up, ends their tasks, and settles the energy that they use.
+// A robot is a body with components, each with its running task. It decides which commands its components
+// take up, ends their tasks, and settles the energy that they use.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@
 
 namespace roci::sim::world {
 
-/// The command that every component takes: its running task is broken off, and nothing else happens.
+/// Every component takes this command: its running task is broken off, and nothing else happens.
 inline constexpr char kStopCommand[] = "stop";
 
-/// How often the robot's numbers are reported, s.
+/// Says how often the robot's numbers are reported, in s.
 struct TelemetryParameters {
   double moving_s = 10;  ///< while something moves
   double idle_s = 60;
 };
 
-/// A battery, what draws from it, and how full it is at the start.
+/// Describes a battery, what draws from it, and how full it is at the start.
 struct PowerSetup {
   PowerParameters parameters;
   double start_j = 0;
@@ -34,12 +34,14 @@ struct PowerSetup {
 /// Makes the component with its own source of noise.
 using MakeComponent = std::function<std::unique_ptr<Component>(RandomStream noise)>;
 
+/// Says how one component of a robot is made.
 struct ComponentSetup {
   std::string name;
   std::string type;
   MakeComponent make;
 };
 
+/// Says what a robot is made of.
 struct RobotSetup {
   std::string name;
   std::optional<Pose> pose;         ///< empty: it stands nowhere on the map
@@ -48,7 +50,7 @@ struct RobotSetup {
   std::vector<ComponentSetup> components;
 };
 
-/// A command that a component took up; what bench/kill counts.
+/// Is a command that a component took up; bench/kill counts these.
 struct Begun {
   temporal::Time at{};
   std::string robot;
@@ -56,24 +58,26 @@ struct Begun {
   Task task;
 };
 
+/// Runs the tasks of one robot's components; the world calls it in order of time.
 class Robot {
  public:
-  /// `first`: the first robot of the world. A component of it that is the first of its type draws from the
-  /// stream named as the type; in all other streams the component's or the robot's name enters, too.
+  /// `first` says that it is the first robot of the world. A component of it that is the first of its type
+  /// draws from the stream named as the type; in all other streams the component's or the robot's name
+  /// enters, too.
   Robot(RobotSetup, bool first, std::uint64_t seed);
 
   const std::string& name() const { return name_; }
   std::string component_names() const;  ///< "nav, arm, …"
   bool runs(const TaskKey&) const;
-  /// When a task ends or numbers are due.
+  /// Returns when a task ends or numbers are due.
   temporal::Time next_change() const;
-  /// When the battery will be empty if everything goes on at its peak power; empty: never.
+  /// Returns when the battery will be empty if everything goes on at its peak power, or nothing if never.
   std::optional<temporal::Time> flat_at(temporal::Time now) const;
 
   // All that follows happens at `now`, up to which the robot has been settled; what it has to say goes to
   // `out`.
 
-  /// Takes the command up or refuses it. True: a task began.
+  /// Takes the command up or refuses it. Returns whether a task began.
   bool begin(const std::string& component, const Task&, temporal::Time now, Environment&, Outputs& out);
   /// Breaks the task off if it runs.
   void halt(const TaskKey&, TaskStage, const Failure& why, temporal::Time now, Environment&, Outputs& out);
@@ -91,9 +95,9 @@ class Robot {
 
   void report_components(temporal::Time now, Reporter&, Outputs& out) const;
   void report_things(temporal::Time now, Reporter&, Outputs& out) const;
-  /// If a task has ended since the last time, or the telemetry's period is over.
+  /// Reports the numbers if a task has ended since the last time, or the telemetry's period is over.
   void report_numbers_if_due(temporal::Time now, Reporter&, Outputs& out);
-  /// The next numbers come within the telemetry's period if something has begun to move.
+  /// Lets the next numbers come within the telemetry's period if something has begun to move.
   void hasten_numbers(temporal::Time now);
 
  private:

@@ -1,4 +1,4 @@
-// When a robot's timelines are reported, and when it wakes the world.
+// This file says when a robot's timelines are reported, and when it wakes the world.
 #include <algorithm>
 
 #include "sim_svc/world/robot.hpp"

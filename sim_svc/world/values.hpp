@@ -1,4 +1,4 @@
-// What the world, its robots and their components hand each other, as plain values.
+// The world, its robots and their components hand each other these plain values.
 #pragma once
 
 #include <compare>
@@ -15,7 +15,7 @@
 
 namespace roci::sim::world {
 
-/// Where a body stands: metres in the map frame, radians from east towards north.
+/// Says where a body stands: metres in the map frame, radians from east towards north.
 struct Pose {
   double x = 0;
   double y = 0;
@@ -28,54 +28,56 @@ struct TaskKey {
   std::string activity;
   std::uint32_t attempt = 0;
   std::string commander{};  ///< empty where commanders are not told apart
-  std::uint64_t epoch = 0;  ///< of the commander, when it first issued the command
+  std::uint64_t epoch = 0;  ///< is the commander's when it first issued the command
   auto operator<=>(const TaskKey&) const = default;
 };
 
-/// One command as a component runs it.
+/// Is one command as a component runs it.
 struct Task {
   TaskKey key;
   std::string command;
   std::map<std::string, std::string> arguments;
-  /// A component that repairs something by itself is done with it by then (R146); empty: it takes its time.
+  /// Bounds a repair: a component that repairs something by itself is done with it by then (R146). If it is
+  /// empty, it takes its time.
   std::optional<temporal::Time> latest_end{};
 };
 
-/// Why something did not succeed: a stable code and plain words.
+/// Says why something did not succeed, by a stable code and plain words.
 struct Failure {
   std::string code;
   std::string reason;
   bool operator==(const Failure&) const = default;
 };
 
-/// How a running task ended by itself; empty: it succeeded.
+/// Says how a running task ended by itself; it succeeded if this is empty.
 using Ending = std::optional<Failure>;
 
-/// What became of a task. `repairing` (R146): it goes on, after a trouble that its component sees to.
+/// Says what became of a task. One that is `repairing` (R146) goes on, after a trouble that its component
+/// sees to.
 enum class TaskStage { accepted, rejected, repairing, completed, failed, cancelled };
 
-/// What a task came to that ran and ended.
+/// Holds what a task came to that ran and ended.
 struct Results {
-  temporal::Duration duration{};                  ///< from its begin to its end
+  temporal::Duration duration{};                  ///< runs from its begin to its end
   double energy_j = 0;                            ///< that its component used for it
-  std::map<std::string, temporal::Value> values;  ///< by name, as the component has them
+  std::map<std::string, temporal::Value> values;  ///< go by name, as the component has them
   bool operator==(const Results&) const = default;
 };
 
-// What leaves the world. All values carry the exact time at which they came about.
+// These leave the world. All values carry the exact time at which they came about.
 
-/// The newest word on a task; the last one has a stage other than `accepted` and `repairing`.
+/// Is the newest word on a task; the last one has a stage other than `accepted` and `repairing`.
 struct TaskReport {
   TaskKey key;
   TaskStage stage = TaskStage::accepted;
   std::string code;
   std::string reason;
   temporal::Time at{};
-  std::optional<Results> results{};  ///< of a task that ran and ended
+  std::optional<Results> results{};  ///< are set for a task that ran and ended
   bool operator==(const TaskReport&) const = default;
 };
 
-/// A timeline's new value; `timeline` is its whole name, `<robot>.<…>`, or that of a window.
+/// Is a timeline's new value; `timeline` is its whole name, `<robot>.<…>`, or that of a window.
 struct Observed {
   std::string timeline;
   temporal::Value value;
@@ -83,7 +85,7 @@ struct Observed {
   bool operator==(const Observed&) const = default;
 };
 
-/// An image on board of a robot.
+/// Is an image on board of a robot.
 struct Image {
   std::string id;
   std::string robot;
@@ -96,7 +98,7 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
-/// A rock that no map shows, met by a robot; all robots know it by the same id.
+/// Is a rock that no map shows, met by a robot; all robots know it by the same id.
 struct RockSeen {
   std::string id;
   std::string robot;
@@ -107,7 +109,7 @@ struct RockSeen {
   bool operator==(const RockSeen&) const = default;
 };
 
-/// A drive waits for way-points (World::answer with a Way or a Failure).
+/// Says that a drive waits for way-points (World::answer with a Way or a Failure).
 struct PathWanted {
   TaskKey key;
   std::string service;  ///< who is asked
@@ -118,13 +120,13 @@ struct PathWanted {
   bool operator==(const PathWanted&) const = default;
 };
 
-/// A move of an arm waits for a trajectory (World::answer with a Trajectory or a Failure).
+/// Says that a move of an arm waits for a trajectory (World::answer with a Trajectory or a Failure).
 struct MotionWanted {
   TaskKey key;
   std::string service;  ///< who is asked
   std::string robot;
   std::string from;            ///< pose by name
-  std::vector<double> joints;  ///< where the arm stands, rad or m
+  std::vector<double> joints;  ///< say where the arm stands, rad or m
   std::string to;              ///< pose by name
   bool operator==(const MotionWanted&) const = default;
 };
@@ -132,19 +134,20 @@ struct MotionWanted {
 using Output = std::variant<TaskReport, Observed, Image, RockSeen, PathWanted, MotionWanted>;
 using Outputs = std::vector<Output>;
 
-// What other services answer a component's wish.
+// Other services answer a component's wish with these.
 
-/// Way-points of a drive, in metres, the place itself the last one.
+/// Holds the way-points of a drive, in metres, the place itself the last one.
 struct Way {
   std::vector<terrain::Point> points;
 };
 
-/// A commanded point of a joint-space trajectory: seconds since its start, rad (or m) per joint.
+/// Is a commanded point of a joint-space trajectory: seconds since its start, rad (or m) per joint.
 struct JointTarget {
   double time_s = 0;
   std::vector<double> joints;
 };
 
+/// Holds the points of a motion in ascending order of time.
 struct Trajectory {
   std::vector<JointTarget> targets;
 };

@@ -8,13 +8,14 @@
 
 namespace roci::sim::world {
 
-/// A Boolean timeline that is true in [opens, closes) of each interval. Intervals ascend and do not overlap.
+/// Is a Boolean timeline that is true in [opens, closes) of each interval. Intervals ascend and do not
+/// overlap.
 struct Window {
   std::string timeline;
   std::vector<std::pair<temporal::Time, temporal::Time>> open;
 
   bool is_open(temporal::Time) const;
-  /// First opening or closing after `t`.
+  /// Returns the first opening or closing after `t`, or nothing.
   std::optional<temporal::Time> next_change(temporal::Time t) const;
 };
 

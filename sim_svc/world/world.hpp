@@ -1,4 +1,4 @@
-// A world of robots as a functional core: commands and the time go in, reports, observations and products
+// A world of robots is a functional core: commands and the time go in, reports, observations and products
 // come out. Between events everything is a function of time (a drive and a motion of an arm are worked out
 // whole when they start), so results do not depend on how advance() is sliced. The rules for commands (keys,
 // epochs, queries) are not its business: whoever owns the robots keeps them (services/owner).
@@ -14,22 +14,25 @@
 
 namespace roci::sim::world {
 
+/// Says what a world is made of.
 struct WorldSetup {
   Ground ground;
   std::vector<Window> windows;
   std::vector<RobotSetup> robots;
 };
 
-/// A task for a component.
+/// Is a task for a component.
 struct Order {
   std::string robot;  ///< empty: the only one
   std::string component;
   Task task;
 };
 
+/// Holds the true state of all robots and of what they share.
 class World {
  public:
-  /// Throws std::invalid_argument when two robots, or two components of one, have the same name.
+  /// Makes the world. Throws std::invalid_argument when two robots, or two components of one, have the same
+  /// name.
   World(WorldSetup, std::uint64_t seed);
 
   // Each of these first brings the world to `now`, which never lies before the `now` of an earlier call.
@@ -39,13 +42,15 @@ class World {
   Outputs begin(temporal::Time now, const Order&);
   /// Breaks the task off, if it runs; it ends in `stage`, for the reason given.
   Outputs halt(temporal::Time now, const TaskKey&, TaskStage stage, const Failure& why);
-  /// What another service says to a PathWanted or MotionWanted; ignored unless the task still waits for it.
+  /// Takes what another service says to a PathWanted or MotionWanted; it is ignored unless the task still
+  /// waits for it.
   Outputs answer(temporal::Time now, const TaskKey&, const Answer&);
-  /// What names a robot or a component that is not there changes nothing.
+  /// Applies a disturbance. One that names a robot or a component that is not there changes nothing.
   Outputs disturb(temporal::Time now, const Disturbance&);
 
   bool runs(const TaskKey&) const;
-  /// Nothing leaves the world by itself before this time. It may turn out that nothing happens then, either.
+  /// Returns a time before which nothing leaves the world by itself. It may turn out that nothing happens
+  /// then, either.
   std::optional<temporal::Time> next_change() const;
 
   const std::vector<Begun>& begun() const { return begun_; }

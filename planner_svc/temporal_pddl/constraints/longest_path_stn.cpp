@@ -11,7 +11,8 @@ namespace {
 constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
 constexpr int kPlainPasses = 2;
 
-// raised_by: by point, the point that raised it last. Do some of them raise each other in a circle?
+// Returns whether some points raise each other in a circle; `raised_by` holds by point the one that raised it
+// last.
 bool circular(const std::vector<std::uint32_t>& raised_by, std::vector<std::uint32_t>& seen_from) {
   seen_from.assign(raised_by.size(), kNobody);
   for (std::uint32_t first = 0; first < raised_by.size(); ++first) {
@@ -27,9 +28,9 @@ bool circular(const std::vector<std::uint32_t>& raised_by, std::vector<std::uint
 
 }  // namespace
 
-// Bellman and Ford; in plan order most edges go forward, so that the first pass settles most points. What is
-// not settled soon is watched: points that raise each other in a circle lie on a cycle of positive length
-// (Cherkassky and Goldberg 1999).
+// Finds the least times by Bellman and Ford; in plan order most edges go forward, so that the first pass
+// settles most points. What is not settled soon is watched: points that raise each other in a circle lie on a
+// cycle of positive length (Cherkassky and Goldberg 1999).
 bool LongestPathStn::raise(std::vector<Duration>& times) const {
   const auto pass = [&](const auto& raised) {
     bool changed = false;

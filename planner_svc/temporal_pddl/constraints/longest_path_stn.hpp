@@ -1,5 +1,5 @@
-// A simple temporal network (Dechter, Meiri and Pearl 1991) over time points 0 … n − 1 in its longest-path
-// form, solved as a whole.
+// LongestPathStn is a simple temporal network (Dechter, Meiri and Pearl 1991) over time points 0 … n − 1 in
+// its longest-path form, solved as a whole.
 //
 // It is not temporal::Stn, which keeps a growing network consistent edge by edge: a search asks about a
 // network once, and a batch of Bellman-Ford passes in plan order settles it in mostly one.
@@ -17,6 +17,7 @@ namespace roci::planner::temporal_pddl::constraints {
 /// Stands for the length of a path that does not exist; it is below every bound that a network can have.
 inline constexpr temporal::Duration kNoPath = temporal::Duration::min();
 
+/// Holds the points and constraints of one network, which it solves as often as it is asked.
 class LongestPathStn {
  public:
   explicit LongestPathStn(std::size_t points = 0) : points_(points) {}
@@ -25,7 +26,7 @@ class LongestPathStn {
     points_ = points;
     edges_.clear();
   }
-  /// Adds points behind those that there are.
+  /// Adds points behind the existing ones.
   void extend(std::size_t points) { points_ += points; }
   /// Requires t(to) − t(from) ≥ least. A bound from above is one with the points exchanged and the sign
   /// turned.

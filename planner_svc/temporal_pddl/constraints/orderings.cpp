@@ -76,7 +76,7 @@ void Orderings::add(std::span<const SnapId> steps, SnapId next, std::span<const 
       std::uint8_t& interest = interests_[variable];
       if (interest == 0) continue;
       if (interest != ends) (interest == guards ? after : separated) = true;
-      // What lies before this step is ordered through it; except that an adding step is before no invariant's
+      // What lies before this step is ordered through it, except that an adding step is before no invariant's
       // end.
       const bool ends_open = (interest & (changes | ends)) != 0 && only_adds(step, variable);
       interest = ends_open ? ends : 0;

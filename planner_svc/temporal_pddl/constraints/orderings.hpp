@@ -1,12 +1,12 @@
-// Which earlier steps a new step must follow (R22, R23).
+// Orderings say which earlier steps a new step must follow (R22, R23).
 //
 // Nothing is stored for this: the last modifiers and users of each variable are found by walking the plan
-// backwards (R27). For a new step j at the end of a plan:
-//  - a condition or effect on v: ε after the last step with an effect on v;
-//  - an effect on v: also ε after the steps with a condition on v since then, and, unless it only adds a
-//    fact, not before the ends of actions with an invariant on v (adding what holds anyway never hurts an
-//    invariant);
-//  - an invariant on v of an action that starts at j: not before the last step with an effect on v.
+// backwards (R27). A new step j at the end of a plan comes:
+// - for a condition or effect on v: ε after the last step with an effect on v;
+// - for an effect on v: also ε after the steps with a condition on v since then, and, unless it only adds a
+//   fact, not before the ends of actions with an invariant on v (adding what holds anyway never hurts an
+//   invariant);
+// - for an invariant on v of an action that starts at j: not before the last step with an effect on v.
 // While an action with an invariant over several numbers runs, an effect on one of them counts as a condition
 // on the others too: every order that the constraints allow must keep the invariant.
 #pragma once
@@ -19,6 +19,7 @@
 
 namespace roci::planner::temporal_pddl::constraints {
 
+/// Finds the orderings of a new step (R22, R23). The task must outlive it.
 class Orderings {
  public:
   Orderings(const task::Task& task, temporal::Duration epsilon);
@@ -30,8 +31,8 @@ class Orderings {
            std::vector<StepConstraint>& constraints);
 
  private:
-  // What the new step does with a variable. It `ends` a variable if it changes it and a later step was met
-  // that only adds the fact.
+  // Says what the new step does with a variable. The step `ends` a variable if it changes it and a later step
+  // was met that only adds the fact.
   enum Interest : std::uint8_t { guards = 1, reads = 2, adds = 4, changes = 8, ends = 16 };
 
   void mark(task::VariableId variable, std::uint8_t interest);

@@ -1,7 +1,7 @@
-// From when on a plan leaves each variable free: its release time, as schedulers say.
+// The release time of a variable, as schedulers say, is the time from when on a plan leaves it free.
 //
-// These are what Orderings will ask of the steps to come, seen from a schedule of earliest times, and so
-// lower bounds for every continuation of the plan.
+// Release times are what Orderings will ask of the steps to come, seen from a schedule of earliest times, and
+// so lower bounds for every continuation of the plan.
 #pragma once
 
 #include <span>
@@ -12,6 +12,7 @@
 
 namespace roci::planner::temporal_pddl::constraints {
 
+/// Measures the release times of one plan after the other. The task must outlive it.
 class ReleaseTimes {
  public:
   explicit ReleaseTimes(const task::Task& task) : task_(task), times_(task.variables()) {}

@@ -72,7 +72,7 @@ bool AtemporalAbstraction::changes_known(SnapId snap) const {
          std::ranges::any_of(task_.deletes[snap], is_known);
 }
 
-// One test per word that positive facts lie in. A contradiction is left to holds_all().
+// Makes one test per word that positive facts lie in. A contradiction is left to holds_all().
 std::vector<AtemporalAbstraction::Test> AtemporalAbstraction::tests_of(std::span<const FactId> facts) const {
   std::vector<Test> result;
   std::vector<Word> needed(words_, 0);

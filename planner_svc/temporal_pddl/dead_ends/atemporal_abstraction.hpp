@@ -1,9 +1,9 @@
-// The atemporal abstraction of a task: a small space of states without time and numbers, and without the
+// The atemporal abstraction of a task is a small space of states without time and numbers, and without the
 // variables that are left out, of which every plan of the task walks a path. So what is cheapest in it is
 // never dearer in the task (Culberson and Schaeffer 1998, on pattern databases).
 //
-// It has the transitions of the search: starts, ends, plain actions, and compressed actions (R14). What
-// timed literals change, and what is derived, is always left out.
+// It has the transitions of the search: starts, ends, plain actions, and compressed actions (R14). What timed
+// literals change, and what is derived, is always left out.
 #pragma once
 
 #include <array>
@@ -14,6 +14,7 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
+/// Leads from keys of abstract states to their successors. The task must outlive it.
 class AtemporalAbstraction {
  public:
   /// Holds the words of a state and behind them the running actions in ascending order, two to a word.
@@ -100,11 +101,11 @@ class AtemporalAbstraction {
   std::vector<bool> known_;       // by variable of the layout
   std::vector<task::Word> mask_;  // bits of the known variables
   std::vector<task::FactId> goals_;
-  // a known variable; the others are not even noted as running
+  // Tells whether the action changes a known variable; the others are not even noted as running.
   task::IdVector<task::ActionId, bool> changes_;
   task::IdVector<task::ActionId, std::vector<Test>> start_tests_;  // necessary for the start
 
-  // Of each_successor().
+  // These belong to each_successor().
   std::vector<task::Word> before_, state_, next_;
   std::vector<task::ActionId> running_before_, running_;
 };

@@ -27,7 +27,7 @@ std::optional<BackwardH2Mutexes> BackwardH2Mutexes::find(const Task& task, FdrOp
   return result;
 }
 
-// The others need no look: most literals have no such partner.
+// Keeps by literal the partners with which it is reachable and dead; most literals have none.
 void BackwardH2Mutexes::keep_dead(const ForwardH2Mutexes& reachable) {
   std::vector<MutexWord> words;
   for (Literal literal = 0; literal < steps_.literals(); ++literal) {
@@ -56,7 +56,7 @@ BackwardH2Mutexes::BackwardH2Mutexes(FdrOperators steps)
       others_(steps_.literals()),
       state_(steps_.literals()) {}
 
-// What may hold together with all goals of an alternative.
+// Relates what may hold together with all goals of an alternative.
 void BackwardH2Mutexes::begin(const Task& task, const ForwardH2Mutexes& reachable) {
   alive_ = H2Fixpoint(steps_.literals());
   for (const Goal& goal : task.goals) {
@@ -74,7 +74,8 @@ void BackwardH2Mutexes::begin(const Task& task, const ForwardH2Mutexes& reachabl
   }
 }
 
-// Fills in what may hold after the step and is alive with all that does in any case. False: that is dead.
+// Fills in what may hold after the step and is alive with all that does in any case. Returns false if that is
+// dead.
 bool BackwardH2Mutexes::after(const FdrOperator& step) {
   after_ = alive_.singles();
   for (const Literal end : step.ends) after_.keep(alive_.matrix().row(end));
@@ -121,7 +122,7 @@ void BackwardH2Mutexes::regress_loose(const FdrOperator& step, const Undetermine
   }
 }
 
-// To others_ and to what the step asks for, as far as they may hold together.
+// Relates the literal to others_ and to what the step asks for, as far as they may hold together.
 void BackwardH2Mutexes::relate(Literal literal, const FdrOperator& step, const ForwardH2Mutexes& reachable) {
   for (const ValueTransition& change : step.fixed) {
     if (change.from != kNoLiteral) others_.set(change.from);

@@ -1,4 +1,4 @@
-// Mutexes by h² backwards (Alcázar and Torralba 2015): pairs of literals from which the goals are out of
+// Mutexes by h² backwards (Alcázar and Torralba 2015) are pairs of literals from which the goals are out of
 // reach, without time and numbers. A state with such a pair is a dead end.
 #pragma once
 
@@ -10,6 +10,7 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
+/// Holds the pairs that were found. A state with one of them is a dead end.
 class BackwardH2Mutexes {
  public:
   /// Finds the pairs for searches that take the actions as `steps` does: where each is one step, more pairs
@@ -24,7 +25,7 @@ class BackwardH2Mutexes {
   std::size_t bytes() const { return steps_.bytes() + dead_.bytes(); }
 
  private:
-  // Some of the literals that are dead together with another one: a word of their bits.
+  // Holds some of the literals that are dead together with another one: a word of their bits.
   struct MutexWord {
     std::uint32_t word;
     BitWord bits;

@@ -39,7 +39,7 @@ std::optional<ConsumptionBound> ConsumptionBound::measure(const Task& task, Atem
   return result;
 }
 
-// In order of what is taken: when the states get too many, all within some amount are known.
+// Goes in order of what is taken: when the states get too many, all within some amount are known.
 bool ConsumptionBound::explore(const Task& task, const ConsumableResource& resource, std::size_t max_states,
                                const std::function<void(std::size_t)>& step) {
   const double left = resource.left(task, task.initial_state);
@@ -81,7 +81,7 @@ bool ConsumptionBound::explore(const Task& task, const ConsumableResource& resou
 }
 
 void ConsumptionBound::measure_back(const std::function<void(std::size_t)>& step) {
-  // The edges into each node, next to each other.
+  // Puts the edges into each node next to each other.
   std::vector<std::uint32_t> first(taken_.size() + 1, 0);
   for (const Edge& edge : edges_) ++first[edge.to + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());

@@ -1,4 +1,5 @@
-// How much of a resource every plan still takes, at least: the perfect heuristic of an abstraction.
+// The consumption bound tells how much of a resource every plan still takes, at least: it is the perfect
+// heuristic of an abstraction.
 //
 // It is measured once for all states of the AtemporalAbstraction, by a search from the initial state by what
 // is taken so far, and one back from the goals.
@@ -16,6 +17,7 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
+/// Holds the bound of all measured states; it never exceeds what a plan really takes.
 class ConsumptionBound {
  public:
   /// Measures the bound, or returns nothing if more than max_states states lie within what may be taken.

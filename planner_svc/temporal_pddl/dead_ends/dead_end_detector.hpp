@@ -1,4 +1,4 @@
-// What proves, state by state, that no plan goes through a state: detectors stand in a list beside the
+// Detectors prove, state by state, that no plan goes through a state; they stand in a list beside the
 // heuristics.
 //
 // A detector is safe: it never calls a state a dead end from which the goals can be reached ("safe" as of
@@ -16,6 +16,7 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
+/// Is the interface of a safe detector.
 class DeadEndDetector {
  public:
   virtual ~DeadEndDetector() = default;
@@ -31,7 +32,7 @@ class DeadEndDetector {
   virtual std::size_t bytes() const = 0;
 };
 
-/// The detectors of a planning call, asked one after the other. An empty list proves nothing.
+/// Asks the detectors of a planning call one after the other. An empty list proves nothing.
 class DeadEndDetectors {
  public:
   /// Appends a detector, which must outlive the list.

@@ -7,7 +7,7 @@ namespace roci::planner::temporal_pddl::dead_ends {
 using task::Action, task::ActionCompression, task::ActionId, task::FactId, task::SnapId, task::Task,
     task::TimedStep;
 
-// A snap action, and what else must hold right before or right after it.
+// Is a snap action with what else must hold right before or right after it.
 struct FdrOperators::Phase {
   SnapId snap;
   std::span<const FactId> before = {};
@@ -71,7 +71,7 @@ std::vector<std::size_t> FdrOperators::touched_by(std::span<const Phase> phases)
   return result;
 }
 
-// What each value that the variable may have before the first phase has become after the last.
+// Returns what each value that the variable may have before the first phase has become after the last.
 std::vector<ValueTransition> FdrOperators::changes(std::span<const Phase> phases,
                                                    std::size_t variable) const {
   const LiteralRange range = variables_[variable];
@@ -96,7 +96,7 @@ std::vector<ValueTransition> FdrOperators::changes(std::span<const Phase> phases
   return result;
 }
 
-// running: what becomes of "a runs".
+// Adds the phases as one operator; `running` says what becomes of "a runs".
 void FdrOperators::add_step(std::span<const Phase> phases, ValueTransition running) {
   std::vector<ValueTransition> fixed, changes_of_loose;
   std::vector<UndeterminedVariable> loose;

@@ -1,6 +1,6 @@
-// The task as operators on finite-domain variables (FDR, also SAS+), without time, numbers and derived
-// facts. Each transition of a search is one of these steps or a start and an end of them, so what they
-// cannot reach is out of reach.
+// This is the task as operators on finite-domain variables (FDR, also SAS+), without time, numbers and
+// derived facts. Each transition of a search is one of these steps or a start and an end of them, so what
+// they cannot reach is out of reach.
 //
 // A literal is a value of a variable, 0 (none of its facts) among them, or "action a runs". An operator
 // touches some variables: it says which values they may have before it and what each of these becomes. All
@@ -21,24 +21,26 @@ namespace roci::planner::temporal_pddl::dead_ends {
 using Literal = std::uint32_t;
 constexpr Literal kNoLiteral = std::numeric_limits<Literal>::max();
 
+/// Holds the literals from `begin` on and before `end`.
 struct LiteralRange {
   Literal begin = 0;
   Literal end = 0;
   bool empty() const { return begin == end; }
 };
 
-/// What an operator makes of one value of a variable.
+/// Tells what an operator makes of one value of a variable.
 struct ValueTransition {
   Literal from;  ///< is kNoLiteral for "a does not run", which is no literal
-  Literal to;    ///< likewise
+  Literal to;    ///< is kNoLiteral likewise
 };
 
-/// A variable that may have one of several values before an operator.
+/// Is a variable that may have one of several values before an operator.
 struct UndeterminedVariable {
   std::uint32_t begin, end;  ///< its transitions, among FdrOperator::loose_changes
   bool settled;              ///< whether all lead to the same value
 };
 
+/// Shows one operator of FdrOperators; it is valid as long as these.
 struct FdrOperator {
   std::span<const ValueTransition> fixed;       ///< the variables that may have one value only
   std::span<const UndeterminedVariable> loose;  ///< the others that it touches
@@ -51,6 +53,7 @@ struct FdrOperator {
   }
 };
 
+/// Holds all operators of a task for one way to take actions. The task must outlive it.
 class FdrOperators {
  public:
   /// Makes the operators. Where actions are always compressed, each is one; else each is one where the
@@ -113,7 +116,7 @@ class FdrOperators {
   bool allows(task::FactId fact, std::uint32_t value) const {
     return (task_.layout.value_of(fact) == value) != task_.layout.is_negation(fact);
   }
-  // As far as they speak of the variable.
+  // Returns whether the facts, as far as they speak of the variable, allow the value.
   bool allows(std::span<const task::FactId> facts, std::size_t variable, std::uint32_t value) const;
   void add_steps(task::ActionId action, task::ActionCompression style);
   void add_step(std::span<const Phase> phases, ValueTransition running);

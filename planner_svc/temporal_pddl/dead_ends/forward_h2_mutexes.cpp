@@ -57,7 +57,7 @@ void leave_out_touched(const FdrOperator& step, Bits& literals) {
   for (const LiteralRange range : step.touched) literals.clear(range.begin, range.end);
 }
 
-// To others_.
+// Relates the literal to others_, without what it forbids.
 void ForwardH2Mutexes::relate(Literal literal) {
   if (!forbidden_.empty()) others_.leave_out(forbidden_.row(literal));
   pairs_.relate(literal, others_);

@@ -1,4 +1,4 @@
-// Mutexes by h² forwards (Haslum and Geffner 2000), without time and numbers: all pairs of literals but
+// Mutexes by h² forwards (Haslum and Geffner 2000), without time and numbers, are all pairs of literals but
 // those that may hold together in a state that the search reaches.
 #pragma once
 
@@ -10,9 +10,10 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
+/// Holds which pairs of literals may hold together; all others are mutex.
 class ForwardH2Mutexes {
  public:
-  /// Returns nothing if `go_on` has stopped it.
+  /// Finds the pairs. Returns nothing if `go_on` has stopped it.
   static std::optional<ForwardH2Mutexes> find(const task::Task& task, const FdrOperators& steps,
                                               const H2WorkLimit& go_on);
 

@@ -1,4 +1,4 @@
-// The fixpoint of h²: pairs of literals, found by looking at all operators of a task again and again until
+// The fixpoint of h² relates pairs of literals; it looks at all operators of a task again and again until
 // none relates two more.
 #pragma once
 
@@ -14,6 +14,7 @@ namespace roci::planner::temporal_pddl::dead_ends {
 /// Is asked every few microseconds whether to go on, and told how many words of bits were looked at since.
 using H2WorkLimit = std::function<bool(std::size_t work)>;
 
+/// Holds the pairs related so far; they only ever become more.
 class H2Fixpoint {
  public:
   explicit H2Fixpoint(std::size_t literals) : matrix_(literals), singles_(literals), changed_(literals, 0) {}

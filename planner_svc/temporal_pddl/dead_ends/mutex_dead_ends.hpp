@@ -1,4 +1,5 @@
-// Proves dead ends by pairs of literals from which the goals are out of reach (BackwardH2Mutexes).
+// This detector proves dead ends by pairs of literals from which the goals are out of reach
+// (BackwardH2Mutexes).
 //
 // Most problems are solved before the tables pay: they are made after a number of evaluations, for the kind
 // of search that asks, and given up where they take too much work or memory.
@@ -13,6 +14,7 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
+/// Is safe. The task and the limits must outlive it.
 class MutexDeadEnds final : public DeadEndDetector {
  public:
   /// Waits for `patience` evaluations before it makes the tables.

@@ -1,4 +1,4 @@
-// A symmetric relation over small numbers, kept as rows of bits.
+// A pair matrix is a symmetric relation over small numbers, kept as rows of bits.
 #pragma once
 
 #include <bit>
@@ -11,7 +11,7 @@ namespace roci::planner::temporal_pddl::dead_ends {
 
 using BitWord = std::uint64_t;
 
-/// A set of small numbers.
+/// Is a set of small numbers.
 class Bits {
  public:
   Bits() = default;
@@ -36,6 +36,7 @@ class Bits {
   std::vector<BitWord> words_;
 };
 
+/// Holds a relation over the numbers 0 … size − 1 that is symmetric at all times.
 class PairMatrix {
  public:
   PairMatrix() = default;

@@ -66,7 +66,7 @@ void ResourceDeadEnds::measure() {
   for (const ConsumableResource& resource : resources_) measure(resource, {});
 }
 
-// All goals at once; or half of them and the other half, if that is too much.
+// Measures for all goals at once, or for half of them and the other half, if that is too much.
 void ResourceDeadEnds::measure(const ConsumableResource& resource, std::span<const FactId> goals) {
   std::size_t known = 0;
   for (const Measured& measured : needs_) known += measured.need.bytes();

@@ -1,8 +1,7 @@
-// Proves dead ends that consumable resources do not suffice for (ConsumptionBound).
+// This detector proves dead ends that consumable resources do not suffice for (ConsumptionBound).
 //
 // Most problems are solved before the measuring pays: it waits until a number of states have been asked
-// about, and a resource has run half empty in one of them. A search that never gets there has no want of
-// any.
+// about, and a resource has run half empty in one of them. A search that never gets there has no want of any.
 #pragma once
 
 #include <string>
@@ -14,6 +13,7 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
+/// Is safe. The task and the limits must outlive it.
 class ResourceDeadEnds final : public DeadEndDetector {
  public:
   /// Waits until `patience` states have been asked about before it measures; with 0 it measures with the

@@ -53,8 +53,8 @@ std::string seconds(Duration duration) {
   return text.substr(0, text.size() - 3) + " s";
 }
 
-// Of the actions that are longer than their windows and would bring about what nothing else does, the one
-// that lacks least.
+// Names, of the actions that are longer than their windows and would bring about what nothing else does, the
+// one that lacks least; the text is empty if there is none.
 std::string window_too_short(const GroundModel& model, const std::vector<bool>& reached,
                              const Symbols& symbols, const std::vector<LiftedAction>& actions) {
   const WindowMisfit* nearest = nullptr;

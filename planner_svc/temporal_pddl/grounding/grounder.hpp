@@ -1,4 +1,4 @@
-// The way from a checked model to the ground task.
+// The grounder leads from a checked model to the ground task.
 #pragma once
 
 #include <vector>
@@ -13,15 +13,16 @@
 
 namespace roci::planner::temporal_pddl::grounding {
 
+/// Holds what grounding gives: the task, and the names and constants of the model for reports.
 struct Grounding {
   lifted::Symbols symbols;
   lifted::ConstantFunctions constants;
   task::Task task;
 };
 
-/// Grounds the model. Throws PlanningFailure: unsupported with the place in the model; unsolvable naming the
-/// goal that nothing can reach; function_unavailable; and what SearchLimits throws. `used` gets every
-/// external value, whatever happens.
+/// Grounds the model. `used` gets every external value, whatever happens. Throws PlanningFailure
+/// (`unsupported` with the place in the model, `unsolvable` with the goal that nothing can reach,
+/// `function_unavailable`), and what SearchLimits throws.
 Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, engine::FunctionSource& functions,
                  const call::Options& options, call::SearchLimits& limits,
                  std::vector<engine::FunctionUse>& used);

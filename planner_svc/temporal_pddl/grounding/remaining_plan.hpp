@@ -1,4 +1,4 @@
-// What remains of an earlier plan, in terms of the ground task.
+// This file puts what remains of an earlier plan in terms of the ground task.
 #pragma once
 
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace roci::planner::temporal_pddl::grounding {
 
-/// The snap actions of the steps whose actions the task knows, in order of time, ends before starts. Steps
-/// that it does not know are passed over.
+/// Returns the snap actions of the steps whose actions the task knows, in order of time, ends before starts.
+/// Steps that it does not know are passed over.
 std::vector<task::SnapId> ground_remaining_plan(const task::Task& task,
                                                 std::span<const pddl::PlanStep> remaining);
 

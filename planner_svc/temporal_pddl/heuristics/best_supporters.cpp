@@ -111,7 +111,7 @@ void BestSupporters::raise_numbers(SnapId op, Cost own) {
   }
 }
 
-// Its own cost, and the costs of its needs, which are all reached.
+// Adds up its own cost and the costs of its needs, which are all reached.
 BestSupporters::Cost BestSupporters::cost(SnapId op) const {
   std::uint64_t sum = operator_costs_.of(op);
   for (const PropositionId need : relaxed_.needs(op)) sum += reached_[need].cost;

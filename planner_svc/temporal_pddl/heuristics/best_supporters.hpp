@@ -1,4 +1,4 @@
-// The best supporters of relaxed propositions by h_add: which operator makes each true with the fewest
+// The best supporters of relaxed propositions by h_add are the operators that make each true with the fewest
 // actions before it (Bonet and Geffner 2001; Keyder and Geffner 2008), weighed by the operator costs.
 //
 // They are explored in order of cost, and only as far as is asked. Comparisons count as propositions; they
@@ -17,6 +17,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Finds best supporters in one state after the other. All that it is given must outlive it.
 class BestSupporters {
  public:
   BestSupporters(const task::Task& task, const RelaxedTask& relaxed, const NumericRelaxation& numbers);

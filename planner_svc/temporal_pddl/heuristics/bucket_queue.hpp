@@ -1,5 +1,5 @@
-// A queue of propositions by the cost at which they are reached, the cheapest first: it has a bucket for
-// each small cost and a heap for the few beyond.
+// The bucket queue holds propositions by the cost at which they are reached, the cheapest first: it has a
+// bucket for each small cost and a heap for the few beyond.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Gives the entries in order of cost; its costs never sink between two restarts.
 class BucketQueue {
  public:
   using Cost = std::uint32_t;

@@ -1,4 +1,5 @@
-// When each snap action can happen at the earliest: h_max over time on the relaxed task, with windows.
+// EarliestTimes finds when each snap action can happen at the earliest: h_max over time on the relaxed task,
+// with windows.
 //
 // Facts of the state hold from when the plan so far makes them true; a start waits for all it needs, for the
 // variables it touches and for a window that is long enough; an end comes no sooner than the least duration
@@ -16,6 +17,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Measures earliest times after one plan after the other. All that it is given must outlive it.
 class EarliestTimes {
  public:
   EarliestTimes(const task::Task& task, const RelaxedTask& relaxed);

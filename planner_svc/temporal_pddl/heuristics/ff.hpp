@@ -1,4 +1,4 @@
-// The FF heuristic (Hoffmann and Nebel 2001) on the relaxed task, after Stellar section 4.2.
+// This is the FF heuristic (Hoffmann and Nebel 2001) on the relaxed task, after Stellar section 4.2.
 //
 // Its relaxed plan is made of the supporters that take the fewest actions by h_add; where it matters when a
 // plan happens, of those that can come first. Its cost is the sum of the durations (R16). Numbers count by
@@ -20,6 +20,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Estimates what is still to come by a relaxed plan. The task must outlive it.
 class FfHeuristic final : public Heuristic {
  public:
   /// Estimates the task; `measure` is what Estimate::cost counts.

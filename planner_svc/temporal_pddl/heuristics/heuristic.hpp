@@ -1,4 +1,4 @@
-// What a heuristic tells a search about a state. README.md says how to add one.
+// A heuristic tells a search about a state. README.md says how to add one.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Holds what a heuristic says of one state.
 struct Estimate {
   bool dead_end = false;  ///< whether it is proved that no plan goes through this state
   /// Sums the durations still to come, in microseconds, or what else CostMeasure counts.
@@ -23,11 +24,11 @@ struct Estimate {
   std::vector<task::SnapId> relaxed_plan;
 };
 
-/// What a heuristic may look at.
+/// Holds what a heuristic may look at.
 struct EvaluationContext {
   task::StateView state;
   std::span<const task::ActionId> running;  ///< the actions that have started and not ended
-  std::uint32_t timed_done = 0;             ///< how many timed literals have happened
+  std::uint32_t timed_done = 0;             ///< counts the timed literals that have happened
   /// Tells the schedule of earliest times of the plan; it is null, and `started` is empty, where nothing is
   /// known of it.
   const constraints::ReleaseTimes* release_times = nullptr;
@@ -35,6 +36,7 @@ struct EvaluationContext {
   std::span<const task::SnapId> steps = {};     ///< the steps of the plan so far
 };
 
+/// Is the interface of all heuristics; none of them changes what it looks at.
 class Heuristic {
  public:
   virtual ~Heuristic() = default;

@@ -9,8 +9,8 @@ using task::ActionId, task::FactId, task::SnapId, task::Task;
 
 namespace {
 
-constexpr std::size_t kMostVisits =
-    20'000'000;  // of operators, when landmarks are looked for: tenths of a second
+// Landmarks are looked for with at most so many visits of operators, which keeps the search short.
+constexpr std::size_t kMostVisits = 20'000'000;
 
 }  // namespace
 

@@ -1,4 +1,5 @@
-// How many landmarks are still to come (Richter and Westphal 2010), beside the estimate of the FF heuristic.
+// The landmark count tells how many landmarks are still to come (Richter and Westphal 2010), beside the
+// estimate of the FF heuristic.
 //
 // Nothing is stored per state: which landmarks a plan has reached follows from its steps.
 #pragma once
@@ -11,6 +12,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Adds the landmark count to the estimate of `ff`. All that it is given must outlive it.
 class LandmarkCount final : public Heuristic {
  public:
   /// Finds the landmarks of the initial state of the task. Throws what SearchLimits::poll() throws.

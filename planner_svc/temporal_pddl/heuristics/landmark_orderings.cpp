@@ -87,7 +87,7 @@ bool LandmarkOrderings::mutex(PropositionId a, PropositionId b) const {
   return variable != Id<struct VariableTag>::kNone && variable == variable_[FactId(b.index())];
 }
 
-// Start or end of the operator's action takes the fact away, and does not give it back.
+// Returns whether the start or end of the operator's action takes the fact away and does not give it back.
 bool LandmarkOrderings::undoes(SnapId op, PropositionId held) const {
   if (held.index() >= variable_.size()) return false;
   const FactId fact(held.index());

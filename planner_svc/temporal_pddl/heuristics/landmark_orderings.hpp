@@ -1,4 +1,4 @@
-// Which landmarks come before which, without cycles.
+// Landmark orderings say which landmarks come before which, without cycles.
 #pragma once
 
 #include <vector>
@@ -7,6 +7,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Collects orderings of the given landmarks and never lets them form a cycle.
 class LandmarkOrderings {
  public:
   LandmarkOrderings(const task::Task& task, const RelaxedTask& relaxed,

@@ -67,7 +67,7 @@ class Finder {
     return place->second;
   }
 
-  // What lies right before each landmark, and before that, until nothing is new.
+  // Looks for what lies right before each landmark, and before that, until nothing is new.
   void close() {
     for (; closed_ < found_.size() && visits_left_ > 0; ++closed_) look_before(LandmarkId(closed_));
   }
@@ -100,7 +100,7 @@ class Finder {
       found_[before].needed_by.push_back(id);
   }
 
-  // Facts of one predicate of which each of the operators needs one.
+  // Looks for facts of one predicate of which each of the operators needs one.
   void look_for_alternatives(const std::vector<SnapId>& first, LandmarkId id) {
     std::map<std::size_t, std::pair<std::vector<PropositionId>, std::size_t>> by_kind;  // and by how many
     for (const SnapId op : first) {
@@ -121,7 +121,7 @@ class Finder {
     }
   }
 
-  // The predicate of a fact, the schema of a running action.
+  // Returns a number for the predicate of a fact, negated or not, or for the schema of a running action.
   std::size_t kind(PropositionId proposition) const {
     const std::size_t facts = task_.fact_names.size();
     if (proposition.index() < facts) {
@@ -131,7 +131,7 @@ class Finder {
     return 2 * task_.predicates.size() + task_.actions[ActionId(proposition.index() - facts)].schema.index();
   }
 
-  // All that is within reach, and by what.
+  // Finds all that is within reach, and by what.
   void explore() {
     for (std::size_t i = 0; i < relaxed_.operators(); ++i)
       open_[SnapId(i)] = static_cast<std::uint32_t>(relaxed_.needs(SnapId(i)).size());
@@ -160,7 +160,7 @@ class Finder {
     }
   }
 
-  // What is within reach if some propositions do not exist: first all goes that hangs on them by its
+  // Finds what is within reach if some propositions do not exist: first all goes that hangs on them by its
   // supporters, then what of that has another supporter comes back. It counts as much as to explore
   // everything.
   void explore_without(std::span<const PropositionId> left_out) {
@@ -194,7 +194,7 @@ class Finder {
     for (const PropositionId proposition : left_out) is_left_out_[proposition] = false;
   }
 
-  // As it was after explore().
+  // Makes all as it was after explore().
   void restore() {
     for (const PropositionId proposition : lost_) {
       if (reached_[proposition]) continue;
@@ -255,7 +255,7 @@ class Finder {
   std::size_t closed_ = 0;
   IdVector<LandmarkId, IdVector<PropositionId, bool>> out_of_reach_;  // reached without it; empty: not asked
 
-  // Of the last exploration.
+  // These belong to the last exploration.
   IdVector<PropositionId, bool> reached_;
   IdVector<PropositionId, bool> initially_;
   IdVector<PropositionId, SnapId> supporters_;  // with nothing left out; none: holds, or is out of reach

@@ -1,5 +1,5 @@
-// Landmarks: what every plan must make true at some time, and in which order (Hoffmann, Porteous and
-// Sebastia 2004; Richter and Westphal 2010).
+// Landmarks are what every plan must make true at some time, with the order in which it must (Hoffmann,
+// Porteous and Sebastia 2004; Richter and Westphal 2010).
 //
 // A landmark is a fact, "a is running", or one of a few of them. They are found on the relaxed task by
 // leaving them out and seeing what is out of reach then: the goals (so it is a landmark), other landmarks
@@ -18,6 +18,7 @@ namespace roci::planner::temporal_pddl::heuristics {
 
 using LandmarkId = task::Id<struct LandmarkTag>;
 
+/// Is one landmark with its place among the others.
 struct Landmark {
   std::vector<PropositionId> any_of;    ///< one of these must hold
   bool goal = false;                    ///< whether it must hold at the end

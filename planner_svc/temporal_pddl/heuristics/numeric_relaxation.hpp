@@ -1,8 +1,8 @@
-// Numbers in the relaxed task: which comparisons operators and goals ask for, and which operators bring them
-// nearer.
+// This file takes numbers into the relaxed task: which comparisons operators and goals ask for, and which
+// operators bring them nearer.
 //
-// What one application does to a comparison is taken as the state at hand has it, and repeated as often as
-// it takes; what lowers it is left out (subgoaling-based relaxation, after Scala, Haslum and Thiébaux 2016).
+// What one application does to a comparison is taken as the state at hand has it, and repeated as often as it
+// takes; what lowers it is left out (subgoaling-based relaxation, after Scala, Haslum and Thiébaux 2016).
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,13 @@ namespace roci::planner::temporal_pddl::heuristics {
 
 using ComparisonId = task::Id<struct ComparisonTag>;
 
-/// An operator that may make a comparison true.
+/// Is an operator that may make a comparison true.
 struct NumericAchiever {
   ComparisonId comparison;
   task::SnapId op;
 };
 
+/// Holds the comparisons of a task, numbered from 0. The task must outlive it.
 class NumericRelaxation {
  public:
   explicit NumericRelaxation(const task::Task& task);

@@ -1,4 +1,4 @@
-// Operator costs with goal-threat penalties: an operator that the planner chooses costs 1, and more if it
+// Operator costs carry goal-threat penalties: an operator that the planner chooses costs 1, and more if it
 // would undo goals that hold.
 //
 // A relaxed plan does not see that these have to be brought about once more: without the penalty the last
@@ -15,6 +15,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Holds the cost of each operator in the state at hand. All that it is given must outlive it.
 class OperatorCosts {
  public:
   using Cost = std::uint32_t;

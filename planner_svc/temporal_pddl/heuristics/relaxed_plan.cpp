@@ -71,7 +71,7 @@ void RelaxedPlan::need(PropositionId proposition) {
 
 void RelaxedPlan::need_before(SnapId op, ComparisonId comparison) {
   Balance& balance = touch(comparison);
-  // Of all that need it and take of it, one comes last, and what that takes need not be left.
+  // Of all operators that need it and take of it, one comes last, and what that one takes need not be left.
   const double own = numbers_.whole_change(op, comparison, state_);
   if (!balance.needed_at_end) balance.least = balance.needed ? std::min(balance.least, own) : own;
   balance.needed = true;
@@ -166,7 +166,7 @@ SnapId RelaxedPlan::least_harmful(PropositionId proposition) {
   return best;
 }
 
-// How many facts that the plan needs and that hold already its action undoes.
+// Returns how many facts that the plan needs and that hold already its action undoes.
 std::size_t RelaxedPlan::harm(SnapId op) const {
   const auto of = [&](SnapId step) {
     return static_cast<std::size_t>(std::ranges::count_if(task_.deletes[step], [&](FactId fact) {
@@ -211,7 +211,7 @@ void RelaxedPlan::settle(ComparisonId comparison) {
   if (times >= 1) repeat(producer, static_cast<std::int64_t>(std::min(times, 1e6)));
 }
 
-// With what belongs to it.
+// Takes the operator into the plan with what belongs to it.
 void RelaxedPlan::bring_in(SnapId op) {
   include(op);
   support_facts();

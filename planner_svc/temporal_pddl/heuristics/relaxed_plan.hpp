@@ -1,5 +1,5 @@
-// A relaxed plan: the operators that bring about what is needed, by their supporters, and how often each of
-// them does.
+// A relaxed plan is made of the operators that bring about what is needed, by their supporters, and of how
+// often each of them does.
 //
 // Where windows and deadlines count, the supporter of a fact is the operator that can come first, by the
 // times of the plan so far, and not that which takes the fewest actions: so work goes to whoever is free
@@ -24,6 +24,7 @@
 
 namespace roci::planner::temporal_pddl::heuristics {
 
+/// Makes one relaxed plan after the other. All that it is given must outlive it.
 class RelaxedPlan {
  public:
   RelaxedPlan(const task::Task& task, const RelaxedTask& relaxed, const NumericRelaxation& numbers,

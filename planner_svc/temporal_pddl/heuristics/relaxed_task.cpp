@@ -19,7 +19,7 @@ std::int64_t least_duration(const Task& task, const Semantics& semantics, Action
   return std::max<std::int64_t>(0, (bounds ? bounds->min : task.actions[action].min_duration).count());
 }
 
-// What the snap action adds to the metric if it is taken at first.
+// Returns what the snap action adds to the metric if it is taken at first.
 std::int64_t metric_cost(const Task& task, const Semantics& semantics, SnapId op, std::int64_t duration) {
   double millionths = task.metric.expression.duration_weight * static_cast<double>(duration);
   const Snap& snap = task.snaps[op];

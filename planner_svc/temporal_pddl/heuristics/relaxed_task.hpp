@@ -1,4 +1,4 @@
-// The task without time and numbers (R15): what the FF heuristic computes on.
+// The relaxed task is the task without time and numbers (R15); the FF heuristic computes on it.
 //
 // Propositions are the facts and, for each durative action a, r_a: "a is running" (R18). Operators are the
 // snap actions; deletes do not exist.
@@ -21,11 +21,13 @@ namespace roci::planner::temporal_pddl::heuristics {
 
 using PropositionId = task::Id<struct PropositionTag>;
 
+/// Says what an operator costs.
 enum class CostMeasure {
   duration,  ///< the least duration of each action, in microseconds
-  metric,    ///< what each adds to the metric at first, in millionths
+  metric,    ///< counts what each adds to the metric at first, in millionths
 };
 
+/// Holds the propositions and operators of a task: a proposition is a fact or "action a runs".
 class RelaxedTask {
  public:
   explicit RelaxedTask(const task::Task& task, CostMeasure measure = CostMeasure::duration);
@@ -48,7 +50,7 @@ class RelaxedTask {
     }
   }
 
-  /// Operators are numbered as the snap actions.
+  /// Returns the cost; operators are numbered as the snap actions.
   std::int64_t cost(task::SnapId op) const { return costs_[op]; }
   std::span<const PropositionId> needs(task::SnapId op) const { return lists_[2 * op.index()]; }
   std::span<const PropositionId> adds(task::SnapId op) const { return lists_[2 * op.index() + 1]; }

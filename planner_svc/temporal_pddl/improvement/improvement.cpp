@@ -21,7 +21,7 @@ using temporal::Verdict;
 
 namespace {
 
-// Taken again in one elimination: keeps it to about a tenth of a second.
+// So many steps are taken again in one elimination at most, which keeps it short.
 constexpr std::size_t kStepsTakenAgain = 20'000;
 constexpr std::size_t kFirstLimit = 25;  // evaluations of one search; twice as many in each round
 constexpr std::size_t kVariations = 4;   // times as many for variations of the plan before
@@ -58,7 +58,7 @@ class Improvement {
  private:
   void drop_useless() { eliminate_useless_actions(task_, plan_, replay_, kStepsTakenAgain, context_.limits); }
 
-  // True: to a better plan.
+  // Makes restarts. Returns whether one led to a better plan.
   bool restart(std::size_t evaluations, std::size_t& left) {
     bool better = false;
     for (std::size_t spent = 0; spent < evaluations && left > 0 && restarts_.promising();) {
@@ -99,7 +99,8 @@ class Improvement {
     }
   }
 
-  // True: nothing better is left to be found. No work is left: that is not known.
+  // Searches for better plans, again from each one found. Returns whether nothing better is left to be found;
+  // that is not known when the work runs out.
   bool search(const Guide& guide, std::int64_t weight, std::size_t limit, std::size_t& left) {
     while (left > 0) {
       const PlanQuality known = quality_of(task_, plan_, replay_.check());

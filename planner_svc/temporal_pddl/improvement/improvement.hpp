@@ -1,4 +1,4 @@
-// From a first plan to better ones, within a stated amount of work.
+// The improvement leads from a first plan to better ones, within a stated amount of work.
 #pragma once
 
 #include <span>

@@ -49,26 +49,26 @@ void LargeNeighbourhoodSearch::find_units(const PlanPrefix& plan, PlanReplay& re
   std::ranges::stable_sort(units_, {}, &Unit::start);
 }
 
-// How many actions go: small numbers as often as large ones.
+// Returns how many actions go; small numbers are about as likely as large ones.
 std::size_t LargeNeighbourhoodSearch::choose_size() {
   const std::size_t most = std::size_t{2} << below(kSizes);
   return std::min(1 + below(most), units_.size());
 }
 
-// Some that start one after the other.
+// Drops some actions that start one after the other.
 void LargeNeighbourhoodSearch::choose_stretch() {
   const std::size_t size = choose_size();
   const std::size_t first = below(units_.size() - size + 1);
   for (std::size_t i = first; i < first + size; ++i) dropped_.push_back(units_[i].step);
 }
 
-// The last ones.
+// Drops the last actions.
 void LargeNeighbourhoodSearch::choose_late() {
   for (std::size_t i = units_.size() - choose_size(); i < units_.size(); ++i)
     dropped_.push_back(units_[i].step);
 }
 
-// Some that have to do with an object.
+// Drops some actions that have to do with one object.
 void LargeNeighbourhoodSearch::choose_object() {
   const std::size_t size = choose_size();
   const std::size_t from = below(units_.size());
@@ -81,7 +81,7 @@ void LargeNeighbourhoodSearch::choose_object() {
   }
 }
 
-// Mostly the one that gave most for its work.
+// Chooses mostly the rule that gave most for its work.
 LargeNeighbourhoodSearch::RepairRule& LargeNeighbourhoodSearch::choose_repair_rule() {
   if (below(3) == 0) return repair_rules_[below(repair_rules_.size())];
   return *std::ranges::max_element(repair_rules_, {}, [](const RepairRule& repair) {

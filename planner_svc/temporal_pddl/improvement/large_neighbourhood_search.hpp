@@ -1,4 +1,4 @@
-// Large neighbourhood search (Shaw 1998; destroy and repair, Ropke and Pisinger 2006) on plans: a part is
+// Large neighbourhood search (Shaw 1998; destroy and repair, Ropke and Pisinger 2006) varies plans: a part is
 // taken out at random, the rest is completed again, and what comes out stays if it is no worse.
 #pragma once
 
@@ -13,6 +13,7 @@
 
 namespace roci::planner::temporal_pddl::improvement {
 
+/// Varies plans of one task; it never makes one worse in metric and makespan.
 class LargeNeighbourhoodSearch {
  public:
   LargeNeighbourhoodSearch(const search::SearchContext& context, std::span<const search::Guide> guides);
@@ -32,7 +33,7 @@ class LargeNeighbourhoodSearch {
     task::ActionId action;
   };
 
-  // A way to complete what is left, and what it has given so far.
+  // Is a way to complete what is left, with what it has given so far.
   struct RepairRule {
     CompletionRule rule;
     std::size_t gains = 0;  // better plans

@@ -91,7 +91,8 @@ std::optional<PlanPrefix> PlanCompletion::find(std::span<const SnapId> beginning
   return std::nullopt;
 }
 
-// To the state in successor_, which is new and stored. False: the step is not possible, or not worth it.
+// Takes the step to the state in successor_, which is new and stored then. Returns false if the step is not
+// possible, or not worth it.
 bool PlanCompletion::advance(const PlanPrefix& prefix, SnapId snap) {
   if (!space_.possible(prefix, snap) || space_.build(prefix, snap, successor_) != Rejection::none)
     return false;
@@ -105,7 +106,8 @@ bool PlanCompletion::advance(const PlanPrefix& prefix, SnapId snap) {
 }
 
 // Evaluates the state in successor_ and follows its relaxed plan as far as that can be taken, again and again
-// (Vidal 2004, "A lookahead strategy for heuristic search planning"). True: to a complete plan.
+// (Vidal 2004, "A lookahead strategy for heuristic search planning"). Returns whether that led to a complete
+// plan.
 bool PlanCompletion::follow_schedule() {
   for (bool ahead = true; ahead && evaluated_ < rule_.evaluations;) {
     ahead = false;
@@ -129,7 +131,7 @@ bool PlanCompletion::follow_schedule() {
   return false;
 }
 
-// Evaluates and queues the state in successor_. False: nothing leads on from it.
+// Evaluates and queues the state in successor_. Returns false if nothing leads on from it.
 bool PlanCompletion::take_up() {
   const PlanPrefix& prefix = successor_.prefix;
   const PlanQuality quality = quality_of(task_, prefix, space_.check());

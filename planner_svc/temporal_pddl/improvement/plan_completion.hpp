@@ -1,5 +1,5 @@
-// Completes the beginning of a plan: best-first search over preferred successors, led by how long the whole
-// will take. It is the repair of large neighbourhood search.
+// Plan completion completes the beginning of a plan by best-first search over preferred successors, led by
+// how long the whole will take. It is the repair of large neighbourhood search.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,10 @@ struct CompletionRule {
   bool by_makespan = false;
   bool lookahead = false;       ///< whether the plan of that schedule is followed as far as it goes
   std::int64_t weight = 1;      ///< the weight of what is to come
-  std::size_t evaluations = 0;  ///< how many at most
+  std::size_t evaluations = 0;  ///< bounds how many there are
 };
 
+/// Completes one beginning after the other and keeps its memory in between.
 class PlanCompletion {
  public:
   explicit PlanCompletion(const search::SearchContext& context);
@@ -47,7 +48,7 @@ class PlanCompletion {
     std::size_t number = 0;  // in order of generation
     search::NodeId node;
     std::vector<task::SnapId> preferred;
-    // The worse one; for a heap.
+    // Orders worse before better, so that a heap has the best at its top.
     bool operator<(const Entry& other) const {
       return std::tie(total, steps, number) > std::tie(other.total, other.steps, other.number);
     }

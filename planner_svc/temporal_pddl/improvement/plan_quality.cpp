@@ -16,7 +16,7 @@ using temporal::Duration;
 
 namespace {
 
-// The state after the last step.
+// Returns the state after the last step.
 std::vector<Word> final_state(const Task& task, const PlanPrefix& plan) {
   const Semantics semantics(task);
   std::vector<Word> state = task.initial_state;
@@ -35,7 +35,7 @@ std::vector<Word> final_state(const Task& task, const PlanPrefix& plan) {
   return state;
 }
 
-// The metric to be minimized.
+// Returns the metric that is minimized.
 double cost_of(const Task& task, const PlanPrefix& plan, Duration makespan) {
   const LinearExpression& metric = task.metric.expression;
   const bool numbers = !metric.terms.empty();

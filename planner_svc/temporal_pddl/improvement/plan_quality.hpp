@@ -1,4 +1,4 @@
-// How good a complete plan is: what the improvement minimizes, in the order of the members.
+// The quality of a complete plan is what the improvement minimizes, in the order of the members.
 #pragma once
 
 #include <compare>
@@ -10,10 +10,11 @@
 
 namespace roci::planner::temporal_pddl::improvement {
 
+/// Compares plans: the lower one is better.
 struct PlanQuality {
   std::int64_t metric = 0;         ///< Task::metric in millionths; it is 0 where that is the time alone
   temporal::Duration makespan{0};  ///< the time of the last start or end of an action
-  /// The sum of all durations: among equally short plans the one that does less is better.
+  /// Sums all durations: among equally short plans the one that does less is better.
   temporal::Duration busy{0};
   std::size_t steps = 0;  ///< the number of snap actions
   auto operator<=>(const PlanQuality&) const = default;

@@ -24,7 +24,7 @@ bool PlanReplay::take(std::span<const SnapId> steps, std::span<const std::uint32
   for (std::uint32_t i = 0; i < steps.size(); ++i) {
     const SnapId step = steps[i];
     const SnapKind kind = task_.snaps[step].kind;
-    // The end of an action that was left out, or that the start has brought along.
+    // This is the end of an action that was left out, or an end that the start has brought along.
     if (kind == SnapKind::end && std::ranges::count(at.prefix.running_actions, task_.snaps[step].action) == 0)
       continue;
     const bool starts = kind == SnapKind::start || kind == SnapKind::instant;

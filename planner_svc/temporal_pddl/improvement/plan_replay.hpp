@@ -12,6 +12,7 @@
 
 namespace roci::planner::temporal_pddl::improvement {
 
+/// Replays plans of one task, which must outlive it.
 class PlanReplay {
  public:
   PlanReplay(const task::Task& task, temporal::Duration epsilon);

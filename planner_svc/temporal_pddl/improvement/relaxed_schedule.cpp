@@ -51,7 +51,7 @@ void RelaxedSchedule::reach(PropositionId proposition, Duration time, SnapId by)
   std::ranges::push_heap(queue_, std::greater{});
 }
 
-// The first time from `ready` on at which windows allow the step; no_bound: none.
+// Returns the first time from `ready` on at which windows allow the step, or no_bound.
 Duration RelaxedSchedule::fit(SnapId op, Duration ready) const {
   if (task_.windows[op].empty()) return ready;
   const TimeWindow* window = window_from(task_.windows[op], ready);
@@ -67,7 +67,7 @@ void RelaxedSchedule::fire(SnapId op, const ReleaseTimes& release_times) {
   for (const PropositionId added : relaxed_.adds(op)) reach(added, time, op);
 }
 
-// In order of time, until a goal is reached: what comes later serves nothing.
+// Goes in order of time, until a goal is reached: what comes later serves nothing.
 void RelaxedSchedule::explore(const EvaluationContext& context) {
   const ReleaseTimes& release_times = *context.release_times;
   facts_.assign(facts_.size(), Fact{});
@@ -155,7 +155,7 @@ Duration RelaxedSchedule::schedule() {
   return finish;
 }
 
-// When its action ends.
+// Places the step after what it needs and when its variables are free. Returns when its action ends.
 Duration RelaxedSchedule::place(SnapId op) {
   const Snap& snap = task_.snaps[op];
   if (snap.kind == SnapKind::timed_literal || snap.kind == SnapKind::derivation) return Duration{0};

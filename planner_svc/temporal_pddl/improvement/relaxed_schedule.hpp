@@ -1,7 +1,7 @@
-// A relaxed plan that is put into a schedule: it tells how soon all can be over.
+// A relaxed schedule is a relaxed plan that is put into a schedule: it tells how soon all can be over.
 //
-// Whatever makes a fact true first makes it true in this plan, given when the plan so far leaves things
-// free. The FF heuristic asks for few actions and so always sends the nearest; this one sends who is free.
+// Whatever makes a fact true first makes it true in this plan, given when the plan so far leaves things free.
+// The FF heuristic asks for few actions and so always sends the nearest; this one sends who is free.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 
 namespace roci::planner::temporal_pddl::improvement {
 
+/// Measures one state after the other. The task must outlive it.
 class RelaxedSchedule {
  public:
   explicit RelaxedSchedule(const task::Task& task);
@@ -62,7 +63,7 @@ class RelaxedSchedule {
   task::IdVector<task::SnapId, bool> in_plan_;
   std::vector<heuristics::PropositionId> to_support_;
   std::vector<task::SnapId> plan_, preferred_;
-  // when each can happen; in the relaxed plan, when it does
+  // Holds when each step can happen; in the relaxed plan, when it does.
   task::IdVector<task::SnapId, temporal::Duration> times_;
   std::vector<temporal::Duration> free_from_;  // by variable of the state
   temporal::Duration limit_ = temporal::no_bound;

@@ -1,5 +1,5 @@
-// Restarts: other first plans, as variations of one plan lead no further than to the best of its kind. Each
-// takes the goals one after the other (GoalSerialization), in another order each time.
+// Restarts make other first plans, as variations of one plan lead no further than to the best of its kind.
+// Each takes the goals one after the other (GoalSerialization), in another order each time.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,10 @@
 
 namespace roci::planner::temporal_pddl::improvement {
 
+/// Makes one restart after the other. All that it is given must outlive it.
 class Restarts {
  public:
-  /// The guide prunes; ff estimates single goals.
+  /// Prepares restarts in which the guide prunes and ff estimates single goals.
   Restarts(const search::SearchContext& context, const search::Guide& guide, heuristics::FfHeuristic& ff);
 
   struct Outcome {

@@ -1,5 +1,5 @@
-// A warm start: a first plan out of what remains of an earlier one, which is taken as far as it goes, and
-// completed.
+// A warm start makes a first plan out of what remains of an earlier one, which is taken as far as it goes,
+// and completed.
 #pragma once
 
 #include <optional>

@@ -63,7 +63,8 @@ class WeightedAStar {
  private:
   BetterPlan found() { return {std::move(successor_.prefix), false, evaluated_}; }
 
-  // Stores and queues the state in successor_, unless it cannot lead to a better plan. True: it is one.
+  // Stores and queues the state in successor_, unless it cannot lead to a better plan. Returns whether it is
+  // one.
   bool take_up(NodeId parent) {
     PlanPrefix& prefix = successor_.prefix;
     const PlanQuality quality = quality_of(task_, prefix, space_.check());
@@ -82,8 +83,8 @@ class WeightedAStar {
     return false;
   }
 
-  // What is done so far, counted as the guide counts what is to come: all durations, those of running actions
-  // at least; or the metric with those in place of the makespan.
+  // Returns what is done so far, counted as the guide counts what is to come: all durations, those of running
+  // actions at least; or the metric with those in place of the makespan.
   std::int64_t committed(const PlanPrefix& prefix, const PlanQuality& quality) const {
     Duration busy = quality.busy;
     for (const ActionId action : prefix.running_actions) busy += task_.actions[action].min_duration;

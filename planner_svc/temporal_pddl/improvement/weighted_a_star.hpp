@@ -10,11 +10,13 @@
 
 namespace roci::planner::temporal_pddl::improvement {
 
+/// Bounds a search for a better plan.
 struct SearchEffort {
   std::int64_t weight = 1;      ///< the weight of the estimate against what is done so far
-  std::size_t evaluations = 0;  ///< how many at most
+  std::size_t evaluations = 0;  ///< bounds how many there are
 };
 
+/// Holds what such a search has found.
 struct BetterPlan {
   std::optional<search::PlanPrefix> plan;
   bool exhausted = false;  ///< whether there is no better plan, but for what limits and cuts may hide

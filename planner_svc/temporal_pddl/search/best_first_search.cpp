@@ -85,7 +85,7 @@ SearchOutcome BestFirstSearch::failed() const {
 }
 
 // Stores the state in successor_ and takes it up, and then what its relaxed plan leads to as long as that is
-// nearer to the goals. True: successor_ is a goal state.
+// nearer to the goals. Returns whether successor_ is a goal state.
 bool BestFirstSearch::reach(NodeId parent) {
   space_.add(parent, successor_);
   if (take_up()) return true;
@@ -101,7 +101,7 @@ bool BestFirstSearch::reach(NodeId parent) {
   return false;
 }
 
-// To a stored state that is new, in successor_.
+// Follows the relaxed plan to a stored state in successor_. Returns whether it is new and no known dead end.
 bool BestFirstSearch::look_ahead(bool careful) {
   if (!lookahead_.follow(successor_.prefix, estimate_.relaxed_plan, careful, ahead_)) return false;
   std::swap(successor_, ahead_);
@@ -110,7 +110,7 @@ bool BestFirstSearch::look_ahead(bool careful) {
          !(dominate_ && dominance_.dominated(successor_));
 }
 
-// Evaluates the stored state in successor_ and queues what can follow. True: it is a goal state.
+// Evaluates the stored state in successor_ and queues what can follow. Returns whether it is a goal state.
 bool BestFirstSearch::take_up() {
   PlanPrefix& prefix = successor_.prefix;
   if (prefix.steps.size() + 2 > kMaxSteps) {

@@ -1,5 +1,5 @@
-// Greedy best-first search with deferred evaluation: a state is evaluated when it is taken up, and its
-// successors wait with its estimate (Helmert 2006, section 6).
+// Greedy best-first search defers evaluation: a state is evaluated when it is taken up, and its successors
+// wait with its estimate (Helmert 2006, section 6).
 #pragma once
 
 #include <cstddef>
@@ -22,14 +22,16 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Says how a best-first search takes its steps.
 struct SearchStyle {
   task::ActionCompression steps = task::ActionCompression::where_safe;
   bool lookahead = false;  ///< whether relaxed plans are followed
 };
 
+/// Searches by estimates; it is complete where it compresses only what is safe.
 class BestFirstSearch final : public ResumableSearch {
  public:
-  /// Keeps `statistics` up to date all the time.
+  /// Prepares the search, which keeps the statistics of the context up to date all the time.
   BestFirstSearch(const SearchContext& context, const Guide& guide, SearchStyle style);
 
   std::optional<SearchOutcome> run(std::size_t evaluations, std::size_t bytes_elsewhere) override;

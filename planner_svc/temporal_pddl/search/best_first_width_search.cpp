@@ -61,7 +61,7 @@ std::optional<SearchOutcome> BestFirstWidthSearch::run(std::size_t evaluations, 
   return std::nullopt;
 }
 
-// True: successor_ is a goal state.
+// Builds and queues the successors of the node. Returns whether successor_ is a goal state.
 bool BestFirstWidthSearch::expand(NodeId node) {
   context_.limits.poll();
   space_.restore(node, prefix_);
@@ -86,7 +86,7 @@ bool BestFirstWidthSearch::expand(NodeId node) {
   return found;
 }
 
-// Queues the state in successor_ if it is new. True: it is a goal state.
+// Queues the state in successor_ if it is new. Returns whether it is a goal state.
 bool BestFirstWidthSearch::reach(NodeId parent) {
   PlanPrefix& prefix = successor_.prefix;
   if (prefix.steps.size() + 2 > kMaxSteps) return false;
@@ -105,7 +105,7 @@ bool BestFirstWidthSearch::reach(NodeId parent) {
   return false;
 }
 
-// Of the state in successor_. None: it is a dead end.
+// Returns the progress of the state in successor_, or nothing for a dead end.
 std::optional<BestFirstWidthSearch::Progress> BestFirstWidthSearch::progress(NodeId parent) {
   Progress result{0, open_goals(successor_.state), 0};
   if (parent.is_none() || result.open_goals < progress_[parent.index()].open_goals) {
@@ -144,7 +144,7 @@ void BestFirstWidthSearch::account(std::size_t work) {
   context_.limits.evaluations(context_.statistics.evaluated);
 }
 
-// Of the alternative with the fewest.
+// Returns the open goals of the alternative that has the fewest.
 std::uint32_t BestFirstWidthSearch::open_goals(StateView state) const {
   std::uint32_t fewest = std::numeric_limits<std::uint32_t>::max();
   for (const Goal& goal : task_.goals) {
@@ -158,7 +158,7 @@ std::uint32_t BestFirstWidthSearch::open_goals(StateView state) const {
   return fewest;
 }
 
-// What the plan in prefix_ has not reached of what its milestone's relaxed plan adds.
+// Marks in missing_ what the milestone's relaxed plan adds and the plan in prefix_ has not reached.
 void BestFirstWidthSearch::look_back() {
   const Milestone& milestone = milestones_[progress_[prefix_.node.index()].milestone];
   for (const FactId fact : milestone.wanted) missing_[fact] = true;
@@ -167,7 +167,7 @@ void BestFirstWidthSearch::look_back() {
   }
 }
 
-// By the last steps of successor_.
+// Returns how many facts of missing_ the last steps of successor_ reach.
 std::uint32_t BestFirstWidthSearch::newly_reached() {
   news_.clear();
   for (std::size_t i = prefix_.steps.size(); i < successor_.prefix.steps.size(); ++i) {
@@ -193,7 +193,8 @@ void BestFirstWidthSearch::list_facts(StateView state, std::span<const ActionId>
     facts.push_back(static_cast<std::uint32_t>(task_.fact_names.size() + action.index()));
 }
 
-// Of the state in successor_.
+// Returns the novelty of the state in successor_ among those with the same progress, and notes the state as
+// seen.
 int BestFirstWidthSearch::novelty(const Progress& progress, NodeId parent) {
   list_facts(successor_.state, successor_.prefix.running_actions, successor_facts_);
   const bool same_kind = !parent.is_none() && progress_[parent.index()].open_goals == progress.open_goals &&

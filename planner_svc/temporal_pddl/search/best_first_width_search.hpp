@@ -1,9 +1,10 @@
-// Best-first width search (Lipovetzky and Geffner 2017, BFWS(f5)): first the states that are newest among
-// those with as many goals open and as much reached of a relaxed plan; among equally new ones those with the
-// fewest goals open. Where no fact and no pair of facts is new, a state is left out; so the search ends.
+// Best-first width search (Lipovetzky and Geffner 2017, BFWS(f5)) takes first the states that are newest
+// among those with as many goals open and as much reached of a relaxed plan; among equally new ones it takes
+// those with the fewest goals open. Where no fact and no pair of facts is new, a state is left out; so the
+// search ends.
 //
-// A relaxed plan is asked for only where more goals hold than before; every other state costs some ten
-// microseconds. So it gets over plateaus, and out of corners, where estimates lead nowhere.
+// A relaxed plan is asked for only where more goals hold than before, and every other state is cheap. So the
+// search gets over plateaus, and out of corners, where estimates lead nowhere.
 #pragma once
 
 #include <cstddef>
@@ -25,9 +26,10 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Searches by novelty; it is not complete.
 class BestFirstWidthSearch final : public ResumableSearch {
  public:
-  /// Keeps `statistics` up to date all the time.
+  /// Prepares the search, which keeps the statistics of the context up to date all the time.
   BestFirstWidthSearch(const SearchContext& context, const Guide& guide, task::ActionCompression compression);
 
   /// Counts a number of states as one evaluation. The search ends without a plan where nothing is new any
@@ -37,7 +39,7 @@ class BestFirstWidthSearch final : public ResumableSearch {
   std::size_t bytes() const override;
 
  private:
-  // Where more goals held than before.
+  // Is a state in which more goals held than before.
   struct Milestone {
     std::size_t steps = 0;             // of the plan to it
     std::vector<task::FactId> wanted;  // what its relaxed plan adds
@@ -77,7 +79,7 @@ class BestFirstWidthSearch final : public ResumableSearch {
   std::mt19937_64 random_;
   std::size_t work_ = 0;  // in states
 
-  // Of the state that is expanded.
+  // These belong to the state that is expanded.
   PlanPrefix prefix_;
   std::vector<task::SnapId> candidates_;
   task::IdVector<task::FactId, bool> missing_;  // wanted by its milestone and not reached since

@@ -17,7 +17,7 @@ namespace {
 
 Duration plus(Duration time, Duration more) { return time == kNoPath ? kNoPath : time + more; }
 
-// Positions in prefix.running, ascending by action.
+// Returns the positions in prefix.running, ascending by action.
 std::vector<std::size_t> by_action(const PlanPrefix& prefix) {
   std::vector<std::size_t> order(prefix.running.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -53,7 +53,7 @@ std::uint32_t Dominance::hash(StateView state, const PlanPrefix& prefix) const {
   return prefix.running.empty() ? result | 1u : result & ~1u;
 }
 
-// Equal facts, and numbers that are equal or better.
+// Returns whether the facts are equal, and the numbers equal or better.
 bool Dominance::as_good(StateView stored, StateView fresh) const {
   const std::size_t packed = stored.size() - preferences_.size();
   if (!std::ranges::equal(stored.first(packed), fresh.first(packed))) return false;
@@ -111,7 +111,8 @@ void Dominance::place(Slot slot) {
   slots_[at] = slot;
 }
 
-// The caller clears position_ again.
+// Appends the variables that the plan touches and notes their places in position_, which the caller clears
+// again.
 void Dominance::find_touched(const PlanPrefix& prefix, std::vector<VariableId>& touched) {
   const auto touch = [&](std::span<const VariableId> variables) {
     for (const VariableId variable : variables) {

@@ -1,13 +1,13 @@
-// Prunes a state if an equal one is stored whose plan leaves at least as much freedom in time.
+// Dominance prunes a state if an equal one is stored whose plan leaves at least as much freedom in time.
 //
-// Goes beyond R26 (Stellar keeps all duplicates) without losing a solution. What a plan's network means for
-// the steps to come is only: how early each variable may be read, changed, or deleted under an invariant; and
-// how the starts of running actions lie to these points, to each other, and to their latest times, since a
-// future end is tied to its start from both sides. If in the stored plan all longest paths from the origin
+// It goes beyond R26 (Stellar keeps all duplicates) without losing a solution. What a plan's network means
+// for the steps to come is only: how early each variable may be read, changed, or deleted under an invariant;
+// and how the starts of running actions lie to these points, to each other, and to their latest times, since
+// a future end is tied to its start from both sides. If in the stored plan all longest paths from the origin
 // and from each running start to these points are at most those of the new plan, and the latest times of the
 // running starts at least those of the new plan, then every schedule of a continuation of the new plan is one
-// of the same continuation of the stored plan. "Equal" means: the same packed state and numbers, the same
-// running actions, as many timed literals.
+// of the same continuation of the stored plan. States are equal if they have the same packed state and
+// numbers, the same running actions and as many timed literals.
 //
 // Where it does not matter when a plan happens as a whole, the origin is no source; and if nothing runs
 // either, no time matters and equal states are enough.
@@ -24,10 +24,11 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Remembers plans and says of a new one whether it is dominated. All that it is given must outlive it.
 class Dominance {
  public:
-  /// With `end_counts` the time of the last step matters, because plans have deadlines or shorter ones are
-  /// wanted; with `metric_counts` so do the numbers of the metric.
+  /// Prepares an empty set of plans. With `end_counts` the time of the last step matters, because plans have
+  /// deadlines or shorter ones are wanted; with `metric_counts` so do the numbers of the metric.
   Dominance(const task::Task& task, const StateStore& store, const constraints::BoundTable& bounds,
             TemporalCheck& check, temporal::Duration epsilon, bool end_counts, bool metric_counts = false);
 
@@ -49,7 +50,7 @@ class Dominance {
     NodeId node;
     std::uint32_t hash = 0;
   };
-  // How soon after a source a variable is free: longest paths in microseconds.
+  // Tells how soon after a source a variable is free, as longest paths in microseconds.
   struct Release {
     temporal::Duration read = constraints::kNoPath;    // for conditions: after the last change
     temporal::Duration change = constraints::kNoPath;  // for adding: also after the last readers
@@ -59,7 +60,7 @@ class Dominance {
   struct Profile {
     std::vector<task::VariableId> touched;
     std::vector<std::vector<Release>> releases;  // by source, by position in touched
-    // by source: longest paths to the running starts (and the last step)
+    // Holds by source the longest paths to the running starts (and the last step).
     std::vector<std::vector<temporal::Duration>> starts;
     std::vector<temporal::Duration> latest;  // of the running starts
   };
@@ -87,7 +88,7 @@ class Dominance {
   task::IdVector<task::NumberId, task::NumericDominance> preferences_;
   std::vector<Slot> slots_;  // open addressing, a power of two; none: free
   std::size_t size_ = 0;
-  // in `touched` of the profile at hand, else kAbsent
+  // Holds the position in `touched` of the profile at hand, else kAbsent.
   task::IdVector<task::VariableId, std::uint32_t> position_;
   PlanPrefix other_;
 };

@@ -1,4 +1,4 @@
-// Asks a guide about a successor: it puts together what a heuristic may look at.
+// This class asks a guide about a successor: it puts together what a heuristic may look at.
 #pragma once
 
 #include <vector>
@@ -10,6 +10,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Asks a guide about one successor after the other and keeps its memory in between.
 class Evaluation {
  public:
   explicit Evaluation(const task::Task& task) : absolute_(task.has_absolute_times()), release_times_(task) {}

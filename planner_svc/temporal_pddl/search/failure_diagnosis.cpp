@@ -12,7 +12,7 @@ using task::ActionId, task::Comparator, task::FactId, task::Goal, task::IdVector
 
 namespace {
 
-// "(battery) >= 30", its sum without the constant on the left.
+// Is a comparison as in "(battery) >= 30", its sum without the constant on the left.
 struct Inequality {
   LinearExpression left;
   const char* relation = ">=";
@@ -88,7 +88,8 @@ class FailureDiagnosis {
     }
   }
 
-  // A comparison of the action that no state meets; else its facts that no state has are asked for.
+  // Returns a comparison of the action that no state meets; else it asks for the action's facts that no state
+  // has.
   std::optional<std::string> blocked(SnapId snap) {
     const ActionId action = task_.snaps[snap].action;
     if (action.is_none()) {
@@ -105,7 +106,7 @@ class FailureDiagnosis {
     return std::nullopt;
   }
 
-  // The comparison and how near the states came, if none meets it.
+  // Returns the comparison and how near the states came, if none meets it.
   std::optional<std::string> unmet(const NumericCondition& condition) const {
     const LinearExpression& expression = task_.expressions[condition.expression];
     if (expression.duration_weight != 0 || expression.terms.empty()) return std::nullopt;

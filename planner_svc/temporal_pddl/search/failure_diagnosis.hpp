@@ -1,4 +1,4 @@
-// The diagnosis of a search that tried everything in vain: which numbers stood in the way.
+// The diagnosis of a search that tried everything in vain says which numbers stood in the way.
 #pragma once
 
 #include <string>

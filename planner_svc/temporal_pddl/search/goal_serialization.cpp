@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t kMaxSubgoals = 8;  // from one state
 constexpr int kPatience = 4;             // plans that are followed although their goal comes no nearer
 
-// Of one variable: can they not both hold? What negations are of is not known here: they err on the safe
-// side.
+// Returns whether two facts of one variable cannot both hold. What negations are of is not known here: they
+// count as consistent.
 bool inconsistent(const StateLayout& layout, FactId a, FactId b) {
   return a != b && !layout.is_negation(a) && !layout.is_negation(b);
 }
@@ -53,7 +53,7 @@ std::optional<SearchOutcome> GoalSerialization::run(std::size_t evaluations, std
   return std::nullopt;
 }
 
-// True: nothing is to be done.
+// Sets out from the initial state. Returns whether nothing is to be done.
 bool GoalSerialization::begin() {
   state_.state = task_.initial_state;
   space_.add(NodeId(), state_);
@@ -62,7 +62,7 @@ bool GoalSerialization::begin() {
   return false;
 }
 
-// Of the subgoal at hand, once.
+// Follows the relaxed plan of the subgoal at hand once.
 GoalSerialization::Step GoalSerialization::follow() {
   context_.limits.poll();
   if (!lookahead_.follow(state_.prefix, plan_, false, next_)) return Step::in_vain;
@@ -88,7 +88,8 @@ bool GoalSerialization::look_at() {
   return ff_.look_at(evaluation_.context_of(state_));
 }
 
-// Of the state at hand, which has been looked at. True: it is the best so far, and its subgoals are next.
+// Surveys the state at hand, which has been looked at. Returns whether it is the best so far; its subgoals
+// are next then.
 bool GoalSerialization::survey() {
   undone_.assign(goals_.size(), false);
   std::vector<Subgoal> subgoals;
@@ -117,7 +118,7 @@ bool GoalSerialization::survey() {
   return true;
 }
 
-// Goals that the relaxed plan of another one undoes or needs undone.
+// Marks goals that the relaxed plan of another one undoes or needs undone.
 void GoalSerialization::mark_undone(std::span<const SnapId> plan, std::size_t goal) {
   const auto mark = [&](FactId fact, bool deleted) {
     for (const std::uint32_t i : goals_of_[task_.layout.variable_of(fact)]) {

@@ -1,4 +1,4 @@
-// Goal serialization: one goal after the other is reached and kept.
+// Goal serialization reaches and keeps one goal after the other.
 //
 // From the best state so far, the relaxed plan of a single goal is followed, again and again, until the goal
 // holds; then that of the next goal, and never back (in the manner of PROBE, Lipovetzky and Geffner 2011). A
@@ -25,6 +25,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Searches goal by goal; it is not complete.
 class GoalSerialization final : public ResumableSearch {
  public:
   GoalSerialization(const SearchContext& context, const Guide& guide, heuristics::FfHeuristic& ff,
@@ -66,7 +67,7 @@ class GoalSerialization final : public ResumableSearch {
   std::size_t kept_ = 0;           // goals in it
   std::vector<Subgoal> subgoals_;  // from it, the most promising first
 
-  // The one at hand.
+  // These belong to the subgoal at hand.
   std::size_t subgoal_ = 0;
   Successor state_, next_;
   std::vector<task::SnapId> plan_;

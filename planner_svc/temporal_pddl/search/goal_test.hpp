@@ -1,4 +1,4 @@
-// Whether a plan is complete: the goals hold and nothing runs (R12).
+// The goal test tells whether a plan is complete: the goals hold and nothing runs (R12).
 //
 // Goals must hold after the last start or end of an action; what timed literals do to them later does not
 // count. So if one still to come would undo them, the whole plan must be over before; and if one that has
@@ -16,6 +16,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Tests plans of one task. All that it is given must outlive it.
 class GoalTest {
  public:
   GoalTest(const task::Task& task, TemporalCheck& check, temporal::Duration epsilon);
@@ -34,9 +35,9 @@ class GoalTest {
 
  private:
   void note_held(task::StateView state);
-  // By when all steps must have happened, no_bound if there is no such time.
+  // Returns by when all steps must have happened, or no_bound if there is no such time.
   temporal::Duration deadline(task::StateView state, std::uint32_t timed_done) const;
-  // The time of the last timed literal so far that may have made a goal true.
+  // Returns the time of the last timed literal so far that may have made a goal true.
   temporal::Duration opening(std::uint32_t timed_done) const;
   bool close(PlanPrefix& prefix);
 

@@ -1,10 +1,11 @@
-// The finalizer of MurmurHash3: every bit of the result hangs on every bit of the argument.
+// This is the finalizer of MurmurHash3: every bit of the result hangs on every bit of the argument.
 #pragma once
 
 #include <cstdint>
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Returns the mixed bits; different arguments have different results.
 constexpr std::uint64_t mix(std::uint64_t h) {
   h ^= h >> 33;
   h *= 0xff51afd7ed558ccdull;

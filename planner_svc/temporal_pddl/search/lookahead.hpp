@@ -10,6 +10,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Follows relaxed plans in one state space. All that it is given must outlive it.
 class Lookahead {
  public:
   Lookahead(const task::Task& task, StateSpace& space)

@@ -1,5 +1,6 @@
-// How new a state is: of how many of its facts no state with so low an estimate has been seen before (Katz,
-// Lipovetzky, Moshkovich and Tuisov 2017). Novelty leads out of where an estimate does not fall any more.
+// Novelty tells how new a state is: of how many of its facts no state with so low an estimate has been seen
+// before (Katz, Lipovetzky, Moshkovich and Tuisov 2017). It leads out of where an estimate does not fall any
+// more.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Remembers for each fact the lowest estimate with which it was seen. The task must outlive it.
 class Novelty {
  public:
   explicit Novelty(const task::Task& task)

@@ -62,7 +62,7 @@ std::optional<OpenEntry> OpenList::pop() {
   }
 }
 
-// None: it has been tried from another queue.
+// Takes the next entry of the queue. Returns nothing if it has been tried from another queue.
 std::optional<OpenEntry> OpenList::serve(Queue& queue) {
   ++queue.served;
   const bool oldest = queue.order == Order::oldest || (queue.served / kStreak) % 2 == 0;
@@ -94,7 +94,7 @@ void OpenList::boost() {
   }
 }
 
-// With the allocator's share.
+// Returns the bytes of the list, with the allocator's share.
 std::size_t OpenList::bytes(const Successors& successors) {
   return successors.size * sizeof(Successor) + 2 * sizeof(void*);
 }

@@ -14,7 +14,7 @@ constexpr std::size_t kMostWords = std::size_t{1} << 20;
 
 }  // namespace
 
-// About 32 bits for each pair, for as many kinds.
+// Reserves about 32 bits for each pair, so that there is room for as many kinds.
 PairNovelty::PairNovelty(std::size_t facts)
     : bits_(std::bit_ceil(std::clamp(facts * facts / 4, kFewestWords, kMostWords))) {}
 

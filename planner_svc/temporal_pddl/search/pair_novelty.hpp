@@ -1,5 +1,5 @@
-// How new a state is among those of its kind: has one of its facts, or a pair of them, not been seen before?
-// (Lipovetzky and Geffner 2012.)
+// Pair novelty tells how new a state is among those of its kind: whether one of its facts, or a pair of them,
+// has not been seen before (Lipovetzky and Geffner 2012).
 //
 // Pairs are remembered in a bounded number of bits, by hash, so that some count as seen that have not been
 // (Singh, Lipovetzky, Ramirez and Segovia-Aguas 2021).
@@ -12,6 +12,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Remembers facts and pairs of facts by kind of state, in a fixed number of bytes.
 class PairNovelty {
  public:
   static constexpr int kNothingNew = 3;

@@ -1,4 +1,4 @@
-// The prefix of a plan that leads to a stored state, rebuilt by walking back to the root (R27).
+// The prefix of a plan leads to a stored state; it is rebuilt by walking back to the root (R27).
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,14 @@
 
 namespace roci::planner::temporal_pddl::search {
 
-/// An action that has started and not ended.
+/// Is an action that has started and not ended.
 struct Running {
   task::ActionId action;
   std::uint32_t step = 0;  ///< the step of its start
   NodeId before;           ///< the state in which it started
 };
 
+/// Is a plan up to a stored state, with its temporal constraints.
 struct PlanPrefix {
   NodeId node;
   std::vector<task::SnapId> steps;
@@ -25,12 +26,12 @@ struct PlanPrefix {
   std::vector<std::uint32_t> start_of;
   std::vector<constraints::StepConstraint> constraints;  ///< the constraints between steps
   std::vector<Running> running;                          ///< the running actions in order of their starts
-  std::vector<task::ActionId> running_actions;           ///< the same
+  std::vector<task::ActionId> running_actions;           ///< names the actions of `running`, in its order
   /// No step may be later than this; it is set for complete plans, see GoalTest.
   temporal::Duration deadline = temporal::no_bound;
   temporal::Duration closing_time{0};  ///< `closing_step` may be no earlier than this; set likewise
   std::uint32_t closing_step = 0;
-  std::uint32_t timed_done = 0;  ///< how many timed literals are among the steps
+  std::uint32_t timed_done = 0;  ///< counts the timed literals among the steps
 };
 
 /// Refills `prefix`, keeping its memory.

@@ -23,15 +23,15 @@ namespace {
 constexpr std::size_t kTurn = 250;    // evaluations
 constexpr std::size_t kOpening = 50;  // before the first turn; easy tasks need no more
 
-// How often turns come. What follows relaxed plans solves most tasks, and of these most with compressed
-// actions; best-first width search solves what those do not solve.
+// The shares say how often turns come. What follows relaxed plans solves most tasks, and of these most with
+// compressed actions; best-first width search solves what those do not solve.
 constexpr std::size_t kFirstShare = 4;
 constexpr std::size_t kLookaheadShare = 2;
 constexpr std::size_t kWidthShare = 3;
 constexpr std::size_t kStepByStepShare = 1;
 constexpr std::size_t kSerializationShare = 1;
 
-// Does it make a difference whether actions are taken whole?
+// Returns whether it makes a difference that actions are taken whole.
 bool splits_actions(const Task& task) {
   return std::ranges::any_of(
       task.actions, [](const Action& action) { return !action.instantaneous() && !action.compression_safe; });
@@ -55,7 +55,7 @@ enum class MemberName {
   goal_serialization,
 };
 
-// A search that takes turns with others; it is set up when its first turn comes.
+// Is a search that takes turns with others; it is set up when its first turn comes.
 struct Member {
   MemberName name;
   std::size_t share;

@@ -1,4 +1,4 @@
-// From a task to a first plan: a portfolio of searches that take turns.
+// A portfolio of searches that take turns leads from a task to a first plan.
 //
 // No way of searching is good for all tasks. So members with names of their own take turns of a fixed number
 // of evaluations, some more often: in the manner of sequential portfolios (Helmert, Röger and Karpas 2011)

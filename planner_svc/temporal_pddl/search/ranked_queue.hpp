@@ -1,5 +1,5 @@
-// A queue of items by rank, the best first; among equally good ones both the oldest and the youngest are at
-// hand.
+// A ranked queue holds items by rank, the best first; among equally good ones both the oldest and the
+// youngest are at hand.
 #pragma once
 
 #include <compare>
@@ -10,7 +10,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
-/// A rank; lower is better.
+/// Is a rank; lower is better.
 struct Priority {
   std::int64_t first = 0;
   std::int64_t second = 0;
@@ -60,7 +60,7 @@ class RankedQueue {
     Item item;
     std::uint32_t older, younger;  // of the same rank, or the next unused link
   };
-  // With the map's own pointers and the allocator's share.
+  // Counts the map's own pointers and the allocator's share too.
   static constexpr std::size_t kChainBytes = sizeof(std::pair<const Priority, Chain>) + 5 * sizeof(void*);
 
   std::uint32_t make_link(const Link& link) {

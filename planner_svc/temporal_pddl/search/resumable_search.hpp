@@ -1,4 +1,4 @@
-// A search that goes on where it stopped, so that several can take turns.
+// A resumable search goes on where it stopped, so that several can take turns.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +11,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Holds how a search has ended: with a plan, or with the reason why there is none.
 struct SearchOutcome {
   std::optional<PlanPrefix> plan;            ///< is none if there is no plan
   std::vector<task::Word> final_state;       ///< the state after the last step of the plan
@@ -18,6 +19,7 @@ struct SearchOutcome {
   std::vector<call::BlockedFact> blocked{};  ///< which facts of the goals did, as far as is known
 };
 
+/// Is the interface of the members of the portfolio.
 class ResumableSearch {
  public:
   virtual ~ResumableSearch() = default;

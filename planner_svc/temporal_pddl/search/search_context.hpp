@@ -1,4 +1,4 @@
-// What the search loops of a planning call share.
+// The search context holds what the search loops of a planning call share.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace roci::planner::temporal_pddl::search {
 
-/// The task and the terms of the call. All of it must outlive the searches; these keep the statistics up to
-/// date all the time and report to the limits.
+/// Holds the task and the terms of the call. All of it must outlive the searches; these keep the statistics
+/// up to date all the time and report to the limits.
 struct SearchContext {
   const task::Task& task;
   const call::Options& options;
@@ -22,8 +22,8 @@ struct SearchContext {
   call::Statistics& statistics;
 };
 
-/// What leads a search: a heuristic with what its estimates count, and the detectors of dead ends that prune
-/// for it.
+/// Holds what leads a search: a heuristic with what its estimates count, and the detectors of dead ends that
+/// prune for it.
 struct Guide {
   heuristics::Heuristic& heuristic;
   dead_ends::DeadEndDetectors& detectors;

@@ -1,5 +1,5 @@
-// The states that a search has stored, and how it gets from one to the next: what every search over plans
-// shares, whatever its order of expansion.
+// The state space holds the states that a search has stored and leads from one to the next; every search over
+// plans shares it, whatever its order of expansion.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Stores states and builds their successors, for one search. The task must outlive it.
 class StateSpace {
  public:
   StateSpace(const task::Task& task, temporal::Duration epsilon, task::ActionCompression steps)

@@ -1,5 +1,5 @@
-// The states that the search has stored: packed state, parent, operator, and the few constraints of the last
-// steps.
+// The state store holds the states that the search has stored: packed state, parent, operator, and the few
+// constraints of the last steps.
 #pragma once
 
 #include <cstdint>

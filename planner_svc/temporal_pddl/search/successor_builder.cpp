@@ -50,7 +50,8 @@ Rejection SuccessorBuilder::build(const PlanPrefix& prefix, SnapId snap, Success
   return Rejection::none;
 }
 
-// Does the compressed action's longest duration suffice for what keeps its start and its end apart?
+// Returns whether the compressed action's longest duration suffices for what keeps its start and its end
+// apart.
 bool SuccessorBuilder::long_enough(const Successor& successor) {
   const auto fresh = std::span(successor.prefix.constraints).last(successor.new_constraints);
   Duration least{0}, most = no_bound;
@@ -90,7 +91,8 @@ bool SuccessorBuilder::extend(const PlanPrefix& prefix, SnapId snap_id, Successo
   return possible;
 }
 
-// One step: orderings, effects, invariants of what runs then.
+// Takes one step: adds its orderings, applies its effects, and returns whether the invariants of what runs
+// then hold.
 bool SuccessorBuilder::take(SnapId snap, double seconds, Successor& successor) {
   PlanPrefix& prefix = successor.prefix;
   orderings_.add(prefix.steps, snap, prefix.running_actions, prefix.constraints);

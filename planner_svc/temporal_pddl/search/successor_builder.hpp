@@ -1,4 +1,4 @@
-// From a state and a snap action to the next state, if there is one.
+// The successor builder leads from a state and a snap action to the next state, if there is one.
 #pragma once
 
 #include <optional>
@@ -15,15 +15,17 @@ namespace roci::planner::temporal_pddl::search {
 
 enum class Rejection { none, logical, temporal };
 
+/// Is a state that has been built and may be stored.
 struct Successor {
   Transition transition;
   std::vector<task::Word> state;
   PlanPrefix prefix;  ///< is that of the new state; its node is not set
   /// Holds the earliest times of the steps of the prefix, if build() has scheduled them.
   std::vector<temporal::Duration> times;
-  std::size_t new_constraints = 0;  ///< how many of prefix.constraints the transition added, at their end
+  std::size_t new_constraints = 0;  ///< counts the prefix.constraints that the transition added, at their end
 };
 
+/// Builds successors of stored states. All that it is given must outlive it.
 class SuccessorBuilder {
  public:
   SuccessorBuilder(const task::Task& task, const StateStore& store, TemporalCheck& check,
@@ -44,8 +46,8 @@ class SuccessorBuilder {
   /// and only the order of things matters, the new steps can be late enough for everything, and nothing is
   /// scheduled.
   Rejection build(const PlanPrefix& prefix, task::SnapId snap, Successor& successor);
-  /// Does as build(), but does not ask whether the plan can be scheduled. Returns false if an invariant
-  /// breaks, or no duration is possible.
+  /// Builds the state likewise, but does not ask whether the plan can be scheduled. Returns false if an
+  /// invariant breaks, or no duration is possible.
   bool extend(const PlanPrefix& prefix, task::SnapId snap, Successor& successor);
 
  private:

@@ -41,7 +41,7 @@ SuccessorGenerator::SuccessorGenerator(const Task& task) : task_(task), nodes_(1
   root_ = build(candidates, 0);
 }
 
-// The candidates agree on their first `depth` tests, and are sorted.
+// Builds the tree below a node; the candidates agree on their first `depth` tests, and are sorted.
 std::uint32_t SuccessorGenerator::build(std::span<Candidate> candidates, std::size_t depth) {
   if (candidates.empty()) return 0;
   const auto index = static_cast<std::uint32_t>(nodes_.size());

@@ -9,6 +9,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Holds the decision tree of one task, which does not change.
 class SuccessorGenerator {
  public:
   /// Holds starts and plain actions; ends and timed literals are found from the plan.

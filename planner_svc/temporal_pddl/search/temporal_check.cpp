@@ -11,7 +11,7 @@ using temporal::Duration, temporal::no_bound;
 
 namespace {
 
-// Moves `time` into the first window that is not over; false if all are.
+// Moves `time` into the first window that is not over. Returns false if all are.
 bool fit(std::span<const TimeWindow> windows, Duration& time, bool& changed) {
   const TimeWindow* window = window_from(windows, time);
   if (!window) return false;

@@ -1,9 +1,9 @@
-// Whether the steps of a plan can be scheduled (R25, R31), and when.
+// The temporal check tells whether the steps of a plan can be scheduled (R25, R31), and when.
 //
-// Beside the constraints of the network, a step may have to lie in one of several windows, and an action as
-// a whole in one of several. Whatever satisfies these at given times, also does so at the earlier of the
-// times of two schedules, for each step; hence there is a least schedule, found by raising times until
-// nothing is violated: a step that has missed a window moves to the next one.
+// Beside the constraints of the network, a step may have to lie in one of several windows, and an action as a
+// whole in one of several. Whatever satisfies these at given times, also does so at the earlier of the times
+// of two schedules, for each step; hence there is a least schedule, found by raising times until nothing is
+// violated: a step that has missed a window moves to the next one.
 #pragma once
 
 #include <vector>
@@ -15,6 +15,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Checks one plan after the other and keeps its memory in between. The task must outlive it.
 class TemporalCheck {
  public:
   TemporalCheck(const task::Task& task, temporal::Duration epsilon);
@@ -37,7 +38,7 @@ class TemporalCheck {
   static constraints::LongestPathStn network(const PlanPrefix& prefix);
 
  private:
-  // The ends of the running actions as further points. One that deletes an invariant of another running
+  // Adds the ends of the running actions as further points. One that deletes an invariant of another running
   // action comes no sooner than that one's, and after what has needed the fact: so what cannot end in time
   // for that is found out at once.
   void look_ahead(const PlanPrefix& prefix);

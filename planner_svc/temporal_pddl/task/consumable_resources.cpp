@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kNoFloor = -std::numeric_limits<double>::infinity();
 
-// constant + slope · ?duration
+// Is the amount constant + slope · ?duration.
 struct Amount {
   double constant = 0;
   double slope = 0;
@@ -44,7 +44,8 @@ class Candidate {
   }
 
  private:
-  // None: it sets the number, or what it takes depends on other numbers.
+  // Returns what the step takes of the number, or nothing if it sets the number or takes what depends on
+  // other numbers.
   std::optional<Amount> taken_by(SnapId snap) const {
     Amount result;
     for (const NumericEffect& effect : task_.numeric_effects[snap]) {
@@ -73,7 +74,7 @@ class Candidate {
     return result;
   }
 
-  // The least value that the strongest of the conditions leaves after `amount` is taken.
+  // Returns the least value that the strongest of the conditions leaves after `amount` is taken.
   double floor_of(std::span<const NumericCondition> conditions, const Amount& amount, SnapId snap) const {
     double result = kNoFloor;
     for (const NumericCondition& condition : conditions) {

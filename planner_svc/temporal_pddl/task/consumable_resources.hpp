@@ -1,5 +1,5 @@
-// Numbers that plans can only use up, and how much of each they may use: energy that nothing restores, a
-// tank, a ceiling of cost.
+// A consumable resource is a number that plans can only use up, with the amount of it that each may use:
+// energy that nothing restores, a tank, a ceiling of cost.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ struct ConsumableResource {
   NumberId number;
   double sign = 1;                 ///< −1 where the number rises and must not rise above −floor
   double floor = 0;                ///< the least allowed value of sign · number
-  IdVector<SnapId, double> taken;  ///< what each snap action takes at least
+  IdVector<SnapId, double> taken;  ///< is what each snap action takes at least
 
   /// Returns what is left to be taken in a state.
   double left(const Task& task, StateView state) const {
@@ -23,6 +23,7 @@ struct ConsumableResource {
   }
 };
 
+/// Returns all consumable resources of the task.
 std::vector<ConsumableResource> find_consumable_resources(const Task& task);
 
 }  // namespace roci::planner::temporal_pddl::task

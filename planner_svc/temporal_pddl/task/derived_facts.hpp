@@ -1,4 +1,5 @@
-// Derived facts of a state: the least fixed point of their rules, layer by layer (PDDL 2.2, section 3).
+// The derived facts of a state are the least fixed point of their rules, layer by layer (PDDL 2.2, section
+// 3).
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 
 namespace roci::planner::temporal_pddl::task {
 
+/// Makes the head true wherever its conditions and comparisons hold.
 struct DerivationRule {
   FactId head;
   int layer = 0;
@@ -19,6 +21,7 @@ struct DerivationRule {
   std::vector<NumericCondition> comparisons;
 };
 
+/// Holds the rules of a task and sets the derived facts of its states.
 class DerivedFacts {
  public:
   DerivedFacts() = default;

@@ -1,4 +1,5 @@
-// Many short lists in two vectors, without an allocation and a pointer per list (compressed rows).
+// FlatLists keeps many short lists in two vectors, without an allocation and a pointer per list (compressed
+// rows).
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Strong integer ids: each kind of thing has an index type of its own, which indexes vectors and nothing
+// Ids are strong integers: each kind of thing has an index type of its own, which indexes vectors and nothing
 // else.
 #pragma once
 
@@ -11,6 +11,7 @@
 
 namespace roci::planner::temporal_pddl::task {
 
+/// Is an index that only serves things of one kind; one that is made without a value is none.
 template <typename Tag>
 struct Id {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -35,7 +36,7 @@ using SchemaId = Id<struct SchemaTag>;          // an action of the domain
 using ActionId = Id<struct ActionTag>;          // a ground action
 using SnapId = Id<struct SnapTag>;              // a start, end, instantaneous action or timed literal
 
-/// A vector that only the right kind of id can index.
+/// Is a vector that only the right kind of id can index.
 template <typename IdType, typename T>
 class IdVector {
  public:

@@ -1,4 +1,4 @@
-// Linear expressions over numeric state variables, and the conditions and effects made of them (R3, R4).
+// Numeric conditions and effects are made of linear expressions over numeric state variables (R3, R4).
 #pragma once
 
 #include <bit>
@@ -29,6 +29,7 @@ struct LinearExpression {
   auto operator<=>(const LinearExpression&) const = default;
 };
 
+/// These return a + b and factor · a, in the form above.
 LinearExpression sum(const LinearExpression& a, const LinearExpression& b);
 LinearExpression scaled(const LinearExpression& a, double factor);
 
@@ -49,9 +50,10 @@ class NumbersView {
 /// has none yet.
 double evaluate(const LinearExpression& expression, NumbersView values, double duration);
 
-/// How an expression is compared with 0.
+/// Tells how an expression is compared with 0.
 enum class Comparator : std::uint8_t { greater_equal, greater, equal };
 
+/// Compares an expression with 0.
 struct NumericCondition {
   ExpressionId expression;
   Comparator comparator = Comparator::greater_equal;

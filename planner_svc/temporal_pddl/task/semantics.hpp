@@ -1,4 +1,4 @@
-// What a snap action asks of a state and does to it.
+// The semantics says what a snap action asks of a state and does to it.
 #pragma once
 
 #include <optional>
@@ -7,12 +7,14 @@
 
 namespace roci::planner::temporal_pddl::task {
 
+/// Bounds the duration of an action in one state.
 struct DurationBounds {
   temporal::Duration min{0};
   temporal::Duration max = temporal::no_bound;
   double seconds = 0;  ///< the exact ?duration where it is fixed, else the least one
 };
 
+/// Applies snap actions to states of one task, which must outlive it.
 class Semantics {
  public:
   explicit Semantics(const Task& task) : task_(task) {}

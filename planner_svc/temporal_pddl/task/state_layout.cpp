@@ -14,7 +14,7 @@ std::uint32_t bits_needed(std::size_t facts) { return static_cast<std::uint32_t>
 
 }  // namespace
 
-// Widest variables first, each into the first word with room for it.
+// The widest variables come first, each in the first word with room for it.
 StateLayout::StateLayout(std::vector<std::vector<FactId>> variables,
                          const IdVector<FactId, FactId>& negation_of, std::size_t numbers)
     : places_(negation_of.size()), numbers_(numbers) {

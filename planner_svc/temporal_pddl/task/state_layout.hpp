@@ -1,4 +1,5 @@
-// How a state lies in memory (R9): finite-domain variables bit-packed into 64-bit words, numbers behind them.
+// A state lies in memory as finite-domain variables, bit-packed into 64-bit words, with the numbers behind
+// them (R9).
 //
 // A variable is a set of facts of which at most one holds at a time; with its value 0, none of them does. A
 // fact that is the negation of another needs no bits of its own.
@@ -18,6 +19,7 @@ namespace roci::planner::temporal_pddl::task {
 using StateView = std::span<const Word>;
 using MutableState = std::span<Word>;
 
+/// Reads and writes the facts and numbers of packed states.
 class StateLayout {
  public:
   struct Variable {
@@ -33,7 +35,7 @@ class StateLayout {
   StateLayout(std::vector<std::vector<FactId>> variables, const IdVector<FactId, FactId>& negation_of,
               std::size_t numbers);
 
-  /// The words of one state, its numbers included.
+  /// Returns the words of one state, its numbers included.
   std::size_t words() const { return number_offset_ + numbers_; }
   std::size_t packed_bits() const { return packed_bits_; }  ///< Σ ⌈log2(facts + 1)⌉
   std::span<const Variable> variables() const { return variables_; }

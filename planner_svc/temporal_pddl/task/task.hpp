@@ -1,4 +1,4 @@
-// The ground planning task: ⟨P, V, A, I, TILs, G⟩ of Stellar section 2.1 as flat, immutable tables.
+// The ground planning task is ⟨P, V, A, I, TILs, G⟩ of Stellar section 2.1 as flat, immutable tables.
 //
 // Each durative action is split into two snap actions, its start and its end (R10). Static facts and constant
 // fluents are gone; a negative condition is a condition on a fact of its own.
@@ -22,6 +22,7 @@ namespace roci::planner::temporal_pddl::task {
 /// Names what temporal constraints are about (v of R22, R23): a fact or a number.
 using VariableId = Id<struct VariableTag>;
 
+/// Says what a snap action is.
 enum class SnapKind : std::uint8_t {
   start,
   end,
@@ -31,6 +32,7 @@ enum class SnapKind : std::uint8_t {
   derivation,
 };
 
+/// Is an instant at which a state changes (snap action, R10).
 struct Snap {
   SnapKind kind = SnapKind::start;
   ActionId action;  ///< is none for timed_literal and derivation
@@ -45,6 +47,7 @@ struct DurationRule {
   bool at_end = false;
 };
 
+/// Is a ground action; its snap actions carry conditions and effects.
 struct Action {
   SchemaId schema;
   SnapId start;
@@ -56,11 +59,13 @@ struct Action {
   bool instantaneous() const { return start == end; }
 };
 
+/// Is a timed literal that happens at its time by itself.
 struct TimedStep {
   SnapId snap;
   temporal::Duration time{0};
 };
 
+/// Is one alternative of the goal; all of it must hold.
 struct Goal {
   std::vector<FactId> facts;
   std::vector<NumericCondition> comparisons;
@@ -82,22 +87,24 @@ struct FactName {
   bool negated = false;
 };
 
+/// Holds the whole ground task; nothing changes it once it is built.
 struct Task {
   // ---- Names
   std::vector<std::string> objects, predicates, functions, schemas;
   IdVector<FactId, FactName> fact_names;
   FlatLists<ObjectId> atom_arguments;
-  FlatLists<ObjectId> action_arguments;  ///< by ActionId, the parameters of the schema
+  FlatLists<ObjectId> action_arguments;  ///< are by ActionId the parameters of the schema
   std::vector<std::string> number_names;
 
   // ---- Snap actions, by SnapId
   IdVector<SnapId, Snap> snaps;
   FlatLists<FactId> conditions;              ///< pre⊢ or pre⊣
-  FlatLists<NumericCondition> comparisons;   ///< likewise
+  FlatLists<NumericCondition> comparisons;   ///< belong to pre⊢ or pre⊣, too
   FlatLists<FactId> adds, deletes;           ///< are applied deletes first, then adds
   FlatLists<NumericEffect> numeric_effects;  ///< are all evaluated in the state before
   FlatLists<VariableId> reads, writes;       ///< are what orderings go by (R22, R23)
-  FlatLists<TimeWindow> windows;  ///< when the snap action may happen (R33); an empty list allows any time
+  FlatLists<TimeWindow> windows;  ///< says when the snap action may happen (R33); an empty list allows any
+                                  ///< time
 
   // ---- Actions, by ActionId
   IdVector<ActionId, Action> actions;
@@ -107,7 +114,7 @@ struct Task {
   /// One of these must contain the whole action; an empty list allows any time.
   FlatLists<TimeWindow> span_windows;
   FlatLists<DurationRule> duration_rules;
-  FlatLists<VariableId> derived_invariant_reads;  ///< what the derived facts among the invariants hang on
+  FlatLists<VariableId> derived_invariant_reads;  ///< is what the derived facts among the invariants hang on
   /// These facts must be false before the start; see Action::compression_safe.
   FlatLists<FactId> absent_for_compression;
 
@@ -115,7 +122,7 @@ struct Task {
   /// Stand in order of time; those that windows replace are not among them.
   std::vector<TimedStep> timed_steps;
   std::vector<Goal> goals;                   ///< alternatives
-  FlatLists<VariableId> derived_goal_reads;  ///< what the derived facts in each goal hang on
+  FlatLists<VariableId> derived_goal_reads;  ///< is what the derived facts in each goal hang on
   IdVector<FactId, bool> is_derived;
   DerivedFacts derived;
   Metric metric;

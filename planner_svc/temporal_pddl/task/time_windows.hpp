@@ -1,4 +1,4 @@
-// Sets of times as intervals: when a snap action may happen.
+// Time windows are sets of times as intervals, which say when a snap action may happen.
 #pragma once
 
 #include <span>
@@ -8,21 +8,23 @@
 
 namespace roci::planner::temporal_pddl::task {
 
-/// An interval of times; both of its ends belong to it.
+/// Is an interval of times; both of its ends belong to it.
 struct TimeWindow {
   temporal::Duration open{0};
   temporal::Duration close = temporal::no_bound;
   bool operator==(const TimeWindow&) const = default;
 };
 
-/// Intervals in ascending order that are disjoint.
+/// Holds disjoint intervals in ascending order.
 using TimeWindows = std::vector<TimeWindow>;
 
+/// Returns the one window that holds every time.
 inline TimeWindows any_time() { return {TimeWindow{}}; }
 inline bool is_any_time(std::span<const TimeWindow> windows) {
   return windows.size() == 1 && windows.front() == TimeWindow{};
 }
 
+/// Returns the times that lie in both.
 TimeWindows intersection(std::span<const TimeWindow> a, std::span<const TimeWindow> b);
 
 /// Cuts each window by `from_open` and `from_close` at its ends, where it has them, and returns what is

@@ -1,4 +1,5 @@
-// Derived predicates: the least fixed point, layer by layer, of only those instances that a question reaches.
+// The truth of derived predicates is their least fixed point, layer by layer; only the instances that a
+// question reaches are computed.
 #include <algorithm>
 
 #include "planner_svc/temporal_pddl/validate/evaluator.hpp"

@@ -1,4 +1,4 @@
-// From the effects of an action to what they change.
+// This file turns the effects of an action into the changes that they make.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace roci::planner::temporal_pddl::validate {
 
-/// One literal or assignment with its quantified variables bound and the conditions of all `when` around it,
-/// which are looked at as their times come.
+/// Is one literal or assignment with its quantified variables bound. It carries the conditions of all `when`
+/// around it, which are tested as their times come.
 struct PendingEffect {
   const pddl::Effect* effect = nullptr;
   Bindings bindings;
@@ -16,16 +16,16 @@ struct PendingEffect {
   bool alive = true;  ///< no condition has failed so far
 };
 
-/// Unfolds `forall` and `when`. The effects must outlive the result.
+/// Unfolds `forall` and `when` into one entry per literal or assignment. The effects must outlive the result.
 std::vector<PendingEffect> unfold(const std::vector<pddl::Effect>& effects, const Bindings& bindings,
                                   const Model& model);
 
-/// Marks as not alive those whose conditions of this time (a member of TimedCondition) do not hold.
+/// Marks as not alive those effects whose conditions of this time (a member of TimedCondition) do not hold.
 void check_conditions(std::vector<PendingEffect>& effects, pddl::Condition pddl::TimedCondition::*time,
                       Evaluator& evaluator);
 
-/// What the effects that are alive change, seen from the evaluator's state. False if some value is undefined,
-/// and that effect is left out; evaluator.reason() says why.
+/// Appends to `changes` what the effects that are alive change, seen from the evaluator's state. Returns
+/// false if some value is undefined; that effect is left out, and evaluator.reason() says why.
 bool collect(const std::vector<PendingEffect>& effects, const Specials& specials, Evaluator& evaluator,
              Changes& changes);
 

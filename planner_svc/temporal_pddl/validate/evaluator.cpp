@@ -97,8 +97,6 @@ Truth Evaluator::compare(const pddl::Comparison& comparison, const Bindings& bin
   return as_truth(compare_numbers(comparison.op, *left, *right));
 }
 
-// ---- Numbers
-
 std::optional<double> Evaluator::value(const pddl::Expression& expression, const Bindings& bindings,
                                        const Specials& specials) {
   return std::visit(

@@ -1,4 +1,4 @@
-// Truth of conditions and values of expressions in one state.
+// The evaluator finds the truth of conditions and the values of expressions in one state.
 #pragma once
 
 #include <deque>
@@ -12,18 +12,19 @@
 
 namespace roci::planner::temporal_pddl::validate {
 
-/// unknown: depends on a number that is undefined (Kleene's logic). A condition holds only if it is yes.
+/// A condition is `unknown` if its truth depends on a number that is undefined (Kleene's logic); it holds
+/// only if it is `yes`.
 enum class Truth { no, unknown, yes };
 
-/// Values that no state holds, in seconds.
+/// Holds values that no state holds, in seconds.
 struct Specials {
   std::optional<double> duration;    ///< ?duration
   std::optional<double> total_time;  ///< total-time
 };
 
-/// For one state; make a new one after each change. With `reads`, collects what the results depend on: every
-/// changing fact and fluent that a condition mentions once it is instantiated (Fox and Long 2003, definition
-/// 12), and what derived predicates rest on.
+/// Evaluates in one state; whoever changes the state makes a new evaluator. With `reads`, it collects what
+/// the results depend on: every changing fact and fluent that a condition mentions once it is instantiated
+/// (Fox and Long 2003, definition 12), and what derived predicates rest on.
 class Evaluator {
  public:
   Evaluator(const Model& model, const State& state, Reads* reads = nullptr)
@@ -34,15 +35,15 @@ class Evaluator {
     return evaluate(condition, bindings) == Truth::yes;
   }
 
-  /// nullopt: undefined; reason() then says why.
+  /// Returns nothing if the value is undefined; reason() then says why.
   std::optional<double> value(const pddl::Expression& expression, const Bindings& bindings,
                               const Specials& specials = {});
 
-  /// Why the latest undefined value was undefined; empty if none was.
+  /// Tells why the latest undefined value was undefined; it is empty if none was.
   const std::string& reason() const { return reason_; }
 
  private:
-  // Instances of derived predicates of one layer whose truth is being settled together.
+  // Holds the instances of derived predicates of one layer whose truth is being settled together.
   struct Instance {
     const pddl::Atom* atom;
     std::vector<std::string_view> objects;
@@ -54,8 +55,9 @@ class Evaluator {
     std::map<std::string, std::size_t> index;
   };
 
-  // Conjunction (decisive no) or disjunction (decisive yes) of the parts that `visit_parts` hands, one
-  // by one, to the function it is given; that function returns false when no further part can matter.
+  // Returns the conjunction (decisive no) or disjunction (decisive yes) of the parts that `visit_parts`
+  // hands, one by one, to the function it is given; that function returns false when no further part can
+  // matter.
   using Part = std::function<bool(const pddl::Condition& part, bool negated)>;
   Truth combine(Truth decisive, Bindings& bindings, const std::function<void(const Part&)>& visit_parts);
   Truth combine(Truth decisive, const std::vector<pddl::Condition>& parts, Bindings& bindings);

@@ -1,4 +1,4 @@
-// The execution of a plan, one moment after the other.
+// The validator executes a plan, one moment after the other.
 #pragma once
 
 #include <list>
@@ -14,20 +14,22 @@
 
 namespace roci::planner::temporal_pddl::validate {
 
-/// Goes on after a violation, as if what failed had held. Holds references to all it is given.
+/// Goes on after a violation as if what failed had held, so that one run reports them all. It holds
+/// references to all that it is given.
 class Execution {
  public:
   Execution(const Model& model, const std::vector<pddl::PlanStep>& plan, const std::vector<Step>& steps,
             const Options& options, std::vector<Violation>& violations);
 
-  /// All events of one moment. `crowded`: other events are less than epsilon away, or there are several.
+  /// Executes all events of one moment; they see the state before it. `crowded` says that there are several
+  /// or that other events are less than epsilon away: only then can anything interfere.
   void happen(std::span<const Event> events, bool crowded);
   void check_goal(pddl::Microseconds now);
 
   const State& state() const { return state_; }
 
  private:
-  // A durative action between its start and its end.
+  // Is a durative action between its start and its end.
   struct Running {
     std::size_t step;
     std::optional<double> duration;  // seconds, exact where a constraint fixes it
@@ -45,11 +47,12 @@ class Execution {
   void execute_end(const Event& event, Evaluator& evaluator, Changes& changes);
   void collect_effects(const Event& event, const std::vector<PendingEffect>& effects,
                        const Specials& specials, Evaluator& evaluator, Changes& changes);
-  // The exact duration of the step where an `=` of that time fixes it.
+  // Reports a duration that breaks a constraint of that time. Returns the exact duration where an `=` of that
+  // time fixes it.
   std::optional<double> check_duration(const Event& event, pddl::TimePoint at, Evaluator& evaluator);
   void check_interference(const Occurrence& occurrence);
   void check_invariants(pddl::Microseconds now);
-  // Reports each part of a conjunction that does not hold; true if all hold.
+  // Reports each part of a conjunction that does not hold. Returns whether all hold.
   bool require(const pddl::Condition& condition, const Bindings& bindings, Evaluator& evaluator,
                Violation violation, const std::string& when);
 

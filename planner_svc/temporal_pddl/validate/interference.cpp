@@ -17,7 +17,7 @@ std::optional<std::string> first_common(const Names& names, const std::vector<st
   return {};
 }
 
-// What `writer` does to `other`; the rest follows with the roles exchanged.
+// Returns what `writer` does to `other`; asking again with the roles exchanged finds the rest.
 std::optional<std::string> disturbs(const Footprint& writer, const Footprint& other) {
   const Names deleted(writer.changes.deleted.begin(), writer.changes.deleted.end());
   if (const auto fact = first_common(deleted, other.reads.facts)) return fact;

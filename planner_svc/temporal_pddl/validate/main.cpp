@@ -1,4 +1,4 @@
-// roci-validate DOMAIN PROBLEM PLAN [--functions FILE] [--json]
+// roci-validate checks a plan: roci-validate DOMAIN PROBLEM PLAN [--functions FILE] [--json]
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>

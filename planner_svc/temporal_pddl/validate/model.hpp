@@ -1,4 +1,4 @@
-// The problem as the validator looks things up in it. Nothing is grounded.
+// The model is the problem as the validator looks things up in it; nothing is grounded.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,8 @@
 
 namespace roci::planner::temporal_pddl::validate {
 
-/// Holds references: domain, problem and table must outlive it. Takes what check() finds nothing wrong with.
+/// Holds references: domain, problem and table must outlive it. It takes models in which check() finds
+/// nothing wrong.
 class Model {
  public:
   Model(const pddl::Domain& domain, const pddl::Problem& problem, const pddl::FunctionTable& functions);
@@ -28,16 +29,16 @@ class Model {
   const pddl::FunctionTable& functions() const { return functions_; }
 
   bool is_external(const std::string& function) const { return externals_.contains(function); }
-  /// No effect and no timed fact ever changes it.
+  /// Returns whether no effect and no timed fact ever changes the predicate or fluent.
   bool is_static(const std::string& symbol) const { return !changing_.contains(symbol); }
-  /// The rules of a derived predicate; empty for others.
+  /// Returns the rules of a derived predicate; there are none for others.
   const std::vector<const pddl::DerivedPredicate*>& rules(const std::string& predicate) const;
   int layer(const std::string& derived) const { return strata_.layer.at(derived); }
 
   State initial_state() const;
 
   /// Calls visit() for each choice of objects for the variables, bound in `bindings`, until it returns false.
-  /// False if it was stopped.
+  /// Returns false if it was stopped.
   bool for_each_choice(const std::vector<pddl::TypedName>& variables, Bindings& bindings,
                        const std::function<bool()>& visit) const;
 

@@ -1,6 +1,5 @@
-// The world at one moment, and what a happening reads and changes of it. Facts and fluents go by their
-// printed form,
-// "(at rover base)".
+// This file holds the world at one moment, and what a happening reads and changes of it. Facts and fluents go
+// by their printed form, "(at rover base)".
 #pragma once
 
 #include <string>
@@ -12,34 +11,38 @@
 
 namespace roci::planner::temporal_pddl::validate {
 
+/// Holds the world at one moment; a fact that is not in it is false.
 struct State {
   std::unordered_set<std::string> facts;
   std::unordered_map<std::string, double> values;  ///< absent: undefined
 };
 
-/// What conditions and values depend on. May hold an entry twice.
+/// Holds what conditions and values depend on. An entry may stand in it twice.
 struct Reads {
   std::vector<std::string> facts;
   std::vector<std::string> values;
 };
 
+/// Changes one fluent by an operand.
 struct NumericChange {
   std::string fluent;
   pddl::AssignmentOperator op = pddl::AssignmentOperator::assign;
   double operand = 0;
 };
 
+/// Holds what one happening, or several of one moment, change.
 struct Changes {
   std::vector<std::string> deleted;
   std::vector<std::string> added;
   std::vector<NumericChange> numeric;
 };
 
-/// increase and decrease commute with one another; nothing else does.
+/// Returns whether the operator is increase or decrease: these commute with one another, and nothing else
+/// does.
 bool is_additive(pddl::AssignmentOperator op);
 
-/// Deletes before it adds. False, with the state unchanged by that change, if a change needs a value that is
-/// undefined or the result is not finite; `fluent` then tells which.
+/// Deletes before it adds. If a change needs a value that is undefined or its result is not finite, that
+/// change is left out, `fluent` tells which it was, and the result is false.
 bool apply(const Changes& changes, State& state, std::string& fluent);
 
 }  // namespace roci::planner::temporal_pddl::validate

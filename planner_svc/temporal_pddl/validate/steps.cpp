@@ -16,7 +16,7 @@ const T* find_by_name(const std::vector<T>& actions, const std::string& name) {
   return it == actions.end() ? nullptr : &*it;
 }
 
-// What is wrong with the arguments; empty: nothing.
+// Returns what is wrong with the arguments; an empty text says that nothing is.
 std::string bind_arguments(const pddl::Atom& action, const std::vector<pddl::TypedName>& parameters,
                            const pddl::ObjectTable& objects, Bindings& bindings) {
   if (action.arguments.size() != parameters.size()) {

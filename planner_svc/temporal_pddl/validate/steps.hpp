@@ -1,4 +1,4 @@
-// The steps of a plan, found in the domain and put in order of time.
+// The steps of a plan are looked up in the domain and put in order of time.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace roci::planner::temporal_pddl::validate {
 
-/// Exactly one of the two actions is set, or none if the step names no action that could be executed.
+/// Has exactly one of the two actions set, or none if the step names no action that can be executed.
 struct Step {
   const pddl::Action* instantaneous = nullptr;
   const pddl::DurativeAction* durative = nullptr;
@@ -17,23 +17,25 @@ struct Step {
   bool executable() const { return instantaneous || durative; }
 };
 
-/// One per step of the plan, in its order; each one that is not executable has added a violation. `plan` must
-/// outlive the result.
+/// Returns one entry per step of the plan, in its order; each step that cannot be executed adds a violation.
+/// `plan` must outlive the result.
 std::vector<Step> resolve(const std::vector<pddl::PlanStep>& plan, const Model& model,
                           std::vector<Violation>& violations);
 
-/// In the order in which events of one moment are executed.
+/// Lists the kinds in the order in which events of one moment are executed.
 enum class EventKind { timed_literal, timed_value, instant, start, end };
 
+/// Is one happening of the plan or of the problem; events compare in their order of execution.
 struct Event {
   pddl::Microseconds time{0};
   EventKind kind = EventKind::instant;
-  std::size_t index = 0;  ///< of the step, the timed literal or the timed value
+  std::size_t index = 0;  ///< numbers the step, the timed literal or the timed value
 
   auto operator<=>(const Event&) const = default;
 };
 
-/// All events of executable steps, and those of the timed facts until the last of them; ascending.
+/// Returns all events of the executable steps, and those of the timed facts until the last of them, in order
+/// of time.
 std::vector<Event> schedule(const std::vector<pddl::PlanStep>& plan, const std::vector<Step>& steps,
                             const pddl::Problem& problem);
 

@@ -9,7 +9,7 @@ namespace roci::planner::temporal_pddl::validate {
 
 namespace {
 
-// How many events from the front share one moment.
+// Returns how many events from the front share one moment.
 std::size_t count_simultaneous(std::span<const Event> events) {
   const auto later = std::find_if(events.begin(), events.end(),
                                   [&](const Event& event) { return event.time != events.front().time; });

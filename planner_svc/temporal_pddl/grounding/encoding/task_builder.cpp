@@ -161,7 +161,7 @@ class Builder {
     return is_any_time(windows) ? std::span<const TimeWindow>() : std::span<const TimeWindow>(windows);
   }
 
-  // What the action reads at that point besides what it needs and what its effects are computed from.
+  // Returns what the action reads at that point besides what it needs and what its effects are computed from.
   std::vector<VariableId> asked_besides(const GroundAction& action, bool at_end) const {
     std::vector<VariableId> result;
     for (const auto& rule : action.duration_rules) {
@@ -209,7 +209,7 @@ class Builder {
       result.push_back(task_.variable(term.variable));
   }
 
-  // What a literal hangs on: itself, or what it is derived from.
+  // Adds what a literal hangs on: itself, or what it is derived from.
   void add_reads(GroundLiteral literal, std::vector<VariableId>& result) const {
     if (!support_.is_derived(literal.atom)) return result.push_back(task_.variable(fact(literal)));
     const Support support = support_.of(literal);
@@ -225,7 +225,7 @@ class Builder {
     return unique(std::move(result));
   }
 
-  // After the actions, so that plans' steps have the lowest ids.
+  // Comes after the actions, so that the steps of plans have the lowest ids.
   void add_rules() {
     std::vector<DerivationRule> rules;
     for (const auto& rule : model_.rules) {

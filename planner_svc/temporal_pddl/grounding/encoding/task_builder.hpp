@@ -1,4 +1,4 @@
-// From the ground model to the task's flat tables: facts and numbers get their final ids.
+// The task builder turns the ground model into the task's flat tables; facts and numbers get their final ids.
 #pragma once
 
 #include <vector>

@@ -15,8 +15,8 @@ std::vector<std::vector<std::uint32_t>> cover(const std::vector<bool>& needed,
                          [&](std::uint32_t member) { return open[member]; });
     return members;
   };
-  // Sizes only shrink, so an entry that is still up to date when it comes out is the largest. Ties: lowest
-  // index.
+  // Sizes only shrink, so an entry that is still up to date when it comes out is the largest. Of equal ones
+  // the one with the lowest index comes first.
   std::priority_queue<std::pair<std::size_t, std::size_t>> queue;  // open members, last index − index
   for (std::size_t i = 0; i < groups.size(); ++i)
     queue.emplace(open_members(groups[i]).size(), groups.size() - i);

@@ -19,7 +19,7 @@ void append(GroundEffects& to, const GroundEffects& more) {
   to.numeric.insert(to.numeric.end(), more.numeric.begin(), more.numeric.end());
 }
 
-// Sorts; what is both deleted and added is added, and noted.
+// Sorts the effects. What is both deleted and added is added, and noted in `resets`.
 void normalise(GroundEffects& effects) {
   for (auto* list : {&effects.adds, &effects.deletes}) {
     std::ranges::sort(*list);
@@ -122,7 +122,7 @@ void ActionInstantiator::add_choice_reads(const LiftedAction& action, Binding& b
   reads_.erase(std::unique(reads_.begin(), reads_.end()), reads_.end());
 }
 
-// What the conditions themselves ask for needs no read. An index of `lists`.
+// Returns an index of `lists`: what the action reads beside what its conditions ask for themselves.
 std::uint32_t ActionInstantiator::reads_beside(const Conjunction& at_start, const Conjunction& at_end,
                                                std::vector<std::vector<ReadVariable>>& lists) const {
   std::vector<ReadVariable> result;
@@ -245,7 +245,7 @@ bool ActionInstantiator::add_effect(const LiftedEffect& effect, const Binding& b
   return true;
 }
 
-// Every way to let each group of conditional effects happen or not.
+// Returns every way to let each group of conditional effects happen or not.
 std::vector<ActionInstantiator::Draft> ActionInstantiator::choose_conditionals() const {
   std::vector<Draft> drafts{unconditional_};
   for (const auto& conditional : conditionals_) {

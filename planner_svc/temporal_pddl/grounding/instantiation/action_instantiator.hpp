@@ -1,4 +1,4 @@
-// Makes the ground actions of one action instance.
+// The action instantiator makes the ground actions of one action instance.
 #pragma once
 
 #include <utility>
@@ -10,6 +10,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::instantiation {
 
+/// Appends ground actions to a model. The formula grounder must outlive it.
 class ActionInstantiator {
  public:
   explicit ActionInstantiator(FormulaGrounder& formulas) : formulas_(formulas) {}
@@ -21,12 +22,12 @@ class ActionInstantiator {
                    GroundModel& model);
 
  private:
-  // An action under construction: what is common to all variants, then one variant.
+  // Is an action under construction: first what is common to all variants, then one variant.
   struct Draft {
     Conjunction at_start, at_end;
     GroundEffects start_effects, end_effects;
   };
-  // Effects that happen together, if `condition` does, and what else may be the case.
+  // Holds effects that happen together if one of `fires` holds; `otherwise` is what else may be the case.
   struct Conditional {
     std::vector<std::pair<Conjunction, Conjunction>> fires, otherwise;  // conditions at start, at end
     GroundEffects start_effects, end_effects;

@@ -1,5 +1,5 @@
-// Grounds formulas and expressions under a full binding: to disjunctions of ground conjunctions and to
-// linear expressions.
+// The formula grounder turns formulas and expressions under a full binding into disjunctions of ground
+// conjunctions and into linear expressions.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,10 @@
 
 namespace roci::planner::temporal_pddl::grounding::instantiation {
 
-/// A ground condition may have so many alternatives.
+/// A ground condition may have so many alternatives at most.
 inline constexpr std::size_t kMaxAlternatives = 256;
 
+/// Grounds formulas of one model. All that it is given must outlive it.
 class FormulaGrounder {
  public:
   /// Takes in `touched` those of the atoms that hold at first which some effect is about. The others are
@@ -75,6 +76,7 @@ class FormulaGrounder {
 /// Returns whether it may be that not all parts of the formula that can change are in all alternatives.
 bool has_choice(const lifted::LiftedFormula& formula);
 
+/// Returns what is true: one empty alternative.
 Disjunction always();
 bool is_certain(const Disjunction& alternatives);
 /// Returns all ways to satisfy both; contradictions and alternatives that another one implies are dropped.

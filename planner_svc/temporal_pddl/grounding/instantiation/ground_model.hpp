@@ -1,5 +1,5 @@
-// The ground model as instantiation leaves it: over atoms of the reachability analysis, before facts are
-// numbered.
+// The ground model is what instantiation leaves: it speaks of atoms of the reachability analysis, before
+// facts are numbered.
 #pragma once
 
 #include <compare>
@@ -14,14 +14,14 @@
 
 namespace roci::planner::temporal_pddl::grounding::instantiation {
 
-/// An atom or its negation.
+/// Is an atom or its negation.
 struct GroundLiteral {
   std::uint32_t atom = 0;
   bool negated = false;
   auto operator<=>(const GroundLiteral&) const = default;
 };
 
-/// A conjunction, all of which must hold. Both lists are sorted and without duplicates.
+/// Is a conjunction, all of which must hold. Both lists are sorted and without duplicates.
 struct Conjunction {
   std::vector<GroundLiteral> literals;
   std::vector<task::NumericCondition> comparisons;
@@ -30,12 +30,12 @@ struct Conjunction {
   auto operator<=>(const Conjunction&) const = default;
 };
 
-/// Alternatives: without any, it is false; with an empty one, it is true.
+/// Lists alternatives: without any it is false, and with an empty one it is true.
 using Disjunction = std::vector<Conjunction>;
 
-/// An entry of a read set: what a condition at the start or at the end of an action reads without asking for
-/// it. These are parts that what never changes decides, alternatives that were not chosen, and conditions of
-/// effects that do not happen. Nobody may change it within ε of that moment either (R6; Fox and Long 2003,
+/// Is an entry of a read set: what a condition at the start or at the end of an action reads without asking
+/// for it. These are parts that what never changes decides, alternatives that were not chosen, and conditions
+/// of effects that do not happen. Nobody may change it within ε of that moment either (R6; Fox and Long 2003,
 /// definition 12).
 struct ReadVariable {
   std::uint32_t index = 0;  ///< the index of an atom or a number
@@ -44,6 +44,7 @@ struct ReadVariable {
   auto operator<=>(const ReadVariable&) const = default;
 };
 
+/// Holds what happens at one end of an action or at a timed literal.
 struct GroundEffects {
   std::vector<std::uint32_t> adds, deletes;  ///< atoms, sorted; no atom is in both
   std::vector<task::NumericEffect> numeric;
@@ -58,6 +59,7 @@ struct ActionWindows {
   task::TimeWindows start = task::any_time(), end = task::any_time(), span = task::any_time();
 };
 
+/// Is an action instance with one choice among the alternatives of its conditions.
 struct GroundAction {
   task::SchemaId schema;
   std::vector<task::ObjectId> arguments;
@@ -71,30 +73,32 @@ struct GroundAction {
   std::shared_ptr<const ActionWindows> windows;  ///< is null where any time will do
 };
 
-/// A rule: wherever the body holds, so does the head, a derived atom.
+/// Is a rule: wherever the body holds, so does the head, a derived atom.
 struct GroundRule {
   GroundLiteral head;
   int layer = 0;
   Conjunction body;
 };
 
+/// Holds what happens by itself at one time.
 struct TimedChange {
   temporal::Duration time{0};
   GroundEffects effects;
 };
 
-/// An action instance that none of its windows has room for.
+/// Is an action instance that none of its windows has room for.
 struct WindowMisfit {
   task::SchemaId schema;
   std::vector<task::ObjectId> arguments;
   std::vector<std::uint32_t> adds;  ///< atoms
-  temporal::Duration duration{0};   ///< at least
+  temporal::Duration duration{0};   ///< is the least that the action takes
   temporal::Duration window{0};     ///< the longest
 };
 
+/// Holds the whole problem over atoms and numbers, which are named by their indices.
 struct GroundModel {
   lifted::TupleTable atoms;
-  std::vector<bool> derived;   ///< by atom
+  std::vector<bool> derived;   ///< is indexed by atom
   lifted::TupleTable numbers;  ///< fluents that change; their index is the NumberId
   task::ExpressionPool expressions;
   std::vector<std::uint32_t> initial_atoms;
@@ -103,12 +107,13 @@ struct GroundModel {
   /// Holds sorted lists, of which the first is empty. Neighbours with equal read sets share one.
   std::vector<std::vector<ReadVariable>> read_sets = std::vector<std::vector<ReadVariable>>(1);
   std::vector<WindowMisfit> window_misfits;  ///< taken out of `actions`
-  std::vector<GroundRule> rules;             ///< by layer
-  std::vector<TimedChange> timed;            ///< by time, one per instant
+  std::vector<GroundRule> rules;             ///< stand in order of layers
+  std::vector<TimedChange> timed;            ///< stand in order of time, one per instant
   Disjunction goal;
   task::Metric metric;
-  std::vector<bool> only_metric_asks;          ///< by number: nothing else does, and it is never assigned
-  std::vector<std::string> unreachable_goals;  ///< as text, if `goal` has no alternative from the beginning
+  std::vector<bool> only_metric_asks;          ///< is indexed by number: nothing else asks for it, and it is
+                                               ///< never assigned
+  std::vector<std::string> unreachable_goals;  ///< are texts, if `goal` has no alternative from the beginning
 
   const std::vector<ReadVariable>& read_set_of(const GroundAction& action) const {
     return read_sets[action.read_sets];

@@ -32,8 +32,8 @@ void note_read(const LiftedFormula& formula, IdVector<PredicateId, bool>& read) 
   for (const LiftedFormula& part : formula.parts) note_read(part, read);
 }
 
-// The predicates in conditions at a time point: those that one may want to be false, and the others that
-// stand in one beside which there are alternatives.
+// Marks the predicates in conditions at a time point: `negated` ones that a condition may want to be false,
+// and `read` ones that stand in a condition with alternatives or of an effect.
 struct UsesOfPredicates {
   IdVector<PredicateId, bool> negated, read;
 };
@@ -59,9 +59,9 @@ UsesOfPredicates uses_of_predicates(const std::vector<LiftedAction>& actions, st
   return result;
 }
 
-// What effects of instances and timed literals are about, of the atoms that hold at first or are never
-// reached. Of the latter those that a condition may want to be false count as reached from now on; those that
-// one only reads are known.
+// Returns those atoms that effects of instances and timed literals are about and that hold at first or are
+// never reached. Of the latter, those that a condition may want to be false count as reached from now on;
+// those that one only reads are known.
 TupleTable touched_atoms(const std::vector<LiftedAction>& actions, const StaticModel& static_model,
                          Reachability& reachability) {
   TupleTable result;
@@ -191,7 +191,7 @@ std::size_t bytes_of(const GroundAction& action) {
          bytes_of(action.end_effects);
 }
 
-// As many as there are without alternatives, which make more of them.
+// Returns how many actions there are without alternatives, which make more of them.
 std::size_t planned_actions(const std::vector<LiftedAction>& actions, const Reachability& reachability) {
   std::size_t result = 0;
   for (std::size_t schema = 0; schema < actions.size(); ++schema) {

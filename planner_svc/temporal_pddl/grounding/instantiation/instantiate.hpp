@@ -1,4 +1,4 @@
-// Goes from reachable instances to ground actions.
+// Instantiation goes from reachable instances to ground actions.
 #pragma once
 
 #include <string>

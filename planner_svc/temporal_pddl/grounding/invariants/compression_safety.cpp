@@ -37,8 +37,8 @@ bool intersect(const Groups& a, const Groups& b) {
   return false;
 }
 
-// What may touch a variable: a single action, or several, boiled down to the groups of which every toucher
-// needs a member.
+// Tells what may touch a variable: a single action, or several, of which the groups are kept that every
+// toucher needs a member of.
 class Touch {
  public:
   void by(std::size_t action, const Groups& needed) {
@@ -52,7 +52,8 @@ class Touch {
     std::ranges::set_intersection(*common_, needed, std::back_inserter(kept));
     common_ = std::move(kept);
   }
-  // Is it out of reach for others while the action runs, a member of these groups?
+  // Returns whether no other action can reach the variable while the action runs, which is a member of these
+  // groups.
   bool isolated(std::size_t action, const Groups& running) const {
     return common_ && (sole_ == action || intersect(*common_, running));
   }
@@ -212,7 +213,7 @@ class Analysis {
     });
   }
 
-  // Points 1, 2 and 4 of the criterion.
+  // Checks points 1, 2 and 4 of the criterion.
   bool ends_freely(std::size_t index, const Groups& running) const {
     const GroundAction& action = model_.actions[index];
     const bool literals_free = std::ranges::all_of(action.at_end.literals, [&](GroundLiteral literal) {
@@ -225,7 +226,7 @@ class Analysis {
       const Touch& touch = (read.is_number ? numbers_ : atoms_)[read.index];
       return !read.at_end || touch.isolated(index, running);
     });
-    // A derived one may hold for one reason, then for another.
+    // A derived invariant may hold for one reason, then for another.
     const bool simple = std::ranges::none_of(
         action.over_all.literals, [&](GroundLiteral literal) { return model_.derived[literal.atom]; });
     return literals_free && reads_free && simple && isolated(index, action.over_all, running) &&

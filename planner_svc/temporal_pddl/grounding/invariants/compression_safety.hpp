@@ -1,4 +1,4 @@
-// Compression safety (R14): which actions may be ended in the search as soon as they have started.
+// Compression safety (R14) says which actions may be ended in the search as soon as they have started.
 //
 // Ending a right after its start, instead of after some other snap actions B that the plan has in between,
 // must lose no plan. The criterion sharpens Coles et al. (AIJ 2009, "Managing concurrency in temporal
@@ -18,8 +18,8 @@
 //     - is isolated, or
 //     - is only ever added, and only goals ask for it (such facts have no orderings at all), or
 //     - is only ever added, never asked for negated, all its other adders need a fact that is mutex with
-//       "a is running", and it is false before a starts (to be tested then) and a's start does not add it: so
-//       it is false while a runs and B cannot need it;
+//       "a is running", and it is false before a starts (to be tested then) and a's start does not add it:
+//       so it is false while a runs and B cannot need it;
 //  4. each number that its end changes is isolated.
 // Steps of B then find the same values and get no orderings behind the end that they had not before.
 #pragma once
@@ -33,6 +33,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::invariants {
 
+/// Says whether an action is compression safe, and under what condition.
 struct Compression {
   bool safe = false;
   std::vector<std::uint32_t> absent;  ///< the atoms that must be false before the start

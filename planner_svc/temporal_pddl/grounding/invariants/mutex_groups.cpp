@@ -25,7 +25,7 @@ constexpr std::size_t kMaxArity = 4;  // of predicates that start a candidate
 
 using Key = std::vector<ObjectId>;
 
-// Symbols: predicates first, then "running" of each schema.
+// Symbols number the predicates first, then "running" of each schema.
 struct Part {
   std::uint32_t symbol = 0;
   std::vector<std::uint32_t> key_positions;  // one per element of the key
@@ -34,7 +34,7 @@ struct Part {
 
 using Candidate = std::vector<Part>;  // sorted, one part per symbol
 
-// An atom or a running action.
+// Is an atom or a running action.
 struct Member {
   std::uint32_t symbol = 0;
   std::uint32_t id = 0;  // atom or action
@@ -91,7 +91,7 @@ class Synthesis {
     }
   }
 
-  // Fills view_.
+  // Fills view_ with what the snap action needs, adds and deletes.
   void look_at(std::size_t snap) {
     const GroundAction& action = model_.actions[snap / 2];
     const bool end = snap % 2 == 1;
@@ -114,8 +114,8 @@ class Synthesis {
     }
   }
 
-  // Every predicate that effects change, with every subset of its positions as key; larger sets of atoms
-  // first.
+  // Queues every predicate that effects change, with every subset of its positions as key; larger sets of
+  // atoms come first.
   void seed() {
     std::map<std::uint32_t, std::size_t> arities;
     for (std::uint32_t id = 0; id < model_.atoms.size(); ++id) {
@@ -158,7 +158,7 @@ class Synthesis {
     return key;
   }
 
-  // Checks all adders; queues refinements of a candidate that one of them breaks.
+  // Checks all adders, and queues refinements of a candidate that one of them breaks.
   bool is_balanced(const Candidate& candidate) {
     for (const auto& part : candidate) {
       if (timed_adds_.contains(part.symbol)) return false;
@@ -194,7 +194,7 @@ class Synthesis {
     return false;
   }
 
-  // Candidates with one more part, under which `taken` has this key.
+  // Queues the candidates with one more part, under which `taken` has this key.
   void refine(const Candidate& candidate, const Key& key, const Member& taken) {
     std::vector<std::vector<std::uint32_t>> choices{{}};
     for (const ObjectId object : key) {
@@ -215,7 +215,7 @@ class Synthesis {
     }
   }
 
-  // The groups of which at most one atom holds at first.
+  // Appends the groups of which at most one atom holds at first.
   void collect_groups(const Candidate& candidate, std::vector<MutexGroup>& result) const {
     std::map<Key, std::size_t> initially;
     for (const std::uint32_t id : model_.initial_atoms) {

@@ -1,11 +1,11 @@
-// Invariants: sets of atoms of which at most one holds at any time.
+// Mutex groups are invariants: sets of atoms of which at most one holds at any time.
 //
 // A candidate is a set of predicates, each with some positions fixed by the candidate's key and the others
 // free; for each value of the key it names a set of atoms. It is an invariant if every snap action that adds
 // one of them takes another one away that it needs (so that the number of true ones never grows), after
-// Helmert (2009), section 5, checked on ground snap actions. "Action a is running" counts as an atom too:
-// added by the start of a, needed and deleted by its end. So the place of a rover and its drives make one
-// group (Bernardini and Smith 2011).
+// Helmert (2009), section 5, checked on ground snap actions. "Action a is running" counts as an atom too: the
+// start of a adds it, and its end needs and deletes it. So the place of a rover and its drives make one group
+// (Bernardini and Smith 2011).
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::invariants {
 
+/// Is a set of atoms and running actions of which at most one holds at any time.
 struct MutexGroup {
   std::vector<std::uint32_t> atoms;    ///< ascending
   std::vector<std::uint32_t> running;  ///< indices of GroundModel::actions, ascending

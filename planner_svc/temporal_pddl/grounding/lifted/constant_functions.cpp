@@ -17,7 +17,7 @@ using temporal::Verdict;
 
 namespace {
 
-// All tuples of the product, the last position running fastest.
+// Returns all tuples of the product, the last position running fastest.
 std::vector<std::vector<ObjectId>> all_tuples(const std::vector<std::vector<ObjectId>>& domains) {
   std::vector<std::vector<ObjectId>> tuples{{}};
   for (const auto& domain : domains) {

@@ -1,4 +1,5 @@
-// The functions that no action and no timed literal changes: constant fluents and external functions (R35).
+// Constant functions are those that no action and no timed literal changes: constant fluents and external
+// functions (R35).
 #pragma once
 
 #include <functional>
@@ -14,6 +15,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
+/// Knows the value of each constant function on each tuple.
 class ConstantFunctions {
  public:
   /// Takes the fluents that are constant in this model, with their initial values.

@@ -9,7 +9,7 @@ namespace roci::planner::temporal_pddl::grounding::lifted {
 
 namespace {
 
-// All of `open` must hold; what is settled stands in the rule's precondition.
+// Splits bodies into rules: all of `open` must still hold; what is settled stands in the rule's precondition.
 class Splitter {
  public:
   explicit Splitter(std::vector<DerivedRule>& result) : result_(result) {}
@@ -40,7 +40,7 @@ class Splitter {
   }
 
  private:
-  // Two quantifiers side by side may use one name.
+  // Quantifiers side by side may use one name; the second of them stays where it is.
   static bool can_take(const DerivedRule& rule, const std::vector<pddl::TypedName>& variables) {
     return std::ranges::none_of(variables, [&](const pddl::TypedName& variable) {
       return std::ranges::count(rule.rule.parameters, variable.name, &pddl::TypedName::name) > 0;

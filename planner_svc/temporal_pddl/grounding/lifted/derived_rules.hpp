@@ -1,4 +1,4 @@
-// Derived predicates as rules of a form that instantiation takes: those of a domain, split where they say
+// This file turns derived predicates into rules of a form that instantiation takes, split where they say
 // "or".
 #pragma once
 

@@ -1,4 +1,4 @@
-// The model with numbers for names, in negation normal form: what instantiation works on.
+// The lifted model has numbers for names and is in negation normal form; instantiation works on it.
 //
 // Variables are slots of a binding: first the parameters of the action, then one per quantified variable.
 #pragma once
@@ -13,6 +13,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
+/// Is an argument of an atom or a function: a slot of the binding, or an object.
 struct Argument {
   bool is_slot = false;
   std::uint32_t index = 0;  ///< the index of a slot, else of an object
@@ -21,20 +22,24 @@ struct Argument {
 /// Binds one object to each slot; unbound slots hold none.
 using Binding = std::vector<task::ObjectId>;
 
+/// Returns the object that the argument is under the binding.
 inline task::ObjectId resolve(Argument argument, const Binding& binding) {
   return argument.is_slot ? binding[argument.index] : task::ObjectId(argument.index);
 }
 
+/// Is a slot of a quantified variable with the objects that it may take.
 struct QuantifiedSlot {
   std::uint32_t slot = 0;
   std::vector<task::ObjectId> domain;
 };
 
+/// Is a predicate with arguments.
 struct LiftedAtom {
   task::PredicateId predicate;
   std::vector<Argument> arguments;
 };
 
+/// Is a numeric expression over slots and objects.
 struct LiftedExpression {
   enum class Kind {
     number,
@@ -51,10 +56,12 @@ struct LiftedExpression {
   pddl::SourceLocation where;
 };
 
+/// Is a condition in negation normal form.
 struct LiftedFormula {
   enum class Kind { conjunction, disjunction, forall, exists, atom, not_atom, equal, not_equal, comparison };
   Kind kind = Kind::conjunction;
-  // conjunction (empty: true), disjunction (empty: false); one for forall, exists
+  // Holds the parts of a conjunction (true if empty) or disjunction (false if empty), and one part for forall
+  // and exists.
   std::vector<LiftedFormula> parts;
   std::vector<QuantifiedSlot> quantified;  ///< forall, exists
   LiftedAtom atom;                         ///< atom, not_atom; equal, not_equal: its two arguments
@@ -65,7 +72,7 @@ struct LiftedFormula {
   bool is_true() const { return kind == Kind::conjunction && parts.empty(); }
 };
 
-/// An effect that happens for every value of the quantified slots, if the condition holds: at the start
+/// Is an effect that happens for every value of the quantified slots if the condition holds: at the start
 /// (tested before the start) or at the end (tested before the end).
 struct LiftedEffect {
   enum class Kind { add, remove, numeric };
@@ -82,12 +89,14 @@ struct LiftedEffect {
   bool conditional() const { return !start_condition.is_true() || !end_condition.is_true(); }
 };
 
+/// Constrains ?duration by a bound that is evaluated at the start or at the end.
 struct LiftedDuration {
   pddl::ComparisonOperator op = pddl::ComparisonOperator::equal;
   LiftedExpression bound;
   pddl::TimePoint at = pddl::TimePoint::start;
 };
 
+/// Is an action, or a rule of a derived predicate, over slots.
 struct LiftedAction {
   std::string name;
   bool durative = true;

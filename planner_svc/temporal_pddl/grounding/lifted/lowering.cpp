@@ -201,7 +201,7 @@ class Lowering {
     }
   }
 
-  // condition := condition ∧ more, otherwise := otherwise ∨ ¬more
+  // Sets condition := condition ∧ more and otherwise := otherwise ∨ ¬more.
   void restrict(const pddl::Condition& more, LiftedFormula& condition, LiftedFormula& otherwise) {
     if (is_true(more)) return;
     if (condition.is_true()) otherwise.kind = Kind::disjunction;  // without parts: false

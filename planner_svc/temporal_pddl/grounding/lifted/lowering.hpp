@@ -1,4 +1,4 @@
-// From the syntax tree to lifted actions.
+// Lowering turns the syntax tree into lifted actions.
 #pragma once
 
 #include "core/pddl/ast.hpp"
@@ -7,12 +7,12 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
-/// Returns the actions of the domain in their order, first plain ones, then durative ones; then the rules of
-/// derived predicates, by layer. Throws ModelFailure (unsupported) for conditional effects that look at
+/// Returns the actions of the domain in their order, first plain ones, then durative ones, and then the rules
+/// of derived predicates by layer. Throws ModelFailure (unsupported) for conditional effects that look at
 /// `over all` or, in a start effect, at the end.
 std::vector<LiftedAction> lower_actions(const pddl::Domain& domain, const Symbols& symbols);
 
-/// Returns the metric, in which the duration is that of the plan: (total-time).
+/// Returns the metric, in which the duration stands for (total-time).
 LiftedExpression lower_metric(const pddl::Expression& metric, const std::string& file,
                               const Symbols& symbols);
 

@@ -1,4 +1,4 @@
-// How grounding ends where a line of the model is to blame.
+// A model failure is how grounding ends where a line of the model is to blame.
 #pragma once
 
 #include <utility>
@@ -8,7 +8,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
-/// A planning failure that knows its place in the model; its reason is the diagnostic's text.
+/// Is a planning failure that knows its place in the model; its reason is the diagnostic's text.
 class ModelFailure final : public call::PlanningFailure {
  public:
   ModelFailure(temporal::Verdict verdict, pddl::Diagnostic where)

@@ -1,5 +1,5 @@
-// The static model: what is known before anything happens, that is, which predicates never change and what
-// holds at first.
+// The static model is what is known before anything happens: which predicates never change and what holds at
+// first.
 #pragma once
 
 #include <optional>
@@ -12,6 +12,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
+/// Is a timed initial literal.
 struct TimedAtom {
   double time = 0;  ///< seconds, > 0
   task::PredicateId predicate;
@@ -19,6 +20,7 @@ struct TimedAtom {
   bool negated = false;
 };
 
+/// Answers what is known before anything happens. Symbols and constants must outlive it.
 class StaticModel {
  public:
   StaticModel(const pddl::Problem& problem, const std::vector<LiftedAction>& actions, const Symbols& symbols,
@@ -27,7 +29,7 @@ class StaticModel {
   const Symbols& symbols() const { return symbols_; }
   const ConstantFunctions& constants() const { return constants_; }
   const TupleTable& initial_atoms() const { return initial_; }          ///< timed literals at time 0 included
-  const std::vector<TimedAtom>& timed_atoms() const { return timed_; }  ///< by time
+  const std::vector<TimedAtom>& timed_atoms() const { return timed_; }  ///< stand in order of time
 
   bool is_derived(task::PredicateId predicate) const { return derived_[predicate]; }
   bool is_static(task::PredicateId predicate) const { return static_[predicate]; }
@@ -40,8 +42,8 @@ class StaticModel {
   bool possible(const LiftedFormula& formula, Binding& binding) const;
   /// Returns whether all constants in the expression have a value.
   bool defined(const LiftedExpression& expression, const Binding& binding) const;
-  /// Returns the value of an expression without fluents and ?duration; nothing for others, and where a
-  /// constant is undefined.
+  /// Returns the value of an expression without fluents and ?duration. Returns nothing for others, and where
+  /// a constant is undefined.
   std::optional<double> constant_value(const LiftedExpression& expression, const Binding& binding) const;
 
  private:
@@ -73,6 +75,8 @@ void for_each_value(const std::vector<QuantifiedSlot>& slots, Binding& binding, 
 /// Returns whether left OP right holds.
 bool compare(pddl::ComparisonOperator op, double left, double right);
 
+/// Returns the operands combined from left to right; there is at least one, and a single one with subtract is
+/// negated.
 double combine(pddl::ArithmeticOperator op, const std::vector<double>& operands);
 
 }  // namespace roci::planner::temporal_pddl::grounding::lifted

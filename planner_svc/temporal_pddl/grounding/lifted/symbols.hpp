@@ -1,4 +1,4 @@
-// The names of the model and their numbers.
+// Symbols number the names of the model.
 #pragma once
 
 #include <map>
@@ -12,11 +12,12 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
+/// Describes a fluent or an external function.
 struct FunctionSymbol {
   std::string name;
   std::string module;                                   ///< empty: a fluent of the domain
   std::vector<std::vector<task::ObjectId>> parameters;  ///< the objects that each may be
-  pddl::SourceLocation declared;                        ///< in the domain's file
+  pddl::SourceLocation declared;                        ///< is a place in the domain's file
 };
 
 /// Is built from a checked model: every name that is looked up is there.

@@ -1,4 +1,4 @@
-// A table that interns (symbol, objects…): each distinct tuple stands in it once, numbered from 0 in the
+// A tuple table interns (symbol, objects…): each distinct tuple stands in it once, numbered from 0 in the
 // order of its first appearance.
 #pragma once
 
@@ -13,6 +13,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
+/// Numbers tuples; a number stays what it is as the table grows.
 class TupleTable {
  public:
   std::uint32_t intern(std::uint32_t symbol, std::span<const task::ObjectId> objects);

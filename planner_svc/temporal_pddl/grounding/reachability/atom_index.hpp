@@ -1,4 +1,4 @@
-// An index of the atoms known to be reachable: they are found by predicate and by the object at a position.
+// The index finds the atoms known to be reachable by predicate and by the object at a position.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::reachability {
 
+/// Holds the numbers of the reachable atoms, each list in ascending order.
 class AtomIndex {
  public:
   AtomIndex(std::size_t predicates, std::size_t objects) : objects_(objects), predicates_(predicates) {}
@@ -26,7 +27,8 @@ class AtomIndex {
  private:
   struct Lists {
     std::vector<std::uint32_t> all;
-    // position · objects + object; empty until the first atom
+    // Has the list of an object at a position at index position · objects + object; it is empty until the
+    // first atom.
     std::vector<std::vector<std::uint32_t>> by_place;
   };
 

@@ -53,15 +53,15 @@ SchemaJoin::SchemaJoin(const LiftedAction& action, const StaticModel& static_mod
   }
 }
 
-// One backtracking search over the conditions that are still open.
+// Is one backtracking search over the conditions that are still open.
 struct SchemaJoin::Search {
   const SchemaJoin& schema;
   const TupleTable& atoms;
   const AtomIndex& index;
   SearchLimits& limits;
   const Found& found;
-  std::uint32_t newest =
-      0;  // may be matched by fluents from `trigger` on only, so that no binding is found twice
+  // Only fluents from `trigger` on may match this atom, so that no binding is found twice.
+  std::uint32_t newest = 0;
   std::size_t trigger = 0;
   Binding binding;
   std::vector<const LiftedAtom*> open;
@@ -83,7 +83,8 @@ struct SchemaJoin::Search {
     return best;
   }
 
-  // Binds the open arguments of `atom` to the objects; false if they do not fit. `bound` gets the new slots.
+  // Binds the open arguments of `atom` to the objects. Returns false if they do not fit; `bound` gets the new
+  // slots.
   bool unify(const LiftedAtom& atom, std::span<const ObjectId> objects, std::vector<std::uint32_t>& bound) {
     for (std::size_t i = 0; i < objects.size(); ++i) {
       const Argument argument = atom.arguments[i];

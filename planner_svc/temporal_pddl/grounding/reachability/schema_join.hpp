@@ -1,6 +1,6 @@
-// Finds the bindings of one action's parameters under which its positive conditions are reachable, without
-// enumerating the product of the parameters' types: a join over the reachable atoms, smallest candidate list
-// first.
+// A schema join finds the bindings of one action's parameters under which its positive conditions are
+// reachable. It joins the reachable atoms, smallest candidate list first, and does not enumerate the product
+// of the parameters' types.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::reachability {
 
+/// Joins for one action. The action must outlive it.
 class SchemaJoin {
  public:
   SchemaJoin(const lifted::LiftedAction& action, const lifted::StaticModel& static_model);

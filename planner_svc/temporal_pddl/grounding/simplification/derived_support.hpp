@@ -1,4 +1,4 @@
-// What the truth of derived atoms hangs on, and what makes them false.
+// Supports tell what the truth of derived atoms hangs on, and what makes them false.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,14 @@
 
 namespace roci::planner::temporal_pddl::grounding::simplification {
 
-/// What a literal hangs on: changes outside of these lists cannot make it false. Of a listed literal, only
-/// its becoming false can.
+/// Holds what a literal hangs on: changes outside of these lists cannot make it false. Of a listed literal,
+/// only its becoming false can.
 struct Support {
-  std::vector<instantiation::GroundLiteral> literals;  ///< of atoms that are not derived; sorted
+  std::vector<instantiation::GroundLiteral> literals;  ///< are of atoms that are not derived, and sorted
   std::vector<task::NumberId> numbers;                 ///< sorted
 };
 
+/// Answers for the rules of one ground model, which must outlive it.
 class DerivedSupport {
  public:
   explicit DerivedSupport(const instantiation::GroundModel& model);

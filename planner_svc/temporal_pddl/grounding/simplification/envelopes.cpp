@@ -35,12 +35,13 @@ class Envelopes {
     for (std::size_t i = 0; i < model.actions.size(); ++i) note(i);
   }
 
-  // The actions within one of which lies whatever needs the atom all the time. Empty: not only within these.
+  // Returns the actions within one of which lies whatever needs the atom all the time; there are none if it
+  // may lie elsewhere.
   std::span<const std::size_t> holders(std::uint32_t atom) const {
     return held_otherwise_[atom] ? std::span<const std::size_t>() : holders_[atom];
   }
-  // Nothing: all of them may last long enough. Else the longest duration of the shortest that may, or of the
-  // action itself, if none may.
+  // Returns nothing if all holders may last long enough. Else returns the longest duration of the shortest
+  // one that may, or the least duration of the action itself if none may.
   std::optional<Duration> at_least(const GroundAction& action, GroundLiteral literal) const {
     if (literal.negated || contains(action.start_effects.adds, literal.atom)) return std::nullopt;
     std::optional<Duration> shortest;
@@ -79,7 +80,7 @@ class Envelopes {
   std::vector<std::vector<std::size_t>> holders_;  // by atom
 };
 
-// Facts of the form "p holds because of something that can last at least d".
+// Makes facts of the form "p holds because of something that can last at least d".
 class LongEnough {
  public:
   LongEnough(GroundModel& model, Symbols& symbols) : model_(model), symbols_(symbols) {}

@@ -14,7 +14,7 @@ using task::NumberId;
 
 namespace {
 
-// What some effect is about.
+// Marks what some effect is about.
 struct Changing {
   explicit Changing(const GroundModel& model)
       : atoms(model.atoms.size(), false), numbers(model.numbers.size(), false) {

@@ -90,7 +90,7 @@ class RelaxedReach {
   std::vector<std::size_t> queue_;
 };
 
-// By literal: is there an effect that brings it about?
+// Returns by literal index whether some effect brings the literal about.
 std::vector<bool> brought_about(const GroundModel& model) {
   std::vector<bool> result(2 * model.atoms.size(), false);
   const auto note = [&](const GroundEffects& effects) {
@@ -105,7 +105,7 @@ std::vector<bool> brought_about(const GroundModel& model) {
   return result;
 }
 
-// Of a list, those whose index satisfies a predicate; in place, since there may be many.
+// Keeps the elements whose index satisfies the predicate, in place, since there may be many.
 template <typename T, typename Predicate>
 void keep(std::vector<T>& list, const Predicate& wanted) {
   std::size_t kept = 0;

@@ -1,4 +1,4 @@
-// Pruning by relaxed reachability on the ground model, ends and negative conditions included.
+// This file prunes the ground model by relaxed reachability, ends and negative conditions included.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::simplification {
 
-/// Literals are numbered 2 · atom + (negated ? 1 : 0).
+/// Returns the number of a literal: 2 · atom + (negated ? 1 : 0).
 inline std::size_t literal_index(instantiation::GroundLiteral literal) {
   return 2 * std::size_t{literal.atom} + literal.negated;
 }

@@ -31,7 +31,7 @@ void for_each_condition(const GroundModel& model, const Visit& visit) {
   for (const auto& goal : model.goal) visit(goal);
 }
 
-// Rules whose heads nothing asks for, directly or through other rules.
+// Drops rules whose heads nothing asks for, directly or through other rules.
 void drop_irrelevant_rules(GroundModel& model) {
   std::vector<bool> asked(model.atoms.size(), false);
   const auto ask = [&](const Conjunction& conjunction) {

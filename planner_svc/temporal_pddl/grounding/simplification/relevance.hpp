@@ -1,4 +1,4 @@
-// Drops effects that nothing can notice.
+// This file drops effects that nothing can notice.
 #pragma once
 
 #include "planner_svc/temporal_pddl/grounding/instantiation/ground_model.hpp"

@@ -20,7 +20,7 @@ struct History {
   bool initially = false;
   std::vector<std::pair<Duration, bool>> changes;  // time, new value
 
-  // When the fact is true; none if some change is none.
+  // Returns when the fact is true, or nothing if some timed change does not change it.
   std::optional<TimeWindows> windows() const {
     TimeWindows result;
     if (initially) result.push_back({});
@@ -108,8 +108,8 @@ class Extraction {
     }
   }
 
-  // Moves the conditions on windowed facts out of `conjunction`; the times when all of them hold, with a
-  // margin.
+  // Moves the conditions on windowed facts out of `conjunction`. Returns the times when all of them hold,
+  // with a margin at both ends.
   TimeWindows take(Conjunction& conjunction, Duration margin) const {
     TimeWindows result = any_time();
     std::erase_if(conjunction.literals, [&](GroundLiteral literal) {
