@@ -24,20 +24,14 @@ GoalKey newest_hard(const GoalSet& goals) {
   return out;
 }
 
-/// Open goals that a proof blames; where it blames none by name, those of which a fact stands in its reason.
-std::vector<GoalKey> named_goals(const PlanReply& reply, const GoalSet& goals, const MissionModel& mission) {
+/// Open goals that a proof blames, in the order of their arrival.
+std::vector<GoalKey> blamed_goals(const PlanReply& reply, const GoalSet& goals) {
   std::vector<GoalKey> out;
   if (reply.verdict != Verdict::unsolvable) return out;
-  const auto blamed = [&](const GoalRecord& record) {
-    return std::ranges::find(reply.blocking, record.request.key, &BlockingGoal::key) != reply.blocking.end();
-  };
-  for (const GoalRecord* record : goals.open())
-    if (blamed(*record)) out.push_back(record->request.key);
-  if (!reply.blocking.empty()) return out;
   for (const GoalRecord* record : goals.open()) {
-    const auto facts = problem::goal_facts(mission, record->request);
-    const auto named = [&](const std::string& fact) { return reply.reason.find(fact) != std::string::npos; };
-    if (std::any_of(facts.begin(), facts.end(), named)) out.push_back(record->request.key);
+    const GoalKey& key = record->request.key;
+    if (std::ranges::find(reply.blocking, key, &BlockingGoal::key) != reply.blocking.end())
+      out.push_back(key);
   }
   return out;
 }
@@ -56,21 +50,21 @@ RelaxationStep relax(const PlanReply& reply, const GoalSet& goals, const Mission
   const std::string reason =
       std::string(proved ? "proved that not all goals fit" : to_string(reply.verdict)) +
       (reply.reason.empty() ? "" : ": " + reply.reason);
-  if (const auto soft = soft_goal_to_give_up(reply, goals, mission, relaxed))
+  if (const auto soft = soft_goal_to_give_up(reply, goals, relaxed))
     return {Kind::give_up_soft, {*soft}, reason};
-  const std::vector<GoalKey> named = named_goals(reply, goals, mission);
-  if (!named.empty() && relaxed.soft_goals_left_out.empty() && goals.drop_candidate())
+  const std::vector<GoalKey> blamed = blamed_goals(reply, goals);
+  if (!blamed.empty() && relaxed.soft_goals_left_out.empty() && goals.drop_candidate())
     return {Kind::leave_out_soft, {}, reason};
-  const auto hard = named.empty() ? std::vector{newest_hard(goals)} : named;
+  const auto hard = blamed.empty() ? std::vector{newest_hard(goals)} : blamed;
   const bool spend = keeps_reserves(mission) && relaxed.reserves == problem::Reserves::kept;
   return {spend ? Kind::spend_reserves : Kind::give_up_hard, hard, reason};
 }
 
 std::optional<GoalKey> soft_goal_to_give_up(const PlanReply& reply, const GoalSet& goals,
-                                            const MissionModel& mission, const Relaxation& relaxed) {
-  const std::vector<GoalKey> named = named_goals(reply, goals, mission);
+                                            const Relaxation& relaxed) {
+  const std::vector<GoalKey> blamed = blamed_goals(reply, goals);
   const bool of_hard_alone = reply.verdict == Verdict::unsolvable && !relaxed.soft_goals_left_out.empty();
-  return named.empty() && !of_hard_alone ? goals.drop_candidate() : goals.drop_candidate(named);
+  return blamed.empty() && !of_hard_alone ? goals.drop_candidate() : goals.drop_candidate(blamed);
 }
 
 GoalSet hard_goals(const GoalSet& goals) {

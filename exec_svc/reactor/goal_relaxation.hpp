@@ -38,7 +38,7 @@ struct RelaxationStep {
 
 /// The next step after a reply that says that the goals do not fit (temporal::speaks_of_goals). What the
 /// planner proves out of reach takes no other goal with it. One goal leaves at a time, unless hard ones alone
-/// are named: the others may be within reach once it is gone. A proof that names hard goals alone may hold
+/// are blamed: the others may be within reach once it is gone. A proof that blames hard goals alone may hold
 /// only because of what the soft ones demand (a search leaves out what cannot serve all goals), hence
 /// leave_out_soft.
 RelaxationStep relax(const PlanReply& reply, const goals::GoalSet& goals,
@@ -46,7 +46,6 @@ RelaxationStep relax(const PlanReply& reply, const goals::GoalSet& goals,
 
 /// The soft goal that relax() gives up; nothing: the reply speaks of hard goals alone.
 std::optional<goals::GoalKey> soft_goal_to_give_up(const PlanReply& reply, const goals::GoalSet& goals,
-                                                   const mission::MissionModel& mission,
                                                    const Relaxation& relaxed);
 
 /// The goals as they are, but soft ones that are open count as gone.

@@ -8,15 +8,10 @@
 namespace roci::exec::reactor {
 
 using beliefs::Beliefs;
-using goals::GoalRecord;
-using goals::GoalSet;
 using mission::ActionBinding;
 using mission::Component;
-using mission::fill_names;
 using mission::fill_positions;
-using mission::GoalKind;
 using mission::MissionModel;
-using mission::ObjectModel;
 using problem::Problem;
 using problem::ProblemObject;
 
@@ -50,20 +45,6 @@ Condition decidable(const Condition& condition, const Beliefs& beliefs) {
   return parts.empty() ? Condition{} : temporal::all_of(parts);
 }
 
-std::vector<std::string> goals_served(const std::vector<std::string>& objects, const MissionModel& mission,
-                                      const GoalSet& goals) {
-  std::vector<std::string> out;
-  for (const GoalRecord* record : goals.open()) {
-    const auto values = template_values(record->request);
-    const GoalKind& kind = mission.goal_kinds.at(record->request.kind);
-    const bool serves = std::any_of(kind.objects.begin(), kind.objects.end(), [&](const ObjectModel& object) {
-      return std::find(objects.begin(), objects.end(), fill_names(object.name, values)) != objects.end();
-    });
-    if (serves) out.push_back(record->request.key.text());
-  }
-  return out;
-}
-
 using Renaming = std::map<std::string, std::string>;
 
 // Ids that no other plan of the run has, in the order of the activities.
@@ -93,9 +74,8 @@ void rename_references(temporal::FlexiblePlan& plan, const Renaming& renamed) {
   }
 }
 
-// `goals`: none if the engine says itself which goals its activities serve.
 std::string bind_action(PlanActivity& activity, const MissionModel& mission, const PropertyTable& properties,
-                        const Beliefs& beliefs, const GoalSet* goals) {
+                        const Beliefs& beliefs) {
   const auto found = mission.actions.find(activity.name);
   if (found == mission.actions.end())
     return "the mission file binds no command to action '" + activity.name + "'; add it under 'actions'";
@@ -110,7 +90,6 @@ std::string bind_action(PlanActivity& activity, const MissionModel& mission, con
   activity.retries = binding.retries;
   activity.wait_timeout = binding.wait_timeout;
   activity.contingency = binding.contingency;
-  if (goals != nullptr) activity.goals_served = goals_served(objects, mission, *goals);
   activity.arguments.clear();
   for (const auto& [name, text] : binding.arguments) {
     std::string value = fill_positions(text, objects);
@@ -167,19 +146,15 @@ std::string bind_commands(PlanActivity& activity, const MissionModel& mission) {
 }  // namespace
 
 std::string bind_plan(temporal::FlexiblePlan& plan, std::uint32_t version, const MissionModel& mission,
-                      const Problem& problem, const Beliefs& beliefs, const GoalSet& goals) {
+                      const Problem& problem, const Beliefs& beliefs) {
   const PropertyTable properties = property_table(problem);
   plan.version = version;
   plan.id = mission.name;
   const Renaming renamed = rename_activities(plan);
   rename_references(plan, renamed);
-  const bool served_is_known = std::ranges::any_of(
-      plan.activities, [](const PlanActivity& activity) { return !activity.goals_served.empty(); });
-  const GoalSet* guessed_from = served_is_known ? nullptr : &goals;
   for (PlanActivity& activity : plan.activities) {
-    std::string fault = mission.has_domain()
-                            ? bind_action(activity, mission, properties, beliefs, guessed_from)
-                            : bind_commands(activity, mission);
+    std::string fault = mission.has_domain() ? bind_action(activity, mission, properties, beliefs)
+                                             : bind_commands(activity, mission);
     if (!fault.empty()) return fault;
   }
   return "";

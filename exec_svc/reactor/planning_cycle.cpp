@@ -67,8 +67,8 @@ void PlanningCycle::adopt(Time now, const PlanReply& reply) {
   plan.origin = call_->request().origin;
   std::vector<PlannedAction> planned;  // what is left of a plan is told as PDDL actions
   if (state_->mission->has_domain()) planned = planned_actions(plan);
-  std::string fault = bind_plan(plan, plan_->version() + 1, *state_->mission, call_->request().problem,
-                                state_->beliefs, state_->goals);
+  std::string fault =
+      bind_plan(plan, plan_->version() + 1, *state_->mission, call_->request().problem, state_->beliefs);
   if (!recovery_policy_of(state_->mission->executive.recovery).flexible) make_inflexible(plan);
   if (fault.empty()) fault = plan_->load(plan, now);
   if (!fault.empty()) return safing_->make_safe(now, "the planner's plan cannot be executed: " + fault);
@@ -115,7 +115,7 @@ bool PlanningCycle::relax(const PlanReply& reply) {
 }
 
 bool PlanningCycle::soft_goal_would_leave(const PlanReply& reply) const {
-  return soft_goal_to_give_up(reply, state_->goals, *state_->mission, relaxed_).has_value();
+  return soft_goal_to_give_up(reply, state_->goals, relaxed_).has_value();
 }
 
 void PlanningCycle::try_again_later(Time now, const PlanReply& reply) {

@@ -50,11 +50,24 @@ std::vector<pddl::PlanStep> steps_of(const FlexiblePlan& plan, const pddl::Domai
   return steps;
 }
 
+// Goals that activities say they serve, and that nobody asked for.
+std::vector<std::string> unknown_goals(const CheckedPlan& checked) {
+  std::set<std::string> asked;
+  for (const engine::Goal& goal : checked.request.goals) asked.insert(goal.key());
+  std::vector<std::string> faults;
+  for (const PlanActivity& activity : checked.plan.activities)
+    for (const std::string& goal : activity.goals_served)
+      if (!asked.contains(goal))
+        faults.push_back(activity.id + " serves " + goal + ", which is not asked for");
+  return faults;
+}
+
 }  // namespace
 
 std::vector<std::string> PddlChecker::faults(const CheckedPlan& checked) const {
   const FlexiblePlan& plan = checked.plan;
   if (std::vector<std::string> faults = temporal::check(plan); !faults.empty()) return faults;
+  if (std::vector<std::string> faults = unknown_goals(checked); !faults.empty()) return faults;
   const auto times = temporal::earliest_schedule(plan.point_count, temporal::all_constraints(plan));
   if (!times) return {"its network has no schedule"};
   const pddl::Domain domain = pddl::parse_domain(checked.request.model, "domain");

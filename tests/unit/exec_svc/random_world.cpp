@@ -188,6 +188,7 @@ PlanReply RandomWorld::answer_of(const PlanRequest& call) {
     activity.id = "a" + goal->request.key.id;
     activity.name = wild_ && one_in(60) ? "dance" : "take-image";
     activity.arguments = {{"1", "image-" + goal->request.key.id}, {"2", "place-" + goal->request.key.id}};
+    activity.goals_served = {goal->request.key.text()};
     activity.start_point = reply.plan.point_count++;
     activity.end_point = reply.plan.point_count++;
     activity.duration_lower = activity.duration_upper = seconds(40);

@@ -466,10 +466,7 @@ TEST_F(MapChangeTest, AMapThatNeverRestsDoesNotStopTheMission) {
 
 TEST_F(ReactorTest, AmongNamedGoalsASoftOneGoesFirst) {
   planner = [this](const PlanRequest& call) {
-    return reactor.goals().open().size() > 2
-               ? reply(Verdict::unsolvable,
-                       "never reached: (sent image-hard) (sent image-one) (sent image-two)")
-               : image_every_goal(call);
+    return reactor.goals().open().size() > 2 ? blocked({"hard", "one", "two"}) : image_every_goal(call);
   };
   run(1000, robot_and({photo("hard"), photo("other", GoalClass::opportunistic),
                        photo("one", GoalClass::opportunistic), photo("two", GoalClass::opportunistic)}));

@@ -28,6 +28,7 @@ inline temporal::FlexiblePlan images(const std::vector<std::string>& ids) {
     activity.id = "a" + id;
     activity.name = "take-image";
     activity.arguments = {{"1", "image-" + id}, {"2", "place-" + id}};
+    activity.goals_served = {"ground/" + id};
     activity.start_point = plan.point_count++;
     activity.end_point = plan.point_count++;
     activity.duration_lower = activity.duration_upper = seconds(40);
@@ -144,6 +145,16 @@ class ReactorTest : public ::testing::Test {
     reactor::PlanReply out;
     out.verdict = verdict;
     out.reason = std::move(reason);
+    return out;
+  }
+
+  // A proof that these goals of the ground are out of reach.
+  static reactor::PlanReply blocked(const std::vector<std::string>& ids) {
+    reactor::PlanReply out = reply(temporal::Verdict::unsolvable, "never reached:");
+    for (const std::string& id : ids) {
+      out.reason += " (sent image-" + id + ")";
+      out.blocking.push_back({{"ground", id}, "(sent image-" + id + ")", "never reached"});
+    }
     return out;
   }
 

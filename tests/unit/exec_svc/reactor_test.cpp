@@ -84,9 +84,7 @@ TEST_F(ReactorTest, ASpentBudgetDropsTooAndIsReportedAsWhatItIs) {
 
 TEST_F(ReactorTest, AHardGoalThatThePlannerNamesFailsAndTheRestGoesOn) {
   planner = [this](const PlanRequest& call) {
-    return testing::asks_for(call, "walled")
-               ? reply(Verdict::unsolvable, "goal (sent image-walled) can never be reached")
-               : image_every_goal(call);
+    return testing::asks_for(call, "walled") ? blocked({"walled"}) : image_every_goal(call);
   };
   run(1000, robot_and({photo("walled"), photo("free")}));
   EXPECT_EQ(reactor.goals().find({"ground", "walled"})->state, GoalState::failed);
@@ -96,9 +94,7 @@ TEST_F(ReactorTest, AHardGoalThatThePlannerNamesFailsAndTheRestGoesOn) {
 
 TEST_F(ReactorTest, WhatThePlannerProvesOutOfReachTakesNothingElseWithIt) {
   planner = [this](const PlanRequest& call) {
-    return testing::asks_for(call, "walled")
-               ? reply(Verdict::unsolvable, "goal (sent image-walled) can never be reached")
-               : image_every_goal(call);
+    return testing::asks_for(call, "walled") ? blocked({"walled"}) : image_every_goal(call);
   };
   run(1000, robot_and({photo("free", GoalClass::opportunistic), photo("walled", GoalClass::optional, 9),
                        photo("cheap", GoalClass::optional, 1)}));
@@ -112,7 +108,7 @@ TEST_F(ReactorTest, WhatThePlannerProvesOutOfReachTakesNothingElseWithIt) {
 TEST_F(ReactorTest, AHardGoalThatFitsWithoutTheSoftOnesStays) {
   planner = [this](const PlanRequest& call) {
     const bool soft = testing::asks_for(call, "late");
-    return soft ? reply(Verdict::unsolvable, "never reached: (sent image-hard)") : image_every_goal(call);
+    return soft ? blocked({"hard"}) : image_every_goal(call);
   };
   run(1000, robot_and({photo("hard"), photo("soft", GoalClass::optional, 9),
                        photo("late", GoalClass::opportunistic)}));
@@ -125,7 +121,7 @@ TEST_F(ReactorTest, AHardGoalThatFitsWithoutTheSoftOnesStays) {
 TEST_F(ReactorTest, AHardGoalOutOfReachTakesNoSoftOneWithIt) {
   planner = [this](const PlanRequest& call) {
     const bool hard = testing::asks_for(call, "walled");
-    return hard ? reply(Verdict::unsolvable, "never reached: (sent image-walled)") : image_every_goal(call);
+    return hard ? blocked({"walled"}) : image_every_goal(call);
   };
   run(1000, robot_and({photo("walled"), photo("soft", GoalClass::opportunistic)}));
   EXPECT_EQ(reactor.goals().find({"ground", "walled"})->state, GoalState::failed);
@@ -138,7 +134,7 @@ TEST_F(ReactorTest, ReservesAreSpentBeforeAHardGoalIsGivenUp) {
   planner = [&](const PlanRequest& call) {
     const bool kept = call.problem.text.find("(= (reserve) 20000)") != std::string::npos;
     asked.push_back(kept ? "kept" : "spent");
-    if (kept) return reply(Verdict::unsolvable, "never reached: (sent image-hard)");
+    if (kept) return blocked({"hard"});
     return image_every_goal(call);
   };
   run(20, robot_and({photo("hard")}));
@@ -150,7 +146,7 @@ TEST_F(ReactorTest, ReservesAreSpentBeforeAHardGoalIsGivenUp) {
   asked.clear();
   planner = [&](const PlanRequest& call) {
     asked.push_back(call.problem.text.find("(= (reserve) 5000)") != std::string::npos ? "spent" : "kept");
-    return reply(Verdict::unsolvable, "never reached: (sent image-far)");
+    return blocked({"far"});
   };
   run(30, std::move(more));
   ASSERT_GE(asked.size(), 3U);

@@ -39,6 +39,7 @@ temporal::FlexiblePlan images_for(const std::string& problem) {
     activity.id = "a" + std::to_string(plan.activities.size() + 1);
     activity.name = "take-image";
     activity.arguments = {{"1", "image-" + (*match)[1].str()}, {"2", "place-" + (*match)[1].str()}};
+    activity.goals_served = {"ground/" + (*match)[1].str()};
     activity.start_point = plan.point_count++;
     activity.end_point = plan.point_count++;
     activity.duration_lower = activity.duration_upper = temporal::seconds(40);
