@@ -5,7 +5,7 @@
 namespace roci::exec::orders {
 
 bool OrderBook::receive(const Order& order) {
-  const auto [known, is_new] = statuses_.try_emplace(order.key, OrderStatus{.key = order.key, .sample = order.sample});
+  const auto [known, is_new] = statuses_.try_emplace(order.key, OrderStatus{order.key, order.sample});
   OrderStatus& status = known->second;
   if (!is_new && status.answers == order.sample) return false;
   status.answers = order.sample;
