@@ -54,16 +54,19 @@ services::node::NodeOptions node_options(const std::filesystem::path& mission,
   options.run = options.mission;
   options.robot = entry.robot;
   options.vendor = "inproc";
-  options.clock = entry.clock_master ? services::clock::ClockMode::master : services::clock::ClockMode::simulated;
+  options.clock =
+      entry.clock_master ? services::clock::ClockMode::master : services::clock::ClockMode::simulated;
   if (!entry.clock_master) return options;
   options.master.pace = pace;
   for (const mission::ServiceEntry& other : crew_of(mission)) options.master.roster.push_back(other.name);
   return options;
 }
 
-services::MakeService* make_of(const mission::ServiceEntry& entry) {
+services::MakeService* make_of(const mission::ServiceEntry& entry, const std::vector<Program>& more) {
   const auto linked = std::ranges::find(programs(), entry.program, &Program::name);
   if (linked != programs().end()) return linked->make;
+  const std::string file = std::filesystem::path(entry.program).filename();
+  if (const auto own = std::ranges::find(more, file, &Program::name); own != more.end()) return own->make;
   throw std::invalid_argument("service " + entry.name + " is a program of its own, " + entry.program +
                               ", that a rehearsal in one process cannot start; fly with roci-launch");
 }
@@ -79,7 +82,7 @@ void fly(const FlightOptions& options) {
                                                  services::transport::open_transport("inproc", transport));
     services::RunSettings run = options.run;
     run.settings = entry.settings;
-    seat.service = make_of(entry)(*seat.node, run);
+    seat.service = make_of(entry, options.programs)(*seat.node, run);
     seats.push_back(std::move(seat));
   }
   FirstFailure failure;

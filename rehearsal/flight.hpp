@@ -26,17 +26,20 @@ std::vector<mission::ServiceEntry> crew_of(const std::filesystem::path& mission)
 services::node::NodeOptions node_options(const std::filesystem::path& mission, const mission::ServiceEntry&,
                                          double pace);
 
-/// Of a linked program. Throws std::invalid_argument for another.
-services::MakeService* make_of(const mission::ServiceEntry&);
+/// Of a linked program, or of one of `more`, which a mission names by a path. Throws std::invalid_argument for
+/// another.
+services::MakeService* make_of(const mission::ServiceEntry&, const std::vector<Program>& more = {});
 
 struct FlightOptions {
   services::RunSettings run;
   int domain = 1;   ///< flights with different domains do not hear each other
   double pace = 0;  ///< simulated seconds per wall second; 0: as fast as possible
+  /// A user's own programs, by the names of their files.
+  std::vector<Program> programs{};
 };
 
 /// Flies the services that the mission names. Returns when the clock's master has ended the run; the summary
-/// stands in run_folder/summary.json. Throws std::invalid_argument for a mission that names a program which is
+/// of each executive stands in the run folder. Throws std::invalid_argument for a mission that names a program which is
 /// not linked here or no clock master, and what a service threw while it was made or while it ran.
 void fly(const FlightOptions& options);
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "services/process/run_summary.hpp"
 #include "services/service.hpp"
 
 namespace roci::services::launch {
@@ -16,8 +17,6 @@ using nlohmann::json;
 
 constexpr char kServed[] = "served";
 
-constexpr char kExecutive[] = "exec_svc";  // the program that counts goals
-
 bool starts(const Options& options, const std::string& process) {
   return std::ranges::find(options.services, process) != options.services.end();
 }
@@ -25,22 +24,9 @@ bool starts(const Options& options, const std::string& process) {
 // No: they may well be counted on another host.
 bool must_count_goals(const Options& options) {
   return std::ranges::any_of(options.list.services, [&](const mission::ServiceEntry& entry) {
-    const bool here = entry.program == kExecutive && starts(options, entry.name);
+    const bool here = entry.program == services::process::kExecutive && starts(options, entry.name);
     return here && (!options.standby || starts(options, standby_of(entry.name)));
   });
-}
-
-// What exec_svc wrote here, if it did.
-json read(const Options& options) {
-  std::ifstream in(options.run_folder / services::kSummaryFile);
-  json summary = json::parse(in, nullptr, false);
-  if (!summary.is_object()) return json::object();
-  const int format = summary.value("format", 1);
-  if (format > services::kSummaryFormat)
-    throw std::runtime_error((options.run_folder / services::kSummaryFile).string() + " is of format " +
-                             std::to_string(format) + ", this launcher reads up to " +
-                             std::to_string(services::kSummaryFormat) + "; fly with programs of one version");
-  return summary;
 }
 
 void complete(json& summary, const Options& options, const char* result) {
@@ -69,6 +55,19 @@ std::string expected_text(const json& summary) {
   return "  events    " + (fault.empty() ? "as the scenario expects" : fault) + "\n";
 }
 
+// A line for each of several executives.
+std::string executives_text(const json& summary) {
+  std::string out;
+  const json executives = summary.value("executives", json::object());
+  for (const auto& [name, own] : executives.items()) {
+    const json goals = own.value("goals", json::object());
+    out +=
+        fmt::format("  {:<9} {}: {} achieved, {} dropped, {} failed\n", name, own.value("result", "failed"),
+                    goals.value("achieved", 0), goals.value("dropped", 0), goals.value("failed", 0));
+  }
+  return out;
+}
+
 std::string rejected_text(const json& goals) {
   const int rejected = goals.value("rejected", 0);
   return rejected == 0 ? "" : fmt::format(", {} rejected", rejected);
@@ -87,22 +86,23 @@ std::string text_with_goals(const json& summary, const Options& options) {
   return fmt::format(
       "{} {} (seed {}, {}): {}\n"
       "  goals     {} achieved, {} dropped, {} failed{}\n"
+      "{}"
       "  planner   {} calls, slowest {:.2f} s, {:.0f} MB; {} replans\n"
       "  time      {:.0f} s of mission in {:.1f} s\n"
       "{}"
       "  run       {}\n",
       summary.value("mission", ""), summary.value("scenario", ""), summary.value("seed", std::uint64_t{0}),
       summary.value("dds", ""), summary.value("result", ""), goals.value("achieved", 0),
-      goals.value("dropped", 0), goals.value("failed", 0), rejected_text(goals), planner.value("calls", 0),
-      planner.value("max_s", 0.0), planner.value("max_rss_mb", 0.0), summary.value("replans", 0),
-      summary.value("sim_s", 0.0), summary.value("wall_s", 0.0), expected_text(summary),
-      options.run_folder.string());
+      goals.value("dropped", 0), goals.value("failed", 0), rejected_text(goals), executives_text(summary),
+      planner.value("calls", 0), planner.value("max_s", 0.0), planner.value("max_rss_mb", 0.0),
+      summary.value("replans", 0), summary.value("sim_s", 0.0), summary.value("wall_s", 0.0),
+      expected_text(summary), options.run_folder.string());
 }
 
 }  // namespace
 
 Summary complete_summary(const Options& options, double wall_s, bool ended_well) {
-  json summary = read(options);
+  json summary = services::process::read_summary(options.run_folder, options.list);
   const bool counts_goals = !summary.empty() || must_count_goals(options);
   complete(summary, options, ended_well && !counts_goals ? kServed : "failed");
   summary["dds"] = options.connection.dds;
