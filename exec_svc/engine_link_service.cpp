@@ -16,7 +16,10 @@ EngineLink::EngineLink(services::Node& node, std::function<void(temporal::PlanDe
     : executive_(node.options().name), receipts_(services::advertise(node, services::topics::plan_receipt)) {
   services::subscribe(
       node, services::topics::plan_delta,
-      [take = std::move(take), report = std::move(report)](const v1::PlanDelta& delta) {
+      [take = std::move(take), report = std::move(report),
+       robot = node.options().robot](const v1::PlanDelta& delta) {
+        const std::string& planned_for = delta.header().robot();
+        if (!robot.empty() && !planned_for.empty() && planned_for != robot) return;
         try {
           take(services::wire::from_wire(delta));
         } catch (const services::wire::WireError& error) {

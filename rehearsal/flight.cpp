@@ -64,9 +64,11 @@ services::node::NodeOptions node_options(const std::filesystem::path& mission,
   return options;
 }
 
-services::MakeService* make_of(const mission::ServiceEntry& entry) {
+services::MakeService* make_of(const mission::ServiceEntry& entry, const std::vector<Program>& more) {
   const auto linked = std::ranges::find(programs(), entry.program, &Program::name);
   if (linked != programs().end()) return linked->make;
+  const std::string file = std::filesystem::path(entry.program).filename();
+  if (const auto own = std::ranges::find(more, file, &Program::name); own != more.end()) return own->make;
   throw std::invalid_argument("service " + entry.name + " is a program of its own, " + entry.program +
                               ", that a rehearsal in one process cannot start; fly with roci-launch");
 }
@@ -85,7 +87,7 @@ void fly(const FlightOptions& options) {
         std::make_unique<services::Node>(node, services::transport::open_transport("inproc", transport));
     services::RunSettings run = options.run;
     run.settings = entry.settings;
-    seat.service = make_of(entry)(*seat.node, run);
+    seat.service = make_of(entry, options.programs)(*seat.node, run);
     seats.push_back(std::move(seat));
   }
   FirstFailure failure;

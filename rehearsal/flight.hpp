@@ -36,6 +36,8 @@ struct FlightOptions {
   services::RunSettings run;
   int domain = 1;   ///< flights with different domains do not hear each other
   double pace = 0;  ///< simulated seconds per wall second; 0: as fast as possible
+  /// A user's own programs, by the names of their files.
+  std::vector<Program> programs{};
 };
 
 /// Flies the services that the mission names. Returns when the clock's master has ended the run; the summary

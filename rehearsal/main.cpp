@@ -11,6 +11,7 @@
 #include "services/clock/wall.hpp"
 #include "services/process/link_report.hpp"
 #include "services/process/mission_folder.hpp"
+#include "services/process/run_summary.hpp"
 
 namespace {
 
@@ -29,9 +30,9 @@ struct Arguments {
 // docs/exit-codes.md lists these under "Runs".
 enum ExitCode { kAchieved = 0, kNotAchieved = 1, kBadInput = 2, kServiceFailed = 3 };
 
-nlohmann::json summary_of(const std::filesystem::path& run_folder) {
-  std::ifstream in(run_folder / "summary.json");
-  auto summary = in ? nlohmann::json::parse(in) : nlohmann::json{{"result", "failed"}};
+nlohmann::json summary_of(const std::filesystem::path& mission, const std::filesystem::path& run_folder) {
+  auto summary = roci::services::process::read_summary(run_folder, roci::mission::load_service_list(mission));
+  if (summary.empty()) summary["result"] = "failed";
   std::ifstream expected(run_folder / roci::services::kExpectedFile);
   if (expected) summary["expected"] = nlohmann::json::parse(expected);
   const auto links = roci::services::process::read_link_reports(run_folder);
@@ -51,7 +52,7 @@ nlohmann::json fly_once(const Arguments& arguments, std::uint64_t seed,
   options.pace = arguments.speed == "max" ? 0 : std::stod(arguments.speed);
   const auto begun = roci::services::clock::wall_now();
   roci::rehearsal::fly(options);
-  auto summary = summary_of(run_folder);
+  auto summary = summary_of(options.run.mission, run_folder);
   summary["dds"] = "inproc";
   summary["wall_s"] = std::chrono::duration<double>(roci::services::clock::wall_now() - begun).count();
   return summary;

@@ -64,7 +64,7 @@ class SimService final : public services::Service, private owner::Driver {
         events_(services::advertise(node, topics::event)) {
     commands_.leave_stops_to_driver();  // the world knows its components
     services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
-      mission_over_ = !status.outcome().empty();
+      executives_[status.executive()] = standing_of(status);
       end_if_over();
     });
     services::subscribe(node, topics::event, [this](const v1::Event& event) {
@@ -175,9 +175,29 @@ class SimService final : public services::Service, private owner::Driver {
     end_if_over();
   }
 
+  // An executive's part of the mission.
+  enum class Standing { without_goals, open, over };
+
+  static Standing standing_of(const v1::MissionStatus& status) {
+    if (!status.outcome().empty()) return Standing::over;
+    const bool idle = status.phase() == v1::PHASE_IDLE && status.goals_open() == 0 &&
+                      status.goals_achieved() + status.goals_dropped() + status.goals_failed() == 0;
+    return idle ? Standing::without_goals : Standing::open;
+  }
+
+  // Some executive had goals, and none has open ones.
+  bool mission_over() const {
+    bool over = false;
+    for (const auto& [executive, standing] : executives_) {
+      if (standing == Standing::open) return false;
+      over = over || standing == Standing::over;
+    }
+    return over;
+  }
+
   // The mission may go on when a goal arrives in the meantime.
   void end_if_over() {
-    const bool over = mission_over_ && stimuli_done_ == scenario_.stimuli.size();
+    const bool over = mission_over() && stimuli_done_ == scenario_.stimuli.size();
     if (over == farewell_.has_value()) return;
     if (over) {
       farewell_ = node_.after(kFarewell,
@@ -240,7 +260,7 @@ class SimService final : public services::Service, private owner::Driver {
   services::Publisher<v1::Event> events_;
   std::map<std::pair<std::string, std::string>, const GoalStimulus*> uploaded_;  // by issuer and id
   std::size_t stimuli_done_ = 0;
-  bool mission_over_ = false;
+  std::map<std::string, Standing> executives_;
   std::optional<services::Node::TimerId> wake_;
   std::optional<services::Node::TimerId> farewell_;
 };

@@ -135,8 +135,9 @@ v1::Goal to_wire(const scenario::GoalStimulus& goal, bool recalled) {
     out.arguments().push_back(argument);
   }
   out.importance(class_of(goal.importance));
-  out.utility({goal.utility});
-  out.preferred_us(-1);
+  out.robot(goal.robot);
+  out.utility(goal.utility);
+  out.preferred_us(goal.preferred ? goal.preferred->count() : -1);
   out.priority(goal.priority);
   out.opens_us(goal.opens.count());
   out.closes_us(goal.closes.count());

@@ -35,7 +35,8 @@ struct Options {
 fs::path journal_file(const fs::path& given) {
   const fs::path file = fs::is_directory(given) ? given / "journal.sqlite" : given;
   if (!fs::is_regular_file(file))
-    throw JournalError("there is no journal " + file.string() + "; give a run folder or its journal.sqlite");
+    throw JournalError("there is no journal " + file.string() +
+                       "; give a run folder, or one of the journals in it");
   return file;
 }
 

@@ -44,8 +44,18 @@ RecordedTrace from_journal(const fs::path& journal, const nlohmann::json& summar
   return out;
 }
 
+std::string journals_of(const nlohmann::json& executives) {
+  std::string out;
+  for (const auto& [name, summary] : executives.items())
+    out += (out.empty() ? "" : ", ") + summary.value("journal", kJournal);
+  return out;
+}
+
 RecordedTrace from_folder(const fs::path& folder, bool decisions) {
   const auto summary = summary_beside(folder);
+  if (summary.contains("executives"))
+    throw TraceError(folder.string() + " holds the runs of several executives; give one of: " +
+                     journals_of(summary.at("executives")));
   const fs::path journal = folder / summary.value("journal", kJournal);
   if (!fs::is_regular_file(journal))
     throw TraceError("there is no journal " + journal.string() +

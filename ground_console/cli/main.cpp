@@ -43,7 +43,10 @@ void add_goal_verbs(CLI::App& app, Line& line) {
   add->add_option("kind", line.goal.kind, "One of the mission's goal kinds, e.g. photo")->required();
   add->add_option("arguments", line.goal.arguments, "name=value …, e.g. x=110 y=60");
   add->add_option("--class", line.goal.importance, "hard, optional or opportunistic")->capture_default_str();
-  add->add_option("--utility", line.goal.utility, "Among optional goals the lowest goes first");
+  add->add_option("--robot", line.goal.robot, "The robot that is to achieve it (default: the only one)");
+  add->add_option("--utility", line.goal.utility,
+                  "Among optional goals the lowest goes first; several by rank, the highest first: 2,0.5")
+      ->delimiter(',');
   add->add_option("--priority", line.goal.priority, "For people and later engines; higher is more");
   add->add_option("--opens", line.goal.opens_s, "Earliest mission time in seconds");
   add->add_option("--closes", line.goal.closes_s, "Latest mission time in seconds");

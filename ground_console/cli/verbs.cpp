@@ -53,9 +53,10 @@ int add_goal(lib::Client& client, const GoalArguments& arguments, bool as_json) 
   goal.issuer(arguments.issuer);
   goal.id(arguments.id);
   goal.goal_kind(arguments.kind);
+  goal.robot(arguments.robot);
   for (const std::string& argument : arguments.arguments) goal.arguments().push_back(property_of(argument));
   goal.importance(importance_of(arguments.importance));
-  goal.utility({arguments.utility});
+  goal.utility(arguments.utility);
   goal.preferred_us(-1);
   goal.priority(arguments.priority);
   goal.opens_us(static_cast<std::int64_t>(arguments.opens_s * 1e6));

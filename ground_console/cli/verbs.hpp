@@ -17,9 +17,10 @@ struct GoalArguments {
   std::string issuer = "ground";
   std::string id;
   std::string kind;
+  std::string robot;                   ///< that is to achieve it; empty: the only one
   std::vector<std::string> arguments;  ///< "x=110"
   std::string importance = "hard";
-  double utility = 0;
+  std::vector<double> utility;  ///< by rank, the highest first
   std::int32_t priority = 0;
   double opens_s = 0;   ///< 0: any time
   double closes_s = 0;  ///< 0: never

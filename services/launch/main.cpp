@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <iostream>
 #include <system_error>
 
@@ -11,6 +12,7 @@
 #include "services/launch/run.hpp"
 #include "services/process/service_options.hpp"
 #include "services/process/stop_signals.hpp"
+#include "services/transport/plug_ins.hpp"
 
 namespace {
 
@@ -20,6 +22,7 @@ namespace process = roci::services::process;
 // Turns this process into another program, which stands beside it unless it is a path.
 int become(const std::filesystem::path& name, std::vector<std::string> arguments) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+  setenv("ROCI_PLUGIN_PATH", roci::services::transport::plugin_path().c_str(), 1);
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
@@ -34,7 +37,8 @@ int start(int argc, char** argv) {
     return become(launch::program_of(options, options.become),
                   launch::service_arguments(options, options.become, 0, epoch_us));
   }
-  if (options.connection.dds == "inproc") return become("roci-rehearse", launch::rehearsal_arguments(options));
+  if (options.connection.dds == "inproc")
+    return become("roci-rehearse", launch::rehearsal_arguments(options));
   process::StopSignals signals;
   std::atomic<int> stops{0};
   signals.watch([&stops] { ++stops; });

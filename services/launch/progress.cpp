@@ -30,7 +30,7 @@ Progress::Progress(services::Node& node, bool shown)
       shown_(shown),
       terminal_(isatty(STDERR_FILENO) == 1) {
   services::subscribe(node, topics::mission_status,
-                      [this](const v1::MissionStatus& status) { status_ = status; });
+                      [this](const v1::MissionStatus& status) { statuses_[status.executive()] = status; });
   services::subscribe(node, topics::event, [this](const v1::Event& event) { take(event); });
 }
 
@@ -57,9 +57,20 @@ void Progress::report(v1::Severity severity, const std::string& code, const std:
 }
 
 std::string Progress::line() const {
+  std::string phases;
+  std::string plans;
+  std::uint32_t achieved = 0, open = 0, dropped = 0, failed = 0;
+  for (const auto& [executive, status] : statuses_) {
+    phases += (phases.empty() ? "" : "/") + std::string(phase_name(status.phase()));
+    plans += (plans.empty() ? "" : "/") + std::to_string(status.plan_version());
+    achieved += status.goals_achieved();
+    open += status.goals_open();
+    dropped += status.goals_dropped();
+    failed += status.goals_failed();
+  }
   return fmt::format("{}  goals: {} achieved, {} open, {} dropped, {} failed  plan {}  {}",
-                     phase_name(status_.phase()), status_.goals_achieved(), status_.goals_open(),
-                     status_.goals_dropped(), status_.goals_failed(), status_.plan_version(), last_event_);
+                     phases.empty() ? "idle" : phases, achieved, open, dropped, failed,
+                     plans.empty() ? "0" : plans, last_event_);
 }
 
 void Progress::show() {

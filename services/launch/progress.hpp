@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -33,7 +34,7 @@ class Progress {
   services::Publisher<v1::Event> events_;
   bool shown_;
   bool terminal_;
-  v1::MissionStatus status_;
+  std::map<std::string, v1::MissionStatus> statuses_;  // by executive
   std::string last_event_;
   std::string drawn_;
 };

@@ -27,6 +27,8 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kTurn{20};
 constexpr std::size_t kShownLogLines = 8;
+// A user's own program stands elsewhere and loads the same vendors.
+const std::string kPluginPath = "ROCI_PLUGIN_PATH=";
 
 fs::path path_of(const Options& options, const std::string& process) {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / program_of(options, process);
@@ -70,10 +72,17 @@ services::node::NodeOptions observer_options(const std::string& vendor, const st
 
 services::process::RunRecord record_of(const Options& options, std::int64_t started_unix_us) {
   const auto& transport = options.connection.transport;
-  return {getpid(),         transport.domain,       options.mission,
-          options.scenario, options.connection.dds, transport.address,
-          transport.peers,  options.run_folder,     options.live ? "live" : "simulated",
-          started_unix_us,  options.run};
+  return {getpid(),
+          transport.domain,
+          options.mission,
+          options.scenario,
+          options.connection.dds,
+          transport.address,
+          transport.peers,
+          options.run_folder,
+          options.live ? "live" : "simulated",
+          started_unix_us,
+          options.run};
 }
 
 void print_failure(const RunFailure& failure, const fs::path& run_folder) {
@@ -107,7 +116,8 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
 
   const std::string vendor = console_vendor(options.connection.dds);
   transport.participant = "launcher";
-  services::Node node(observer_options(vendor, options.run), services::transport::open_transport(vendor, transport));
+  services::Node node(observer_options(vendor, options.run),
+                      services::transport::open_transport(vendor, transport));
   Progress progress(node, !options.headless);
   const services::process::PublishedRun published(services::process::runtime_folder(),
                                                   record_of(options, started_unix_us));
@@ -118,14 +128,15 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
     return std::make_unique<Child>(path_of(options, service),
                                    service_arguments(options, service, incarnation, started_unix_us),
                                    options.run_folder / (service + ".log"),
-                                   std::vector<std::string>{"NOTIFY_SOCKET=" + notifications.address()});
+                                   std::vector<std::string>{"NOTIFY_SOCKET=" + notifications.address(),
+                                                            kPluginPath + transport::plugin_path()});
   };
   hooks.on_death = [&](const std::string& service, const std::string& what) {
     progress.report(v1::SEVERITY_WARNING, "service.died", service + " " + what);
   };
   const mission::ServiceEntry* master = options.list.clock_master();
-  Supervisor supervisor(options.services, master == nullptr ? "" : master->name, !options.live, Watchdog(options.watchdog_s),
-                        std::move(hooks));
+  Supervisor supervisor(options.services, master == nullptr ? "" : master->name, !options.live,
+                        Watchdog(options.watchdog_s), std::move(hooks));
   node.on_peer_change([&](const services::health::PeerChange& change) {
     // Who leads a pair counts its epochs as incarnations, so it cannot be told which process this is.
     const mission::ServiceEntry* entry = options.list.find(change.service);

@@ -17,8 +17,6 @@ using nlohmann::json;
 
 constexpr char kServed[] = "served";
 
-constexpr char kExecutive[] = "exec_svc";  // the program that counts goals
-
 bool starts(const Options& options, const std::string& process) {
   return std::ranges::find(options.services, process) != options.services.end();
 }
@@ -27,7 +25,7 @@ bool starts(const Options& options, const std::string& process) {
 // goals.
 bool must_count_goals(const Options& options) {
   return std::ranges::any_of(options.list.services, [&](const mission::ServiceEntry& entry) {
-    const bool here = entry.program == kExecutive && starts(options, entry.name);
+    const bool here = entry.program == services::process::kExecutive && starts(options, entry.name);
     return here && (!options.standby || starts(options, standby_of(entry.name)));
   });
 }
@@ -73,6 +71,19 @@ std::string expected_text(const json& summary) {
   return "  events    " + (fault.empty() ? "as the scenario expects" : fault) + "\n";
 }
 
+// A line for each of several executives.
+std::string executives_text(const json& summary) {
+  std::string out;
+  const json executives = summary.value("executives", json::object());
+  for (const auto& [name, own] : executives.items()) {
+    const json goals = own.value("goals", json::object());
+    out +=
+        fmt::format("  {:<9} {}: {} achieved, {} dropped, {} failed\n", name, own.value("result", "failed"),
+                    goals.value("achieved", 0), goals.value("dropped", 0), goals.value("failed", 0));
+  }
+  return out;
+}
+
 std::string rejected_text(const json& goals) {
   const int rejected = goals.value("rejected", 0);
   return rejected == 0 ? "" : fmt::format(", {} rejected", rejected);
@@ -103,6 +114,7 @@ std::string text_with_goals(const json& summary, const Options& options) {
   return fmt::format(
       "{} {} (seed {}, {}): {}\n"
       "  goals     {} achieved, {} dropped, {} failed{}\n"
+      "{}"
       "  planner   {} calls, slowest {:.2f} s, {:.0f} MB; {} replans\n"
       "  time      {:.0f} s of mission in {:.1f} s\n"
       "{}{}"
@@ -118,7 +130,7 @@ std::string text_with_goals(const json& summary, const Options& options) {
 }  // namespace
 
 Summary complete_summary(const Options& options, double wall_s, bool ended_well) {
-  json summary = read(options);
+  json summary = services::process::read_summary(options.run_folder, options.list);
   const bool counts_goals = !summary.empty() || must_count_goals(options);
   complete(summary, options, ended_well && !counts_goals ? kServed : "failed");
   summary["dds"] = options.connection.dds;

@@ -70,6 +70,12 @@ CreateTransport* load(const fs::path& plugin) {
 
 }  // namespace
 
+std::string plugin_path() {
+  std::string text;
+  for (const auto& folder : plugin_folders()) text += (text.empty() ? "" : ":") + folder.string();
+  return text;
+}
+
 std::vector<std::string> installed_transports() {
   std::vector<std::string> names;
   for (const auto& folder : plugin_folders()) {

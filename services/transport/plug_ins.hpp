@@ -16,4 +16,7 @@ namespace roci::services::transport {
 std::unique_ptr<Transport> open_transport(std::string_view vendor, const TransportOptions&);
 std::vector<std::string> installed_transports();
 
+/// The folders that are searched here, for the ROCI_PLUGIN_PATH of a program that stands elsewhere.
+std::string plugin_path();
+
 }  // namespace roci::services::transport

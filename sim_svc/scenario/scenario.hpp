@@ -22,9 +22,11 @@ struct GoalStimulus {
   std::string issuer;
   std::string id;
   std::string kind;
+  std::string robot;  ///< that is to achieve it; empty: the only one
   Importance importance = Importance::optional;
-  double utility = 1;
+  std::vector<double> utility{1};  ///< by rank, the highest first
   std::int32_t priority = 0;
+  std::optional<temporal::Time> preferred;
   temporal::Time opens{};   ///< 0: any time
   temporal::Time closes{};  ///< 0: none
   std::vector<std::pair<std::string, std::string>> arguments;

@@ -31,15 +31,24 @@ Importance read_importance(const Entry& entry) {
   entry.fail("unknown importance '" + text + "'; known: hard, optional, opportunistic");
 }
 
+std::vector<double> read_utility(const Entry& entry) {
+  if (!entry.is_sequence()) return {entry.number()};
+  std::vector<double> out;
+  for (const Entry& score : entry.items()) out.push_back(score.number());
+  return out;
+}
+
 GoalStimulus read_goal(const Entry& entry) {
-  entry.allow_only(
-      {"issuer", "id", "kind", "importance", "utility", "priority", "opens_s", "closes_s", "arguments"});
+  entry.allow_only({"issuer", "id", "kind", "robot", "importance", "utility", "priority", "preferred_s",
+                    "opens_s", "closes_s", "arguments"});
   GoalStimulus goal;
   goal.issuer = entry.text_or("issuer", "ground");
   goal.id = entry.at("id").text();
   goal.kind = entry.at("kind").text();
   if (const auto importance = entry.find("importance")) goal.importance = read_importance(*importance);
-  goal.utility = entry.number_or("utility", goal.utility);
+  goal.robot = entry.text_or("robot", "");
+  if (const auto utility = entry.find("utility")) goal.utility = read_utility(*utility);
+  if (const auto preferred = entry.find("preferred_s")) goal.preferred = time_of(*preferred);
   if (const auto priority = entry.find("priority"))
     goal.priority = static_cast<std::int32_t>(priority->integer());
   goal.opens = time_or_none(entry, "opens_s");

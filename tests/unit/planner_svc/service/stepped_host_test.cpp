@@ -1,0 +1,157 @@
+// An engine that plans all the time in the planner's service: what it hears, and what its defects cost.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "planner_svc/engine_host_service.hpp"
+#include "services/publisher.hpp"
+#include "tests/unit/services/sim_run.hpp"
+
+namespace roci::planner {
+namespace {
+
+namespace topics = services::topics;
+using namespace std::chrono_literals;
+using engine::StepInputs, engine::StepOutput;
+using temporal::Time;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+// What all engines of a test were given, one line for each goal, end and refusal.
+using Heard = std::vector<std::string>;
+
+// Sends a version for each goal: its activity is the goal's id. A goal of kind "throw" makes it fail once.
+class ScriptedEngine final : public engine::SteppedEngine {
+ public:
+  ScriptedEngine(Heard& heard, bool& throws) : heard_(heard), throws_(throws) {}
+
+  StepOutput step(const StepInputs& inputs) override {
+    StepOutput out;
+    for (const engine::EndedGoal& goal : inputs.ended_goals) heard_.push_back("end of " + goal.id);
+    if (inputs.receipt && inputs.receipt->refused != 0)
+      heard_.push_back("refused " + std::to_string(inputs.receipt->refused));
+    for (const engine::Goal& goal : inputs.goals) {
+      heard_.push_back("goal " + goal.id);
+      if (goal.kind == "throw" && std::exchange(throws_, false)) throw std::runtime_error("out of ideas");
+      out.delta.emplace();
+      out.delta->added.engine = "scripted";
+      out.delta->added.version = inputs.last_version + 1;
+      out.delta->added.id = goal.id;
+    }
+    return out;
+  }
+
+ private:
+  Heard& heard_;
+  bool& throws_;
+};
+
+class ScriptedChecker final : public engine::Checker {
+ public:
+  std::vector<std::string> faults(const engine::CheckedPlan& checked) const override {
+    if (checked.plan.id == "bad") return {"it is bad"};
+    return {};
+  }
+};
+
+class SteppedService : public ::testing::Test {
+ protected:
+  SteppedService() {
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "mission.yaml") << "planner: {engine: scripted}\n";
+    services::RunSettings settings;
+    settings.mission = folder_;
+    service_ = host_engines(run_.add("planner_svc"), settings, table_);
+    services::subscribe(executive_, topics::plan_delta, [this](const v1::PlanDelta& delta) {
+      versions_.push_back(std::to_string(delta.added().version()) + " " + delta.added().id());
+    });
+    services::subscribe(executive_, topics::event, [this](const v1::Event& event) {
+      events_.push_back(event.code() + ": " + event.text());
+    });
+  }
+  ~SteppedService() override {
+    service_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+
+  void tell(Time time, const std::string& id, v1::GoalState state, const std::string& kind = "") {
+    executive_.at(time, [this, id, state, kind] {
+      v1::Goal goal;
+      goal.issuer("ground");
+      goal.id(id);
+      goal.goal_kind(kind);
+      if (state == v1::GOAL_PENDING) goals_.write(goal);
+      v1::GoalStatus status;
+      status.executive("exec_svc");
+      status.issuer("ground");
+      status.id(id);
+      status.goal_state(state);
+      statuses_.write(status);
+    });
+  }
+  void run_until(Time end) {
+    executive_.at(end, [this] { executive_.stop(); });
+    run_.run();
+  }
+
+  Heard heard_;
+  bool throws_ = true;
+  const engine::Table table_{{"scripted",
+                              {engine::MakeStepped([this](const engine::Setup&) {
+                                 return std::make_unique<ScriptedEngine>(heard_, throws_);
+                               }),
+                               [] { return std::make_unique<ScriptedChecker>(); }}}};
+  const int domain_ = services::next_domain();
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() /
+      ("roci_stepped_" + std::to_string(::getpid()) + "_" + std::to_string(domain_));
+  services::SimRun run_{{"exec_svc", "planner_svc"}, domain_};
+  services::Node& executive_ = run_.add("exec_svc");
+  services::Publisher<v1::Goal> goals_ = services::advertise(executive_, topics::goal);
+  services::Publisher<v1::GoalStatus> statuses_ = services::advertise(executive_, topics::goal_status);
+  std::unique_ptr<services::Service> service_;
+  std::vector<std::string> versions_;
+  std::vector<std::string> events_;
+};
+
+TEST_F(SteppedService, AGoalIsTheEnginesFromTheExecutivesWordToItsEnd) {
+  tell(1s, "a", v1::GOAL_PENDING);
+  tell(2s, "old", v1::GOAL_ACHIEVED);
+  tell(3s, "a", v1::GOAL_PLANNED);
+  tell(4s, "a", v1::GOAL_ACHIEVED);
+  run_until(10s);
+  EXPECT_THAT(heard_, ElementsAre("goal a", "end of a"));
+  EXPECT_THAT(versions_, ElementsAre("1 a"));
+  EXPECT_THAT(events_, IsEmpty());
+}
+
+TEST_F(SteppedService, AVersionThatTheCheckerRefusesIsToldAndNeverSent) {
+  tell(1s, "bad", v1::GOAL_PENDING);
+  tell(2s, "good", v1::GOAL_PENDING);
+  run_until(10s);
+  EXPECT_THAT(versions_, ElementsAre("2 good"));
+  EXPECT_THAT(events_,
+              ElementsAre("planner.defect: version 1 of engine 'scripted' is refused by its checker: "
+                          "it is bad"));
+  EXPECT_THAT(heard_, ElementsAre("goal bad", "refused 1", "goal good")) << "with its next step, not at once";
+}
+
+TEST_F(SteppedService, AnEngineThatFailsIsMadeAnewAndHearsWhatStillCounts) {
+  tell(1s, "first", v1::GOAL_PENDING);
+  tell(2s, "gone", v1::GOAL_PENDING);
+  tell(3s, "gone", v1::GOAL_RECALLED);
+  tell(4s, "trap", v1::GOAL_PENDING, "throw");
+  tell(5s, "next", v1::GOAL_PENDING);
+  run_until(10s);
+  EXPECT_THAT(events_,
+              ElementsAre("planner.defect: engine 'scripted' failed and is made anew: out of ideas"));
+  EXPECT_THAT(heard_, ElementsAre("goal first", "goal gone", "end of gone", "goal trap", "goal first",
+                                  "goal trap", "goal next"));
+}
+
+}  // namespace
+}  // namespace roci::planner
