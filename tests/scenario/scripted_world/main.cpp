@@ -41,8 +41,7 @@ class ScriptedWorld final : public services::Service {
     node.at(1s, [this] { goals_.write(goal_of_the_run()); });
     node.at(3600s, [&node] { node.stop(); });
     services::subscribe(node, services::topics::mission_status, [&node](const v1::MissionStatus& status) {
-      if (!status.outcome().empty() && status.outcome() != "partial")
-        node.after(1s, [&node] { node.stop(); });
+      if (status.outcome() == "achieved") node.after(1s, [&node] { node.stop(); });
     });
   }
   ~ScriptedWorld() override {
