@@ -24,6 +24,19 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+GivenAnswer given(const std::string& issuer, const std::string& id, std::uint64_t number, const std::string& decision,
+                  const std::string& choice) {
+  GivenAnswer answer;
+  answer.key.issuer = issuer;
+  answer.key.id = id;
+  answer.sample.sender = issuer;
+  answer.sample.incarnation = 1;
+  answer.sample.number = number;
+  answer.decision = decision;
+  answer.choice = choice;
+  return answer;
+}
+
 // The camera looks for 40 s; then one of two images is to be taken, which somebody decides before 300 s.
 class DecisionTest : public ReactorTest {
  protected:
@@ -62,7 +75,8 @@ class DecisionTest : public ReactorTest {
   }
   void answer_at(double time_s, const std::string& issuer, const std::string& id, const std::string& decision,
                  const std::string& choice, const std::string& value = "") {
-    const GivenAnswer answer{{issuer, id}, {issuer, 1, ++samples}, decision, choice, value};
+    GivenAnswer answer = given(issuer, id, ++samples, decision, choice);
+    answer.value = value;
     other_events.emplace(seconds(time_s), [this, answer] { pending.answers.push_back(answer); });
   }
   void fly(double until_s = 1000) {
@@ -310,7 +324,7 @@ TEST_F(ReactorTest, ADecisionInAPlannersPlanIsAskedForUnderTheIdsOfThePlan) {
     return out;
   };
   other_events.emplace(seconds(60), [this] {
-    pending.answers.push_back({{"ground", "1"}, {"roci", 0, 1}, "p1.way", "only-asecond", ""});
+    pending.answers.push_back(given("ground", "1", 1, "p1.way", "only-asecond"));
   });
   run(90, robot_and({photo("first"), photo("second")}));
   ASSERT_EQ(receipts.size(), 1U);

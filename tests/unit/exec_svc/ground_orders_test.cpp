@@ -175,7 +175,7 @@ TEST_F(OrderTest, BelowE4TheRunningPlanStays) {
 }
 
 TEST_F(OrderTest, E3RetriesAndE2DoesNot) {
-  for (const auto [set, tries] : {std::pair(AutonomyLevel::e3, 2U), std::pair(AutonomyLevel::e2, 1U)}) {
+  for (const auto& [set, tries] : {std::pair(AutonomyLevel::e3, 2U), std::pair(AutonomyLevel::e2, 1U)}) {
     mission.actions.at("take-image").retries = 1;
     reactor = Reactor(mission);
     commands.clear();

@@ -109,7 +109,7 @@ ExecutiveSettings with_a_contingency() {
   ExecutiveSettings settings = behind_a_link();
   Contingency& back_off = settings.contingencies["back-off"];
   back_off.name = "back-off";
-  back_off.commands = {{.owner = "sim", .subsystem = "nav", .command_name = "stop"}};
+  back_off.commands = {{"sim", "nav", "stop", {}}};
   back_off.retries = true;
   back_off.within = seconds(60);
   return settings;
