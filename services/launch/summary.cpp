@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "services/process/link_report.hpp"
+#include "services/process/run_summary.hpp"
 #include "services/service.hpp"
 
 namespace roci::services::launch {
@@ -28,19 +29,6 @@ bool must_count_goals(const Options& options) {
     const bool here = entry.program == services::process::kExecutive && starts(options, entry.name);
     return here && (!options.standby || starts(options, standby_of(entry.name)));
   });
-}
-
-// Returns what exec_svc wrote here, if it did.
-json read(const Options& options) {
-  std::ifstream in(options.run_folder / services::kSummaryFile);
-  json summary = json::parse(in, nullptr, false);
-  if (!summary.is_object()) return json::object();
-  const int format = summary.value("format", 1);
-  if (format > services::kSummaryFormat)
-    throw std::runtime_error((options.run_folder / services::kSummaryFile).string() + " is of format " +
-                             std::to_string(format) + ", this launcher reads up to " +
-                             std::to_string(services::kSummaryFormat) + "; fly with programs of one version");
-  return summary;
 }
 
 void complete(json& summary, const Options& options, const char* result) {
@@ -71,7 +59,7 @@ std::string expected_text(const json& summary) {
   return "  events    " + (fault.empty() ? "as the scenario expects" : fault) + "\n";
 }
 
-// A line for each of several executives.
+// Returns a line for each of several executives.
 std::string executives_text(const json& summary) {
   std::string out;
   const json executives = summary.value("executives", json::object());
@@ -89,7 +77,7 @@ std::string rejected_text(const json& goals) {
   return rejected == 0 ? "" : fmt::format(", {} rejected", rejected);
 }
 
-// A line for each link that the scenario declares and that carried something.
+// Returns a line for each link that the scenario declares and that carried something.
 std::string links_text(const json& summary) {
   std::string out;
   if (!summary.contains("links")) return out;
@@ -121,10 +109,10 @@ std::string text_with_goals(const json& summary, const Options& options) {
       "  run       {}\n",
       summary.value("mission", ""), summary.value("scenario", ""), summary.value("seed", std::uint64_t{0}),
       summary.value("dds", ""), summary.value("result", ""), goals.value("achieved", 0),
-      goals.value("dropped", 0), goals.value("failed", 0), rejected_text(goals), planner.value("calls", 0),
-      planner.value("max_s", 0.0), planner.value("max_rss_mb", 0.0), summary.value("replans", 0),
-      summary.value("sim_s", 0.0), summary.value("wall_s", 0.0), expected_text(summary), links_text(summary),
-      options.run_folder.string());
+      goals.value("dropped", 0), goals.value("failed", 0), rejected_text(goals), executives_text(summary),
+      planner.value("calls", 0), planner.value("max_s", 0.0), planner.value("max_rss_mb", 0.0),
+      summary.value("replans", 0), summary.value("sim_s", 0.0), summary.value("wall_s", 0.0),
+      expected_text(summary), links_text(summary), options.run_folder.string());
 }
 
 }  // namespace
