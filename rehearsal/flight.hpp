@@ -1,4 +1,4 @@
-// A flight runs a mission once with all services in this process, over the inproc transport, on the simulated
+// One flight of a mission with all services in this process, over the inproc transport, on the simulated
 // clock.
 #pragma once
 
@@ -10,28 +10,26 @@
 
 namespace roci::rehearsal {
 
-/// Is a program by the name that it has as a process.
+/// A program by the name that it has as a process.
 struct Program {
   std::string name;
   services::MakeService* make;
 };
 
-/// Returns the programs that are linked here: those that a mission's list of services may name in a
-/// rehearsal.
+/// The programs that are linked here: those that a mission's list of services may name in a rehearsal.
 const std::vector<Program>& programs();
 
-/// Returns the mission's services in the order in which a rehearsal makes them: the clock's master last.
+/// The mission's services in the order in which a rehearsal makes them: the clock's master last.
 std::vector<mission::ServiceEntry> crew_of(const std::filesystem::path& mission);
 
-/// Returns the options of the node of one of them; `pace` is as in FlightOptions.
+/// The node of one of them; `pace` as in FlightOptions.
 services::node::NodeOptions node_options(const std::filesystem::path& mission, const mission::ServiceEntry&,
                                          double pace);
 
-/// Returns how a linked program makes its service. Throws std::invalid_argument for a program that is not
-/// linked.
-services::MakeService* make_of(const mission::ServiceEntry&);
+/// Of a linked program, or of one of `more`, which a mission names by a path. Throws std::invalid_argument for
+/// another.
+services::MakeService* make_of(const mission::ServiceEntry&, const std::vector<Program>& more = {});
 
-/// Says what is flown, where and how fast.
 struct FlightOptions {
   services::RunSettings run;
   int domain = 1;   ///< flights with different domains do not hear each other
@@ -41,8 +39,8 @@ struct FlightOptions {
 };
 
 /// Flies the services that the mission names. Returns when the clock's master has ended the run; the summary
-/// stands in run_folder/summary.json. Throws std::invalid_argument for a mission that names a program which
-/// is not linked here or no clock master, and what a service threw while it was made or while it ran.
+/// of each executive stands in the run folder. Throws std::invalid_argument for a mission that names a program which is
+/// not linked here or no clock master, and what a service threw while it was made or while it ran.
 void fly(const FlightOptions& options);
 
 }  // namespace roci::rehearsal
