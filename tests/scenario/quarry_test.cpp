@@ -98,8 +98,9 @@ TEST_P(Quarry, FliesAsItsFileExpectsWithOneTracePerExecutive) {
 INSTANTIATE_TEST_SUITE_P(Transports, Quarry,
                          ::testing::Combine(::testing::Values("nominal", "boom_fault"),
                                             ::testing::Values("fastdds", "cyclonedds", "mixed")),
-                         [](const auto& info) {
-                           return std::string(std::get<0>(info.param)) + "_" + std::get<1>(info.param);
+                         [](const auto& transport) {
+                           return std::string(std::get<0>(transport.param)) + "_" +
+                                  std::get<1>(transport.param);
                          });
 
 TEST_F(QuarryFlight, EachExecutiveCommandsItsOwnRobotAndKeepsItsOwnFiles) {
