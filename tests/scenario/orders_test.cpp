@@ -63,14 +63,13 @@ TEST_P(Orders, AreObeyedOnceAnsweredAndKept) {
   EXPECT_EQ(flight.replayed.value("same", false), true) << flight.replayed;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Flights, Orders,
-    ::testing::Values(Case{"undisturbed", "fastdds", "", "", 1},
-                      Case{"killed_between_order_and_acknowledgement", "cyclonedds",
-                           "after-order:1,after-order:2,after-order:3,after-order:4,after-write-ahead:12", "",
-                           6},
-                      Case{"taken_over", "cyclonedds", "after-order:7", " --standby", 2}),
-    [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(Flights, Orders,
+                         ::testing::Values(Case{"undisturbed", "fastdds", "", "", 1},
+                                           Case{"killed_between_order_and_acknowledgement", "cyclonedds",
+                                                "after-order:1,after-order:2,after-write-ahead:12", "", 4},
+                                           Case{"taken_over", "cyclonedds", "after-order:7", " --standby",
+                                                2}),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace roci::scenario
