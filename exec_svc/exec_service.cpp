@@ -89,6 +89,7 @@ class ExecService final : public services::Service {
         settings_(settings),
         mission_(mission_behind_links(node, settings)),
         planner_service_(planner_of(mission_, settings)),
+        summary_file_(run_file(settings, node.options().name, services::kSummaryFile)),
         journal_(journal),
         epoch_(epoch),
         leader_(leading),
@@ -320,7 +321,7 @@ class ExecService final : public services::Service {
   }
 
   void write_summary() const {
-    exec::write_summary(settings_, node_.options().name, mission_, reactor_.reactor(),
+    exec::write_summary(summary_file_, settings_, mission_, reactor_.reactor(),
                         {slowest_call_s_, planner_peak_kb_ / 1024.0, temporal::to_seconds(node_.now()),
                          reactor_.trace_sha256(), journal_.file(), epoch_});
   }
@@ -329,6 +330,8 @@ class ExecService final : public services::Service {
   services::RunSettings settings_;
   MissionModel mission_;
   std::string planner_service_;  // that is called
+  // It is named while the mission file is there; the destructor reads nothing any more.
+  std::filesystem::path summary_file_;
   Journal& journal_;
   std::uint64_t epoch_;
   LeaderService* leader_;  // none: no other executive follows

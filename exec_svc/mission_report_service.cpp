@@ -3,7 +3,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "exec_svc/run_files_service.hpp"
 
 namespace roci::exec {
 
@@ -37,7 +36,7 @@ v1::MissionStatus mission_status(const Reactor& reactor, const MissionModel& mis
   return status;
 }
 
-void write_summary(const services::RunSettings& settings, const std::string& executive,
+void write_summary(const std::filesystem::path& file, const services::RunSettings& settings,
                    const MissionModel& mission, const Reactor& reactor, const RunFigures& figures) {
   const ReactorCounts counts = reactor.counts();
   const std::string outcome = reactor.outcome();
@@ -61,7 +60,7 @@ void write_summary(const services::RunSettings& settings, const std::string& exe
                                {"trace_sha256", figures.trace_sha256},
                                {"journal", figures.journal.lexically_relative(settings.run_folder).string()},
                                {"epoch", figures.epoch}};
-  std::ofstream(run_file(settings, executive, services::kSummaryFile)) << summary.dump(2) << "\n";
+  std::ofstream(file) << summary.dump(2) << "\n";
 }
 
 }  // namespace roci::exec

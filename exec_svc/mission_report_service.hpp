@@ -22,7 +22,8 @@ struct RunFigures {
   std::filesystem::path journal;
   std::uint64_t epoch = 0;
 };
-void write_summary(const services::RunSettings& settings, const std::string& executive,
+/// Writes it to `file` (run_file() in run_files_service.hpp).
+void write_summary(const std::filesystem::path& file, const services::RunSettings& settings,
                    const mission::MissionModel& mission, const reactor::Reactor& reactor,
                    const RunFigures& figures);
 

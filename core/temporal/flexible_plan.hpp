@@ -89,8 +89,7 @@ struct PlanCommand {
 struct PlanActivity {
   std::string id;
   std::string name;    ///< action or task name
-  std::string level;   ///< says where in the hierarchy it stands, e.g. "mission" (R130); empty: plans without
-                       ///< one
+  std::string level;   ///< of the hierarchy, e.g. "mission" (R130); empty: plans without one
   std::string parent;  ///< activity of the level above; empty: none
   std::string owner;   ///< service that executes the command; empty: no command, internal states only
   std::string robot;   ///< has the subsystem; empty: the owner's only one

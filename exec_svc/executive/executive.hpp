@@ -23,19 +23,19 @@ enum class StartPolicy { earliest, latest };
 struct ExecutiveSettings {
   temporal::Duration ack_timeout = temporal::seconds(5);  ///< command sent -> accepted, rejected or completed
   temporal::Duration cancel_timeout = temporal::seconds(5);  ///< cancel sent -> any answer
-  temporal::Duration settle_time = temporal::seconds(2);     ///< is what observations have to follow a start
-                                                             ///< or an end
+  /// Observations have so long to follow a start or an end.
+  temporal::Duration settle_time = temporal::seconds(2);
   /// Bounds the wait for pre conditions, where nothing else bounds it.
   temporal::Duration default_wait = temporal::seconds(3600);
-  temporal::Duration decision_timeout = temporal::seconds(600);  ///< counts where decide_before has no latest
-                                                                 ///< time
+  /// It counts where decide_before has no latest time.
+  temporal::Duration decision_timeout = temporal::seconds(600);
   double overrun_factor = 3.0;  ///< a command fails as hung after this many times its longest duration ...
   temporal::Duration overrun_grace = temporal::seconds(600);  ///< ... plus this
   StartPolicy start = StartPolicy::earliest;
   /// Says whether what is not committed waits for a version of the plan that commits it (R78).
   bool only_committed = false;
-  std::map<std::string, Contingency> contingencies{};  ///< go by name, as PlanActivity::contingency names
-                                                       ///< them
+  /// They go by the names that PlanActivity::contingency gives them.
+  std::map<std::string, Contingency> contingencies{};
   /// Bounds retries from the first start on, by PlanActivity::name; a name that is not here has no bound.
   std::map<std::string, temporal::Duration> retry_within{};
   /// The owners that a link of the scenario joins to the executive, with the light time there and back. What

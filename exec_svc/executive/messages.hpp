@@ -74,8 +74,7 @@ struct Command {
   std::string command_name;
   std::vector<temporal::Property> arguments;
   temporal::Duration expected{0};                  ///< shortest duration of the activity
-  std::uint64_t epoch = 0;                         ///< is the one in which the key was issued; 0: the
-                                                   ///< commander's own
+  std::uint64_t epoch = 0;                         ///< in which the key was issued; 0: the commander's own
   temporal::Time latest_end = temporal::no_bound;  ///< is when its step must have ended
   std::string robot{};                             ///< has the subsystem; empty: the owner's only one
 };
@@ -104,8 +103,8 @@ enum class DecisionState {
 /// A decision that was asked for. It is told when it is asked for and when its state changes.
 struct DecisionStatus {
   std::string decision;
-  std::string
-      resolver;  ///< who is asked: a service, an engine, an issuer; "rule": the choices' own conditions
+  /// Says who is asked: a service, an engine, an issuer; "rule": the choices' own conditions.
+  std::string resolver;
   std::vector<std::string> choices;
   std::vector<std::string> admissible;                ///< values that may be bound; empty: any
   temporal::Time answer_before = temporal::no_bound;  ///< a later answer is late

@@ -17,8 +17,8 @@ struct DriveSettings {
   double detours = 0;                    ///< rocks that one drive looks at and asks a way around
   double look_s = 20;                    ///< a look at such a rock takes this long
   std::string planner = "pathplan_svc";  ///< the service that is asked for paths
-  std::string stop_place = "here";       ///< is where the body stands at the start and after a stop on the
-                                         ///< way
+  /// It names where the body stands at the start and after a stop on the way.
+  std::string stop_place = "here";
 };
 
 /// Drives on wheels: drive (to, x, y) asks for a path and follows it; a stop on the way leaves the body at

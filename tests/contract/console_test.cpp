@@ -157,11 +157,13 @@ TEST_P(ConsoleTest, AnOrdersStagesComeDownAsTheyAreReached) {
         order, [&](const v1::OrderStatus& status) { stages.push_back(status.stage()); }, kLimit);
   };
   ASSERT_TRUE(give("1", v1::ORDER_HOLD, ""));
-  EXPECT_THAT(stages, testing::ElementsAre(v1::ORDER_RECEIVED, v1::ORDER_ACCEPTED, v1::ORDER_APPLIED));
+  // The topic keeps the newest stage: who is slow hears fewer of them, in their order, and always the last.
+  EXPECT_TRUE(std::ranges::is_sorted(stages));
+  EXPECT_EQ(stages.back(), v1::ORDER_APPLIED);
   EXPECT_TRUE(client.wait([&] { return client.view().mission() && client.view().mission()->held(); }, kLimit));
   const auto refused = give("2", v1::ORDER_HOLD, "nothing");
   ASSERT_TRUE(refused);
-  EXPECT_THAT(stages, testing::ElementsAre(v1::ORDER_RECEIVED, v1::ORDER_REFUSED));
+  EXPECT_EQ(stages.back(), v1::ORDER_REFUSED);
   EXPECT_EQ(refused->reason(), "no plan runs");
   ASSERT_TRUE(give("1", v1::ORDER_HOLD, ""));
   EXPECT_THAT(stages, testing::ElementsAre(v1::ORDER_APPLIED)) << "it was given before";

@@ -103,8 +103,8 @@ struct Task {
   FlatLists<FactId> adds, deletes;           ///< are applied deletes first, then adds
   FlatLists<NumericEffect> numeric_effects;  ///< are all evaluated in the state before
   FlatLists<VariableId> reads, writes;       ///< are what orderings go by (R22, R23)
-  FlatLists<TimeWindow> windows;  ///< says when the snap action may happen (R33); an empty list allows any
-                                  ///< time
+  /// They say when the snap action may happen (R33); an empty list allows any time.
+  FlatLists<TimeWindow> windows;
 
   // ---- Actions, by ActionId
   IdVector<ActionId, Action> actions;

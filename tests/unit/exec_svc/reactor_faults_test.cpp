@@ -136,7 +136,7 @@ TEST_F(ReactorTest, AFallbackOverALinkIsRepeatedUntilTheComponentIsInactive) {
   ReactorInputs more;
   more.goals = {photo("b")};
   more.acks = {{"aa", 1, executive::CommandStage::failed, "", "shutter"}};
-  run(75, std::move(more));
+  run(200, std::move(more));
   std::set<std::string> keys;
   int stops = 0;
   for (const Command& command : commands) {

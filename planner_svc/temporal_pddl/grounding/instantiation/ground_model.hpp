@@ -111,8 +111,8 @@ struct GroundModel {
   std::vector<TimedChange> timed;            ///< stand in order of time, one per instant
   Disjunction goal;
   task::Metric metric;
-  std::vector<bool> only_metric_asks;          ///< is indexed by number: nothing else asks for it, and it is
-                                               ///< never assigned
+  /// It is indexed by number: nothing else asks for it, and it is never assigned.
+  std::vector<bool> only_metric_asks;
   std::vector<std::string> unreachable_goals;  ///< are texts, if `goal` has no alternative from the beginning
 
   const std::vector<ReadVariable>& read_set_of(const GroundAction& action) const {
