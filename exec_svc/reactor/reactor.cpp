@@ -219,6 +219,8 @@ ReactorCounts Reactor::counts() const {
 }
 
 std::string Reactor::outcome() const {
+  const bool ground_goes_on = !parts_->state.authority.may_replan();  // a release or a relaunch may still come
+  if (phase() == MissionPhase::safe && ground_goes_on) return "";
   if (phase() == MissionPhase::safe) return parts_->state.beliefs.active().empty() ? "partial" : "failed";
   if (phase() != MissionPhase::finished) return "";
   auto asked = goals().all();

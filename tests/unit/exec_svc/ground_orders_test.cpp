@@ -307,6 +307,7 @@ TEST_F(OrderTest, SafeNowStopsAndHoldsUntilTheGroundSaysOtherwise) {
   other_events.emplace(seconds(50), [this] { pending.goals.push_back(photo("2")); });
   run(400, {});
   EXPECT_EQ(reactor.phase(), MissionPhase::safe) << "a goal does not end it";
+  EXPECT_EQ(reactor.outcome(), "") << "the mission is not over: the ground goes on with it";
   at(500, order(OrderKind::release));
   run(1000, {});
   EXPECT_EQ(reactor.outcome(), "achieved");
