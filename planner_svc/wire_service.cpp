@@ -50,17 +50,24 @@ std::optional<temporal::Time> if_happened(std::int64_t time_us) {
   return time_us < 0 ? std::nullopt : std::optional(temporal::Time(time_us));
 }
 
-engine::Goal from_wire(const v1::PlanGoal& in) {
+// Converts what goals of a call (v1::PlanGoal) and goals that are heard (v1::Goal) have in common.
+template <class WireGoal>
+engine::Goal common_part(const WireGoal& in) {
   engine::Goal out;
   out.issuer = in.issuer();
   out.id = in.id();
-  out.achieved = services::wire::from_wire(in.achieved());
   out.importance = from_wire(in.importance());
   out.utility = temporal::RankVector(in.utility());
   out.priority = in.priority();
   out.preferred = or_none(in.preferred_us(), in.preferred_us() < 0);
   out.opens = temporal::Time(in.opens_us());
   out.closes = or_none(in.closes_us(), in.closes_us() == 0);
+  return out;
+}
+
+engine::Goal from_wire(const v1::PlanGoal& in) {
+  engine::Goal out = common_part(in);
+  out.achieved = services::wire::from_wire(in.achieved());
   return out;
 }
 
@@ -198,17 +205,9 @@ std::vector<FunctionValue> values_of(const std::vector<FunctionCall>& calls, con
 }
 
 engine::Goal from_wire(const v1::Goal& in) {
-  engine::Goal out;
-  out.issuer = in.issuer();
-  out.id = in.id();
+  engine::Goal out = common_part(in);
   out.kind = in.goal_kind();
   out.arguments = from_wire(in.arguments());
-  out.importance = from_wire(in.importance());
-  out.utility = temporal::RankVector(in.utility());
-  out.priority = in.priority();
-  out.preferred = or_none(in.preferred_us(), in.preferred_us() < 0);
-  out.opens = temporal::Time(in.opens_us());
-  out.closes = or_none(in.closes_us(), in.closes_us() == 0);
   return out;
 }
 

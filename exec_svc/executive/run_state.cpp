@@ -83,8 +83,8 @@ void RunState::enter(Index activity, ActivityPhase phase, Time now) {
 void RunState::send(Index activity, CommandAction action) {
   const PlanActivity& planned = plan.activities[activity];
   ActivityRun& run = runs[activity];
-  if (run.issued !=
-      run.attempt) {  // what is sent again, or asked after a restart, keeps the key of its issue
+  // What is sent again, or asked for after a restart, keeps the key of its issue.
+  if (run.issued != run.attempt) {
     run.issued = run.attempt;
     run.epoch = epoch;
   }
@@ -98,25 +98,19 @@ CommandOf RunState::command(Index activity) const {
   const PlanActivity& planned = plan.activities[activity];
   const std::size_t number = std::min(runs[activity].command, planned.then.size());
   const bool last = number == planned.then.size();
-  const auto within = [this](const std::string& owner, temporal::Duration own) {
-    return (temporal::bounded(own) ? own : settings.ack_timeout) + settings.round_trip(owner);
-  };
-  if (number == 0)
-    return {planned.owner,
-            planned.robot,
-            planned.subsystem,
-            planned.command_name,
-            planned.arguments,
-            within(planned.owner, planned.answer_within),
-            last};
-  const temporal::PlanCommand& next = planned.then[number - 1];
-  return {next.owner,
-          next.robot,
-          next.subsystem,
-          next.command_name,
-          next.arguments,
-          within(next.owner, next.answer_within),
-          last};
+  const auto of =
+      [&](const auto& sent) {  // an activity's own command has the same members as those that follow
+        const temporal::Duration own =
+            temporal::bounded(sent.answer_within) ? sent.answer_within : settings.ack_timeout;
+        return CommandOf{sent.owner,
+                         sent.robot,
+                         sent.subsystem,
+                         sent.command_name,
+                         sent.arguments,
+                         own + settings.round_trip(sent.owner),
+                         last};
+      };
+  return number == 0 ? of(planned) : of(planned.then[number - 1]);
 }
 
 std::vector<TimePoint> RunState::ready_points() const {
