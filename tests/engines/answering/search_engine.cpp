@@ -153,23 +153,10 @@ class Search {
   }
 
   void add_activity(const Task& task, temporal::FlexiblePlan& plan) const {
-    temporal::PlanActivity activity;
-    activity.id = "s" + std::to_string(plan.activities.size() + 1) + "-" + task.name;
-    activity.name = task.name;
-    activity.owner = task.owner;
-    activity.robot = request_.robot;
-    activity.subsystem = task.subsystem;
-    activity.command_name = task.command;
-    activity.start_point = plan.point_count++;
-    activity.end_point = plan.point_count++;
-    activity.duration_lower = activity.duration_upper = task.duration;
-    activity.pre = activity.maintenance = condition_of(task.needs);
-    for (const Drawn& drawn : task.uses)
-      activity.impacts.push_back(
-          {drawn.timeline, temporal::ImpactKind::delta, temporal::ImpactWhen::at_start, -drawn.amount});
-    for (const Held& held : task.sets)
-      activity.impacts.push_back({held.timeline, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end,
-                                  temporal::state(held.value)});
+    temporal::PlanActivity activity =
+        activity_of(task, "s" + std::to_string(plan.activities.size() + 1) + "-" + task.name, request_.robot,
+                    plan.point_count);
+    plan.point_count += 2;
     if (!plan.activities.empty())
       plan.constraints.push_back({plan.activities.back().end_point, activity.start_point,
                                   temporal::ConstraintKind::ordering, Duration{0}, temporal::no_bound});

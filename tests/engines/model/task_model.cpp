@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <sstream>
+#include <utility>
 
 namespace roci::planner::proof {
 namespace {
@@ -99,6 +100,28 @@ temporal::Condition condition_of(const std::vector<Held>& held) {
   for (const Held& one : held)
     parts.push_back(temporal::compare(one.timeline, temporal::ConditionOp::eq, temporal::state(one.value)));
   return parts.empty() ? temporal::Condition{} : temporal::all_of(parts);
+}
+
+temporal::PlanActivity activity_of(const Task& task, std::string id, const std::string& robot,
+                                   temporal::TimePoint start) {
+  temporal::PlanActivity activity;
+  activity.id = std::move(id);
+  activity.name = task.name;
+  activity.owner = task.owner;
+  activity.robot = robot;
+  activity.subsystem = task.subsystem;
+  activity.command_name = task.command;
+  activity.start_point = start;
+  activity.end_point = start + 1;
+  activity.duration_lower = activity.duration_upper = task.duration;
+  activity.pre = activity.maintenance = condition_of(task.needs);
+  for (const Drawn& drawn : task.uses)
+    activity.impacts.push_back(
+        {drawn.timeline, temporal::ImpactKind::delta, temporal::ImpactWhen::at_start, -drawn.amount});
+  for (const Held& held : task.sets)
+    activity.impacts.push_back({held.timeline, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end,
+                                temporal::state(held.value)});
+  return activity;
 }
 
 }  // namespace roci::planner::proof

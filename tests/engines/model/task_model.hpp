@@ -15,6 +15,7 @@
 
 #include "core/temporal/condition.hpp"
 #include "core/temporal/duration.hpp"
+#include "core/temporal/flexible_plan.hpp"
 
 namespace roci::planner::proof {
 
@@ -56,5 +57,9 @@ struct TaskModel {
 TaskModel read_model(const std::string& text);
 
 temporal::Condition condition_of(const std::vector<Held>& held);
+
+// The activity that does the task for a robot; its start and its end are the points `start` and `start` + 1.
+temporal::PlanActivity activity_of(const Task& task, std::string id, const std::string& robot,
+                                   temporal::TimePoint start);
 
 }  // namespace roci::planner::proof

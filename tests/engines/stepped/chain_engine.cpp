@@ -163,23 +163,10 @@ void ChainEngine::append(const Task& task, const std::string& goal, Time now, st
     plan_.id = setup_.engine;
     plan_.origin = now;
   }
-  PlanActivity activity;
-  activity.id = "v" + std::to_string(version) + "." + std::to_string(++appended_) + "-" + task.name;
-  activity.name = task.name;
-  activity.owner = task.owner;
-  activity.robot = setup_.robot;
-  activity.subsystem = task.subsystem;
-  activity.command_name = task.command;
-  activity.start_point = plan_.point_count++;
-  activity.end_point = plan_.point_count++;
-  activity.duration_lower = activity.duration_upper = task.duration;
-  activity.pre = activity.maintenance = condition_of(task.needs);
-  for (const Drawn& drawn : task.uses)
-    activity.impacts.push_back(
-        {drawn.timeline, temporal::ImpactKind::delta, temporal::ImpactWhen::at_start, -drawn.amount});
-  for (const Held& held : task.sets)
-    activity.impacts.push_back({held.timeline, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end,
-                                temporal::state(held.value)});
+  PlanActivity activity =
+      activity_of(task, "v" + std::to_string(version) + "." + std::to_string(++appended_) + "-" + task.name,
+                  setup_.robot, plan_.point_count);
+  plan_.point_count += 2;
   activity.goals_served = {goal};
   if (plan_.activities.empty() || is_over(state_of(plan_.activities.back())))
     plan_.constraints.push_back({temporal::origin_point, activity.start_point,
