@@ -1,4 +1,6 @@
+/// The second stage of path planning: a fast drive near a guide that the grid search found.
 #pragma once
+
 #include <cstdint>
 #include <optional>
 
@@ -9,7 +11,7 @@ namespace roci::pathplan {
 /// Says the work and shape of a search in numbers of samples, never in seconds.
 struct CorridorSettings {
   double half_width = 6.0;         ///< m, how far samples lie beside the guide
-  double samples_per_metre = 1.5;  ///< counts metres of the guide
+  double samples_per_metre = 1.5;  ///< of the guide
   int min_samples = 60;
   int max_samples = 300;
 };

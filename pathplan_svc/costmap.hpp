@@ -1,4 +1,6 @@
+/// Where the rover may go, and how hard it is: the site seen with the limits of the rover.
 #pragma once
+
 #include <cstdint>
 #include <vector>
 
@@ -8,7 +10,7 @@ namespace roci::pathplan {
 
 /// Says what the rover can bear. Radii and heights are in metres.
 struct RoverLimits {
-  double radius = 0.8;           ///< has the circle around the rover, whatever its heading
+  double radius = 0.8;           ///< of the circle around the rover, whatever its heading
   double max_slope = 0.35;       ///< radians, of the plane under the rover
   double rock_clearance = 0.25;  ///< rocks above this height are obstacles
   double max_roughness = 0.30;   ///< largest distance of the ground from the plane under the rover

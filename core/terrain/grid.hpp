@@ -1,4 +1,6 @@
+/// Positions in metres and cells of a square grid in the map frame.
 #pragma once
+
 #include <cmath>
 #include <cstddef>
 

@@ -1,4 +1,6 @@
+/// Random terrain in whole numbers, so that a seed gives the same site on every machine.
 #pragma once
+
 #include <cstdint>
 
 namespace roci::terrain {

@@ -1,4 +1,6 @@
+/// The error of every reader of maps and sites.
 #pragma once
+
 #include <stdexcept>
 #include <string>
 

@@ -1,4 +1,6 @@
+/// Grey images as files: the form in which layers of a site are kept.
 #pragma once
+
 #include <cstdint>
 #include <filesystem>
 #include <string>

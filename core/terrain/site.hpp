@@ -1,4 +1,6 @@
+/// The terrain of a mission: elevation, rocks and occupancy on one grid.
 #pragma once
+
 #include <cstdint>
 #include <vector>
 

@@ -1,4 +1,6 @@
+/// Sites made from a seed: hills, craters and rocks.
 #pragma once
+
 #include <cstdint>
 #include <string>
 #include <vector>
