@@ -190,6 +190,8 @@ std::string explain(const Condition& condition, const Lookup& lookup) {
 
 std::string check(const Condition& condition) {
   if (condition.empty()) return {};
+  if (condition.nodes.size() > kMostConditionNodes)
+    return "it has more than " + std::to_string(kMostConditionNodes) + " nodes";
   std::string wrong;
   const auto complain = [&](std::string what) {
     wrong = std::move(what);

@@ -115,7 +115,7 @@ TEST(ExecService, AMalformedObservationIsReportedAndIgnored) {
     observations.write(garbled);
   });
   seat.run_until(200s);
-  EXPECT_THAT(seat.events, Contains("observation.malformed"));
+  EXPECT_THAT(seat.events, Contains("sample.refused"));
   EXPECT_EQ(seat.mission.outcome(), "achieved");
 }
 
