@@ -25,12 +25,22 @@ Intake::Intake(const mission::MissionModel& mission, const reactor::Reactor& rea
 
 bool Intake::admits(const GoalRequest& goal, temporal::Time now) {
   const std::string name = goal.key.text();
-  const goals::GoalSet& set = reactor_->goals();
   if (goals_.contains(name)) return true;
-  if (goals_.size() >= kRejectedGoals && set.count(GoalState::rejected) >= kRejectedGoals && set.is_faulty(goal, now))
+  if (goals_.size() >= kRejectedGoals && !has_room_for(goal, now))
     return refuse("goal.no_room", "goal " + name.substr(0, kNameBytes) + " is not taken: it would be rejected, and " +
                                       std::to_string(kRejectedGoals) + " rejected goals are kept already");
   return enter(goals_, name, kGoals, "goal.no_room", "goal");
+}
+
+bool Intake::has_room_for(const GoalRequest& goal, temporal::Time now) {
+  if (!sieve_ || ++sieved_ >= kRejectedGoals) {
+    sieve_.emplace(reactor_->goals());
+    sieved_ = 0;
+    const auto all = sieve_->all();
+    rejected_ = static_cast<std::size_t>(std::ranges::count(all, GoalState::rejected, &goals::GoalRecord::state));
+  }
+  if (sieve_->submit(goal, now).taken != goals::GoalSet::Disposition::rejected) return true;
+  return rejected_++ < kRejectedGoals;
 }
 
 bool Intake::admits(const orders::Order& order) {

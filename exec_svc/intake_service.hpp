@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -34,11 +35,16 @@ class Intake {
   bool enter(std::set<std::string>& known, const std::string& name, std::size_t room, const char* code,
              const char* what);
   bool refuse(const char* code, const std::string& text);
+  /// Whether there is room for one more goal of its fate, found with a copy of the reactor's goals.
+  bool has_room_for(const goals::GoalRequest&, temporal::Time now);
 
   const mission::MissionModel* mission_;
   const reactor::Reactor* reactor_;
   Report report_;
   services::bounds::Tally tally_;
+  std::optional<goals::GoalSet> sieve_;  // a copy of the reactor's goals, with those that came since
+  std::size_t sieved_ = 0;               // since it was copied
+  std::size_t rejected_ = 0;             // of it
   std::set<std::string> goals_, orders_, answers_, timelines_, owners_;
 };
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/temporal/plan_bounds.hpp"
+
 namespace roci::temporal {
 namespace {
 

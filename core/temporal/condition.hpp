@@ -2,7 +2,6 @@
 // (R84).
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -35,10 +34,6 @@ struct ConditionNode {
   Value operand{};
   friend bool operator==(const ConditionNode&, const ConditionNode&) = default;
 };
-
-/// A condition has at most so many nodes: a conjunction over 10,000 objects. Words for a tree take time and memory by its
-/// nodes times its depth.
-inline constexpr std::size_t kMostConditionNodes = 10'000;
 
 /// Is a condition; without nodes it is always true.
 struct Condition {

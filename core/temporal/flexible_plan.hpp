@@ -187,17 +187,13 @@ struct FunctionValueUse {
   friend bool operator==(const FunctionValueUse&, const FunctionValueUse&) = default;
 };
 
-/// A plan has at most so many time points: those of 300,000 activities with their tokens. What is made of a plan takes
-/// memory for every point, used or not.
-inline constexpr std::uint32_t kMostPoints = 1'000'000;
-
 /// Is a whole plan; times are relative to `origin`.
 struct FlexiblePlan {
   std::string id;
   std::uint32_t version = 0;
   std::string engine;
   Time origin{0};  ///< mission time of time point 0
-  std::uint32_t point_count = 1;  ///< at most kMostPoints
+  std::uint32_t point_count = 1;
   std::vector<PlanActivity> activities;
   std::vector<Token> tokens;
   std::vector<DecisionPoint> decisions;

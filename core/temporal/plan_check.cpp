@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "core/temporal/flexible_plan.hpp"
+#include "core/temporal/plan_bounds.hpp"
 #include "core/temporal/schedule.hpp"
 
 namespace roci::temporal {

@@ -236,15 +236,6 @@ const GoalRecord* GoalSet::find(const GoalKey& key) const {
   return record == records_.end() ? nullptr : &record->second;
 }
 
-std::size_t GoalSet::count(GoalState state) const {
-  return static_cast<std::size_t>(std::count_if(
-      records_.begin(), records_.end(), [&](const auto& record) { return record.second.state == state; }));
-}
-
-bool GoalSet::is_faulty(const GoalRequest& request, temporal::Time now) const {
-  return request.recalled || !fault_of(request, now).empty();
-}
-
 std::optional<GoalKey> GoalSet::drop_candidate() const {
   std::vector<GoalKey> all_open;
   for (const GoalRecord* record : open()) all_open.push_back(record->request.key);

@@ -105,10 +105,6 @@ class GoalSet {
   std::vector<const GoalRecord*> present() const;
   std::vector<const GoalRecord*> all() const;
   const GoalRecord* find(const GoalKey& key) const;
-  /// How many are in this state.
-  std::size_t count(GoalState) const;
-  /// Whether submit() would reject this goal, which is new, as things stand.
-  bool is_faulty(const GoalRequest& request, temporal::Time now) const;
 
   /// Which goal goes when not all fit: the newest opportunistic one, else the optional one of the lowest
   /// utility by rank (the newest of equals), never a hard one (R52, R53, R113; architecture, "Which goals go").

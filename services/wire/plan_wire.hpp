@@ -2,6 +2,7 @@
 // service.
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 
 #include "core/temporal/flexible_plan.hpp"
@@ -13,12 +14,14 @@
 namespace roci::services::wire {
 
 /// It is thrown for a sample that no conforming sender sends, e.g. an enumerator out of range, or a plan or a condition beyond
-/// the bounds of core/temporal (kMostPoints, kMostConditionNodes).
+/// the bounds of core/temporal/plan_bounds.hpp.
 class WireError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
+/// Returns microseconds; -1 stands for no bound.
+std::int64_t bound_to_wire(temporal::Duration bound);
 v1::TimelineValue to_wire(const temporal::Value&);
 v1::Condition to_wire(const temporal::Condition&);
 v1::Plan to_wire(const temporal::FlexiblePlan&);
