@@ -23,10 +23,10 @@ inline constexpr std::size_t kOutsideInputs = 4'096;
 
 /// Services that a node knows by their heartbeats, or that take part in the simulated clock: ten times the largest mission's.
 inline constexpr std::size_t kPeers = 1'024;
-/// Deaths that the simulated clock announces in one run: each service dying five times is some 500.
-inline constexpr std::size_t kRosterLosses = 4'096;
-/// Streams that the simulated clock counts.
-inline constexpr std::size_t kCountedStreams = 65'536;
+/// Deaths that the simulated clock announces in one run, with each of its steps: 100 services, each dying ten times.
+inline constexpr std::size_t kRosterLosses = 1'024;
+/// Streams that the simulated clock counts: as many as a participant holds back.
+inline constexpr std::size_t kCountedStreams = kHeldBackStreams;
 
 /// Participants whose contract is compared (ContractCheck): as many as a transport knows, four times over.
 inline constexpr std::size_t kContractPeers = 4'096;
