@@ -27,7 +27,8 @@ bool Intake::admits(const GoalRequest& goal, temporal::Time now) {
   const std::string name = goal.key.text();
   if (goals_.contains(name)) return true;
   if (goals_.size() >= kRejectedGoals && !has_room_for(goal, now))
-    return refuse("goal.no_room", "goal " + name.substr(0, kNameBytes) + " is not taken: it would be rejected, and " +
+    return refuse("goal.no_room", "goal " + name.substr(0, kNameBytes) +
+                                      " is not taken: it would be rejected, and " +
                                       std::to_string(kRejectedGoals) + " rejected goals are kept already");
   return enter(goals_, name, kGoals, "goal.no_room", "goal");
 }
@@ -37,7 +38,8 @@ bool Intake::has_room_for(const GoalRequest& goal, temporal::Time now) {
     sieve_.emplace(reactor_->goals());
     sieved_ = 0;
     const auto all = sieve_->all();
-    rejected_ = static_cast<std::size_t>(std::ranges::count(all, GoalState::rejected, &goals::GoalRecord::state));
+    rejected_ =
+        static_cast<std::size_t>(std::ranges::count(all, GoalState::rejected, &goals::GoalRecord::state));
   }
   if (sieve_->submit(goal, now).taken != goals::GoalSet::Disposition::rejected) return true;
   return rejected_++ < kRejectedGoals;
@@ -67,10 +69,12 @@ bool Intake::enter(std::set<std::string>& known, const std::string& name, std::s
                    const char* what) {
   if (known.contains(name)) return true;
   if (name.size() > kNameBytes)
-    return refuse(code, std::string(what) + " " + name.substr(0, 64) + "… is not taken: its name has more than " +
-                            std::to_string(kNameBytes) + " bytes");
+    return refuse(code, std::string(what) + " " + name.substr(0, 64) +
+                            "… is not taken: its name has more than " + std::to_string(kNameBytes) +
+                            " bytes");
   if (known.size() >= room)
-    return refuse(code, std::string(what) + " " + name + " is not taken: " + std::to_string(room) + " are kept already");
+    return refuse(code, std::string(what) + " " + name + " is not taken: " + std::to_string(room) +
+                            " are kept already");
   known.insert(name);
   return true;
 }

@@ -79,7 +79,8 @@ class PathplanService : public services::Service {
     if (!known && key.first.size() + key.second.size() > kNameBytes)
       return refuse(hazard, "has a name of more than " + std::to_string(kNameBytes) + " bytes");
     if (map_changes_ >= kMapChanges)
-      return refuse(hazard, "comes while " + std::to_string(kMapChanges) + " changes of the map wait; send it again");
+      return refuse(hazard,
+                    "comes while " + std::to_string(kMapChanges) + " changes of the map wait; send it again");
     if (hazard.cleared()) {
       if (!known) return;
       hazards_.erase(key);
@@ -143,7 +144,7 @@ class PathplanService : public services::Service {
   std::set<std::string> reported_;
   services::bounds::Tally refusals_;
   std::size_t map_changes_ = 0;  // that the worker has not made yet
-  PathPlanner planner_;  // from the constructor's end on: the worker's alone
+  PathPlanner planner_;          // from the constructor's end on: the worker's alone
   services::Publisher<v1::FunctionOffer> offers_;
   services::Publisher<v1::Event> events_;
   services::Worker worker_;

@@ -67,8 +67,9 @@ FunctionOwners::FunctionOwners(services::Node& node, temporal::Duration timeout)
     const std::pair key{offer.module_name(), offer.owner()};
     if (offers_.size() < kOffers || offers_.contains(key)) return void(offers_[key] = offer);
     if (const std::uint64_t count = refusals_.note("offer"))
-      services::log::warning("an offer of functions by " + offer.owner().substr(0, kNameBytes) + " is not taken in: " +
-                             std::to_string(kOffers) + " are kept (" + std::to_string(count) + " refused so far)");
+      services::log::warning("an offer of functions by " + offer.owner().substr(0, kNameBytes) +
+                             " is not taken in: " + std::to_string(kOffers) + " are kept (" +
+                             std::to_string(count) + " refused so far)");
   });
 }
 

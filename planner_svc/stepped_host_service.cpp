@@ -75,8 +75,9 @@ bool SteppedHost::has_room(const Table& table, const typename Table::key_type& n
   if (table.contains(name) || (table.size() < room && size_of(name) <= kNameBytes)) return true;
   if (const std::uint64_t count = refusals_.note(what))
     report(v1::SEVERITY_WARNING, "planner.no_room",
-           std::string("a ") + what + " is not taken in: " + std::to_string(room) + " are kept at most, with names of at most " +
-               std::to_string(kNameBytes) + " bytes (" + std::to_string(count) + " refused so far)");
+           std::string("a ") + what + " is not taken in: " + std::to_string(room) +
+               " are kept at most, with names of at most " + std::to_string(kNameBytes) + " bytes (" +
+               std::to_string(count) + " refused so far)");
   return false;
 }
 

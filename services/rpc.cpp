@@ -98,8 +98,9 @@ void Calls<Request, Reply>::serve(Node& node, const topics::Procedure<Request, R
               auto pending = std::make_shared<rpc::PendingReply>(server, header.request_id(), write);
               if (server->open() > bounds::kOpenRequests) {
                 node.impl().refusals.note(name, node::Refusal::no_room);
-                return Answer<Reply>::fail(*pending, v1::REMOTE_EX_OUT_OF_RESOURCES,
-                                           std::to_string(bounds::kOpenRequests) + " requests are not answered yet");
+                return Answer<Reply>::fail(
+                    *pending, v1::REMOTE_EX_OUT_OF_RESOURCES,
+                    std::to_string(bounds::kOpenRequests) + " requests are not answered yet");
               }
               handler(request, std::move(pending));
             });

@@ -146,7 +146,8 @@ const std::vector<v1::OrderStatus>& MissionView::order(const std::string& issuer
 }
 
 void MissionView::take(const v1::LeaseMessage& member) {
-  if (members_.size() >= kServices && !members_.contains({member.executive(), member.member()})) return count(false);
+  if (members_.size() >= kServices && !members_.contains({member.executive(), member.member()}))
+    return count(false);
   v1::LeaseMessage& known = members_[{member.executive(), member.member()}];
   if (member.epoch() >= known.epoch()) known = member;
 }

@@ -52,9 +52,9 @@ bool TopicWriter::within_limit(const transport::Payload& payload) {
 
 bool TopicWriter::write(const transport::Payload& payload) {
   if (payload.size() > transport::bytes(topic_.limit)) {
-    log::error(options_.name + " wants to write " + std::to_string(payload.size()) + " bytes on " + topic_.name +
-               ", where a sample has at most " + std::to_string(transport::bytes(topic_.limit)) +
-               "; this one is refused");
+    log::error(options_.name + " wants to write " + std::to_string(payload.size()) + " bytes on " +
+               topic_.name + ", where a sample has at most " +
+               std::to_string(transport::bytes(topic_.limit)) + "; this one is refused");
     return false;
   }
   if (!within_limit(payload)) {

@@ -50,7 +50,8 @@ Refusals::Refusals(std::string node, Lookup lookup, std::function<void()> prepar
 
 void Refusals::note(const std::string& topic, Refusal why, const transport::Guid& writer) {
   const std::scoped_lock lock(mutex_);
-  if (const std::uint64_t count = tally_.note(key_of(topic, why))) news_.push_back({topic, why, writer, count});
+  if (const std::uint64_t count = tally_.note(key_of(topic, why)))
+    news_.push_back({topic, why, writer, count});
 }
 
 std::uint64_t Refusals::count(const std::string& topic, Refusal why) const {

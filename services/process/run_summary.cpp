@@ -25,10 +25,17 @@ bool fits(const json& value, const json& pattern) {
 }
 
 bool is_summary(const json& value) {
-  static const json kPattern{{"format", 1},   {"mission", ""},         {"scenario", ""},
-                             {"seed", 1},     {"dds", ""},             {"result", ""},
-                             {"goals", json::object()}, {"planner", {{"calls", 1}, {"max_s", 1}, {"max_rss_mb", 1}}},
-                             {"replans", 1},  {"sim_s", 1},            {"wall_s", 1},
+  static const json kPattern{{"format", 1},
+                             {"mission", ""},
+                             {"scenario", ""},
+                             {"seed", 1},
+                             {"dds", ""},
+                             {"result", ""},
+                             {"goals", json::object()},
+                             {"planner", {{"calls", 1}, {"max_s", 1}, {"max_rss_mb", 1}}},
+                             {"replans", 1},
+                             {"sim_s", 1},
+                             {"wall_s", 1},
                              {"trace_sha256", ""}};
   if (!value.is_object() || !fits(value, kPattern)) return false;
   const json goals = value.value("goals", json::object());
@@ -36,7 +43,7 @@ bool is_summary(const json& value) {
 }
 
 // A damaged file is none.
-json read(const std::filesystem::path& file) {
+json read_json(const std::filesystem::path& file) {
   std::ifstream in(file);
   json summary = json::parse(in, nullptr, false);
   if (!is_summary(summary)) return json::object();
@@ -95,13 +102,13 @@ std::string result_of(const json& executives) {
 
 json read_summary(const std::filesystem::path& run_folder, const mission::ServiceList& list) {
   const auto executives = list.of_program(kExecutive);
-  if (executives.size() <= 1) return read(run_folder / kSummaryFile);
+  if (executives.size() <= 1) return read_json(run_folder / kSummaryFile);
   json total = json::object();
   json each = json::object();
   Totals totals;
   bool found = false;
   for (const mission::ServiceEntry* executive : executives) {
-    const json own = read(run_folder / list.file_name(executive->name, kSummaryFile));
+    const json own = read_json(run_folder / list.file_name(executive->name, kSummaryFile));
     each[executive->name] = own;
     if (own.empty()) continue;
     found = true;

@@ -23,8 +23,9 @@ std::string read(const fs::path& file) {
 }
 
 bool opens_a_file(const std::string& source) {
-  return std::ranges::any_of(std::array{"std::ifstream", "YAML::LoadFile", "sqlite3_open", "fopen(", "std::fstream"},
-                             [&](const char* opens) { return source.find(opens) != std::string::npos; });
+  return std::ranges::any_of(
+      std::array{"std::ifstream", "YAML::LoadFile", "sqlite3_open", "fopen(", "std::fstream"},
+      [&](const char* opens) { return source.find(opens) != std::string::npos; });
 }
 
 std::string all_tests() {
@@ -35,13 +36,14 @@ std::string all_tests() {
 }
 
 TEST(FuzzCoverage, EveryReaderOfFilesHasItsTest) {
-  for (const char* folder : {"core", "services", "planner_svc", "exec_svc", "pathplan_svc", "arm_svc", "science_svc",
-                             "sim_svc", "ground_console", "rehearsal"}) {
+  for (const char* folder : {"core", "services", "planner_svc", "exec_svc", "pathplan_svc", "arm_svc",
+                             "science_svc", "sim_svc", "ground_console", "rehearsal"}) {
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
       if (entry.path().extension() != ".cpp" || !opens_a_file(read(entry.path()))) continue;
       const std::string path = fs::relative(entry.path(), kRoot).string();
       EXPECT_TRUE(kFileReaders.contains(path))
-          << path << " opens a file: give it a test in tests/fuzz and an entry in tests/fuzz/files/file_readers.hpp";
+          << path
+          << " opens a file: give it a test in tests/fuzz and an entry in tests/fuzz/files/file_readers.hpp";
     }
   }
 }

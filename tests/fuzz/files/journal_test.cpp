@@ -1,4 +1,6 @@
 // What an executive reads of its own past: journal files, snapshots and inputs in them, and what its standby is sent.
+#include "exec_svc/journal/journal.hpp"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -9,7 +11,6 @@
 #include <random>
 #include <string>
 
-#include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/journaled_reactor.hpp"
 #include "exec_svc/journal/replay.hpp"
 #include "exec_svc/reactor/message_fields.hpp"
@@ -41,10 +42,14 @@ exec::goals::GoalRequest photo(const std::string& id) {
 
 ReactorInputs robot_stands() {
   ReactorInputs inputs;
-  inputs.observations = {{"rover.nav", state("idle-at", {"here"})}, {"rover.arm", state("idle-pose", {"stow"})},
-                         {"rover.camera", state("idle")},           {"rover.radio", state("idle")},
-                         {"rover.gripper", state("empty")},         {"rover.x", 40.0},
-                         {"rover.y", 40.0},                         {"rover.battery", 900000.0},
+  inputs.observations = {{"rover.nav", state("idle-at", {"here"})},
+                         {"rover.arm", state("idle-pose", {"stow"})},
+                         {"rover.camera", state("idle")},
+                         {"rover.radio", state("idle")},
+                         {"rover.gripper", state("empty")},
+                         {"rover.x", 40.0},
+                         {"rover.y", 40.0},
+                         {"rover.battery", 900000.0},
                          {"comm.window", false}};
   return inputs;
 }
@@ -63,7 +68,8 @@ class Files : public testing::Test {
     Journal journal(file, Durability::process);
     journal.begin_epoch(1);
     JournaledReactor reactor(mission_, journal, false);
-    reactor.step(temporal::seconds(1), robot_stands(), {"1000000 observation rover.nav idle-at here sampled 0"});
+    reactor.step(temporal::seconds(1), robot_stands(),
+                 {"1000000 observation rover.nav idle-at here sampled 0"});
     for (int i = 0; i < 5; ++i) {
       ReactorInputs inputs;
       inputs.goals = {photo("goal-" + std::to_string(i))};
@@ -77,7 +83,8 @@ class Files : public testing::Test {
     return file;
   }
 
-  const exec::mission::MissionModel mission_ = exec::mission::read_mission(ROCI_SOURCE_DIR "/missions/planetary");
+  const exec::mission::MissionModel mission_ =
+      exec::mission::read_mission(ROCI_SOURCE_DIR "/missions/planetary");
   fs::path folder_;
   std::mt19937_64 random_{1};
 };
@@ -104,7 +111,8 @@ TEST_F(FuzzJournal, ADamagedFileIsReadOrRefused) {
       journal.peers();
       JournaledReactor reactor(mission_, journal, false);
       reactor.step(temporal::seconds(30), robot_stands(), {});
-    })) << "round " << round;
+    })) << "round "
+        << round;
     for (const auto& entry : fs::directory_iterator(folder_))
       if (entry.path().filename().string().starts_with("damaged-")) fs::remove_all(entry.path());
   }
@@ -123,7 +131,8 @@ TEST_F(FuzzJournal, ADamagedSnapshotIsRefusedOrGoesOn) {
       other.restore(damaged(whole, random_));
       other.step(temporal::seconds(3), robot_stands());
       other.snapshot();
-    })) << "round " << round;
+    })) << "round "
+        << round;
   }
 }
 
@@ -145,7 +154,8 @@ TEST_F(FuzzJournal, DamagedInputsAreRefusedOrTaken) {
       replay.take(temporal::seconds(1), "input", exec::archive::to_bytes(robot_stands()));
       replay.take(temporal::seconds(2), "input", damaged(whole, random_));
       replay.finish();
-    })) << "round " << round;
+    })) << "round "
+        << round;
   }
 }
 
@@ -158,13 +168,13 @@ TEST_F(FuzzStandby, ADamagedJournalIsCopiedOrRefused) {
   for (int round = 0; round < rounds(40); ++round) {
     Journal journal(folder_ / "copy.sqlite", Durability::process);
     exec::standby::JournalCopy copy(journal);
-    ASSERT_NO_THROW(
-        unless_refused([&] {
-          for (const auto& chunk : exec::standby::split(2, {2, static_cast<std::uint64_t>(round) + 9}, damaged(whole, random_)))
-            copy.take(chunk, 1);
-          journal.goals();
-        }))
-        << "round " << round;
+    ASSERT_NO_THROW(unless_refused([&] {
+      for (const auto& chunk :
+           exec::standby::split(2, {2, static_cast<std::uint64_t>(round) + 9}, damaged(whole, random_)))
+        copy.take(chunk, 1);
+      journal.goals();
+    })) << "round "
+        << round;
   }
 }
 
@@ -194,7 +204,9 @@ TEST_F(FuzzStandby, DamagedChunksAreTakenOrRefused) {
 TEST(FuzzLease, HearsWhateverMembersSay) {
   using namespace exec::standby;
   std::mt19937_64 random(3);
-  const auto moment = [&] { return Moment(static_cast<std::int64_t>(random() % 4 == 0 ? random() : random() % 10'000'000)); };
+  const auto moment = [&] {
+    return Moment(static_cast<std::int64_t>(random() % 4 == 0 ? random() : random() % 10'000'000));
+  };
   for (int round = 0; round < rounds(200); ++round) {
     Lease lease(random() % 2 == 0 ? Member::first : Member::second, {}, {}, false, Moment(0));
     Moment now{0};

@@ -36,8 +36,9 @@ struct Reader {
   std::function<void(const fs::path& folder)> read;
 };
 
-const std::string kSummary = R"({"format":1,"mission":"planetary","result":"partial","goals":{"achieved":2,"dropped":1,"failed":0},)"
-                             R"("planner":{"calls":3,"max_s":0.5,"max_rss_mb":80.5},"replans":1,"sim_s":2517.3,"trace_sha256":"ab"})";
+const std::string kSummary =
+    R"({"format":1,"mission":"planetary","result":"partial","goals":{"achieved":2,"dropped":1,"failed":0},)"
+    R"("planner":{"calls":3,"max_s":0.5,"max_rss_mb":80.5},"replans":1,"sim_s":2517.3,"trace_sha256":"ab"})";
 
 class FuzzRunFiles : public testing::Test {
  protected:
@@ -58,12 +59,12 @@ class FuzzRunFiles : public testing::Test {
            process::find_runs(folder);
            process::refused_runs(folder);
          }},
-        {"summary.json", kSummary,
-         [this](const fs::path& folder) { process::read_summary(folder, list_); }},
+        {"summary.json", kSummary, [this](const fs::path& folder) { process::read_summary(folder, list_); }},
         {"links/exec_svc.json",
          R"({"up":{"offered":9,"arrived":8,"lost":1,"superseded":0,"under_way":0,"repeated":2}})",
          [](const fs::path& folder) { process::read_link_reports(folder); }},
-        {"arm_svc.incarnation", "3\n", [](const fs::path& folder) { process::next_incarnation(folder, "arm_svc"); }},
+        {"arm_svc.incarnation", "3\n",
+         [](const fs::path& folder) { process::next_incarnation(folder, "arm_svc"); }},
         {"first.term", "12 1\n",
          [](const fs::path& folder) {
            exec::standby::PersistedTermFile(folder / "first.term", exec::journal::Durability::process).read();
@@ -96,7 +97,8 @@ TEST_F(FuzzRunFiles, AreReadOrRefused) {
         reader.read(folder_);
       } catch (const std::runtime_error& refused) {
         EXPECT_EQ(std::string(refused.what()).find("json.exception"), std::string::npos)
-            << reader.file << ": " << refused.what() << "\n" << text;
+            << reader.file << ": " << refused.what() << "\n"
+            << text;
       } catch (const std::exception& error) {
         FAIL() << reader.file << " lets out " << error.what() << ":\n" << text;
       }
@@ -109,7 +111,8 @@ TEST_F(FuzzRunFiles, ARecordedRunIsReadOrRefused) {
   {
     exec::journal::Journal journal(folder_ / "journal.sqlite", exec::journal::Durability::process);
     for (int i = 0; i < 20; ++i) {
-      journal.append(temporal::seconds(i), "trace", std::to_string(i) + "000000 observation rover.nav idle sampled 0");
+      journal.append(temporal::seconds(i), "trace",
+                     std::to_string(i) + "000000 observation rover.nav idle sampled 0");
       journal.append(temporal::seconds(i), "event", "plan.adopted p1");
     }
     journal.commit();

@@ -49,8 +49,10 @@ TEST(FuzzClock, AParticipantTakesWhateverTheMasterSays) {
   SampleMaker maker(2);
   HoldBackQueue queue;
   services::node::RosterView roster;
-  queue.subscribe("rover", services::clock::Durability::transient_local, [](const void*) { return HoldBackQueue::Key{1}; });
-  queue.subscribe("x", services::clock::Durability::volatile_, [](const void*) { return HoldBackQueue::Key{2}; });
+  queue.subscribe("rover", services::clock::Durability::transient_local,
+                  [](const void*) { return HoldBackQueue::Key{1}; });
+  queue.subscribe("x", services::clock::Durability::volatile_,
+                  [](const void*) { return HoldBackQueue::Key{2}; });
   for (int i = 0; i < rounds(3000); ++i) {
     const auto goal = random_value<v1::Goal>(maker, "Goal");
     queue.add(maker.below(2) == 0 ? "rover" : "x", goal.header(), std::make_shared<int>(1));

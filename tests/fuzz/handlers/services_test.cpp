@@ -61,7 +61,8 @@ class Crew {
       options.epoch_unix_us = services::clock::unix_us();
       Seat seat;
       seat.node = std::make_unique<services::Node>(options, open_inproc(entry.name));
-      seat.time = std::make_unique<services::TimeWatch>(*seat.node, services::TimeWatchSettings{.reference = "sim_svc"});
+      seat.time = std::make_unique<services::TimeWatch>(*seat.node,
+                                                        services::TimeWatchSettings{.reference = "sim_svc"});
       seat.service = rehearsal::make_of(entry)(*seat.node, run);
       seats_.push_back(std::move(seat));
     }

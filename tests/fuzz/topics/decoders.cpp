@@ -11,9 +11,8 @@ namespace topics = services::topics;
 template <class T>
 Decoder decoder(const services::Topic<T>& topic) {
   const std::string type = topic.type_name;
-  return {type.substr(type.rfind(':') + 1), services::node::spec_of(topic), [](const void* value) {
-            return services::transport::serialize(*static_cast<const T*>(value));
-          }};
+  return {type.substr(type.rfind(':') + 1), services::node::spec_of(topic),
+          [](const void* value) { return services::transport::serialize(*static_cast<const T*>(value)); }};
 }
 
 }  // namespace

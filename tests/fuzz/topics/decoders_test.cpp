@@ -1,5 +1,7 @@
 // Whatever bytes come on whichever topic: they are read or refused, no enumerator is one that the IDL does not have, and they
 // take no more memory than a small multiple of themselves.
+#include "tests/fuzz/topics/decoders.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,7 +9,6 @@
 
 #include "tests/fuzz/rounds.hpp"
 #include "tests/fuzz/topics/allocation_meter.hpp"
-#include "tests/fuzz/topics/decoders.hpp"
 #include "tests/fuzz/topics/sample_maker.hpp"
 
 namespace roci::fuzz {
@@ -42,7 +43,8 @@ class Decoders : public testing::TestWithParam<std::size_t> {
   }
 
   void expect_little(const AllocationMeter& meter, const Payload& payload) const {
-    EXPECT_LE(meter.peak(), kFactor * payload.size() + kBase) << decoder().type << " of " << payload.size() << " bytes";
+    EXPECT_LE(meter.peak(), kFactor * payload.size() + kBase)
+        << decoder().type << " of " << payload.size() << " bytes";
   }
 
   SampleMaker maker_{GetParam() + 1};
@@ -73,8 +75,8 @@ TEST_P(Decoders, LiesAboutCountsTakeNoMemory) {
       Payload payload = sample.payload;
       payload.resize(payload.size() + padding);
       const auto left = static_cast<std::uint32_t>(payload.size() - mark.offset - 4);
-      for (const std::uint32_t lie : {left, left / mark.least, left / mark.least + 1, left / 2, std::uint32_t{0x7fffffff},
-                                      std::uint32_t{0xffffffff}}) {
+      for (const std::uint32_t lie : {left, left / mark.least, left / mark.least + 1, left / 2,
+                                      std::uint32_t{0x7fffffff}, std::uint32_t{0xffffffff}}) {
         put(payload, mark.offset, lie);
         reads(payload);
         if (HasFailure()) FAIL() << "a count of " << lie << " at " << mark.offset;
@@ -96,7 +98,8 @@ TEST_P(Decoders, AllCountsLieAtOnce) {
 TEST_P(Decoders, WhatIsCutAnywhereIsRefused) {
   const MadeSample sample = maker_.make(decoder().type, 2);
   for (std::size_t size = 0; size < sample.payload.size(); ++size)
-    EXPECT_FALSE(reads(Payload(sample.payload.begin(), sample.payload.begin() + static_cast<std::ptrdiff_t>(size))))
+    EXPECT_FALSE(
+        reads(Payload(sample.payload.begin(), sample.payload.begin() + static_cast<std::ptrdiff_t>(size))))
         << decoder().type << " cut to " << size << " of " << sample.payload.size() << " bytes";
 }
 

@@ -29,22 +29,86 @@ struct Member {
 
 constexpr std::size_t kHeader = 4;  // of the encapsulation; alignment counts from its end
 
-const std::vector<std::string> kWords{
-    "",           "rover",       "rover.nav",     "rover.camera", "rover.arm",    "rover.battery", "rover.x",     "rover.y",
-    "idle-at",    "going-to",    "idle",          "imaging",      "ground",       "photo",         "sample",      "x",
-    "y",          "110",         "60",            "a",            "b",            "sim_svc",       "exec_svc",    "planner_svc",
-    "pathplan_svc", "arm_svc",   "science_svc",   "stow",         "here",         "nav",           "camera",      "drive",
-    "take-image", "stop",        "traverse_time", "traverse_energy", "pathplan",  "arm",           "location",    "image",
-    "temporal_pddl", "planetary-1", "p1.1-drive", "first",        "second",       "roci/path/request", "1e308",   "-1",
-    "nan",        "../../etc",   "%s%n",          "(at here)",    "\xff\xfe",     "\x1b[2J",       "rover.image.a", "rover.sample.a"};
+const std::vector<std::string> kWords{"",
+                                      "rover",
+                                      "rover.nav",
+                                      "rover.camera",
+                                      "rover.arm",
+                                      "rover.battery",
+                                      "rover.x",
+                                      "rover.y",
+                                      "idle-at",
+                                      "going-to",
+                                      "idle",
+                                      "imaging",
+                                      "ground",
+                                      "photo",
+                                      "sample",
+                                      "x",
+                                      "y",
+                                      "110",
+                                      "60",
+                                      "a",
+                                      "b",
+                                      "sim_svc",
+                                      "exec_svc",
+                                      "planner_svc",
+                                      "pathplan_svc",
+                                      "arm_svc",
+                                      "science_svc",
+                                      "stow",
+                                      "here",
+                                      "nav",
+                                      "camera",
+                                      "drive",
+                                      "take-image",
+                                      "stop",
+                                      "traverse_time",
+                                      "traverse_energy",
+                                      "pathplan",
+                                      "arm",
+                                      "location",
+                                      "image",
+                                      "temporal_pddl",
+                                      "planetary-1",
+                                      "p1.1-drive",
+                                      "first",
+                                      "second",
+                                      "roci/path/request",
+                                      "1e308",
+                                      "-1",
+                                      "nan",
+                                      "../../etc",
+                                      "%s%n",
+                                      "(at here)",
+                                      "\xff\xfe",
+                                      "\x1b[2J",
+                                      "rover.image.a",
+                                      "rover.sample.a"};
 
-constexpr std::array<std::int64_t, 12> kNumbers{0,    1,          -1,        2,
-                                                1000, 1'000'000,  60'000'000, std::numeric_limits<std::int32_t>::max(),
+constexpr std::array<std::int64_t, 12> kNumbers{0,
+                                                1,
+                                                -1,
+                                                2,
+                                                1000,
+                                                1'000'000,
+                                                60'000'000,
+                                                std::numeric_limits<std::int32_t>::max(),
                                                 std::numeric_limits<std::int32_t>::min(),
                                                 std::numeric_limits<std::int64_t>::max(),
-                                                std::numeric_limits<std::int64_t>::min(), 4'294'967'295};
+                                                std::numeric_limits<std::int64_t>::min(),
+                                                4'294'967'295};
 
-constexpr std::array<double, 12> kReals{0, 1, -1, 0.5, 110, 60, 1e9, 1e308, -1e308, 1e-320,
+constexpr std::array<double, 12> kReals{0,
+                                        1,
+                                        -1,
+                                        0.5,
+                                        110,
+                                        60,
+                                        1e9,
+                                        1e308,
+                                        -1e308,
+                                        1e-320,
                                         std::numeric_limits<double>::infinity(),
                                         std::numeric_limits<double>::quiet_NaN()};
 
@@ -118,10 +182,13 @@ class Writing {
   void align(std::size_t width) {
     while ((out_.payload.size() - kHeader) % width != 0) out_.payload.push_back(0);
   }
-  void mark(Mark::Kind kind, std::uint32_t least) { out_.marks.push_back({kind, out_.payload.size(), least}); }
+  void mark(Mark::Kind kind, std::uint32_t least) {
+    out_.marks.push_back({kind, out_.payload.size(), least});
+  }
   void number(std::uint64_t number, std::size_t width) {
     align(width);
-    for (std::size_t i = 0; i < width; ++i) out_.payload.push_back(static_cast<std::uint8_t>(number >> (8 * i)));
+    for (std::size_t i = 0; i < width; ++i)
+      out_.payload.push_back(static_cast<std::uint8_t>(number >> (8 * i)));
   }
 
   SampleMaker& maker_;
@@ -149,8 +216,8 @@ Payload SampleMaker::damaged(const MadeSample& sample) {
       case 0:
       case 1:
         if (!sample.marks.empty()) {
-          const std::array<std::uint32_t, 7> lies{0, 1, 77, 0x10000, 0x7fffffff, 0xffffffff,
-                                                  static_cast<std::uint32_t>(out.size())};
+          const std::array<std::uint32_t, 7> lies{
+              0, 1, 77, 0x10000, 0x7fffffff, 0xffffffff, static_cast<std::uint32_t>(out.size())};
           put(out, sample.marks[below(sample.marks.size())].offset, lies[below(lies.size())]);
         }
         break;
@@ -162,9 +229,12 @@ Payload SampleMaker::damaged(const MadeSample& sample) {
         break;
       default:
         const std::size_t from = below(out.size() + 1);
-        const Payload again(out.begin() + static_cast<std::ptrdiff_t>(from),
-                            out.begin() + static_cast<std::ptrdiff_t>(from + below(std::min<std::size_t>(out.size() - from, 64) + 1)));
-        out.insert(out.begin() + static_cast<std::ptrdiff_t>(below(out.size() + 1)), again.begin(), again.end());
+        const Payload again(
+            out.begin() + static_cast<std::ptrdiff_t>(from),
+            out.begin() +
+                static_cast<std::ptrdiff_t>(from + below(std::min<std::size_t>(out.size() - from, 64) + 1)));
+        out.insert(out.begin() + static_cast<std::ptrdiff_t>(below(out.size() + 1)), again.begin(),
+                   again.end());
     }
   }
   return out;

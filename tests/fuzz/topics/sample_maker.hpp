@@ -17,7 +17,8 @@ struct Mark {
   enum class Kind { count, text_length, enumerator, text };
   Kind kind = Kind::count;
   std::size_t offset = 0;
-  std::uint32_t least = 1;  ///< count: the fewest bytes of an element; enumerator: how many there are; text: its length
+  std::uint32_t least =
+      1;  ///< count: the fewest bytes of an element; enumerator: how many there are; text: its length
 };
 
 struct MadeSample {

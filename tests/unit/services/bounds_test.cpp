@@ -53,10 +53,11 @@ class Flood : public testing::Test {
 
   template <class T>
   transport::Writer& writer(const Topic<T>& topic) {
-    writers_.push_back(intruder_->create_writer(
-        {topic.name, transport::describe_type<T>(topic.type_name),
-         transport::writer_qos(topic.qos, topic.clocking, clock::ClockMode::live), transport::partitions_of(topic.scope, "")},
-        {}));
+    writers_.push_back(
+        intruder_->create_writer({topic.name, transport::describe_type<T>(topic.type_name),
+                                  transport::writer_qos(topic.qos, topic.clocking, clock::ClockMode::live),
+                                  transport::partitions_of(topic.scope, "")},
+                                 {}));
     return *writers_.back();
   }
 
@@ -118,7 +119,8 @@ TEST_F(Flood, ALargerSampleThanItsTopicAllowsIsRefusedOnBothSides) {
   const v1::Heartbeat large = beat(std::string(limit, 'x'));
   EXPECT_FALSE(advertise(node_, topics::heartbeat).write(large));
   writer(topics::heartbeat).write(transport::serialize(large));
-  spin_until(node_, [&] { return node_.impl().refusals.count(topics::heartbeat.name, Refusal::too_large) == 1; });
+  spin_until(node_,
+             [&] { return node_.impl().refusals.count(topics::heartbeat.name, Refusal::too_large) == 1; });
 }
 
 TEST_F(Flood, TheInboxHasABoundForEachTopic) {
@@ -133,16 +135,21 @@ TEST_F(Flood, TheInboxHasABoundForEachTopic) {
   node::TopicReader& reader = *node_.impl().endpoints.find_in(topics::time_probe.name);
   std::size_t taken = 0;
   for (std::size_t i = 0; i < bounds::kInboxSamples + 10; ++i)
-    taken += node_.impl().inbox.push({&reader, {transport::SampleKind::data, payload, flood.guid()}}, bounds::kInboxBytes) ? 1 : 0;
+    taken += node_.impl().inbox.push({&reader, {transport::SampleKind::data, payload, flood.guid()}},
+                                     bounds::kInboxBytes)
+                 ? 1
+                 : 0;
   EXPECT_EQ(taken, bounds::kInboxSamples);
   v1::Goal goal;
   goal.header().run("sol-12");
   writer(topics::goal).write(transport::serialize(goal));
   spin_until(node_, [&] { return goals == 1; });
   EXPECT_EQ(heartbeats, static_cast<int>(bounds::kInboxSamples));
-  EXPECT_TRUE(node_.impl().inbox.push({&reader, {transport::SampleKind::data, payload, flood.guid()}}, bounds::kInboxBytes))
+  EXPECT_TRUE(node_.impl().inbox.push({&reader, {transport::SampleKind::data, payload, flood.guid()}},
+                                      bounds::kInboxBytes))
       << "room again";
-  EXPECT_FALSE(node_.impl().inbox.push({&reader, {transport::SampleKind::data, payload, flood.guid()}}, payload.size()))
+  EXPECT_FALSE(node_.impl().inbox.push({&reader, {transport::SampleKind::data, payload, flood.guid()}},
+                                       payload.size()))
       << "bytes count, too";
 }
 
@@ -151,13 +158,15 @@ TEST_F(Flood, ServicesBeyondTheBoundAreNotKnown) {
   transport::Writer& beats = writer(topics::heartbeat);
   for (std::size_t i = 0; i < bounds::kPeers + 20; ++i)
     beats.write(transport::serialize(beat("service-" + std::to_string(i))));
-  spin_until(node_, [&] { return node_.impl().refusals.count(topics::heartbeat.name, Refusal::no_room) >= 20; });
+  spin_until(node_,
+             [&] { return node_.impl().refusals.count(topics::heartbeat.name, Refusal::no_room) >= 20; });
   EXPECT_TRUE(node_.peer_alive("service-7"));
 }
 
 TEST_F(Flood, RequestsThatNobodyAnswersAreRefusedBeyondTheBound) {
   std::vector<Responder<v1::PathReply>> open;
-  serve(node_, topics::path_request, [&](const v1::PathRequest&, Responder<v1::PathReply> responder) { open.push_back(responder); });
+  serve(node_, topics::path_request,
+        [&](const v1::PathRequest&, Responder<v1::PathReply> responder) { open.push_back(responder); });
   Node client_node(options("sim_svc"), run_.transport());
   const auto client = make_client(client_node, topics::path_request);
   std::vector<rpc::CallStatus> ends;
@@ -172,8 +181,9 @@ TEST_F(Flood, RequestsThatNobodyAnswersAreRefusedBeyondTheBound) {
     node_.spin_once(5ms);
   }
   EXPECT_EQ(open.size(), bounds::kOpenRequests);
-  EXPECT_THAT(ends, ElementsAre(rpc::CallStatus::remote_error, rpc::CallStatus::remote_error, rpc::CallStatus::remote_error,
-                                rpc::CallStatus::remote_error, rpc::CallStatus::remote_error));
+  EXPECT_THAT(ends, ElementsAre(rpc::CallStatus::remote_error, rpc::CallStatus::remote_error,
+                                rpc::CallStatus::remote_error, rpc::CallStatus::remote_error,
+                                rpc::CallStatus::remote_error));
   EXPECT_THAT(reason, testing::HasSubstr("not answered yet"));
 }
 
