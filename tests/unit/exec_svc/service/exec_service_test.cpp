@@ -21,7 +21,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using namespace testing;
-using ::testing::AtLeast;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -148,7 +147,7 @@ TEST(ExecService, WhatFloodsItsTablesIsRefusedAndTold) {
   seat.send(20s, photo_goal("second"));
   seat.run_until(300s);
   EXPECT_THAT(seat.events, Contains("timeline.no_room").Times(2)) << "the first and the tenth";
-  EXPECT_THAT(seat.events, Contains("goal.no_room").Times(AtLeast(1)));
+  EXPECT_THAT(seat.events, Contains("goal.no_room"));
   EXPECT_THAT(seat.events, Contains("order.no_room").Times(1));
   EXPECT_LE(seat.journal().goals().size(), kRejectedGoals + 2);
   EXPECT_EQ(seat.mission.goals_achieved(), 2U);
