@@ -12,6 +12,7 @@
 
 #include "exec_svc/decision_link_service.hpp"
 #include "exec_svc/engine_link_service.hpp"
+#include "exec_svc/intake_service.hpp"
 #include "exec_svc/journal/crash_points.hpp"
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/journaled_reactor.hpp"
@@ -101,7 +102,8 @@ class ExecService final : public services::Service {
             node, [this](GivenAnswer answer, std::string line) { take(std::move(answer), std::move(line)); }),
         orders_(
             node, [this](orders::Order order, std::string line) { take(std::move(order), std::move(line)); },
-            [this](const Event& event) { publisher_.report(event); }) {
+            [this](const Event& event) { intake_.tell(event); }),
+        intake_(mission_, reactor_.reactor(), [this](const Event& event) { publisher_.report(event); }) {
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
     journal_.set_text("mission_file", std::filesystem::absolute(settings.mission_file()).string());
     journal_.set_text("executive", node.options().name);
@@ -110,7 +112,7 @@ class ExecService final : public services::Service {
     if (reactor_.reactor().plans_continuously()) {
       engine_.emplace(
           node, [this](temporal::PlanDelta delta) { take(std::move(delta)); },
-          [this](const Event& event) { publisher_.report(event); });
+          [this](const Event& event) { intake_.tell(event); });
     }
     inputs_.epoch = epoch_;
     recover();
@@ -119,7 +121,9 @@ class ExecService final : public services::Service {
                         [this](const v1::Observation& observation) { take(observation); });
     services::subscribe(node, topics::command_ack, [this](const v1::CommandAck& ack) { take(ack); });
     services::subscribe(node, topics::function_offer, [this](const v1::FunctionOffer& offer) {
-      inputs_.models.push_back({offer.owner(), offer.model_version()});
+      const reactor::ModelVersion model{offer.owner(), offer.model_version()};
+      if (!intake_.admits(model)) return;
+      inputs_.models.push_back(model);
       step_soon();
     });
     node.on_peer_change([this](const services::health::PeerChange& change) { take(change); });
@@ -172,6 +176,7 @@ class ExecService final : public services::Service {
       if (reactor_.reactor().goals().find(request.key) == nullptr) return;
       request.recalled = true;
     }
+    if (!intake_.admits(request, node_.now())) return;
     inputs_.goals.push_back(std::move(request));
     crash_.pass("after-goal");
     step_soon();
@@ -202,9 +207,11 @@ class ExecService final : public services::Service {
   void take(const v1::Observation& observation) {
     if (observation.header().sender() == node_.options().name) return;  // a value that the ground has set
     try {
-      inputs_.observations.push_back(from_wire(observation));
+      executive::Observation value = from_wire(observation);
+      if (!intake_.admits(value)) return;
+      inputs_.observations.push_back(std::move(value));
     } catch (const services::wire::WireError& error) {
-      publisher_.report(
+      intake_.tell(
           {Severity::warning, "observation.malformed", observation.timeline() + ": " + error.what()});
       return;
     }
@@ -230,12 +237,14 @@ class ExecService final : public services::Service {
   }
 
   void take(GivenAnswer answer, std::string line) {
+    if (!intake_.admits(answer)) return;
     inputs_.answers.push_back(std::move(answer));
     seen_.push_back(std::move(line));
     step_soon();
   }
 
   void take(orders::Order order, std::string line) {
+    if (!intake_.admits(order)) return;
     inputs_.ground_orders.push_back(std::move(order));
     seen_.push_back(std::move(line));
     crash_.pass("after-order");
@@ -354,6 +363,7 @@ class ExecService final : public services::Service {
   OutputPublisher publisher_;
   DecisionLink decisions_;
   OrderLink orders_;
+  Intake intake_;
 };
 
 // With a journal of its own.

@@ -37,6 +37,9 @@ namespace {
 namespace topics = services::topics;
 namespace owner = services::owner;
 
+// So many executives are counted to know when the mission is over: one for each robot, ten times over. Beyond them nobody
+// keeps a run open.
+constexpr std::size_t kExecutives = 256;
 constexpr char kGround[] = "ground";  // who tells of hazards that the scenario states
 constexpr Duration kCallDeadline = std::chrono::seconds(30);
 constexpr Duration kFarewell = std::chrono::seconds(1);  // from the mission's outcome to the end of the run
@@ -64,6 +67,7 @@ class SimService final : public services::Service, private owner::Driver {
         events_(services::advertise(node, topics::event)) {
     commands_.leave_stops_to_driver();  // the world knows its components
     services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
+      if (executives_.size() >= kExecutives && !executives_.contains(status.executive())) return;
       executives_[status.executive()] = standing_of(status);
       end_if_over();
     });
@@ -232,7 +236,7 @@ class SimService final : public services::Service, private owner::Driver {
                         {"command", one.task.command},
                         {"arguments", one.task.arguments}});
     }
-    std::ofstream(run_folder_ / "begun.json") << report.dump(1) << "\n";
+    std::ofstream(run_folder_ / "begun.json") << report.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
   }
 
   // Writes the result for whoever started the run; the summary takes it up as `expected`.
@@ -242,7 +246,7 @@ class SimService final : public services::Service, private owner::Driver {
                       ? wire::event(v1::SEVERITY_INFO, "scenario.as_expected", "every event came as expected")
                       : wire::event(v1::SEVERITY_WARNING, "scenario.unexpected", fault));
     const nlohmann::json report{{"events", order_.expected()}, {"met", fault.empty()}, {"fault", fault}};
-    std::ofstream(run_folder_ / services::kExpectedFile) << report.dump(2) << "\n";
+    std::ofstream(run_folder_ / services::kExpectedFile) << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
   }
 
   services::Node& node_;

@@ -73,6 +73,7 @@ class Journal {
   void replace_with(std::string_view serialized);
 
   void put_goal(const goals::GoalRecord& record);
+  /// A goal that cannot be read is left out.
   std::vector<goals::GoalRecord> goals() const;
 
   /// The services that were there when the last turn was journaled, with their incarnations.

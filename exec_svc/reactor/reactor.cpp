@@ -202,6 +202,10 @@ const std::map<std::string, temporal::Value>& Reactor::ground_values() const {
   return parts_->ground.values();
 }
 
+const std::map<std::string, temporal::Value>& Reactor::observed() const {
+  return parts_->state.beliefs.values();
+}
+
 orders::AutonomyLevel Reactor::autonomy() const { return parts_->state.authority.level(); }
 
 bool Reactor::held() const { return parts_->state.authority.held(); }

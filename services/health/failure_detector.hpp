@@ -19,7 +19,8 @@ class FailureDetector {
  public:
   explicit FailureDetector(clock::WallDuration hang_limit) : hang_limit_(hang_limit) {}
 
-  void heartbeat(const v1::Heartbeat&, clock::WallTime now);
+  /// Returns false, and takes in nothing, for a service that is new when kPeers are known (bounds/limits.hpp).
+  bool heartbeat(const v1::Heartbeat&, clock::WallTime now);
   /// Takes in that something other than a heartbeat has shown that the service lives.
   void seen(const std::string& service, std::uint32_t incarnation, clock::WallTime now);
   /// Takes in that the transport no longer knows a living writer of this service's heartbeat.

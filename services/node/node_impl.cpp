@@ -3,7 +3,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "services/log/log.hpp"
 #include "services/node/typed_endpoints.hpp"
 
 namespace roci::services::node {
@@ -14,9 +13,14 @@ NodeImpl::NodeImpl(NodeOptions node_options, std::unique_ptr<transport::Transpor
       transport(std::move(node_transport)),
       contract(transport->announcement(),
                [this](const transport::Guid& guid) { return transport->participant_of(guid); }),
+      refusals(
+          options.name, [this](const transport::Guid& guid) { return transport->participant_of(guid); },
+          [this] { advertise(*this, topics::event); },
+          [this](const v1::Event& event) { write(advertise(*this, topics::event), event); },
+          simulated() ? 0 : Refusals::kTellAfterS),
       work(simulated() ? ResultOrder::as_begun : ResultOrder::as_finished),
       endpoints(
-          options, run, [this] { return now(); }, *transport, inbox, contract),
+          options, run, [this] { return now(); }, *transport, inbox, contract, refusals),
       links(options),
       gate(
           contract, [this](Arrival&& arrival) { read(std::move(arrival)); },
@@ -50,17 +54,25 @@ void NodeImpl::read(Arrival&& arrival) {
     for (const auto& lost : input.on_no_writers) lost(arrival.sample.payload);
   }
   if (arrival.sample.kind != transport::SampleKind::data) return;
-  auto value = input.topic.codec.decode(arrival.sample.payload);
-  if (!value) {
-    ++input.malformed;
-    log::warning(options.name + " drops a malformed sample of " + input.topic.name);
-    return;
-  }
+  Decoded decoded = input.topic.codec.decode(arrival.sample.payload);
+  if (!decoded.whole) return refuse_malformed(input, decoded, arrival.sample.writer);
+  const std::shared_ptr<const void> value = std::move(decoded.value);
   const auto run_of = input.topic.codec.run;
   if (run_of != nullptr && !run.obeys(run_of(value.get()), input.topic.name)) return;
   if (input.topic.clocking == transport::Clocking::wall) return handle(input, value.get());
   const v1::SampleHeader& header = input.topic.codec.header(value.get());
-  loop->take_clocked(input, header, std::move(value));
+  loop->take_clocked(input, header, value);
+}
+
+// The header comes early in a sample. Where it could be read the simulated clock counts the sample, without a value: else
+// this node would wait for it for ever.
+void NodeImpl::refuse_malformed(TopicReader& input, const Decoded& decoded, const transport::Guid& writer) {
+  refusals.note(input.topic.name, Refusal::malformed, writer);
+  const Codec& codec = input.topic.codec;
+  if (!simulated() || input.topic.clocking == transport::Clocking::wall) return;
+  const v1::SampleHeader& header = codec.header(decoded.value.get());
+  if (header.incarnation() != 0 && header.seq() != 0 && run.obeys(header.run(), input.topic.name))
+    loop->take_clocked(input, header, nullptr);
 }
 
 void NodeImpl::handle(TopicReader& input, const void* value) {
@@ -79,7 +91,9 @@ void NodeImpl::announce(const health::PeerChange& change) {
 }
 
 void NodeImpl::announce_turn() {
-  gate.turn(clock::wall_now());
+  const clock::WallTime now = clock::wall_now();
+  gate.turn(now);
+  refusals.turn(now);
   for (std::size_t i = 0; i < on_turn.size(); ++i) {
     const auto handler = on_turn[i];
     handler();

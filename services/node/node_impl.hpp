@@ -19,6 +19,7 @@
 #include "services/node/link_gate.hpp"
 #include "services/node/loop.hpp"
 #include "services/node/node_options.hpp"
+#include "services/node/refusals.hpp"
 #include "services/node/timer_queue.hpp"
 #include "services/transport/transport.hpp"
 
@@ -59,6 +60,7 @@ class NodeImpl {
   RunIdentity run;
   std::unique_ptr<transport::Transport> transport;
   ContractCheck contract;
+  Refusals refusals;
   Inbox inbox;
   TimerQueue timers;
   CompletionQueue work;
@@ -76,6 +78,7 @@ class NodeImpl {
 
  private:
   void read(Arrival&&);
+  void refuse_malformed(TopicReader&, const Decoded&, const transport::Guid& writer);
 };
 
 }  // namespace roci::services::node

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "exec_svc/limits.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 #include "tests/unit/exec_svc/service/exec_seat.hpp"
 
@@ -104,7 +105,8 @@ TEST(ExecService, ARecalledGoalIsCancelledOnBoard) {
   EXPECT_EQ(seat.commands[1].action(), v1::COMMAND_CANCEL);
 }
 
-TEST(ExecService, AMalformedObservationIsReportedAndIgnored) {
+// Our own writers refuse it; of what others send, the node tells (Flood in unit_services).
+TEST(ExecService, AMalformedObservationIsNotEvenWritten) {
   ExecSeat seat;
   seat.send(10s, photo_goal("ridge"));
   const auto observations = services::advertise(seat.robot(), services::topics::observation);
@@ -112,11 +114,43 @@ TEST(ExecService, AMalformedObservationIsReportedAndIgnored) {
     v1::Observation garbled;
     garbled.timeline("rover.camera");
     garbled.observed().kind(static_cast<v1::ValueKind>(77));
-    observations.write(garbled);
+    EXPECT_FALSE(observations.write(garbled));
   });
   seat.run_until(200s);
-  EXPECT_THAT(seat.events, Contains("observation.malformed"));
   EXPECT_EQ(seat.mission.outcome(), "achieved");
+}
+
+// Goals without a fault and known timelines go on whatever fills the tables.
+TEST(ExecService, WhatFloodsItsTablesIsRefusedAndTold) {
+  ExecSeat seat;
+  seat.send(10s, photo_goal("ridge"));
+  const auto observations = services::advertise(seat.robot(), services::topics::observation);
+  const auto goals = services::advertise(seat.robot(), services::topics::goal);
+  const auto orders = services::advertise(seat.robot(), services::topics::order);
+  seat.at(12s, [&] {
+    for (std::size_t i = 0; i < kTimelines + 10; ++i) {
+      v1::Observation observation;
+      observation.timeline("x" + std::to_string(i));
+      observations.write(observation);
+    }
+    for (std::size_t i = 0; i < kRejectedGoals + 10; ++i) {
+      v1::Goal goal = photo_goal("BAD-" + std::to_string(i));
+      goals.write(goal);
+    }
+  });
+  seat.at(13s, [&] {
+    for (std::size_t i = 0; i < 10; ++i) goals.write(photo_goal("WORSE-" + std::to_string(i)));
+    v1::Order order;
+    order.id(std::string(kNameBytes + 1, 'x'));
+    orders.write(order);
+  });
+  seat.send(20s, photo_goal("second"));
+  seat.run_until(300s);
+  EXPECT_THAT(seat.events, Contains("timeline.no_room").Times(2)) << "the first and the tenth";
+  EXPECT_THAT(seat.events, Contains("goal.no_room"));
+  EXPECT_THAT(seat.events, Contains("order.no_room").Times(1));
+  EXPECT_LE(seat.journal().goals().size(), kRejectedGoals + 2);
+  EXPECT_EQ(seat.mission.goals_achieved(), 2U);
 }
 
 // The journal leads to where it was: the same plan goes on, nothing is planned or commanded again.
