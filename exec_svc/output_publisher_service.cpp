@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "exec_svc/mission/observed_names.hpp"
 #include "exec_svc/wire_service.hpp"
 #include "services/owner/command.hpp"
 #include "services/wire/plan_wire.hpp"
@@ -69,7 +70,7 @@ void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version) {
 }
 
 v1::Plan OutputPublisher::plan_sample(const temporal::FlexiblePlan& plan) const {
-  v1::Plan out = services::wire::to_wire(plan);
+  v1::Plan out = services::wire::to_wire(mission::with_observed_names(plan, *mission_));
   out.executive(executive_);
   return out;
 }
