@@ -51,8 +51,8 @@ Word word_in(const json& in) {
     out.results.duration = temporal::Duration(in["duration_us"].get<std::int64_t>());
   if (in.contains("energy_j") && in["energy_j"].is_number())
     out.results.energy_j = in["energy_j"].get<double>();
-  for (const auto& [name, value] : in.value("values", json::object()).items())
-    out.results.values[name] = value_in(value);
+  const json values = in.value("values", json::object());
+  for (const auto& [name, value] : values.items()) out.results.values[name] = value_in(value);
   return out;
 }
 

@@ -108,7 +108,7 @@ class Intruder {
   }
 
   bool send(std::istringstream& in) {
-    spin(20, [this] { return voice_->commands.matched_readers() > 0; });
+    spin(20, [this] { return voice_->commands.matched_readers() > 1; });  // he hears himself, too
     std::string action;
     v1::Command out;
     std::uint64_t issued = 0, epoch = 0;
@@ -139,7 +139,7 @@ class Intruder {
     out.state(v1::SERVICE_RUNNING);
     out.host("elsewhere");
     out.process_id(1);
-    spin(20, [this] { return voice_->beats.matched_readers() > 0; });
+    spin(20, [this] { return voice_->beats.matched_readers() > 1; });
     for (int i = 0; i < times; ++i) {
       voice_->beats.write(out);
       spin(0.25, [] { return false; });
