@@ -33,6 +33,7 @@ struct Options {
   double epoch_s = 0;                ///< With `become`, it is mission time 0 of the live run, s since 1970.
   std::filesystem::path run_folder;  ///< If empty, the launcher chooses one.
   bool domain_given = false;
+  bool shared_domain = false;                ///< Another run may be on the domain.
   services::process::Connection connection;  ///< Its `dds` may be "mixed" or "inproc".
 };
 

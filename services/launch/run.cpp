@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "services/clock/wall.hpp"
+#include "services/launch/domain_guard.hpp"
 #include "services/launch/notify_socket.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/progress.hpp"
@@ -114,10 +115,12 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   refuse_used_folder(options);
   fs::create_directories(options.run_folder);
 
+  const bool may_be_held = domain_may_be_held(options);
   const std::string vendor = console_vendor(options.connection.dds);
   transport.participant = "launcher";
   services::Node node(observer_options(vendor, options.run),
                       services::transport::open_transport(vendor, transport));
+  if (may_be_held) refuse_held_domain(node, options);
   Progress progress(node, !options.headless);
   const services::process::PublishedRun published(services::process::runtime_folder(),
                                                   record_of(options, started_unix_us));

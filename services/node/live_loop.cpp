@@ -68,6 +68,7 @@ class LiveLoop : public Loop {
     subscribe(node_, topics::heartbeat, [this](const v1::Heartbeat& beat) {
       if (!peers_.heartbeat(beat, clock::wall_now()))
         node_.refusals.note(topics::heartbeat.name, Refusal::no_room);
+      node_.hear_namesake(beat);
     });
     node_.endpoints.find_in(topics::heartbeat.name)
         ->on_no_writers.push_back([this](const transport::Payload& key) {

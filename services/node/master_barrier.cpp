@@ -51,6 +51,7 @@ class MasterBarrier : public Barrier {
     subscribe(node, topics::heartbeat, [this](const v1::Heartbeat& beat) {
       if (beat.service() != node_.options.name && !peers_.heartbeat(beat, clock::wall_now()))
         node_.refusals.note(topics::heartbeat.name, Refusal::no_room);
+      node_.hear_namesake(beat);
     });
     node.endpoints.find_in(topics::heartbeat.name)
         ->on_no_writers.push_back([this](const transport::Payload& key) {
