@@ -1,7 +1,5 @@
 #include "exec_svc/journal/salvage.hpp"
 
-#define SQLITE_ENABLE_SESSION
-#define SQLITE_ENABLE_PREUPDATE_HOOK
 #include <sqlite3.h>
 
 #include <functional>
@@ -127,7 +125,7 @@ void read_goals(const Connection& database, Remains& remains) {
       });
 }
 
-Remains read(const fs::path& file) {
+Remains read_remains(const fs::path& file) {
   Remains remains;
   const Connection database(file);
   // Lets SQLite read a file that is shorter than its header says, and one whose schema is not as it should be.
@@ -162,7 +160,7 @@ Remains read_copy(const fs::path& file, const fs::path& template_file) {
     try {
       copy_database(file, copy);
       prepare();
-      remains = read(copy);
+      remains = read_remains(copy);
     } catch (const JournalError&) {
       remains.whole = false;
     }
@@ -198,7 +196,7 @@ std::string summary_of(const std::string& file, const std::string& damage, const
          ". All is planned anew; send again what was acknowledged and is missing";
 }
 
-void write(const fs::path& file, const Remains& remains, const std::string& damage) {
+void write_remains(const fs::path& file, const Remains& remains, const std::string& damage) {
   Journal journal(file, Durability::process);
   for (const auto& [key, goal] : remains.goals) journal.put_goal(goal);
   for (const auto& [name, value] : remains.numbers)
@@ -271,7 +269,7 @@ void salvage_if_damaged(const fs::path& file) {
     } else {
       remains.whole = false;
     }
-    write(mended, remains, summary_of(file.filename().string(), damage, remains, kept));
+    write_remains(mended, remains, summary_of(file.filename().string(), damage, remains, kept));
     sync_path(mended);
     quarantine(file, kept);
     fs::rename(mended, file);

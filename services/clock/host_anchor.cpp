@@ -31,7 +31,7 @@ std::optional<std::int64_t> whole_number(std::string_view text) {
   return out;
 }
 
-std::string seconds_text(std::int64_t us) {
+std::string step_text(std::int64_t us) {
   std::array<char, 40> out{};
   std::snprintf(out.data(), out.size(), "%.3f s", static_cast<double>(us) * 1e-6);
   return out.data();
@@ -74,11 +74,11 @@ std::optional<std::string> SystemClockWatch::judge(std::int64_t anchored_us, std
   if (moved <= kBoundUs && moved >= -kBoundUs) return std::nullopt;
   told_us_ = ahead;
   const bool agrees = ahead <= kBoundUs && ahead >= -kBoundUs;
-  const std::string how = moved > 0 ? "forward by " + seconds_text(moved) : "back by " + seconds_text(-moved);
+  const std::string how = moved > 0 ? "forward by " + step_text(moved) : "back by " + step_text(-moved);
   if (agrees)
     return "the system clock of this host was set " + how + " and agrees with the mission clock again";
   return "the system clock of this host was set " + how + "; the mission clock goes on as before, " +
-         (ahead > 0 ? seconds_text(ahead) + " behind it" : seconds_text(-ahead) + " ahead of it");
+         (ahead > 0 ? step_text(ahead) + " behind it" : step_text(-ahead) + " ahead of it");
 }
 
 }  // namespace roci::services::clock

@@ -25,7 +25,7 @@ using nlohmann::json;
 constexpr std::string_view kResume = "--resume";
 constexpr char kLockFile[] = "launch.lock";
 
-std::string joined(const std::vector<std::string>& parts) {
+std::string comma_separated(const std::vector<std::string>& parts) {
   std::string text;
   for (const auto& part : parts) text += (text.empty() ? "" : ",") + part;
   return text;
@@ -77,13 +77,13 @@ std::vector<std::string> command_line_of(const Options& options) {
                                "--run",
                                options.run,
                                "--services",
-                               joined(options.services),
+                               comma_separated(options.services),
                                "--roster",
-                               joined(options.roster),
+                               comma_separated(options.roster),
                                "--address",
                                options.connection.transport.address,
                                "--peers",
-                               joined(options.connection.transport.peers),
+                               comma_separated(options.connection.transport.peers),
                                "--run-folder",
                                options.run_folder.string()};
   const auto add = [&out](const char* option, double number) {

@@ -57,7 +57,7 @@ class OpenFolder {
   int descriptor_;
 };
 
-void make(const fs::path& folder) {
+void make_folder(const fs::path& folder) {
   if (folder.has_parent_path()) fs::create_directories(folder.parent_path());
   if (mkdir(folder.c_str(), kPrivate) == 0 || errno == EEXIST) return;
   throw std::runtime_error("cannot make the folder " + folder.string() + ": " + std::strerror(errno));
@@ -73,13 +73,13 @@ fs::path without_slash(const fs::path& folder) {
 
 void make_own_folder(const fs::path& given) {
   const fs::path folder = without_slash(given);
-  make(folder);
+  make_folder(folder);
   OpenFolder(folder).require_own();
 }
 
 void make_private_folder(const fs::path& given) {
   const fs::path folder = without_slash(given);
-  make(folder);
+  make_folder(folder);
   OpenFolder(folder).make_private();
 }
 
