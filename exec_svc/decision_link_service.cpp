@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "services/topics.hpp"
+#include "services/wire/plan_wire.hpp"
 
 namespace roci::exec {
 
@@ -61,7 +62,7 @@ void DecisionLink::tell(const DecisionRecord& decision) const {
   out.resolver(status.resolver);
   out.choices(status.choices);
   out.admissible(status.admissible);
-  out.answer_before_us(status.answer_before == temporal::no_bound ? -1 : status.answer_before.count());
+  out.answer_before_us(services::wire::bound_to_wire(status.answer_before));
   out.decision_state(static_cast<v1::DecisionState>(status.state));
   out.chosen(status.chosen);
   out.answered_by(status.answered_by);

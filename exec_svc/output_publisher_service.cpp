@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "exec_svc/mission/observed_names.hpp"
 #include "exec_svc/wire_service.hpp"
 #include "services/wire/plan_wire.hpp"
 
@@ -58,7 +59,7 @@ void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version) con
 }
 
 v1::Plan OutputPublisher::plan_sample(const temporal::FlexiblePlan& plan) const {
-  v1::Plan out = services::wire::to_wire(plan);
+  v1::Plan out = services::wire::to_wire(mission::with_observed_names(plan, *mission_));
   out.executive(executive_);
   return out;
 }

@@ -28,9 +28,6 @@ using temporal::Verdict;
 
 namespace {
 
-// -1: none.
-std::int64_t wire_time(temporal::Time time) { return time == temporal::no_bound ? -1 : time.count(); }
-
 v1::NamedValue named_value(const std::string& name, const temporal::Value& value) {
   v1::NamedValue out;
   out.name(name);
@@ -46,7 +43,7 @@ v1::PlanGoal to_wire(const ProblemGoal& in) {
   out.importance(static_cast<v1::GoalClass>(in.importance));
   out.utility(in.utility.scores());
   out.priority(in.priority);
-  out.preferred_us(wire_time(in.preferred));
+  out.preferred_us(services::wire::bound_to_wire(in.preferred));
   out.opens_us(in.opens.count());
   out.closes_us(in.closes.count());
   return out;
@@ -113,7 +110,7 @@ v1::Goal to_wire(const GoalRequest& in) {
   out.importance(static_cast<v1::GoalClass>(in.importance));
   out.robot(in.robot);
   out.utility(in.utility.scores());
-  out.preferred_us(wire_time(in.preferred));
+  out.preferred_us(services::wire::bound_to_wire(in.preferred));
   out.priority(in.priority);
   out.opens_us(in.opens.count());
   out.closes_us(in.closes.count());
@@ -154,7 +151,7 @@ v1::Command to_wire(const Command& in, const std::string& commander, std::uint32
   out.epoch(in.epoch != 0 ? in.epoch : epoch);
   out.sender_epoch(epoch);
   out.expected_us(in.expected.count());
-  out.latest_end_us(wire_time(in.latest_end));
+  out.latest_end_us(services::wire::bound_to_wire(in.latest_end));
   return out;
 }
 
@@ -167,7 +164,7 @@ v1::StepStatus to_wire(const StepStatus& in, const std::string& executive, std::
   out.name(in.name);
   out.state(static_cast<v1::ActivityState>(in.state));
   out.earliest_start_us(in.earliest_start.count());
-  out.latest_start_us(wire_time(in.latest_start));
+  out.latest_start_us(services::wire::bound_to_wire(in.latest_start));
   out.started_us(in.started ? in.started->count() : -1);
   out.ended_us(in.ended ? in.ended->count() : -1);
   out.cause(in.reason);

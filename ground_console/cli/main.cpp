@@ -16,6 +16,7 @@ namespace lib = roci::console::lib;
 
 struct Line {
   roci::services::process::ConnectionFlags connection;
+  std::string executive;
   bool json = false;
   bool waits = false;  // for a mission to run
   cli::GoalArguments goal;
@@ -154,6 +155,8 @@ int main(int argc, char** argv) {
   app.add_option("--address", line.connection.address, "This host's address");
   app.add_option("--peers", line.connection.peers, "Addresses of the hosts, separated by commas");
   app.add_option("--network", line.connection.network, "Network file of this host");
+  app.add_option("--executive", line.executive,
+                 "Whose mission and plan, where several fly (default: the first by name)");
   add_goal_verbs(app, line);
   add_order_verbs(app, line);
   add_verb(app, line, "status", "Mission, goals, services, newest values",
@@ -163,7 +166,7 @@ int main(int argc, char** argv) {
   CLI::App* timelines = add_verb(
       app, line, "timelines", "Planned, executed and projected values of every timeline",
       [](lib::Client& client, const Line& l) { return cli::show_timelines(client, l.timelines, l.json); });
-  timelines->add_option("names", line.timelines, "These alone, e.g. rover.nav \"(battery)\"");
+  timelines->add_option("names", line.timelines, "These alone, e.g. rover.nav rover.battery");
   CLI::App* events = add_verb(
       app, line, "events", "What happens, as it happens",
       [](lib::Client& client, const Line& l) { return cli::follow_events(client, l.count, l.json); });
@@ -181,6 +184,7 @@ int main(int argc, char** argv) {
   try {
     lib::Client client(line.waits ? lib::wait_for_run(line.connection, tell_waiting)
                                   : lib::choose_run(line.connection));
+    client.look_at(line.executive);
     return line.verb(client, line);
   } catch (const std::invalid_argument& error) {
     std::cerr << "roci: " << error.what() << "\n";

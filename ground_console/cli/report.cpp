@@ -40,17 +40,34 @@ json to_json(const v1::Event& event) {
           {"text", event.text()}};
 }
 
+namespace {
+
+void add_mission(json& out, const v1::MissionStatus& mission) {
+  out["phase"] = lib::name_of(mission.phase());
+  out["plan_version"] = mission.plan_version();
+  out["replans"] = mission.replans();
+  out["outcome"] = mission.outcome();
+}
+
+std::string mission_text(const v1::MissionStatus& mission) {
+  return std::string(lib::name_of(mission.phase())) + ", plan " + std::to_string(mission.plan_version()) +
+         ", " + std::to_string(mission.replans()) + " replans" +
+         (mission.outcome().empty() ? "" : ", " + mission.outcome());
+}
+
+}  // namespace
+
 json status_json(const lib::MissionView& view) {
   json out{{"time_s", static_cast<double>(view.now_us()) / 1e6},
            {"goals", json::array()},
            {"services", json::array()},
            {"timelines", json::object()}};
-  if (const auto& mission = view.mission()) {
+  if (const v1::MissionStatus* mission = view.mission()) {
     out["mission"] = mission->mission();
-    out["phase"] = lib::name_of(mission->phase());
-    out["plan_version"] = mission->plan_version();
-    out["replans"] = mission->replans();
-    out["outcome"] = mission->outcome();
+    add_mission(out, *mission);
+  }
+  if (view.executives().size() > 1) {
+    for (const auto& [name, mission] : view.missions()) add_mission(out["executives"][name], mission);
   }
   if (const v1::LeaseMessage* leader = view.leader()) {
     const std::uint64_t behind =
@@ -78,7 +95,8 @@ json status_json(const lib::MissionView& view) {
 
 json plan_json(const lib::MissionView& view) {
   if (!view.plan()) return nullptr;
-  json out{{"version", view.plan()->version()}, {"activities", json::array()}};
+  json out{
+      {"executive", view.executive()}, {"version", view.plan()->version()}, {"activities", json::array()}};
   for (const v1::PlanActivity& activity : view.plan()->activities()) {
     json entry{{"id", activity.id()}, {"name", activity.name()}, {"goals", activity.goals_served()}};
     if (const v1::StepStatus* step = view.step(activity.id())) {
@@ -109,11 +127,13 @@ std::string event_line(const v1::Event& event) {
 
 std::string status_text(const lib::MissionView& view) {
   std::string out;
-  if (const auto& mission = view.mission()) {
-    out += mission->mission() + "  " + lib::clock_text(view.now_us()) + "  " +
-           lib::name_of(mission->phase()) + ", plan " + std::to_string(mission->plan_version()) + ", " +
-           std::to_string(mission->replans()) + " replans" +
-           (mission->outcome().empty() ? "" : ", " + mission->outcome()) + "\n";
+  if (const v1::MissionStatus* mission = view.mission()) {
+    const bool one = view.executives().size() == 1;
+    out += mission->mission() + "  " + lib::clock_text(view.now_us()) +
+           (one ? "  " + mission_text(*mission) : "") + "\n";
+    if (!one)
+      for (const auto& [name, its] : view.missions())
+        out += "  " + printable(padded(name, 24)) + " " + mission_text(its) + "\n";
   } else {
     out += "no status from exec_svc\n";
   }

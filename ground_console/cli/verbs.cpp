@@ -101,10 +101,24 @@ int show_status(lib::Client& client, bool as_json) {
   return kDone;
 }
 
+namespace {
+
+// What is seen is one executive's; where there are more, who reads is told whose.
+void tell_whose(const lib::MissionView& view) {
+  const std::vector<std::string> executives = view.executives();
+  if (executives.size() < 2) return;
+  std::cerr << "roci: " << view.executive() << " of";
+  for (const std::string& name : executives) std::cerr << " " << printable(name);
+  std::cerr << "; --executive chooses\n";
+}
+
+}  // namespace
+
 int show_plan(lib::Client& client, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
-  client.wait([&] { return client.view().plan().has_value(); }, std::chrono::milliseconds(1000));
+  client.wait([&] { return client.view().plan() != nullptr; }, std::chrono::milliseconds(1000));
   client.wait([] { return false; }, std::chrono::milliseconds(300));
+  tell_whose(client.view());
   if (as_json) {
     std::cout << json_text(plan_json(client.view())) << "\n";
     return kDone;
@@ -122,8 +136,9 @@ int show_plan(lib::Client& client, bool as_json) {
 
 int show_timelines(lib::Client& client, const std::vector<std::string>& names, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
-  client.wait([&] { return client.view().plan().has_value(); }, std::chrono::milliseconds(1000));
+  client.wait([&] { return client.view().plan() != nullptr; }, std::chrono::milliseconds(1000));
   client.wait([] { return false; }, std::chrono::milliseconds(300));
+  tell_whose(client.view());
   const Timelines timelines = timelines_of(client.view(), names);
   for (const std::string& name : names) {
     if (timelines.contains(name)) continue;
@@ -137,7 +152,7 @@ int show_timelines(lib::Client& client, const std::vector<std::string>& names, b
 
 int follow_events(lib::Client& client, std::size_t count, bool as_json) {
   std::uint64_t printed = 0;
-  const auto ended = [&] { return client.view().mission() && !client.view().mission()->outcome().empty(); };
+  const auto ended = [&] { return client.view().ended(); };
   for (bool last = false; !last;) {
     last = client.wait([&] { return client.view().events_seen() > printed || ended(); },
                        std::chrono::hours(24)) &&

@@ -149,7 +149,7 @@ std::optional<v1::OrderStatus> Client::send_order(const v1::Order& order,
 }
 
 bool Client::wait_for_mission(milliseconds limit) {
-  return wait([this] { return view_.mission().has_value(); }, limit);
+  return wait([this] { return view_.mission() != nullptr; }, limit);
 }
 
 }  // namespace roci::console::lib

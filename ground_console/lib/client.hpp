@@ -33,6 +33,8 @@ class Client {
   explicit Client(const services::process::Connection& connection);
 
   const MissionView& view() const { return view_; }
+  /// Whose mission, plan and steps the view shows (MissionView::look_at).
+  void look_at(const std::string& executive) { view_.look_at(executive); }
 
   /// Handles what comes until `done` or for at most `limit` of wall time; returns whether `done`.
   bool wait(const std::function<bool()>& done, std::chrono::milliseconds limit);

@@ -42,7 +42,8 @@ void MissionView::note_time(const v1::SampleHeader& header) {
 
 void MissionView::take(const v1::MissionStatus& status) {
   note_time(status.header());
-  if (!mission_ || newer(status.header(), mission_->header())) mission_ = status;
+  const auto [entry, added] = missions_.try_emplace(status.executive(), status);
+  if (!added && newer(status.header(), entry->second.header())) entry->second = status;
 }
 
 void MissionView::take(const v1::Goal& goal) { keep_newest(goals_, GoalKey{goal.issuer(), goal.id()}, goal); }
@@ -54,12 +55,13 @@ void MissionView::take(const v1::GoalStatus& status) {
 
 void MissionView::take(const v1::Plan& plan) {
   note_time(plan.header());
-  if (!plan_ || plan.version() >= plan_->version()) plan_ = plan;
+  const auto [entry, added] = plans_.try_emplace(plan.executive(), plan);
+  if (!added && plan.version() >= entry->second.version()) entry->second = plan;
 }
 
 void MissionView::take(const v1::StepStatus& step) {
   note_time(step.header());
-  keep_newest(steps_, step.activity(), step);
+  keep_newest(steps_, {step.executive(), step.activity()}, step);
 }
 
 void MissionView::take(const v1::Observation& observation) {
@@ -131,18 +133,46 @@ void MissionView::take(const v1::LeaseMessage& member) {
 }
 
 const v1::LeaseMessage* MissionView::leader() const {
+  const std::string seen = executive();
   const v1::LeaseMessage* leader = nullptr;
   for (const auto& [name, member] : members_) {
-    if (member.exec_role() == v1::EXEC_LEADING && (leader == nullptr || member.epoch() > leader->epoch()))
+    if (name.first == seen && member.exec_role() == v1::EXEC_LEADING &&
+        (leader == nullptr || member.epoch() > leader->epoch()))
       leader = &member;
   }
   return leader;
 }
 
+std::vector<std::string> MissionView::executives() const {
+  std::vector<std::string> out;
+  for (const auto& [name, mission] : missions_) out.push_back(name);
+  for (const auto& [name, plan] : plans_)
+    if (!missions_.contains(name)) out.push_back(name);
+  std::ranges::sort(out);
+  return out;
+}
+
+std::string MissionView::executive() const {
+  if (!chosen_.empty()) return chosen_;
+  const std::vector<std::string> known = executives();
+  return known.empty() ? "" : known.front();
+}
+
+const v1::MissionStatus* MissionView::mission() const { return found_or_null(missions_, executive()); }
+
+bool MissionView::ended() const {
+  const auto has_outcome = [](const v1::MissionStatus& mission) { return !mission.outcome().empty(); };
+  if (!chosen_.empty()) return mission() != nullptr && has_outcome(*mission());
+  return !missions_.empty() &&
+         std::ranges::all_of(missions_, [&](const auto& entry) { return has_outcome(entry.second); });
+}
+
+const v1::Plan* MissionView::plan() const { return found_or_null(plans_, executive()); }
+
 const v1::Goal* MissionView::goal(const GoalKey& key) const { return found_or_null(goals_, key); }
 
 const v1::StepStatus* MissionView::step(const std::string& activity) const {
-  return found_or_null(steps_, activity);
+  return found_or_null(steps_, std::pair(executive(), activity));
 }
 
 const v1::TimelineValue* MissionView::timeline(const std::string& name) const {

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,20 +43,31 @@ class MissionView {
 
   using GoalKey = std::pair<std::string, std::string>;  ///< issuer, id
 
-  const std::optional<v1::MissionStatus>& mission() const { return mission_; }
+  /// The executives that have told of themselves, by name.
+  std::vector<std::string> executives() const;
+  /// Chooses whose mission(), plan() and step() are seen; by default, and after an empty name, that of the first
+  /// by name.
+  void look_at(std::string executive) { chosen_ = std::move(executive); }
+  /// Whose are seen; empty before one is known.
+  std::string executive() const;
+
+  const v1::MissionStatus* mission() const;  ///< null before the first
+  const std::map<std::string, v1::MissionStatus>& missions() const { return missions_; }  ///< by executive
+  /// The mission of the chosen executive, or of all where none was chosen, has an outcome.
+  bool ended() const;
   /// Decisions that plans have asked for, by id.
   const std::map<std::string, v1::Decision>& decisions() const { return decisions_; }
   /// The stages of an order as they came, oldest first.
   const std::vector<v1::OrderStatus>& order(const std::string& issuer, const std::string& id) const;
   const std::map<GoalKey, v1::GoalStatus>& goals() const { return goal_statuses_; }
-  const v1::Goal* goal(const GoalKey& key) const;                ///< as it was asked for; null if not seen
-  const std::optional<v1::Plan>& plan() const { return plan_; }  ///< of the highest version
+  const v1::Goal* goal(const GoalKey& key) const;  ///< as it was asked for; null if not seen
+  const v1::Plan* plan() const;                    ///< of the highest version; null before the first
   const v1::StepStatus* step(const std::string& activity) const;
   const v1::TimelineValue* timeline(const std::string& name) const;
   const std::map<std::string, v1::Observation>& timelines() const { return observations_; }
   const std::map<std::string, v1::DataProduct>& products() const { return products_; }
   const std::map<std::string, v1::Heartbeat>& services() const { return heartbeats_; }
-  /// Of a pair of executives the one that leads in the latest epoch; null without a pair.
+  /// Of executive()'s pair the one that leads in the latest epoch; null without a pair.
   const v1::LeaseMessage* leader() const;
   const std::map<std::pair<std::string, std::string>, v1::Hazard>& hazards() const { return hazards_; }
   /// Where each robot was, oldest first: a robot is whatever observes its `<name>.x` and `<name>.y`, in
@@ -75,11 +85,12 @@ class MissionView {
   void note_time(const v1::SampleHeader& header);
   void extend_way(const std::string& timeline);
 
-  std::optional<v1::MissionStatus> mission_;
+  std::string chosen_;
+  std::map<std::string, v1::MissionStatus> missions_;  ///< by executive
   std::map<GoalKey, v1::Goal> goals_;
   std::map<GoalKey, v1::GoalStatus> goal_statuses_;
-  std::optional<v1::Plan> plan_;
-  std::map<std::string, v1::StepStatus> steps_;
+  std::map<std::string, v1::Plan> plans_;                                ///< by executive
+  std::map<std::pair<std::string, std::string>, v1::StepStatus> steps_;  ///< by executive and activity
   std::map<std::string, v1::Observation> observations_;
   std::map<std::string, v1::DataProduct> products_;
   std::map<std::string, v1::Heartbeat> heartbeats_;

@@ -9,9 +9,6 @@ namespace {
 
 using temporal::Duration;
 
-std::int64_t bound_to_wire(temporal::Duration bound) {
-  return bound == temporal::no_bound ? -1 : bound.count();
-}
 temporal::Duration bound_from_wire(std::int64_t bound) {
   return bound < 0 ? temporal::no_bound : temporal::Duration(bound);
 }
@@ -252,6 +249,10 @@ v1::Property to_wire(const temporal::Property& in) {
   out.name(in.name);
   out.value(in.value);
   return out;
+}
+
+std::int64_t bound_to_wire(temporal::Duration bound) {
+  return bound == temporal::no_bound ? -1 : bound.count();
 }
 
 v1::TimelineValue to_wire(const temporal::Value& in) {

@@ -2,6 +2,7 @@
 // service.
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 
 #include "core/temporal/flexible_plan.hpp"
@@ -18,6 +19,8 @@ class WireError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Returns microseconds; -1 stands for no bound.
+std::int64_t bound_to_wire(temporal::Duration bound);
 v1::TimelineValue to_wire(const temporal::Value&);
 v1::Condition to_wire(const temporal::Condition&);
 v1::Plan to_wire(const temporal::FlexiblePlan&);

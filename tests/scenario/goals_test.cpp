@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "tests/scenario/mission_in_process.hpp"
 
@@ -38,6 +39,21 @@ TEST(Goals, AGoodOneIsAddedToTheRunningMission) {
               ElementsAre(v1::GOAL_PENDING, v1::GOAL_PLANNED, v1::GOAL_ACHIEVED));
   expect_uploaded_goals_achieved(mission);
   EXPECT_EQ(mission.mission().outcome(), "achieved");
+}
+
+// R76: PDDL says (battery) and (comm-window), owners observe rover.battery and comm.window. The plan that others hear speaks
+// of the latter, so that its projection starts at what was observed.
+TEST(Goals, ThePlanForOthersNamesWhatIsObserved) {
+  MissionInProcess mission;
+  mission.run();
+  ASSERT_FALSE(mission.plans().empty());
+  std::set<std::string> changed, asked;
+  for (const v1::PlanActivity& activity : mission.plans().front().activities()) {
+    for (const v1::Impact& impact : activity.impacts()) changed.insert(impact.timeline());
+    for (const v1::ConditionNode& node : activity.pre().nodes()) asked.insert(node.timeline());
+  }
+  EXPECT_THAT(changed, AllOf(Contains("rover.battery"), Not(Contains("(battery)"))));
+  EXPECT_THAT(asked, AllOf(Contains("rover.battery"), Not(Contains("(battery)"))));
 }
 
 // The first call is made at 10 s and would take more than half a second.

@@ -19,6 +19,7 @@ void draw_head(const lib::MissionView& view, Canvas& canvas) {
   }
   const v1::MissionStatus& mission = *view.mission();
   std::size_t column = canvas.put(0, 0, mission.mission(), Style::title) + 3;
+  if (view.executives().size() > 1) column = canvas.put(0, column, view.executive(), Style::title) + 3;
   column = canvas.put(0, column, lib::clock_text(view.now_us()), Style::title) + 3;
   column = canvas.put(0, column, lib::name_of(mission.phase()),
                       mission.phase() == v1::PHASE_SAFE ? Style::bad : Style::active) +

@@ -51,11 +51,9 @@ class Screen {
   }
 };
 
-bool over(const lib::MissionView& view) { return view.mission() && !view.mission()->outcome().empty(); }
-
 int watch_as_json(lib::Client& client) {
-  while (!over(client.view()) && interrupted == 0) {
-    client.wait([&] { return over(client.view()) || interrupted != 0; }, std::chrono::seconds(1));
+  while (!client.view().ended() && interrupted == 0) {
+    client.wait([&] { return client.view().ended() || interrupted != 0; }, std::chrono::seconds(1));
     std::cout << json_text(status_json(client.view())) << std::endl;
   }
   return kDone;
@@ -73,8 +71,8 @@ int watch(lib::Client& client, bool json) {
   std::string last;
   {
     Screen screen;
-    while (!over(client.view()) && interrupted == 0) {
-      client.wait([&] { return interrupted != 0 || over(client.view()); }, std::chrono::milliseconds(250));
+    while (!client.view().ended() && interrupted == 0) {
+      client.wait([&] { return interrupted != 0 || client.view().ended(); }, std::chrono::milliseconds(250));
       last = draw();
       Screen::draw(last);
     }

@@ -52,6 +52,47 @@ TEST(MissionViewTest, AnOlderPlanNeverReplacesANewerOne) {
   EXPECT_EQ(view.plan()->version(), 2U);
 }
 
+v1::MissionStatus status_of(const std::string& executive, const std::string& outcome) {
+  v1::MissionStatus status;
+  status.executive(executive);
+  status.header(sent(executive, 1, 10));
+  status.outcome(outcome);
+  return status;
+}
+
+v1::Plan plan_of(const std::string& executive, std::uint32_t version) {
+  v1::Plan plan;
+  plan.executive(executive);
+  plan.version(version);
+  return plan;
+}
+
+// Two executives fly two robots: neither's plan, steps or result stands for the other's.
+TEST(MissionViewTest, EachExecutiveHasItsOwnPlanStepsAndResult) {
+  lib::MissionView view;
+  for (const auto& [executive, version] : {std::pair("exec.digger", 7U), {"exec.hauler", 3U}}) {
+    view.take(plan_of(executive, version));
+    v1::StepStatus started = step("p1.a", v1::ACTIVITY_RUNNING, version, 0, 0, -1);
+    started.executive(executive);
+    started.plan_version(version);
+    view.take(started);
+  }
+  view.take(status_of("exec.digger", "achieved"));
+  view.take(status_of("exec.hauler", ""));
+  EXPECT_THAT(view.executives(), ::testing::ElementsAre("exec.digger", "exec.hauler"));
+  EXPECT_EQ(view.executive(), "exec.digger");
+  EXPECT_EQ(view.plan()->version(), 7U);
+  EXPECT_FALSE(view.ended()) << "one still flies";
+  view.look_at("exec.hauler");
+  EXPECT_EQ(view.plan()->version(), 3U);
+  EXPECT_EQ(view.step("p1.a")->plan_version(), 3U);
+  EXPECT_EQ(view.mission()->outcome(), "");
+  view.look_at("exec.digger");
+  EXPECT_TRUE(view.ended());
+  view.look_at("nobody");
+  EXPECT_EQ(view.plan(), nullptr);
+}
+
 TEST(MissionViewTest, AHeartbeatOfAnEarlierLifeIsNoNews) {
   lib::MissionView view;
   v1::Heartbeat beat;
