@@ -17,6 +17,7 @@
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/journaled_reactor.hpp"
 #include "exec_svc/journal/round_trips.hpp"
+#include "exec_svc/journal/salvage.hpp"
 #include "exec_svc/mission_report_service.hpp"
 #include "exec_svc/order_link_service.hpp"
 #include "exec_svc/output_publisher_service.hpp"
@@ -24,7 +25,9 @@
 #include "exec_svc/standby/leader_service.hpp"
 #include "exec_svc/strangers.hpp"
 #include "exec_svc/wire_service.hpp"
+#include "services/log/log.hpp"
 #include "services/owner/command.hpp"
+#include "services/process/disk_pause.hpp"
 #include "services/rpc.hpp"
 #include "services/wire/plan_wire.hpp"
 
@@ -97,7 +100,7 @@ class ExecService final : public services::Service {
         journal_(journal),
         epoch_(epoch),
         leader_(leading),
-        reactor_(mission_, journal_, doubtful),
+        reactor_(mission_, journal_, doubtful || !journal.text(journal::kDamage).empty()),
         crash_(crash_points(node)),
         planner_(node, topics::plan_request),
         publisher_(node, mission_, epoch, crash_),
@@ -108,6 +111,8 @@ class ExecService final : public services::Service {
             node, [this](orders::Order order, std::string line) { take(std::move(order), std::move(line)); },
             [this](const Event& event) { intake_.tell(event); }),
         intake_(mission_, reactor_.reactor(), [this](const Event& event) { publisher_.report(event); }) {
+    journal_.wait_for_disk(
+        {[this](const std::string& cause) { wait_for_disk(cause); }, [this] { disk_is_back(); }});
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
     journal_.set_text("mission_file", std::filesystem::absolute(settings.mission_file()).string());
     journal_.set_text("executive", node.options().name);
@@ -142,6 +147,7 @@ class ExecService final : public services::Service {
 
   // The one of a leader that stood down would replace its successor's.
   ~ExecService() override {
+    journal_.wait_for_disk({});
     if (leader_ == nullptr || std::uncaught_exceptions() == 0) write_summary();
   }
 
@@ -150,6 +156,7 @@ class ExecService final : public services::Service {
   // asks again for what was under way.
   void recover() {
     const Recovery& recovery = reactor_.recovery();
+    tell_damage();
     if (!recovery.restarted) return;
     slowest_call_s_ = temporal::to_seconds(temporal::Duration(journal_.number("slowest_call_us", 0)));
     planner_peak_kb_ = static_cast<std::uint32_t>(journal_.number("planner_peak_kb", 0));
@@ -175,6 +182,33 @@ class ExecService final : public services::Service {
       step_due_ = false;
       step_soon();
     });
+  }
+
+  // The ground has been told once the first step is durable.
+  void tell_damage() {
+    const std::string damage = journal_.text(journal::kDamage);
+    if (damage.empty()) return;
+    services::log::error(damage);
+    publisher_.report({Severity::error, "journal.damaged", damage});
+    journal_.set_text(journal::kDamage, "");
+  }
+
+  // What is not durable is neither acknowledged nor commanded, so nothing else can be done meanwhile. The supervisor
+  // of one that leads a pair hears nothing: the other one has a disk of its own.
+  void wait_for_disk(const std::string& cause) {
+    if (!disk_pause_.wait()) return;
+    services::log::error("exec_svc waits for its disk: " + cause);
+    publisher_.report({Severity::error, "journal.waiting",
+                       "the journal cannot be written (" + cause +
+                           "); nothing is acknowledged or commanded until it can; make room on the disk"});
+    disk_cause_ = cause;
+  }
+
+  void disk_is_back() {
+    const std::string text =
+        "the journal was written after " + std::to_string(disk_pause_.over()) + " s (" + disk_cause_ + ")";
+    services::log::warning("exec_svc goes on: " + text);
+    publisher_.report({Severity::warning, "journal.written", text});
   }
 
   void report_divergence(const Divergence& divergence) {
@@ -414,6 +448,9 @@ class ExecService final : public services::Service {
   std::map<std::string, std::uint32_t> missed_;  // services of before the restart, not heard of since
   bool step_due_ = false;
   std::optional<Node::TimerId> wake_timer_;
+  services::process::DiskPause disk_pause_{leader_ == nullptr ? services::process::DiskPause(node_)
+                                                              : services::process::DiskPause()};
+  std::string disk_cause_;  // why it was waited for
   double slowest_call_s_ = 0;
   std::uint32_t planner_peak_kb_ = 0;
 
@@ -434,12 +471,25 @@ class ExecService final : public services::Service {
 class LoneExecutive final : public services::Service {
  public:
   LoneExecutive(Node& node, const services::RunSettings& settings)
-      : journal_(run_file(settings, node.options().name, journal::kJournalFile),
+      : journal_(usable_journal(run_file(settings, node.options().name, journal::kJournalFile),
+                                services::process::DiskPause(node)),
                  node.options().clock == services::clock::ClockMode::live ? Durability::power
                                                                           : Durability::process),
-        executive_(node, settings, journal_, journal_.next_epoch(), nullptr, false) {}
+        executive_(node, settings, journal_, next_epoch(node), nullptr, false) {}
 
  private:
+  // The executive itself waits for the disk once it is there.
+  std::uint64_t next_epoch(Node& node) {
+    const auto pause = std::make_shared<services::process::DiskPause>(node);
+    journal_.wait_for_disk({[pause](const std::string& cause) {
+                              if (pause->wait())
+                                services::log::error("exec_svc waits for its disk before it begins: " +
+                                                     cause);
+                            },
+                            nullptr});
+    return journal_.next_epoch();
+  }
+
   Journal journal_;
   ExecService executive_;
 };

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "services/log/log.hpp"
 #include "services/node/typed_endpoints.hpp"
 
 namespace roci::services::node {
