@@ -39,13 +39,14 @@ dds::PartitionQosPolicy partition_qos(const std::vector<std::string>& partitions
 class FastTransport : public transport::Transport {
  public:
   explicit FastTransport(const transport::TransportOptions& options)
-      : announcement_(options.announcement.value_or("")) {
+      : announcement_(options.announcement.value_or("")),
+        guard_(std::make_shared<guard::Guard>(guard::policy_of(options))) {
     if (options.vendor_xml.empty()) require_usable_addresses(options);
     switch_intraprocess_delivery_off();
     auto* factory = dds::DomainParticipantFactory::get_instance();
-    participant_ =
-        factory->create_participant(static_cast<std::uint32_t>(options.domain), participant_qos(options),
-                                    &participants_, dds::StatusMask::none());
+    participant_ = factory->create_participant(static_cast<std::uint32_t>(options.domain),
+                                               participant_qos(options, guard_), &participants_,
+                                               dds::StatusMask::none());
     if (!participant_) {
       throw transport::TransportError("Fast DDS cannot join domain " + std::to_string(options.domain) +
                                       "; the domain id must be from 0 to 232, its UDP ports must be free");
@@ -120,6 +121,7 @@ class FastTransport : public transport::Transport {
   }
 
   const std::string announcement_;
+  const std::shared_ptr<guard::Guard> guard_;
   Participants participants_;
   dds::DomainParticipant* participant_ = nullptr;
   std::mutex mutex_;
