@@ -26,8 +26,8 @@ class HostileHost : public testing::TestWithParam<const char*> {
     auto stranger = attacker(hosts_.ground, hosts_.rover.address, "from-ground");
     ASSERT_TRUE(stranger.wait_for("round 10"));
     auto neighbour = attacker(hosts_.rover, own_address, "from-rover");
-    ASSERT_TRUE(reader.wait_for("goal stranger from-rover"));
-    EXPECT_THAT(reader.lines(), Not(Contains("goal stranger from-ground")));
+    ASSERT_TRUE(reader.wait_for("goal stranger from-rover 1"));
+    EXPECT_THAT(reader.lines(), Not(Contains("goal stranger from-ground 1")));
     EXPECT_EQ(reader.finish(), 0);
   }
 
@@ -52,7 +52,7 @@ TEST_P(HostileHost, IsReadIfItIsAPeer) {
   ChildProcess reader(hosts_.rover.inside(command));
   ASSERT_TRUE(reader.wait_for("ready"));
   auto peer = attacker(hosts_.ground, hosts_.rover.address, "from-ground");
-  EXPECT_TRUE(reader.wait_for("goal stranger from-ground"));
+  EXPECT_TRUE(reader.wait_for("goal stranger from-ground 1"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, HostileHost, testing::Values("fastdds", "cyclonedds"),

@@ -2,6 +2,8 @@
 
 extern "C" {
 #include <dds/dds.h>
+
+#include "services/vendors/cyclonedds/session_start.h"
 }
 
 #include <netinet/in.h>
@@ -21,6 +23,8 @@ struct Opening {
   std::shared_ptr<guard::Guard> guard;
   std::optional<std::uint32_t> address;
   int bound = 0;
+  std::uint16_t sends_from =
+      0;  // the port of the one socket for which the vendor leaves the choice to the system
 };
 thread_local std::optional<Opening> opening;
 
@@ -36,6 +40,7 @@ Guards& guards() {
 
 decltype(&::bind) real_bind = nullptr;
 decltype(&::recvmsg) real_recvmsg = nullptr;
+int (*real_initialize)(ddsi_domaingv*) = nullptr;
 
 std::shared_ptr<guard::Guard> guard_of(int socket) {
   auto& table = guards();
@@ -68,7 +73,20 @@ extern "C" int guarded_bind(int socket, const sockaddr* address, socklen_t lengt
     return real_bind(socket, address, length);
   std::memcpy(&own, address, sizeof own);
   if (own.sin_addr.s_addr == htonl(INADDR_ANY)) own.sin_addr.s_addr = htonl(*opening->address);
-  return real_bind(socket, reinterpret_cast<const sockaddr*>(&own), sizeof own);
+  const bool any_port = own.sin_port == 0;
+  const int result = real_bind(socket, reinterpret_cast<const sockaddr*>(&own), sizeof own);
+  socklen_t size = sizeof own;
+  if (result == 0 && any_port && getsockname(socket, reinterpret_cast<sockaddr*>(&own), &size) == 0)
+    opening->sends_from = ntohs(own.sin_port);
+  return result;
+}
+
+// The vendor has opened its sockets and not yet made a participant.
+extern "C" int guarded_initialize(ddsi_domaingv* domain) {
+  const int result = real_initialize(domain);
+  if (result >= 0 && opening && opening->sends_from != 0)
+    roci_begin_prefixes_with(domain, guard::prefix_start(opening->sends_from).data());
+  return result;
 }
 
 // What is refused becomes one zero byte, as the vendor itself sends to wake its threads; it reads nothing that is
@@ -93,6 +111,8 @@ void stand_before_the_sockets() {
   real_bind = reinterpret_cast<decltype(real_bind)>(bind);
   void* const receive = replace_import(library, "recvmsg", reinterpret_cast<void*>(&guarded_recvmsg));
   real_recvmsg = reinterpret_cast<decltype(real_recvmsg)>(receive);
+  void* const initialize = replace_import(library, "rtps_init", reinterpret_cast<void*>(&guarded_initialize));
+  real_initialize = reinterpret_cast<decltype(real_initialize)>(initialize);
 }
 
 }  // namespace
@@ -100,9 +120,10 @@ void stand_before_the_sockets() {
 GuardedOpening::GuardedOpening(std::shared_ptr<guard::Guard> guard, std::optional<std::uint32_t> address) {
   static std::once_flag once;
   std::call_once(once, stand_before_the_sockets);
-  if (real_bind == nullptr || real_recvmsg == nullptr) {
+  if (real_bind == nullptr || real_recvmsg == nullptr || real_initialize == nullptr) {
     throw transport::TransportError(
-        "this build of Cyclone DDS does not let its sockets be guarded (it imports no bind or recvmsg); use "
+        "this build of Cyclone DDS does not let its sockets be guarded (it imports no bind, recvmsg or "
+        "rtps_init); use "
         "the "
         "library of Debian 12, or another transport with --dds");
   }

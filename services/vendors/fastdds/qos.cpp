@@ -8,6 +8,7 @@
 
 #include "services/transport/rtps_ports.hpp"
 #include "services/vendors/fastdds/guarded_transport.hpp"
+#include "services/vendors/fastdds/own_port.hpp"
 #include "services/vendors/peers.hpp"
 
 namespace roci::services::vendors::fastdds {
@@ -69,7 +70,7 @@ void set_history(const transport::QosSettings& settings, dds::HistoryQosPolicy& 
 }  // namespace
 
 dds::DomainParticipantQos participant_qos(const transport::TransportOptions& options,
-                                          const std::shared_ptr<guard::Guard>& guard) {
+                                          const std::shared_ptr<guard::Guard>& guard, std::uint16_t port) {
   auto qos = options.vendor_xml.empty() ? dds::DomainParticipantQos() : profile_of(options.vendor_xml);
   qos.name(options.participant.c_str());
   const std::string announcement = options.announcement.value_or("");
@@ -83,11 +84,13 @@ dds::DomainParticipantQos participant_qos(const transport::TransportOptions& opt
   udp->interfaceWhiteList = {options.address};
   udp->sendBufferSize = kSocketBuffer;
   udp->receiveBufferSize = kSocketBuffer;
+  udp->m_output_udp_socket = port;
   udp->maxInitialPeersRange = transport::kMaxParticipantsPerHost;
   qos.transport().use_builtin_transports = false;
   qos.transport().user_transports = {guarded(udp, guard)};
 
   auto& wire = qos.wire_protocol();
+  wire.prefix = prefix_naming(port);
   auto& discovery = wire.builtin.discovery_config;
   discovery.leaseDuration = Duration_t(kLeaseSeconds, 0);
   discovery.leaseDuration_announcementperiod = Duration_t(0, 500 * kMillisecond);

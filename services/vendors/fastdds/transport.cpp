@@ -10,6 +10,7 @@
 
 #include "services/vendors/fastdds/bytes_type.hpp"
 #include "services/vendors/fastdds/guid.hpp"
+#include "services/vendors/fastdds/own_port.hpp"
 #include "services/vendors/fastdds/participants.hpp"
 #include "services/vendors/fastdds/qos.hpp"
 #include "services/vendors/fastdds/reader.hpp"
@@ -44,9 +45,17 @@ class FastTransport : public transport::Transport {
     if (options.vendor_xml.empty()) require_usable_addresses(options);
     switch_intraprocess_delivery_off();
     auto* factory = dds::DomainParticipantFactory::get_instance();
-    participant_ = factory->create_participant(static_cast<std::uint32_t>(options.domain),
-                                               participant_qos(options, guard_), &participants_,
-                                               dds::StatusMask::none());
+    // Between the choice of the port and its use somebody else may take it: the participant would be mute.
+    constexpr int kAttempts = 5;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      const std::uint16_t port = options.vendor_xml.empty() ? free_port(options.address) : 0;
+      participant_ = factory->create_participant(static_cast<std::uint32_t>(options.domain),
+                                                 participant_qos(options, guard_, port), &participants_,
+                                                 dds::StatusMask::none());
+      if (!participant_ || port == 0 || is_ours(port)) break;
+      factory->delete_participant(participant_);
+      participant_ = nullptr;
+    }
     if (!participant_) {
       throw transport::TransportError("Fast DDS cannot join domain " + std::to_string(options.domain) +
                                       "; the domain id must be from 0 to 232, its UDP ports must be free");

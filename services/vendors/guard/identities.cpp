@@ -1,15 +1,32 @@
 #include "services/vendors/guard/identities.hpp"
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
 namespace roci::services::vendors::guard {
+
+namespace {
+
+// A prefix of ours from another port than it names.
+bool is_borrowed(const GuidPrefix& prefix, const Source& source) {
+  const auto own = prefix_start(source.port);
+  return std::equal(own.begin(), own.begin() + 2, prefix.begin()) &&
+         !std::equal(own.begin(), own.end(), prefix.begin());
+}
+
+}  // namespace
+
+std::array<std::uint8_t, 4> prefix_start(std::uint16_t port) {
+  return {'R', 'o', static_cast<std::uint8_t>(port >> 8), static_cast<std::uint8_t>(port)};
+}
 
 std::size_t Identities::HashPrefix::operator()(const GuidPrefix& prefix) const {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(prefix.data()), prefix.size()});
 }
 
 Verdict Identities::claim(const GuidPrefix& prefix, const Source& source, Time now) {
+  if (is_borrowed(prefix, source)) return Verdict::taken_identity;
   const auto known = owners_.find(prefix);
   if (known != owners_.end()) {
     if (known->second.source != source) return Verdict::taken_identity;

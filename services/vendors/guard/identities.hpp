@@ -1,6 +1,7 @@
 // Who speaks as whom: each GUID prefix belongs to the address and port that it was heard from first.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <compare>
 #include <cstddef>
@@ -19,6 +20,10 @@ struct Source {
   std::uint16_t port = 0;
   auto operator<=>(const Source&) const = default;
 };
+
+/// The first four bytes of the GUID prefix of a participant of ours: who sees it knows the one port that it speaks from,
+/// also before it has said anything.
+std::array<std::uint8_t, 4> prefix_start(std::uint16_t port);
 
 /// Both vendors send all that a participant says through one socket, so that whoever else uses its prefix is somebody
 /// else: without the right to forge addresses nobody can speak for a participant that was heard before. Prefixes are

@@ -17,9 +17,7 @@ bool one_of(std::uint16_t id, std::initializer_list<std::uint16_t> ids) {
 }
 
 bool names_guid(std::uint16_t id) {
-  // The last is of Fast DDS: readers take samples of its owner for samples of that GUID.
-  return one_of(id, {0x0050 /* participant */, 0x005a /* endpoint */, 0x0052 /* group */, kKeyHash,
-                     0x8002 /* persistence */});
+  return one_of(id, {0x0050 /* participant */, 0x005a /* endpoint */, 0x0052 /* group */, kKeyHash});
 }
 bool is_string(std::uint16_t id) {
   return one_of(id, {0x0005 /* topic name */, 0x0007 /* type name */, 0x0062 /* entity name */});

@@ -20,8 +20,8 @@ enum class Verdict : std::uint8_t {
   oversized,     ///< A fragment of a sample of more than kMaxSampleBytes.
   bad_parameters,      ///< A parameter list, or a known parameter in one, that does not fit into its bytes.
   speaks_for_another,  ///< Its discovery data or INFO_SRC names the GUID of a participant that is not its sender.
-  taken_identity,      ///< Its GUID prefix is one that another address and port was heard with first.
-  crowd,               ///< A new GUID prefix from an address or port that has as many as are allowed.
+  taken_identity,  ///< Its GUID prefix names another port, or was heard from another address or port first.
+  crowd,           ///< A new GUID prefix from an address or port that has as many as are allowed.
 };
 
 inline constexpr std::array<std::string_view, 12> kVerdictNames{"pass",

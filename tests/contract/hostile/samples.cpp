@@ -53,7 +53,7 @@ void HostileWriter::payloads() {
   for (const std::size_t size : {std::size_t{4}, std::size_t{8}, good_.size() / 2, good_.size() - 4})
     data(kData, {}, {good_.begin(), good_.begin() + static_cast<long>(std::min(size, good_.size()))});
   for (const std::uint32_t length : {0x80000000u, 0x7fffffffu, 0xffffffffu})
-    for (std::size_t at = 4; at < std::min<std::size_t>(good_.size(), 40); at += 4)
+    for (std::size_t at = 4; at < std::min<std::size_t>(good_.size(), 24); at += 4)
       data(kData, {}, with(good_, at, length));
   for (const std::uint8_t representation : {0x02, 0x03, 0x06, 0x09, 0x0b, 0x7f}) {
     Bytes other = good_;

@@ -28,6 +28,8 @@ std::vector<Bytes> seeds() {
   constexpr Prefix kOwn{1, 15, 1};
   constexpr std::uint32_t kWriter = 0x00000102, kParticipants = 0x000100c2, kEndpoints = 0x000003c2;
   const auto message = [&] { return Message(kOwn, kEprosima); };
+  Bytes nack(28);
+  nack[12] = nack[16] = 1;
   const Bytes statistics(56, 1),
       guid_hash = Parameters().add_guid(0x70, kOwn, 0x1c1).add(0x71, {0, 0, 0, 1}).list();
   const Bytes participant = Parameters()
@@ -42,21 +44,18 @@ std::vector<Bytes> seeds() {
                            .add_string(7, "roci::v1::Goal")
                            .add_strings(0x29, {"roci.team"})
                            .sample();
-  return {message().data(0, kParticipants, 1, kData, {}, participant).submessage(0x80, 0, statistics).bytes(),
-          message().data(0, kEndpoints, 1, kData, {}, writer).heartbeat(0, kEndpoints, 1, 1, 1).bytes(),
-          message().data(0, kParticipants, 2, kInlineQos, guid_hash, {}).bytes(),
-          message().data(0, kWriter, 1, kInlineQos | kData, guid_hash, Bytes(40, 1)).bytes(),
-          message().fragment(0, kWriter, 2, 1, 2, 32, 64, Bytes(64)).gap(0, kWriter, 1, 4, 64).bytes(),
-          message()
-              .submessage(0x0e, 0, Bytes(12))
-              .acknack(7, kWriter, 1, 40)
-              .submessage(0x12, 0, Bytes(32, 1))
-              .bytes(),
-          message()
-              .submessage(0x33, 0, Bytes(24))
-              .submessage(0x30, 0, Bytes(64))
-              .submessage(0x34, 0, Bytes(20))
-              .bytes()};
+  return {
+      message().data(0, kParticipants, 1, kData, {}, participant).submessage(0x80, 0, statistics).bytes(),
+      message().data(0, kEndpoints, 1, kData, {}, writer).heartbeat(0, kEndpoints, 1, 1, 1).bytes(),
+      message().data(0, kParticipants, 2, kInlineQos, guid_hash, {}).bytes(),
+      message().data(0, kWriter, 1, kInlineQos | kData, guid_hash, Bytes(40, 1)).bytes(),
+      message().fragment(0, kWriter, 2, 1, 2, 32, 64, Bytes(64)).gap(0, kWriter, 1, 4, 64).bytes(),
+      message().submessage(0x0e, 0, Bytes(12)).acknack(7, kWriter, 1, 40).submessage(0x12, 0, nack).bytes(),
+      message()
+          .submessage(0x33, 0, Bytes(24))
+          .submessage(0x30, 0, Bytes(64))
+          .submessage(0x34, 0, Bytes(20))
+          .bytes()};
 }
 
 class Mutator {

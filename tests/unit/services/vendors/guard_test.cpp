@@ -95,8 +95,6 @@ TEST(Guard, ASenderSpeaksInDiscoveryForItselfAlone) {
   EXPECT_EQ(discovery(kInlineQos, hash(kOther), {}), Verdict::speaks_for_another);
   EXPECT_EQ(discovery(kInlineQos | kData, hash(kOther), told(kOwn)), Verdict::speaks_for_another);
   EXPECT_EQ(discovery(kKey, {}, Bytes(16, 1)), Verdict::bad_parameters) << "a bare GUID";
-  Bytes persistence = Parameters().add_guid(0x8002, kOther, kUserWriter).sample();
-  EXPECT_EQ(discovery(kData, {}, persistence), Verdict::speaks_for_another);
   Bytes alive{0, 1, 0, 0};
   alive.insert(alive.end(), kOther.begin(), kOther.end());
   alive.resize(24);
@@ -158,6 +156,17 @@ TEST(Identities, APrefixBelongsToWhoeverWasHeardWithItFirst) {
   EXPECT_EQ(identities.claim(kOwn, {1, 11}, kStart), Verdict::taken_identity);
   EXPECT_EQ(identities.claim(kOwn, {2, 10}, kStart + std::chrono::hours(1)), Verdict::taken_identity);
   EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart + std::chrono::hours(1)), Verdict::pass);
+}
+
+TEST(Identities, AParticipantOfOursIsReadFromThePortThatItIsNamedAfterAlone) {
+  Identities identities;
+  Prefix ours{};
+  const auto start = prefix_start(40000);
+  std::copy(start.begin(), start.end(), ours.begin());
+  EXPECT_EQ(identities.claim(ours, {1, 39999}, kStart), Verdict::taken_identity)
+      << "also when nobody was heard";
+  EXPECT_EQ(identities.claim(ours, {1, 40000}, kStart), Verdict::pass);
+  EXPECT_EQ(identities.claim(ours, {2, 40000}, kStart), Verdict::taken_identity);
 }
 
 Prefix prefix(std::size_t i) { return {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i >> 8)}; }
