@@ -156,7 +156,7 @@ class PairProcess {
     services::Node node(options, std::move(transport));
     const auto goals = services::advertise(node, services::topics::goal);
     FollowerService following(node, options_.node.name, lease, journal_, persisted_term_,
-                              [&goals](const goals::GoalRequest& goal) { goals.write(to_wire(goal)); });
+                              [&goals](const goals::GoalRequest& goal) { goals.write(exec::to_wire(goal)); });
     node.on_turn([this] { watchdog_.notify(); });
     const InterruptibleNode reach(stop_, node);
     node.run();

@@ -14,13 +14,13 @@ double square(double v) { return v * v; }
 
 // Holds the least-squares plane through the elevations of a square window around a cell, and the largest
 // distance from it.
-struct Plane {
+struct FittedPlane {
   double east;
   double north;
   double residual;
 };
 
-Plane fit_plane(const terrain::Site& site, terrain::Cell centre, int half) {
+FittedPlane fit_plane(const terrain::Site& site, terrain::Cell centre, int half) {
   const terrain::Grid& grid = site.grid();
   const auto elevation = [&](int dx, int dy) {
     return site.elevation(terrain::Cell{std::clamp(centre.column + dx, 0, grid.columns - 1),
@@ -92,7 +92,7 @@ void Costmap::fit_planes(const terrain::Site& site) {
   const double steepest = square(std::tan(limits_.max_slope));
   for (std::size_t i = 0; i < grid_.cell_count(); ++i) {
     const terrain::Cell c = grid_.cell_at(i);
-    const Plane plane = fit_plane(site, c, half);
+    const FittedPlane plane = fit_plane(site, c, half);
     const double residual_share = plane.residual / limits_.max_roughness;
     const double rock_share = site.rock_height(c) / limits_.rock_clearance;
     east_.push_back(static_cast<float>(plane.east));

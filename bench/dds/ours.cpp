@@ -58,7 +58,7 @@ Ball decode(const v1::FunctionReply& reply) {
   return {reply.reply().related_request_id().sequence_number(), 0, 0};
 }
 
-std::unique_ptr<services::transport::Transport> open_transport(const std::string& vendor, int domain) {
+std::unique_ptr<services::transport::Transport> transport_of(const std::string& vendor, int domain) {
   return services::transport::open_transport(vendor, {.domain = domain, .participant = "bench"});
 }
 
@@ -69,7 +69,7 @@ class OurPort : public Port {
           const services::transport::TypeDescription& reply)
       : client_(options.side == Side::client),
         on_ball_(std::move(options.on_ball)),
-        transport_(open_transport(vendor, options.domain)) {
+        transport_(transport_of(vendor, options.domain)) {
     const QosSettings qos{.history_depth = 0, .max_samples = 4096};
     const services::transport::EndpointDescription requests{"roci/bench/request", request, qos};
     const services::transport::EndpointDescription replies{"roci/bench/reply", reply, qos};

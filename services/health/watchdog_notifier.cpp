@@ -13,7 +13,7 @@
 namespace roci::services::health {
 namespace {
 
-constexpr double kPeriodS = 0.25;
+constexpr double kNotifyPeriodS = 0.25;
 constexpr std::string_view kAlive = "READY=1\nWATCHDOG=1";
 
 void connect_to(int socket, const std::string& address) {
@@ -50,7 +50,7 @@ WatchdogNotifier::~WatchdogNotifier() {
 void WatchdogNotifier::notify() {
   const clock::WallTime now = clock::wall_now();
   if (socket_ < 0 || now < next_) return;
-  next_ = now + clock::wall_seconds(kPeriodS);
+  next_ = now + clock::wall_seconds(kNotifyPeriodS);
   [[maybe_unused]] const auto lost =
       send(socket_, kAlive.data(), kAlive.size(), MSG_NOSIGNAL);  // the next one follows
 }

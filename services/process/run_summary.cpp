@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-json read(const std::filesystem::path& file) {
+json read_json(const std::filesystem::path& file) {
   std::ifstream in(file);
   json summary = json::parse(in, nullptr, false);
   if (!summary.is_object()) return json::object();
@@ -73,13 +73,13 @@ std::string result_of(const json& executives) {
 
 json read_summary(const std::filesystem::path& run_folder, const mission::ServiceList& list) {
   const auto executives = list.of_program(kExecutive);
-  if (executives.size() <= 1) return read(run_folder / kSummaryFile);
+  if (executives.size() <= 1) return read_json(run_folder / kSummaryFile);
   json total = json::object();
   json each = json::object();
   Totals totals;
   bool found = false;
   for (const mission::ServiceEntry* executive : executives) {
-    const json own = read(run_folder / list.file_name(executive->name, kSummaryFile));
+    const json own = read_json(run_folder / list.file_name(executive->name, kSummaryFile));
     each[executive->name] = own;
     if (own.empty()) continue;
     found = true;

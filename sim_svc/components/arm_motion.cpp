@@ -11,7 +11,7 @@ using world::RandomStream;
 
 namespace {
 
-constexpr double kStepSeconds = 0.05;
+constexpr double kArmStepSeconds = 0.05;
 constexpr double kLargestJump = 0.1;  // rad between where the arm stands and where a trajectory starts
 
 std::vector<double> commanded(const std::vector<JointTarget>& targets, double time_s) {
@@ -39,8 +39,8 @@ ArmTrace simulate_arm(const ArmParameters& parameters, Time start, const std::ve
                       const std::vector<JointTarget>& targets, RandomStream& noise) {
   ArmTrace trace{start, {{from, 0}}, parameters.base_power_w};
   const double pace = std::clamp(1 + parameters.speed_noise * noise.normal(), 0.5, 1.5);
-  const double approach = 1 - std::exp(-kStepSeconds / parameters.joint_lag_s);
-  for (double time_s = kStepSeconds;; time_s += kStepSeconds) {
+  const double approach = 1 - std::exp(-kArmStepSeconds / parameters.joint_lag_s);
+  for (double time_s = kArmStepSeconds;; time_s += kArmStepSeconds) {
     ArmSample next = trace.samples.back();
     const std::vector<double> reference = commanded(targets, time_s * pace);
     double moved = 0;
@@ -51,8 +51,8 @@ ArmTrace simulate_arm(const ArmParameters& parameters, Time start, const std::ve
       moved += std::abs(step);
       error = std::max(error, std::abs(targets.back().joints[i] - next.joints[i]));
     }
-    const double power = parameters.base_power_w + parameters.power_per_speed_w * moved / kStepSeconds;
-    next.energy_j += power * kStepSeconds;
+    const double power = parameters.base_power_w + parameters.power_per_speed_w * moved / kArmStepSeconds;
+    next.energy_j += power * kArmStepSeconds;
     trace.peak_power_w = std::max(trace.peak_power_w, power);
     trace.samples.push_back(std::move(next));
     if (time_s * pace >= targets.back().time_s && error < parameters.settled_rad) return trace;

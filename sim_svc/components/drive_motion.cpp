@@ -34,10 +34,10 @@ double distance_to_segment(terrain::Point p, terrain::Point a, terrain::Point b)
   return terrain::distance(p, {a.x + t * dx, a.y + t * dy});
 }
 
-class Drive {
+class DriveIntegration {
  public:
-  Drive(const Ground& ground, const DriveParameters& parameters, const Pose& from,
-        const std::vector<terrain::Point>& way, std::size_t first, RandomStream& noise)
+  DriveIntegration(const Ground& ground, const DriveParameters& parameters, const Pose& from,
+                   const std::vector<terrain::Point>& way, std::size_t first, RandomStream& noise)
       : ground_(ground), p_(parameters), way_(way), noise_(noise) {
     now_.pose = from;
     now_.next_waypoint = first;
@@ -199,7 +199,7 @@ DriveSample DriveTrace::at(Time t) const {
 DriveTrace simulate_drive(const Ground& ground, const DriveParameters& parameters, Time start,
                           const Pose& from, const std::vector<terrain::Point>& way, std::size_t first,
                           RandomStream& noise) {
-  return Drive(ground, parameters, from, way, first, noise).run(start);
+  return DriveIntegration(ground, parameters, from, way, first, noise).run(start);
 }
 
 }  // namespace roci::sim::components

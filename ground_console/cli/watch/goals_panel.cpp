@@ -3,12 +3,12 @@
 namespace roci::console::cli::watch {
 namespace {
 
-struct Look {
+struct GoalLook {
   const char* sign;
   Style style;
 };
 
-Look look_of(v1::GoalState state) {
+GoalLook goal_look(v1::GoalState state) {
   switch (state) {
     case v1::GOAL_PENDING:
       return {"○", Style::warning};
@@ -45,7 +45,7 @@ void draw_goals(const lib::MissionView& view, const Rectangle& area, Canvas& can
                  Style::dim);
       return;
     }
-    const Look look = look_of(status.goal_state());
+    const GoalLook look = goal_look(status.goal_state());
     const std::string name = status.issuer() == "ground" ? status.id() : status.issuer() + "/" + status.id();
     canvas.put(row, area.column, std::string(1, goal_letter(number++)), Style::title);
     canvas.put(row, area.column + 2, look.sign, look.style);

@@ -5,12 +5,12 @@
 namespace roci::console::cli::watch {
 namespace {
 
-struct Look {
+struct StepLook {
   const char* sign;
   Style style;
 };
 
-Look look_of(const v1::StepStatus* step) {
+StepLook step_look(const v1::StepStatus* step) {
   if (step == nullptr) return {" ", Style::dim};
   switch (step->state()) {
     case v1::ACTIVITY_SUCCEEDED:
@@ -72,7 +72,7 @@ void draw_plan(const lib::MissionView& view, const Rectangle& area, Canvas& canv
   for (std::size_t i = first; i < std::min(first + room, activities.size()); ++i, ++row) {
     const v1::PlanActivity& activity = activities[i];
     const v1::StepStatus* step = view.step(activity.id());
-    const Look look = look_of(step);
+    const StepLook look = step_look(step);
     canvas.put(row, area.column + 2, look.sign, look.style);
     canvas.put(row, area.column + 4, label_of(activity), look.style, Axis::kLabel - 5);
     axis.draw(row, {view.now_us(), view.now_us()}, "│", Style::dim, canvas);

@@ -11,7 +11,7 @@ using task::StateView;
 
 namespace {
 
-constexpr std::size_t kMaxWork = 50'000'000;  // words of bits, for one table: about 50 ms
+constexpr std::size_t kMaxTableWork = 50'000'000;  // words of bits, for one table: about 50 ms
 constexpr std::size_t kMemoryShare = 8;       // of the limit, for one table
 constexpr std::size_t kMaxBytes = 16 << 20;   // likewise, whatever the limit
 constexpr std::size_t kRowsPerStep = 6;       // looked at when a step is, at least
@@ -32,7 +32,7 @@ std::optional<BackwardH2Mutexes> MutexDeadEnds::find(ActionCompression style) {
   const std::size_t literals = FdrOperators::literals(task_, style);
   const std::size_t most = std::min(kMaxBytes, limits_.memory_limit() / kMemoryShare);
   if (PairMatrix::bytes(literals) > most) return std::nullopt;
-  if (task_.actions.size() * kRowsPerStep > kMaxWork / (literals / 64 + 1)) return std::nullopt;
+  if (task_.actions.size() * kRowsPerStep > kMaxTableWork / (literals / 64 + 1)) return std::nullopt;
   FdrOperators steps(task_, style, [&] { limits_.step(); });
   const std::size_t bytes = steps.bytes() + BackwardH2Mutexes::most_bytes(steps);
   if (bytes > most) return std::nullopt;
@@ -41,7 +41,7 @@ std::optional<BackwardH2Mutexes> MutexDeadEnds::find(ActionCompression style) {
   return BackwardH2Mutexes::find(task_, std::move(steps), [&](std::size_t work) {
     limits_.step();
     done += work;
-    return done <= kMaxWork;
+    return done <= kMaxTableWork;
   });
 }
 

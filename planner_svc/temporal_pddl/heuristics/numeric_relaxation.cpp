@@ -11,7 +11,7 @@ using task::ActionId, task::Comparator, task::Goal, task::LinearExpression, task
 
 namespace {
 
-constexpr double kMostRepeats = 1000;
+constexpr double kMostRepeatsOfOne = 1000;
 
 double weight_of(const LinearExpression& expression, NumberId number) {
   for (const auto& term : expression.terms) {
@@ -119,7 +119,7 @@ std::int64_t NumericRelaxation::repeats(const NumericAchiever& raise, StateView 
   const double gain = change(raise.op, raise.comparison, state);
   const double missing = -value(raise.comparison, state);
   if (!(gain > 0) || !(missing > gain)) return 1;
-  return static_cast<std::int64_t>(std::min(kMostRepeats, std::ceil(missing / gain - 1e-9)));
+  return static_cast<std::int64_t>(std::min(kMostRepeatsOfOne, std::ceil(missing / gain - 1e-9)));
 }
 
 }  // namespace roci::planner::temporal_pddl::heuristics

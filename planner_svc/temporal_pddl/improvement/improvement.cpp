@@ -26,7 +26,7 @@ constexpr std::size_t kStepsTakenAgain = 20'000;
 constexpr std::size_t kFirstLimit = 25;  // evaluations of one search; twice as many in each round
 constexpr std::size_t kVariations = 4;   // times as many for variations of the plan before
 constexpr std::size_t kRestarts = 4;     // for other first plans, if one of the last round's was better
-constexpr std::array<std::int64_t, 4> kWeights = {5, 3, 2, 1};
+constexpr std::array<std::int64_t, 4> kSearchWeights = {5, 3, 2, 1};
 
 class Improvement {
  public:
@@ -48,7 +48,7 @@ class Improvement {
       vary(kVariations * limit, left);
       restarts = restart(restarts * limit, left) ? kRestarts : 1;
       bool exhausted = left > 0;
-      for (const std::int64_t weight : kWeights) {
+      for (const std::int64_t weight : kSearchWeights) {
         for (const Guide& guide : guides_) exhausted = search(guide, weight, limit, left) && exhausted;
       }
       if (exhausted) return;

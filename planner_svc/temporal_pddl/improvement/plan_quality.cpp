@@ -43,7 +43,7 @@ double cost_of(const Task& task, const PlanPrefix& plan, Duration makespan) {
   return evaluate(metric, task.layout.numbers(state), temporal::to_seconds(makespan));
 }
 
-bool only_grows(const Task& task, SnapId snap, const LinearExpression::Term& term) {
+bool term_only_grows(const Task& task, SnapId snap, const LinearExpression::Term& term) {
   return std::ranges::all_of(task.numeric_effects[snap], [&](const NumericEffect& effect) {
     if (effect.variable != term.variable) return true;
     const LinearExpression& change = task.expressions[effect.expression];
@@ -84,7 +84,7 @@ bool only_grows(const Task& task) {
   const LinearExpression& metric = task.metric.expression;
   return metric.duration_weight >= 0 && std::ranges::all_of(metric.terms, [&](const auto& term) {
            for (std::size_t i = 0; i < task.snaps.size(); ++i) {
-             if (!only_grows(task, SnapId(i), term)) return false;
+             if (!term_only_grows(task, SnapId(i), term)) return false;
            }
            return true;
          });

@@ -12,7 +12,7 @@ using task::ActionCompression, task::FactId, task::SnapId, task::StateLayout;
 namespace {
 
 constexpr std::size_t kMaxSubgoals = 8;  // from one state
-constexpr int kPatience = 4;             // plans that are followed although their goal comes no nearer
+constexpr int kVainPlans = 4;             // plans that are followed although their goal comes no nearer
 
 // Returns whether two facts of one variable cannot both hold. What negations are of is not known here: they
 // count as consistent.
@@ -77,7 +77,7 @@ GoalSerialization::Step GoalSerialization::follow() {
   if (!distance) return Step::in_vain;
   in_vain_ = *distance < nearest_ ? 0 : in_vain_ + 1;
   nearest_ = std::min(nearest_, *distance);
-  if (in_vain_ == kPatience) return Step::in_vain;
+  if (in_vain_ == kVainPlans) return Step::in_vain;
   ff_.plan_for(goal, plan_);
   return Step::further;
 }

@@ -15,7 +15,7 @@ using Wanted = std::map<std::string, std::string>;  // value by timeline
 
 constexpr std::size_t kMostNodes = 100'000;
 
-struct Node {
+struct RegressionNode {
   Wanted wanted;
   std::map<std::string, double> drawn;
   std::size_t after = 0;
@@ -30,7 +30,7 @@ bool holds(const Wanted& wanted, const Timelines& state) {
 }
 
 // The timeline of which more is drawn than there is.
-std::string overdrawn(const Node& node, const Timelines& state) {
+std::string overdrawn(const RegressionNode& node, const Timelines& state) {
   for (const auto& [timeline, amount] : node.drawn) {
     const auto found = state.find(timeline);
     const double* there = found == state.end() ? nullptr : std::get_if<double>(&found->second);
@@ -40,10 +40,11 @@ std::string overdrawn(const Node& node, const Timelines& state) {
 }
 
 // What must hold before the task so that all that is wanted holds after it; nothing: the task is no help.
-std::optional<Node> regress(const std::vector<Node>& nodes, std::size_t index, const Task& task) {
-  const Node& node = nodes[index];
+std::optional<RegressionNode> regress(const std::vector<RegressionNode>& nodes, std::size_t index,
+                                      const Task& task) {
+  const RegressionNode& node = nodes[index];
   bool helps = false;
-  Node before{node.wanted, node.drawn, index, &task};
+  RegressionNode before{node.wanted, node.drawn, index, &task};
   for (const Held& held : task.sets) {
     const auto found = node.wanted.find(held.timeline);
     if (found == node.wanted.end()) continue;
@@ -75,7 +76,7 @@ Chain chain_to(const TaskModel& model, const std::vector<Held>& wanted, const Ti
     out.reason = "no task makes it " + held.value;
     return out;
   }
-  std::vector<Node> nodes(1);
+  std::vector<RegressionNode> nodes(1);
   for (const Held& held : wanted) nodes[0].wanted[held.timeline] = held.value;
   std::set<std::pair<Wanted, std::map<std::string, double>>> seen;
   for (std::size_t i = 0; i < nodes.size() && nodes.size() < kMostNodes; ++i) {
