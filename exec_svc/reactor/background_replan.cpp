@@ -18,7 +18,7 @@ using temporal::Verdict;
 
 namespace {
 
-constexpr char kModelChanged[] = "a map or arm model changed during the planner call";
+constexpr char kModelChangedMeanwhile[] = "a map or arm model changed during the planner call";
 
 struct Remainder {
   const PlanActivity* activity;
@@ -130,7 +130,7 @@ void BackgroundReplan::proceed(Time now) {
 void BackgroundReplan::act_on_failure(Time now, const PlanReply& reply) {
   MissionState& state = parts_.state;
   if (state.goals.open().empty()) return keep_plan(now);  // what ran has achieved them
-  if (parts_.call.is_end_of_cancelled(reply)) return state.want_plan(kModelChanged);
+  if (parts_.call.is_end_of_cancelled(reply)) return state.want_plan(kModelChangedMeanwhile);
   if (!speaks_of_goals(reply.verdict))
     return parts_.recovery.break_plan(now, std::string("planner call ended as ") + to_string(reply.verdict));
   if (parts_.planning.soft_goal_would_leave(reply)) {
@@ -174,7 +174,7 @@ void BackgroundReplan::change_plans(Time now) {
     return;
   }
   call_.reset();
-  state.want_plan(different.empty() ? kModelChanged : different);
+  state.want_plan(different.empty() ? kModelChangedMeanwhile : different);
 }
 
 void BackgroundReplan::resume(Time now) {

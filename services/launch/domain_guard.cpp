@@ -15,7 +15,7 @@ namespace {
 
 // Participants find each other within a second; the newest heartbeat of each comes with that.
 constexpr clock::WallDuration kListen = std::chrono::seconds(3);
-constexpr std::chrono::milliseconds kTurn{20};
+constexpr std::chrono::milliseconds kListenTurn{20};
 
 void refuse_foreign(const Node& node, int domain) {
   for (const auto& [run, samples] : node.foreign_runs()) {
@@ -55,7 +55,7 @@ void refuse_held_domain(Node& node, const Options& options) {
   });
   const clock::WallTime end = clock::wall_now() + kListen;
   while (clock::wall_now() < end) {
-    node.spin_once(kTurn);
+    node.spin_once(kListenTurn);
     if (!options.shared_domain) refuse_foreign(node, options.connection.transport.domain);
     refuse_twins(*alive, options);
   }

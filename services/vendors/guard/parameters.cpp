@@ -8,7 +8,7 @@ namespace {
 // RTPS 2.3, table 9.13; the flag "must be understood" is no part of the id.
 constexpr std::uint16_t kMustUnderstand = 0x4000;
 constexpr std::uint16_t kSentinel = 0x0001;
-constexpr std::uint16_t kPad = 0x0000;
+constexpr std::uint16_t kPadding = 0x0000;
 constexpr std::uint16_t kKeyHash = 0x0070;
 constexpr std::uint16_t kStatusInfo = 0x0071;
 
@@ -76,7 +76,7 @@ ListVerdict examine_parameters(const ByteView& list, ListKind kind,
     if (length % 4 != 0 || length > list.size() - at) return {Verdict::bad_parameters};
     const ByteView value = list.part(at, length);
     at += length;
-    if (id == kPad) continue;
+    if (id == kPadding) continue;
     if (!fits(id, value, kind)) return {Verdict::bad_parameters};
     if (only_guids_of && names_guid(id) && value.size() >= only_guids_of->size() &&
         !std::equal(only_guids_of->begin(), only_guids_of->end(), value.bytes.begin())) {
