@@ -69,8 +69,7 @@ Verdict discovery_payload(const ByteView& payload, const GuidPrefix& sender) {
 // ParticipantMessageData begins with the prefix of the participant that it says is alive.
 Verdict liveliness_payload(const ByteView& payload, const GuidPrefix& sender) {
   if (payload.size() < 4 + sender.size()) return Verdict::bad_parameters;
-  const bool own = std::equal(sender.begin(), sender.end(), payload.bytes.begin() + 4);
-  return own ? Verdict::pass : Verdict::speaks_for_another;
+  return may_speak_for(sender, payload.bytes.subspan(4)) ? Verdict::pass : Verdict::speaks_for_another;
 }
 
 }  // namespace

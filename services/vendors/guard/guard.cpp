@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iostream>
 
-#include "services/log/log.hpp"
 #include "services/vendors/peers.hpp"
 
 namespace roci::services::vendors::guard {
@@ -66,8 +66,10 @@ void Guard::report(Verdict verdict, const std::optional<Source>& source) {
             std::string(kVerdictNames[i]);
   }
   reported_ = counts_;
-  log::warning("datagrams refused before DDS reads them: " + text + "; the last one, " +
-               std::string(kVerdictNames[static_cast<std::size_t>(verdict)]) + ", from " + to_text(source));
+  // Plug-ins log by themselves: the log of services belongs to the program.
+  text = "datagrams refused before DDS reads them: " + text + "; the last one, " +
+         std::string(kVerdictNames[static_cast<std::size_t>(verdict)]) + ", from " + to_text(source) + "\n";
+  std::cerr << text << std::flush;
 }
 
 std::array<std::uint64_t, kVerdicts> Guard::counts() const {

@@ -64,6 +64,13 @@ bool fits(std::uint16_t id, const ByteView& value, ListKind kind) {
 
 }  // namespace
 
+bool may_speak_for(const GuidPrefix& sender, std::span<const std::uint8_t> other) {
+  if (std::equal(sender.begin(), sender.end(), other.begin())) return true;
+  const bool ours = sender[0] == 'R' && sender[1] == 'o';
+  const bool eclipse = sender[0] == 0x01 && sender[1] == 0x10;
+  return (ours || eclipse) && std::equal(sender.begin(), sender.begin() + 4, other.begin());
+}
+
 ListVerdict examine_parameters(const ByteView& list, ListKind kind,
                                const std::optional<GuidPrefix>& only_guids_of) {
   std::size_t at = 0;
@@ -79,7 +86,7 @@ ListVerdict examine_parameters(const ByteView& list, ListKind kind,
     if (id == kPadding) continue;
     if (!fits(id, value, kind)) return {Verdict::bad_parameters};
     if (only_guids_of && names_guid(id) && value.size() >= only_guids_of->size() &&
-        !std::equal(only_guids_of->begin(), only_guids_of->end(), value.bytes.begin())) {
+        !may_speak_for(*only_guids_of, value.bytes)) {
       return {Verdict::speaks_for_another};
     }
   }

@@ -62,9 +62,7 @@ Verdict heartbeat_fragments(const Submessage& message) {
 
 Verdict info_source(const Submessage& message, const GuidPrefix& sender) {
   if (message.body.size() < 20) return Verdict::cut;
-  const auto prefix = message.body.bytes.subspan(8, sender.size());
-  return std::equal(sender.begin(), sender.end(), prefix.begin()) ? Verdict::pass
-                                                                  : Verdict::speaks_for_another;
+  return may_speak_for(sender, message.body.bytes.subspan(8)) ? Verdict::pass : Verdict::speaks_for_another;
 }
 
 Verdict info_timestamp(const Submessage& message) {

@@ -104,6 +104,16 @@ TEST(Guard, ASenderSpeaksInDiscoveryForItselfAlone) {
   EXPECT_EQ(judge(own().submessage(0x0c, 0, source)), Verdict::speaks_for_another);
 }
 
+TEST(Guard, ParticipantsOfOneCycloneProcessSpeakForEachOther) {
+  const Prefix first{'R', 'o', 1, 2, 3}, second{'R', 'o', 1, 2, 4}, elsewhere{'R', 'o', 1, 3, 4};
+  const auto says = [&](const Prefix& of) {
+    return judge(Message(first, kEclipse)
+                     .data(0, kParticipants, 1, kData, {}, Parameters().add_guid(0x50, of, 0x1c1).sample()));
+  };
+  EXPECT_EQ(says(second), Verdict::pass);
+  EXPECT_EQ(says(elsewhere), Verdict::speaks_for_another);
+}
+
 TEST(Guard, DiscoveryWhoseTextsDoNotFitIsRefused) {
   const auto discovery = [](const Parameters& parameters) {
     return judge(own().data(0, kParticipants, 1, kData, {}, parameters.sample()));
