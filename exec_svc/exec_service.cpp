@@ -17,12 +17,17 @@
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/journaled_reactor.hpp"
 #include "exec_svc/journal/round_trips.hpp"
+#include "exec_svc/journal/salvage.hpp"
 #include "exec_svc/mission_report_service.hpp"
 #include "exec_svc/order_link_service.hpp"
 #include "exec_svc/output_publisher_service.hpp"
 #include "exec_svc/run_files_service.hpp"
 #include "exec_svc/standby/leader_service.hpp"
+#include "exec_svc/strangers.hpp"
 #include "exec_svc/wire_service.hpp"
+#include "services/log/log.hpp"
+#include "services/owner/command.hpp"
+#include "services/process/disk_pause.hpp"
 #include "services/rpc.hpp"
 #include "services/wire/plan_wire.hpp"
 
@@ -61,6 +66,7 @@ temporal::Duration reunion(const Node& node) {
 }
 
 constexpr char kPlanner[] = "planner_svc";
+constexpr double kListenS = 2;  // wall time
 
 std::string planner_of(const MissionModel& mission, const services::RunSettings& settings) {
   if (!mission.planner.service.empty()) return mission.planner.service;
@@ -94,16 +100,19 @@ class ExecService final : public services::Service {
         journal_(journal),
         epoch_(epoch),
         leader_(leading),
-        reactor_(mission_, journal_, doubtful),
+        reactor_(mission_, journal_, doubtful || !journal.text(journal::kDamage).empty()),
         crash_(crash_points(node)),
         planner_(node, topics::plan_request),
         publisher_(node, mission_, epoch, crash_),
+        strangers_([this](const Event& event) { publisher_.report(event); }),
         decisions_(
             node, [this](GivenAnswer answer, std::string line) { take(std::move(answer), std::move(line)); }),
         orders_(
             node, [this](orders::Order order, std::string line) { take(std::move(order), std::move(line)); },
             [this](const Event& event) { intake_.tell(event); }),
         intake_(mission_, reactor_.reactor(), [this](const Event& event) { publisher_.report(event); }) {
+    journal_.wait_for_disk(
+        {[this](const std::string& cause) { wait_for_disk(cause); }, [this] { disk_is_back(); }});
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
     journal_.set_text("mission_file", std::filesystem::absolute(settings.mission_file()).string());
     journal_.set_text("executive", node.options().name);
@@ -129,11 +138,16 @@ class ExecService final : public services::Service {
     node.on_peer_change([this](const services::health::PeerChange& change) { take(change); });
     if (leader_ != nullptr && node.options().clock == services::clock::ClockMode::live)
       node.on_turn([this] { tell_pair(); });
-    step_soon();
+    if (leader_ == nullptr && node.options().incarnation == 1) {
+      listen_first();
+    } else {
+      step_soon();
+    }
   }
 
   // The one of a leader that stood down would replace its successor's.
   ~ExecService() override {
+    journal_.wait_for_disk({});
     if (leader_ == nullptr || std::uncaught_exceptions() == 0) write_summary();
   }
 
@@ -142,6 +156,7 @@ class ExecService final : public services::Service {
   // asks again for what was under way.
   void recover() {
     const Recovery& recovery = reactor_.recovery();
+    tell_damage();
     if (!recovery.restarted) return;
     slowest_call_s_ = temporal::to_seconds(temporal::Duration(journal_.number("slowest_call_us", 0)));
     planner_peak_kb_ = static_cast<std::uint32_t>(journal_.number("planner_peak_kb", 0));
@@ -155,6 +170,45 @@ class ExecService final : public services::Service {
     for (const Event& event : recovery.last_events) publisher_.report(event);
     missed_ = journal_.peers();
     node_.after(reunion(node_), [this] { give_up_missed(); });
+  }
+
+  // A second executive of this name would have ended by then (services/health/namesake_watch.hpp), and has begun
+  // nothing. One that was started again follows itself. Under the simulated clock there is one of each name.
+  void listen_first() {
+    const auto& options = node_.options();
+    if (options.clock != services::clock::ClockMode::live) return step_soon();
+    step_due_ = true;
+    node_.after(temporal::seconds(kListenS * options.live_scale), [this] {
+      step_due_ = false;
+      step_soon();
+    });
+  }
+
+  // The ground has been told once the first step is durable.
+  void tell_damage() {
+    const std::string damage = journal_.text(journal::kDamage);
+    if (damage.empty()) return;
+    services::log::error(damage);
+    publisher_.report({Severity::error, "journal.damaged", damage});
+    journal_.set_text(journal::kDamage, "");
+  }
+
+  // What is not durable is neither acknowledged nor commanded, so nothing else can be done meanwhile. The supervisor
+  // of one that leads a pair hears nothing: the other one has a disk of its own.
+  void wait_for_disk(const std::string& cause) {
+    if (!disk_pause_.wait()) return;
+    services::log::error("exec_svc waits for its disk: " + cause);
+    publisher_.report({Severity::error, "journal.waiting",
+                       "the journal cannot be written (" + cause +
+                           "); nothing is acknowledged or commanded until it can; make room on the disk"});
+    disk_cause_ = cause;
+  }
+
+  void disk_is_back() {
+    const std::string text =
+        "the journal was written after " + std::to_string(disk_pause_.over()) + " s (" + disk_cause_ + ")";
+    services::log::warning("exec_svc goes on: " + text);
+    publisher_.report({Severity::warning, "journal.written", text});
   }
 
   void report_divergence(const Divergence& divergence) {
@@ -184,6 +238,8 @@ class ExecService final : public services::Service {
 
   void take(const services::health::PeerChange& change) {
     const auto known = missed_.extract(change.service);
+    publisher_.forget_told(change.service);
+    if (!change.alive) sources_.forget(change.service);
     if (!change.alive) {
       journal_.remove_peer(change.service);
       inputs_.losses.push_back({change.service, change.cause});
@@ -206,6 +262,11 @@ class ExecService final : public services::Service {
 
   void take(const v1::Observation& observation) {
     if (observation.header().sender() == node_.options().name) return;  // a value that the ground has set
+    if (!sources_.admit(observation.timeline(), observation.header().sender()))
+      return strangers_.tell("timeline.contested", observation.header().sender() + " tells of " +
+                                                       observation.timeline() + ", which " +
+                                                       sources_.source(observation.timeline()) +
+                                                       " observes; it is not believed");
     try {
       executive::Observation value = from_wire(observation);
       if (!intake_.admits(value)) return;
@@ -225,15 +286,50 @@ class ExecService final : public services::Service {
   }
 
   void take(const v1::CommandAck& ack) {
-    if (ack.commander() != node_.options().name || OutputPublisher::answers_epoch(ack)) return;
-    if (ack.refused_epoch() && leader_ != nullptr) {
-      if (ack.newest_epoch() > epoch_) leader_->refused();
-      return;  // else it was a command of an earlier leader
-    }
+    if (ack.commander() != node_.options().name || ack.epoch() == 0) return;
+    if (ack.header().sender() != ack.owner())
+      return strangers_.tell("ack.foreign",
+                             ack.header().sender() + " acknowledges commands in the place of " + ack.owner());
+    if (ack.refused_epoch() && !take_refusal(ack)) return;
+    if (OutputPublisher::answers_epoch(ack)) return;
     inputs_.acks.push_back(from_wire(ack));
     seen_.push_back(trace_line(ack));
     crash_.pass("after-ack");
     step_soon();
+  }
+
+  // An owner refused the epoch of a command. Returns whether what was refused is to be said again, in the epoch
+  // that has begun by then.
+  bool take_refusal(const v1::CommandAck& ack) {
+    const std::uint64_t held = ack.newest_epoch();
+    const bool leads = OutputPublisher::answers_epoch(ack);
+    if (!leads && !publisher_.answers_command(ack)) return false;  // of an earlier leader, or of nobody
+    if (held >= epoch_) {
+      if (leader_ != nullptr) {
+        leader_->refused(held);
+      } else if (!leads) {
+        take_epoch(ack);
+      }
+    } else if (epoch_ - held > services::owner::kEpochJump && !publisher_.climb(ack.owner(), held)) {
+      strangers_.tell("epoch.refused", ack.owner() + " holds epoch " + std::to_string(held) +
+                                           ", too far before " + std::to_string(epoch_));
+    }
+    return !leads;
+  }
+
+  // The journal was lost, or somebody has commanded in this name: the epoch after the owner's is this executive's,
+  // in the journal before anything goes out in it. One word of an owner moves it by a bounded step.
+  void take_epoch(const v1::CommandAck& ack) {
+    const std::uint64_t held = ack.newest_epoch();
+    const std::uint64_t before = epoch_;
+    epoch_ = std::min(held, epoch_ + services::owner::kEpochJump) + 1;
+    journal_.set_number("epoch", static_cast<std::int64_t>(epoch_));
+    publisher_.begin_epoch(epoch_);
+    inputs_.epoch = epoch_;
+    publisher_.report({Severity::warning, "epoch.taken",
+                       ack.owner() + " holds epoch " + std::to_string(held) + " of " + node_.options().name +
+                           ", later than " + std::to_string(before) + "; goes on in epoch " +
+                           std::to_string(epoch_)});
   }
 
   void take(GivenAnswer answer, std::string line) {
@@ -346,11 +442,15 @@ class ExecService final : public services::Service {
   LeaderService* leader_;  // none: no other executive follows
   JournaledReactor reactor_;
   CrashPoints crash_;
+  TimelineSources sources_;
   ReactorInputs inputs_;
   std::vector<std::string> seen_;                // the inputs' lines of the trace
   std::map<std::string, std::uint32_t> missed_;  // services of before the restart, not heard of since
   bool step_due_ = false;
   std::optional<Node::TimerId> wake_timer_;
+  services::process::DiskPause disk_pause_{leader_ == nullptr ? services::process::DiskPause(node_)
+                                                              : services::process::DiskPause()};
+  std::string disk_cause_;  // why it was waited for
   double slowest_call_s_ = 0;
   std::uint32_t planner_peak_kb_ = 0;
 
@@ -361,6 +461,7 @@ class ExecService final : public services::Service {
     services::rpc::CallId sent = 0;  // the wire's
   } call_;                           // the last one
   OutputPublisher publisher_;
+  Strangers strangers_;
   DecisionLink decisions_;
   OrderLink orders_;
   Intake intake_;
@@ -370,12 +471,25 @@ class ExecService final : public services::Service {
 class LoneExecutive final : public services::Service {
  public:
   LoneExecutive(Node& node, const services::RunSettings& settings)
-      : journal_(run_file(settings, node.options().name, journal::kJournalFile),
+      : journal_(usable_journal(run_file(settings, node.options().name, journal::kJournalFile),
+                                services::process::DiskPause(node)),
                  node.options().clock == services::clock::ClockMode::live ? Durability::power
                                                                           : Durability::process),
-        executive_(node, settings, journal_, journal_.next_epoch(), nullptr, false) {}
+        executive_(node, settings, journal_, next_epoch(node), nullptr, false) {}
 
  private:
+  // The executive itself waits for the disk once it is there.
+  std::uint64_t next_epoch(Node& node) {
+    const auto pause = std::make_shared<services::process::DiskPause>(node);
+    journal_.wait_for_disk({[pause](const std::string& cause) {
+                              if (pause->wait())
+                                services::log::error("exec_svc waits for its disk before it begins: " +
+                                                     cause);
+                            },
+                            nullptr});
+    return journal_.next_epoch();
+  }
+
   Journal journal_;
   ExecService executive_;
 };

@@ -104,10 +104,11 @@ class PairProcess {
         self_(member_of(options.run.pair)),
         lease_{read_mission(options.run.mission_file(), role_of(options.run, options.node))
                    .executive.standby_term},
-        journal_(file_of(options, journal::kJournalFile), durability_for(options.node)),
-        persisted_term_(file_of(options, "standing"), durability_for(options.node)) {
-    signals.watch([this] { stop_.ask(); });
-  }
+        journal_(usable_journal(file_of(options, journal::kJournalFile),
+                                services::process::DiskPause([this] { watchdog_.notify(); })),
+                 durability_for(options.node)),
+        persisted_term_(file_of(options, "standing"), durability_for(options.node)),
+        stop_watch_(signals, [this] { stop_.ask(); }) {}
 
   void run() {
     for (bool superseded = false; !stop_.asked();) {
@@ -170,6 +171,7 @@ class PairProcess {
     if (!transport) return std::nullopt;
     services::node::NodeOptions options = options_.node;
     options.incarnation = static_cast<std::uint32_t>(lease.epoch());
+    options.sole = false;
     services::Node node(options, std::move(transport));
     node.on_turn([this] { watchdog_.notify(); });
     const services::TimeWatch time_watch(node, options_.time);
@@ -196,6 +198,7 @@ class PairProcess {
   Journal journal_;
   PersistedTermFile persisted_term_;
   StopRequest stop_;
+  services::process::StopWatch stop_watch_;
   bool connected_before_ = false;
 };
 

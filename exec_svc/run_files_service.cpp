@@ -1,6 +1,8 @@
 #include "exec_svc/run_files_service.hpp"
 
 #include "core/mission/mission_file.hpp"
+#include "exec_svc/journal/salvage.hpp"
+#include "services/log/log.hpp"
 
 namespace roci::exec {
 
@@ -19,6 +21,21 @@ ExecutiveRole role_of(const services::RunSettings& settings, const services::nod
 std::filesystem::path run_file(const services::RunSettings& settings, const std::string& executive,
                                const std::string& name) {
   return settings.run_folder / services_of(settings).file_name(executive, name);
+}
+
+std::filesystem::path usable_journal(const std::filesystem::path& file, services::process::DiskPause pause) {
+  for (bool waited = false;; waited = true) {
+    try {
+      journal::salvage_if_damaged(file);
+      const journal::Journal usable(file, journal::Durability::process);
+      if (waited)
+        services::log::warning("exec_svc waited " + std::to_string(pause.over()) + " s for the disk of " +
+                               file.string());
+      return file;
+    } catch (const journal::DiskError& error) {
+      if (pause.wait()) services::log::error(std::string("exec_svc waits for its disk: ") + error.what());
+    }
+  }
 }
 
 }  // namespace roci::exec

@@ -7,6 +7,7 @@
 
 #include "core/mission/service_list.hpp"
 #include "exec_svc/mission/executive_role.hpp"
+#include "services/process/disk_pause.hpp"
 #include "services/service.hpp"
 
 namespace roci::exec {
@@ -19,5 +20,9 @@ mission::ExecutiveRole role_of(const services::RunSettings&, const services::nod
 /// The path of a file in the run folder; with several executives each has one with its own name before it.
 std::filesystem::path run_file(const services::RunSettings&, const std::string& executive,
                                const std::string& name);
+
+/// Returns `file` once a journal can be opened there: a damaged one has been salvaged (journal/salvage.hpp), and while the
+/// disk takes nothing it waits, which the log tells. Throws as salvage_if_damaged() does, but no DiskError.
+std::filesystem::path usable_journal(const std::filesystem::path& file, services::process::DiskPause);
 
 }  // namespace roci::exec

@@ -66,6 +66,10 @@ class SimService final : public services::Service, private owner::Driver {
         goals_(services::advertise(node, topics::goal)),
         events_(services::advertise(node, topics::event)) {
     commands_.leave_stops_to_driver();  // the world knows its components
+    // A live robot outlives the process that speaks for it. A simulated clock ends with its process.
+    if (node.options().clock == services::clock::ClockMode::live && !run_folder_.empty())
+      commands_.keep_in(run_folder_ / (node.options().name + ".ledger"));
+    if (!run_folder_.empty()) effects_.open(run_folder_ / "effects.jsonl", std::ios::app);
     services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
       if (executives_.size() >= kExecutives && !executives_.contains(status.executive())) return;
       executives_[status.executive()] = standing_of(status);
@@ -104,6 +108,7 @@ class SimService final : public services::Service, private owner::Driver {
                        [this](const MotionWanted& motion) { ask(motion); }},
                  output);
     }
+    record_effects();
     if (wake_) node_.cancel(*wake_);
     wake_.reset();
     const auto next = world_.next_change();
@@ -223,6 +228,19 @@ class SimService final : public services::Service, private owner::Driver {
     order_.note(code, text);
   }
 
+  // Each line is written at once, so that the death of this process loses none.
+  void record_effects() {
+    for (const world::Effect& one : world_.take_effects()) {
+      effects_ << nlohmann::json{{"time_us", one.at.count()},    {"robot", one.robot},
+                                 {"component", one.component},   {"kind", one.deed.kind},
+                                 {"object", one.deed.object},    {"commander", one.cause.commander},
+                                 {"epoch", one.cause.epoch},     {"activity", one.cause.activity},
+                                 {"attempt", one.cause.attempt}, {"incarnation", node_.options().incarnation}}
+                      .dump()
+               << std::endl;
+    }
+  }
+
   // Writes what was really done, for whoever asks after the run whether anything was done twice.
   void report_begun() const {
     nlohmann::json report = nlohmann::json::array();
@@ -252,6 +270,7 @@ class SimService final : public services::Service, private owner::Driver {
   services::Node& node_;
   const Scenario scenario_;
   const std::filesystem::path run_folder_;
+  std::ofstream effects_;
   scenario::EventOrder order_;
   world::World world_;
   services::Client<v1::PathRequest, v1::PathReply> paths_;

@@ -55,7 +55,8 @@ void require_file(const Entry& entry, const std::filesystem::path& file, const c
 }
 
 ServiceEntry read_service(const Entry& entry, const std::vector<std::string>& robots) {
-  entry.allow_only({"name", "program", "robot", "vendor", "settings", "clock", "standby", "arguments"});
+  entry.allow_only(
+      {"name", "program", "robot", "vendor", "settings", "clock", "standby", "essential", "arguments"});
   ServiceEntry out;
   out.name = entry.at("name").text();
   require_name(entry.at("name"), out.name, "service");
@@ -74,6 +75,9 @@ ServiceEntry read_service(const Entry& entry, const std::vector<std::string>& ro
     out.clock_master = true;
   }
   out.paired = entry.truth_or("standby", false);
+  out.essential = entry.truth_or("essential", true);
+  if (!out.essential && out.clock_master)
+    entry.at("essential").fail("nothing goes on without the clock; its master is essential");
   if (const auto arguments = entry.find("arguments")) out.arguments = arguments->texts();
   return out;
 }

@@ -21,6 +21,7 @@ struct ServiceEntry {
   std::filesystem::path settings;  ///< the mission file that it reads, mission.yaml unless another is named
   bool clock_master = false;       ///< it drives the simulated clock; at most one does
   bool paired = false;             ///< the run has a second process of it, a standby (program option --pair)
+  bool essential = true;  ///< the run ends when it cannot be kept; else the mission goes on without it
   std::vector<std::string> arguments;  ///< appended to its command line
 };
 

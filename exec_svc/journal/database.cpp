@@ -4,6 +4,10 @@
 #define SQLITE_ENABLE_PREUPDATE_HOOK
 #include <sqlite3.h>
 
+#include <algorithm>
+#include <exception>
+#include <utility>
+
 #include "exec_svc/journal/format.hpp"
 
 namespace roci::exec::journal {
@@ -22,11 +26,39 @@ constexpr char kSchema[] =
     "CREATE TABLE IF NOT EXISTS position(row INTEGER PRIMARY KEY CHECK(row = 1), epoch INTEGER NOT NULL, "
     "sequence INTEGER NOT NULL);";
 
+// For another program that reads the journal, or copies it, at this moment.
+constexpr int kBusyTimeoutMs = 1000;
+
+// Whether the disk, and not what stands on it, is the cause.
+bool is_of_the_disk(sqlite3* database) {
+  switch (sqlite3_extended_errcode(database)) {
+    case SQLITE_FULL:
+    case SQLITE_BUSY:
+    case SQLITE_BUSY_RECOVERY:
+    case SQLITE_BUSY_SNAPSHOT:
+    case SQLITE_IOERR_WRITE:
+    case SQLITE_IOERR_FSYNC:
+    case SQLITE_IOERR_DIR_FSYNC:
+    case SQLITE_IOERR_TRUNCATE:
+    case SQLITE_IOERR_SHMOPEN:
+    case SQLITE_IOERR_SHMSIZE:
+    case SQLITE_IOERR_SHMMAP:
+    case SQLITE_IOERR_GETTEMPPATH:
+      return true;
+    default:
+      return false;
+  }
+}
+
+[[noreturn]] void fail(sqlite3* database, const std::string& before = "") {
+  if (is_of_the_disk(database)) throw DiskError(before + sqlite3_errmsg(database));
+  throw JournalError(before + sqlite3_errmsg(database));
+}
+
 }  // namespace
 
 Statement::Statement(const Journal::Database& database, const char* sql) : database_(database.handle) {
-  if (sqlite3_prepare_v2(database_, sql, -1, &statement_, nullptr) != SQLITE_OK)
-    throw JournalError(sqlite3_errmsg(database_));
+  if (sqlite3_prepare_v2(database_, sql, -1, &statement_, nullptr) != SQLITE_OK) fail(database_);
 }
 
 Statement::~Statement() { sqlite3_finalize(statement_); }
@@ -50,13 +82,14 @@ bool Statement::row() {
   const int status = sqlite3_step(statement_);
   if (status == SQLITE_ROW) return true;
   if (status == SQLITE_DONE) return false;
-  throw JournalError(std::string("journal: ") + sqlite3_errmsg(database_));
+  fail(database_, "journal: ");
 }
 
 void Statement::run() {
-  row();
-  sqlite3_reset(statement_);
+  // Whatever comes of it, the statement can be run again.
+  const std::unique_ptr<sqlite3_stmt, decltype(&sqlite3_reset)> reset(statement_, sqlite3_reset);
   bound_ = 0;
+  row();
 }
 
 std::string Statement::text(int column) const {
@@ -68,23 +101,28 @@ std::string Statement::text(int column) const {
 
 std::int64_t Statement::number(int column) const { return sqlite3_column_int64(statement_, column); }
 
-Journal::Database::Database(const std::filesystem::path& file, Durability durability) {
+Journal::Database::Database(const std::filesystem::path& file, Durability durability)
+    : exceptions_(std::uncaught_exceptions()) {
   if (sqlite3_open(file.c_str(), &handle) != SQLITE_OK) {
     const std::string reason = sqlite3_errmsg(handle);
     sqlite3_close(handle);
     throw JournalError("cannot open the journal " + file.string() + ": " + reason +
                        "; check that its folder can be written");
   }
+  sqlite3_busy_timeout(handle, kBusyTimeoutMs);
   try {
     execute("PRAGMA journal_mode=WAL;");
     execute(durability == Durability::power ? "PRAGMA synchronous=FULL;" : "PRAGMA synchronous=OFF;");
     settle_format(handle);
     execute(kSchema);
     append_record =
-        std::make_unique<Statement>(*this, "INSERT INTO record(time_us, kind, text) VALUES(?,?,?)");
+        std::make_unique<Statement>(*this, "INSERT INTO record(seq, time_us, kind, text) VALUES(?,?,?,?)");
   } catch (const NewerJournal& error) {
     close();
     throw NewerJournal(file.string() + " is not a usable journal: " + error.what());
+  } catch (const DiskError& error) {
+    close();
+    throw DiskError("the journal " + file.string() + " cannot be written: " + error.what());
   } catch (const JournalError& error) {
     close();
     throw JournalError(file.string() + " is not a usable journal (" + error.what() +
@@ -92,8 +130,17 @@ Journal::Database::Database(const std::filesystem::path& file, Durability durabi
   }
 }
 
+// What an exception cuts off is half a step: it never becomes durable.
 Journal::Database::~Database() {
-  if (open_transaction) sqlite3_exec(handle, "COMMIT", nullptr, nullptr, nullptr);
+  try {
+    if (std::uncaught_exceptions() > exceptions_) {
+      if (open_transaction) roll_back();
+    } else {
+      write();
+    }
+  } catch (const JournalError&) {
+    // Nobody is left to be told; the file is as after the last commit.
+  }
   close();
 }
 
@@ -104,8 +151,7 @@ void Journal::Database::close() {
 }
 
 void Journal::Database::execute(const char* sql) const {
-  if (sqlite3_exec(handle, sql, nullptr, nullptr, nullptr) != SQLITE_OK)
-    throw JournalError(sqlite3_errmsg(handle));
+  if (sqlite3_exec(handle, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail(handle);
 }
 
 void Journal::Database::begin() {
@@ -118,35 +164,80 @@ void Journal::Database::begin() {
     throw JournalError("changes of the journal cannot be recorded by this SQLite");
 }
 
+void Journal::Database::change(std::function<void()> make) {
+  changes_.push_back(std::move(make));
+  if (rolled_back_) return;
+  try {
+    begin();
+    changes_.back()();
+  } catch (const DiskError&) {
+    roll_back();
+    rolled_back_ = true;
+  }
+}
+
+// Throws DiskError with everything as before the transaction, and the changes kept.
+void Journal::Database::write() {
+  try {
+    if (std::exchange(rolled_back_, false)) {
+      begin();
+      for (const auto& make : changes_) make();
+    }
+    if (!open_transaction) return;
+    auto batch = record_changes();
+    execute("COMMIT");
+    open_transaction = false;
+    changes_.clear();
+    if (batch) batches.push_back(std::move(*batch));
+  } catch (const DiskError&) {
+    roll_back();
+    rolled_back_ = true;
+    throw;
+  }
+}
+
 void Journal::Database::commit() {
-  if (!open_transaction) return;
-  if (session_ != nullptr) record_changes();
-  execute("COMMIT");
-  open_transaction = false;
+  for (bool waited = false;; waited = true) {
+    try {
+      write();
+      if (waited && disk_wait.over) disk_wait.over();
+      return;
+    } catch (const DiskError& error) {
+      if (!disk_wait.wait) throw;
+      disk_wait.wait(error.what());
+    }
+  }
 }
 
 void Journal::Database::roll_back() {
+  if (session_ != nullptr) sqlite3session_delete(std::exchange(session_, nullptr));
   open_transaction = false;
-  execute("ROLLBACK");
+  // SQLite may have rolled back by itself.
+  if (sqlite3_get_autocommit(handle) == 0) execute("ROLLBACK");
 }
 
-void Journal::Database::record_changes() {
+std::optional<Batch> Journal::Database::record_changes() {
+  if (session_ == nullptr) return std::nullopt;
   int size = 0;
   void* bytes = nullptr;
   const int status = sqlite3session_changeset(session_, &size, &bytes);
-  sqlite3session_delete(session_);
-  session_ = nullptr;
+  sqlite3session_delete(std::exchange(session_, nullptr));
   const std::unique_ptr<void, decltype(&sqlite3_free)> owned(bytes, sqlite3_free);
   if (status != SQLITE_OK) throw JournalError("the changes of a commit could not be recorded");
-  if (size == 0) return;
+  if (size == 0) return std::nullopt;
   const Position before = position();
   const Position after{*epoch, before.sequence + 1};
   set_position(after);
-  batches.push_back(
-      {before, after, std::string(static_cast<const char*>(bytes), static_cast<std::size_t>(size))});
+  return Batch{before, after, std::string(static_cast<const char*>(bytes), static_cast<std::size_t>(size))};
 }
 
-std::int64_t Journal::Database::last_row() const { return sqlite3_last_insert_rowid(handle); }
+// An applied batch may have brought records, and what the disk has rolled back has its numbers all the same.
+std::int64_t Journal::Database::take_record_number() {
+  Statement newest(*this, "SELECT COALESCE(MAX(seq), 0) FROM record");
+  newest.row();
+  next_record_ = std::max(next_record_, newest.number(0) + 1);
+  return next_record_++;
+}
 
 Position Journal::Database::position() const {
   Statement row(*this, "SELECT epoch, sequence FROM position");

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,6 +41,14 @@ class Statement {
   int bound_ = 0;
 };
 
+/// The columns of a goal's row: issuer, id, request, state, reason, arrival, plan_version.
+struct GoalRow {
+  std::function<std::string(int column)> text;
+  std::function<std::int64_t(int column)> number;
+};
+/// Reads it. Throws JournalError for one that is damaged.
+goals::GoalRecord goal_in(const GoalRow& row);
+
 struct Journal::Database {
   Database(const std::filesystem::path& file, Durability durability);
   ~Database();
@@ -47,10 +56,13 @@ struct Journal::Database {
   Database& operator=(const Database&) = delete;
 
   void execute(const char* sql) const;
-  void begin();
+  /// Makes a change in the open transaction (a new one, if there is none). While the disk takes nothing the change is
+  /// kept, and made by the commit.
+  void change(std::function<void()> make);
   void commit();
   void roll_back();
-  std::int64_t last_row() const;
+  /// The number of the next record. It is the same whenever the change that writes it is made.
+  std::int64_t take_record_number();
   Position position() const;
   void set_position(const Position& position);
 
@@ -59,12 +71,19 @@ struct Journal::Database {
   std::optional<std::uint64_t> epoch;  ///< commits are batches of it
   std::vector<Batch> batches;          ///< not taken yet
   bool open_transaction = false;
+  DiskWait disk_wait;
 
  private:
-  void record_changes();
+  void begin();
+  std::optional<Batch> record_changes();
+  void write();
   void close();
 
   sqlite3_session* session_ = nullptr;  ///< of the open transaction, if it becomes a batch
+  std::vector<std::function<void()>> changes_;  ///< since the last commit
+  bool rolled_back_ = false;                    ///< by the disk: changes_ are to be made again
+  std::int64_t next_record_ = 1;
+  int exceptions_;  ///< that were under way when it was opened
 };
 
 }  // namespace roci::exec::journal

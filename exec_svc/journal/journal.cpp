@@ -96,6 +96,8 @@ Journal::~Journal() = default;
 
 void Journal::commit() { database_->commit(); }
 
+void Journal::wait_for_disk(DiskWait wait) { database_->disk_wait = std::move(wait); }
+
 std::uint64_t Journal::next_epoch() {
   const std::int64_t epoch = number("epoch", 0) + 1;
   set_number("epoch", epoch);
@@ -104,16 +106,37 @@ std::uint64_t Journal::next_epoch() {
 }
 
 void Journal::put_goal(const GoalRecord& record) {
-  database_->begin();
-  Statement(*database_, "INSERT OR REPLACE INTO goal VALUES(?,?,?,?,?,?,?)")
-      .bind(record.request.key.issuer)
-      .bind(record.request.key.id)
-      .bind(encode(record))
-      .bind(static_cast<std::int64_t>(record.state))
-      .bind(record.reason)
-      .bind(static_cast<std::int64_t>(record.arrival))
-      .bind(static_cast<std::int64_t>(record.plan_version))
-      .run();
+  database_->change([database = database_.get(), record] {
+    Statement(*database, "INSERT OR REPLACE INTO goal VALUES(?,?,?,?,?,?,?)")
+        .bind(record.request.key.issuer)
+        .bind(record.request.key.id)
+        .bind(encode(record))
+        .bind(static_cast<std::int64_t>(record.state))
+        .bind(record.reason)
+        .bind(static_cast<std::int64_t>(record.arrival))
+        .bind(static_cast<std::int64_t>(record.plan_version))
+        .run();
+  });
+}
+
+GoalRecord goal_in(const GoalRow& row) {
+  GoalRecord record;
+  const std::string damaged = "the journal's goal " + row.text(0) + "/" + row.text(1) + " is damaged";
+  try {
+    decode({row.text(0), row.text(1)}, row.text(2), record);
+  } catch (const nlohmann::json::exception& error) {
+    throw JournalError(damaged + ": " + error.what());
+  }
+  const std::int64_t state = row.number(3);
+  const auto importance = record.request.importance;
+  if (state < 0 || state > static_cast<std::int64_t>(GoalState::recalled) || importance < GoalClass::hard ||
+      importance > GoalClass::opportunistic || row.text(0).empty() || row.text(1).empty())
+    throw JournalError(damaged);
+  record.state = static_cast<GoalState>(state);
+  record.reason = row.text(4);
+  record.arrival = static_cast<std::uint64_t>(row.number(5));
+  record.plan_version = static_cast<std::uint32_t>(row.number(6));
+  return record;
 }
 
 std::vector<GoalRecord> Journal::goals() const {
@@ -122,34 +145,29 @@ std::vector<GoalRecord> Journal::goals() const {
       "SELECT issuer, id, request, state, reason, arrival, plan_version FROM goal ORDER BY arrival");
   std::vector<GoalRecord> out;
   while (rows.row()) {
-    GoalRecord record;
-    try {
-      decode({rows.text(0), rows.text(1)}, rows.text(2), record);
-      record.state = enumerator(rows.number(3), GoalState::recalled);
-    } catch (const nlohmann::json::exception&) {
-      continue;  // one damaged goal does not take the others with it
-    } catch (const JournalError&) {
-      continue;
-    }
-    record.reason = rows.text(4);
-    record.arrival = static_cast<std::uint64_t>(rows.number(5));
-    record.plan_version = static_cast<std::uint32_t>(rows.number(6));
-    out.push_back(std::move(record));
+    out.push_back(goal_in({[&rows](int column) { return rows.text(column); },
+                           [&rows](int column) { return rows.number(column); }}));
   }
   return out;
 }
 
 void Journal::put_peer(const std::string& service, std::uint32_t incarnation) {
-  database_->begin();
-  Statement(*database_, "INSERT OR REPLACE INTO peer VALUES(?,?)")
-      .bind(service)
-      .bind(static_cast<std::int64_t>(incarnation))
-      .run();
+  database_->change([database = database_.get(), service, incarnation] {
+    Statement(*database, "INSERT OR REPLACE INTO peer VALUES(?,?)")
+        .bind(service)
+        .bind(static_cast<std::int64_t>(incarnation))
+        .run();
+  });
 }
 
 void Journal::remove_peer(const std::string& service) {
-  database_->begin();
-  Statement(*database_, "DELETE FROM peer WHERE service = ?").bind(service).run();
+  database_->change([database = database_.get(), service] {
+    Statement(*database, "DELETE FROM peer WHERE service = ?").bind(service).run();
+  });
+}
+
+void Journal::set_position(const Position& position) {
+  database_->change([database = database_.get(), position] { database->set_position(position); });
 }
 
 std::map<std::string, std::uint32_t> Journal::peers() const {
@@ -160,21 +178,27 @@ std::map<std::string, std::uint32_t> Journal::peers() const {
 }
 
 void Journal::append(temporal::Time time, std::string_view kind, std::string_view text) {
-  database_->begin();
-  database_->append_record->bind(time.count()).bind(kind).bind(text).run();
+  database_->change([database = database_.get(), number = database_->take_record_number(), time,
+                     kind = std::string(kind), text = std::string(text)] {
+    database->append_record->bind(number).bind(time.count()).bind(kind).bind(text).run();
+  });
 }
 
 std::int64_t Journal::append_bytes(temporal::Time time, std::string_view kind, std::string_view bytes) {
-  database_->begin();
-  database_->append_record->bind(time.count()).bind(kind).bind_bytes(bytes).run();
-  return database_->last_row();
+  const std::int64_t number = database_->take_record_number();
+  database_->change(
+      [database = database_.get(), number, time, kind = std::string(kind), bytes = std::string(bytes)] {
+        database->append_record->bind(number).bind(time.count()).bind(kind).bind_bytes(bytes).run();
+      });
+  return number;
 }
 
 void Journal::forget_inputs_before(std::int64_t number) {
-  database_->begin();
-  Statement(*database_, "DELETE FROM record WHERE seq < ? AND kind IN ('input', 'anchor', 'restored')")
-      .bind(number)
-      .run();
+  database_->change([database = database_.get(), number] {
+    Statement(*database, "DELETE FROM record WHERE seq < ? AND kind IN ('input', 'anchor', 'restored')")
+        .bind(number)
+        .run();
+  });
 }
 
 void Journal::for_each_from(std::int64_t number, const Visit& visit) const {
@@ -184,8 +208,9 @@ void Journal::for_each_from(std::int64_t number, const Visit& visit) const {
 }
 
 void Journal::set_text(std::string_view name, std::string_view value) {
-  database_->begin();
-  Statement(*database_, "INSERT OR REPLACE INTO setting VALUES(?,?)").bind(name).bind(value).run();
+  database_->change([database = database_.get(), name = std::string(name), value = std::string(value)] {
+    Statement(*database, "INSERT OR REPLACE INTO setting VALUES(?,?)").bind(name).bind(value).run();
+  });
 }
 
 std::string Journal::text(std::string_view name) const {
@@ -195,8 +220,9 @@ std::string Journal::text(std::string_view name) const {
 }
 
 void Journal::set_number(std::string_view name, std::int64_t value) {
-  database_->begin();
-  Statement(*database_, "INSERT OR REPLACE INTO number VALUES(?,?)").bind(name).bind(value).run();
+  database_->change([database = database_.get(), name = std::string(name), value] {
+    Statement(*database, "INSERT OR REPLACE INTO number VALUES(?,?)").bind(name).bind(value).run();
+  });
 }
 
 std::int64_t Journal::number(std::string_view name, std::int64_t fallback) const {

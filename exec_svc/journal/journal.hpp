@@ -31,6 +31,20 @@ class NewerJournal : public JournalError {
   using JournalError::JournalError;
 };
 
+/// The disk takes nothing just now (it is full, or does not answer); nothing is lost: the changes since the last
+/// commit are kept, and the next commit() writes them.
+class DiskError : public JournalError {
+ public:
+  using JournalError::JournalError;
+};
+
+/// What a journal does about a disk that takes nothing. Both may be null.
+struct DiskWait {
+  /// Waits a while before the next attempt; `cause` in plain words. Null: commit() throws DiskError instead.
+  std::function<void(const std::string& cause)> wait{};
+  std::function<void()> over{};  ///< The disk has taken everything after all.
+};
+
 enum class Durability {
   process,  ///< survives the death of the process; commits do not wait for the disk
   power,    ///< survives the loss of power
@@ -50,8 +64,10 @@ class Journal {
 
   const std::filesystem::path& file() const { return file_; }
 
-  /// Entries since the last commit become durable together.
+  /// Entries since the last commit become durable together. While the disk takes nothing it waits as wait_for_disk()
+  /// says, else it throws DiskError; nothing is forgotten then.
   void commit();
+  void wait_for_disk(DiskWait);
 
   /// Rises by one with each call: the epoch of this start of the executive.
   std::uint64_t next_epoch();
@@ -63,6 +79,8 @@ class Journal {
   bool empty() const;  ///< no goals, no records
   /// {0, 0} for a journal that no epoch of a pair has written to.
   Position position() const;
+  /// Says that the journal is at another one, e.g. kForkedHistory.
+  void set_position(const Position& position);
   /// Makes the same change here, in one commit. Throws JournalError when the batch does not fit or cannot be
   /// read; nothing has changed then.
   void apply(const Batch& batch);
@@ -73,7 +91,7 @@ class Journal {
   void replace_with(std::string_view serialized);
 
   void put_goal(const goals::GoalRecord& record);
-  /// A goal that cannot be read is left out.
+  /// Throws JournalError for a goal that cannot be read; salvage.hpp keeps the others.
   std::vector<goals::GoalRecord> goals() const;
 
   /// The services that were there when the last turn was journaled, with their incarnations.

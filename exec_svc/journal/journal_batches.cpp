@@ -1,15 +1,14 @@
 // The journal as a row of batches, and a journal from another one's.
 #define SQLITE_ENABLE_SESSION
 #define SQLITE_ENABLE_PREUPDATE_HOOK
-#include <fcntl.h>
 #include <sqlite3.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <limits>
 #include <utility>
 
 #include "exec_svc/journal/database.hpp"
+#include "exec_svc/journal/database_files.hpp"
 
 namespace roci::exec::journal {
 namespace {
@@ -41,24 +40,14 @@ void write(const fs::path& file, std::string_view bytes) {
   if (!out.flush()) throw JournalError("cannot write " + file.string());
 }
 
-void wait_for_disk(const fs::path& file) {
-  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool safe = descriptor >= 0 && fsync(descriptor) == 0;
-  if (descriptor >= 0) close(descriptor);
-  if (!safe) throw JournalError("cannot write " + file.string() + " to the disk");
-}
-
-void remove_database(const fs::path& file) {
-  std::error_code ignored;
-  for (const char* suffix : {"", "-wal", "-shm"}) fs::remove(fs::path(file).concat(suffix), ignored);
-}
-
 }  // namespace
 
 void Journal::begin_epoch(std::uint64_t epoch) {
   commit();
   // What was written before there was a pair is in no batch: an empty copy must not take it for its own past.
-  if (position() == Position{} && !empty()) database_->set_position({epoch, 0});
+  // Nor may one that was salvaged, from another damaged journal, take it for the same.
+  const bool nobodys_past = (position() == Position{} && !empty()) || position() == kForkedHistory;
+  if (nobodys_past) database_->set_position({epoch, 0});
   database_->epoch = epoch;
   set_number("epoch", static_cast<std::int64_t>(epoch));
   commit();
@@ -87,8 +76,13 @@ void Journal::apply(const Batch& batch) {
     throw JournalError("batch " + position_text(batch.at) +
                        " does not fit this journal: " + sqlite3_errstr(status));
   }
-  database_->set_position(batch.at);
-  database_->execute("COMMIT");
+  try {
+    database_->set_position(batch.at);
+    database_->execute("COMMIT");
+  } catch (const JournalError&) {
+    database_->roll_back();
+    throw;
+  }
 }
 
 std::string Journal::serialized() const {
@@ -114,10 +108,14 @@ void Journal::replace_with(std::string_view whole) {
     remove_database(arrived);
     throw;
   }
-  if (durability_ == Durability::power) wait_for_disk(arrived);
+  if (durability_ == Durability::power) sync_path(arrived);
+  DiskWait disk_wait = std::move(database_->disk_wait);
   database_.reset();
+  remove_database_logs(file_);  // they belong to the database that goes
   fs::rename(arrived, file_);
+  if (durability_ == Durability::power) sync_path(file_.parent_path());
   database_ = std::make_unique<Database>(file_, durability_);
+  database_->disk_wait = std::move(disk_wait);
 }
 
 }  // namespace roci::exec::journal

@@ -49,6 +49,7 @@ void JournaledReactor::recover(bool doubtful) {
   recovery_.restarted = true;
   if (doubtful) {
     journal_->set_number("plan_version", journal_->number("plan_version", 0) + kPlansOfAnother);
+    journal_->commit();  // it is read below
     recovery_.divergence = Divergence{temporal::Time{0}, "all that was done", "perhaps a part of it"};
   } else {
     recovery_.resumed = replay();
@@ -79,6 +80,10 @@ bool JournaledReactor::replay() {
                             });
   } catch (const ArchiveError& error) {
     return fail("a snapshot that can be read", error.what());
+  } catch (const JournalError&) {
+    throw;
+  } catch (const std::exception& error) {  // of a reactor that took what it never would have been given
+    return fail("inputs that can be taken", error.what());
   }
   replay.finish();
   recovery_.turns = replay.turns();

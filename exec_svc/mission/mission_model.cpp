@@ -159,18 +159,18 @@ ReactorSettings read_executive(const Entry& entry) {
 }
 
 // The planner's model, and what it means for the rest of the file.
-std::optional<pddl::Domain> read_model(const Entry& root, MissionModel& out) {
+void read_model(const Entry& root, MissionModel& out) {
   const auto domain_file = root.find("domain");
   const auto model_file = root.find("model");
   if (domain_file && model_file)
     model_file->fail(
         "'domain' is the model of an engine that reads PDDL; name 'model' or 'domain', not both");
   if (model_file) out.model_text = whole_file(*model_file);
-  if (!domain_file) return std::nullopt;
+  if (!domain_file) return;
   out.model_text = whole_file(*domain_file);
-  pddl::Domain domain = read_domain(out.model_text, root.resolve(domain_file->text()).string());
-  out.domain_name = domain.name;
-  return domain;
+  out.domain = std::make_shared<const pddl::Domain>(
+      read_domain(out.model_text, root.resolve(domain_file->text()).string()));
+  out.domain_name = out.domain->name;
 }
 
 // Components of other robots stay until all names are read.
@@ -192,7 +192,7 @@ MissionModel read_mission(const std::filesystem::path& folder_or_file, const Exe
   MissionModel out;
   out.name = root.at("name").text();
   out.role = role;
-  const auto domain = read_model(root, out);
+  read_model(root, out);
   out.objects = read_objects(root, out.has_domain());
   for (const Entry& item : root.at("components").items()) out.components.push_back(read_component(item, out));
   if (const auto list = root.find("families")) {
@@ -213,7 +213,7 @@ MissionModel read_mission(const std::filesystem::path& folder_or_file, const Exe
   for (const auto& [name, entry] : root.at("goal_kinds").fields()) {
     out.goal_kinds[name] = read_goal_kind(name, entry, out);
   }
-  if (domain) require_domain_names(root, *domain);
+  if (out.domain) require_domain_names(root, *out.domain);
   out.planner = read_planner(root.at("planner"), out);
   if (const auto executive = root.find("executive")) out.executive = read_executive(*executive);
   if (const auto ground = root.find("ground")) out.ground = read_ground(*ground, out.contingencies);

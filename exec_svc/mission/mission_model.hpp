@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,10 @@
 #include "exec_svc/executive/contingency.hpp"
 #include "exec_svc/executive/executive.hpp"
 #include "exec_svc/mission/executive_role.hpp"
+
+namespace roci::pddl {
+struct Domain;
+}
 
 namespace roci::exec::mission {
 
@@ -159,6 +164,7 @@ struct MissionModel {
   ExecutiveRole role;
   std::string model_text;   ///< the PDDL domain, or a model in the engine's own language; may be empty then
   std::string domain_name;  ///< empty: the engine reads no PDDL
+  std::shared_ptr<const pddl::Domain> domain;  ///< as read; null where the engine reads no PDDL
   std::vector<ObjectModel> objects;
   std::vector<Component> components;
   std::vector<TimelineFamily> families;

@@ -9,6 +9,7 @@
 #include "core/pddl/printer.hpp"
 #include "exec_svc/mission/template_text.hpp"
 #include "exec_svc/problem/problem_writer.hpp"
+#include "exec_svc/problem/usable_parts.hpp"
 
 namespace roci::exec::problem {
 
@@ -100,10 +101,12 @@ class Draft {
       for (const std::string& fact : kind.facts) facts_.insert(fill_names(fact, values));
       if (!kind.window_fact.empty()) add_goal_window(fill_names(kind.window_fact, values), goal);
       if (is_final(record->state)) continue;
+      GoalPart part{goal.key, {}};
       for (const std::string& fact : goal_facts(situation_.mission, goal)) {
-        goal_.parts.push_back({atom_of(fact), {}});
+        part.facts.push_back({atom_of(fact), {}});
         declare_words(fact);
       }
+      goals_.push_back(std::move(part));
     }
   }
 
@@ -126,8 +129,12 @@ class Draft {
       if (!is_declared(change.fact)) continue;
       tree.timed_literals.push_back({seconds_of(change.at), {atom_of(change.fact), !change.holds}, {}});
     }
-    tree.goal.node = goal_;
+    pddl::And goal;
+    for (const GoalPart& part : goals_)
+      goal.parts.insert(goal.parts.end(), part.facts.begin(), part.facts.end());
+    tree.goal.node = std::move(goal);
     tree.metric = pddl::Metric{pddl::Metric::Sense::minimize, {pddl::TotalTime{}, {}}, {}};
+    if (situation_.mission.domain) keep_usable_parts(tree, goals_, *situation_.mission.domain, out);
     out.text = print(tree);
     return out;
   }
@@ -186,7 +193,7 @@ class Draft {
   std::set<std::string> declared_;
   std::set<std::string> facts_;
   std::vector<Change> changes_;
-  pddl::And goal_;
+  std::vector<GoalPart> goals_;
 };
 
 }  // namespace

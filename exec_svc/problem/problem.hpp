@@ -36,12 +36,27 @@ struct ProblemGoal {
   temporal::Time closes{0};                       ///< mission time; 0: none
 };
 
+/// A part of what is known that the problem does without, since with it the problem would be invalid.
+struct LeftOut {
+  std::string part;  ///< "(have-image image-7)"
+  std::string why;   ///< in plain words
+};
+
+/// A goal that makes the problem invalid.
+struct UnusableGoal {
+  goals::GoalKey key;
+  std::string why;  ///< in plain words
+};
+
 struct Problem {
   std::string text;                              ///< in PDDL; empty without a domain
   std::map<std::string, temporal::Value> state;  ///< timelines at the origin; empty with a domain
   std::vector<PredictedValue> predictions;       ///< in order of time; empty with a domain
   std::vector<ProblemGoal> goals;                ///< open ones, in order of arrival
   std::vector<ProblemObject> objects;
+  // Found while it is written, told at once, and no part of the problem: the archive passes over them.
+  std::vector<LeftOut> left_out;
+  std::vector<UnusableGoal> unusable_goals;
 };
 
 /// What the mission keeps back for waiting and surprises (FluentSource::last).

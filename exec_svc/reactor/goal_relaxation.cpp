@@ -67,6 +67,23 @@ std::optional<GoalKey> soft_goal_to_give_up(const PlanReply& reply, const GoalSe
   return blamed.empty() && !of_hard_alone ? goals.drop_candidate() : goals.drop_candidate(blamed);
 }
 
+std::optional<GoalKey> next_suspect(const GoalSet& goals, const std::optional<GoalKey>& suspect) {
+  const auto open = goals.open();
+  if (open.size() < 2) return std::nullopt;
+  bool passed = !suspect;
+  for (auto record = open.rbegin(); record != open.rend(); ++record) {
+    if (passed) return (*record)->request.key;
+    passed = (*record)->request.key == *suspect;
+  }
+  return std::nullopt;
+}
+
+GoalSet without(const GoalSet& goals, const GoalKey& key) {
+  GoalSet out = goals;
+  out.set_state(key, GoalState::dropped, "");
+  return out;
+}
+
 GoalSet hard_goals(const GoalSet& goals) {
   GoalSet out = goals;
   for (const GoalRecord* record : goals.open())

@@ -18,9 +18,13 @@ struct Relaxation {
   std::string soft_goals_left_out;                       ///< the reason why they were; empty: they were in it
   problem::Reserves reserves = problem::Reserves::kept;  ///< spent: for hard goals, until one fails or comes
 
+  /// A goal that the call was made without, since the planner takes no problem with all of them.
+  std::optional<goals::GoalKey> suspect;
+  std::string refusal;  ///< what the planner said of the problem with all goals
+
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self) {
-    archive(self.soft_goals_left_out, self.reserves);
+    archive(self.soft_goals_left_out, self.reserves, self.suspect, self.refusal);
   }
 };
 
@@ -47,6 +51,14 @@ RelaxationStep relax(const PlanReply& reply, const goals::GoalSet& goals,
 /// The soft goal that relax() gives up; nothing: the reply speaks of hard goals alone.
 std::optional<goals::GoalKey> soft_goal_to_give_up(const PlanReply& reply, const goals::GoalSet& goals,
                                                    const Relaxation& relaxed);
+
+/// The next goal to do without, where the planner refuses a problem as invalid and nobody knows for which of its goals: the
+/// newest one first, then each older one. Nothing: all were tried, or there is one alone.
+std::optional<goals::GoalKey> next_suspect(const goals::GoalSet& goals,
+                                           const std::optional<goals::GoalKey>& suspect);
+
+/// The goals as they are, but this one counts as gone.
+goals::GoalSet without(const goals::GoalSet& goals, const goals::GoalKey& key);
 
 /// The goals as they are, but soft ones that are open count as gone.
 goals::GoalSet hard_goals(const goals::GoalSet& goals);

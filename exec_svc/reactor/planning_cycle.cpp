@@ -23,26 +23,61 @@ void PlanningCycle::begin(Time now) {
   }
   state_->phase = MissionPhase::planning;
   relaxed_.soft_goals_left_out.clear();
+  relaxed_.suspect.reset();
   call_for_now(now);
 }
 
 void PlanningCycle::call_for_now(Time now) { call(now, now + state_->mission->planner.allowance, {}); }
 
-void PlanningCycle::call(Time now, Time origin, const Forecast& forecast) {
+problem::Problem PlanningCycle::write(Time now, Time origin, const Forecast& forecast) const {
   const bool all_goals = relaxed_.soft_goals_left_out.empty();
+  goals::GoalSet goals = all_goals ? state_->goals : hard_goals(state_->goals);
+  if (relaxed_.suspect) goals = without(goals, *relaxed_.suspect);
+  return write_problem(*state_->mission, state_->beliefs, goals, call_->next_name(), now, origin,
+                       relaxed_.reserves, forecast);
+}
+
+void PlanningCycle::call(Time now, Time origin, const Forecast& forecast) {
   PlanRequest request;
   request.problem_name = call_->next_name();
   request.origin = origin;
-  request.problem =
-      write_problem(*state_->mission, state_->beliefs, all_goals ? state_->goals : hard_goals(state_->goals),
-                    request.problem_name, now, origin, relaxed_.reserves, forecast);
+  request.problem = write(now, origin, forecast);
+  if (leave_out(request.problem)) request.problem = write(now, origin, forecast);
   request.remaining = plan_->remaining();
   call_->send(std::move(request));
+}
+
+bool PlanningCycle::leave_out(const problem::Problem& problem) {
+  for (const problem::LeftOut& part : problem.left_out)
+    state_->report(Severity::warning, "fact.left_out",
+                   part.part + " is no part of the planner's problem: " + part.why);
+  for (const problem::UnusableGoal& goal : problem.unusable_goals)
+    state_->give_up({goal.key}, "the planner cannot be asked for it: " + goal.why);
+  return !problem.unusable_goals.empty();
+}
+
+bool PlanningCycle::suspect_a_goal(Time now, const PlanReply& reply) {
+  if (!relaxed_.suspect) relaxed_.refusal = reply.reason;
+  relaxed_.suspect = next_suspect(state_->goals, relaxed_.suspect);
+  if (!relaxed_.suspect) return false;
+  state_->report(Severity::warning, "goal.suspected",
+                 "the planner calls the problem invalid: " + reply.reason +
+                     "; it is asked again without goal " + relaxed_.suspect->text());
+  call_for_now(now);
+  return true;
 }
 
 void PlanningCycle::take_reply(Time now, const PlanReply& reply) {
   if (call_->is_end_of_cancelled(reply) || call_->count_as_stale(reply)) return begin(now);
   call_->note_fresh();
+  if (reply.verdict == Verdict::invalid_input && suspect_a_goal(now, reply)) return;
+  const bool accepted = reply.verdict == Verdict::solved || speaks_of_goals(reply.verdict);
+  if (accepted && relaxed_.suspect) {
+    if (!is_final(state_->goals.find(*relaxed_.suspect)->state))
+      state_->give_up({*relaxed_.suspect},
+                      "the planner calls every problem with it invalid: " + relaxed_.refusal);
+    return begin(now);
+  }
   if (reply.verdict == Verdict::solved && !relaxed_.soft_goals_left_out.empty()) {
     state_->give_up({*state_->goals.drop_candidate()}, relaxed_.soft_goals_left_out);
     begin(now);

@@ -40,6 +40,12 @@ class PlanningCycle {
 
  private:
   void call_for_now(temporal::Time now);
+  problem::Problem write(temporal::Time now, temporal::Time origin, const problem::Forecast& forecast) const;
+  /// Says what the problem does without, and ends the goals that make it invalid. True: there were such goals.
+  bool leave_out(const problem::Problem& problem);
+  /// The planner calls the problem invalid: it is asked again without one goal, then without another one. False: it is none
+  /// of them.
+  bool suspect_a_goal(temporal::Time now, const PlanReply& reply);
   void try_again_later(temporal::Time now, const PlanReply& reply);
   void note_planned();
 

@@ -70,7 +70,8 @@ ReactorOutputs Reactor::step(Time now, const ReactorInputs& came_in) {
   parts_->recovery.note_successes();
   if (inputs.restarted) resume(now);
   parts_->policy->step(now, inputs);
-  parts_->safing.repeat_lost(now);
+  parts_->safing.take(inputs.acks);
+  parts_->safing.watch(now);
   finish_if_done();
   parts_->decisions.note_changes(state.out.decisions);
   parts_->ground.settle();

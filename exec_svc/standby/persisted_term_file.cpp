@@ -5,6 +5,8 @@
 
 #include <fstream>
 
+#include "exec_svc/journal/database_files.hpp"
+
 namespace roci::exec::standby {
 
 using journal::Durability;
@@ -38,6 +40,7 @@ void PersistedTermFile::write(const PersistedTerm& persisted_term) const {
   if (written >= 0) close(written);
   if (!good) throw JournalError("cannot write " + unfinished.string());
   fs::rename(unfinished, file_);
+  if (durability_ == Durability::power) journal::sync_path(file_.parent_path());
 }
 
 }  // namespace roci::exec::standby

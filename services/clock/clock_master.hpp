@@ -33,6 +33,8 @@ class ClockMaster {
   bool ready(const v1::ClockReady&);
   bool done(const v1::ClockDone&);
   void lost(const std::string& service, std::uint32_t incarnation, const std::string& cause);
+  /// Waits no longer for a service of the roster; it may still come.
+  void excuse(const std::string& service) { std::erase(roster_, service); }
 
   /// The services of the roster that are not there yet, or were lost.
   std::vector<std::string> missing() const;

@@ -3,7 +3,7 @@
 namespace roci::services::clock {
 
 temporal::Time LiveClock::now() const {
-  const std::int64_t since_epoch = unix_us() - epoch_unix_us_;
+  const std::int64_t since_epoch = (anchor_ ? unix_us(*anchor_) : unix_us()) - epoch_unix_us_;
   if (scale_ == 1) return temporal::Time(since_epoch);
   return temporal::Time(static_cast<std::int64_t>(static_cast<double>(since_epoch) * scale_));
 }

@@ -3,6 +3,7 @@
 // service that is only slow. Its time is wall time.
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <string>
 #include <string_view>
@@ -15,8 +16,17 @@
 namespace roci::services::health {
 
 /// Holds the state of each service and tells of each change once.
+///
+/// The incarnation that is heard counts. Another one takes its place only when it has been silent: a later one after
+/// kStillHeard, an earlier one, or one more than kIncarnationJump later, after the limit for a hang. So a forged
+/// heartbeat replaces nobody who is heard, and what it has replaced comes back.
 class FailureDetector {
  public:
+  /// Heartbeats come four times a second, so whoever was heard within this time still runs.
+  static constexpr clock::WallDuration kStillHeard = std::chrono::milliseconds(600);
+  /// No service is started so often while nobody hears of it.
+  static constexpr std::uint32_t kIncarnationJump = 1000;
+
   explicit FailureDetector(clock::WallDuration hang_limit) : hang_limit_(hang_limit) {}
 
   /// Returns false, and takes in nothing, for a service that is new when kPeers are known (bounds/limits.hpp).
@@ -38,6 +48,7 @@ class FailureDetector {
     bool left = false;  // it said that it stops
     clock::WallTime last_seen;
   };
+  bool believable(const Peer&, std::uint32_t incarnation, clock::WallTime now) const;
   void die(const std::string& service, Peer&, std::string cause);
 
   clock::WallDuration hang_limit_;

@@ -62,7 +62,7 @@ std::string to_string(const Ending& ending) {
 
 Child::Child(const std::filesystem::path& program, std::vector<std::string> arguments,
              const std::filesystem::path& log, const std::vector<std::string>& more) {
-  const int log_file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  const int log_file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0644);
   if (log_file < 0) throw std::system_error(errno, std::generic_category(), "cannot write " + log.string());
   const auto argument_list = pointers_to(arguments);
   auto environment = environment_with(more);

@@ -7,9 +7,12 @@
 #include <system_error>
 
 #include "core/mission/entry.hpp"
+#include "services/clock/host_anchor.hpp"
+#include "services/launch/anchor_file.hpp"
 #include "services/launch/options.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/run.hpp"
+#include "services/process/private_folder.hpp"
 #include "services/process/service_options.hpp"
 #include "services/process/stop_signals.hpp"
 #include "services/transport/plug_ins.hpp"
@@ -30,10 +33,19 @@ int become(const std::filesystem::path& name, std::vector<std::string> arguments
   throw std::system_error(errno, std::generic_category(), "cannot start " + program.string());
 }
 
+// Each service of this host, and each start of it, finds the anchor of the first one in the folder that they share.
+void hand_anchor(const std::filesystem::path& folder, std::int64_t epoch_us) {
+  if (folder.empty()) return;
+  process::make_own_folder(folder);
+  if (const auto anchor = launch::kept_anchor(folder, epoch_us))
+    setenv(roci::services::clock::kHostAnchorVariable, to_text(*anchor).c_str(), 1);
+}
+
 int start(int argc, char** argv) {
   const launch::Options options = launch::parse_options(argc, argv, process::process_environment());
   if (!options.become.empty()) {
     const auto epoch_us = static_cast<std::int64_t>(options.epoch_s * 1e6);
+    hand_anchor(options.run_folder, epoch_us);
     return become(launch::program_of(options, options.become),
                   launch::service_arguments(options, options.become, 0, epoch_us));
   }
@@ -41,7 +53,7 @@ int start(int argc, char** argv) {
     return become("roci-rehearse", launch::rehearsal_arguments(options));
   process::StopSignals signals;
   std::atomic<int> stops{0};
-  signals.watch([&stops] { ++stops; });
+  const process::StopWatch stop(signals, [&stops] { ++stops; });
   return launch::fly(options, [&stops] { return stops.load(); });
 }
 

@@ -23,30 +23,48 @@ std::string bind_somewhere(int socket) {
   return "@" + std::string(name.sun_path + 1, size - offsetof(sockaddr_un, sun_path) - 1);
 }
 
+// Empty where the name does not fit.
+std::string bind_in(int socket, const std::filesystem::path& folder) {
+  const std::string path = folder / ("notify-" + std::to_string(getpid()));
+  sockaddr_un name{};
+  name.sun_family = AF_UNIX;
+  if (path.front() != '/' || path.size() >= sizeof name.sun_path) return "";
+  path.copy(name.sun_path, path.size());
+  unlink(path.c_str());  // of a process of the same number that was killed
+  if (bind(socket, reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0) return "";
+  return path;
+}
+
 // The kernel says who sent it.
 pid_t sender_of(msghdr& message) {
   for (cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr; part = CMSG_NXTHDR(&message, part)) {
     if (part->cmsg_level != SOL_SOCKET || part->cmsg_type != SCM_CREDENTIALS) continue;
     ucred sender{};
     std::memcpy(&sender, CMSG_DATA(part), sizeof sender);
-    return sender.pid;
+    return sender.uid == geteuid() ? sender.pid : -1;
   }
   return -1;
 }
 
 }  // namespace
 
-NotifySocket::NotifySocket() : socket_(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
+NotifySocket::NotifySocket(const std::filesystem::path& folder)
+    : socket_(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
   const int on = 1;
-  if (socket_ >= 0 && setsockopt(socket_, SOL_SOCKET, SO_PASSCRED, &on, sizeof on) == 0)
-    address_ = bind_somewhere(socket_);
+  if (socket_ >= 0 && setsockopt(socket_, SOL_SOCKET, SO_PASSCRED, &on, sizeof on) == 0) {
+    if (!folder.empty()) address_ = bind_in(socket_, folder);
+    if (address_.empty()) address_ = bind_somewhere(socket_);
+  }
   if (!address_.empty()) return;
   const int error = errno;
   if (socket_ >= 0) close(socket_);
   throw std::system_error(error, std::generic_category(), "cannot open a socket for notifications");
 }
 
-NotifySocket::~NotifySocket() { close(socket_); }
+NotifySocket::~NotifySocket() {
+  close(socket_);
+  if (address_.starts_with('/')) unlink(address_.c_str());
+}
 
 std::vector<pid_t> NotifySocket::receive() {
   std::vector<pid_t> senders;
@@ -60,7 +78,7 @@ std::vector<pid_t> NotifySocket::receive() {
     message.msg_control = control.data();
     message.msg_controllen = control.size();
     if (recvmsg(socket_, &message, MSG_CMSG_CLOEXEC) < 0) return senders;
-    senders.push_back(sender_of(message));
+    if (const pid_t sender = sender_of(message); sender >= 0) senders.push_back(sender);
   }
 }
 

@@ -68,7 +68,9 @@ const mission::ServiceEntry* entry_of(const Options& options, const std::string&
 }
 
 Options parse_options(int argc, const char* const* argv, const services::process::Environment& environment) {
+  ContinuedCommandLine line = continued_command_line(argc, argv);
   Options options;
+  options.continued = line.continued;
   services::process::ConnectionFlags flags;
   std::string mission;
   std::string speed;
@@ -76,6 +78,7 @@ Options parse_options(int argc, const char* const* argv, const services::process
   std::string service_list;
   std::string roster;
   CLI::App app("Flies a mission: starts every service, watches them, and reports the outcome", "roci-launch");
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.add_option("mission", mission, "Mission folder, or the name of an installed mission")->required();
   app.add_option("--scenario", options.scenario, "Scenario of the mission")->capture_default_str();
   app.add_option("--dds", flags.dds, "fastdds, cyclonedds, mixed, or inproc (one process)");
@@ -105,12 +108,17 @@ Options parse_options(int argc, const char* const* argv, const services::process
       "Identity of the run, the same on all of its hosts (or ROCI_RUN; default: one of its own, or the "
       "mission's name where only some of its services start here)");
   app.add_option("--domain", flags.domain, "DDS domain id (default: a free one)");
+  app.add_flag("--shared-domain", options.shared_domain,
+               "With --domain: start although another run is on it; neither obeys the other");
   app.add_option("--address", flags.address, "The one interface address to use (default: loopback)");
   app.add_option("--peers", flags.peers, "Hosts of the run, separated by commas");
   app.add_option("--network", flags.network, "This host's network.yaml");
   app.add_option("--run-folder", options.run_folder, "Folder for journal, logs and summary");
+  app.add_option("--resume",
+                 "Go on with the live run of this run folder, whose launcher has ended, as it was started; "
+                 "other options replace those of then");
   try {
-    app.parse(argc, argv);
+    app.parse(std::move(line.arguments));
   } catch (const CLI::ParseError& error) {
     std::ostringstream text;
     const int code = app.exit(error, text, text);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/mission/service_list.hpp"
+#include "services/launch/continuation.hpp"
 #include "services/process/connection.hpp"
 
 namespace roci::services::launch {
@@ -32,7 +33,9 @@ struct Options {
   std::string become;
   double epoch_s = 0;                ///< With `become`, it is mission time 0 of the live run, s since 1970.
   std::filesystem::path run_folder;  ///< If empty, the launcher chooses one.
+  std::optional<Continuation> continued{};  ///< The run was begun by an earlier launcher.
   bool domain_given = false;
+  bool shared_domain = false;                ///< Another run may be on the domain.
   services::process::Connection connection;  ///< Its `dds` may be "mixed" or "inproc".
 };
 

@@ -23,6 +23,16 @@ std::string to_text(double number) {
   return text.str();
 }
 
+// The master of the clock goes on without a helper that does not come; its name is marked with "?".
+std::vector<std::string> marked(const Options& options) {
+  std::vector<std::string> roster = options.roster;
+  for (std::string& service : roster)
+    if (const mission::ServiceEntry* entry = options.list.find(service);
+        entry != nullptr && !entry->essential)
+      service += "?";
+  return roster;
+}
+
 void add_clock(const Options& options, const std::string& service, std::int64_t epoch_unix_us,
                std::vector<std::string>& arguments) {
   const auto add = [&](const char* option, const std::string& value) {
@@ -35,7 +45,7 @@ void add_clock(const Options& options, const std::string& service, std::int64_t 
     add("--epoch", to_text(static_cast<double>(epoch_unix_us) / 1e6));
   } else if (entry_of(options, service)->clock_master) {
     add("--clock", "master");
-    add("--roster", joined(options.roster));
+    add("--roster", joined(marked(options)));
     add("--pace", to_text(pace_of(options)));
     add("--restart-hold", to_text(options.watchdog_s + kRestartS));
   } else {

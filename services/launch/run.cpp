@@ -9,7 +9,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "services/clock/host_anchor.hpp"
 #include "services/clock/wall.hpp"
+#include "services/launch/continuation.hpp"
+#include "services/launch/domain_guard.hpp"
 #include "services/launch/notify_socket.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/progress.hpp"
@@ -17,7 +20,9 @@
 #include "services/launch/supervisor.hpp"
 #include "services/process/domain_claim.hpp"
 #include "services/process/forced_exit.hpp"
+#include "services/process/private_folder.hpp"
 #include "services/process/run_record.hpp"
+#include "services/service.hpp"
 #include "services/transport/plug_ins.hpp"
 
 namespace roci::services::launch {
@@ -29,6 +34,7 @@ constexpr std::chrono::milliseconds kTurn{20};
 constexpr std::size_t kShownLogLines = 8;
 // A user's own program stands elsewhere and loads the same vendors.
 const std::string kPluginPath = "ROCI_PLUGIN_PATH=";
+const std::string kAnchor = std::string(clock::kHostAnchorVariable) + "=";
 
 fs::path path_of(const Options& options, const std::string& process) {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / program_of(options, process);
@@ -40,7 +46,7 @@ fs::path state_folder() {
   if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state != '\0') return state;
   if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
     return fs::path(home) / ".local/state";
-  return fs::temp_directory_path();
+  return services::process::runtime_folder();  // never in a folder where everybody may write
 }
 
 fs::path choose_run_folder(const Options& options, std::int64_t started_unix_us) {
@@ -54,10 +60,19 @@ fs::path choose_run_folder(const Options& options, std::int64_t started_unix_us)
 
 // A service that starts takes up the journal that it finds, so an earlier run's would go on in this one.
 void refuse_used_folder(const Options& options) {
+  if (options.continued) return;
   for (const std::string& service : options.services) {
     if (!fs::exists(options.run_folder / (service + ".log"))) continue;
     throw std::invalid_argument("--run-folder " + options.run_folder.string() +
                                 " holds an earlier run; remove it or choose another folder");
+  }
+}
+
+// What an earlier launcher of the run has said of its end no longer holds.
+void remove_outcome(const fs::path& run_folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(run_folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(kSummaryFile) || name == kExpectedFile) fs::remove(entry.path());
   }
 }
 
@@ -105,44 +120,60 @@ ExitCode exit_code(const std::optional<RunFailure>& failure, bool good) {
 
 ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   const auto begun = clock::wall_now();
-  const std::int64_t started_unix_us = clock::unix_us();
+  const auto earlier = options.continued ? options.continued->anchor : std::nullopt;
+  const clock::HostAnchor anchor = earlier.value_or(clock::anchor_host());
+  const std::int64_t started_unix_us = options.continued ? options.continued->epoch_unix_us : anchor.unix_us;
   std::optional<services::process::DomainClaim> claim;
   auto& transport = options.connection.transport;
   if (!options.domain_given) transport.domain = claim.emplace().id();
   if (options.run_folder.empty()) options.run_folder = choose_run_folder(options, started_unix_us);
   options.run_folder = fs::absolute(options.run_folder);
   refuse_used_folder(options);
-  fs::create_directories(options.run_folder);
+  services::process::make_own_folder(options.run_folder);
+  const FolderLock lock(options.run_folder);
+  keep_command_line(options, anchor, started_unix_us);
+  if (options.continued) remove_outcome(options.run_folder);
 
+  const bool may_be_held = domain_may_be_held(options);
   const std::string vendor = console_vendor(options.connection.dds);
   transport.participant = "launcher";
   services::Node node(observer_options(vendor, options.run),
                       services::transport::open_transport(vendor, transport));
+  if (may_be_held) refuse_held_domain(node, options);
   Progress progress(node, !options.headless);
   const services::process::PublishedRun published(services::process::runtime_folder(),
                                                   record_of(options, started_unix_us));
 
-  NotifySocket notifications;
+  NotifySocket notifications(services::process::runtime_folder());
   Supervisor::Hooks hooks;
   hooks.start = [&](const std::string& service, std::uint32_t incarnation) {
-    return std::make_unique<Child>(path_of(options, service),
-                                   service_arguments(options, service, incarnation, started_unix_us),
-                                   options.run_folder / (service + ".log"),
-                                   std::vector<std::string>{"NOTIFY_SOCKET=" + notifications.address(),
-                                                            kPluginPath + transport::plugin_path()});
+    return std::make_unique<Child>(
+        path_of(options, service), service_arguments(options, service, incarnation, started_unix_us),
+        options.run_folder / (service + ".log"),
+        std::vector<std::string>{"NOTIFY_SOCKET=" + notifications.address(),
+                                 kPluginPath + transport::plugin_path(), kAnchor + to_text(anchor)});
+  };
+  hooks.may_be_missed = [&](const std::string& service) {
+    const mission::ServiceEntry* entry = entry_of(options, service);
+    return entry != nullptr && !entry->essential;
+  };
+  hooks.on_missed = [&](const std::string& service, const std::string& what) {
+    progress.report(v1::SEVERITY_ERROR, "service.missed", service + " " + what);
   };
   hooks.on_death = [&](const std::string& service, const std::string& what) {
     progress.report(v1::SEVERITY_WARNING, "service.died", service + " " + what);
   };
   const mission::ServiceEntry* master = options.list.clock_master();
   Supervisor supervisor(options.services, master == nullptr ? "" : master->name, !options.live,
-                        Watchdog(options.watchdog_s), std::move(hooks));
+                        Watchdog(options.watchdog_s), std::move(hooks),
+                        options.continued ? options.continued->incarnations() : 0);
   node.on_peer_change([&](const services::health::PeerChange& change) {
     // Who leads a pair counts its epochs as incarnations, so it cannot be told which process this is.
     const mission::ServiceEntry* entry = options.list.find(change.service);
     if (options.standby && entry != nullptr && entry->paired) return;
     supervisor.watchdog().heard(change, clock::wall_now());
   });
+  clock::SystemClockWatch clock_watch;
   supervisor.start(clock::wall_now());
   for (int stops = 0; !supervisor.finished();) {
     node.spin_once(kTurn);
@@ -152,6 +183,8 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
     }
     for (const pid_t sender : notifications.receive()) supervisor.watchdog().kick(sender, clock::wall_now());
     supervisor.turn(clock::wall_now());
+    if (const auto set = options.live ? clock_watch.judge(unix_us(anchor), clock::unix_us()) : std::nullopt)
+      progress.report(v1::SEVERITY_WARNING, "clock.set", *set);
     progress.show();
   }
 

@@ -14,12 +14,12 @@ constexpr double kTerminateS = 5;  // from SIGTERM to SIGKILL
 }  // namespace
 
 Supervisor::Supervisor(const std::vector<std::string>& services, std::string master, bool master_is_clock,
-                       Watchdog watchdog, Hooks hooks)
+                       Watchdog watchdog, Hooks hooks, std::uint32_t incarnations)
     : master_(std::move(master)),
       master_is_clock_(master_is_clock),
       watchdog_(std::move(watchdog)),
       hooks_(std::move(hooks)) {
-  for (const std::string& name : services) services_[name];
+  for (const std::string& name : services) services_[name].incarnation = incarnations;
 }
 
 void Supervisor::start(clock::WallTime now) {
@@ -86,7 +86,9 @@ void Supervisor::after_end(const std::string& name, Service& service, const Endi
   }
   if (name == master_ && master_is_clock_)
     return fail(name, what + "; it is the clock of the run", false, now);
+  if (now - service.started >= RestartPolicy::kHealthyAfter) service.missed = false;
   const auto pause = service.policy.died(now - service.started);
+  if (!pause && hooks_.may_be_missed && hooks_.may_be_missed(name)) return miss(name, service, what, now);
   if (!pause) {
     return fail(name, what + ", the " + std::to_string(RestartPolicy::kDeathsInARow) + "th time in a row",
                 false, now);
@@ -98,6 +100,14 @@ void Supervisor::start_again(const std::string& name, Service& service, const st
                              clock::WallDuration pause, clock::WallTime now) {
   service.restart = now + pause;
   hooks_.on_death(name, what + "; starting it again");
+}
+
+void Supervisor::miss(const std::string& name, Service& service, const std::string& what,
+                      clock::WallTime now) {
+  start_again(name, service, what, RestartPolicy::kHelperPause, now);
+  if (std::exchange(service.missed, true) || !hooks_.on_missed) return;
+  hooks_.on_missed(name, what + ", the " + std::to_string(RestartPolicy::kDeathsInARow) +
+                             "th time in a row; the mission goes on without it");
 }
 
 void Supervisor::fail(const std::string& name, std::string what, bool bad_input, clock::WallTime now) {

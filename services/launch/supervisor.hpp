@@ -38,10 +38,15 @@ class Supervisor {
   struct Hooks {
     std::function<std::unique_ptr<Child>(const std::string& service, std::uint32_t incarnation)> start;
     std::function<void(const std::string& service, const std::string& what)> on_death;
+    /// Says whether the mission goes on without a service that cannot be kept; null: never.
+    std::function<bool(const std::string& service)> may_be_missed{};
+    /// Hears of each service that the mission goes on without; null: nobody does.
+    std::function<void(const std::string& service, const std::string& what)> on_missed{};
   };
-  /// With the clean end of `master` the run is over; if `master_is_clock`, with any end of it.
+  /// With the clean end of `master` the run is over; if `master_is_clock`, with any end of it. The first start of each
+  /// service is the incarnation after `incarnations`.
   Supervisor(const std::vector<std::string>& services, std::string master, bool master_is_clock, Watchdog,
-             Hooks);
+             Hooks, std::uint32_t incarnations = 0);
 
   void start(clock::WallTime now);  ///< Throws what Hooks::start throws.
   /// Looks after ended and hung children, due restarts, and the end of the run. It is to be called often.
@@ -63,6 +68,7 @@ class Supervisor {
     std::optional<clock::WallTime> restart;
     RestartPolicy policy;
     bool ran = false;         // any incarnation of it got as far as its loop
+    bool missed = false;      // the mission goes on without it
     std::string hung_reason;  // empty: it was not killed as hung
   };
   void launch(const std::string& name, Service&, clock::WallTime now);
@@ -70,6 +76,7 @@ class Supervisor {
   void after_end(const std::string& name, Service&, const Ending&, clock::WallTime now);
   void start_again(const std::string& name, Service&, const std::string& what, clock::WallDuration pause,
                    clock::WallTime now);
+  void miss(const std::string& name, Service&, const std::string& what, clock::WallTime now);
   void kill_hung(clock::WallTime now);
   void fail(const std::string& name, std::string what, bool bad_input, clock::WallTime now);
   void wind_up(clock::WallTime now);

@@ -68,12 +68,16 @@ void ContractGate::retry_held() {
   }
 }
 
+void ContractGate::tell_later(v1::Event event, clock::WallTime now) {
+  prepare_();
+  untold_.push_back({now + clock::wall_seconds(kTellAfterS), std::move(event)});
+}
+
 void ContractGate::turn(clock::WallTime now) {
   if (!held_.empty()) retry_held();
   for (const ContractMismatch& mismatch : check_.take_mismatches()) {
     log::error(to_text(mismatch));
-    prepare_();
-    untold_.push_back({now + clock::wall_seconds(kTellAfterS), event_of(mismatch)});
+    tell_later(event_of(mismatch), now);
   }
   while (!untold_.empty() && untold_.front().due <= now) {
     tell_(untold_.front().event);

@@ -27,6 +27,9 @@ class ContractGate {
   /// Is called in each turn of the loop: looks again at what is held back, and tells of new mismatches.
   void turn(clock::WallTime now);
 
+  /// Tells operators of something else that was found out about another participant.
+  void tell_later(v1::Event event, clock::WallTime now);
+
   /// Samples that were refused so far, or held back in vain.
   std::uint64_t refused() const { return refused_; }
 

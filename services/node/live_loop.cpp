@@ -14,11 +14,18 @@ namespace {
 
 constexpr double kLongestWaitS = 0.25;
 
+// An observer has timers alone on its clock, and nobody hands it an anchor: it takes one of its own.
+std::optional<clock::HostAnchor> anchor_for(clock::ClockMode mode) {
+  const auto& handed = clock::handed_anchor();
+  if (handed || mode != clock::ClockMode::observer) return handed;
+  return clock::anchor_host();
+}
+
 class LiveLoop : public Loop {
  public:
   explicit LiveLoop(NodeImpl& node)
       : node_(node),
-        clock_(node.options.epoch_unix_us, node.options.live_scale),
+        clock_(node.options.epoch_unix_us, node.options.live_scale, anchor_for(node.options.clock)),
         observer_(node.options.clock == clock::ClockMode::observer),
         peers_(clock::wall_seconds(node.options.live_hang_limit_s)) {}
 
@@ -68,6 +75,7 @@ class LiveLoop : public Loop {
     subscribe(node_, topics::heartbeat, [this](const v1::Heartbeat& beat) {
       if (!peers_.heartbeat(beat, clock::wall_now()))
         node_.refusals.note(topics::heartbeat.name, Refusal::no_room);
+      node_.hear_namesake(beat);
     });
     node_.endpoints.find_in(topics::heartbeat.name)
         ->on_no_writers.push_back([this](const transport::Payload& key) {

@@ -1,6 +1,9 @@
 // The barrier in the master's node: feeds the ClockMaster with what the participants say, publishes its
 // steps.
 #include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "services/clock/clock_master.hpp"
 #include "services/clock/pace.hpp"
@@ -19,11 +22,25 @@ constexpr double kIdleTurnS = 1;
 constexpr double kShowTimeS = 0.2;  // observers see the time at least this often while only the master acts
 constexpr double kNoteAfterS = 10;  // a barrier that waits this long is worth a line in the log
 constexpr double kLeaveLimitS = 5;  // for the participants' answers to the last step
+// A helper, which the roster names with this mark behind it, is not waited for once it has died so often, or if it has
+// not come for so long.
+constexpr char kHelperMark = '?';
+constexpr int kHelperDeaths = 5;
+constexpr double kHelperStartS = 30;
 
 std::vector<std::string> full_roster(const NodeOptions& options) {
   std::vector<std::string> roster = options.master.roster;
+  for (std::string& service : roster)
+    if (service.ends_with(kHelperMark)) service.pop_back();
   if (std::ranges::find(roster, options.name) == roster.end()) roster.push_back(options.name);
   return roster;
+}
+
+std::map<std::string, int> helpers_in(const NodeOptions& options) {
+  std::map<std::string, int> out;
+  for (const std::string& service : options.master.roster)
+    if (service.ends_with(kHelperMark)) out[service.substr(0, service.size() - 1)] = 0;
+  return out;
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -38,6 +55,7 @@ class MasterBarrier : public Barrier {
       : node_(node),
         step_stream_(advertise(node, topics::clock_step)),
         master_(node.options.name, full_roster(node.options)),
+        helper_deaths_(helpers_in(node.options)),
         peers_(clock::wall_seconds(node.options.master.hang_limit_s)),
         pace_(node.options.master.pace, clock::wall_now()),
         hold_(clock::wall_seconds(node.options.master.restart_hold_s)) {
@@ -51,6 +69,7 @@ class MasterBarrier : public Barrier {
     subscribe(node, topics::heartbeat, [this](const v1::Heartbeat& beat) {
       if (beat.service() != node_.options.name && !peers_.heartbeat(beat, clock::wall_now()))
         node_.refusals.note(topics::heartbeat.name, Refusal::no_room);
+      node_.hear_namesake(beat);
     });
     node.endpoints.find_in(topics::heartbeat.name)
         ->on_no_writers.push_back([this](const transport::Payload& key) {
@@ -63,6 +82,7 @@ class MasterBarrier : public Barrier {
   void open(const v1::ClockReady& ready) override {
     master_.ready(ready);
     waiting_since_ = clock::wall_now();
+    helpers_by_ = waiting_since_ + clock::wall_seconds(kHelperStartS);
   }
 
   void turn(clock::WallTime now) override {
@@ -70,6 +90,7 @@ class MasterBarrier : public Barrier {
     for (const health::PeerChange& change : peers_.take_changes()) {
       if (!change.alive) lose(change, now);
     }
+    if (!step_ && now > helpers_by_) excuse_missing_helpers();
     if (auto revision = master_.take_revision()) publish(std::move(*revision), now);
     if (master_.awaited().empty()) advance(now);
     note_long_wait(now);
@@ -96,6 +117,18 @@ class MasterBarrier : public Barrier {
   void lose(const health::PeerChange& change, clock::WallTime now) {
     master_.lost(change.service, change.incarnation, change.cause);
     hold_.lost(change.cause, now);
+    const auto helper = helper_deaths_.find(change.service);
+    if (helper != helper_deaths_.end() && ++helper->second == kHelperDeaths) excuse(change.service);
+  }
+
+  void excuse(const std::string& helper) {
+    master_.excuse(helper);
+    log::warning("the clock goes on without " + helper + ", which nobody needs");
+  }
+
+  void excuse_missing_helpers() {
+    for (const std::string& service : master_.missing())
+      if (helper_deaths_.contains(service)) excuse(service);
   }
 
   void advance(clock::WallTime now) {
@@ -145,6 +178,7 @@ class MasterBarrier : public Barrier {
   NodeImpl& node_;
   TopicWriter& step_stream_;
   clock::ClockMaster master_;
+  std::map<std::string, int> helper_deaths_;
   health::FailureDetector peers_;
   clock::Pace pace_;
   clock::RestartHold hold_;
@@ -152,6 +186,7 @@ class MasterBarrier : public Barrier {
   bool stopping_ = false;
   bool noted_ = false;
   clock::WallTime waiting_since_;
+  clock::WallTime helpers_by_ = clock::WallTime::max();  // until then a helper may start
   clock::WallTime show_time_;
   clock::WallTime leave_by_;
 };

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "services/log/log.hpp"
 #include "services/node/typed_endpoints.hpp"
 
 namespace roci::services::node {
@@ -58,7 +59,13 @@ void NodeImpl::read(Arrival&& arrival) {
   if (!decoded.whole) return refuse_malformed(input, decoded, arrival.sample.writer);
   const std::shared_ptr<const void> value = std::move(decoded.value);
   const auto run_of = input.topic.codec.run;
-  if (run_of != nullptr && !run.obeys(run_of(value.get()), input.topic.name)) return;
+  if (run_of != nullptr && !run.obeys(run_of(value.get()), input.topic.name)) {
+    for (const auto& [foreign, topic] : run.take_news())
+      if (options.clock != clock::ClockMode::observer)
+        tell("run.foreign",
+             options.name + " hears another run, \"" + foreign + "\", on " + topic + " and does not obey it");
+    return;
+  }
   if (input.topic.clocking == transport::Clocking::wall) return handle(input, value.get());
   const v1::SampleHeader& header = input.topic.codec.header(value.get());
   loop->take_clocked(input, header, value);
@@ -115,8 +122,30 @@ health::HeartbeatSender NodeImpl::make_heartbeat_sender() {
   identity.robot(options.robot);
   identity.incarnation(options.incarnation);
   identity.dds(options.vendor);
-  return health::HeartbeatSender(std::move(identity),
+  health::HeartbeatSender sender(std::move(identity),
                                  [&stream](const v1::Heartbeat& beat) { write(stream, beat); });
+  if (options.sole) namesakes_.emplace(sender.identity());
+  return sender;
+}
+
+void NodeImpl::hear_namesake(const v1::Heartbeat& beat) {
+  if (!namesakes_) return;
+  const auto verdict = namesakes_->hear(beat, clock::wall_now());
+  if (verdict == health::NamesakeWatch::Verdict::nothing) return;
+  const std::string other = health::process_text(beat);
+  if (verdict == health::NamesakeWatch::Verdict::yields)
+    throw health::Superseded("this run has another " + other +
+                             ", which goes on in this name; this process ends");
+  log::warning(options.name + ": this run has another " + other);
+  tell("service.doubled", "this run has another " + other + "; that one ends, this one goes on");
+}
+
+void NodeImpl::tell(const std::string& code, const std::string& text) {
+  v1::Event event;
+  event.severity_level(v1::SEVERITY_WARNING);
+  event.code(code);
+  event.text(text);
+  gate.tell_later(std::move(event), clock::wall_now());
 }
 
 }  // namespace roci::services::node

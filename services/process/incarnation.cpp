@@ -1,7 +1,9 @@
 #include "services/process/incarnation.hpp"
 
 #include <fstream>
-#include <stdexcept>
+#include <string>
+
+#include "services/process/durable_file.hpp"
 
 namespace roci::services::process {
 
@@ -9,12 +11,7 @@ std::uint32_t next_incarnation(const std::filesystem::path& folder, const std::s
   const auto file = folder / (service + ".incarnation");
   std::uint32_t last = 0;
   std::ifstream(file) >> last;
-  const auto unfinished = std::filesystem::path(file).concat(".new");
-  std::ofstream out(unfinished);
-  if (!(out << last + 1 << '\n' << std::flush))
-    throw std::runtime_error("cannot write " + unfinished.string());
-  out.close();
-  std::filesystem::rename(unfinished, file);
+  replace_file(file, std::to_string(last + 1) + "\n");
   return last + 1;
 }
 

@@ -9,6 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "services/process/durable_file.hpp"
+#include "services/process/private_folder.hpp"
+
 namespace roci::services::process {
 namespace {
 
@@ -76,16 +79,14 @@ fs::path runtime_folder() {
   const char* xdg = std::getenv("XDG_RUNTIME_DIR");
   const fs::path folder = xdg != nullptr && *xdg != '\0'
                               ? fs::path(xdg) / "rocinante"
-                              : fs::path("/tmp/rocinante-" + std::to_string(getuid()));
-  if (fs::create_directories(folder)) fs::permissions(folder, fs::perms::owner_all);
+                              : fs::path("/tmp/rocinante-" + std::to_string(geteuid()));
+  make_private_folder(folder);
   return folder;
 }
 
 PublishedRun::PublishedRun(const fs::path& folder, const RunRecord& run)
     : file_(folder / ("run-" + std::to_string(run.pid) + ".json")) {
-  const fs::path unfinished = fs::path(file_).concat(".new");
-  std::ofstream(unfinished) << to_json(run).dump(2) << '\n';
-  fs::rename(unfinished, file_);
+  replace_file(file_, to_json(run).dump(2) + "\n");
 }
 
 PublishedRun::~PublishedRun() {

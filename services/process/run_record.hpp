@@ -29,7 +29,8 @@ struct RunRecord {
   bool operator==(const RunRecord&) const = default;
 };
 
-/// Returns $XDG_RUNTIME_DIR/rocinante, else /tmp/rocinante-<uid>; it is created for this user alone.
+/// Returns $XDG_RUNTIME_DIR/rocinante, else /tmp/rocinante-<uid>; it is this user's alone (private_folder.hpp). Throws
+/// std::runtime_error where somebody else has made it.
 std::filesystem::path runtime_folder();
 
 /// Publishes the record of a run for as long as this object lives.

@@ -70,7 +70,7 @@ void run_service(const ServiceOptions& options, StopSignals& signals, MakeServic
   node.on_turn([&watchdog] { watchdog.notify(); });
   const TimeWatch time_watch(node, options.time);
   const auto service = make(node, options.run);
-  signals.watch([&node] { node.stop(); });
+  const StopWatch stop(signals, [&node] { node.stop(); });
   run_and_end(node_options.name, [&] {
     node.run();
     write_link_report(node, options.run.run_folder);

@@ -12,18 +12,6 @@
 #include <utility>
 
 namespace roci::services::process {
-namespace {
-
-void wait_for_signals(int signals, int end, const std::function<void()>& on_stop) {
-  std::array<pollfd, 2> files{{{signals, POLLIN, 0}, {end, POLLIN, 0}}};
-  while (poll(files.data(), files.size(), -1) >= 0) {
-    if (files[1].revents != 0) return;
-    signalfd_siginfo info{};
-    if (read(signals, &info, sizeof info) == sizeof info) on_stop();
-  }
-}
-
-}  // namespace
 
 StopSignals::StopSignals() {
   sigset_t set;
@@ -45,8 +33,28 @@ StopSignals::~StopSignals() {
   close(signals_);
 }
 
+void StopSignals::wait() {
+  std::array<pollfd, 2> files{{{signals_, POLLIN, 0}, {end_, POLLIN, 0}}};
+  while (poll(files.data(), files.size(), -1) >= 0) {
+    if (files[1].revents != 0) return;
+    signalfd_siginfo info{};
+    if (read(signals_, &info, sizeof info) != sizeof info) continue;
+    const std::scoped_lock lock(mutex_);
+    if (on_stop_) on_stop_();
+  }
+}
+
 void StopSignals::watch(std::function<void()> on_stop) {
-  thread_ = std::thread(wait_for_signals, signals_, end_, std::move(on_stop));
+  {
+    const std::scoped_lock lock(mutex_);
+    on_stop_ = std::move(on_stop);
+  }
+  if (!thread_.joinable()) thread_ = std::thread([this] { wait(); });
+}
+
+void StopSignals::forget() {
+  const std::scoped_lock lock(mutex_);
+  on_stop_ = nullptr;
 }
 
 }  // namespace roci::services::process

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
 #include <thread>
 
 namespace roci::services::process {
@@ -15,13 +16,35 @@ class StopSignals {
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
-  /// Calls `on_stop` for each signal from now on until this object ends.
+  /// Calls `on_stop` for each signal from now on until this object ends or forget() is called; what an earlier watch()
+  /// asked for is forgotten.
   void watch(std::function<void()> on_stop);
+  /// When it returns, no call is under way and none will come: what `on_stop` speaks of may end. A signal that comes then
+  /// changes nothing.
+  void forget();
 
  private:
+  void wait();
+
   int signals_ = -1;
   int end_ = -1;
+  std::mutex mutex_;
+  std::function<void()> on_stop_;
   std::thread thread_;
+};
+
+/// Watches for as long as it lives; it is to end before what `on_stop` speaks of.
+class StopWatch {
+ public:
+  StopWatch(StopSignals& signals, std::function<void()> on_stop) : signals_(signals) {
+    signals_.watch(std::move(on_stop));
+  }
+  ~StopWatch() { signals_.forget(); }
+  StopWatch(const StopWatch&) = delete;
+  StopWatch& operator=(const StopWatch&) = delete;
+
+ private:
+  StopSignals& signals_;
 };
 
 }  // namespace roci::services::process

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "services/clock/host_anchor.hpp"
 #include "services/clock/wall.hpp"
 #include "services/process/domain_claim.hpp"
 #include "services/publisher.hpp"
@@ -54,16 +55,18 @@ class HostClocks : public testing::TestWithParam<std::string> {
   fs::path set_by() const { return folder_ / "time"; }
 
   // A service of the mission on a host whose clock is `wrong` (faketime(1), e.g. "+1" or "+0 x1.0001").
-  void start(const std::string& wrong) {
+  void start(const std::string& wrong, const std::vector<std::string>& more = {}) {
     set(wrong);
+    std::vector<std::string> environment{
+        "LD_PRELOAD=" ROCI_FAKETIME, "FAKETIME_TIMESTAMP_FILE=" + set_by().string(), "FAKETIME_NO_CACHE=1",
+        "FAKETIME_DONT_FAKE_MONOTONIC=1", "DONT_FAKE_MONOTONIC=1"};
+    environment.insert(environment.end(), more.begin(), more.end());
     service_.emplace(
         std::vector<std::string>{ROCI_BINARY_DIR "/bin/science_svc", "--mission", mission(), "--clock",
                                  "live", "--epoch", std::to_string(epoch_ / 1'000'000), "--run", "test",
                                  "--robot", "rover", "--dds", GetParam(), "--domain",
                                  std::to_string(domain_.id())},
-        std::vector<std::string>{"LD_PRELOAD=" ROCI_FAKETIME, "FAKETIME_TIMESTAMP_FILE=" + set_by().string(),
-                                 "FAKETIME_NO_CACHE=1", "FAKETIME_DONT_FAKE_MONOTONIC=1",
-                                 "DONT_FAKE_MONOTONIC=1"});
+        environment);
   }
   void set(const std::string& wrong) {
     std::ofstream(folder_ / "next") << wrong << "\n";
@@ -141,6 +144,20 @@ TEST_P(HostClocks, AClockThatIsRightIsNotSpokenOf) {
   EXPECT_EQ(newest("clock.offset"), nullptr);
   EXPECT_EQ(newest("clock.drift"), nullptr);
   EXPECT_EQ(state_, v1::SERVICE_RUNNING);
+}
+
+// Whoever started it has handed it the anchor of the host (clock/host_anchor.hpp).
+TEST_P(HostClocks, AnAnchoredServiceKeepsTheMissionClockWhenTheSystemClockIsSet) {
+  start("+0", {std::string(clock::kHostAnchorVariable) + "=" + to_text(clock::anchor_host())});
+  ASSERT_TRUE(until([this] { return state_ == v1::SERVICE_RUNNING && answers_ >= 10; }));
+  for (const char* wrong : {"-1h", "+300"}) {
+    SCOPED_TRACE(wrong);
+    set(wrong);
+    const int answered = answers_;
+    EXPECT_TRUE(until([&] { return answers_ >= answered + 30; })) << "it stands still";
+    EXPECT_EQ(newest("clock.offset"), nullptr);
+    EXPECT_EQ(state_, v1::SERVICE_RUNNING);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, HostClocks, testing::Values("fastdds", "cyclonedds"),

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/pddl/check.hpp"
 #include "core/pddl/parser.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
@@ -135,6 +136,41 @@ TEST_F(ProblemWriterTest, AssumedFactsEndWithTheFirstObservation) {
   beliefs.observe("rover.sample.sample-soil", temporal::state("held"));
   EXPECT_THAT(write().text, Not(HasSubstr("(sample-at")));
   EXPECT_THAT(write().text, HasSubstr("(picked sample-soil)"));
+}
+
+// An image of a goal that has not come yet, or of nobody's.
+TEST_F(ProblemWriterTest, AFactOfAnUnknownObjectIsLeftOutAndNamed) {
+  submit(photo("ridge"));
+  beliefs.observe("rover.image.image-ghost", temporal::state("stored"));
+  beliefs.observe("rover.nav", temporal::state("idle-at", {"stow"}));  // a pose is no place
+  const Problem problem = write();
+  EXPECT_THAT(problem.text, Not(HasSubstr("ghost")));
+  EXPECT_THAT(problem.text, Not(HasSubstr("(at stow)")));
+  EXPECT_THAT(problem.text, HasSubstr("(arm-at stow)"));
+  EXPECT_THAT(problem.text, HasSubstr("(target image-ridge place-ridge)"));
+  EXPECT_NO_THROW(pddl::load_problem(problem.text, "problem", *mission.domain));
+  ASSERT_EQ(problem.left_out.size(), 2U);
+  EXPECT_EQ(problem.left_out[0].part, "(at stow)");
+  EXPECT_EQ(problem.left_out[1].part, "(have-image image-ghost)");
+  EXPECT_THAT(problem.left_out[1].why, HasSubstr("image-ghost"));
+  EXPECT_TRUE(problem.unusable_goals.empty());
+  submit(photo("ghost"));
+  beliefs.observe("rover.nav", temporal::state("idle-at", {"here"}));
+  EXPECT_THAT(write().text, HasSubstr("(have-image image-ghost)"));
+  EXPECT_TRUE(write().left_out.empty());
+}
+
+TEST_F(ProblemWriterTest, AGoalThatMakesTheProblemInvalidIsNamed) {
+  submit(photo("ridge"));
+  mission.goal_kinds["photo-of-nothing"] = mission.goal_kinds.at("photo");
+  mission.goal_kinds["photo-of-nothing"].goal = {"(sent nobody)"};
+  GoalRequest bad = photo("valley");
+  bad.kind = "photo-of-nothing";
+  submit(bad);
+  const Problem problem = write();
+  ASSERT_EQ(problem.unusable_goals.size(), 1U);
+  EXPECT_EQ(problem.unusable_goals[0].key.id, "valley");
+  EXPECT_THAT(problem.unusable_goals[0].why, HasSubstr("nobody"));
 }
 
 }  // namespace

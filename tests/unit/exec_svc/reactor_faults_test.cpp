@@ -476,5 +476,70 @@ TEST_F(ReactorTest, AmongNamedGoalsASoftOneGoesFirst) {
   EXPECT_EQ(reactor.goals().find({"ground", "other"})->state, GoalState::achieved);
 }
 
+// The planner does not take one goal, and says of no goal which.
+TEST_F(ReactorTest, TheGoalThatMakesTheProblemInvalidIsFoundAndTheOthersGoOn) {
+  std::vector<std::string> asked;
+  planner = [&](const PlanRequest& call) {
+    std::string goals;
+    std::vector<std::string> ids;
+    for (const problem::ProblemGoal& goal : call.problem.goals) ids.push_back(goal.key.id);
+    for (const std::string& id : ids) goals += id;
+    asked.push_back(goals);
+    if (asks_for(call, "b")) return reply(Verdict::invalid_input, "expected a ')'");
+    PlanReply out = reply(Verdict::solved);
+    out.plan = images(ids);
+    return out;
+  };
+  run(1000, robot_and({photo("a"), photo("b"), photo("c")}));
+  EXPECT_THAT(asked, ElementsAre("abc", "ab", "ac", "ac"));
+  EXPECT_THAT(reasons["b"], HasSubstr("the planner calls every problem with it invalid: expected a ')'"));
+  EXPECT_EQ(reactor.goals().find({"ground", "a"})->state, GoalState::achieved);
+  EXPECT_EQ(reactor.goals().find({"ground", "b"})->state, GoalState::failed);
+  EXPECT_EQ(reactor.goals().find({"ground", "c"})->state, GoalState::achieved);
+  EXPECT_EQ(reactor.outcome(), "partial");
+}
+
+// It is not the goals: they wait for the ground.
+TEST_F(ReactorTest, AProblemThatIsInvalidWithoutAnyGoalMakesTheRobotSafeAndLosesNone) {
+  planner = [&](const PlanRequest&) { return reply(Verdict::invalid_input, "what is this"); };
+  run(1000, robot_and({photo("a"), photo("b")}));
+  EXPECT_EQ(reactor.phase(), MissionPhase::safe);
+  EXPECT_EQ(reactor.counts().open, 2U);
+  EXPECT_EQ(std::ranges::count(trace, "call"), 3);
+}
+
+// An image that was seen before anybody asked for it, and one that nobody ever asks for.
+TEST_F(ReactorTest, AnObservationOfAnUnknownObjectIsNamedAndTheMissionGoesOn) {
+  ReactorInputs inputs = robot_and({photo("a")});
+  inputs.observations.push_back({"rover.image.image-b", state("stored")});
+  inputs.observations.push_back({"rover.image.image-of-nobody", state("stored")});
+  std::vector<std::string> problems;
+  planner = [&](const PlanRequest& call) {
+    problems.push_back(call.problem.text);
+    return image_every_goal(call);
+  };
+  run(200, std::move(inputs));
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_THAT(problems[0], Not(HasSubstr("image-b")));
+  EXPECT_THAT(problems[0], Not(HasSubstr("image-of-nobody")));
+  EXPECT_EQ(std::ranges::count(trace, "fact.left_out"), 2);
+  ReactorInputs more;
+  more.goals = {photo("b")};
+  run(1000, std::move(more));
+  EXPECT_THAT(problems.back(), HasSubstr("(have-image image-b)"));
+  EXPECT_EQ(reactor.outcome(), "achieved");
+}
+
+TEST_F(ReactorTest, AGoalWithAWordThatTheDomainDoesNotKnowFailsAlone) {
+  mission.goal_kinds["photo-of-nothing"] = mission.goal_kinds.at("photo");
+  mission.goal_kinds["photo-of-nothing"].goal = {"(sent nobody)"};
+  GoalRequest bad = photo("b");
+  bad.kind = "photo-of-nothing";
+  run(1000, robot_and({photo("a"), bad, photo("c")}));
+  EXPECT_THAT(reasons["b"], HasSubstr("nobody"));
+  EXPECT_EQ(reactor.goals().find({"ground", "a"})->state, GoalState::achieved);
+  EXPECT_EQ(reactor.goals().find({"ground", "c"})->state, GoalState::achieved);
+}
+
 }  // namespace
 }  // namespace roci::exec::testing

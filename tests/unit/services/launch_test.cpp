@@ -6,6 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "services/launch/anchor_file.hpp"
+#include "services/launch/continuation.hpp"
 #include "services/launch/options.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/restart_policy.hpp"
@@ -108,6 +110,68 @@ TEST_F(LaunchTest, ARunHasAnIdentityThatItsHostsShare) {
   const Options named = parse({"--run", "sol-12"});
   EXPECT_EQ(named.run, "sol-12");
   EXPECT_THAT(service_arguments(named, "arm_svc", 1, 0), IsSupersetOf({"--run", "sol-12"}));
+}
+
+TEST_F(LaunchTest, TheMasterOfTheClockKnowsWhomNobodyNeeds) {
+  std::ofstream(folder / "mission.yaml") << "name: test\nservices:\n  - {name: sim_svc, clock: master}\n"
+                                            "  - {name: science_svc, essential: false}\n";
+  EXPECT_THAT(service_arguments(parse({}), "sim_svc", 1, 0),
+              IsSupersetOf({"--roster", "sim_svc,science_svc?"}));
+  std::ofstream(folder / "mission.yaml")
+      << "name: test\nservices:\n  - {name: sim_svc, clock: master, essential: false}\n";
+  EXPECT_THROW(parse({}), mission::FileError);
+}
+
+TEST_F(LaunchTest, ALiveRunGoesOnAsItWasStarted) {
+  Options options =
+      parse({"--clock", "live", "--speed", "2", "--seed", "9", "--dds", "cyclonedds", "--standby"});
+  options.run_folder = folder;
+  const clock::HostAnchor anchor = clock::anchor_host();
+  keep_command_line(options, anchor, 1'700'000'000'000'000);
+  const auto resume = [&](const std::vector<std::string>& more) {
+    std::vector<const char*> pointers{"roci-launch", "--resume", folder.c_str()};
+    for (const auto& argument : more) pointers.push_back(argument.c_str());
+    return parse_options(static_cast<int>(pointers.size()), pointers.data(),
+                         [](const char*) { return std::nullopt; });
+  };
+  Options again = resume({"--json", "--watchdog", "4"});
+  ASSERT_TRUE(again.continued);
+  EXPECT_EQ(again.continued->epoch_unix_us, 1'700'000'000'000'000);
+  EXPECT_EQ(again.continued->anchor, anchor);
+  EXPECT_EQ(again.continued->incarnations(), 10'000U);
+  EXPECT_EQ(again.mission, options.mission);
+  EXPECT_EQ(again.run, options.run) << "its owners know it by that name";
+  EXPECT_EQ(again.seed, 9U);
+  EXPECT_EQ(again.speed, 2.0);
+  EXPECT_EQ(again.services, options.services);
+  EXPECT_EQ(again.roster, options.roster);
+  EXPECT_TRUE(again.standby);
+  EXPECT_TRUE(again.json);
+  EXPECT_EQ(again.watchdog_s, 4);
+  EXPECT_EQ(again.run_folder, folder);
+  keep_command_line(again, anchor, again.continued->epoch_unix_us);
+  EXPECT_EQ(resume({}).continued->incarnations(), 20'000U);
+}
+
+TEST_F(LaunchTest, WhatCannotBeResumedIsRefusedInWords) {
+  const auto complaint = [&] {
+    const std::vector<const char*> pointers{"roci-launch", "--resume", folder.c_str()};
+    try {
+      parse_options(3, pointers.data(), [](const char*) { return std::nullopt; });
+      return std::string();
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_THAT(complaint(), HasSubstr("there is no launch.json of a run in it"));
+  Options options = parse({"--dds", "cyclonedds"});
+  options.run_folder = folder;
+  keep_command_line(options, clock::anchor_host(), 0);
+  EXPECT_THAT(complaint(), HasSubstr("only runs with --clock live are resumed"));
+  std::ofstream(folder / "launch.json") << "{\"clock\": \"live\"}";
+  EXPECT_THAT(complaint(), HasSubstr("damaged"));
+  const FolderLock lock(folder);
+  EXPECT_THROW(FolderLock{folder}, std::invalid_argument) << "its launcher lives";
 }
 
 TEST_F(LaunchTest, LiveServicesShareAnEpoch) {
@@ -284,8 +348,10 @@ TEST(RestartPolicy, ALongLifeStartsANewRow) {
 // Services are shell commands here; time is what the test says.
 class SupervisorTest : public LaunchTest {
  protected:
-  Supervisor make(std::vector<std::string> names, bool master_is_clock = true) {
+  Supervisor make(std::vector<std::string> names, bool master_is_clock = true,
+                  const std::function<void(Supervisor::Hooks&)>& add = nullptr) {
     Supervisor::Hooks hooks;
+    if (add) add(hooks);
     hooks.start = [this](const std::string& service, std::uint32_t incarnation) {
       starts.push_back(service + "#" + std::to_string(incarnation));
       auto child = std::make_unique<Child>("/bin/sh", std::vector<std::string>{"sh", "-c", script[service]},
@@ -344,6 +410,29 @@ TEST_F(SupervisorTest, FiveDeathsInARowEndTheRun) {
   ASSERT_TRUE(supervisor.failure());
   EXPECT_EQ(supervisor.failure()->service, "arm_svc");
   EXPECT_THAT(supervisor.failure()->reason, HasSubstr("ended with code 1, the 5th time in a row"));
+}
+
+TEST_F(SupervisorTest, AHelperThatCannotBeKeptIsMissedAndTriedOn) {
+  script = {{"science_svc", "exit 1"}, {"sim_svc", "exec tail -f /dev/null"}};
+  std::vector<std::string> missed;
+  auto supervisor = make({"science_svc", "sim_svc"}, true, [&](Supervisor::Hooks& hooks) {
+    hooks.may_be_missed = [](const std::string& service) { return service == "science_svc"; };
+    hooks.on_missed = [&](const std::string& service, const std::string& what) {
+      missed.push_back(service + " " + what);
+    };
+  });
+  supervisor.start(start);
+  auto now = start;
+  for (std::size_t death = 1; death <= 12; ++death, now += 30s)
+    turn_until(supervisor, now, [&] { return deaths.size() == death; });
+  EXPECT_FALSE(supervisor.failure());
+  EXPECT_FALSE(supervisor.finished());
+  EXPECT_THAT(
+      missed,
+      ElementsAre("science_svc ended with code 1, the 5th time in a row; the mission goes on without it"));
+  EXPECT_EQ(starts.size(), 1U + 12U);
+  supervisor.turn(now - 1s);
+  EXPECT_EQ(starts.size(), 1U + 12U) << "30 s between two starts";
 }
 
 TEST_F(SupervisorTest, BadInputIsNotTriedAgain) {

@@ -1,0 +1,36 @@
+#include "exec_svc/journal/database_files.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <system_error>
+
+#include "exec_svc/journal/journal.hpp"
+
+namespace roci::exec::journal {
+
+namespace fs = std::filesystem;
+
+void remove_database(const fs::path& file) {
+  std::error_code ignored;
+  for (const char* suffix : kDatabaseSuffixes) fs::remove(fs::path(file).concat(suffix), ignored);
+}
+
+void remove_database_logs(const fs::path& file) {
+  std::error_code ignored;
+  for (const char* suffix : {"-wal", "-shm"}) fs::remove(fs::path(file).concat(suffix), ignored);
+}
+
+void sync_path(const fs::path& path) {
+  const fs::path there = path.empty() ? fs::path(".") : path;
+  const int descriptor = open(there.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool safe = descriptor >= 0 && fsync(descriptor) == 0;
+  const std::string reason = std::strerror(errno);
+  if (descriptor >= 0) close(descriptor);
+  if (!safe) throw DiskError("cannot write " + there.string() + " to the disk: " + reason);
+}
+
+}  // namespace roci::exec::journal
