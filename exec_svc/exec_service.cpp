@@ -230,7 +230,7 @@ class ExecService final : public services::Service {
       if (reactor_.reactor().goals().find(request.key) == nullptr) return;
       request.recalled = true;
     }
-    if (!intake_.admits(request, node_.now())) return;
+    if (!intake_.admits(request, inputs_.goals, node_.now())) return;
     inputs_.goals.push_back(std::move(request));
     crash_.pass("after-goal");
     step_soon();

@@ -20,22 +20,25 @@ Intake::Intake(const mission::MissionModel& mission, const reactor::Reactor& rea
   for (const goals::GoalRecord* record : reactor.goals().all()) goals_.insert(record->request.key.text());
   for (const orders::OrderStatus& status : reactor.order_statuses()) orders_.insert(status.key.text());
   for (const reactor::AnswerReceipt& receipt : reactor.answer_receipts()) answers_.insert(receipt.key.text());
-  for (const auto& [timeline, value] : reactor.observed()) timelines_.insert(timeline);
+  for (const auto& [timeline, value] : reactor.observed())
+    (is_of_mission(timeline) ? timelines_ : foreign_timelines_).insert(timeline);
 }
 
-bool Intake::admits(const GoalRequest& goal, temporal::Time now) {
+bool Intake::admits(const GoalRequest& goal, const std::vector<GoalRequest>& waiting, temporal::Time now) {
   const std::string name = goal.key.text();
   if (goals_.contains(name)) return true;
-  if (goals_.size() >= kRejectedGoals && !has_room_for(goal, now))
+  if (goals_.size() >= kRejectedGoals && !has_room_for(goal, waiting, now))
     return refuse("goal.no_room", "goal " + name.substr(0, kNameBytes) +
                                       " is not taken: it would be rejected, and " +
                                       std::to_string(kRejectedGoals) + " rejected goals are kept already");
   return enter(goals_, name, kGoals, "goal.no_room", "goal");
 }
 
-bool Intake::has_room_for(const GoalRequest& goal, temporal::Time now) {
+bool Intake::has_room_for(const GoalRequest& goal, const std::vector<GoalRequest>& waiting,
+                          temporal::Time now) {
   if (!sieve_ || ++sieved_ >= kRejectedGoals) {
     sieve_.emplace(reactor_->goals());
+    for (const GoalRequest& one : waiting) sieve_->submit(one, now);
     sieved_ = 0;
     const auto all = sieve_->all();
     rejected_ =
@@ -54,11 +57,18 @@ bool Intake::admits(const GivenAnswer& answer) {
   return enter(answers_, answer.key.text(), kAnswers, "answer.no_room", "answer");
 }
 
+bool Intake::is_of_mission(const std::string& timeline) const {
+  const auto is_it = [&](const auto& model) { return model.timeline == timeline; };
+  return std::ranges::any_of(mission_->components, is_it) || std::ranges::any_of(mission_->windows, is_it) ||
+         std::ranges::any_of(mission_->fluents, is_it) ||
+         std::ranges::any_of(mission_->families, [&](const mission::TimelineFamily& family) {
+           return timeline.starts_with(family.prefix);
+         });
+}
+
 bool Intake::admits(const Observation& observation) {
-  const bool needed = std::ranges::any_of(mission_->components, [&](const mission::Component& component) {
-    return component.timeline == observation.timeline;
-  });
-  return needed || enter(timelines_, observation.timeline, kTimelines, "timeline.no_room", "timeline");
+  std::set<std::string>& known = is_of_mission(observation.timeline) ? timelines_ : foreign_timelines_;
+  return enter(known, observation.timeline, kTimelines, "timeline.no_room", "timeline");
 }
 
 bool Intake::admits(const ModelVersion& model) {

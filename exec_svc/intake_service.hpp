@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "exec_svc/mission/mission_model.hpp"
 #include "exec_svc/reactor/reactor.hpp"
@@ -21,7 +22,8 @@ class Intake {
   /// Mission and reactor outlive this. Knows what the reactor knows when it is made, and what it has let in since.
   Intake(const mission::MissionModel&, const reactor::Reactor&, Report);
 
-  bool admits(const goals::GoalRequest&, temporal::Time now);
+  /// `waiting`: those that were let in and that the reactor has not seen yet.
+  bool admits(const goals::GoalRequest&, const std::vector<goals::GoalRequest>& waiting, temporal::Time now);
   bool admits(const orders::Order&);
   bool admits(const reactor::GivenAnswer&);
   bool admits(const executive::Observation&);
@@ -36,7 +38,10 @@ class Intake {
              const char* what);
   bool refuse(const char* code, const std::string& text);
   /// Whether there is room for one more goal of its fate, found with a copy of the reactor's goals.
-  bool has_room_for(const goals::GoalRequest&, temporal::Time now);
+  bool has_room_for(const goals::GoalRequest&, const std::vector<goals::GoalRequest>& waiting,
+                    temporal::Time now);
+  /// Whether the mission's own data speak of the timeline.
+  bool is_of_mission(const std::string& timeline) const;
 
   const mission::MissionModel* mission_;
   const reactor::Reactor* reactor_;
@@ -45,7 +50,7 @@ class Intake {
   std::optional<goals::GoalSet> sieve_;  // a copy of the reactor's goals, with those that came since
   std::size_t sieved_ = 0;               // since it was copied
   std::size_t rejected_ = 0;             // of it
-  std::set<std::string> goals_, orders_, answers_, timelines_, owners_;
+  std::set<std::string> goals_, orders_, answers_, timelines_, foreign_timelines_, owners_;
 };
 
 }  // namespace roci::exec

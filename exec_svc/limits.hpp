@@ -16,8 +16,8 @@ inline constexpr std::size_t kOrders = 10'000;
 /// So many orders to make the robot safe find room beyond it.
 inline constexpr std::size_t kSafeOrders = 1'000;
 inline constexpr std::size_t kAnswers = 10'000;
-/// Timelines that are kept: each goal's product, each component's state and resources. Those of the mission's components always
-/// find room.
+/// Timelines that are kept of those that the mission's data speak of (components, resources, each goal's product), and as many
+/// others.
 inline constexpr std::size_t kTimelines = 10'000;
 /// Owners of models whose versions are kept: ten services for each of 25 robots.
 inline constexpr std::size_t kModelOwners = 256;

@@ -4,7 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "services/bounds/limits.hpp"
+#include "roci_idl/clock.h"
+#include "roci_idl/goal.h"
 #include "services/clock/clock_master.hpp"
 #include "services/clock/hold_back_queue.hpp"
 #include "services/node/roster_view.hpp"
