@@ -16,6 +16,9 @@ namespace {
 
 namespace topics = services::topics;
 
+// So many refusals are told of, each once; names in them come from whoever asks.
+constexpr std::size_t kReportedRefusals = 1'000;
+
 class ArmService : public services::Service {
  public:
   ArmService(services::Node& node, ArmSetup setup)
@@ -49,7 +52,7 @@ class ArmService : public services::Service {
         [this, responder](FunctionAnswer answer) {
           for (const std::string& refusal : answer.refusals) {
             // Each refusal is told once, although every replanning asks again.
-            if (reported_.insert(refusal).second) report("motion.refused", refusal);
+            if (reported_.size() < kReportedRefusals && reported_.insert(refusal).second) report("motion.refused", refusal);
           }
           answer.reply.owner(node_.options().name);
           answer.reply.computed_us(node_.now().count());

@@ -24,8 +24,8 @@ function(roci_idl)
   add_custom_command(
     OUTPUT ${outputs}
     COMMAND "${FASTDDSGEN}" -replace -I "${CMAKE_CURRENT_SOURCE_DIR}" -d "${generated}" ${inputs}
-    COMMAND "${CMAKE_COMMAND}" "-DFILES=${sources}" -P "${PROJECT_SOURCE_DIR}/cmake/BoundEnumSequences.cmake"
-    DEPENDS ${inputs} "${PROJECT_SOURCE_DIR}/cmake/BoundEnumSequences.cmake"
+    COMMAND Python3::Interpreter "${CMAKE_CURRENT_SOURCE_DIR}/bound_decoding.py" --generated "${generated}" ${inputs}
+    DEPENDS ${inputs} "${CMAKE_CURRENT_SOURCE_DIR}/bound_decoding.py" "${CMAKE_CURRENT_SOURCE_DIR}/contract.py"
     WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}"
     COMMENT "IDL to C++: ${IDL_NAME}"
     VERBATIM)
@@ -39,7 +39,7 @@ function(roci_idl)
     COMMENT "IDL to contract: ${IDL_NAME}"
     VERBATIM)
   add_library(${IDL_NAME} STATIC ${sources} "${contract}")
-  target_include_directories(${IDL_NAME} SYSTEM PUBLIC "${include}")
+  target_include_directories(${IDL_NAME} SYSTEM PUBLIC "${include}" PRIVATE "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${IDL_NAME} PUBLIC fastcdr)
   set_property(GLOBAL APPEND PROPERTY ROCI_PARTS "${IDL_NAME}: ${IDL_HELP}")
 endfunction()

@@ -12,6 +12,7 @@
 
 #include "exec_svc/decision_link_service.hpp"
 #include "exec_svc/engine_link_service.hpp"
+#include "exec_svc/intake_service.hpp"
 #include "exec_svc/journal/crash_points.hpp"
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/journaled_reactor.hpp"
@@ -22,8 +23,10 @@
 #include "exec_svc/output_publisher_service.hpp"
 #include "exec_svc/run_files_service.hpp"
 #include "exec_svc/standby/leader_service.hpp"
+#include "exec_svc/strangers.hpp"
 #include "exec_svc/wire_service.hpp"
 #include "services/log/log.hpp"
+#include "services/owner/command.hpp"
 #include "services/process/disk_pause.hpp"
 #include "services/rpc.hpp"
 #include "services/wire/plan_wire.hpp"
@@ -63,6 +66,7 @@ temporal::Duration reunion(const Node& node) {
 }
 
 constexpr char kPlanner[] = "planner_svc";
+constexpr double kListenS = 2;  // wall time
 
 std::string planner_of(const MissionModel& mission, const services::RunSettings& settings) {
   if (!mission.planner.service.empty()) return mission.planner.service;
@@ -100,11 +104,13 @@ class ExecService final : public services::Service {
         crash_(crash_points(node)),
         planner_(node, topics::plan_request),
         publisher_(node, mission_, epoch, crash_),
+        strangers_([this](const Event& event) { publisher_.report(event); }),
         decisions_(
             node, [this](GivenAnswer answer, std::string line) { take(std::move(answer), std::move(line)); }),
         orders_(
             node, [this](orders::Order order, std::string line) { take(std::move(order), std::move(line)); },
-            [this](const Event& event) { publisher_.report(event); }) {
+            [this](const Event& event) { intake_.tell(event); }),
+        intake_(mission_, reactor_.reactor(), [this](const Event& event) { publisher_.report(event); }) {
     journal_.wait_for_disk(
         {[this](const std::string& cause) { wait_for_disk(cause); }, [this] { disk_is_back(); }});
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
@@ -115,7 +121,7 @@ class ExecService final : public services::Service {
     if (reactor_.reactor().plans_continuously()) {
       engine_.emplace(
           node, [this](temporal::PlanDelta delta) { take(std::move(delta)); },
-          [this](const Event& event) { publisher_.report(event); });
+          [this](const Event& event) { intake_.tell(event); });
     }
     inputs_.epoch = epoch_;
     recover();
@@ -124,13 +130,19 @@ class ExecService final : public services::Service {
                         [this](const v1::Observation& observation) { take(observation); });
     services::subscribe(node, topics::command_ack, [this](const v1::CommandAck& ack) { take(ack); });
     services::subscribe(node, topics::function_offer, [this](const v1::FunctionOffer& offer) {
-      inputs_.models.push_back({offer.owner(), offer.model_version()});
+      const reactor::ModelVersion model{offer.owner(), offer.model_version()};
+      if (!intake_.admits(model)) return;
+      inputs_.models.push_back(model);
       step_soon();
     });
     node.on_peer_change([this](const services::health::PeerChange& change) { take(change); });
     if (leader_ != nullptr && node.options().clock == services::clock::ClockMode::live)
       node.on_turn([this] { tell_pair(); });
-    step_soon();
+    if (leader_ == nullptr && node.options().incarnation == 1) {
+      listen_first();
+    } else {
+      step_soon();
+    }
   }
 
   // The one of a leader that stood down would replace its successor's.
@@ -158,6 +170,18 @@ class ExecService final : public services::Service {
     for (const Event& event : recovery.last_events) publisher_.report(event);
     missed_ = journal_.peers();
     node_.after(reunion(node_), [this] { give_up_missed(); });
+  }
+
+  // A second executive of this name would have ended by then (services/health/namesake_watch.hpp), and has begun
+  // nothing. One that was started again follows itself. Under the simulated clock there is one of each name.
+  void listen_first() {
+    const auto& options = node_.options();
+    if (options.clock != services::clock::ClockMode::live) return step_soon();
+    step_due_ = true;
+    node_.after(temporal::seconds(kListenS * options.live_scale), [this] {
+      step_due_ = false;
+      step_soon();
+    });
   }
 
   // The ground has been told once the first step is durable.
@@ -206,6 +230,7 @@ class ExecService final : public services::Service {
       if (reactor_.reactor().goals().find(request.key) == nullptr) return;
       request.recalled = true;
     }
+    if (!intake_.admits(request, node_.now())) return;
     inputs_.goals.push_back(std::move(request));
     crash_.pass("after-goal");
     step_soon();
@@ -213,6 +238,8 @@ class ExecService final : public services::Service {
 
   void take(const services::health::PeerChange& change) {
     const auto known = missed_.extract(change.service);
+    publisher_.forget_told(change.service);
+    if (!change.alive) sources_.forget(change.service);
     if (!change.alive) {
       journal_.remove_peer(change.service);
       inputs_.losses.push_back({change.service, change.cause});
@@ -235,10 +262,17 @@ class ExecService final : public services::Service {
 
   void take(const v1::Observation& observation) {
     if (observation.header().sender() == node_.options().name) return;  // a value that the ground has set
+    if (!sources_.admit(observation.timeline(), observation.header().sender()))
+      return strangers_.tell("timeline.contested", observation.header().sender() + " tells of " +
+                                                       observation.timeline() + ", which " +
+                                                       sources_.source(observation.timeline()) +
+                                                       " observes; it is not believed");
     try {
-      inputs_.observations.push_back(from_wire(observation));
+      executive::Observation value = from_wire(observation);
+      if (!intake_.admits(value)) return;
+      inputs_.observations.push_back(std::move(value));
     } catch (const services::wire::WireError& error) {
-      publisher_.report(
+      intake_.tell(
           {Severity::warning, "observation.malformed", observation.timeline() + ": " + error.what()});
       return;
     }
@@ -252,24 +286,61 @@ class ExecService final : public services::Service {
   }
 
   void take(const v1::CommandAck& ack) {
-    if (ack.commander() != node_.options().name || OutputPublisher::answers_epoch(ack)) return;
-    if (ack.refused_epoch() && leader_ != nullptr) {
-      if (ack.newest_epoch() > epoch_) leader_->refused();
-      return;  // else it was a command of an earlier leader
-    }
+    if (ack.commander() != node_.options().name || ack.epoch() == 0) return;
+    if (ack.header().sender() != ack.owner())
+      return strangers_.tell("ack.foreign",
+                             ack.header().sender() + " acknowledges commands in the place of " + ack.owner());
+    if (ack.refused_epoch() && !take_refusal(ack)) return;
+    if (OutputPublisher::answers_epoch(ack)) return;
     inputs_.acks.push_back(from_wire(ack));
     seen_.push_back(trace_line(ack));
     crash_.pass("after-ack");
     step_soon();
   }
 
+  // An owner refused the epoch of a command. Returns whether what was refused is to be said again, in the epoch
+  // that has begun by then.
+  bool take_refusal(const v1::CommandAck& ack) {
+    const std::uint64_t held = ack.newest_epoch();
+    const bool leads = OutputPublisher::answers_epoch(ack);
+    if (!leads && !publisher_.answers_command(ack)) return false;  // of an earlier leader, or of nobody
+    if (held >= epoch_) {
+      if (leader_ != nullptr) {
+        leader_->refused(held);
+      } else if (!leads) {
+        take_epoch(ack);
+      }
+    } else if (epoch_ - held > services::owner::kEpochJump && !publisher_.climb(ack.owner(), held)) {
+      strangers_.tell("epoch.refused", ack.owner() + " holds epoch " + std::to_string(held) +
+                                           ", too far before " + std::to_string(epoch_));
+    }
+    return !leads;
+  }
+
+  // The journal was lost, or somebody has commanded in this name: the epoch after the owner's is this executive's,
+  // in the journal before anything goes out in it. One word of an owner moves it by a bounded step.
+  void take_epoch(const v1::CommandAck& ack) {
+    const std::uint64_t held = ack.newest_epoch();
+    const std::uint64_t before = epoch_;
+    epoch_ = std::min(held, epoch_ + services::owner::kEpochJump) + 1;
+    journal_.set_number("epoch", static_cast<std::int64_t>(epoch_));
+    publisher_.begin_epoch(epoch_);
+    inputs_.epoch = epoch_;
+    publisher_.report({Severity::warning, "epoch.taken",
+                       ack.owner() + " holds epoch " + std::to_string(held) + " of " + node_.options().name +
+                           ", later than " + std::to_string(before) + "; goes on in epoch " +
+                           std::to_string(epoch_)});
+  }
+
   void take(GivenAnswer answer, std::string line) {
+    if (!intake_.admits(answer)) return;
     inputs_.answers.push_back(std::move(answer));
     seen_.push_back(std::move(line));
     step_soon();
   }
 
   void take(orders::Order order, std::string line) {
+    if (!intake_.admits(order)) return;
     inputs_.ground_orders.push_back(std::move(order));
     seen_.push_back(std::move(line));
     crash_.pass("after-order");
@@ -371,6 +442,7 @@ class ExecService final : public services::Service {
   LeaderService* leader_;  // none: no other executive follows
   JournaledReactor reactor_;
   CrashPoints crash_;
+  TimelineSources sources_;
   ReactorInputs inputs_;
   std::vector<std::string> seen_;                // the inputs' lines of the trace
   std::map<std::string, std::uint32_t> missed_;  // services of before the restart, not heard of since
@@ -389,8 +461,10 @@ class ExecService final : public services::Service {
     services::rpc::CallId sent = 0;  // the wire's
   } call_;                           // the last one
   OutputPublisher publisher_;
+  Strangers strangers_;
   DecisionLink decisions_;
   OrderLink orders_;
+  Intake intake_;
 };
 
 // With a journal of its own.

@@ -60,7 +60,7 @@ void write_summary(const std::filesystem::path& file, const services::RunSetting
                                {"trace_sha256", figures.trace_sha256},
                                {"journal", figures.journal.lexically_relative(settings.run_folder).string()},
                                {"epoch", figures.epoch}};
-  std::ofstream(file) << summary.dump(2) << "\n";
+  std::ofstream(file) << summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
 }
 
 }  // namespace roci::exec

@@ -1,9 +1,10 @@
 #include "exec_svc/output_publisher_service.hpp"
 
-#include <set>
+#include <algorithm>
 
 #include "exec_svc/mission/observed_names.hpp"
 #include "exec_svc/wire_service.hpp"
+#include "services/owner/command.hpp"
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::exec {
@@ -23,8 +24,13 @@ namespace {
 
 namespace topics = services::topics;
 
-// The key of the query that tells owners a leader's epoch; no activity has it.
+namespace owner = services::owner;
+
+// The key of the command that tells owners a leader's epoch; no activity has it.
 constexpr char kEpochKey[] = "epoch";
+
+constexpr std::size_t kSentKeys = 256;    // more are never awaited at a time
+constexpr std::uint64_t kMostSteps = 64;  // of a climb
 
 }  // namespace
 
@@ -50,10 +56,15 @@ void OutputPublisher::send_plan(const Reactor& reactor) const {
   for (const StepStatus& step : reactor.steps()) steps_.write(to_wire(step, executive_, reactor.plan_version()));
 }
 
-void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version) const {
+void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version) {
   for (const GoalRecord& goal : out.goal_changes) sent(goal_statuses_.write(to_wire(goal, executive_)));
   if (out.adopted) sent(plans_.write(plan_sample(*out.adopted)));
-  for (const Command& command : out.commands) sent(commands_.write(to_wire(command, executive_, version, epoch_)));
+  for (const Command& command : out.commands) {
+    v1::Command sample = to_wire(command, executive_, version, epoch_);
+    sent_keys_.emplace_back(sample.epoch(), sample.activity(), sample.attempt());
+    if (sent_keys_.size() > kSentKeys) sent_keys_.pop_front();
+    sent(commands_.write(std::move(sample)));
+  }
   for (const StepStatus& step : out.steps) sent(steps_.write(to_wire(step, executive_, version)));
   for (const Event& event : out.events) report(event);
 }
@@ -76,17 +87,29 @@ bool OutputPublisher::publish(v1::MissionStatus status, const std::string& trace
 }
 
 void OutputPublisher::announce_epoch() {
-  if (epoch_announced_ || commands_.matched_readers() == 0) return;
-  epoch_announced_ = true;
-  std::set<std::string> owners;
-  for (const Component& component : mission_->components) owners.insert(component.owner);
-  for (const std::string& owner : owners) {
-    Command query;
-    query.action = CommandAction::query;
-    query.activity = kEpochKey;
-    query.owner = owner;
-    commands_.write(to_wire(query, executive_, 0, epoch_));
-  }
+  if (commands_.matched_readers() == 0) return;
+  for (const Component& component : mission_->components)
+    if (told_epoch_.insert(component.owner).second) lead(component.owner, epoch_);
+}
+
+bool OutputPublisher::climb(const std::string& service, std::uint64_t held) {
+  if (held >= epoch_ || (epoch_ - held) / owner::kEpochJump > kMostSteps) return false;
+  for (std::uint64_t epoch = held + owner::kEpochJump; epoch < epoch_; epoch += owner::kEpochJump)
+    lead(service, epoch);
+  return true;
+}
+
+void OutputPublisher::lead(const std::string& service, std::uint64_t epoch) const {
+  Command command;
+  command.activity = kEpochKey;
+  command.owner = service;
+  command.command_name = owner::kLeadCommand;
+  commands_.write(to_wire(command, executive_, 0, epoch));
+}
+
+bool OutputPublisher::answers_command(const v1::CommandAck& ack) const {
+  return std::ranges::find(sent_keys_, std::tuple(ack.epoch(), ack.activity(), ack.attempt())) !=
+         sent_keys_.end();
 }
 
 bool OutputPublisher::answers_epoch(const v1::CommandAck& ack) { return ack.activity() == kEpochKey; }

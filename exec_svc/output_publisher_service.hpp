@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "exec_svc/journal/crash_points.hpp"
@@ -24,26 +27,39 @@ class OutputPublisher {
   void send_goals(const reactor::Reactor&) const;
   void send_plan(const reactor::Reactor&) const;
   /// What a step decided, but for its planner call.
-  void send(const reactor::ReactorOutputs&, std::uint32_t plan_version) const;
+  void send(const reactor::ReactorOutputs&, std::uint32_t plan_version);
   void report(const reactor::Event&) const;
   /// True if it is news: a status that equals the last one is not sent again.
   bool publish(v1::MissionStatus, const std::string& trace_sha256);
 
-  /// Owners that know this epoch refuse what an earlier leader may still send. Does nothing until somebody
-  /// hears commands, and after the first time. (The simulated clock drops an earlier leader.)
+  /// Commands go out in this epoch from now on.
+  void begin_epoch(std::uint64_t epoch) { epoch_ = epoch; }
+  /// Leads all owners in this epoch, so that they refuse what an earlier leader may still send. Does nothing until
+  /// somebody hears commands, and for an owner that was told. (The simulated clock drops an earlier leader.)
   void announce_epoch();
+  /// An owner that was started anew may know no epoch: it is to be told again.
+  void forget_told(const std::string& owner) { told_epoch_.erase(owner); }
+  /// Leads the owner, which holds `held`, in later and later epochs up to this one: it takes no wider step
+  /// (services/owner/command.hpp). False: the way is too long.
+  bool climb(const std::string& owner, std::uint64_t held);
+  /// Whether the acknowledgement answers announce_epoch() or climb().
   static bool answers_epoch(const v1::CommandAck&);
+  /// Whether it answers one of the commands that went out last.
+  bool answers_command(const v1::CommandAck&) const;
 
  private:
   void sent(bool) const { crash_->pass("during-send"); }
 
+  void lead(const std::string& owner, std::uint64_t epoch) const;
   v1::Plan plan_sample(const temporal::FlexiblePlan&) const;
 
   const mission::MissionModel* mission_;
   std::string executive_;  // logical name
   std::uint64_t epoch_;
   journal::CrashPoints* crash_;
-  bool epoch_announced_ = false;
+  std::set<std::string> told_epoch_;  // owners
+  /// Keys of the newest commands: epoch of issue, activity, attempt.
+  std::deque<std::tuple<std::uint64_t, std::string, std::uint32_t>> sent_keys_;
   v1::MissionStatus last_status_;
   services::Publisher<v1::Command> commands_;
   services::Publisher<v1::GoalStatus> goal_statuses_;

@@ -171,6 +171,7 @@ class PairProcess {
     if (!transport) return std::nullopt;
     services::node::NodeOptions options = options_.node;
     options.incarnation = static_cast<std::uint32_t>(lease.epoch());
+    options.sole = false;
     services::Node node(options, std::move(transport));
     node.on_turn([this] { watchdog_.notify(); });
     const services::TimeWatch time_watch(node, options_.time);

@@ -1,7 +1,9 @@
 #include "exec_svc/wire_service.hpp"
 
 #include <algorithm>
+#include <string_view>
 
+#include "services/owner/command.hpp"
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::exec {
@@ -27,6 +29,8 @@ using reactor::Severity;
 using temporal::Verdict;
 
 namespace {
+
+static_assert(std::string_view(executive::kFallbackPrefix) == services::owner::kFallbackPrefix);
 
 v1::NamedValue named_value(const std::string& name, const temporal::Value& value) {
   v1::NamedValue out;
@@ -82,7 +86,7 @@ Observation from_wire(const v1::Observation& in) {
 
 CommandAck from_wire(const v1::CommandAck& in) {
   const auto stage = static_cast<CommandStage>(std::min<std::uint32_t>(in.stage(), v1::STAGE_UNKNOWN));
-  return {in.activity(), in.attempt(), stage, in.code(), in.reason(), in.epoch()};
+  return {in.activity(), in.attempt(), stage, in.code(), in.reason(), in.epoch(), in.refused_epoch()};
 }
 
 PlanReply from_wire(std::uint64_t call, const v1::PlanReply& in) {

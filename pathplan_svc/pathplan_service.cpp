@@ -9,8 +9,10 @@
 
 #include "core/mission/mission_file.hpp"
 #include "core/terrain/site_file.hpp"
+#include "pathplan_svc/limits.hpp"
 #include "pathplan_svc/rover_file.hpp"
 #include "pathplan_svc/wire_service.hpp"
+#include "services/bounds/tally.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "services/worker.hpp"
@@ -59,7 +61,7 @@ class PathplanService : public services::Service {
   // Each place is told once per map, although every replanning asks again.
   void report_unusable(const std::map<std::string, std::string>& places) {
     for (const auto& [place, why] : places) {
-      if (!reported_.insert(place + ": " + why).second) continue;
+      if (reported_.size() >= kReportedPlaces || !reported_.insert(place + ": " + why).second) continue;
       report(v1::SEVERITY_WARNING, "place.unusable", place + ": " + why, {{"place", place}});
     }
   }
@@ -68,25 +70,41 @@ class PathplanService : public services::Service {
     const Disc disc{{hazard.x_m(), hazard.y_m()}, hazard.radius_m()};
     const bool usable = std::isfinite(disc.centre.x) && std::isfinite(disc.centre.y) &&
                         std::isfinite(disc.radius) && disc.radius >= 0;
-    if (!usable && !hazard.cleared()) {
-      report(
-          v1::SEVERITY_WARNING, "hazard.refused",
-          "hazard " + hazard.id() + " has no finite place and radius; send x_m, y_m and radius_m in metres",
-          {{"hazard", hazard.id()}});
-      return;
-    }
+    if (!usable && !hazard.cleared())
+      return refuse(hazard, "has no finite place and radius; send x_m, y_m and radius_m in metres");
+    const std::pair key{hazard.found_by(), hazard.id()};
+    const bool known = hazards_.contains(key);
+    if (!known && hazards_.size() >= kHazards)
+      return refuse(hazard, "finds no room beside " + std::to_string(kHazards) + " others; clear some");
+    if (!known && key.first.size() + key.second.size() > kNameBytes)
+      return refuse(hazard, "has a name of more than " + std::to_string(kNameBytes) + " bytes");
+    if (map_changes_ >= kMapChanges)
+      return refuse(hazard,
+                    "comes while " + std::to_string(kMapChanges) + " changes of the map wait; send it again");
     if (hazard.cleared()) {
-      hazards_.erase({hazard.found_by(), hazard.id()});
+      if (!known) return;
+      hazards_.erase(key);
     } else {
-      hazards_[{hazard.found_by(), hazard.id()}] = disc;
+      hazards_[key] = disc;
     }
     update_map();
+  }
+
+  // Told the first time, the tenth, the hundredth and so on, whatever the reasons.
+  void refuse(const v1::Hazard& hazard, const std::string& why) {
+    const std::uint64_t count = refusals_.note("hazard");
+    if (count == 0) return;
+    const std::string id = hazard.id().substr(0, kNameBytes);
+    report(v1::SEVERITY_WARNING, "hazard.refused",
+           "hazard " + id + " " + why + (count > 1 ? " (" + std::to_string(count) + " refused so far)" : ""),
+           {{"hazard", id}});
   }
 
   void update_map() {
     std::vector<Disc> discs = keep_out_;
     for (const auto& [key, disc] : hazards_) discs.push_back(disc);
     const std::size_t count = hazards_.size();
+    ++map_changes_;
     worker_.compute(
         [this, discs = std::move(discs)](const std::stop_token&) {
           const bool changed = planner_.set_discs(discs);
@@ -94,6 +112,7 @@ class PathplanService : public services::Service {
         },
         [this, count](std::pair<bool, std::uint64_t> update) {
           const auto [changed, version] = update;
+          --map_changes_;
           if (!changed) return;
           reported_.clear();
           offers_.write(function_offer(node_.options().name, version));
@@ -123,7 +142,9 @@ class PathplanService : public services::Service {
   std::vector<Disc> keep_out_;
   std::map<std::pair<std::string, std::string>, Disc> hazards_;  // by finder and id
   std::set<std::string> reported_;
-  PathPlanner planner_;  // from the constructor's end on: the worker's alone
+  services::bounds::Tally refusals_;
+  std::size_t map_changes_ = 0;  // that the worker has not made yet
+  PathPlanner planner_;          // from the constructor's end on: the worker's alone
   services::Publisher<v1::FunctionOffer> offers_;
   services::Publisher<v1::Event> events_;
   services::Worker worker_;

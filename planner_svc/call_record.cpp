@@ -22,7 +22,7 @@ void CallRecords::keep(const engine::Answer& answer, double wall_s) {
                                {"from_remaining", answer.statistics.from_remaining},
                                {"actions", answer.plan ? answer.plan->activities.size() : 0}};
   for (const engine::RecordFile& part : answer.record) std::ofstream(file(part.ending)) << part.text;
-  std::ofstream(file(".json")) << outcome.dump(2) << "\n";
+  std::ofstream(file(".json")) << outcome.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
 }
 
 }  // namespace roci::planner

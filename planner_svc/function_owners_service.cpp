@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner_svc/limits.hpp"
 #include "planner_svc/wire_service.hpp"
+#include "services/log/log.hpp"
 #include "services/publisher.hpp"
 
 namespace roci::planner {
@@ -62,7 +64,12 @@ OwnerChoice choose_owner(const FunctionOffers& offers, const std::string& module
 FunctionOwners::FunctionOwners(services::Node& node, temporal::Duration timeout)
     : node_(node), timeout_(timeout), client_(node, services::topics::function_call) {
   services::subscribe(node, services::topics::function_offer, [this](const v1::FunctionOffer& offer) {
-    offers_[{offer.module_name(), offer.owner()}] = offer;
+    const std::pair key{offer.module_name(), offer.owner()};
+    if (offers_.size() < kOffers || offers_.contains(key)) return void(offers_[key] = offer);
+    if (const std::uint64_t count = refusals_.note("offer"))
+      services::log::warning("an offer of functions by " + offer.owner().substr(0, kNameBytes) +
+                             " is not taken in: " + std::to_string(kOffers) + " are kept (" +
+                             std::to_string(count) + " refused so far)");
   });
 }
 

@@ -13,6 +13,7 @@
 #include "planner_svc/engine/function_source.hpp"
 #include "planner_svc/engine/request.hpp"
 #include "roci_idl/function.h"
+#include "services/bounds/tally.hpp"
 #include "services/rpc.hpp"
 
 namespace roci::planner {
@@ -52,7 +53,8 @@ class FunctionOwners {
   services::Node& node_;
   temporal::Duration timeout_;
   services::Client<v1::FunctionRequest, v1::FunctionReply> client_;
-  FunctionOffers offers_;
+  FunctionOffers offers_;  // at most kOffers (limits.hpp)
+  services::bounds::Tally refusals_;
   std::uint64_t asked_ = 0;              // batches so far
   std::optional<std::uint64_t> asking_;  // the one under way
 };

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "planner_svc/engine/checked_answer.hpp"
+#include "planner_svc/limits.hpp"
 #include "planner_svc/wire_service.hpp"
 #include "services/wire/plan_wire.hpp"
 
@@ -17,6 +18,11 @@ namespace {
 namespace topics = services::topics;
 
 bool is_open(GoalState state) { return state == GoalState::pending || state == GoalState::planned; }
+
+std::size_t size_of(const std::string& name) { return name.size(); }
+std::size_t size_of(const std::pair<std::string, std::string>& name) {
+  return name.first.size() + name.second.size();
+}
 
 std::string version_text(std::uint32_t version) { return "version " + std::to_string(version); }
 
@@ -45,11 +51,13 @@ void SteppedHost::subscribe_all() {
   });
   services::subscribe(node_, topics::step_status, [this](const v1::StepStatus& step) {
     if (!is_ours(step.header())) return;
+    if (!has_room(progress_, step.activity(), kActivities, "step")) return;
     heard_.steps.push_back(from_wire(step));
     progress_.insert_or_assign(step.activity(), heard_.steps.back().progress);
     step_soon();
   });
   services::subscribe(node_, topics::observation, [this](const v1::Observation& observation) {
+    if (!has_room(state_, observation.timeline(), kTimelines, "timeline")) return;
     try {
       heard_.observations.push_back(from_wire(observation));
     } catch (const services::wire::WireError&) {
@@ -60,6 +68,19 @@ void SteppedHost::subscribe_all() {
   });
 }
 
+// The executive refuses likewise, so that both know the same.
+template <class Table>
+bool SteppedHost::has_room(const Table& table, const typename Table::key_type& name, std::size_t room,
+                           const char* what) {
+  if (table.contains(name) || (table.size() < room && size_of(name) <= kNameBytes)) return true;
+  if (const std::uint64_t count = refusals_.note(what))
+    report(v1::SEVERITY_WARNING, "planner.no_room",
+           std::string("a ") + what + " is not taken in: " + std::to_string(room) +
+               " are kept at most, with names of at most " + std::to_string(kNameBytes) + " bytes (" +
+               std::to_string(count) + " refused so far)");
+  return false;
+}
+
 // Team topics carry the words of all robots.
 bool SteppedHost::is_ours(const v1::SampleHeader& header) const {
   return setup_.robot.empty() || header.robot().empty() || header.robot() == setup_.robot;
@@ -67,6 +88,7 @@ bool SteppedHost::is_ours(const v1::SampleHeader& header) const {
 
 void SteppedHost::hear_goal(const v1::Goal& goal) {
   if (!setup_.robot.empty() && !goal.robot().empty() && goal.robot() != setup_.robot) return;
+  if (!has_room(goals_, Key{goal.issuer(), goal.id()}, kGoals, "goal")) return;
   HeardGoal& heard = goals_[{goal.issuer(), goal.id()}];
   engine::Goal now = from_wire(goal);
   const bool changed = heard.goal != now;
@@ -76,6 +98,7 @@ void SteppedHost::hear_goal(const v1::Goal& goal) {
 
 void SteppedHost::hear_status(const v1::GoalStatus& status) {
   if (!is_ours(status.header())) return;
+  if (!has_room(goals_, Key{status.issuer(), status.id()}, kGoals, "goal")) return;
   HeardGoal& heard = goals_[{status.issuer(), status.id()}];
   heard.state = static_cast<GoalState>(std::min<std::uint32_t>(status.goal_state(), v1::GOAL_RECALLED));
   note_goal({status.issuer(), status.id()}, heard, false);

@@ -16,6 +16,7 @@
 #include "roci_idl/health.h"
 #include "roci_idl/plan.h"
 #include "roci_idl/planner.h"
+#include "services/bounds/tally.hpp"
 #include "services/publisher.hpp"
 #include "services/worker.hpp"
 
@@ -44,6 +45,9 @@ class SteppedHost {
   };
 
   void subscribe_all();
+  /// Whether a table may take in what it knows by this name, or not yet.
+  template <class Table>
+  bool has_room(const Table& table, const typename Table::key_type& name, std::size_t room, const char* what);
   bool is_ours(const v1::SampleHeader& header) const;
   void hear_goal(const v1::Goal& goal);
   void hear_status(const v1::GoalStatus& status);
@@ -78,6 +82,7 @@ class SteppedHost {
   std::uint32_t last_version_ = 0;
   std::vector<engine::BlockingGoal> blocking_;  // as told
 
+  services::bounds::Tally refusals_;
   bool due_ = false;       // a step comes in this turn
   bool stepping_ = false;  // one is under way
   std::optional<services::Node::TimerId> wake_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "science_svc/limits.hpp"
+
 namespace roci::science {
 namespace {
 
@@ -36,9 +38,11 @@ Detector::Detector(DetectorSettings settings, terrain::Grid map, std::uint64_t s
 
 double Detector::score(terrain::Point taken_from) const { return draw(seed_, kScoreSalt, taken_from); }
 
+bool Detector::full() const { return seen_.size() >= kPhotos; }
+
 std::optional<Find> Detector::look(const Photo& photo, temporal::Time now) {
   if (!settings_.enabled || !map_.contains(photo.taken_from)) return std::nullopt;
-  if (!seen_.insert(photo.id).second) return std::nullopt;
+  if (full() || photo.id.size() > kNameBytes || !seen_.insert(photo.id).second) return std::nullopt;
   const double value = score(photo.taken_from);
   if (value < settings_.threshold) return std::nullopt;
   if (static_cast<int>(finds_.size()) >= settings_.limit) return std::nullopt;

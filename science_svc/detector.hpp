@@ -48,6 +48,8 @@ class Detector {
   double score(terrain::Point taken_from) const;
   /// Looks at a photo, each once. Returns nothing where it shows nothing new.
   std::optional<Find> look(const Photo&, temporal::Time now);
+  /// Whether it has looked at kPhotos (limits.hpp), and looks at no new one.
+  bool full() const;
 
  private:
   std::optional<terrain::Point> place_near(terrain::Point) const;

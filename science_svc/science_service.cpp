@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/mission/mission_file.hpp"
 #include "core/mission/scenario.hpp"
 #include "core/terrain/map_error.hpp"
 #include "core/terrain/site_file.hpp"
 #include "science_svc/detector_file.hpp"
+#include "science_svc/limits.hpp"
 #include "services/publisher.hpp"
 
 namespace roci::science {
@@ -37,6 +40,7 @@ class ScienceService final : public services::Service {
  private:
   void look(const v1::DataProduct& product) {
     if (product.product_kind() != "image" || product.fate() != v1::PRODUCT_STORED) return;
+    if (detector_.full()) return tell_full();
     const auto find = detector_.look({product.id(), {product.x_m(), product.y_m()}}, node_.now());
     if (!find) return;
     v1::Goal goal;
@@ -56,7 +60,18 @@ class ScienceService final : public services::Service {
     events_.write(event);
   }
 
+  // Told once.
+  void tell_full() {
+    if (std::exchange(full_told_, true)) return;
+    v1::Event event;
+    event.severity_level(v1::SEVERITY_WARNING);
+    event.code("science.no_room");
+    event.text(fmt::format("{} images were looked at, those to come are not", kPhotos));
+    events_.write(event);
+  }
+
   services::Node& node_;
+  bool full_told_ = false;
   std::string goal_kind_;
   Detector detector_;
   services::Publisher<v1::Goal> goals_;

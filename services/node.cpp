@@ -39,6 +39,8 @@ bool Node::peer_alive(std::string_view service) const {
   return impl_->peer(service) == health::PeerState::alive;
 }
 
+const std::map<std::string, std::uint64_t>& Node::foreign_runs() const { return impl_->run.foreign(); }
+
 Node::WorkId Node::begin_work() { return impl_->work.begin(); }
 
 void Node::post_work_result(WorkId work, std::function<void()> run) {

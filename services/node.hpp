@@ -56,6 +56,9 @@ class Node {
   void on_peer_change(std::function<void(const health::PeerChange&)>);
   bool peer_alive(std::string_view service) const;
 
+  /// Returns how many samples of other runs were left unread, by run.
+  const std::map<std::string, std::uint64_t>& foreign_runs() const;
+
   /// These let a worker thread hand a result to the loop. Under the simulated clock the loop does not answer
   /// its barrier between begin_work() and the end of the posted function, and results run in the order in
   /// which their works began, so that a worker's result has one place in mission time. post_work_result may

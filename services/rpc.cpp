@@ -1,5 +1,6 @@
 #include "services/rpc.hpp"
 
+#include "services/bounds/limits.hpp"
 #include "services/node/codec.hpp"
 #include "services/node/node_impl.hpp"
 #include "services/publisher.hpp"
@@ -87,12 +88,21 @@ void Calls<Request, Reply>::serve(Node& node, const topics::Procedure<Request, R
   server = std::make_shared<rpc::ReplyCache>();
   const rpc::PendingReply::Write write = [publisher = advertise(node, procedure.reply)](const void* reply) {
     publisher.write(*static_cast<const Reply*>(reply));
+    return Reply::getCdrSerializedSize(*static_cast<const Reply*>(reply));
   };
   subscribe(node, procedure.request,
-            [&node, server, write, handler = std::move(handler)](const Request& request) {
+            [&node, server, write, handler = std::move(handler),
+             name = std::string(procedure.request.name)](const Request& request) {
               const v1::RequestHeader& header = request.request();
               if (!is_for(node, header) || !server->accept(id_of(header))) return;
-              handler(request, std::make_shared<rpc::PendingReply>(server, header.request_id(), write));
+              auto pending = std::make_shared<rpc::PendingReply>(server, header.request_id(), write);
+              if (server->open() > bounds::kOpenRequests) {
+                node.impl().refusals.note(name, node::Refusal::no_room);
+                return Answer<Reply>::fail(
+                    *pending, v1::REMOTE_EX_OUT_OF_RESOURCES,
+                    std::to_string(bounds::kOpenRequests) + " requests are not answered yet");
+              }
+              handler(request, std::move(pending));
             });
   subscribe(node, topics::call_cancel,
             [&node, server, name = std::string(procedure.request.name)](const v1::CallCancel& cancel) {

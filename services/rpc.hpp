@@ -111,7 +111,8 @@ class Responder {
 };
 
 /// A duplicate request (same id) gets the first answer again and is not handled twice. A request that names
-/// another owner is left to that one.
+/// another owner is left to that one. With kOpenRequests unanswered (bounds/limits.hpp) the next is answered
+/// REMOTE_EX_OUT_OF_RESOURCES.
 template <class Request, class Reply>
 void serve(Node& node, const topics::Procedure<Request, Reply>& procedure,
            std::type_identity_t<std::function<void(const Request&, Responder<Reply>)>> handler) {

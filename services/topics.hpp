@@ -1,5 +1,6 @@
 // The one table of topics: type, name, QoS, whether the topic takes part in the simulated clock's barrier, and whom it
-// reaches: everyone of the run, the services of one robot, or the team (transport/scope.hpp). Clocked types carry a SampleHeader named `header`, which the node fills in.
+// reaches: everyone of the run, the services of one robot, or the team (transport/scope.hpp), and how large a sample may be
+// (transport/payload_limit.hpp). Clocked types carry a SampleHeader named `header`, which the node fills in.
 #pragma once
 
 #include "roci_idl/clock.h"
@@ -13,6 +14,7 @@
 #include "roci_idl/planner.h"
 #include "roci_idl/rpc.h"
 #include "roci_idl/standby.h"
+#include "services/transport/payload_limit.hpp"
 #include "services/transport/qos.hpp"
 #include "services/transport/scope.hpp"
 
@@ -25,51 +27,53 @@ struct Topic {
   transport::Qos qos;
   transport::Clocking clocking;
   transport::Scope scope;
+  transport::PayloadLimit limit;
 };
 
 namespace topics {
 
 using enum transport::Clocking;
 using enum transport::Scope;
+using transport::PayloadLimit;
 using transport::Qos;
 
 // clang-format off
 
-inline constexpr Topic<v1::ClockReady>    clock_ready   {"roci/clock/ready",      "roci::v1::ClockReady",    Qos::state, wall, everyone};
-inline constexpr Topic<v1::ClockStep>     clock_step    {"roci/clock/step",       "roci::v1::ClockStep",     Qos::state, wall, everyone};
-inline constexpr Topic<v1::ClockDone>     clock_done    {"roci/clock/done",       "roci::v1::ClockDone",     Qos::state, wall, everyone};
-inline constexpr Topic<v1::Heartbeat>     heartbeat     {"roci/heartbeat",        "roci::v1::Heartbeat",     Qos::state, wall, everyone};
-inline constexpr Topic<v1::TimeProbe>     time_probe    {"roci/clock/probe",      "roci::v1::TimeProbe",     Qos::stream, wall, everyone};
+inline constexpr Topic<v1::ClockReady>    clock_ready   {"roci/clock/ready",      "roci::v1::ClockReady",    Qos::state, wall, everyone, PayloadLimit::page};
+inline constexpr Topic<v1::ClockStep>     clock_step    {"roci/clock/step",       "roci::v1::ClockStep",     Qos::state, wall, everyone, PayloadLimit::batch};
+inline constexpr Topic<v1::ClockDone>     clock_done    {"roci/clock/done",       "roci::v1::ClockDone",     Qos::state, wall, everyone, PayloadLimit::batch};
+inline constexpr Topic<v1::Heartbeat>     heartbeat     {"roci/heartbeat",        "roci::v1::Heartbeat",     Qos::state, wall, everyone, PayloadLimit::word};
+inline constexpr Topic<v1::TimeProbe>     time_probe    {"roci/clock/probe",      "roci::v1::TimeProbe",     Qos::stream, wall, everyone, PayloadLimit::word};
 
-inline constexpr Topic<v1::LeaseMessage>  exec_member   {"roci/exec/member",      "roci::v1::LeaseMessage",  Qos::state, wall, robot};
-inline constexpr Topic<v1::JournalChunk>  exec_journal  {"roci/exec/journal",     "roci::v1::JournalChunk",  Qos::request, wall, robot};
+inline constexpr Topic<v1::LeaseMessage>  exec_member   {"roci/exec/member",      "roci::v1::LeaseMessage",  Qos::state, wall, robot, PayloadLimit::word};
+inline constexpr Topic<v1::JournalChunk>  exec_journal  {"roci/exec/journal",     "roci::v1::JournalChunk",  Qos::request, wall, robot, PayloadLimit::journal};
 
-inline constexpr Topic<v1::Event>         event         {"roci/event",            "roci::v1::Event",         Qos::event, clocked, everyone};
-inline constexpr Topic<v1::Goal>          goal          {"roci/goal",             "roci::v1::Goal",          Qos::state, clocked, team};
-inline constexpr Topic<v1::GoalStatus>    goal_status   {"roci/goal/status",      "roci::v1::GoalStatus",    Qos::state, clocked, team};
-inline constexpr Topic<v1::Command>       command       {"roci/command",          "roci::v1::Command",       Qos::request, clocked, robot};
-inline constexpr Topic<v1::CommandAck>    command_ack   {"roci/command/ack",      "roci::v1::CommandAck",    Qos::state, clocked, robot};
-inline constexpr Topic<v1::Observation>   observation   {"roci/observation",      "roci::v1::Observation",   Qos::state, clocked, robot};
-inline constexpr Topic<v1::DataProduct>   data_product  {"roci/product",          "roci::v1::DataProduct",   Qos::state, clocked, team};
-inline constexpr Topic<v1::Hazard>        hazard        {"roci/hazard",           "roci::v1::Hazard",        Qos::state, clocked, team};
-inline constexpr Topic<v1::Plan>          plan          {"roci/plan",             "roci::v1::Plan",          Qos::state, clocked, robot};
-inline constexpr Topic<v1::StepStatus>    step_status   {"roci/plan/step",        "roci::v1::StepStatus",    Qos::state, clocked, robot};
-inline constexpr Topic<v1::MissionStatus> mission_status{"roci/mission",          "roci::v1::MissionStatus", Qos::state, clocked, team};
-inline constexpr Topic<v1::FunctionOffer> function_offer{"roci/function/offer",   "roci::v1::FunctionOffer", Qos::state, clocked, robot};
+inline constexpr Topic<v1::Event>         event         {"roci/event",            "roci::v1::Event",         Qos::event, clocked, everyone, PayloadLimit::page};
+inline constexpr Topic<v1::Goal>          goal          {"roci/goal",             "roci::v1::Goal",          Qos::state, clocked, team, PayloadLimit::word};
+inline constexpr Topic<v1::GoalStatus>    goal_status   {"roci/goal/status",      "roci::v1::GoalStatus",    Qos::state, clocked, team, PayloadLimit::page};
+inline constexpr Topic<v1::Command>       command       {"roci/command",          "roci::v1::Command",       Qos::request, clocked, robot, PayloadLimit::page};
+inline constexpr Topic<v1::CommandAck>    command_ack   {"roci/command/ack",      "roci::v1::CommandAck",    Qos::state, clocked, robot, PayloadLimit::page};
+inline constexpr Topic<v1::Observation>   observation   {"roci/observation",      "roci::v1::Observation",   Qos::state, clocked, robot, PayloadLimit::word};
+inline constexpr Topic<v1::DataProduct>   data_product  {"roci/product",          "roci::v1::DataProduct",   Qos::state, clocked, team, PayloadLimit::batch};
+inline constexpr Topic<v1::Hazard>        hazard        {"roci/hazard",           "roci::v1::Hazard",        Qos::state, clocked, team, PayloadLimit::word};
+inline constexpr Topic<v1::Plan>          plan          {"roci/plan",             "roci::v1::Plan",          Qos::state, clocked, robot, PayloadLimit::plan};
+inline constexpr Topic<v1::StepStatus>    step_status   {"roci/plan/step",        "roci::v1::StepStatus",    Qos::state, clocked, robot, PayloadLimit::page};
+inline constexpr Topic<v1::MissionStatus> mission_status{"roci/mission",          "roci::v1::MissionStatus", Qos::state, clocked, team, PayloadLimit::page};
+inline constexpr Topic<v1::FunctionOffer> function_offer{"roci/function/offer",   "roci::v1::FunctionOffer", Qos::state, clocked, robot, PayloadLimit::page};
 
 // Orders from the ground, and open decisions of the running plan with their answers.
-inline constexpr Topic<v1::Order>         order         {"roci/order",            "roci::v1::Order",         Qos::state, clocked, robot};
-inline constexpr Topic<v1::OrderStatus>   order_status  {"roci/order/status",     "roci::v1::OrderStatus",   Qos::state, clocked, robot};
-inline constexpr Topic<v1::Decision>      decision      {"roci/decision",         "roci::v1::Decision",      Qos::state, clocked, robot};
-inline constexpr Topic<v1::DecisionAnswer>  decision_answer {"roci/decision/answer",  "roci::v1::DecisionAnswer",  Qos::state, clocked, robot};
-inline constexpr Topic<v1::DecisionReceipt> decision_receipt{"roci/decision/receipt", "roci::v1::DecisionReceipt", Qos::state, clocked, robot};
+inline constexpr Topic<v1::Order>         order         {"roci/order",            "roci::v1::Order",         Qos::state, clocked, robot, PayloadLimit::batch};
+inline constexpr Topic<v1::OrderStatus>   order_status  {"roci/order/status",     "roci::v1::OrderStatus",   Qos::state, clocked, robot, PayloadLimit::page};
+inline constexpr Topic<v1::Decision>      decision      {"roci/decision",         "roci::v1::Decision",      Qos::state, clocked, robot, PayloadLimit::page};
+inline constexpr Topic<v1::DecisionAnswer>  decision_answer {"roci/decision/answer",  "roci::v1::DecisionAnswer",  Qos::state, clocked, robot, PayloadLimit::word};
+inline constexpr Topic<v1::DecisionReceipt> decision_receipt{"roci/decision/receipt", "roci::v1::DecisionReceipt", Qos::state, clocked, robot, PayloadLimit::page};
 
 // An engine that plans all the time uses these.
-inline constexpr Topic<v1::PlanDelta>     plan_delta    {"roci/planner/delta",    "roci::v1::PlanDelta",     Qos::request, clocked, robot};
-inline constexpr Topic<v1::PlanReceipt>   plan_receipt  {"roci/planner/receipt",  "roci::v1::PlanReceipt",   Qos::state, clocked, robot};
+inline constexpr Topic<v1::PlanDelta>     plan_delta    {"roci/planner/delta",    "roci::v1::PlanDelta",     Qos::request, clocked, robot, PayloadLimit::plan};
+inline constexpr Topic<v1::PlanReceipt>   plan_receipt  {"roci/planner/receipt",  "roci::v1::PlanReceipt",   Qos::state, clocked, robot, PayloadLimit::page};
 
 // Every procedure below uses this.
-inline constexpr Topic<v1::CallCancel>    call_cancel   {"roci/call/cancel",      "roci::v1::CallCancel",    Qos::request, clocked, robot};
+inline constexpr Topic<v1::CallCancel>    call_cancel   {"roci/call/cancel",      "roci::v1::CallCancel",    Qos::request, clocked, robot, PayloadLimit::word};
 
 /// A remote procedure is a pair of topics with the DDS-RPC headers.
 template <class Request, class Reply>
@@ -79,17 +83,17 @@ struct Procedure {
 };
 
 inline constexpr Procedure<v1::PlanRequest, v1::PlanReply> plan_request{
-    {"roci/planner/request", "roci::v1::PlanRequest", Qos::request, clocked, robot},
-    {"roci/planner/reply", "roci::v1::PlanReply", Qos::request, clocked, robot}};
+    {"roci/planner/request", "roci::v1::PlanRequest", Qos::request, clocked, robot, PayloadLimit::plan},
+    {"roci/planner/reply", "roci::v1::PlanReply", Qos::request, clocked, robot, PayloadLimit::plan}};
 inline constexpr Procedure<v1::FunctionRequest, v1::FunctionReply> function_call{
-    {"roci/function/request", "roci::v1::FunctionRequest", Qos::request, clocked, robot},
-    {"roci/function/reply", "roci::v1::FunctionReply", Qos::request, clocked, robot}};
+    {"roci/function/request", "roci::v1::FunctionRequest", Qos::request, clocked, robot, PayloadLimit::batch},
+    {"roci/function/reply", "roci::v1::FunctionReply", Qos::request, clocked, robot, PayloadLimit::batch}};
 inline constexpr Procedure<v1::PathRequest, v1::PathReply> path_request{
-    {"roci/path/request", "roci::v1::PathRequest", Qos::request, clocked, robot},
-    {"roci/path/reply", "roci::v1::PathReply", Qos::request, clocked, robot}};
+    {"roci/path/request", "roci::v1::PathRequest", Qos::request, clocked, robot, PayloadLimit::word},
+    {"roci/path/reply", "roci::v1::PathReply", Qos::request, clocked, robot, PayloadLimit::batch}};
 inline constexpr Procedure<v1::ArmMotionRequest, v1::ArmMotionReply> arm_motion{
-    {"roci/arm/request", "roci::v1::ArmMotionRequest", Qos::request, clocked, robot},
-    {"roci/arm/reply", "roci::v1::ArmMotionReply", Qos::request, clocked, robot}};
+    {"roci/arm/request", "roci::v1::ArmMotionRequest", Qos::request, clocked, robot, PayloadLimit::word},
+    {"roci/arm/reply", "roci::v1::ArmMotionReply", Qos::request, clocked, robot, PayloadLimit::batch}};
 
 // clang-format on
 

@@ -37,6 +37,9 @@ namespace {
 namespace topics = services::topics;
 namespace owner = services::owner;
 
+// So many executives are counted to know when the mission is over: one for each robot, ten times over. Beyond them nobody
+// keeps a run open.
+constexpr std::size_t kExecutives = 256;
 constexpr char kGround[] = "ground";  // who tells of hazards that the scenario states
 constexpr Duration kCallDeadline = std::chrono::seconds(30);
 constexpr Duration kFarewell = std::chrono::seconds(1);  // from the mission's outcome to the end of the run
@@ -63,7 +66,12 @@ class SimService final : public services::Service, private owner::Driver {
         goals_(services::advertise(node, topics::goal)),
         events_(services::advertise(node, topics::event)) {
     commands_.leave_stops_to_driver();  // the world knows its components
+    // A live robot outlives the process that speaks for it. A simulated clock ends with its process.
+    if (node.options().clock == services::clock::ClockMode::live && !run_folder_.empty())
+      commands_.keep_in(run_folder_ / (node.options().name + ".ledger"));
+    if (!run_folder_.empty()) effects_.open(run_folder_ / "effects.jsonl", std::ios::app);
     services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
+      if (executives_.size() >= kExecutives && !executives_.contains(status.executive())) return;
       executives_[status.executive()] = standing_of(status);
       end_if_over();
     });
@@ -100,6 +108,7 @@ class SimService final : public services::Service, private owner::Driver {
                        [this](const MotionWanted& motion) { ask(motion); }},
                  output);
     }
+    record_effects();
     if (wake_) node_.cancel(*wake_);
     wake_.reset();
     const auto next = world_.next_change();
@@ -219,6 +228,19 @@ class SimService final : public services::Service, private owner::Driver {
     order_.note(code, text);
   }
 
+  // Each line is written at once, so that the death of this process loses none.
+  void record_effects() {
+    for (const world::Effect& one : world_.take_effects()) {
+      effects_ << nlohmann::json{{"time_us", one.at.count()},    {"robot", one.robot},
+                                 {"component", one.component},   {"kind", one.deed.kind},
+                                 {"object", one.deed.object},    {"commander", one.cause.commander},
+                                 {"epoch", one.cause.epoch},     {"activity", one.cause.activity},
+                                 {"attempt", one.cause.attempt}, {"incarnation", node_.options().incarnation}}
+                      .dump()
+               << std::endl;
+    }
+  }
+
   // Writes what was really done, for whoever asks after the run whether anything was done twice.
   void report_begun() const {
     nlohmann::json report = nlohmann::json::array();
@@ -232,7 +254,7 @@ class SimService final : public services::Service, private owner::Driver {
                         {"command", one.task.command},
                         {"arguments", one.task.arguments}});
     }
-    std::ofstream(run_folder_ / "begun.json") << report.dump(1) << "\n";
+    std::ofstream(run_folder_ / "begun.json") << report.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
   }
 
   // Writes the result for whoever started the run; the summary takes it up as `expected`.
@@ -242,12 +264,13 @@ class SimService final : public services::Service, private owner::Driver {
                       ? wire::event(v1::SEVERITY_INFO, "scenario.as_expected", "every event came as expected")
                       : wire::event(v1::SEVERITY_WARNING, "scenario.unexpected", fault));
     const nlohmann::json report{{"events", order_.expected()}, {"met", fault.empty()}, {"fault", fault}};
-    std::ofstream(run_folder_ / services::kExpectedFile) << report.dump(2) << "\n";
+    std::ofstream(run_folder_ / services::kExpectedFile) << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
   }
 
   services::Node& node_;
   const Scenario scenario_;
   const std::filesystem::path run_folder_;
+  std::ofstream effects_;
   scenario::EventOrder order_;
   world::World world_;
   services::Client<v1::PathRequest, v1::PathReply> paths_;

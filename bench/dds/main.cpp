@@ -1,7 +1,7 @@
-// roci-bench-dds [--rounds N] [--pings N] [--seed N]
+// roci-bench-dds [--rounds N] [--pings N] [--seed N] [--kinds LIST] [--vendors LIST] [--load N]
 // It measures round trips between two processes on loopback: each vendor's bare API against our transport
-// over the same vendor, in one run and in turns, so that both see the same machine. It writes one JSON record
-// to standard output.
+// over the same vendor, in one run and in turns, so that both see the same machine. It tells on standard error
+// how far it is, and writes one JSON record to standard output.
 #include <sched.h>
 #include <unistd.h>
 
@@ -135,13 +135,20 @@ class Rally {
     }
   }
 
+  double slowest_us() const {
+    return microseconds_.empty() ? 0 : *std::max_element(microseconds_.begin(), microseconds_.end());
+  }
+
   nlohmann::json result() {
     std::sort(microseconds_.begin(), microseconds_.end());
     const auto at = [this](double fraction) {
       return microseconds_[static_cast<std::size_t>(fraction *
                                                     static_cast<double>(microseconds_.size() - 1))];
     };
-    return {{"median_us", at(0.5)}, {"p99_us", at(0.99)}, {"round_trips", microseconds_.size()}};
+    return {{"median_us", at(0.5)},
+            {"p99_us", at(0.99)},
+            {"max_us", microseconds_.back()},
+            {"round_trips", microseconds_.size()}};
   }
 
  private:
@@ -174,30 +181,78 @@ std::string host_name() {
   return name;
 }
 
-nlohmann::json measure(const std::string& program, int rounds, int pings, std::uint64_t seed) {
+struct BenchOptions {
+  int rounds = 100;
+  int pings = 50;
+  std::uint64_t seed = 1;
+  std::vector<std::string> vendors = kVendors;
+  std::vector<std::string> kinds = kKinds;
+  unsigned load = 0;
+};
+
+// Threads that compute without end, so that the scheduler has something better to do than to wake who was asked.
+class Load {
+ public:
+  explicit Load(unsigned threads) {
+    for (unsigned i = 0; i < threads; ++i) {
+      threads_.emplace_back([i](const std::stop_token& stop) {
+        pin_to(i);
+        volatile std::uint64_t counted = 0;
+        while (!stop.stop_requested()) counted = counted + 1;
+      });
+    }
+  }
+
+ private:
+  std::vector<std::jthread> threads_;
+};
+
+// One line that is written over on a terminal, a line now and then elsewhere.
+void tell(const std::string& text, bool now_and_then = false) {
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (!terminal && now_and_then) return;
+  std::cerr << (terminal ? "\r\x1b[K" : "") << "roci-bench-dds: " << text << (terminal ? "" : "\n")
+            << std::flush;
+}
+
+nlohmann::json measure(const std::string& program, const BenchOptions& options) {
+  const auto& [rounds, pings, seed, vendors, kinds, load_threads] = options;
   pin_to(0);
   std::map<std::string, Rally> rallies;
-  for (const auto& vendor : kVendors) {
-    for (const auto& kind : kKinds) {
+  for (const auto& vendor : vendors) {
+    for (const auto& kind : kinds) {
       const auto variant = kind + "-" + vendor;
+      tell("starting " + variant);
       rallies.emplace(std::piecewise_construct, std::forward_as_tuple(variant),
                       std::forward_as_tuple(program, variant));
     }
   }
+  const Load load(load_threads);
   std::mt19937_64 random(seed);
+  std::string slowest;  // so far
   for (int round = 0; round < rounds; ++round) {
-    for (auto& [variant, rally] : rallies) rally.play(pings, random);
+    tell("round " + std::to_string(round + 1) + " of " + std::to_string(rounds) + slowest,
+         round % std::max(rounds / 10, 1) != 0);
+    slowest.clear();
+    for (auto& [variant, rally] : rallies) {
+      rally.play(pings, random);
+      slowest += ", " + variant + " up to " + std::to_string(static_cast<long>(rally.slowest_us())) + " us";
+    }
   }
+  if (isatty(STDERR_FILENO) != 0) std::cerr << "\n";
   nlohmann::json record{
       {"bench", "dds"},
       {"host", host_name()},
       {"processors", std::thread::hardware_concurrency()},
       {"revision", first_line_of({"git", "-C", ROCI_SOURCE_DIR, "describe", "--always", "--dirty"})},
+      {"load_threads", load_threads},
       {"seed", seed}};
   for (auto& [variant, rally] : rallies) record["results"][variant] = rally.result();
-  for (const auto& vendor : kVendors) {
+  for (const auto& vendor : vendors) {
+    if (!rallies.contains("bare-" + vendor)) continue;
     const double bare = record["results"]["bare-" + vendor]["median_us"];
     for (const std::string kind : {"ours", "call", "reaction"}) {
+      if (!rallies.contains(kind + "-" + vendor)) continue;
       const double median = record["results"][kind + "-" + vendor]["median_us"];
       record["ratio_to_bare"][kind + "-" + vendor] = median / bare;
     }
@@ -210,18 +265,25 @@ nlohmann::json measure(const std::string& program, int rounds, int pings, std::u
 
 int main(int argc, char** argv) {
   CLI::App app("Round trips over DDS: each vendor's bare API against our transport");
-  int rounds = 100, pings = 50, domain = 0;
-  std::uint64_t seed = 1;
+  roci::bench::BenchOptions options;
+  int domain = 0;
   std::string serve;
-  app.add_option("--rounds", rounds, "turns of each variant")->check(CLI::PositiveNumber);
-  app.add_option("--pings", pings, "round trips per turn")->check(CLI::PositiveNumber);
-  app.add_option("--seed", seed, "of the numbers in the samples");
+  app.add_option("--rounds", options.rounds, "turns of each variant")->check(CLI::PositiveNumber);
+  app.add_option("--pings", options.pings, "round trips per turn")->check(CLI::PositiveNumber);
+  app.add_option("--seed", options.seed, "of the numbers in the samples");
+  app.add_option("--kinds", options.kinds, "these alone: bare, ours, call, tuples, reaction")
+      ->delimiter(',')
+      ->check(CLI::IsMember(roci::bench::kKinds));
+  app.add_option("--vendors", options.vendors, "these alone")
+      ->delimiter(',')
+      ->check(CLI::IsMember(roci::bench::kVendors));
+  app.add_option("--load", options.load, "threads that compute meanwhile");
   app.add_option("--serve", serve)->group("");
   app.add_option("--domain", domain)->group("");
   CLI11_PARSE(app, argc, argv);
   try {
     if (!serve.empty()) return roci::bench::serve(serve, domain);
-    std::cout << roci::bench::measure(argv[0], rounds, pings, seed).dump() << std::endl;
+    std::cout << roci::bench::measure(argv[0], options).dump() << std::endl;
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "roci-bench-dds: " << error.what() << std::endl;

@@ -22,7 +22,7 @@ namespace topics = services::topics;
 
 // A plan has more activities than any bench plays; the cost of an event does not depend on it
 // (bench_executive).
-constexpr std::size_t kActivities = 8000;
+constexpr std::size_t kActivities = 16'000;
 
 std::unique_ptr<services::Node> open_node(const std::string& name, const std::string& vendor, int domain) {
   services::node::NodeOptions options;
@@ -43,6 +43,9 @@ temporal::FlexiblePlan chain_of_images() {
     activity.start_point = plan.point_count++;
     activity.end_point = plan.point_count++;
     activity.pre = temporal::compare("(camera-idle)", temporal::ConditionOp::eq, true);
+    // Without it the executive sees a conflict ahead while this variant waits for its next turn, replans, and the
+    // first command of the new plan comes with its origin, 5 s later.
+    activity.impacts = {{"(camera-idle)", temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, true}};
     if (i > 0) {
       plan.constraints.push_back({plan.activities.back().end_point, activity.start_point,
                                   temporal::ConstraintKind::ordering, temporal::Duration{0},

@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 VENDORS = ["fastdds", "cyclonedds", "mixed"]
-# sim_svc is the clock of the run and the world itself: with it the run ends, on purpose.
+# Under the simulated clock sim_svc is the clock of the run and the world itself: with it the run ends, on purpose.
+LIVE_KILLABLE = ["sim_svc"]
 KILLABLE = ["exec_svc", "planner_svc", "pathplan_svc", "arm_svc", "science_svc"]
 # With a standby the victims are roles: who leads, who stands by, both; a stopped leader goes on after STOPPED_S.
 PAIR_VICTIMS = ["leader", "leader", "leader", "leader stopped", "standby", "both"]
@@ -40,7 +41,7 @@ class Flight:
     take_overs_s: list[float] = field(default_factory=list)  # from the leader's death to its successor's first step
     goals: dict[str, tuple[int, str]] = field(default_factory=dict)  # state, reason
     requested: set[str] = field(default_factory=set)
-    begun: list[dict] = field(default_factory=list)
+    effects: list[dict] = field(default_factory=list)  # what the robot's components really did, over every start of sim_svc
     events: list[str] = field(default_factory=list)
     error: str = ""
 
@@ -177,7 +178,7 @@ def read(flight: Flight, journal: Path, scenario: str, mission: Path) -> None:
             for issuer, name, state, reason in database.execute("SELECT issuer, id, state, reason FROM goal"):
                 flight.goals[f"{issuer}/{name}"] = (state, reason)
             flight.events = [row[0] for row in database.execute("SELECT text FROM record WHERE kind='event' ORDER BY seq")]
-        flight.begun = json.loads((flight.folder / "begun.json").read_text())
+        flight.effects = [json.loads(line) for line in (flight.folder / "effects.jsonl").read_text().splitlines()]
     except (OSError, ValueError, sqlite3.Error) as error:
         flight.error += f" {error}"
     if not flight.killed:

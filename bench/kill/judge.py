@@ -11,7 +11,7 @@ FINAL = {REJECTED, ACHIEVED, DROPPED, FAILED, RECALLED}
 
 @dataclass
 class Judgement:
-    COUNTS = ("missions", "kills", "defined ends", "goals", "goals lost", "commands", "commands doubled", "resumed",
+    COUNTS = ("missions", "kills", "defined ends", "goals", "goals lost", "effects", "effects doubled", "resumed",
               "planned anew", "same goals achieved")
     counts: Counter = field(default_factory=Counter)
     faults: list[str] = field(default_factory=list)
@@ -31,18 +31,31 @@ def judge(flight: Flight, calm: Flight) -> Judgement:
     out.counts["goals"] = len(flight.goals)
     out.counts["goals lost"] = len(lost)
     out.faults += [f"lost goal {key}" for key in lost]
-    keys = Counter((one["commander"], one["activity"], one["attempt"]) for one in flight.begun)
-    doubled = {key: count for key, count in keys.items() if count > 1}
-    out.counts["commands"] = len(flight.begun)
-    out.counts["commands doubled"] = sum(doubled.values()) - len(doubled)
-    out.faults += [f"{activity} attempt {attempt} of {commander} begun {count} times"
-                   for (commander, activity, attempt), count in doubled.items()]
+    doubled = doubled_effects(flight.effects)
+    out.counts["effects"] = len(flight.effects)
+    out.counts["effects doubled"] = sum(count - 1 for count in doubled.values())
+    out.faults += [f"{what} {count} times" for what, count in doubled.items()]
     out.counts["resumed"] = sum(event.startswith("executive.resumed") for event in flight.events)
     anew = [event for event in flight.events if event.startswith("journal.diverged")]
     out.counts["planned anew"] = len(anew)
     out.faults += anew
     out.counts["same goals achieved"] = int(achieved(flight) == achieved(calm))
     return out
+
+
+DONE_ONCE = {"image", "pick", "drop", "send"}  # deeds that end their activity; a retry only follows one that did not come
+
+
+def doubled_effects(effects: list[dict]) -> dict[str, int]:
+    """Physical effects that one command caused more than once, whatever epoch its key names, and deeds that one activity
+    did more than once, whatever attempt; with how often."""
+    causes = Counter()
+    for one in effects:
+        what = f"{one['robot']}.{one['component']} {one['kind']} {one['object']} by {one['activity']} of {one['commander']}"
+        if one["kind"] == "detour":
+            continue  # a drive looks for a way around as often as it must
+        causes[what if one["kind"] in DONE_ONCE else f"{what} attempt {one['attempt']}"] += 1
+    return {what: count for what, count in causes.items() if count > 1}
 
 
 def achieved(flight: Flight) -> set[str]:

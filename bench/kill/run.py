@@ -12,13 +12,13 @@ from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from flight import CRASH_POINTS, KILLABLE, PAIR_VICTIMS, VENDORS, Kills, fly
+from flight import CRASH_POINTS, KILLABLE, LIVE_KILLABLE, PAIR_VICTIMS, VENDORS, Kills, fly
 from judge import Judgement, judge
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def draw(rng: random.Random, number: int, standby: bool) -> Kills:
+def draw(rng: random.Random, number: int, standby: bool, live: bool) -> Kills:
     """Half by crash points of exec_svc, half by kill -9 of any service, or of a pair's members, at random moments."""
     if number % 2 == 0:
         points = [f"{rng.choice(CRASH_POINTS)}:{int(10 ** rng.uniform(0, 2.5))}" for _ in range(rng.randint(1, 3))]
@@ -26,8 +26,9 @@ def draw(rng: random.Random, number: int, standby: bool) -> Kills:
     if standby:
         victims = [rng.choice(PAIR_VICTIMS) for _ in range(rng.randint(1, 3))]
         return Kills(at=sorted((rng.uniform(0.01, 0.95), victim) for victim in victims))
-    # exec_svc as often as all others; a moment is a share of the mission time of the undisturbed flight.
-    victims = [rng.choice(KILLABLE + ["exec_svc"] * len(KILLABLE)) for _ in range(rng.randint(1, 3))]
+    # exec_svc as often as all others, a live robot as often as the rest together; a moment is a share of the mission time of the undisturbed flight.
+    killable = KILLABLE + ["exec_svc"] * len(KILLABLE) + (LIVE_KILLABLE * len(KILLABLE) if live else [])
+    victims = [rng.choice(killable) for _ in range(rng.randint(1, 3))]
     return Kills(at=sorted((rng.uniform(0.01, 0.95), victim) for victim in victims))
 
 
@@ -70,7 +71,7 @@ def main() -> int:
     work = Path(tempfile.mkdtemp(prefix="roci_kill_"))
     plans = []
     for number in range(options.runs):
-        plans.append((number, rng.choice(VENDORS), rng.choice(scenarios), rng.randint(1, 3), draw(rng, number, options.standby)))
+        plans.append((number, rng.choice(VENDORS), rng.choice(scenarios), rng.randint(1, 3), draw(rng, number, options.standby, options.clock == "live")))
     calm = {}
     for scenario, seed in sorted({(plan[2], plan[3]) for plan in plans}):
         calm[scenario, seed] = fly(options, work / f"calm-{scenario}-{seed}", "fastdds", scenario, seed, Kills())

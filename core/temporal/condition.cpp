@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/temporal/plan_bounds.hpp"
+
 namespace roci::temporal {
 namespace {
 
@@ -190,6 +192,8 @@ std::string explain(const Condition& condition, const Lookup& lookup) {
 
 std::string check(const Condition& condition) {
   if (condition.empty()) return {};
+  if (condition.nodes.size() > kMostConditionNodes)
+    return "it has more than " + std::to_string(kMostConditionNodes) + " nodes";
   std::string wrong;
   const auto complain = [&](std::string what) {
     wrong = std::move(what);

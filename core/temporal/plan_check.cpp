@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "core/temporal/flexible_plan.hpp"
+#include "core/temporal/plan_bounds.hpp"
 #include "core/temporal/schedule.hpp"
 
 namespace roci::temporal {
@@ -14,10 +15,12 @@ class PlanCheck {
  public:
   explicit PlanCheck(const FlexiblePlan& plan)
       : plan_(plan),
-        largest_(Duration{std::numeric_limits<std::int64_t>::max() / 4 / (plan.point_count + 1)}) {}
+        largest_(Duration{std::numeric_limits<std::int64_t>::max() / 4 / (std::int64_t{plan.point_count} + 1)}) {}
 
   std::vector<std::string> run() {
     if (plan_.point_count == 0) return {"the plan has no time point; point 0 is its origin"};
+    if (plan_.point_count > kMostPoints)
+      return {"the plan has more than " + std::to_string(kMostPoints) + " time points"};
     for (std::size_t i = 0; i < plan_.activities.size(); ++i) check_id(i);
     for (const PlanActivity& activity : plan_.activities) check_activity(activity);
     for (std::size_t i = 0; i < plan_.tokens.size(); ++i) check_token(i);

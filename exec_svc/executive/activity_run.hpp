@@ -42,6 +42,7 @@ struct ActivityRun {
   AfterCancel after_cancel = AfterCancel::fail;
   bool asked = false;         ///< its owner was asked what became of it; not answered yet
   std::uint32_t queries = 0;  ///< how often it was asked in this phase because no answer came over a link
+  std::uint32_t refusals = 0;  ///< how often its owner refused the epoch in this phase
   std::string reason;
 
   bool active() const { return phase != ActivityPhase::waiting && phase != ActivityPhase::done; }

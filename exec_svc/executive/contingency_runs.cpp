@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace roci::exec::executive {
 
@@ -80,7 +81,17 @@ bool ContingencyRuns::expects(const CommandAck& ack) const {
 std::optional<ContingencyEnd> ContingencyRuns::take(const CommandAck& ack, Time now) {
   const Index activity = activity_of_.at(ack.activity);
   Record& record = records_[activity];
-  if (ack.stage == CommandStage::unknown && !record.accepted) {
+  const bool asked = std::exchange(record.asked, false);
+  if (ack.refused_epoch && record.queries < state_->settings.queries) {
+    ++record.queries;
+    if (asked) {
+      query(activity, now);
+    } else {
+      record.command_since = now;
+      record.epoch = state_->epoch;
+      send(activity, CommandAction::execute);
+    }
+  } else if (ack.stage == CommandStage::unknown && !record.accepted) {
     record.command_since = now;
     send(activity, CommandAction::execute);  // the key is the same: it is done once
   } else if (ack.stage == CommandStage::accepted) {
@@ -130,6 +141,7 @@ std::optional<ContingencyEnd> ContingencyRuns::lose_owner(Index activity, const 
 
 void ContingencyRuns::query(Index activity, Time now) {
   records_[activity].command_since = now;
+  records_[activity].asked = true;
   send(activity, CommandAction::query);
 }
 

@@ -63,6 +63,7 @@ class ContingencyRuns {
     std::uint32_t used = 0;      ///< contingencies begun
     std::uint32_t commands = 0;  ///< part of their keys: it is never reset
     std::uint32_t queries = 0;   ///< how often its owner was asked because no answer came over a link
+    bool asked = false;          ///< the newest thing that its owner was sent is a query
   };
 
   const Contingency& contingency(Index activity) const;

@@ -13,7 +13,7 @@ void fields(A& a, archive::Of<Observation, A>& v) {
 }
 template <class A>
 void fields(A& a, archive::Of<CommandAck, A>& v) {
-  a(v.activity, v.attempt, v.stage, v.code, v.reason, v.epoch);
+  a(v.activity, v.attempt, v.stage, v.code, v.reason, v.epoch, v.refused_epoch);
 }
 
 template <class A>

@@ -12,6 +12,10 @@
 
 namespace roci::exec::executive {
 
+/// Activities of fall-backs begin so; owners take a fall-back also where they hold another epoch or none
+/// (services/owner/command.hpp).
+inline constexpr char kFallbackPrefix[] = "fallback.";
+
 enum class CommandAction { execute, cancel, query };
 
 enum class CommandStage { accepted, rejected, completed, failed, cancelled, cancel_failed, unknown };
@@ -30,6 +34,8 @@ struct CommandAck {
   std::string code;
   std::string reason;
   std::uint64_t epoch = 0;  ///< is the one in which the command was issued; 0: not told, any fits
+  /// Says that nothing was taken, as the owner knows a later epoch; the executive's is later still by now.
+  bool refused_epoch = false;
 };
 
 /// An answer to an open decision of the plan.

@@ -10,6 +10,9 @@ using temporal::Time;
 
 namespace {
 
+// So often a command is said again in a later epoch before it counts as rejected.
+constexpr std::uint32_t kRefusals = 8;
+
 std::string with_reason(const std::string& what, const CommandAck& ack) {
   std::string text = what;
   if (!ack.code.empty()) text += " [" + ack.code + "]";
@@ -30,6 +33,7 @@ bool OwnerExchange::take_ack(const CommandAck& ack, Time now) {
   const bool same_key = run.attempt == ack.attempt && (ack.epoch == 0 || ack.epoch == run.epoch);
   if (!run.active() || !same_key || state_->plan.activities[activity].owner.empty()) return false;
   if (run.phase == ActivityPhase::contingency) return false;
+  if (ack.refused_epoch && run.refusals < kRefusals) return say_again(activity, now);
   if (take_query_answer(activity, ack, now)) return true;
   if (run.phase == ActivityPhase::cancelling) {
     take_cancel_answer(activity, ack, now);
@@ -37,6 +41,25 @@ bool OwnerExchange::take_ack(const CommandAck& ack, Time now) {
   }
   if (run.phase == ActivityPhase::settling) return ack.stage == CommandStage::completed;
   return take_progress(activity, ack, now);
+}
+
+/// What was to begin gets a key of the epoch that has begun since; a question and a cancel keep the key of what
+/// they are about.
+bool OwnerExchange::say_again(Index activity, Time now) {
+  ActivityRun& run = state_->runs[activity];
+  ++run.refusals;
+  if (run.asked) {
+    state_->send(activity, CommandAction::query);
+  } else if (run.phase == ActivityPhase::cancelling) {
+    state_->send(activity, CommandAction::cancel);
+  } else if (run.phase == ActivityPhase::sent) {
+    run.epoch = state_->epoch;
+    state_->send(activity, CommandAction::execute);
+  } else {
+    return false;
+  }
+  run.phase_since = run.phase == ActivityPhase::running ? run.phase_since : now;
+  return true;
 }
 
 bool OwnerExchange::take_progress(Index activity, const CommandAck& ack, Time now) {

@@ -34,6 +34,7 @@ class OwnerExchange {
   void query_all(temporal::Time now);
 
  private:
+  bool say_again(Index activity, temporal::Time now);
   bool take_query_answer(Index activity, const CommandAck& ack, temporal::Time now);
   void take_cancel_answer(Index activity, const CommandAck& ack, temporal::Time now);
   bool take_progress(Index activity, const CommandAck& ack, temporal::Time now);

@@ -73,6 +73,7 @@ void RunState::enter(Index activity, ActivityPhase phase, Time now) {
   run.phase = phase;
   run.phase_since = now;
   run.queries = 0;
+  run.refusals = 0;
   if (run.active()) {
     active.insert(activity);
   } else {

@@ -61,13 +61,20 @@ temporal::RankVector utility_in(const nlohmann::json& json) {
   return temporal::RankVector(std::move(scores));
 }
 
+// The member `last` and those before it are the enum's.
+template <class Enum>
+Enum enumerator(std::int64_t number, Enum last) {
+  if (number < 0 || number > static_cast<std::int64_t>(last)) throw JournalError("a goal of no known kind");
+  return static_cast<Enum>(number);
+}
+
 void decode(GoalKey key, const std::string& text, GoalRecord& record) {
   const auto json = nlohmann::json::parse(text);
   GoalRequest& goal = record.request;
   goal.key = std::move(key);
   goal.kind = json.at("kind").get<std::string>();
   goal.arguments = json.at("arguments").get<std::map<std::string, std::string>>();
-  goal.importance = static_cast<GoalClass>(json.at("class").get<int>());
+  goal.importance = enumerator(json.at("class").get<std::int64_t>(), GoalClass::opportunistic);
   goal.utility = utility_in(json);
   goal.robot = json.value("robot", "");
   if (const auto preferred = json.find("preferred"); preferred != json.end())

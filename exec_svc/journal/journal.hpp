@@ -91,6 +91,7 @@ class Journal {
   void replace_with(std::string_view serialized);
 
   void put_goal(const goals::GoalRecord& record);
+  /// Throws JournalError for a goal that cannot be read; salvage.hpp keeps the others.
   std::vector<goals::GoalRecord> goals() const;
 
   /// The services that were there when the last turn was journaled, with their incarnations.

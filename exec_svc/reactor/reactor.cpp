@@ -70,7 +70,8 @@ ReactorOutputs Reactor::step(Time now, const ReactorInputs& came_in) {
   parts_->recovery.note_successes();
   if (inputs.restarted) resume(now);
   parts_->policy->step(now, inputs);
-  parts_->safing.repeat_lost(now);
+  parts_->safing.take(inputs.acks);
+  parts_->safing.watch(now);
   finish_if_done();
   parts_->decisions.note_changes(state.out.decisions);
   parts_->ground.settle();
@@ -200,6 +201,10 @@ std::vector<orders::OrderStatus> Reactor::order_statuses() const { return parts_
 
 const std::map<std::string, temporal::Value>& Reactor::ground_values() const {
   return parts_->ground.values();
+}
+
+const std::map<std::string, temporal::Value>& Reactor::observed() const {
+  return parts_->state.beliefs.values();
 }
 
 orders::AutonomyLevel Reactor::autonomy() const { return parts_->state.authority.level(); }

@@ -54,6 +54,8 @@ class Reactor {
   /// Where every order of the ground stands, and the values that it has set.
   std::vector<orders::OrderStatus> order_statuses() const;
   const std::map<std::string, temporal::Value>& ground_values() const;
+  /// The newest value of every timeline that was observed.
+  const std::map<std::string, temporal::Value>& observed() const;
   orders::AutonomyLevel autonomy() const;
   /// By order: nothing new starts.
   bool held() const;

@@ -79,6 +79,8 @@ class RunningPlan {
   /// Of the plan that was loaded last, also in an earlier start of the executive; 0: none was.
   std::uint32_t version() const { return version_; }
   void restore_version(std::uint32_t version) { version_ = version; }
+  /// The executive's epoch; 0: it was not told.
+  std::uint64_t epoch() const { return epoch_; }
   std::string name() const { return "plan " + std::to_string(version_); }
   /// What the planner wrote and nobody has begun.
   std::vector<PlannedAction> remaining() const;

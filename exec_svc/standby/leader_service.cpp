@@ -85,8 +85,8 @@ void LeaderService::release() {
   }
 }
 
-void LeaderService::refused() {
-  lease_->refused();
+void LeaderService::refused(std::uint64_t epoch) {
+  lease_->refused(epoch);
   turn();
 }
 

@@ -37,8 +37,8 @@ class LeaderService {
   /// these calls, unless this leader stands down before. Under the simulated clock the micro-step lasts until
   /// then.
   void send_once_copied(std::function<void()> send);
-  /// Takes in that an owner refused a command of this epoch. Throws StandDown.
-  void refused();
+  /// Takes in that an owner refused a command of this epoch, as it holds `epoch`. Throws StandDown.
+  void refused(std::uint64_t epoch);
 
   std::uint64_t epoch() const { return lease_->epoch(); }
   /// Returns what operators are to be told since the last call.

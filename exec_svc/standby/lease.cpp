@@ -36,7 +36,7 @@ Lease::Lease(Member self, const LeaseSettings& settings, const PersistedTerm& pe
       started_(now) {}
 
 void Lease::hear(const LeaseMessage& message, Moment now) {
-  if (message.member == self_) return;
+  if (message.member == self_ || !believable(message.epoch)) return;
   other_ = Heard{message, now};
   if (message.role != Role::leading) return note_epoch(message.epoch);
   hear_leader(message.epoch, now);
@@ -49,8 +49,20 @@ void Lease::hear(const LeaseMessage& message, Moment now) {
 }
 
 void Lease::hear_leader(std::uint64_t epoch, Moment now) {
+  if (!believable(epoch)) return;
   note_epoch(epoch);
   if (role_ == Role::following && epoch == persisted_term_.epoch) leaderless_since_ = now;
+}
+
+bool Lease::believable(std::uint64_t epoch) const {
+  const std::uint64_t known = persisted_term_.epoch;
+  return known == 0 || epoch <= known || epoch - known <= kEpochJump;
+}
+
+void Lease::refused(std::uint64_t epoch) {
+  refused_ = true;
+  const std::uint64_t known = persisted_term_.epoch;
+  note_epoch(std::min(epoch, known + kEpochJump));
 }
 
 void Lease::note_epoch(std::uint64_t epoch) {

@@ -56,6 +56,10 @@ struct PersistedTerm {
 /// Decides for one member; no epoch has two leaders.
 class Lease {
  public:
+  /// A member that knows an epoch takes no wider step from it at a time: the pair rises by two with each change of
+  /// its leader, so a wider one comes from no member.
+  static constexpr std::uint64_t kEpochJump = 1000;
+
   /// With `superseded`, this member led until another one did.
   Lease(Member self, const LeaseSettings& settings, const PersistedTerm& persisted_term, bool superseded,
         Moment now);
@@ -63,8 +67,9 @@ class Lease {
   void hear(const LeaseMessage& message, Moment now);
   /// Takes in that something of the leader of this epoch's journal came.
   void hear_leader(std::uint64_t epoch, Moment now);
-  /// Takes in that an owner refused this leader: somebody leads in a later epoch.
-  void refused() { refused_ = true; }
+  /// Takes in that an owner refused this leader: somebody leads in this epoch or a later one. Whoever of the pair
+  /// leads next does so in a later one still.
+  void refused(std::uint64_t epoch);
 
   enum class Change {
     none,
@@ -102,6 +107,7 @@ class Lease {
     LeaseMessage message;
     Moment at{0};
   };
+  bool believable(std::uint64_t epoch) const;
   void note_epoch(std::uint64_t epoch);
   Turn follow(const journal::Position& newest, Moment now);
   Turn lead(std::string reason, Moment now);

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <tuple>
 
+#include "ground_console/lib/limits.hpp"
+
 namespace roci::console::lib {
 namespace {
 
@@ -14,12 +16,14 @@ bool newer(const v1::SampleHeader& a, const v1::SampleHeader& b) {
 }
 
 template <class Key, class T>
-void keep_newest(std::map<Key, T>& table, Key key, const T& value) {
+bool keep_newest(std::map<Key, T>& table, Key key, const T& value, std::size_t room = kEntries) {
+  if (table.size() >= room && !table.contains(key)) return false;
   const auto [entry, added] = table.try_emplace(std::move(key), value);
   if (!added && (entry->second.header().sender() != value.header().sender() ||
                  newer(value.header(), entry->second.header()))) {
     entry->second = value;
   }
+  return true;
 }
 
 template <class Table, class Key>
@@ -42,31 +46,39 @@ void MissionView::note_time(const v1::SampleHeader& header) {
 
 void MissionView::take(const v1::MissionStatus& status) {
   note_time(status.header());
+  if (missions_.size() >= kExecutives && !missions_.contains(status.executive())) return count(false);
   const auto [entry, added] = missions_.try_emplace(status.executive(), status);
   if (!added && newer(status.header(), entry->second.header())) entry->second = status;
 }
 
-void MissionView::take(const v1::Goal& goal) { keep_newest(goals_, GoalKey{goal.issuer(), goal.id()}, goal); }
+void MissionView::count(bool kept) {
+  if (!kept) ++unseen_;
+}
+
+void MissionView::take(const v1::Goal& goal) {
+  count(keep_newest(goals_, GoalKey{goal.issuer(), goal.id()}, goal));
+}
 
 void MissionView::take(const v1::GoalStatus& status) {
   note_time(status.header());
-  keep_newest(goal_statuses_, GoalKey{status.issuer(), status.id()}, status);
+  count(keep_newest(goal_statuses_, GoalKey{status.issuer(), status.id()}, status));
 }
 
 void MissionView::take(const v1::Plan& plan) {
   note_time(plan.header());
+  if (plans_.size() >= kExecutives && !plans_.contains(plan.executive())) return count(false);
   const auto [entry, added] = plans_.try_emplace(plan.executive(), plan);
   if (!added && plan.version() >= entry->second.version()) entry->second = plan;
 }
 
 void MissionView::take(const v1::StepStatus& step) {
   note_time(step.header());
-  keep_newest(steps_, {step.executive(), step.activity()}, step);
+  count(keep_newest(steps_, {step.executive(), step.activity()}, step, kSteps));
 }
 
 void MissionView::take(const v1::Observation& observation) {
   note_time(observation.header());
-  keep_newest(observations_, observation.timeline(), observation);
+  count(keep_newest(observations_, observation.timeline(), observation));
   extend_way(observation.timeline());
 }
 
@@ -89,7 +101,7 @@ void MissionView::extend_way(const std::string& timeline) {
 
 void MissionView::take(const v1::DataProduct& product) {
   note_time(product.header());
-  keep_newest(products_, product.id(), product);
+  count(keep_newest(products_, product.id(), product));
 }
 
 void MissionView::take(const v1::Event& event) {
@@ -101,23 +113,29 @@ void MissionView::take(const v1::Event& event) {
 
 void MissionView::take(const v1::Hazard& hazard) {
   note_time(hazard.header());
-  keep_newest(hazards_, {hazard.found_by(), hazard.id()}, hazard);
+  count(keep_newest(hazards_, {hazard.found_by(), hazard.id()}, hazard));
 }
 
 void MissionView::take(const v1::Heartbeat& heartbeat) {
   const auto age = [](const v1::Heartbeat& h) { return std::make_pair(h.incarnation(), h.progress()); };
+  if (heartbeats_.size() >= kServices && !heartbeats_.contains(heartbeat.service())) return count(false);
   const auto [entry, added] = heartbeats_.try_emplace(heartbeat.service(), heartbeat);
   if (!added && age(heartbeat) >= age(entry->second)) entry->second = heartbeat;
 }
 
 void MissionView::take(const v1::Decision& decision) {
   note_time(decision.header());
+  if (decisions_.size() >= kEntries && !decisions_.contains(decision.id())) return count(false);
   decisions_[decision.id()] = decision;
 }
 
 void MissionView::take(const v1::OrderStatus& status) {
   note_time(status.header());
-  orders_[{status.issuer(), status.id()}].push_back(status);
+  const GoalKey key{status.issuer(), status.id()};
+  if (orders_.size() >= kEntries && !orders_.contains(key)) return count(false);
+  std::vector<v1::OrderStatus>& stages = orders_[key];
+  if (stages.size() >= kStages) stages.erase(stages.begin());
+  stages.push_back(status);
 }
 
 const std::vector<v1::OrderStatus>& MissionView::order(const std::string& issuer,
@@ -128,6 +146,8 @@ const std::vector<v1::OrderStatus>& MissionView::order(const std::string& issuer
 }
 
 void MissionView::take(const v1::LeaseMessage& member) {
+  if (members_.size() >= kServices && !members_.contains({member.executive(), member.member()}))
+    return count(false);
   v1::LeaseMessage& known = members_[{member.executive(), member.member()}];
   if (member.epoch() >= known.epoch()) known = member;
 }

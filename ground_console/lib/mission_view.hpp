@@ -78,11 +78,15 @@ class MissionView {
   /// Mission time of the newest sample seen, in microseconds.
   std::int64_t now_us() const { return now_us_; }
 
+  /// Samples about something new that found no room (limits.hpp).
+  std::uint64_t unseen() const { return unseen_; }
+
   static constexpr std::size_t kEvents = 1000;
   static constexpr std::size_t kWay = 2000;
 
  private:
   void note_time(const v1::SampleHeader& header);
+  void count(bool kept);
   void extend_way(const std::string& timeline);
 
   std::string chosen_;
@@ -101,6 +105,7 @@ class MissionView {
   std::map<GoalKey, std::vector<v1::OrderStatus>> orders_;  // by issuer and id
   std::deque<v1::Event> events_;
   std::uint64_t events_seen_ = 0;
+  std::uint64_t unseen_ = 0;
   std::int64_t now_us_ = 0;
 };
 

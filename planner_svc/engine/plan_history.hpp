@@ -1,6 +1,7 @@
 // The versions that an engine sent and that may still be changed.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -18,11 +19,14 @@ class PlanHistory {
   std::string apply(const temporal::PlanDelta& delta, temporal::FlexiblePlan& next) const;
   /// Null: the version is not known.
   const temporal::FlexiblePlan* version(std::uint32_t number) const;
-  /// The plan was sent, or is executed.
+  /// The plan was sent, or is executed. Of more than kVersions the oldest goes.
   void keep(temporal::FlexiblePlan plan);
   /// This version is executed: those before it are changed no more.
   void forget_before(std::uint32_t version);
   std::uint32_t newest() const { return newest_; }
+
+  /// So many versions are kept, whoever sent them: an executive that is busy takes none for some seconds.
+  static constexpr std::size_t kVersions = 64;
 
  private:
   std::map<std::uint32_t, temporal::FlexiblePlan> versions_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/bounds/limits.hpp"
 #include "services/clock/stream_topic.hpp"
 
 namespace roci::services::clock {
@@ -14,23 +15,32 @@ bool ClockMaster::hears(const Member& member, const std::string& stream) {
   return find_subscription(member.subscriptions, stream) != member.subscriptions.end();
 }
 
-void ClockMaster::ready(const v1::ClockReady& ready) {
+bool ClockMaster::ready(const v1::ClockReady& ready) {
   const auto member = members_.find(ready.service());
   if (member != members_.end()) {
-    if (ready.incarnation() <= member->second.incarnation) return;
+    if (ready.incarnation() <= member->second.incarnation) return true;
+    if (losses_.size() >= bounds::kRosterLosses) return false;
     lost(ready.service(), member->second.incarnation, "restarted");
   }
   const auto waiting = waiting_.find(ready.service());
-  if (waiting != waiting_.end() && waiting->second.incarnation() > ready.incarnation()) return;
+  if (waiting != waiting_.end() && waiting->second.incarnation() > ready.incarnation()) return true;
+  if (waiting == waiting_.end() && members_.size() + waiting_.size() >= bounds::kPeers) return false;
   waiting_[ready.service()] = ready;
+  return true;
 }
 
-void ClockMaster::done(const v1::ClockDone& done) {
+bool ClockMaster::done(const v1::ClockDone& done) {
   const auto found = members_.find(done.service());
-  if (found == members_.end() || found->second.incarnation != done.incarnation()) return;
+  if (found == members_.end() || found->second.incarnation != done.incarnation()) return true;
+  bool counted = true;
   Member& member = found->second;
   for (const v1::StreamCount& count : done.sent()) {
-    std::uint64_t& total = totals_[{count.topic(), count.sender(), count.incarnation()}];
+    StreamKey key{count.topic(), count.sender(), count.incarnation()};
+    if (totals_.size() >= bounds::kCountedStreams && !totals_.contains(key)) {
+      counted = false;
+      continue;
+    }
+    std::uint64_t& total = totals_[std::move(key)];
     if (count.total() <= total) continue;
     total = count.total();
     for (auto& [service, other] : members_) {
@@ -38,13 +48,14 @@ void ClockMaster::done(const v1::ClockDone& done) {
     }
   }
   const bool answers = temporal::Time(done.time_us()) == time_ && done.micro_step() == micro_step_;
-  if (member.owes && !answers) return;
+  if (member.owes && !answers) return counted;
   if (member.owes) {
     member.owes = false;
     member.wish = done.wish_us() < 0 ? std::nullopt : std::optional(temporal::Time(done.wish_us()));
   } else {
     member.outside = true;  // sent again although nothing was asked: input from outside came in
   }
+  return counted;
 }
 
 void ClockMaster::lost(const std::string& service, std::uint32_t incarnation, const std::string& cause) {

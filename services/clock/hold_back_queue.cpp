@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "services/bounds/limits.hpp"
 #include "services/clock/stream_topic.hpp"
 
 namespace roci::services::clock {
@@ -29,12 +30,16 @@ void HoldBackQueue::subscribe(const std::string& topic, Durability durability, K
   inputs_.try_emplace(topic, Input{durability, std::move(key_of)});
 }
 
-void HoldBackQueue::add(const std::string& topic, const v1::SampleHeader& header,
+bool HoldBackQueue::add(const std::string& topic, const v1::SampleHeader& header,
                         std::shared_ptr<const void> value) {
-  Stream& stream = streams_[{topic, header.sender(), header.incarnation()}];
-  if (header.seq() <= stream.delivered) return;
+  StreamKey key{topic, header.sender(), header.incarnation()};
+  if (streams_.size() >= bounds::kHeldBackStreams && !streams_.contains(key)) return false;
+  Stream& stream = streams_[std::move(key)];
+  if (header.seq() <= stream.delivered) return true;
+  if (stream.held.size() >= bounds::kHeldBackSamples) return false;
   stream.held.emplace(header.seq(), std::move(value));
   stream.close_gaps();
+  return true;
 }
 
 bool HoldBackQueue::awaited(const v1::ClockStep& step, const v1::StreamCount& count) const {
@@ -119,6 +124,7 @@ void HoldBackQueue::deliver_history(const StreamKey& key, Stream& stream, std::u
   auto sample = stream.held.upper_bound(total);
   while (sample != stream.held.begin()) {
     --sample;
+    if (!sample->second) continue;
     const Key instance = input.key_of(sample->second.get());
     if (!seen.emplace(instance.begin(), instance.end()).second) continue;
     newest_first.push_back({std::string(topic_of(key.topic)), std::move(sample->second)});

@@ -31,7 +31,7 @@ struct StreamKey {
 
 struct Delivery {
   std::string topic;  ///< Without the robot of the stream.
-  std::shared_ptr<const void> value;
+  std::shared_ptr<const void> value;  ///< Null for a sample that was counted and could not be read.
 };
 
 /// What a participant that joins late is given of a topic's past (the durability QoS of DDS).
@@ -47,7 +47,9 @@ class HoldBackQueue {
 
   /// `key_of` tells the instances of a topic apart. `topic` may name a robot, or kEveryRobot.
   void subscribe(const std::string& topic, Durability, KeyOf key_of);
-  void add(const std::string& topic, const v1::SampleHeader&, std::shared_ptr<const void> value);
+  /// False, and the sample is gone, when kHeldBackStreams are known or kHeldBackSamples of its stream wait (bounds/limits.hpp):
+  /// no clock announces so many.
+  bool add(const std::string& topic, const v1::SampleHeader&, std::shared_ptr<const void> value);
 
   /// True when all is there that the step announces. Senders that are not in its roster are not waited for.
   bool complete(const v1::ClockStep&) const;

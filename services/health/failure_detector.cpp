@@ -2,21 +2,33 @@
 
 #include <utility>
 
+#include "services/bounds/limits.hpp"
+
 namespace roci::services::health {
 
-void FailureDetector::heartbeat(const v1::Heartbeat& beat, clock::WallTime now) {
+bool FailureDetector::heartbeat(const v1::Heartbeat& beat, clock::WallTime now) {
+  if (peers_.size() >= bounds::kPeers && !peers_.contains(beat.service())) return false;
   Peer& peer = peers_[beat.service()];
-  if (beat.incarnation() < peer.incarnation) return;
-  if (beat.incarnation() > peer.incarnation && peer.alive) die(beat.service(), peer, "restarted");
+  if (!believable(peer, beat.incarnation(), now)) return true;
+  if (beat.incarnation() != peer.incarnation && peer.alive) die(beat.service(), peer, "restarted");
   const bool leaving = beat.state() == v1::SERVICE_STOPPING;
   const bool left = peer.left && beat.incarnation() == peer.incarnation;
   peer.incarnation = beat.incarnation();
   peer.last_seen = now;
   peer.left = left || leaving;
   if (peer.alive && leaving) die(beat.service(), peer, "left");
-  if (peer.alive || peer.left) return;
+  if (peer.alive || peer.left) return true;
   peer.alive = true;
   changes_.push_back({beat.service(), beat.incarnation(), true, ""});
+  return true;
+}
+
+bool FailureDetector::believable(const Peer& peer, std::uint32_t incarnation, clock::WallTime now) const {
+  if (incarnation == peer.incarnation || peer.incarnation == 0) return true;
+  const bool next = incarnation > peer.incarnation && incarnation - peer.incarnation <= kIncarnationJump;
+  const clock::WallDuration silent = now - peer.last_seen;
+  if (next) return !peer.alive || silent > kStillHeard;
+  return !peer.alive && silent > hang_limit_;
 }
 
 void FailureDetector::seen(const std::string& service, std::uint32_t incarnation, clock::WallTime now) {

@@ -3,6 +3,7 @@
 // service that is only slow. Its time is wall time.
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <string>
 #include <string_view>
@@ -15,11 +16,21 @@
 namespace roci::services::health {
 
 /// Holds the state of each service and tells of each change once.
+///
+/// The incarnation that is heard counts. Another one takes its place only when it has been silent: a later one after
+/// kStillHeard, an earlier one, or one more than kIncarnationJump later, after the limit for a hang. So a forged
+/// heartbeat replaces nobody who is heard, and what it has replaced comes back.
 class FailureDetector {
  public:
+  /// Heartbeats come four times a second, so whoever was heard within this time still runs.
+  static constexpr clock::WallDuration kStillHeard = std::chrono::milliseconds(600);
+  /// No service is started so often while nobody hears of it.
+  static constexpr std::uint32_t kIncarnationJump = 1000;
+
   explicit FailureDetector(clock::WallDuration hang_limit) : hang_limit_(hang_limit) {}
 
-  void heartbeat(const v1::Heartbeat&, clock::WallTime now);
+  /// Returns false, and takes in nothing, for a service that is new when kPeers are known (bounds/limits.hpp).
+  bool heartbeat(const v1::Heartbeat&, clock::WallTime now);
   /// Takes in that something other than a heartbeat has shown that the service lives.
   void seen(const std::string& service, std::uint32_t incarnation, clock::WallTime now);
   /// Takes in that the transport no longer knows a living writer of this service's heartbeat.
@@ -37,6 +48,7 @@ class FailureDetector {
     bool left = false;  // it said that it stops
     clock::WallTime last_seen;
   };
+  bool believable(const Peer&, std::uint32_t incarnation, clock::WallTime now) const;
   void die(const std::string& service, Peer&, std::string cause);
 
   clock::WallDuration hang_limit_;

@@ -22,6 +22,8 @@ class HeartbeatSender {
   /// The loop calls it in each of its turns; it sends when it is time. A degraded service works, but not as it
   /// should: SERVICE_DEGRADED.
   void beat(clock::WallTime now, bool degraded = false);
+  /// Returns who beats.
+  const v1::Heartbeat& identity() const { return beat_; }
   /// Sends the last heartbeat, SERVICE_STOPPING.
   void leave();
   clock::WallTime next() const { return next_; }

@@ -108,6 +108,8 @@ Options parse_options(int argc, const char* const* argv, const services::process
       "Identity of the run, the same on all of its hosts (or ROCI_RUN; default: one of its own, or the "
       "mission's name where only some of its services start here)");
   app.add_option("--domain", flags.domain, "DDS domain id (default: a free one)");
+  app.add_flag("--shared-domain", options.shared_domain,
+               "With --domain: start although another run is on it; neither obeys the other");
   app.add_option("--address", flags.address, "The one interface address to use (default: loopback)");
   app.add_option("--peers", flags.peers, "Hosts of the run, separated by commas");
   app.add_option("--network", flags.network, "This host's network.yaml");

@@ -35,6 +35,7 @@ struct Options {
   std::filesystem::path run_folder;  ///< If empty, the launcher chooses one.
   std::optional<Continuation> continued{};  ///< The run was begun by an earlier launcher.
   bool domain_given = false;
+  bool shared_domain = false;                ///< Another run may be on the domain.
   services::process::Connection connection;  ///< Its `dds` may be "mixed" or "inproc".
 };
 

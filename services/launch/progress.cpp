@@ -11,6 +11,9 @@ namespace {
 
 namespace topics = services::topics;
 
+// So many executives are shown; a mission has one for each robot.
+constexpr std::size_t kExecutives = 256;
+
 const char* phase_name(v1::MissionPhase phase) {
   constexpr std::array names{"idle", "pausing", "planning", "executing", "safe", "finished"};
   const auto index = static_cast<std::size_t>(phase);
@@ -30,7 +33,10 @@ Progress::Progress(services::Node& node, bool shown)
       shown_(shown),
       terminal_(isatty(STDERR_FILENO) == 1) {
   services::subscribe(node, topics::mission_status,
-                      [this](const v1::MissionStatus& status) { statuses_[status.executive()] = status; });
+                      [this](const v1::MissionStatus& status) {
+                        if (statuses_.size() < kExecutives || statuses_.contains(status.executive()))
+                          statuses_[status.executive()] = status;
+                      });
   services::subscribe(node, topics::event, [this](const v1::Event& event) { take(event); });
 }
 

@@ -12,6 +12,7 @@
 #include "services/clock/host_anchor.hpp"
 #include "services/clock/wall.hpp"
 #include "services/launch/continuation.hpp"
+#include "services/launch/domain_guard.hpp"
 #include "services/launch/notify_socket.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/progress.hpp"
@@ -133,10 +134,12 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   keep_command_line(options, anchor, started_unix_us);
   if (options.continued) remove_outcome(options.run_folder);
 
+  const bool may_be_held = domain_may_be_held(options);
   const std::string vendor = console_vendor(options.connection.dds);
   transport.participant = "launcher";
   services::Node node(observer_options(vendor, options.run),
                       services::transport::open_transport(vendor, transport));
+  if (may_be_held) refuse_held_domain(node, options);
   Progress progress(node, !options.headless);
   const services::process::PublishedRun published(services::process::runtime_folder(),
                                                   record_of(options, started_unix_us));

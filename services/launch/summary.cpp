@@ -46,7 +46,11 @@ void complete(json& summary, const Options& options, const char* result) {
     if (!summary.contains(key)) summary[key] = value;
   }
   std::ifstream expected(options.run_folder / services::kExpectedFile);
-  if (expected) summary["expected"] = json::parse(expected, nullptr, false);
+  if (expected) {
+    const json report = json::parse(expected, nullptr, false);
+    const bool whole = report.is_object() && (!report.contains("fault") || report["fault"].is_string());
+    if (whole) summary["expected"] = report;
+  }
   const auto links = process::read_link_reports(options.run_folder);
   if (!links.empty()) summary["links"] = process::as_json(links);
 }
@@ -123,9 +127,10 @@ Summary complete_summary(const Options& options, double wall_s, bool ended_well)
   complete(summary, options, ended_well && !counts_goals ? kServed : "failed");
   summary["dds"] = options.connection.dds;
   summary["wall_s"] = wall_s;
-  std::ofstream(options.run_folder / services::kSummaryFile) << summary.dump(2) << '\n';
+  std::ofstream(options.run_folder / services::kSummaryFile) << summary.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
   const std::string result = summary.value("result", "");
-  return {result == "achieved" || result == kServed, summary.dump(),
+  return {result == "achieved" || result == kServed,
+          summary.dump(-1, ' ', false, json::error_handler_t::replace),
           counts_goals ? text_with_goals(summary, options) : text_without_goals(summary, options)};
 }
 

@@ -102,6 +102,10 @@ std::optional<Time> Channel::next() const {
 }
 
 bool Channel::refuses(const Passenger& passenger, Time now) const {
+  if (flying_.size() + waiting_.size() >= kLongestFlight) return true;
+  if (passenger.lifetime == Lifetime::newest && newest_.size() >= kLongestFlight &&
+      !newest_.contains({passenger.topic, {passenger.sender, passenger.instance}}))
+    return true;
   return passenger.lifetime == Lifetime::once && (waiting_.size() >= kLongestQueue || !link_->open.open(now));
 }
 

@@ -29,6 +29,10 @@ inline constexpr temporal::Duration kLongestRepetitionPause = std::chrono::secon
 /// So many samples without repetition may wait for a narrow link; more are lost.
 inline constexpr std::size_t kLongestQueue = 4096;
 
+/// So many samples of a direction may be under way, and instances of state topics be known; what comes beyond is lost. At a
+/// light time of twenty minutes that is fifty samples a second.
+inline constexpr std::size_t kLongestFlight = 65'536;
+
 /// The light time there and back.
 constexpr temporal::Duration round_trip(const Link& link) { return 2 * link.light_time; }
 

@@ -23,10 +23,10 @@ concept OfRun = requires(T value, std::string run) {
 };
 
 template <class T>
-std::shared_ptr<const void> decode_as(std::span<const std::uint8_t> payload) {
+Decoded decode_as(std::span<const std::uint8_t> payload) {
   auto value = std::make_shared<T>();
-  if (!transport::deserialize(payload, *value)) return nullptr;
-  return value;
+  const bool whole = transport::deserialize(payload, *value);
+  return {std::move(value), whole};
 }
 
 template <class T>
@@ -63,7 +63,7 @@ TopicSpec spec_of(const Topic<T>& topic) {
       return std::as_const(static_cast<const T*>(value)->header()).run();
     };
   }
-  return {topic.name, topic.qos, topic.clocking, topic.scope, std::move(codec)};
+  return {topic.name, topic.qos, topic.clocking, topic.scope, std::move(codec), topic.limit};
 }
 
 }  // namespace roci::services::node

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/bounds/limits.hpp"
+
 namespace roci::services::node {
 namespace {
 
@@ -40,6 +42,11 @@ ContractCheck::Peer* ContractCheck::find_peer(const transport::Guid& guid) {
   if (const auto known = peers_.find(prefix); known != peers_.end()) return &known->second;
   auto participant = lookup_(guid);
   if (!participant) return nullptr;
+  if (peers_.size() >= bounds::kContractPeers) {
+    peers_.erase(met_order_.front());
+    met_order_.pop_front();
+  }
+  met_order_.push_back(prefix);
   Peer& peer = peers_[prefix];
   peer.name = participant->name.empty() ? digits_of(guid) : std::move(participant->name);
   peer.announced = transport::parse_announcement(participant->announcement);
@@ -66,7 +73,7 @@ ContractCheck::Verdict ContractCheck::judge(const ContractTopic& topic, const tr
 
 void ContractCheck::met(const ContractTopic& topic, const transport::Guid& remote) {
   const std::scoped_lock lock(mutex_);
-  met_.insert({topic, remote});
+  if (met_.size() < bounds::kUnjudgedEndpoints) met_.insert({topic, remote});
 }
 
 std::vector<ContractMismatch> ContractCheck::take_mismatches() {

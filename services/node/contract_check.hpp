@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -38,6 +39,7 @@ struct ContractTopic {
   auto operator<=>(const ContractTopic&) const = default;
 };
 
+/// Of many participants the newest are remembered: one that was forgotten and goes on is judged, and told of, anew.
 class ContractCheck {
  public:
   using Lookup = std::function<std::optional<transport::Participant>(const transport::Guid&)>;
@@ -81,7 +83,8 @@ class ContractCheck {
 
   const transport::Announcement own_;
   const Lookup lookup_;
-  std::map<Prefix, Peer> peers_;
+  std::map<Prefix, Peer> peers_;  // at most kContractPeers (bounds/limits.hpp)
+  std::deque<Prefix> met_order_;  // of these, the oldest first
   std::vector<ContractMismatch> mismatches_;
   std::mutex mutex_;
   std::set<Met> met_;  // and not judged yet

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "services/bounds/limits.hpp"
 #include "services/log/log.hpp"
 
 namespace roci::services::node {
@@ -42,17 +43,22 @@ void ContractGate::arrive(Arrival&& arrival) {
       ++refused_;
       return;
     case ContractCheck::Verdict::unknown:
+      held_bytes_ += arrival.sample.payload.size();
       held_.push_back(std::move(arrival));
-      if (held_.size() <= kHeldBack) return;
-      held_.pop_front();
-      ++refused_;
+      while (held_.size() > kHeldBack || held_bytes_ > bounds::kHeldBytes) {
+        held_bytes_ -= held_.front().sample.payload.size();
+        held_.pop_front();
+        ++refused_;
+      }
   }
 }
 
 void ContractGate::retry_held() {
+  held_bytes_ = 0;
   for (Arrival& arrival : std::exchange(held_, {})) {
     const auto verdict = check_.judge(arrival.topic->contract, arrival.sample.writer);
     if (verdict == ContractCheck::Verdict::unknown) {
+      held_bytes_ += arrival.sample.payload.size();
       held_.push_back(std::move(arrival));
     } else if (verdict == ContractCheck::Verdict::same) {
       pass_(std::move(arrival));
@@ -62,12 +68,16 @@ void ContractGate::retry_held() {
   }
 }
 
+void ContractGate::tell_later(v1::Event event, clock::WallTime now) {
+  prepare_();
+  untold_.push_back({now + clock::wall_seconds(kTellAfterS), std::move(event)});
+}
+
 void ContractGate::turn(clock::WallTime now) {
   if (!held_.empty()) retry_held();
   for (const ContractMismatch& mismatch : check_.take_mismatches()) {
     log::error(to_text(mismatch));
-    prepare_();
-    untold_.push_back({now + clock::wall_seconds(kTellAfterS), event_of(mismatch)});
+    tell_later(event_of(mismatch), now);
   }
   while (!untold_.empty() && untold_.front().due <= now) {
     tell_(untold_.front().event);

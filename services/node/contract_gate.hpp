@@ -27,10 +27,14 @@ class ContractGate {
   /// Is called in each turn of the loop: looks again at what is held back, and tells of new mismatches.
   void turn(clock::WallTime now);
 
+  /// Tells operators of something else that was found out about another participant.
+  void tell_later(v1::Event event, clock::WallTime now);
+
   /// Samples that were refused so far, or held back in vain.
   std::uint64_t refused() const { return refused_; }
 
-  /// So many samples of unknown participants are held back; more push out the oldest.
+  /// So many samples of unknown participants are held back, of kHeldBytes together (bounds/limits.hpp); more push out the
+  /// oldest.
   static constexpr std::size_t kHeldBack = 1024;
 
   /// The event is written so much wall time after the mismatch was found (and logged): by then the participants that
@@ -49,6 +53,7 @@ class ContractGate {
   std::function<void()> prepare_;
   std::function<void(const v1::Event&)> tell_;
   std::deque<Arrival> held_;
+  std::size_t held_bytes_ = 0;
   std::deque<Untold> untold_;
   std::uint64_t refused_ = 0;
 };

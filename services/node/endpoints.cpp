@@ -1,8 +1,10 @@
 #include "services/node/endpoints.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
+#include "services/bounds/limits.hpp"
 #include "services/clock/stream_topic.hpp"
 #include "services/log/log.hpp"
 #include "services/transport/qos.hpp"
@@ -49,6 +51,12 @@ bool TopicWriter::within_limit(const transport::Payload& payload) {
 }
 
 bool TopicWriter::write(const transport::Payload& payload) {
+  if (payload.size() > transport::bytes(topic_.limit)) {
+    log::error(options_.name + " wants to write " + std::to_string(payload.size()) + " bytes on " +
+               topic_.name + ", where a sample has at most " +
+               std::to_string(transport::bytes(topic_.limit)) + "; this one is refused");
+    return false;
+  }
   if (!within_limit(payload)) {
     log::error(options_.name + " wrote more than " + std::to_string(transport::kMicroStepLimit) +
                " samples of one instance of " + topic_.name +
@@ -63,13 +71,15 @@ bool TopicWriter::write(const transport::Payload& payload) {
 bool TopicWriter::dispose(const transport::Payload& payload) { return writer_->dispose(payload); }
 
 Endpoints::Endpoints(const NodeOptions& options, const RunIdentity& run, TopicWriter::Now now,
-                     transport::Transport& transport, Inbox& inbox, ContractCheck& contract)
+                     transport::Transport& transport, Inbox& inbox, ContractCheck& contract,
+                     Refusals& refusals)
     : options_(options),
       run_(run),
       now_(std::move(now)),
       transport_(transport),
       inbox_(inbox),
-      contract_(contract) {}
+      contract_(contract),
+      refusals_(refusals) {}
 
 Endpoints::~Endpoints() { in_.clear(); }  // no callback may find a writer gone
 
@@ -97,7 +107,7 @@ TopicReader& Endpoints::in(const TopicSpec& topic) {
         transport::partitions_of(topic.scope, options_.robot)};
     transport::ReaderEvents events;
     events.on_sample = [this, target = input.get()](transport::Sample&& sample) {
-      inbox_.push(Arrival{target, std::move(sample)});
+      take(*target, std::move(sample));
     };
     events.on_matched = [this](int) { inbox_.matched(); };
     events.on_writer = [this, target = input.get()](const transport::Guid& writer) {
@@ -107,6 +117,17 @@ TopicReader& Endpoints::in(const TopicSpec& topic) {
   }
   check_same_type(input->topic, topic);
   return *input;
+}
+
+// Runs on a vendor's thread.
+void Endpoints::take(TopicReader& reader, transport::Sample&& sample) {
+  const transport::Guid writer = sample.writer;
+  const std::size_t largest = transport::bytes(reader.topic.limit);
+  if (sample.payload.size() > largest + transport::kPayloadPadding)
+    return refusals_.note(reader.topic.name, Refusal::too_large, writer);
+  const std::size_t room = std::max(bounds::kInboxBytes, 2 * largest);
+  if (!inbox_.push(Arrival{&reader, std::move(sample)}, room))
+    refusals_.note(reader.topic.name, Refusal::queue_full, writer);
 }
 
 TopicReader* Endpoints::find_in(const std::string& topic) {

@@ -16,17 +16,24 @@
 #include "services/node/contract_check.hpp"
 #include "services/node/inbox.hpp"
 #include "services/node/node_options.hpp"
+#include "services/node/refusals.hpp"
 #include "services/node/run_identity.hpp"
+#include "services/transport/payload_limit.hpp"
 #include "services/transport/scope.hpp"
 #include "services/transport/transport.hpp"
 
 namespace roci::services::node {
 
+/// A payload as a value of its type; what came before the damage, if it is not whole.
+struct Decoded {
+  std::shared_ptr<const void> value;
+  bool whole = false;
+};
+
 /// The loop must know this of a type.
 struct Codec {
   transport::TypeDescription type;
-  /// Null: malformed payload.
-  std::shared_ptr<const void> (*decode)(std::span<const std::uint8_t>) = nullptr;
+  Decoded (*decode)(std::span<const std::uint8_t>) = nullptr;
   const v1::SampleHeader& (*header)(const void* value) = nullptr;  ///< Null for types without one.
   const std::string& (*run)(const void* value) = nullptr;          ///< null for types that name no run
   transport::Payload (*key)(const void* value) = nullptr;          ///< Empty for types without a key.
@@ -41,6 +48,7 @@ struct TopicSpec {
   transport::Clocking clocking = transport::Clocking::wall;
   transport::Scope scope = transport::Scope::everyone;
   Codec codec;
+  transport::PayloadLimit limit = transport::PayloadLimit::journal;
 };
 
 /// The name under which the simulated clock counts the samples that a service of `robot` writes on the topic.
@@ -83,14 +91,14 @@ struct TopicReader {
   ContractTopic contract;
   std::vector<std::function<void(const void* value)>> on_value;
   std::vector<std::function<void(const transport::Payload& key)>> on_no_writers;
-  std::uint64_t malformed = 0;
   std::unique_ptr<transport::Reader> reader;
 };
 
+/// What is larger than its topic allows, or finds the inbox full, goes no further than the vendor's thread.
 class Endpoints {
  public:
   Endpoints(const NodeOptions&, const RunIdentity&, TopicWriter::Now, transport::Transport&, Inbox&,
-            ContractCheck&);
+            ContractCheck&, Refusals&);
   ~Endpoints();
 
   /// Return the node's one writer or reader of a topic. They throw std::logic_error if the topic is known
@@ -107,12 +115,15 @@ class Endpoints {
   void begin_micro_step();
 
  private:
+  void take(TopicReader&, transport::Sample&&);
+
   const NodeOptions& options_;
   const RunIdentity& run_;
   TopicWriter::Now now_;
   transport::Transport& transport_;
   Inbox& inbox_;
   ContractCheck& contract_;
+  Refusals& refusals_;
   std::map<std::string, std::unique_ptr<TopicWriter>> out_;
   std::map<std::string, std::unique_ptr<TopicReader>> in_;
   std::map<std::string, std::uint64_t> reported_;

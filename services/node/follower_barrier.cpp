@@ -27,6 +27,7 @@ class FollowerBarrier : public Barrier {
     subscribe(node, topics::clock_step, [this](const v1::ClockStep& step) {
       if (!step_ || order(step) > order(*step_)) step_ = step;
     });
+    subscribe(node, topics::heartbeat, [this](const v1::Heartbeat& beat) { node_.hear_namesake(beat); });
     node.endpoints.find_in(topics::clock_step.name)
         ->on_no_writers.push_back([this](const transport::Payload& key) {
           v1::ClockStep lost;

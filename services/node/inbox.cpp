@@ -2,13 +2,21 @@
 
 #include <utility>
 
+#include "services/bounds/limits.hpp"
+
 namespace roci::services::node {
 
-void Inbox::push(Arrival arrival) {
+bool Inbox::push(Arrival arrival, std::size_t room) {
   const std::scoped_lock lock(mutex_);
+  Load& load = loads_[arrival.topic];
+  const std::size_t bytes = arrival.sample.payload.size();
+  if (load.samples >= bounds::kInboxSamples || load.bytes + bytes > room) return false;
+  ++load.samples;
+  load.bytes += bytes;
   waiting_.arrivals.push_back(std::move(arrival));
   news_ = true;
   filled_.notify_one();
+  return true;
 }
 
 void Inbox::push(WorkResult result) {
@@ -38,6 +46,7 @@ Inbox::Batch Inbox::take(clock::WallTime deadline) {
   news_ = false;
   Batch batch = std::exchange(waiting_, {});
   waiting_.stop = batch.stop;
+  for (auto& [topic, load] : loads_) load = {};
   return batch;
 }
 

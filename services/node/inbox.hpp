@@ -2,9 +2,11 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <unordered_map>
 #include <vector>
 
 #include "services/clock/wall.hpp"
@@ -33,7 +35,9 @@ class Inbox {
     bool stop = false;     ///< It stays true once asked for.
   };
 
-  void push(Arrival);
+  /// False, and the sample is gone, when kInboxSamples of its topic wait already, or more than `room` bytes would: the loop
+  /// is slower than its peers, or somebody floods the topic. Other topics are not touched by it.
+  bool push(Arrival, std::size_t room);
   void push(WorkResult);
   void matched();
   void stop();
@@ -45,7 +49,12 @@ class Inbox {
  private:
   std::mutex mutex_;
   std::condition_variable filled_;
+  struct Load {
+    std::size_t samples = 0;
+    std::size_t bytes = 0;
+  };
   Batch waiting_;
+  std::unordered_map<const TopicReader*, Load> loads_;  // of what waits
   bool news_ = false;
 };
 

@@ -72,8 +72,11 @@ class LiveLoop : public Loop {
     if (opened_) return;
     opened_ = true;
     if (!observer_) heartbeat_.emplace(node_.make_heartbeat_sender());
-    subscribe(node_, topics::heartbeat,
-              [this](const v1::Heartbeat& beat) { peers_.heartbeat(beat, clock::wall_now()); });
+    subscribe(node_, topics::heartbeat, [this](const v1::Heartbeat& beat) {
+      if (!peers_.heartbeat(beat, clock::wall_now()))
+        node_.refusals.note(topics::heartbeat.name, Refusal::no_room);
+      node_.hear_namesake(beat);
+    });
     node_.endpoints.find_in(topics::heartbeat.name)
         ->on_no_writers.push_back([this](const transport::Payload& key) {
           v1::Heartbeat beat;

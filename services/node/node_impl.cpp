@@ -14,9 +14,14 @@ NodeImpl::NodeImpl(NodeOptions node_options, std::unique_ptr<transport::Transpor
       transport(std::move(node_transport)),
       contract(transport->announcement(),
                [this](const transport::Guid& guid) { return transport->participant_of(guid); }),
+      refusals(
+          options.name, [this](const transport::Guid& guid) { return transport->participant_of(guid); },
+          [this] { advertise(*this, topics::event); },
+          [this](const v1::Event& event) { write(advertise(*this, topics::event), event); },
+          simulated() ? 0 : Refusals::kTellAfterS),
       work(simulated() ? ResultOrder::as_begun : ResultOrder::as_finished),
       endpoints(
-          options, run, [this] { return now(); }, *transport, inbox, contract),
+          options, run, [this] { return now(); }, *transport, inbox, contract, refusals),
       links(options),
       gate(
           contract, [this](Arrival&& arrival) { read(std::move(arrival)); },
@@ -50,17 +55,31 @@ void NodeImpl::read(Arrival&& arrival) {
     for (const auto& lost : input.on_no_writers) lost(arrival.sample.payload);
   }
   if (arrival.sample.kind != transport::SampleKind::data) return;
-  auto value = input.topic.codec.decode(arrival.sample.payload);
-  if (!value) {
-    ++input.malformed;
-    log::warning(options.name + " drops a malformed sample of " + input.topic.name);
+  Decoded decoded = input.topic.codec.decode(arrival.sample.payload);
+  if (!decoded.whole) return refuse_malformed(input, decoded, arrival.sample.writer);
+  const std::shared_ptr<const void> value = std::move(decoded.value);
+  const auto run_of = input.topic.codec.run;
+  if (run_of != nullptr && !run.obeys(run_of(value.get()), input.topic.name)) {
+    for (const auto& [foreign, topic] : run.take_news())
+      if (options.clock != clock::ClockMode::observer)
+        tell("run.foreign",
+             options.name + " hears another run, \"" + foreign + "\", on " + topic + " and does not obey it");
     return;
   }
-  const auto run_of = input.topic.codec.run;
-  if (run_of != nullptr && !run.obeys(run_of(value.get()), input.topic.name)) return;
   if (input.topic.clocking == transport::Clocking::wall) return handle(input, value.get());
   const v1::SampleHeader& header = input.topic.codec.header(value.get());
-  loop->take_clocked(input, header, std::move(value));
+  loop->take_clocked(input, header, value);
+}
+
+// The header comes early in a sample. Where it could be read the simulated clock counts the sample, without a value: else
+// this node would wait for it for ever.
+void NodeImpl::refuse_malformed(TopicReader& input, const Decoded& decoded, const transport::Guid& writer) {
+  refusals.note(input.topic.name, Refusal::malformed, writer);
+  const Codec& codec = input.topic.codec;
+  if (!simulated() || input.topic.clocking == transport::Clocking::wall) return;
+  const v1::SampleHeader& header = codec.header(decoded.value.get());
+  if (header.incarnation() != 0 && header.seq() != 0 && run.obeys(header.run(), input.topic.name))
+    loop->take_clocked(input, header, nullptr);
 }
 
 void NodeImpl::handle(TopicReader& input, const void* value) {
@@ -79,7 +98,9 @@ void NodeImpl::announce(const health::PeerChange& change) {
 }
 
 void NodeImpl::announce_turn() {
-  gate.turn(clock::wall_now());
+  const clock::WallTime now = clock::wall_now();
+  gate.turn(now);
+  refusals.turn(now);
   for (std::size_t i = 0; i < on_turn.size(); ++i) {
     const auto handler = on_turn[i];
     handler();
@@ -101,8 +122,30 @@ health::HeartbeatSender NodeImpl::make_heartbeat_sender() {
   identity.robot(options.robot);
   identity.incarnation(options.incarnation);
   identity.dds(options.vendor);
-  return health::HeartbeatSender(std::move(identity),
+  health::HeartbeatSender sender(std::move(identity),
                                  [&stream](const v1::Heartbeat& beat) { write(stream, beat); });
+  if (options.sole) namesakes_.emplace(sender.identity());
+  return sender;
+}
+
+void NodeImpl::hear_namesake(const v1::Heartbeat& beat) {
+  if (!namesakes_) return;
+  const auto verdict = namesakes_->hear(beat, clock::wall_now());
+  if (verdict == health::NamesakeWatch::Verdict::nothing) return;
+  const std::string other = health::process_text(beat);
+  if (verdict == health::NamesakeWatch::Verdict::yields)
+    throw health::Superseded("this run has another " + other +
+                             ", which goes on in this name; this process ends");
+  log::warning(options.name + ": this run has another " + other);
+  tell("service.doubled", "this run has another " + other + "; that one ends, this one goes on");
+}
+
+void NodeImpl::tell(const std::string& code, const std::string& text) {
+  v1::Event event;
+  event.severity_level(v1::SEVERITY_WARNING);
+  event.code(code);
+  event.text(text);
+  gate.tell_later(std::move(event), clock::wall_now());
 }
 
 }  // namespace roci::services::node

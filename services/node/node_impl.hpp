@@ -4,12 +4,15 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <typeindex>
 #include <vector>
 
 #include "core/temporal/duration.hpp"
 #include "services/health/heartbeat_sender.hpp"
+#include "services/health/namesake_watch.hpp"
 #include "services/health/peer.hpp"
 #include "services/node/completion_queue.hpp"
 #include "services/node/contract_check.hpp"
@@ -19,6 +22,7 @@
 #include "services/node/link_gate.hpp"
 #include "services/node/loop.hpp"
 #include "services/node/node_options.hpp"
+#include "services/node/refusals.hpp"
 #include "services/node/timer_queue.hpp"
 #include "services/transport/transport.hpp"
 
@@ -54,11 +58,15 @@ class NodeImpl {
 
   /// Makes the sender of this node's heartbeats, on their topic.
   health::HeartbeatSender make_heartbeat_sender();
+  /// Takes a heartbeat of the run. Throws health::Superseded if another process has this node's name and goes on
+  /// with it.
+  void hear_namesake(const v1::Heartbeat&);
 
   const NodeOptions options;
   RunIdentity run;
   std::unique_ptr<transport::Transport> transport;
   ContractCheck contract;
+  Refusals refusals;
   Inbox inbox;
   TimerQueue timers;
   CompletionQueue work;
@@ -76,6 +84,10 @@ class NodeImpl {
 
  private:
   void read(Arrival&&);
+  void refuse_malformed(TopicReader&, const Decoded&, const transport::Guid& writer);
+  void tell(const std::string& code, const std::string& text);
+
+  std::optional<health::NamesakeWatch> namesakes_;
 };
 
 }  // namespace roci::services::node

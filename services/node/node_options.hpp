@@ -23,6 +23,8 @@ struct NodeOptions {
   std::string run{};      ///< Identity of the run; an observer without one joins the first run that it hears.
   std::string mission{};  ///< The mission's name.
   std::string robot{};    ///< That the service belongs to; empty: the team, the ground or the world.
+  /// Says whether nobody else of the run may have this name; the members of a pair of executives may, for a while.
+  bool sole = true;
   std::uint32_t incarnation = 1;  ///< How often this service was started in this run, from 1.
   clock::ClockMode clock = clock::ClockMode::live;
   double live_scale = 1;           ///< Live: mission seconds per wall second.

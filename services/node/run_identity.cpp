@@ -16,6 +16,7 @@ bool RunIdentity::obeys(const std::string& sample_run, const std::string& topic)
     ++known->second;
   } else if (foreign_.size() < kForeignRuns) {
     foreign_[sample_run] = 1;
+    news_.emplace_back(sample_run, topic);
     log::warning(node_ + " hears another run, \"" + sample_run + "\", on " + topic +
                  " and does not obey it; give each run a domain of its own");
   }

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace roci::services::node {
 
@@ -19,6 +21,9 @@ class RunIdentity {
   /// log, for at most kForeignRuns of them.
   bool obeys(const std::string& sample_run, const std::string& topic);
 
+  /// Returns the foreign runs that were heard for the first time since the last call, each with the topic.
+  std::vector<std::pair<std::string, std::string>> take_news() { return std::exchange(news_, {}); }
+
   /// Samples of other runs that were left unread, by run.
   const std::map<std::string, std::uint64_t>& foreign() const { return foreign_; }
 
@@ -29,6 +34,7 @@ class RunIdentity {
   std::string run_;
   bool joins_;
   std::map<std::string, std::uint64_t> foreign_;
+  std::vector<std::pair<std::string, std::string>> news_;
 };
 
 }  // namespace roci::services::node

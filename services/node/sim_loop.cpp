@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "services/bounds/limits.hpp"
 #include "services/clock/hold_back_queue.hpp"
 #include "services/health/heartbeat_sender.hpp"
 #include "services/node/barrier.hpp"
@@ -33,9 +34,11 @@ class SimLoop : public Loop {
   void take_clocked(TopicReader& input, const v1::SampleHeader& header,
                     std::shared_ptr<const void> value) override {
     if (header.incarnation() == 0) {
+      if (outside_.size() >= bounds::kOutsideInputs)
+        return node_.refusals.note(input.topic.name, Refusal::queue_full);
       outside_.push_back({&input, std::move(value)});
-    } else {
-      held_back_.add(stream_topic(input.topic, header.robot()), header, std::move(value));
+    } else if (!held_back_.add(stream_topic(input.topic, header.robot()), header, std::move(value))) {
+      node_.refusals.note(input.topic.name, Refusal::no_room);
     }
   }
 
@@ -118,7 +121,7 @@ class SimLoop : public Loop {
     }
     for (const LinkGate::Due& due : node_.links.take(now_)) NodeImpl::handle(*due.reader, due.value.get());
     for (const clock::Delivery& delivery : held_back_.take(step))
-      hear(*node_.endpoints.find_in(delivery.topic), delivery.value);
+      if (delivery.value) hear(*node_.endpoints.find_in(delivery.topic), delivery.value);
     take_outside_input();
     node_.timers.run_due(now_);
   }

@@ -12,8 +12,20 @@
 
 namespace roci::services::owner {
 
-/// This command breaks off whatever its subsystem runs, whoever commanded that.
+/// This command breaks off whatever its subsystem runs, whoever commanded that. It is taken from anybody of the
+/// run, once per key, and raises no epoch.
 inline constexpr char kStopCommand[] = "stop";
+
+/// This command moves nothing: who sends it says that it commands in its epoch from now on. It is completed at once.
+inline constexpr char kLeadCommand[] = "lead";
+
+/// Activities of fall-backs begin so. A fall-back brings one component to rest (R43, R44); unlike a stop it may be
+/// a motion. It raises no epoch, either.
+inline constexpr char kFallbackPrefix[] = "fallback.";
+
+/// A command that is taken raises its commander's epoch by so much at most. Whoever is further ahead, because
+/// the owner was started anew, climbs by kLeadCommand; so one forged number is never out of reach.
+inline constexpr std::uint64_t kEpochJump = 1000;
 
 /// Names one command for good. A commander that takes over from another one, or from itself after a restart,
 /// asks under the old key.
@@ -40,6 +52,9 @@ struct Request {
   /// Holds when the step has to be over at the latest; until then the owner may repair (R146). If it is empty
   /// there is no limit.
   std::optional<temporal::Time> latest_end{};
+  std::uint32_t incarnation = 0;  ///< of the sender; 0: not told
+  /// Counts what the sender has sent; it rises while that lives.
+  std::uint64_t number = 0;
 };
 
 /// `accepted` is no last word; `cancel_failed` and `unknown` answer a cancel or a query and are no word on

@@ -11,10 +11,28 @@ namespace {
 
 bool is_last(const std::optional<Word>& word) { return word && word->stage != Stage::accepted; }
 
+bool stops(const Request& request) {
+  return request.action == Action::execute && request.command == kStopCommand;
+}
+
+bool falls_back(const Request& request) {
+  return request.action == Action::execute && request.key.activity.starts_with(kFallbackPrefix);
+}
+
+std::string named(const Request& request) {
+  return request.command + " (" + request.key.activity + ") of " + request.subsystem;
+}
+
 }  // namespace
 
 Reception CommandLedger::receive(const Request& request, Time now) {
-  if (auto refusal = refuse_old(request, now)) return {Reception::Order::nothing, std::move(refusal)};
+  if (stops(request) || falls_back(request)) return execute_for_safety(request, now);
+  const Standing standing = standing_of(request);
+  const bool asks = request.action == Action::query;
+  const bool harmless = standing == Standing::ahead || standing == Standing::unknown;
+  if (!asks || !harmless) {
+    if (auto refused = refuse(request, standing, now)) return *std::move(refused);
+  }
   switch (request.action) {
     case Action::query:
       return {Reception::Order::nothing, answer(request.key, now)};
@@ -23,19 +41,60 @@ Reception CommandLedger::receive(const Request& request, Time now) {
     case Action::execute:
       break;
   }
-  return execute(request, now);
+  Reception taken = execute(request, now);
+  const bool moves = request.command != kLeadCommand;
+  if (moves && taken.order == Reception::Order::carry_out)
+    leases_[{request.robot, request.subsystem}] = request.sender;
+  return taken;
 }
 
-std::optional<Ack> CommandLedger::refuse_old(const Request& request, Time now) {
-  std::uint64_t& newest = epochs_[request.sender];
-  if (request.epoch >= newest) {
-    newest = request.epoch;
-    return std::nullopt;
+CommandLedger::Standing CommandLedger::standing_of(const Request& request) const {
+  const auto known = commanders_.find(request.sender);
+  if (known == commanders_.end()) {
+    if (commanders_.size() >= kCommanders) return Standing::unknown;
+    return request.epoch > kEpochJump ? Standing::ahead : Standing::current;
   }
-  Word word{Stage::rejected, "old-epoch",
-            "epoch " + std::to_string(request.epoch) + " is over; the executive in charge has epoch " +
-                std::to_string(newest)};
-  return Ack{request.key, std::move(word), now, newest, true};
+  const Commander& newest = known->second;
+  if (request.epoch < newest.epoch) return Standing::stale;
+  if (request.epoch - newest.epoch > kEpochJump) return Standing::ahead;
+  const bool told = request.incarnation != 0 && newest.incarnation != 0;
+  if (request.epoch > newest.epoch || !told) return Standing::current;
+  const bool same = request.incarnation == newest.incarnation && request.number > newest.number;
+  return same ? Standing::current : Standing::doubled;
+}
+
+std::optional<Reception> CommandLedger::refuse(const Request& request, Standing standing, Time now) const {
+  if (standing == Standing::current) return std::nullopt;
+  const auto known = commanders_.find(request.sender);
+  const std::uint64_t newest = known == commanders_.end() ? 0 : known->second.epoch;
+  const std::string epoch = "epoch " + std::to_string(request.epoch);
+  Reception out;
+  const auto say = [&](std::string code, std::string reason) {
+    out.ack = Ack{request.key, {Stage::rejected, std::move(code), std::move(reason)}, now, newest, true};
+  };
+  if (standing == Standing::stale) {
+    say("old-epoch", epoch + " is over; the executive in charge has epoch " + std::to_string(newest));
+    return out;
+  }
+  if (standing == Standing::doubled) {
+    say("doubled-epoch", epoch + " was begun by another process; take a later one");
+    out.notice = Notice{"commander.doubled", "two processes command as " + request.sender + " in " + epoch +
+                                                 "; this one is refused"};
+  } else if (standing == Standing::ahead) {
+    say("epoch-jump", epoch + " is more than " + std::to_string(kEpochJump) + " after the newest, " +
+                          std::to_string(newest) + "; lead in an earlier one first");
+    out.notice = Notice{"command.epoch_jump", request.sender + " commands in " + epoch + ", the newest is " +
+                                                  std::to_string(newest)};
+  } else {
+    say("too-many-commanders", std::to_string(kCommanders) + " others have commanded here");
+    out.ack->refused_epoch = false;
+    out.notice = Notice{"command.foreign", request.sender + " is one commander too many and is refused"};
+  }
+  return out;
+}
+
+void CommandLedger::raise(const Request& request) {
+  commanders_[request.sender] = {request.epoch, request.incarnation, request.number};
 }
 
 Reception CommandLedger::execute(const Request& request, Time now) {
@@ -44,15 +103,70 @@ Reception CommandLedger::execute(const Request& request, Time now) {
     if (!record->second.word) return {};  // its word is still to come
     return {Reception::Order::nothing, answer(request.key, now)};
   }
+  const bool counts = !stops(request) && !falls_back(request);
+  if (counts) raise(request);
   record->second.robot = request.robot;
   record->second.subsystem = request.subsystem;
   record->second.latest_end = request.latest_end;
+  entries_.push_back({request.key, request.sender, counts ? request.epoch : 0});
   return {Reception::Order::carry_out, std::nullopt};
+}
+
+/// Neither takes the lease nor raises the epoch.
+Reception CommandLedger::execute_for_safety(const Request& request, Time now) {
+  const std::string holder = lease_holder(request.robot, request.subsystem);
+  const bool current = standing_of(request) == Standing::current;
+  const bool holds = holder.empty() ? current : current && holder == request.sender;
+  if (!stops(request) && !holds && !holder.empty()) return refuse_fallback(request, holder, now);
+  Reception out = execute(request, now);
+  if (holds || out.order != Reception::Order::carry_out) return out;
+  out.notice = Notice{
+      "command.foreign",
+      named(request) + " is taken from " + request.sender + " in epoch " + std::to_string(request.epoch) +
+          (holder.empty() ? ", as nobody holds its lease" : "; the lease is held by " + holder)};
+  return out;
+}
+
+Reception CommandLedger::refuse_fallback(const Request& request, const std::string& holder, Time now) const {
+  if (holder == request.sender) return *refuse(request, standing_of(request), now);
+  Reception out;
+  out.ack =
+      Ack{request.key,
+          {Stage::rejected, "not-leased", "the lease of " + request.subsystem + " is held by " + holder},
+          now};
+  out.notice = Notice{"command.foreign", named(request) + " of " + request.sender +
+                                             " is refused; the lease is held by " + holder};
+  return out;
+}
+
+void CommandLedger::release(const std::string& commander) {
+  std::erase_if(leases_, [&](const auto& lease) { return lease.second == commander; });
+}
+
+std::string CommandLedger::lease_holder(const std::string& robot, const std::string& subsystem) const {
+  const auto lease = leases_.find({robot, subsystem});
+  return lease == leases_.end() ? "" : lease->second;
+}
+
+void CommandLedger::restore(const LedgerEntry& entry) {
+  if (entry.epoch > 0) {
+    Commander& commander = commanders_[entry.sender];
+    commander.epoch = std::max(commander.epoch, entry.epoch);
+  }
+  if (Record& record = records_[entry.key]; entry.word) record.word = entry.word;
+}
+
+void CommandLedger::end_restored() {
+  for (auto& [key, record] : records_) {
+    if (is_last(record.word)) continue;
+    record.word = Word{Stage::failed, "owner-restarted", "its owner was started anew while it ran"};
+  }
 }
 
 Reception CommandLedger::cancel(const Request& request, Time now) {
   if (Record* record = open_record(request.key)) {
     if (std::exchange(record->cancelling, true)) return {};  // its outcome is still to come
+    raise(request);
     return {Reception::Order::break_off, std::nullopt};
   }
   Ack word = answer(request.key, now);
@@ -76,6 +190,7 @@ std::optional<Ack> CommandLedger::say(const CommandKey& key, Word word, Time now
     word.results.duration = now - record->accepted;
   }
   record->word = std::move(word);
+  if (is_last(record->word)) entries_.push_back({key, "", 0, record->word});
   return ack(key, *record->word, now);
 }
 
@@ -130,8 +245,8 @@ Ack CommandLedger::answer(const CommandKey& key, Time now) const {
 }
 
 Ack CommandLedger::ack(const CommandKey& key, Word word, Time now) const {
-  const auto epoch = epochs_.find(key.commander);
-  return {key, std::move(word), now, epoch == epochs_.end() ? 0 : epoch->second};
+  const auto known = commanders_.find(key.commander);
+  return {key, std::move(word), now, known == commanders_.end() ? 0 : known->second.epoch};
 }
 
 }  // namespace roci::services::owner

@@ -5,11 +5,18 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/owner/command.hpp"
 
 namespace roci::services::owner {
+
+/// Is for operators: a stable code and plain words on a commander that is not who it should be.
+struct Notice {
+  std::string code;
+  std::string text;
+};
 
 /// Says what the owner has to do about a request.
 struct Reception {
@@ -19,15 +26,40 @@ struct Reception {
     break_off,  ///< end it with word(…, cancelled) or refuse with refuse_cancel()
   };
   Order order = Order::nothing;
-  std::optional<Ack> ack{};  ///< is to be sent at once
+  std::optional<Ack> ack{};        ///< is to be sent at once
+  std::optional<Notice> notice{};  ///< is to be told
 };
 
-/// Takes each key once. What repeats it, and every query, gets the last word again. An older epoch than the
-/// newest one of the same sender is refused, and told the newest. A cancel has two phases: the order to break
-/// off, and how that went. What ended keeps its last word for good.
+/// Is what must outlive the owner's process: a key with its last word (none: it was taken), and the newest
+/// epoch of whoever sent it.
+struct LedgerEntry {
+  CommandKey key;
+  std::string sender;
+  std::uint64_t epoch = 0;
+  std::optional<Word> word{};
+  bool operator==(const LedgerEntry&) const = default;
+};
+
+/// Takes each key once. What repeats it, and every query, gets the last word again. A cancel has two phases:
+/// the order to break off, and how that went. What ended keeps its last word for good.
+///
+/// Epochs are counted by who sends. A command or a cancel that is taken raises its sender's epoch, by kEpochJump at
+/// most; nothing else does. An epoch that is over, that another process of the same name has used, or that is
+/// further ahead is refused and told the newest. A stop is taken from anybody; a fall-back from who holds the
+/// subsystem's lease, or from anybody while nobody does.
+///
+/// Whoever's command a subsystem took last holds its lease (Gray and Cheriton, 1989) until release().
 class CommandLedger {
  public:
+  /// So many commanders have an epoch here; others are refused.
+  static constexpr std::size_t kCommanders = 64;
+
   Reception receive(const Request&, temporal::Time now);
+
+  /// Takes in that this commander is gone: it holds no lease any more.
+  void release(const std::string& commander);
+  /// Returns who holds the lease of a robot's subsystem, or "" if nobody does.
+  std::string lease_holder(const std::string& robot, const std::string& subsystem) const;
 
   /// Takes the owner's word on a command that it took and that has no last word yet: accepted, rejected,
   /// completed, failed or cancelled. Returns nothing, without effect, if there is no such command.
@@ -50,6 +82,14 @@ class CommandLedger {
   /// Returns the key's last word, with stage `unknown` for a key never taken.
   Ack answer(const CommandKey&, temporal::Time now) const;
 
+  /// Returns what is new since the last call, in order; what is not kept before it is acted upon is lost with the
+  /// process.
+  std::vector<LedgerEntry> take_entries() { return std::exchange(entries_, {}); }
+  /// Before the first request: takes in what an earlier process kept.
+  void restore(const LedgerEntry&);
+  /// After the last restore(): what the earlier process had not ended has failed with it.
+  void end_restored();
+
  private:
   struct Record {
     std::string robot;
@@ -60,15 +100,28 @@ class CommandLedger {
     bool cancelling = false;
     bool repaired = false;
   };
+  // The newest epoch of one sender, and which of its processes has used it.
+  struct Commander {
+    std::uint64_t epoch = 0;
+    std::uint32_t incarnation = 0;
+    std::uint64_t number = 0;
+  };
+  enum class Standing { current, stale, doubled, ahead, unknown };
 
-  std::optional<Ack> refuse_old(const Request&, temporal::Time now);
+  Standing standing_of(const Request&) const;
+  std::optional<Reception> refuse(const Request&, Standing, temporal::Time now) const;
+  Reception refuse_fallback(const Request&, const std::string& holder, temporal::Time now) const;
+  void raise(const Request&);
   Reception execute(const Request&, temporal::Time now);
+  Reception execute_for_safety(const Request&, temporal::Time now);
   Reception cancel(const Request&, temporal::Time now);
   Record* open_record(const CommandKey&);
   Ack ack(const CommandKey&, Word, temporal::Time now) const;
 
-  std::map<std::string, std::uint64_t> epochs_;  // newest by who sent it
+  std::map<std::string, Commander> commanders_;                        // by who sends
+  std::map<std::pair<std::string, std::string>, std::string> leases_;  // who holds it, by robot and subsystem
   std::map<CommandKey, Record> records_;
+  std::vector<LedgerEntry> entries_;
 };
 
 }  // namespace roci::services::owner

@@ -1,21 +1,69 @@
 #include "services/owner/command_server.hpp"
 
+#include <system_error>
 #include <utility>
 
 #include "services/owner/command_wire.hpp"
 
 namespace roci::services::owner {
 
+namespace {
+
+// The same words about a commander are told again after this time, and of so many at most.
+constexpr temporal::Duration kAgain = std::chrono::seconds(60);
+constexpr std::size_t kAnnounced = 256;
+
+}  // namespace
+
 CommandServer::CommandServer(Node& node, Driver& driver)
-    : node_(node), driver_(driver), acks_(advertise(node, topics::command_ack)) {
+    : node_(node),
+      driver_(driver),
+      acks_(advertise(node, topics::command_ack)),
+      events_(advertise(node, topics::event)) {
   subscribe(node, topics::command, [this](const v1::Command& command) {
     if (command.owner() == node_.options().name) receive(from_wire(command));
   });
+  node.on_peer_change([this](const health::PeerChange& change) {
+    if (!change.alive) ledger_.release(change.service);
+  });
+}
+
+void CommandServer::keep_in(const std::filesystem::path& file) {
+  file_.emplace(file);
+  for (const LedgerEntry& entry : file_->read()) ledger_.restore(entry);
+  ledger_.end_restored();
+}
+
+void CommandServer::keep() {
+  const std::vector<LedgerEntry> entries = ledger_.take_entries();
+  if (!file_) return;
+  try {
+    for (const LedgerEntry& entry : entries) file_->append(entry);
+  } catch (const std::system_error& error) {
+    announce({"ledger.unwritten", error.what()});  // a robot that can still be stopped beats one that cannot
+  }
+}
+
+void CommandServer::announce(const Notice& notice) {
+  const std::string words = notice.code + " " + notice.text;
+  const auto told = announced_.find(words);
+  if (told != announced_.end() && node_.now() < told->second + kAgain) return;
+  if (told == announced_.end() && announced_.size() >= kAnnounced) {
+    std::erase_if(announced_, [this](const auto& one) { return node_.now() >= one.second + kAgain; });
+    if (announced_.size() >= kAnnounced) return;
+  }
+  announced_[words] = node_.now();
+  v1::Event event;
+  event.severity_level(v1::SEVERITY_WARNING);
+  event.code(notice.code);
+  event.text(notice.text);
+  events_.write(event);
 }
 
 void CommandServer::receive(const Request& request) {
   driver_.catch_up();
   const Reception reception = ledger_.receive(request, node_.now());
+  if (reception.notice) announce(*reception.notice);
   send(reception.ack);
   switch (reception.order) {
     case Reception::Order::nothing:
@@ -24,6 +72,10 @@ void CommandServer::receive(const Request& request) {
       return driver_.break_off(request.key, {Stage::cancelled, "cancelled", "cancelled on request"});
     case Reception::Order::carry_out:
       break;
+  }
+  if (request.command == kLeadCommand) {
+    say(request.key, {Stage::completed, "done", ""});
+    return;
   }
   if (request.command == kStopCommand && !driver_stops_) return stop(request);
   driver_.carry_out(request);
@@ -52,6 +104,7 @@ bool CommandServer::repair(const CommandKey& key, std::string reason) {
 }
 
 bool CommandServer::send(const std::optional<Ack>& ack) {
+  keep();
   if (ack) acks_.write(to_wire(*ack, node_.options().name));
   return ack.has_value();
 }

@@ -2,12 +2,14 @@
 // the ledger applies the rules, the driver does what is to be done, and its words go out by `command_ack`.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "services/node.hpp"
 #include "services/owner/command_ledger.hpp"
+#include "services/owner/ledger_file.hpp"
 #include "services/publisher.hpp"
 
 namespace roci::services::owner {
@@ -38,6 +40,12 @@ class CommandServer {
   /// driver that knows its subsystems better gets stops by carry_out(), like other commands.
   void leave_stops_to_driver() { driver_stops_ = true; }
 
+  /// Keeps keys, last words and epochs in this file, before anything is done about them, and takes up what an
+  /// earlier process of this owner left there: it does not carry out again what that one has begun, and answers
+  /// queries as it would have. To be called before the loop runs. Throws std::runtime_error if the file cannot be
+  /// read or written.
+  void keep_in(const std::filesystem::path& file);
+
   /// These return false if the ledger has no such command, or it has ended (command_ledger.hpp).
   bool say(const CommandKey&, Word);
   bool refuse_cancel(const CommandKey&, std::string reason);
@@ -47,13 +55,18 @@ class CommandServer {
  private:
   void receive(const Request&);
   void stop(const Request&);
+  void keep();
+  void announce(const Notice&);
   bool send(const std::optional<Ack>&);
   void watch_overruns();
 
   Node& node_;
   Driver& driver_;
   CommandLedger ledger_;
+  std::optional<LedgerFile> file_;
   Publisher<v1::CommandAck> acks_;
+  Publisher<v1::Event> events_;
+  std::map<std::string, temporal::Time> announced_;  // when operators were told last, by code and text
   bool driver_stops_ = false;
   std::optional<Node::TimerId> overrun_;
 };

@@ -47,6 +47,8 @@ Request from_wire(const v1::Command& command) {
   request.action = action_of(command.action());
   request.epoch = command.sender_epoch();
   request.sender = command.header().sender();
+  request.incarnation = command.header().incarnation();
+  request.number = command.header().seq();
   request.robot = command.robot();
   request.subsystem = command.subsystem();
   request.command = command.command_name();

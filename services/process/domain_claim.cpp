@@ -31,6 +31,8 @@ int bind_alone(std::uint16_t port) {
   return -1;
 }
 
+}  // namespace
+
 // Participants need no claim (a run with --domain has none), and the first of them may have left.
 bool has_participants(int domain) {
   for (int participant = 0; participant < transport::kMaxParticipantsPerHost; ++participant) {
@@ -41,8 +43,6 @@ bool has_participants(int domain) {
   }
   return false;
 }
-
-}  // namespace
 
 DomainClaim::DomainClaim() {
   // Each process starts at another place, so that many at once seldom collide.

@@ -4,6 +4,9 @@
 
 namespace roci::services::process {
 
+/// Returns whether participants of this host (in this network namespace) are on the domain.
+bool has_participants(int domain);
+
 /// Holds a domain id from 1 to 100 until it is destroyed or the process ends, against every other DomainClaim
 /// on this host (in this network namespace) and against participants that are there already. Children inherit
 /// the claim over fork(), not over exec().

@@ -11,10 +11,15 @@ namespace {
 
 constexpr char kFolder[] = "links";
 
+// What is no number in a damaged report counts as 0.
+std::uint64_t count_of(const json& report, const char* name) {
+  const auto found = report.find(name);
+  return found != report.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+}
+
 link::Counts counts_of(const json& report) {
-  return {report.value("offered", std::uint64_t{0}),   report.value("arrived", std::uint64_t{0}),
-          report.value("lost", std::uint64_t{0}),      report.value("superseded", std::uint64_t{0}),
-          report.value("under_way", std::uint64_t{0}), report.value("repeated", std::uint64_t{0})};
+  return {count_of(report, "offered"),    count_of(report, "arrived"),   count_of(report, "lost"),
+          count_of(report, "superseded"), count_of(report, "under_way"), count_of(report, "repeated")};
 }
 
 }  // namespace

@@ -14,10 +14,39 @@ namespace {
 
 using nlohmann::json;
 
+// Whether what is read by name below is of the kind that it is read as.
+bool fits(const json& value, const json& pattern) {
+  if (pattern.is_string()) return value.is_string();
+  if (pattern.is_number()) return value.is_number();
+  if (!value.is_object()) return false;
+  return std::ranges::all_of(value.items(), [&](const auto& member) {
+    return !pattern.contains(member.key()) || fits(member.value(), pattern.at(member.key()));
+  });
+}
+
+bool is_summary(const json& value) {
+  static const json kPattern{{"format", 1},
+                             {"mission", ""},
+                             {"scenario", ""},
+                             {"seed", 1},
+                             {"dds", ""},
+                             {"result", ""},
+                             {"goals", json::object()},
+                             {"planner", {{"calls", 1}, {"max_s", 1}, {"max_rss_mb", 1}}},
+                             {"replans", 1},
+                             {"sim_s", 1},
+                             {"wall_s", 1},
+                             {"trace_sha256", ""}};
+  if (!value.is_object() || !fits(value, kPattern)) return false;
+  const json goals = value.value("goals", json::object());
+  return std::ranges::all_of(goals, [](const json& count) { return count.is_number(); });
+}
+
+// A damaged file is none.
 json read_json(const std::filesystem::path& file) {
   std::ifstream in(file);
   json summary = json::parse(in, nullptr, false);
-  if (!summary.is_object()) return json::object();
+  if (!is_summary(summary)) return json::object();
   const int format = summary.value("format", 1);
   if (format > kSummaryFormat)
     throw std::runtime_error(file.string() + " is of format " + std::to_string(format) +

@@ -26,7 +26,14 @@ class ReplyCache {
   /// Returns true if this request is to be handled, false if it is a duplicate; if it was answered before,
   /// the answer has gone out again.
   bool accept(const Id&);
-  void answered(const Id&, SendAgain);
+  /// Keeps the answer, of `bytes`, for who asks again. Of all answers the newest kCachedReplies are kept, and of these no more
+  /// than kCachedReplyBytes together (bounds/limits.hpp), but always the newest.
+  void answered(const Id&, SendAgain, std::size_t bytes = 0);
+
+  /// Requests that were taken and are not answered; PendingReply counts them.
+  std::size_t open() const { return open_; }
+  void begin() { ++open_; }
+  void end() { --open_; }
 
   void cancel(const Id&);
   /// Runs `handler` once, when this request is cancelled before its answer, or at once if it already is.
@@ -34,13 +41,17 @@ class ReplyCache {
 
  private:
   struct Request {
+    std::size_t bytes = 0;  // of the answer
     bool seen = false;
     bool cancelled = false;
     SendAgain send_again;  // empty: not answered yet
     std::function<void()> on_cancel;
   };
   Request& entry(const Id&);
+  void forget_oldest();
 
+  std::size_t open_ = 0;
+  std::size_t bytes_ = 0;
   std::map<Id, Request> known_;
   std::deque<Id> order_;  // oldest first; bounds known_
 };
@@ -48,10 +59,15 @@ class ReplyCache {
 /// Is the duty to answer one request, with the writer that does it.
 class PendingReply {
  public:
-  using Write = std::function<void(const void* reply)>;
+  using Write = std::function<std::size_t(const void* reply)>;  ///< Returns the size of the reply in bytes.
 
   PendingReply(std::shared_ptr<ReplyCache> server, const v1::SampleIdentity& request, Write write)
-      : server_(std::move(server)), request_(request), write_(std::move(write)) {}
+      : server_(std::move(server)), request_(request), write_(std::move(write)) {
+    server_->begin();
+  }
+  ~PendingReply();
+  PendingReply(const PendingReply&) = delete;
+  PendingReply& operator=(const PendingReply&) = delete;
 
   const v1::SampleIdentity& request() const { return request_; }
   /// The first answer is sent and remembered; others are ignored.

@@ -15,11 +15,13 @@ bool InstanceTable::wrote(const Key& key, const transport::Guid& writer) {
   const auto found = alive_.find(key);
   if (found == alive_.end()) return false;
   auto& writers = found->second.writers;
-  if (std::find(writers.begin(), writers.end(), writer) == writers.end()) writers.push_back(writer);
+  const bool known = std::find(writers.begin(), writers.end(), writer) != writers.end();
+  if (!known && writers.size() < kWriters) writers.push_back(writer);
   return true;
 }
 
 void InstanceTable::introduce(const Key& key, const transport::Guid& writer, transport::Payload key_payload) {
+  if (alive_.size() >= kInstances && !alive_.contains(key)) return;
   alive_[key] = {std::move(key_payload), {writer}};
 }
 

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <string>
 
+#include "core/temporal/plan_bounds.hpp"
+
 namespace roci::services::wire {
 namespace {
 
@@ -295,6 +297,8 @@ v1::Condition to_wire(const temporal::Condition& in) {
 }
 
 temporal::Condition from_wire(const v1::Condition& in) {
+  if (in.nodes().size() > temporal::kMostConditionNodes)
+    throw WireError("a condition has more than " + std::to_string(temporal::kMostConditionNodes) + " nodes");
   return {each<temporal::ConditionNode>(in.nodes(), [](const v1::ConditionNode& node) {
     return temporal::ConditionNode{enum_from_wire(node.op(), temporal::ConditionOp::gt, "condition operator"),
                                    node.child_count(), node.timeline(), from_wire(node.operand())};
@@ -317,6 +321,8 @@ v1::Plan to_wire(const temporal::FlexiblePlan& in) {
 }
 
 temporal::FlexiblePlan from_wire(const v1::Plan& in) {
+  if (in.point_count() > temporal::kMostPoints)
+    throw WireError("a plan has more than " + std::to_string(temporal::kMostPoints) + " time points");
   temporal::FlexiblePlan out;
   out.id = in.id();
   out.version = in.version();

@@ -49,13 +49,14 @@ Ending Arm::begin(const world::Task& task, Time, Surroundings& around) {
   return std::nullopt;
 }
 
-Ending Arm::answer(const world::Answer& answer, Time now, Surroundings&) {
+Ending Arm::answer(const world::Answer& answer, Time now, Surroundings& around) {
   const auto* trajectory = std::get_if<world::Trajectory>(&answer);
   if (!trajectory) return Failure{"bad-trajectory", "the answer is no trajectory"};
   if (std::string fault = motion_fault(joints_, trajectory->targets); !fault.empty()) {
     return Failure{"bad-trajectory", std::move(fault)};
   }
   trace_ = simulate_arm(settings_.motion, now, joints_, trajectory->targets, noise_);
+  around.deeds.push_back({"motion", *target_});
   return std::nullopt;
 }
 

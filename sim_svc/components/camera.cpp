@@ -48,6 +48,7 @@ Ending Camera::finish(Surroundings& around) {
               false,         shot_->end,
               pose,          render_preview(around.environment.ground, pose, settings_.image_noise, noise_)};
   last_bytes_ = static_cast<double>(image.bytes);
+  around.deeds.push_back({"image", image.id});
   around.out.push_back(image);
   around.body.images.insert_or_assign(image.id, std::move(image));
   shot_.reset();

@@ -57,6 +57,7 @@ Ending Drive::answer(const world::Answer& answer, Time now, Surroundings& around
   const auto* way = std::get_if<world::Way>(&answer);
   if (!way || way->points.empty()) return Failure{"no-path", "the path has no way-points"};
   way_ = way->points;
+  around.deeds.push_back({detours_ == 0 ? "motion" : "detour", target_->place});
   trace_ =
       simulate_drive(around.environment.ground, settings_.motion, now, *around.body.pose, way_, 0, noise_);
   return std::nullopt;

@@ -71,6 +71,9 @@ Ending TaskComponent::begin(const world::Task& task, Time now, Surroundings& aro
              form(command.then),
              form(command.stopped),
              values_};
+  std::string object;
+  for (const auto& [name, value] : task.arguments) object += (object.empty() ? "" : " ") + value;
+  around.deeds.push_back({command.name, std::move(object)});
   state_ = command.during ? filled(*command.during, task.arguments) : State{command.name, {}};
   return std::nullopt;
 }

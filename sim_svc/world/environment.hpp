@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/terrain/site.hpp"
+#include "sim_svc/world/values.hpp"
 #include "sim_svc/world/windows.hpp"
 
 namespace roci::sim::world {
@@ -29,6 +30,7 @@ struct Environment {
   std::vector<Window> windows;
   std::map<std::size_t, std::string> known_rocks;  ///< index into Ground::hidden_rocks → id, once one was met
   std::map<std::string, std::string> samples;  ///< sample → place where it lies; empty: somebody holds it
+  std::vector<Effect> effects{};               ///< since they were taken last
 };
 
 }  // namespace roci::sim::world

@@ -107,6 +107,7 @@ bool Robot::begin(const std::string& component, const Task& task, Time now, Envi
   } else {
     Surroundings surroundings = around(environment, out);
     failure = one->component->begin(task, now, surroundings);
+    note_deeds(*one, task.key, now, surroundings);
   }
   if (failure) {
     say(TaskStage::failed, *failure);
@@ -131,6 +132,7 @@ void Robot::answer(const TaskKey& key, const Answer& answer, Time now, Environme
   } else {
     Surroundings surroundings = around(environment, out);
     failure = one->component->answer(answer, now, surroundings);
+    note_deeds(*one, key, now, surroundings);
   }
   if (failure) break_off(*one, TaskStage::failed, *failure, now, environment, out);
 }
@@ -140,6 +142,7 @@ void Robot::finish_due(Time now, Environment& environment, Outputs& out) {
     if (!one.running || one.component->next_change() != now) continue;
     Surroundings surroundings = around(environment, out);
     const Ending failure = one.component->finish(surroundings);
+    note_deeds(one, one.running->key, now, surroundings);
     if (one.component->busy()) continue;  // it goes on
     if (failure) {
       conclude(one, TaskStage::failed, *failure, one.component->results(), now, out);
@@ -181,6 +184,12 @@ void Robot::settle(Time from, Time to, Environment& environment, Outputs& out) {
   for (Part& one : parts_) {
     break_off(one, TaskStage::failed, {"battery-flat", "the battery is empty"}, to, environment, out);
   }
+}
+
+void Robot::note_deeds(const Part& one, const TaskKey& cause, Time now, Surroundings& surroundings) {
+  for (Deed& deed : surroundings.deeds)
+    surroundings.environment.effects.push_back({now, name_, one.name, std::move(deed), cause});
+  surroundings.deeds.clear();
 }
 
 void Robot::break_off(Part& one, TaskStage stage, const Failure& why, Time now, Environment& environment,

@@ -64,6 +64,23 @@ struct Results {
   bool operator==(const Results&) const = default;
 };
 
+/// Is something physical that a component has just done: a motion that began, an image that was taken, a sample
+/// that was picked. It does not come again by being asked for twice.
+struct Deed {
+  std::string kind;
+  std::string object;  ///< that it was done to
+};
+
+/// Is a deed with what caused it. All deeds of a world are told, whoever was behind the command: what an owner's
+/// rules let pass is seen here, not what it was asked for (bench/kill counts them).
+struct Effect {
+  temporal::Time at{};
+  std::string robot;
+  std::string component;
+  Deed deed;
+  TaskKey cause;
+};
+
 // These leave the world. All values carry the exact time at which they came about.
 
 /// Is the newest word on a task; the last one has a stage other than `accepted` and `repairing`.

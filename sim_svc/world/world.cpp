@@ -31,7 +31,7 @@ void check_unique(const std::vector<Named>& all, const std::string& what) {
 }  // namespace
 
 World::World(WorldSetup setup, std::uint64_t seed)
-    : environment_{std::move(setup.ground), std::move(setup.windows), {}, {}} {
+    : environment_{std::move(setup.ground), std::move(setup.windows), {}, {}, {}} {
   check_unique(setup.robots, "robots");
   for (RobotSetup& robot : setup.robots) {
     check_unique(robot.components, "components of '" + robot.name + "'");

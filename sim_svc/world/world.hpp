@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim_svc/world/disturbance.hpp"
@@ -54,6 +55,8 @@ class World {
   std::optional<temporal::Time> next_change() const;
 
   const std::vector<Begun>& begun() const { return begun_; }
+  /// Returns what the components have done since the last call, in order.
+  std::vector<Effect> take_effects() { return std::exchange(environment_.effects, {}); }
 
  private:
   void advance_to(temporal::Time now);

@@ -18,7 +18,7 @@ struct House {
 const std::vector<House> kHouses = {
     {"core/", {"core/temporal/", "core/mission/", "core/pddl/", "core/kinematics/", "core/terrain/"}},
     {"services/",
-     {"services/clock/", "services/link/", "services/log/", "services/wire/", "services/transport/",
+     {"services/bounds/", "services/clock/", "services/link/", "services/log/", "services/wire/", "services/transport/",
       "services/vendors/", "services/topics.hpp", "services/health/", "services/node/", "services/rpc/",
       "services/", "services/owner/", "services/process/", "services/launch/"}},
     {"planner_svc/", {"planner_svc/engine/", "planner_svc/temporal_pddl/", "planner_svc/"}},

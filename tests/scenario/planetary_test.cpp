@@ -104,8 +104,8 @@ TEST(PlanetaryTraceTest, TwoRunsOnOneDomainDoNotObeyEachOther) {
   const auto flown = [&](const std::string& name, std::uint64_t seed) {
     return std::async(std::launch::async, [&, name, seed] {
       return fly(kMission, "cyclonedds", seed,
-                 "--domain " + std::to_string(domain.id()) + " --run " + name + " --run-folder " +
-                     (folder / name).string());
+                 "--shared-domain --domain " + std::to_string(domain.id()) + " --run " + name +
+                     " --run-folder " + (folder / name).string());
     });
   };
   auto first = flown("first", 1), second = flown("second", 2);

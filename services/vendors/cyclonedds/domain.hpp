@@ -17,8 +17,8 @@ std::string configuration(const transport::TransportOptions&);
 
 class Domain {
  public:
-  /// `config`: XML or the path of a file with it.
-  Domain(int id, std::string config);
+  /// `config`: XML or the path of a file with it; what of `options` it does not say is for the guard.
+  Domain(const transport::TransportOptions& options, std::string config);
   ~Domain();
   Domain(const Domain&) = delete;
   Domain& operator=(const Domain&) = delete;

@@ -26,3 +26,9 @@ void roci_keep_what_precedes_first_heartbeat(const struct ddsi_sertype* type, co
   if (found && !vendor_is_eclipse(found->c.vendor)) expect_from_first_heartbeat(found);
   thread_state_asleep(thread);
 }
+
+void roci_begin_prefixes_with(struct ddsi_domaingv* domain, const uint8_t start[4]) {
+  // The vendor keeps prefixes in the byte order of the machine and counts on in their last eight bytes.
+  domain->ppguid_base.prefix.u[0] =
+      (uint32_t)start[0] << 24 | (uint32_t)start[1] << 16 | (uint32_t)start[2] << 8 | start[3];
+}

@@ -14,3 +14,9 @@
 // gone. Transient-local readers of the same writer in the same process would lose its past: they share one
 // order of samples. No topic here has both; a writer whose past one of them still awaits is left alone.
 void roci_keep_what_precedes_first_heartbeat(const struct ddsi_sertype* type, const uint8_t writer_guid[16]);
+
+struct ddsi_domaingv;
+
+// The GUID prefixes of all participants of the domain begin with these four bytes. To be called before the first
+// participant is made; the other eight bytes stay the vendor's.
+void roci_begin_prefixes_with(struct ddsi_domaingv* domain, const uint8_t start[4]);

@@ -12,22 +12,25 @@ namespace {
 // First allocation of a sample; the history grows it when a sample is larger.
 constexpr std::uint32_t kInitialSize = 512;
 
+KeyHash md5_of(std::span<const std::uint8_t> bytes) {
+  MD5 md5;
+  md5.init();
+  md5.update(bytes.data(), static_cast<MD5::size_type>(bytes.size()));
+  md5.finalize();
+  KeyHash hash;
+  std::copy(std::begin(md5.digest), std::end(md5.digest), hash.begin());
+  return hash;
+}
+
 }  // namespace
 
 std::optional<KeyHash> key_hash_of(const transport::TypeDescription& type,
                                    std::span<const std::uint8_t> payload, bool force_md5) {
   transport::Payload key;
   if (!type.serialized_key(payload, true, key)) return std::nullopt;
+  if (!type.key_fits_hash || force_md5) return md5_of(key);
   KeyHash hash{};
-  if (type.key_fits_hash && !force_md5) {
-    std::copy(key.begin(), key.end(), hash.begin());
-    return hash;
-  }
-  MD5 md5;
-  md5.init();
-  md5.update(key.data(), static_cast<MD5::size_type>(key.size()));
-  md5.finalize();
-  std::copy(std::begin(md5.digest), std::end(md5.digest), hash.begin());
+  std::copy(key.begin(), key.end(), hash.begin());
   return hash;
 }
 
@@ -67,9 +70,10 @@ void BytesType::deleteData(void* data) { delete static_cast<Bytes*>(data); }
 bool BytesType::getKey(void* data, InstanceHandle_t* handle, bool force_md5) {
   const auto& bytes = *static_cast<const Bytes*>(data);
   if (!type_.keyed) return false;
-  const auto hash = bytes.key_hash && !force_md5 ? bytes.key_hash : key_hash_of(type_, bytes.view, force_md5);
-  if (!hash) return false;
-  for (std::size_t i = 0; i < hash->size(); ++i) handle->value[i] = (*hash)[i];
+  const auto known =
+      bytes.key_hash && !force_md5 ? bytes.key_hash : key_hash_of(type_, bytes.view, force_md5);
+  const KeyHash hash = known ? *known : md5_of(bytes.view);
+  for (std::size_t i = 0; i < hash.size(); ++i) handle->value[i] = hash[i];
   return true;
 }
 

@@ -7,6 +7,8 @@
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
 #include "services/transport/rtps_ports.hpp"
+#include "services/vendors/fastdds/guarded_transport.hpp"
+#include "services/vendors/fastdds/own_port.hpp"
 #include "services/vendors/peers.hpp"
 
 namespace roci::services::vendors::fastdds {
@@ -43,6 +45,18 @@ dds::DomainParticipantQos profile_of(const std::string& xml) {
   return qos;
 }
 
+// Of what the profile asks for; other kinds than UDP stay as they are.
+void guard_transports(const std::shared_ptr<guard::Guard>& guard, dds::TransportConfigQos& transport) {
+  using eprosima::fastdds::rtps::UDPTransportDescriptor;
+  if (transport.use_builtin_transports) {
+    transport.use_builtin_transports = false;
+    transport.user_transports.push_back(
+        std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>());
+  }
+  for (auto& descriptor : transport.user_transports)
+    if (dynamic_cast<UDPTransportDescriptor*>(descriptor.get())) descriptor = guarded(descriptor, guard);
+}
+
 void set_history(const transport::QosSettings& settings, dds::HistoryQosPolicy& history,
                  dds::ResourceLimitsQosPolicy& limits) {
   history.kind = settings.history_depth > 0 ? dds::KEEP_LAST_HISTORY_QOS : dds::KEEP_ALL_HISTORY_QOS;
@@ -55,22 +69,28 @@ void set_history(const transport::QosSettings& settings, dds::HistoryQosPolicy& 
 
 }  // namespace
 
-dds::DomainParticipantQos participant_qos(const transport::TransportOptions& options) {
+dds::DomainParticipantQos participant_qos(const transport::TransportOptions& options,
+                                          const std::shared_ptr<guard::Guard>& guard, std::uint16_t port) {
   auto qos = options.vendor_xml.empty() ? dds::DomainParticipantQos() : profile_of(options.vendor_xml);
   qos.name(options.participant.c_str());
   const std::string announcement = options.announcement.value_or("");
   qos.user_data().data_vec({announcement.begin(), announcement.end()});
-  if (!options.vendor_xml.empty()) return qos;
+  if (!options.vendor_xml.empty()) {
+    guard_transports(guard, qos.transport());
+    return qos;
+  }
 
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
   udp->interfaceWhiteList = {options.address};
   udp->sendBufferSize = kSocketBuffer;
   udp->receiveBufferSize = kSocketBuffer;
+  udp->m_output_udp_socket = port;
   udp->maxInitialPeersRange = transport::kMaxParticipantsPerHost;
   qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports = {udp};
+  qos.transport().user_transports = {guarded(udp, guard)};
 
   auto& wire = qos.wire_protocol();
+  wire.prefix = prefix_naming(port);
   auto& discovery = wire.builtin.discovery_config;
   discovery.leaseDuration = Duration_t(kLeaseSeconds, 0);
   discovery.leaseDuration_announcementperiod = Duration_t(0, 500 * kMillisecond);

@@ -4,14 +4,19 @@
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+#include <memory>
 
 #include "services/transport/transport.hpp"
+#include "services/vendors/guard/guard.hpp"
 
 namespace roci::services::vendors::fastdds {
 
-/// UDP unicast on options.address alone. With vendor_xml: the default participant profile of that file
-/// instead.
-eprosima::fastdds::dds::DomainParticipantQos participant_qos(const transport::TransportOptions&);
+/// UDP unicast on options.address alone, sent from `port`, after which the participant is named. With vendor_xml: the
+/// default participant profile of that file instead, with its built-in transports replaced by UDPv4. Datagrams pass
+/// `guard` in either case.
+eprosima::fastdds::dds::DomainParticipantQos participant_qos(const transport::TransportOptions&,
+                                                             const std::shared_ptr<guard::Guard>& guard,
+                                                             std::uint16_t port);
 
 eprosima::fastrtps::Duration_t blocking_time(const transport::QosSettings&);
 eprosima::fastdds::dds::DataWriterQos writer_qos(const transport::QosSettings&);

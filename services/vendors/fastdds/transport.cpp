@@ -10,6 +10,7 @@
 
 #include "services/vendors/fastdds/bytes_type.hpp"
 #include "services/vendors/fastdds/guid.hpp"
+#include "services/vendors/fastdds/own_port.hpp"
 #include "services/vendors/fastdds/participants.hpp"
 #include "services/vendors/fastdds/qos.hpp"
 #include "services/vendors/fastdds/reader.hpp"
@@ -39,13 +40,22 @@ dds::PartitionQosPolicy partition_qos(const std::vector<std::string>& partitions
 class FastTransport : public transport::Transport {
  public:
   explicit FastTransport(const transport::TransportOptions& options)
-      : announcement_(options.announcement.value_or("")) {
+      : announcement_(options.announcement.value_or("")),
+        guard_(std::make_shared<guard::Guard>(guard::policy_of(options))) {
     if (options.vendor_xml.empty()) require_usable_addresses(options);
     switch_intraprocess_delivery_off();
     auto* factory = dds::DomainParticipantFactory::get_instance();
-    participant_ =
-        factory->create_participant(static_cast<std::uint32_t>(options.domain), participant_qos(options),
-                                    &participants_, dds::StatusMask::none());
+    // Between the choice of the port and its use somebody else may take it: the participant would be mute.
+    constexpr int kAttempts = 5;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      const std::uint16_t port = options.vendor_xml.empty() ? free_port(options.address) : 0;
+      participant_ = factory->create_participant(static_cast<std::uint32_t>(options.domain),
+                                                 participant_qos(options, guard_, port), &participants_,
+                                                 dds::StatusMask::none());
+      if (!participant_ || port == 0 || is_ours(port)) break;
+      factory->delete_participant(participant_);
+      participant_ = nullptr;
+    }
     if (!participant_) {
       throw transport::TransportError("Fast DDS cannot join domain " + std::to_string(options.domain) +
                                       "; the domain id must be from 0 to 232, its UDP ports must be free");
@@ -120,6 +130,7 @@ class FastTransport : public transport::Transport {
   }
 
   const std::string announcement_;
+  const std::shared_ptr<guard::Guard> guard_;
   Participants participants_;
   dds::DomainParticipant* participant_ = nullptr;
   std::mutex mutex_;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <random>
 
+#include "ground_console/lib/limits.hpp"
 #include "tests/unit/ground_console/messages.hpp"
 
 namespace roci::console {
@@ -32,6 +33,41 @@ TEST(MissionViewTest, KeepsTheNewestOfEachKey) {
   EXPECT_EQ(view.goals().at({"ground", "ridge"}).goal_state(), v1::GOAL_ACHIEVED);
   EXPECT_EQ(view.goals().at({"ground", "far"}).goal_state(), v1::GOAL_REJECTED);
   EXPECT_EQ(view.now_us(), 300'000'000) << "of the newest sample, whichever it is";
+}
+
+TEST(MissionViewTest, KeepsABoundedNumberOfEach) {
+  lib::MissionView view;
+  for (std::size_t i = 0; i < lib::kEntries + 50; ++i) {
+    const std::string name = "n" + std::to_string(i);
+    view.take(goal_status(name, v1::GOAL_PENDING, 1));
+    v1::Observation observation;
+    observation.timeline(name);
+    view.take(observation);
+    v1::Hazard hazard;
+    hazard.id(name);
+    view.take(hazard);
+    v1::DataProduct product;
+    product.id(name);
+    view.take(product);
+    v1::Decision decision;
+    decision.id(name);
+    view.take(decision);
+    v1::Heartbeat beat;
+    beat.service(name);
+    view.take(beat);
+  }
+  EXPECT_EQ(view.goals().size(), lib::kEntries);
+  EXPECT_EQ(view.timelines().size(), lib::kEntries);
+  EXPECT_EQ(view.hazards().size(), lib::kEntries);
+  EXPECT_EQ(view.products().size(), lib::kEntries);
+  EXPECT_EQ(view.decisions().size(), lib::kEntries);
+  EXPECT_EQ(view.services().size(), lib::kServices);
+  EXPECT_EQ(view.unseen(), 5 * 50 + lib::kEntries + 50 - lib::kServices);
+  view.take(goal_status("n7", v1::GOAL_ACHIEVED, 2));
+  EXPECT_EQ(view.goals().at({"ground", "n7"}).goal_state(), v1::GOAL_ACHIEVED) << "what is known goes on";
+  v1::OrderStatus status;
+  for (std::size_t i = 0; i < 3 * lib::kStages; ++i) view.take(status);
+  EXPECT_EQ(view.order("", "").size(), lib::kStages);
 }
 
 TEST(MissionViewTest, ARestartedSenderCountsAnew) {

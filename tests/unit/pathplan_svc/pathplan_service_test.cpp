@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/mission/entry.hpp"
+#include "pathplan_svc/limits.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "tests/unit/services/sim_run.hpp"
@@ -120,6 +121,16 @@ TEST_F(PathplanService, OffersItsFunctions) {
   ASSERT_EQ(offers_[0].functions().size(), 2U);
   EXPECT_EQ(offers_[0].functions()[0].name(), "traverse_time");
   EXPECT_EQ(offers_[0].functions()[1].name(), "traverse_energy");
+}
+
+// Its worker has not built one of these maps when the last one comes.
+TEST_F(PathplanService, MoreHazardsThanItCanTakeAreRefusedByOneEvent) {
+  master_.after(500ms, [this] {
+    for (std::size_t i = 0; i < kMapChanges + 9; ++i) hazards_.write(hazard("rock-" + std::to_string(i), 1, 1, 0.1));
+  });
+  run(1s);
+  EXPECT_THAT(events_, testing::Contains("hazard.refused").Times(1));
+  EXPECT_FALSE(offers_.empty());
 }
 
 TEST_F(PathplanService, EveryTupleHasItsOwnOutcome) {

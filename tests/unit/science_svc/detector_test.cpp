@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "science_svc/limits.hpp"
+
 namespace roci::science {
 namespace {
 
@@ -39,6 +41,18 @@ TEST(Detector, TheSameSeedAndPlaceScoreAlikeAndOthersDiffer) {
   EXPECT_EQ(detector.score({10.1, 20.2}), Detector(eager(), kMap, kSeed).score({10.9, 20.7}));
   EXPECT_NE(detector.score({10.1, 20.2}), detector.score({11.1, 20.2}));
   EXPECT_NE(detector.score({10.1, 20.2}), Detector(eager(), kMap, kSeed + 1).score({10.1, 20.2}));
+}
+
+TEST(Detector, LooksAtABoundedNumberOfPhotos) {
+  DetectorSettings none = eager();
+  none.threshold = 2;
+  Detector detector(none, kMap, kSeed);
+  EXPECT_FALSE(detector.look({std::string(kNameBytes + 1, 'x'), {10, 10}}, seconds(0)));
+  for (std::size_t i = 0; i < kPhotos; ++i) {
+    EXPECT_FALSE(detector.full()) << i;
+    detector.look({"photo-" + std::to_string(i), {10, 10}}, seconds(0));
+  }
+  EXPECT_TRUE(detector.full());
 }
 
 TEST(Detector, FindsExactlyWhatScoresAboveTheThreshold) {

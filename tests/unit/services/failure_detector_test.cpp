@@ -79,6 +79,34 @@ TEST_F(FailureDetectorTest, ANewIncarnationProvesTheDeathOfTheOld) {
   EXPECT_THAT(changes(), ElementsAre("1 alive", "1 restarted", "2 alive"));
 }
 
+TEST_F(FailureDetectorTest, AForgedHeartbeatReplacesNobodyWhoIsHeard) {
+  clock::WallTime now = start;
+  for (int turn = 0; turn < 40; ++turn, now += 250ms) {
+    peers.heartbeat(beat(3), now);
+    for (const std::uint32_t forged : {4U, 7U, 4'000'000'000U, 2U}) peers.heartbeat(beat(forged), now + 10ms);
+    peers.check(now + 20ms);
+  }
+  EXPECT_THAT(changes(), ElementsAre("3 alive"));
+}
+
+TEST_F(FailureDetectorTest, ANumberFarAheadIsNotTheSuccessorOfTheDead) {
+  peers.heartbeat(beat(1), start);
+  peers.writer_lost("arm_svc");
+  peers.heartbeat(beat(1 + FailureDetector::kIncarnationJump + 1), start + 1s);
+  peers.heartbeat(beat(2), start + 2s);
+  EXPECT_THAT(changes(), ElementsAre("1 alive", "1 killed", "2 alive"));
+}
+
+TEST_F(FailureDetectorTest, WhoWasReplacedByAForgedNumberComesBackWhenThatIsSilent) {
+  peers.heartbeat(beat(4'000'000'000U), start);  // before the real one was ever heard
+  clock::WallTime now = start + 250ms;
+  for (int turn = 0; turn < 40; ++turn, now += 250ms) {
+    peers.heartbeat(beat(1), now);
+    peers.check(now);
+  }
+  EXPECT_THAT(changes(), ElementsAre("4000000000 alive", "4000000000 hung", "1 alive"));
+}
+
 TEST_F(FailureDetectorTest, StrangersAreNobody) {
   peers.writer_lost("unknown");
   peers.seen("unknown", 1, start);

@@ -165,13 +165,28 @@ void ExecSeat::tell(const std::string& activity, std::uint32_t attempt, v1::Comm
   out.activity(activity);
   out.attempt(attempt);
   out.stage(stage);
-  out.owner("sim_svc");
+  out.owner(acknowledged_by.empty() ? "sim_svc" : acknowledged_by);
   if (stage != v1::STAGE_UNKNOWN) messages_[{activity, attempt}] = stage;
   acks_.write(out);
 }
 
 void ExecSeat::obey(const v1::Command& command) {
   commands.push_back(command);
+  if (command.sender_epoch() < held_epoch && command.command_name() != "stop") {
+    v1::CommandAck refused;
+    refused.commander(command.commander());
+    refused.epoch(command.epoch());
+    refused.activity(command.activity());
+    refused.attempt(command.attempt());
+    refused.stage(v1::STAGE_REJECTED);
+    refused.owner("sim_svc");
+    refused.code("old-epoch");
+    refused.newest_epoch(held_epoch);
+    refused.refused_epoch(true);
+    acks_.write(refused);
+    return;
+  }
+  held_epoch = std::max(held_epoch, command.sender_epoch());
   const std::pair key(command.activity(), command.attempt());
   const auto word = messages_.find(key);
   if (command.action() == v1::COMMAND_QUERY ||

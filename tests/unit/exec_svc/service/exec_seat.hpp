@@ -47,6 +47,10 @@ class ExecSeat {
   }
   std::string summary() const;
 
+  // The robot has taken commands of this epoch, as its ledger says.
+  std::uint64_t held_epoch = 0;
+  // What the robot acknowledges seems to come from this owner; empty: from itself.
+  std::string acknowledged_by;
   std::vector<std::string> statuses;  // "id state reason", as they came
   std::vector<std::string> events;    // codes
   std::vector<v1::Command> commands;

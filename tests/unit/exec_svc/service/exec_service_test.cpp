@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "exec_svc/limits.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 #include "tests/unit/exec_svc/service/exec_seat.hpp"
 
@@ -104,7 +105,8 @@ TEST(ExecService, ARecalledGoalIsCancelledOnBoard) {
   EXPECT_EQ(seat.commands[1].action(), v1::COMMAND_CANCEL);
 }
 
-TEST(ExecService, AMalformedObservationIsReportedAndIgnored) {
+// Our own writers refuse it; of what others send, the node tells (Flood in unit_services).
+TEST(ExecService, AMalformedObservationIsNotEvenWritten) {
   ExecSeat seat;
   seat.send(10s, photo_goal("ridge"));
   const auto observations = services::advertise(seat.robot(), services::topics::observation);
@@ -112,11 +114,43 @@ TEST(ExecService, AMalformedObservationIsReportedAndIgnored) {
     v1::Observation garbled;
     garbled.timeline("rover.camera");
     garbled.observed().kind(static_cast<v1::ValueKind>(77));
-    observations.write(garbled);
+    EXPECT_FALSE(observations.write(garbled));
   });
   seat.run_until(200s);
-  EXPECT_THAT(seat.events, Contains("observation.malformed"));
   EXPECT_EQ(seat.mission.outcome(), "achieved");
+}
+
+// Goals without a fault and known timelines go on whatever fills the tables.
+TEST(ExecService, WhatFloodsItsTablesIsRefusedAndTold) {
+  ExecSeat seat;
+  seat.send(10s, photo_goal("ridge"));
+  const auto observations = services::advertise(seat.robot(), services::topics::observation);
+  const auto goals = services::advertise(seat.robot(), services::topics::goal);
+  const auto orders = services::advertise(seat.robot(), services::topics::order);
+  seat.at(12s, [&] {
+    for (std::size_t i = 0; i < kTimelines + 10; ++i) {
+      v1::Observation observation;
+      observation.timeline("x" + std::to_string(i));
+      observations.write(observation);
+    }
+    for (std::size_t i = 0; i < kRejectedGoals + 10; ++i) {
+      v1::Goal goal = photo_goal("BAD-" + std::to_string(i));
+      goals.write(goal);
+    }
+  });
+  seat.at(13s, [&] {
+    for (std::size_t i = 0; i < 10; ++i) goals.write(photo_goal("WORSE-" + std::to_string(i)));
+    v1::Order order;
+    order.id(std::string(kNameBytes + 1, 'x'));
+    orders.write(order);
+  });
+  seat.send(20s, photo_goal("second"));
+  seat.run_until(300s);
+  EXPECT_THAT(seat.events, Contains("timeline.no_room").Times(2)) << "the first and the tenth";
+  EXPECT_THAT(seat.events, Contains("goal.no_room"));
+  EXPECT_THAT(seat.events, Contains("order.no_room").Times(1));
+  EXPECT_LE(seat.journal().goals().size(), kRejectedGoals + 2);
+  EXPECT_EQ(seat.mission.goals_achieved(), 2U);
 }
 
 // The journal leads to where it was: the same plan goes on, nothing is planned or commanded again.
@@ -200,6 +234,99 @@ TEST(ExecService, GoalsOfTheJournalAloneAreFinished) {
   seat.run_until(200s);
   EXPECT_EQ(seat.mission.outcome(), "achieved");
   EXPECT_EQ(seat.mission.goals_achieved(), 1U);
+}
+
+// The journal was lost, or never had what an earlier executive of this name did.
+TEST(ExecService, AnOwnersLaterEpochIsTakenDurablyAndTheCommandSaidAgain) {
+  ExecSeat seat;
+  seat.held_epoch = 7;
+  seat.send(10s, photo_goal("ridge"));
+  seat.run_until(200s);
+  EXPECT_EQ(seat.mission.outcome(), "achieved");
+  EXPECT_EQ(seat.planner_calls, 1);
+  EXPECT_THAT(seat.events, Contains("epoch.taken").Times(1));
+  ASSERT_EQ(seat.commands.size(), 2U);
+  EXPECT_EQ(seat.commands[0].epoch(), 1U);
+  EXPECT_EQ(seat.commands[1].activity(), seat.commands[0].activity());
+  EXPECT_EQ(seat.commands[1].attempt(), seat.commands[0].attempt()) << "a retry is for what was tried";
+  EXPECT_EQ(seat.commands[1].epoch(), 8U) << "a key that nobody has used";
+  EXPECT_EQ(seat.commands[1].sender_epoch(), 8U);
+  EXPECT_EQ(seat.journal().number("epoch", 0), 8);
+}
+
+TEST(ExecService, ARestartAsksAgainUnderTheOldKeyInTheLaterEpoch) {
+  ExecSeat seat;
+  seat.send(10s, photo_goal("ridge"));
+  seat.at(29s, [&] { seat.held_epoch = 7; });
+  seat.kill_executive_at(30s);
+  seat.run_until(200s);
+  EXPECT_EQ(seat.mission.outcome(), "achieved");
+  ASSERT_EQ(seat.commands.size(), 3U);
+  for (const std::size_t query : {1U, 2U}) {
+    EXPECT_EQ(seat.commands[query].action(), v1::COMMAND_QUERY);
+    EXPECT_EQ(seat.commands[query].epoch(), 1U);
+  }
+  EXPECT_EQ(seat.commands[1].sender_epoch(), 2U);
+  EXPECT_EQ(seat.commands[2].sender_epoch(), 8U);
+}
+
+TEST(ExecService, AnEpochFarAheadIsReachedInBoundedSteps) {
+  ExecSeat seat;
+  seat.held_epoch = 2500;
+  seat.send(10s, photo_goal("ridge"));
+  seat.run_until(200s);
+  EXPECT_EQ(seat.mission.outcome(), "achieved");
+  std::vector<std::uint64_t> epochs;
+  for (const v1::Command& command : seat.commands) epochs.push_back(command.sender_epoch());
+  EXPECT_THAT(epochs, ElementsAre(1U, 1002U, 2003U, 2501U));
+}
+
+TEST(ExecService, AForgedEpochOfNoCommandChangesNothing) {
+  ExecSeat seat;
+  seat.send(10s, photo_goal("ridge"));
+  const auto acks = services::advertise(seat.robot(), services::topics::command_ack);
+  seat.at(5s, [&] {
+    v1::CommandAck forged;
+    forged.commander("exec_svc");
+    forged.epoch(1);
+    forged.activity("p9.1-image");
+    forged.attempt(1);
+    forged.owner("sim_svc");
+    forged.newest_epoch(1'000'000);
+    forged.refused_epoch(true);
+    acks.write(forged);
+  });
+  seat.run_until(200s);
+  EXPECT_EQ(seat.mission.outcome(), "achieved");
+  EXPECT_EQ(seat.commands.at(0).epoch(), 1U);
+}
+
+TEST(ExecService, WhatAnotherServiceAcknowledgesInTheOwnersPlaceIsNotBelieved) {
+  ExecSeat seat;
+  seat.acknowledged_by = "arm_svc";
+  seat.send(10s, photo_goal("ridge"));
+  seat.run_until(60s);
+  EXPECT_THAT(seat.events, Contains("ack.foreign").Times(1));
+}
+
+TEST(ExecService, ATimelineHasOneSource) {
+  ExecSeat seat;
+  services::Node& planner = seat.run().node("planner_svc");
+  const auto forged = services::advertise(planner, services::topics::observation);
+  planner.at(60s, [&] {
+    v1::Observation observation;
+    observation.timeline("rover.camera");
+    observation.observed().kind(v1::VALUE_STATE);
+    observation.observed().state("imaging");
+    forged.write(observation);
+    forged.write(observation);
+  });
+  seat.send(10s, photo_goal("ridge"));
+  seat.send(70s, photo_goal("later"));
+  seat.run_until(200s);
+  EXPECT_THAT(seat.events, Contains("timeline.contested").Times(1));
+  EXPECT_EQ(seat.mission.outcome(), "achieved");
+  for (const v1::Command& command : seat.commands) EXPECT_NE(command.command_name(), "stop");
 }
 
 TEST(ExecService, ARestartTellsTheStateOfEveryGoalAgain) {

@@ -188,7 +188,7 @@ void PairWorld::command(Member member, const Line& decision) {
   }
   if (epoch < owner_epoch_) {
     ++refused_;
-    return at(member).lease->refused();
+    return at(member).lease->refused(owner_epoch_);
   }
   owner_epoch_ = epoch;
   const auto [commander, fresh] = commanders_.try_emplace(epoch, member);

@@ -103,12 +103,152 @@ TEST(CommandLedger, ASuccessorCancelsWhatAnotherCommanded) {
 
 TEST(CommandLedger, AnOlderEpochMayNeitherAskNorCancel) {
   CommandLedger ledger = with_running();
-  ledger.receive(request("x", Action::query, 3), seconds(2));
+  ledger.receive(request("x", Action::execute, 3), seconds(2));
   for (const Action action : {Action::query, Action::cancel}) {
     const Reception old = ledger.receive(request("a", action, 2), seconds(3));
     EXPECT_EQ(old.order, Order::nothing);
     EXPECT_EQ(old.ack->word.code, "old-epoch");
   }
+}
+
+Request of_process(Request one, std::uint32_t incarnation, std::uint64_t number) {
+  one.incarnation = incarnation;
+  one.number = number;
+  return one;
+}
+
+TEST(CommandLedger, NoQueryRaisesAnEpoch) {
+  CommandLedger ledger = with_running();
+  EXPECT_EQ(ledger.receive(request("a", Action::query, 1'000'000), seconds(2)).ack->word.stage,
+            Stage::accepted);
+  EXPECT_EQ(ledger.receive(request("z", Action::cancel, 500), seconds(2)).ack->word.stage, Stage::unknown)
+      << "nothing was cancelled";
+  EXPECT_EQ(ledger.receive(request("b"), seconds(3)).order, Order::carry_out)
+      << "epoch 1 is still the newest";
+}
+
+TEST(CommandLedger, ACommandTakesNoWideStep) {
+  CommandLedger ledger = with_running();
+  const Reception wide = ledger.receive(request("b", Action::execute, 1 + kEpochJump + 1), seconds(2));
+  EXPECT_EQ(wide.ack->word.code, "epoch-jump");
+  EXPECT_TRUE(wide.ack->refused_epoch);
+  EXPECT_EQ(wide.ack->newest_epoch, 1u);
+  EXPECT_EQ(wide.notice->code, "command.epoch_jump");
+  EXPECT_EQ(ledger.receive(request("b", Action::execute, 1), seconds(3)).order, Order::carry_out);
+  EXPECT_EQ(ledger.receive(request("c", Action::execute, 1 + kEpochJump), seconds(4)).order,
+            Order::carry_out);
+  Request lead = request("epoch", Action::execute, 1 + 2 * kEpochJump);
+  lead.command = kLeadCommand;
+  EXPECT_EQ(ledger.receive(lead, seconds(5)).order, Order::carry_out) << "who is further ahead climbs";
+  EXPECT_EQ(ledger.receive(request("d", Action::execute, 2 + 2 * kEpochJump), seconds(6)).order,
+            Order::carry_out);
+}
+
+TEST(CommandLedger, AnOwnerThatKnowsNobodyTakesNoWideStepEither) {
+  CommandLedger ledger;
+  EXPECT_EQ(ledger.receive(request("a", Action::execute, 1'000'000), seconds(1)).ack->word.code,
+            "epoch-jump");
+  EXPECT_EQ(ledger.receive(request("a", Action::execute, kEpochJump), seconds(1)).order, Order::carry_out);
+}
+
+// The journal was lost, and the epochs begin anew: the same keys come again and mean something else.
+TEST(CommandLedger, AnEpochBelongsToOneProcess) {
+  CommandLedger ledger;
+  EXPECT_EQ(ledger.receive(of_process(request("a"), 1, 4), seconds(1)).order, Order::carry_out);
+  ledger.say(kA, {Stage::completed, "done"}, seconds(2));
+  for (const Request& other : {of_process(request("a"), 2, 1), of_process(request("a"), 1, 3)}) {
+    const Reception refused = ledger.receive(other, seconds(3));
+    EXPECT_EQ(refused.order, Order::nothing);
+    EXPECT_EQ(refused.ack->word.code, "doubled-epoch")
+        << "never the last word on what another process commanded";
+    EXPECT_TRUE(refused.ack->refused_epoch);
+    EXPECT_EQ(refused.ack->newest_epoch, 1u);
+    EXPECT_EQ(refused.notice->code, "commander.doubled");
+  }
+  EXPECT_EQ(ledger.receive(of_process(request("b"), 1, 5), seconds(4)).order, Order::carry_out);
+  EXPECT_EQ(ledger.receive(of_process(request("a", Action::execute, 2), 2, 2), seconds(5)).order,
+            Order::nothing)
+      << "the old key in a later epoch is asked for again";
+  Request next = of_process(request("a", Action::execute, 2), 2, 3);
+  next.key.issued_epoch = 2;
+  EXPECT_EQ(ledger.receive(next, seconds(6)).order, Order::carry_out);
+}
+
+Request stop(const std::string& activity, std::uint64_t epoch, const std::string& sender) {
+  Request out = request(activity, Action::execute, epoch, sender);
+  out.command = kStopCommand;
+  return out;
+}
+
+TEST(CommandLedger, AStopIsTakenFromAnybodyOncePerKeyAndRaisesNothing) {
+  CommandLedger ledger;
+  ledger.receive(request("a", Action::execute, 7, "exec"), seconds(1));
+  for (const Request& one :
+       {stop("s1", 1, "exec"), stop("s2", 1'000'000, "exec"), stop("s3", 0, "stranger")}) {
+    const Reception taken = ledger.receive(one, seconds(2));
+    EXPECT_EQ(taken.order, Order::carry_out) << one.key.activity;
+    ASSERT_TRUE(taken.notice) << one.key.activity;
+    EXPECT_EQ(taken.notice->code, "command.foreign");
+    EXPECT_EQ(ledger.receive(one, seconds(3)).order, Order::nothing) << "once per key";
+  }
+  EXPECT_FALSE(ledger.receive(stop("s4", 7, "exec"), seconds(4)).notice)
+      << "who holds the lease is no stranger";
+  EXPECT_EQ(ledger.receive(request("b", Action::execute, 7, "exec"), seconds(5)).order, Order::carry_out);
+  EXPECT_EQ(ledger.lease_holder("", "drill"), "exec");
+}
+
+Request fallback(const std::string& activity, std::uint64_t epoch, const std::string& sender) {
+  Request out = request(kFallbackPrefix + activity, Action::execute, epoch, sender);
+  out.command = "stow";
+  return out;
+}
+
+TEST(CommandLedger, AFallbackIsTheLeaseHoldersOrAnybodysWhileThereIsNone) {
+  CommandLedger ledger;
+  EXPECT_FALSE(ledger.receive(fallback("0", 3, "exec"), seconds(0)).notice);
+  ledger.receive(request("a", Action::execute, 7, "exec"), seconds(1));
+  EXPECT_EQ(ledger.receive(fallback("1", 7, "exec"), seconds(2)).order, Order::carry_out);
+  EXPECT_EQ(ledger.receive(fallback("2", 9, "exec"), seconds(2)).order, Order::carry_out);
+  EXPECT_EQ(ledger.receive(request("b", Action::execute, 7, "exec"), seconds(2)).order, Order::carry_out)
+      << "a fall-back raises no epoch";
+  const Reception stale = ledger.receive(fallback("3", 6, "exec"), seconds(3));
+  EXPECT_TRUE(stale.ack->refused_epoch);
+  const Reception foreign = ledger.receive(fallback("4", 8, "stranger"), seconds(3));
+  EXPECT_EQ(foreign.ack->word.code, "not-leased");
+  EXPECT_EQ(foreign.notice->code, "command.foreign");
+  ledger.release("exec");
+  const Reception taken = ledger.receive(fallback("5", 1, "exec"), seconds(4));
+  EXPECT_EQ(taken.order, Order::carry_out) << "nobody holds the lease, and the robot must come to rest";
+  EXPECT_EQ(taken.notice->code, "command.foreign");
+  EXPECT_EQ(ledger.lease_holder("", "drill"), "") << "a fall-back takes no lease";
+}
+
+TEST(CommandLedger, CommandersAreBounded) {
+  CommandLedger ledger;
+  for (std::size_t i = 0; i < CommandLedger::kCommanders; ++i)
+    ledger.receive(request("a" + std::to_string(i), Action::execute, 1, "c" + std::to_string(i)), seconds(1));
+  EXPECT_EQ(ledger.receive(request("b", Action::execute, 1, "more"), seconds(2)).ack->word.code,
+            "too-many-commanders");
+  EXPECT_EQ(ledger.receive(stop("s", 1, "more"), seconds(2)).order, Order::carry_out);
+  EXPECT_EQ(ledger.receive(request("c", Action::execute, 1, "c1"), seconds(2)).order, Order::carry_out);
+}
+
+TEST(CommandLedger, WhatWasKeptIsKnownToTheNextProcess) {
+  CommandLedger before = with_running();
+  Request other = request("b", Action::execute, 5);
+  before.receive(other, seconds(2));
+  before.say(other.key, {Stage::completed, "done", "", {seconds(3), 4.0, {}}}, seconds(5));
+  CommandLedger after;
+  for (const LedgerEntry& entry : before.take_entries()) after.restore(entry);
+  after.end_restored();
+  EXPECT_EQ(after.receive(request("b", Action::execute, 5), seconds(9)).ack->word,
+            before.answer(other.key, {}).word);
+  const Reception running = after.receive(request("a", Action::query, 5), seconds(9));
+  EXPECT_EQ(running.ack->word.code, "owner-restarted");
+  EXPECT_EQ(running.ack->word.stage, Stage::failed);
+  EXPECT_EQ(after.receive(request("a", Action::execute, 5), seconds(9)).order, Order::nothing) << "done once";
+  EXPECT_TRUE(after.receive(request("c", Action::execute, 4), seconds(9)).ack->refused_epoch);
+  EXPECT_TRUE(before.take_entries().empty());
 }
 
 TEST(CommandLedger, ACancelIsAnOrderFirstAndThenAnOutcome) {

@@ -76,10 +76,11 @@ TEST(CommandServer, RejectsAndAnswersQueriesAndOldEpochs) {
                     {5s, command("d", v1::COMMAND_QUERY)},
                     {6s, command("a", v1::COMMAND_QUERY, "", 7)},
                     {7s, command("a", v1::COMMAND_QUERY, "", 6)},
-                    {8s, command("a", v1::COMMAND_EXECUTE, "bore", 7, 7)}}),
+                    {8s, command("a", v1::COMMAND_EXECUTE, "bore", 7, 7)},
+                    {9s, command("a", v1::COMMAND_QUERY, "", 6)}}),
               ElementsAre("1 a accepted", "2 b rejected busy", "3 c rejected unknown-command", "4 a accepted",
-                          "5 d unknown unknown-key", "6 a accepted", "7 a rejected old-epoch",
-                          "8 a rejected busy", "41 a completed done"));
+                          "5 d unknown unknown-key", "6 a accepted", "7 a accepted", "8 a rejected busy",
+                          "9 a rejected old-epoch", "41 a completed done"));
 }
 
 TEST(CommandServer, CancelsAndStops) {
@@ -90,6 +91,27 @@ TEST(CommandServer, CancelsAndStops) {
                     {15s, command("s", v1::COMMAND_EXECUTE, "stop")}}),
               ElementsAre("1 a accepted", "5 a cancelled cancelled", "6 a cancel-failed already-ended",
                           "10 b accepted", "15 b cancelled stopped", "15 s completed done"));
+}
+
+TEST(CommandServer, LeadsAndIsStoppedByAnybody) {
+  EXPECT_THAT(talk({{1s, command("epoch", v1::COMMAND_EXECUTE, "lead", 5, 5)},
+                    {2s, command("a", v1::COMMAND_EXECUTE, "bore", 4, 4)},
+                    {3s, command("a", v1::COMMAND_EXECUTE, "bore", 5, 5)},
+                    {9s, command("s", v1::COMMAND_EXECUTE, "stop", 1, 1)},
+                    {9s, command("s", v1::COMMAND_EXECUTE, "stop", 1, 1)}}),
+              ElementsAre("1 epoch completed done", "2 a rejected old-epoch", "3 a accepted",
+                          "9 a cancelled stopped", "9 s completed done", "9 s completed done"));
+}
+
+// Point for point what two leaders of one pair do after a partition: the same names, other epochs.
+TEST(CommandServer, TwoLeadersOfOneNameNeverGetEachOthersAnswers) {
+  EXPECT_THAT(talk({{1s, command("p2.1-bore", v1::COMMAND_EXECUTE, "bore", 1, 1)},
+                    {50s, command("p2.1-bore", v1::COMMAND_EXECUTE, "bore", 2, 2)},
+                    {51s, command("p2.1-bore", v1::COMMAND_EXECUTE, "bore", 1, 1)},
+                    {52s, command("p2.1-bore", v1::COMMAND_QUERY, "bore", 2, 1)}}),
+              ElementsAre("1 p2.1-bore accepted", "41 p2.1-bore completed done", "50 p2.1-bore accepted",
+                          "51 p2.1-bore rejected old-epoch", "52 p2.1-bore completed done",
+                          "90 p2.1-bore completed done"));
 }
 
 TEST(CommandServer, LeavesTheCommandsOfOtherOwnersAlone) {

@@ -70,10 +70,29 @@ TEST(Commands, AnOlderEpochIsRefused) {
   EXPECT_EQ(run.state("rover.camera"), (State{"imaging", {}}));
 }
 
+// What a component does to the world is told whatever let the command through.
+TEST(Commands, EveryEffectIsToldWithWhatCausedIt) {
+  Flight run(flat_setup());
+  run.command(seconds(1), execute("i", "camera", "image", {{"image", "one"}}, 5));
+  EXPECT_TRUE(run.world.take_effects().empty()) << "the shutter has not closed yet";
+  run.advance(seconds(60));
+  const auto effects = run.world.take_effects();
+  ASSERT_EQ(effects.size(), 1u);
+  EXPECT_EQ(effects[0].deed.kind, "image");
+  EXPECT_EQ(effects[0].deed.object, "one");
+  EXPECT_EQ(effects[0].component, "camera");
+  EXPECT_EQ(effects[0].cause.activity, "i");
+  // Past the owner's rules the same key is done again, and that is seen.
+  run.world.begin(seconds(61), {"", "camera", {effects[0].cause, "image", {{"image", "one"}}}});
+  run.world.advance(seconds(120));
+  EXPECT_EQ(run.world.take_effects().size(), 1u);
+}
+
 TEST(Commands, ARefusedEpochDoesNotTakeTheKey) {
   Flight run(flat_setup());
-  run.command(seconds(1), execute("x", "camera", "stop", {}, 5));
+  run.command(seconds(1), execute("x", "arm", "unknown", {}, 5));
   run.command(seconds(2), execute("i", "camera", "image", {{"image", "one"}}, 4));
+  EXPECT_EQ(run.stage("i"), Stage::rejected);
   run.command(seconds(3), execute("i", "camera", "image", {{"image", "one"}}, 5));
   EXPECT_EQ(run.stage("i"), Stage::accepted);
 }

@@ -1,0 +1,52 @@
+/// Who may be believed of those whom an executive hears, and what operators are told of the others.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+
+#include "exec_svc/reactor/messages.hpp"
+
+namespace roci::exec {
+
+/// Each timeline has one source: the first that tells of it, until that is lost. So a second owner of a subsystem
+/// changes no belief.
+class TimelineSources {
+ public:
+  /// Whether `sender` is the timeline's source; it becomes it if there is none.
+  bool admit(const std::string& timeline, const std::string& sender) {
+    return sources_.try_emplace(timeline, sender).first->second == sender;
+  }
+  /// The timeline's source, or "" if there is none.
+  std::string source(const std::string& timeline) const {
+    const auto found = sources_.find(timeline);
+    return found == sources_.end() ? "" : found->second;
+  }
+  /// The service is lost; another one may take its place.
+  void forget(const std::string& service) {
+    std::erase_if(sources_, [&](const auto& one) { return one.second == service; });
+  }
+
+ private:
+  std::map<std::string, std::string> sources_;
+};
+
+/// Tells operators of each stranger once, and of a bounded number.
+class Strangers {
+ public:
+  using Report = std::function<void(const reactor::Event&)>;
+  explicit Strangers(Report report) : report_(std::move(report)) {}
+
+  void tell(const std::string& code, const std::string& text) {
+    if (told_.size() >= kMost || !told_.insert(code + " " + text).second) return;
+    report_({reactor::Severity::warning, code, text});
+  }
+
+ private:
+  static constexpr std::size_t kMost = 100;
+  Report report_;
+  std::set<std::string> told_;
+};
+
+}  // namespace roci::exec

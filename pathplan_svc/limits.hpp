@@ -1,0 +1,18 @@
+// How far the path planner's tables may grow by what comes from the wire (docs/resilience.md, "What is bounded").
+#pragma once
+
+#include <cstddef>
+
+namespace roci::pathplan {
+
+/// Hazards that are on the map at one time; one more is refused (event hazard.refused). The map is built anew with each change,
+/// which takes time by their number.
+inline constexpr std::size_t kHazards = 1'000;
+/// Changes of the map that wait for the worker; hazards beyond it are refused until it has caught up.
+inline constexpr std::size_t kMapChanges = 256;
+/// Unusable places that are told of once for each map; of those beyond nothing is told.
+inline constexpr std::size_t kReportedPlaces = 1'000;
+/// Bytes of a hazard's finder and id.
+inline constexpr std::size_t kNameBytes = 1'024;
+
+}  // namespace roci::pathplan

@@ -1,0 +1,19 @@
+// How far the planner's tables may grow by what comes from the wire. What is beyond is not taken in; the event planner.no_room
+// tells it (docs/resilience.md, "What is bounded").
+#pragma once
+
+#include <cstddef>
+
+namespace roci::planner {
+
+/// Goals and timelines that an engine which plans all the time hears of: as many as an executive keeps.
+inline constexpr std::size_t kGoals = 10'000;
+inline constexpr std::size_t kTimelines = 10'000;
+/// Activities of the executed version whose progress is kept: those of the largest plan that the wire carries.
+inline constexpr std::size_t kActivities = 100'000;
+/// Offers of functions: a module for each of 256 owners.
+inline constexpr std::size_t kOffers = 256;
+/// Bytes of a name that is kept.
+inline constexpr std::size_t kNameBytes = 1'024;
+
+}  // namespace roci::planner

@@ -1,0 +1,63 @@
+// The namesake watch notices that another process of the run goes by this service's name: a second simulator, a second
+// lone executive, a second owner of a subsystem. It says which of the two goes on. It is pure; its time is wall time.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "roci_idl/health.h"
+#include "services/clock/wall.hpp"
+
+namespace roci::services::health {
+
+/// Is thrown where this process must end, as another one has its name. No restart mends that.
+class Superseded : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// Both processes come to the same answer: the later incarnation goes on; of equal ones the one on the host that comes
+/// first by name, and there the one with the lower process id. A namesake counts only when it has been heard kBeats
+/// times over kHeardFor, so that a forged heartbeat ends nobody.
+class NamesakeWatch {
+ public:
+  static constexpr int kBeats = 4;
+  static constexpr clock::WallDuration kHeardFor = std::chrono::milliseconds(700);
+  /// Whoever claims to have been started so much more often is not believed.
+  static constexpr std::uint32_t kIncarnationJump = 1000;
+  /// So many namesakes are looked after at a time.
+  static constexpr std::size_t kMost = 8;
+
+  enum class Verdict {
+    nothing,  ///< it is this process, or not heard for long enough, or told before
+    goes_on,  ///< the namesake ends; operators are to be told of it
+    yields,   ///< this process must end
+  };
+
+  /// `self`: service, incarnation, host and process id.
+  explicit NamesakeWatch(v1::Heartbeat self) : self_(std::move(self)) {}
+
+  /// Takes a heartbeat of this run.
+  Verdict hear(const v1::Heartbeat& beat, clock::WallTime now);
+
+ private:
+  struct Namesake {
+    clock::WallTime first;
+    clock::WallTime last;
+    int beats = 0;
+    bool told = false;
+  };
+  bool wins(const v1::Heartbeat& other) const;
+
+  v1::Heartbeat self_;
+  std::map<std::pair<std::string, std::int32_t>, Namesake> namesakes_;  // by host and process id
+};
+
+/// Returns "arm_svc on rover, process 17".
+std::string process_text(const v1::Heartbeat& beat);
+
+}  // namespace roci::services::health

@@ -1,0 +1,106 @@
+#include "services/node/refusals.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "services/log/log.hpp"
+
+namespace roci::services::node {
+namespace {
+
+std::string key_of(const std::string& topic, Refusal why) { return topic + " " + to_string(why); }
+
+const char* remedy_of(Refusal why) {
+  switch (why) {
+    case Refusal::malformed:
+      return "it is no sample of the topic's type";
+    case Refusal::too_large:
+      return "it is larger than the topic allows";
+    case Refusal::queue_full:
+      return "too many wait already: its writer is too fast, or this service too slow";
+    case Refusal::no_room:
+      return "the table that it would have entered is full";
+  }
+  return "";
+}
+
+}  // namespace
+
+const char* to_string(Refusal why) {
+  switch (why) {
+    case Refusal::malformed:
+      return "malformed";
+    case Refusal::too_large:
+      return "too large";
+    case Refusal::queue_full:
+      return "queue full";
+    case Refusal::no_room:
+      return "no room";
+  }
+  return "unknown";
+}
+
+Refusals::Refusals(std::string node, Lookup lookup, std::function<void()> prepare,
+                   std::function<void(const v1::Event&)> tell, double tell_after_s)
+    : node_(std::move(node)),
+      lookup_(std::move(lookup)),
+      prepare_(std::move(prepare)),
+      tell_(std::move(tell)),
+      tell_after_s_(tell_after_s) {}
+
+void Refusals::note(const std::string& topic, Refusal why, const transport::Guid& writer) {
+  const std::scoped_lock lock(mutex_);
+  if (const std::uint64_t count = tally_.note(key_of(topic, why)))
+    news_.push_back({topic, why, writer, count});
+}
+
+std::uint64_t Refusals::count(const std::string& topic, Refusal why) const {
+  const std::scoped_lock lock(mutex_);
+  return tally_.count(key_of(topic, why));
+}
+
+std::string Refusals::name_of(const transport::Guid& writer) const {
+  const bool known = std::ranges::any_of(writer, [](std::uint8_t byte) { return byte != 0; });
+  const auto participant = known ? lookup_(writer) : std::nullopt;
+  return participant && !participant->name.empty() ? participant->name : "unknown";
+}
+
+v1::Event Refusals::event_of(const New& one) const {
+  v1::Event event;
+  event.severity_level(v1::SEVERITY_WARNING);
+  event.code("sample.refused");
+  event.text(node_ + " refuses a sample of " + one.topic + ": " + remedy_of(one.why) + " (" +
+             std::to_string(one.count) + " so far)");
+  const auto add = [&event](const char* name, const std::string& value) {
+    v1::Property property;
+    property.name(name);
+    property.value(value);
+    event.properties().push_back(std::move(property));
+  };
+  add("service", node_);
+  add("topic", one.topic);
+  add("reason", to_string(one.why));
+  add("count", std::to_string(one.count));
+  add("participant", name_of(one.writer));
+  return event;
+}
+
+void Refusals::turn(clock::WallTime now) {
+  std::vector<New> news;
+  {
+    const std::scoped_lock lock(mutex_);
+    news = std::exchange(news_, {});
+  }
+  for (const New& one : news) {
+    v1::Event event = event_of(one);
+    log::warning(event.text() + ", from participant " + name_of(one.writer));
+    prepare_();
+    untold_.push_back({now + clock::wall_seconds(tell_after_s_), std::move(event)});
+  }
+  while (!untold_.empty() && untold_.front().due <= now) {
+    tell_(untold_.front().event);
+    untold_.pop_front();
+  }
+}
+
+}  // namespace roci::services::node

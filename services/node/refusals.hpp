@@ -1,0 +1,77 @@
+// The samples that reached no handler because of what they are, or because there was no room for them: counted by topic and
+// reason, told in the log and by the event sample.refused, the first time and each time that the count has grown tenfold.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "roci_idl/health.h"
+#include "services/bounds/tally.hpp"
+#include "services/clock/wall.hpp"
+#include "services/transport/transport.hpp"
+
+namespace roci::services::node {
+
+enum class Refusal {
+  malformed,   ///< It does not decode, or says what no sample of its type can say.
+  too_large,   ///< It is larger than its topic allows (topics.hpp).
+  queue_full,  ///< The loop has not yet taken as many as may wait (bounds/limits.hpp).
+  no_room,     ///< The table that it would have entered is full.
+};
+
+/// "malformed", "too large", …
+const char* to_string(Refusal);
+
+class Refusals {
+ public:
+  using Lookup = std::function<std::optional<transport::Participant>(const transport::Guid&)>;
+
+  /// `lookup` names participants. `prepare` opens the topic of events, `tell` writes one `tell_after_s` of wall time later;
+  /// both are called by turn() alone.
+  Refusals(std::string node, Lookup lookup, std::function<void()> prepare,
+           std::function<void(const v1::Event&)> tell, double tell_after_s);
+
+  /// Counts a sample of the writer; any thread may call it.
+  void note(const std::string& topic, Refusal, const transport::Guid& writer);
+  /// The same where it is no longer known who wrote it.
+  void note(const std::string& topic, Refusal why) { note(topic, why, {}); }
+  std::uint64_t count(const std::string& topic, Refusal) const;
+
+  /// Is called in each turn of the loop: tells what is new.
+  void turn(clock::WallTime now);
+
+  /// Live, the event is written so much wall time after the log's line: by then who reads events is found. Under the simulated
+  /// clock who is found later hears it, too.
+  static constexpr double kTellAfterS = 1.5;
+
+ private:
+  struct New {
+    std::string topic;
+    Refusal why;
+    transport::Guid writer;
+    std::uint64_t count;
+  };
+  struct Untold {
+    clock::WallTime due;
+    v1::Event event;
+  };
+  std::string name_of(const transport::Guid&) const;
+  v1::Event event_of(const New&) const;
+
+  const std::string node_;
+  const Lookup lookup_;
+  const std::function<void()> prepare_;
+  const std::function<void(const v1::Event&)> tell_;
+  const double tell_after_s_;
+  mutable std::mutex mutex_;
+  bounds::Tally tally_;
+  std::vector<New> news_;
+  std::deque<Untold> untold_;
+};
+
+}  // namespace roci::services::node

@@ -1,0 +1,125 @@
+#include "services/owner/ledger_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "services/log/log.hpp"
+
+namespace roci::services::owner {
+namespace {
+
+using nlohmann::json;
+
+json to_json(const temporal::Value& value) {
+  if (const auto* truth = std::get_if<bool>(&value)) return *truth;
+  if (const auto* number = std::get_if<double>(&value)) return *number;  // no finite one: null
+  if (const auto* state = std::get_if<temporal::State>(&value))
+    return {{"state", state->name}, {"arguments", state->arguments}};
+  return nullptr;
+}
+
+temporal::Value value_in(const json& in) {
+  if (in.is_boolean()) return in.get<bool>();
+  if (in.is_number()) return in.get<double>();
+  if (in.is_object()) return temporal::state(in.at("state"), in.at("arguments"));
+  return {};
+}
+
+json to_json(const Word& word) {
+  json out{{"stage", static_cast<int>(word.stage)}, {"code", word.code}, {"reason", word.reason}};
+  if (word.results.duration) out["duration_us"] = word.results.duration->count();
+  if (word.results.energy_j) out["energy_j"] = *word.results.energy_j;
+  for (const auto& [name, value] : word.results.values) out["values"][name] = to_json(value);
+  return out;
+}
+
+Word word_in(const json& in) {
+  const int stage = in.at("stage").get<int>();
+  if (stage < static_cast<int>(Stage::rejected) || stage > static_cast<int>(Stage::cancelled))
+    throw std::invalid_argument("stage " + std::to_string(stage) + " is no last word");
+  Word out{
+      static_cast<Stage>(stage), in.at("code").get<std::string>(), in.at("reason").get<std::string>(), {}};
+  if (in.contains("duration_us"))
+    out.results.duration = temporal::Duration(in["duration_us"].get<std::int64_t>());
+  if (in.contains("energy_j") && in["energy_j"].is_number())
+    out.results.energy_j = in["energy_j"].get<double>();
+  const json values = in.value("values", json::object());
+  for (const auto& [name, value] : values.items()) out.results.values[name] = value_in(value);
+  return out;
+}
+
+json to_json(const LedgerEntry& entry) {
+  json out{{"commander", entry.key.commander},
+           {"issued", entry.key.issued_epoch},
+           {"activity", entry.key.activity},
+           {"attempt", entry.key.attempt}};
+  if (entry.epoch > 0) {
+    out["sender"] = entry.sender;
+    out["epoch"] = entry.epoch;
+  }
+  if (entry.word) out["word"] = to_json(*entry.word);
+  return out;
+}
+
+LedgerEntry entry_in(const json& in) {
+  LedgerEntry out;
+  out.key = {in.at("activity").get<std::string>(), in.at("attempt").get<std::uint32_t>(),
+             in.at("commander").get<std::string>(), in.at("issued").get<std::uint64_t>()};
+  out.sender = in.value("sender", "");
+  out.epoch = in.value("epoch", std::uint64_t{0});
+  if (in.contains("word")) out.word = word_in(in["word"]);
+  return out;
+}
+
+}  // namespace
+
+LedgerFile::LedgerFile(std::filesystem::path file)
+    : file_(std::move(file)),
+      descriptor_(open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0600)) {
+  if (descriptor_ < 0)
+    throw std::system_error(errno, std::generic_category(), "cannot open " + file_.string());
+  // A line that its writer did not finish must not swallow the next one.
+  std::ifstream in(file_, std::ios::binary | std::ios::ate);
+  if (in.tellg() <= 0) return;
+  in.seekg(-1, std::ios::end);
+  if (in.get() != '\n' && write(descriptor_, "\n", 1) != 1)
+    throw std::system_error(errno, std::generic_category(), "cannot write " + file_.string());
+}
+
+LedgerFile::~LedgerFile() { close(descriptor_); }
+
+std::vector<LedgerEntry> LedgerFile::read() const {
+  std::vector<LedgerEntry> out;
+  std::ifstream in(file_);
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty()) continue;
+    try {
+      out.push_back(entry_in(json::parse(line)));
+    } catch (const std::exception& error) {
+      log::warning(file_.string() + ": a line cannot be read and is left out: " + error.what());
+    }
+  }
+  return out;
+}
+
+void LedgerFile::append(const LedgerEntry& entry) {
+  const std::string line =
+      (torn_ ? "\n" : "") + to_json(entry).dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+  const ssize_t written = write(descriptor_, line.data(), line.size());
+  if (written == static_cast<ssize_t>(line.size())) {
+    torn_ = false;
+    return;
+  }
+  torn_ = torn_ || written > 0;
+  throw std::system_error(errno, std::generic_category(), "cannot write " + file_.string());
+}
+
+}  // namespace roci::services::owner

@@ -1,0 +1,33 @@
+// The file in which an owner keeps what must outlive its process: one JSON object a line, appended.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "services/owner/command_ledger.hpp"
+
+namespace roci::services::owner {
+
+/// Holds the file open. What append() has returned from survives the death of the process, though not the loss
+/// of power.
+class LedgerFile {
+ public:
+  /// Opens or makes the file. Throws std::system_error if that is impossible.
+  explicit LedgerFile(std::filesystem::path file);
+  ~LedgerFile();
+  LedgerFile(const LedgerFile&) = delete;
+  LedgerFile& operator=(const LedgerFile&) = delete;
+
+  /// Returns all entries in order. A last line that is cut short, as its writer died, is none; another line that
+  /// cannot be read is left out with a warning in the log.
+  std::vector<LedgerEntry> read() const;
+  /// Throws std::system_error if the entry cannot be written whole.
+  void append(const LedgerEntry&);
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  bool torn_ = false;  // the file ends within a line
+};
+
+}  // namespace roci::services::owner

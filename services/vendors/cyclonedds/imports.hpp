@@ -1,0 +1,19 @@
+// Puts functions of ours in the place of those that a loaded library has imported.
+//
+// The seam for Cyclone DDS, which has no transport that could be chained: its two calls into the C library that matter
+// here go through its table of imports. Opening the plug-in with RTLD_DEEPBIND would bind them to it as well, but
+// then the plug-in and Cyclone DDS see another std::cerr than the program (which has a copy of its own, by copy relocation,
+// while the library's stays unconstructed: the first line logged is a crash), libfaketime and sanitizers no longer stand
+// before them, and AddressSanitizer refuses to run. The table touches nothing else, and works under sanitizers, too.
+#pragma once
+
+#include <string_view>
+
+namespace roci::services::vendors::cyclonedds {
+
+/// From now on the library that `inside` points into calls `replacement` where it called the imported `function`; what
+/// it called so far is returned. Null if the library imports no such function, or if its table cannot be written. No
+/// thread may be in that library meanwhile.
+void* replace_import(const void* inside, std::string_view function, void* replacement);
+
+}  // namespace roci::services::vendors::cyclonedds

@@ -1,0 +1,29 @@
+// Stands between Cyclone DDS and its sockets: where they are bound, and what it reads from them.
+//
+// Cyclone DDS 0.10 binds its receiving sockets to 0.0.0.0 whatever is configured (ddsi_udp.c: bind_to_any), so that
+// every host that reaches this one could speak to it. Here they are bound to the one configured address, and each
+// datagram passes a guard before its parser. Participants are named after the port that they send from.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "services/vendors/guard/guard.hpp"
+
+namespace roci::services::vendors::cyclonedds {
+
+/// From its construction to its end, what this thread lets Cyclone DDS bind belongs to `guard` and is bound to `address`
+/// (IPv4, in host byte order) where the vendor asked for any; without an address it stays as the vendor wants it.
+/// Throws TransportError if the library cannot be guarded: nothing is opened unguarded.
+class GuardedOpening {
+ public:
+  GuardedOpening(std::shared_ptr<guard::Guard> guard, std::optional<std::uint32_t> address);
+  ~GuardedOpening();
+  GuardedOpening(const GuardedOpening&) = delete;
+  GuardedOpening& operator=(const GuardedOpening&) = delete;
+
+  /// How many sockets were bound.
+  int bound() const;
+};
+
+}  // namespace roci::services::vendors::cyclonedds

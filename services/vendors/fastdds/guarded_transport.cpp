@@ -1,0 +1,66 @@
+#include "services/vendors/fastdds/guarded_transport.hpp"
+
+#include <fastrtps/utils/IPLocator.h>
+
+namespace roci::services::vendors::fastdds {
+
+namespace rtps = eprosima::fastdds::rtps;
+using eprosima::fastrtps::rtps::IPLocator;
+using eprosima::fastrtps::rtps::Locator_t;
+using eprosima::fastrtps::rtps::octet;
+
+namespace {
+
+std::optional<guard::Source> source_of(const Locator_t& locator) {
+  if (locator.kind != LOCATOR_KIND_UDPv4) return std::nullopt;
+  std::uint32_t address = 0;
+  for (std::size_t i = 12; i < 16; ++i) address = address << 8 | locator.address[i];
+  return guard::Source{address, IPLocator::getPhysicalPort(locator)};
+}
+
+class GuardedTransport : public rtps::ChainingTransport {
+ public:
+  GuardedTransport(const rtps::ChainingTransportDescriptor& descriptor, std::shared_ptr<guard::Guard> guard)
+      : ChainingTransport(descriptor),
+        guard_(std::move(guard)),
+        descriptor_(descriptor.low_level_descriptor) {}
+
+  rtps::TransportDescriptorInterface* get_configuration() override { return descriptor_.get(); }
+
+  bool send(eprosima::fastrtps::rtps::SenderResource* sender, const octet* bytes, std::uint32_t size,
+            rtps::LocatorsIterator* begin, rtps::LocatorsIterator* end,
+            const std::chrono::steady_clock::time_point& deadline) override {
+    return sender->send(bytes, size, begin, end, deadline);
+  }
+
+  // The bytes are in the receiving thread's own buffer; the vendor, too, changes them there.
+  void receive(rtps::TransportReceiverInterface* next, const octet* bytes, std::uint32_t size,
+               const Locator_t& local, const Locator_t& remote) override {
+    const std::size_t admitted = guard_->admit({const_cast<octet*>(bytes), size}, source_of(remote));
+    if (admitted > 0) next->OnDataReceived(bytes, static_cast<std::uint32_t>(admitted), local, remote);
+  }
+
+ private:
+  const std::shared_ptr<guard::Guard> guard_;
+  const std::shared_ptr<rtps::TransportDescriptorInterface> descriptor_;
+};
+
+class GuardedDescriptor : public rtps::ChainingTransportDescriptor {
+ public:
+  GuardedDescriptor(std::shared_ptr<rtps::TransportDescriptorInterface> udp,
+                    std::shared_ptr<guard::Guard> guard)
+      : ChainingTransportDescriptor(std::move(udp)), guard_(std::move(guard)) {}
+  rtps::TransportInterface* create_transport() const override { return new GuardedTransport(*this, guard_); }
+
+ private:
+  const std::shared_ptr<guard::Guard> guard_;
+};
+
+}  // namespace
+
+std::shared_ptr<rtps::TransportDescriptorInterface> guarded(
+    std::shared_ptr<rtps::TransportDescriptorInterface> udp, std::shared_ptr<guard::Guard> guard) {
+  return std::make_shared<GuardedDescriptor>(std::move(udp), std::move(guard));
+}
+
+}  // namespace roci::services::vendors::fastdds

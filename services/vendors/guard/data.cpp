@@ -1,0 +1,108 @@
+#include "services/vendors/guard/data.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace roci::services::vendors::guard {
+namespace {
+
+// What each GUID-keyed writer of discovery and liveliness tells of (RTPS 2.3, 9.3.1.3; DDS Security 1.1, 7.3.7.1).
+enum class WriterKind { user, discovery, liveliness, other_builtin };
+
+WriterKind kind_of_writer(const ByteView& entity_id) {
+  const auto bytes = entity_id.bytes;
+  if ((bytes[3] & 0xc0) != 0xc0) return WriterKind::user;
+  const std::uint32_t id =
+      std::uint32_t{bytes[0]} << 24 | std::uint32_t{bytes[1]} << 16 | std::uint32_t{bytes[2]} << 8 | bytes[3];
+  switch (id) {
+    case 0x000100c2:  // participants
+    case 0x000002c2:  // topics
+    case 0x000003c2:  // writers
+    case 0x000004c2:  // readers
+    case 0xff0101c2:  // the same behind DDS Security
+    case 0xff0003c2:
+    case 0xff0004c2:
+      return WriterKind::discovery;
+    case 0x000200c2:
+    case 0xff0200c2:
+      return WriterKind::liveliness;
+    default:
+      return WriterKind::other_builtin;
+  }
+}
+
+struct Parts {
+  Verdict verdict = Verdict::pass;
+  WriterKind writer = WriterKind::user;
+  ByteView payload{};
+};
+
+// What DATA and DATA_FRAG have in common: extra flags, offset of the inline QoS, reader, writer, sequence number.
+// `fixed` is the size of the fixed part.
+Parts split(const Submessage& message, std::size_t fixed, const GuidPrefix& sender) {
+  const ByteView& body = message.body;
+  if (body.size() < fixed) return {Verdict::cut};
+  const std::size_t offset = body.u16(2);  // counted from behind itself
+  if (offset % 4 != 0 || offset < fixed - 4 || offset > body.size() - 4) return {Verdict::cut};
+  if (body.sequence_number(12) <= 0) return {Verdict::bad_numbers};
+  Parts parts{Verdict::pass, kind_of_writer(body.part(8, 4)), body.from(4 + offset)};
+  const bool inline_qos = (message.flags & 0x02) != 0;
+  if (!inline_qos) return parts;
+  const bool guarded = parts.writer == WriterKind::discovery || parts.writer == WriterKind::liveliness;
+  const auto list =
+      examine_parameters(parts.payload, ListKind::inline_qos, guarded ? std::optional(sender) : std::nullopt);
+  if (list.verdict != Verdict::pass) return {list.verdict};
+  parts.payload = parts.payload.from(list.size);
+  return parts;
+}
+
+// A parameter list behind its encapsulation header. A bare key of 16 bytes would be taken for the GUID that it holds.
+Verdict discovery_payload(const ByteView& payload, const GuidPrefix& sender) {
+  const bool big = payload.bytes[1] == 2, little = payload.bytes[1] == 3;
+  if (payload.bytes[0] != 0 || (!big && !little)) return Verdict::bad_parameters;
+  const ByteView list{payload.bytes.subspan(4), little};
+  const auto judged = examine_parameters(list, ListKind::discovery, sender);
+  if (judged.verdict != Verdict::pass) return judged.verdict;
+  return payload.size() > 16 ? Verdict::pass : Verdict::bad_parameters;
+}
+
+// ParticipantMessageData begins with the prefix of the participant that it says is alive.
+Verdict liveliness_payload(const ByteView& payload, const GuidPrefix& sender) {
+  if (payload.size() < 4 + sender.size()) return Verdict::bad_parameters;
+  const bool own = std::equal(sender.begin(), sender.end(), payload.bytes.begin() + 4);
+  return own ? Verdict::pass : Verdict::speaks_for_another;
+}
+
+}  // namespace
+
+Verdict examine_data(const Submessage& message, const GuidPrefix& sender) {
+  constexpr std::size_t kFixed = 20;
+  const bool data = (message.flags & 0x04) != 0, key = (message.flags & 0x08) != 0;
+  if (data && key) return Verdict::cut;
+  const Parts parts = split(message, kFixed, sender);
+  if (parts.verdict != Verdict::pass) return parts.verdict;
+  if (!data && !key) return Verdict::pass;
+  if (parts.payload.size() < 4) return Verdict::cut;
+  if (parts.writer == WriterKind::discovery) return discovery_payload(parts.payload, sender);
+  if (parts.writer == WriterKind::liveliness) return liveliness_payload(parts.payload, sender);
+  return Verdict::pass;
+}
+
+Verdict examine_data_fragment(const Submessage& message, const GuidPrefix& sender) {
+  constexpr std::size_t kFixed = 32;
+  const Parts parts = split(message, kFixed, sender);
+  if (parts.verdict != Verdict::pass) return parts.verdict;
+  // Discovery fits into one datagram; in pieces it could not be judged.
+  if (parts.writer == WriterKind::discovery || parts.writer == WriterKind::liveliness)
+    return Verdict::bad_fragment;
+  const ByteView& body = message.body;
+  const std::uint64_t first = body.u32(20), count = body.u16(24), size = body.u16(26), sample = body.u32(28);
+  if (first == 0 || count == 0 || size == 0 || sample == 0) return Verdict::bad_fragment;
+  if (sample > kMaxSampleBytes) return Verdict::oversized;
+  const std::uint64_t begin = (first - 1) * size;
+  if (begin + (count - 1) * size >= sample) return Verdict::bad_fragment;
+  return parts.payload.size() < std::min(count * size, sample - begin) ? Verdict::bad_fragment
+                                                                       : Verdict::pass;
+}
+
+}  // namespace roci::services::vendors::guard

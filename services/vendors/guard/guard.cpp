@@ -1,0 +1,78 @@
+#include "services/vendors/guard/guard.hpp"
+
+#include <arpa/inet.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "services/log/log.hpp"
+#include "services/vendors/peers.hpp"
+
+namespace roci::services::vendors::guard {
+namespace {
+
+constexpr std::chrono::seconds kBetweenReports{10};
+
+std::string to_text(const std::optional<Source>& source) {
+  if (!source) return "an unknown address";
+  const in_addr address{htonl(source->address)};
+  char text[INET_ADDRSTRLEN] = "";
+  inet_ntop(AF_INET, &address, text, sizeof text);
+  return std::string(text) + ":" + std::to_string(source->port);
+}
+
+}  // namespace
+
+Policy policy_of(const transport::TransportOptions& options) {
+  Policy policy;
+  if (!options.vendor_xml.empty()) return policy;
+  for (const std::string& peer : peers_of(options)) {
+    in_addr address{};
+    if (inet_pton(AF_INET, peer.c_str(), &address) == 1) policy.peers.push_back(ntohl(address.s_addr));
+  }
+  return policy;
+}
+
+Guard::Guard(Policy policy) : policy_(std::move(policy)) {}
+
+std::size_t Guard::admit(std::span<std::uint8_t> datagram, const std::optional<Source>& source) {
+  const std::lock_guard lock(mutex_);
+  const Verdict verdict = judge(datagram, source);
+  ++counts_[static_cast<std::size_t>(verdict)];
+  if (verdict == Verdict::pass) return strip_vendor_submessages(datagram);
+  report(verdict, source);
+  return 0;
+}
+
+// The sender comes first: of a stranger nothing is read.
+Verdict Guard::judge(std::span<const std::uint8_t> datagram, const std::optional<Source>& source) {
+  const auto& peers = policy_.peers;
+  if (!peers.empty() && (!source || std::find(peers.begin(), peers.end(), source->address) == peers.end()))
+    return Verdict::stranger;
+  const Verdict verdict = examine(datagram);
+  if (verdict != Verdict::pass || !source) return verdict;
+  return identities_.claim(sender_of(datagram), *source, std::chrono::steady_clock::now());
+}
+
+// The first at once, then one line for all of ten seconds.
+void Guard::report(Verdict verdict, const std::optional<Source>& source) {
+  const auto now = std::chrono::steady_clock::now();
+  if (last_report_ && now - *last_report_ < kBetweenReports) return;
+  last_report_ = now;
+  std::string text;
+  for (std::size_t i = 1; i < kVerdicts; ++i) {
+    if (counts_[i] == reported_[i]) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(counts_[i] - reported_[i]) + " " +
+            std::string(kVerdictNames[i]);
+  }
+  reported_ = counts_;
+  log::warning("datagrams refused before DDS reads them: " + text + "; the last one, " +
+               std::string(kVerdictNames[static_cast<std::size_t>(verdict)]) + ", from " + to_text(source));
+}
+
+std::array<std::uint64_t, kVerdicts> Guard::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counts_;
+}
+
+}  // namespace roci::services::vendors::guard

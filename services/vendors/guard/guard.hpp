@@ -1,0 +1,50 @@
+// Stands between the network and a vendor's parser: what it refuses, the vendor never sees.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "services/transport/transport.hpp"
+#include "services/vendors/guard/identities.hpp"
+#include "services/vendors/guard/message.hpp"
+
+namespace roci::services::vendors::guard {
+
+struct Policy {
+  /// Whose datagrams are taken, as IPv4 addresses in host byte order; empty: anybody's (a vendor's own XML says who).
+  std::vector<std::uint32_t> peers;
+};
+
+/// The peers of these options (peers_of), this host among them. With vendor_xml it takes everybody.
+Policy policy_of(const transport::TransportOptions&);
+
+/// One for each participant or, with Cyclone DDS, for each domain of the process. Any thread may call it.
+class Guard {
+ public:
+  explicit Guard(Policy);
+
+  /// The length of what the vendor may read, at the beginning of `datagram`, which may have been changed; 0: nothing. `source`
+  /// is missing where it has no IPv4 address.
+  std::size_t admit(std::span<std::uint8_t> datagram, const std::optional<Source>& source);
+
+  /// How many datagrams had each verdict.
+  std::array<std::uint64_t, kVerdicts> counts() const;
+
+ private:
+  Verdict judge(std::span<const std::uint8_t> datagram, const std::optional<Source>&);
+  void report(Verdict, const std::optional<Source>&);
+
+  const Policy policy_;
+  mutable std::mutex mutex_;
+  Identities identities_;
+  std::array<std::uint64_t, kVerdicts> counts_{};
+  std::array<std::uint64_t, kVerdicts> reported_{};
+  std::optional<Identities::Time> last_report_;
+};
+
+}  // namespace roci::services::vendors::guard

@@ -1,0 +1,65 @@
+#include "services/vendors/guard/identities.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+namespace roci::services::vendors::guard {
+
+namespace {
+
+// A prefix of ours from another port than it names.
+bool is_borrowed(const GuidPrefix& prefix, const Source& source) {
+  const auto own = prefix_start(source.port);
+  return std::equal(own.begin(), own.begin() + 2, prefix.begin()) &&
+         !std::equal(own.begin(), own.end(), prefix.begin());
+}
+
+}  // namespace
+
+std::array<std::uint8_t, 4> prefix_start(std::uint16_t port) {
+  return {'R', 'o', static_cast<std::uint8_t>(port >> 8), static_cast<std::uint8_t>(port)};
+}
+
+std::size_t Identities::HashPrefix::operator()(const GuidPrefix& prefix) const {
+  return std::hash<std::string_view>()({reinterpret_cast<const char*>(prefix.data()), prefix.size()});
+}
+
+Verdict Identities::claim(const GuidPrefix& prefix, const Source& source, Time now) {
+  if (is_borrowed(prefix, source)) return Verdict::taken_identity;
+  const auto known = owners_.find(prefix);
+  if (known != owners_.end()) {
+    if (known->second.source != source) return Verdict::taken_identity;
+    known->second.heard = now;
+    return Verdict::pass;
+  }
+  if (!make_room(source, now)) return Verdict::crowd;
+  owners_.emplace(prefix, Owner{source, now});
+  ++of_source_[source];
+  ++of_address_[source.address];
+  return Verdict::pass;
+}
+
+bool Identities::make_room(const Source& source, Time now) {
+  const auto full = [&] {
+    const auto same = of_source_.find(source);
+    const auto host = of_address_.find(source.address);
+    return (same != of_source_.end() && same->second >= kPerSource) ||
+           (host != of_address_.end() && host->second >= kPerAddress);
+  };
+  if (!full()) return true;
+  std::vector<GuidPrefix> silent;
+  for (const auto& [prefix, owner] : owners_)
+    if (owner.source.address == source.address && now - owner.heard > kSilent) silent.push_back(prefix);
+  for (const GuidPrefix& prefix : silent) forget(prefix);
+  return !full();
+}
+
+void Identities::forget(const GuidPrefix& prefix) {
+  const Source source = owners_.at(prefix).source;
+  owners_.erase(prefix);
+  if (--of_source_[source] == 0) of_source_.erase(source);
+  if (--of_address_[source.address] == 0) of_address_.erase(source.address);
+}
+
+}  // namespace roci::services::vendors::guard

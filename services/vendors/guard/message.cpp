@@ -1,0 +1,68 @@
+#include "services/vendors/guard/message.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "services/vendors/guard/submessages.hpp"
+
+namespace roci::services::vendors::guard {
+namespace {
+
+constexpr std::size_t kHeaderSize = 20;
+constexpr std::size_t kSubmessageHeaderSize = 4;
+constexpr std::uint8_t kFirstVendorId = 0x80;
+constexpr std::uint8_t kPad = 0x01;
+constexpr std::uint8_t kInfoTimestamp = 0x09;
+
+// Where a submessage ends, seen from its own beginning; 0 if it reaches over the end of the message.
+std::size_t size_of_first(std::span<const std::uint8_t> rest) {
+  if (rest.size() < kSubmessageHeaderSize) return 0;
+  const ByteView header{rest, (rest[1] & 1) != 0};
+  const std::size_t length = header.u16(2);
+  // Length 0 reaches to the end of the message, but for the two kinds that may be empty (RTPS 2.3, 8.3.3.2.3).
+  if (length == 0) return rest[0] == kPad || rest[0] == kInfoTimestamp ? kSubmessageHeaderSize : rest.size();
+  if (length % 4 != 0 || length > rest.size() - kSubmessageHeaderSize) return 0;
+  return kSubmessageHeaderSize + length;
+}
+
+}  // namespace
+
+Verdict examine(std::span<const std::uint8_t> datagram) {
+  if (datagram.size() < kHeaderSize || std::memcmp(datagram.data(), "RTPS", 4) != 0 || datagram[4] != 2) {
+    return Verdict::no_rtps;
+  }
+  const GuidPrefix sender = sender_of(datagram);
+  for (auto rest = datagram.subspan(kHeaderSize); !rest.empty();) {
+    const std::size_t size = size_of_first(rest);
+    if (size == 0) return Verdict::cut;
+    const ByteView body{rest.subspan(kSubmessageHeaderSize, size - kSubmessageHeaderSize),
+                        (rest[1] & 1) != 0};
+    if (rest[0] < kFirstVendorId) {
+      const Verdict verdict = examine_submessage({rest[0], rest[1], body}, sender);
+      if (verdict != Verdict::pass) return verdict;
+    }
+    rest = rest.subspan(size);
+  }
+  return Verdict::pass;
+}
+
+GuidPrefix sender_of(std::span<const std::uint8_t> message) {
+  GuidPrefix prefix;
+  std::copy_n(message.begin() + 8, prefix.size(), prefix.begin());
+  return prefix;
+}
+
+std::size_t strip_vendor_submessages(std::span<std::uint8_t> message) {
+  std::size_t end = kHeaderSize;
+  for (std::size_t at = kHeaderSize; at < message.size();) {
+    const std::size_t size = size_of_first(message.subspan(at));
+    if (message[at] < kFirstVendorId) {
+      if (end != at) std::memmove(message.data() + end, message.data() + at, size);
+      end += size;
+    }
+    at += size;
+  }
+  return end;
+}
+
+}  // namespace roci::services::vendors::guard

@@ -1,0 +1,25 @@
+// Judges RTPS messages before a vendor's parser sees them. Pure: the same bytes give the same verdict.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "services/vendors/guard/parameters.hpp"
+#include "services/vendors/guard/verdict.hpp"
+
+namespace roci::services::vendors::guard {
+
+/// A message that passes is well-formed down to its submessages (RTPS 2.3, 8.3 and 9.4), claims no sample over
+/// kMaxSampleBytes, and speaks in discovery for its sender alone. What DDS Security has encrypted passes as it is; payloads
+/// of user topics are not looked into. It never says `stranger`, `taken_identity` or `crowd`.
+Verdict examine(std::span<const std::uint8_t> datagram);
+
+/// The participant that a message says it is from. It must have an RTPS header.
+GuidPrefix sender_of(std::span<const std::uint8_t> message);
+
+/// Takes the vendors' own submessages (ids from 0x80 on) out of a message that passed and returns its new length. Nobody
+/// here needs them: Fast DDS adds statistics to each of its messages, and Debian's build aborts when it reads unlikely
+/// ones.
+std::size_t strip_vendor_submessages(std::span<std::uint8_t> message);
+
+}  // namespace roci::services::vendors::guard

@@ -1,0 +1,88 @@
+#include "services/vendors/guard/parameters.hpp"
+
+#include <algorithm>
+
+namespace roci::services::vendors::guard {
+namespace {
+
+// RTPS 2.3, table 9.13; the flag "must be understood" is no part of the id.
+constexpr std::uint16_t kMustUnderstand = 0x4000;
+constexpr std::uint16_t kSentinel = 0x0001;
+constexpr std::uint16_t kPad = 0x0000;
+constexpr std::uint16_t kKeyHash = 0x0070;
+constexpr std::uint16_t kStatusInfo = 0x0071;
+
+bool one_of(std::uint16_t id, std::initializer_list<std::uint16_t> ids) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+bool names_guid(std::uint16_t id) {
+  return one_of(id, {0x0050 /* participant */, 0x005a /* endpoint */, 0x0052 /* group */, kKeyHash});
+}
+bool is_string(std::uint16_t id) {
+  return one_of(id, {0x0005 /* topic name */, 0x0007 /* type name */, 0x0062 /* entity name */});
+}
+bool is_octets(std::uint16_t id) {
+  return one_of(id, {0x002c /* user data */, 0x002d /* group data */, 0x002e /* topic data */});
+}
+bool is_locator(std::uint16_t id) { return one_of(id, {0x002f, 0x0030, 0x0031, 0x0032, 0x0033, 0x0048}); }
+
+// Moves `at` behind a counted run of bytes; false if it does not fit.
+bool skip_counted(const ByteView& value, std::size_t& at) {
+  at = (at + 3) / 4 * 4;
+  if (at > value.size() || value.size() - at < 4) return false;
+  const std::uint32_t length = value.u32(at);
+  at += 4;
+  if (length > value.size() - at) return false;
+  at += length;
+  return true;
+}
+
+// A sequence of strings, or of structs of `strings_each` strings.
+bool holds_strings(const ByteView& value, std::size_t strings_each) {
+  if (value.size() < 4) return false;
+  const std::uint32_t count = value.u32(0);
+  std::size_t at = 4;
+  if (count > value.size() / 4) return false;
+  for (std::uint32_t i = 0; i < count * strings_each; ++i)
+    if (!skip_counted(value, at)) return false;
+  return true;
+}
+
+bool fits(std::uint16_t id, const ByteView& value, ListKind kind) {
+  if (id == kKeyHash) return value.size() == 16;
+  if (id == kStatusInfo) return value.size() == 4;
+  if (kind == ListKind::inline_qos) return true;
+  std::size_t at = 0;
+  if (names_guid(id)) return value.size() == 16;
+  if (is_locator(id)) return value.size() == 24;
+  if (is_string(id) || is_octets(id)) return skip_counted(value, at);
+  if (id == 0x0029 /* partition */) return holds_strings(value, 1);
+  if (id == 0x0059 /* properties */) return holds_strings(value, 2);
+  return true;
+}
+
+}  // namespace
+
+ListVerdict examine_parameters(const ByteView& list, ListKind kind,
+                               const std::optional<GuidPrefix>& only_guids_of) {
+  std::size_t at = 0;
+  for (;;) {
+    if (list.size() - at < 4) return {Verdict::bad_parameters};
+    const auto id = static_cast<std::uint16_t>(list.u16(at) & ~kMustUnderstand);
+    const std::size_t length = list.u16(at + 2);
+    at += 4;
+    if (id == kSentinel) return {Verdict::pass, at};
+    if (length % 4 != 0 || length > list.size() - at) return {Verdict::bad_parameters};
+    const ByteView value = list.part(at, length);
+    at += length;
+    if (id == kPad) continue;
+    if (!fits(id, value, kind)) return {Verdict::bad_parameters};
+    if (only_guids_of && names_guid(id) && value.size() >= only_guids_of->size() &&
+        !std::equal(only_guids_of->begin(), only_guids_of->end(), value.bytes.begin())) {
+      return {Verdict::speaks_for_another};
+    }
+  }
+}
+
+}  // namespace roci::services::vendors::guard

@@ -1,0 +1,126 @@
+// contract-hostile ROLE DOMAIN …: attacks the participants of a domain with bytes of its own, through no vendor, until its
+// input ends.
+//   writers            on loopback, a writer on every topic, all of whose samples are malformed, again and again
+//   goals ADDRESS ID   a writer on roci/goal that writes the goal stranger/ID well-formed to the host with that address
+//   inject SEED COUNT  on loopback, mutants of the traffic that it hears and forged datagrams, COUNT at least
+// Standard output, one line each: ready | round N (all was sent N times) | sent COUNT SEED.
+#include <poll.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <iostream>
+#include <stdexcept>
+#include <utility>
+
+#include "services/transport/announcement.hpp"
+#include "services/transport/type_support.hpp"
+#include "tests/contract/hostile/every_topic.hpp"
+#include "tests/contract/hostile/injector.hpp"
+#include "tests/contract/hostile/samples.hpp"
+
+namespace roci::services::contract::hostile {
+namespace {
+
+constexpr std::uint32_t kLoopback = 0x7f000001;
+
+std::uint32_t address_of(const std::string& text) {
+  std::uint32_t address = 0, part = 0;
+  for (const char c : text + ".") {
+    if (c == '.')
+      address = address << 8 | std::exchange(part, 0);
+    else
+      part = part * 10 + static_cast<std::uint32_t>(c - '0');
+  }
+  return address;
+}
+
+// False once the input has ended.
+bool wait_a_moment() {
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  return poll(&input, 1, 100) == 0;
+}
+
+void say(const std::string& line) { std::cout << line << std::endl; }
+
+// Whom a run cannot tell from its own: same announcement, all partitions of the topic.
+class Attackers {
+ public:
+  Attackers(std::uint32_t target, int domain)
+      : fast_(target, domain, kEprosima, 1, transport::own_announcement()),
+        cyclone_(target, domain, kEclipse, 2, transport::own_announcement()) {
+    const Bytes another = transport::serialize(v1::JournalChunk());
+    for_each_topic([&]<class T>(const Topic<T>& topic) {
+      const WriterDescription writer{topic.name, topic.type_name, T::isKeyDefined(),
+                                     transport::partitions_of(topic.scope, "")};
+      T good;
+      good = {};
+      for (Participant* participant : {&fast_, &cyclone_})
+        writers_.emplace_back(*participant, participant->add_writer(writer), transport::serialize(good),
+                              another);
+    });
+  }
+
+  void run() {
+    for (int round = 0; wait_a_moment(); ++round) {
+      fast_.announce();
+      cyclone_.announce();
+      if (round == 1)
+        for (HostileWriter& writer : writers_) writer.attack();
+      if (round > 1)
+        for (const HostileWriter& writer : writers_) writer.repeat();
+      say("round " + std::to_string(round));
+    }
+  }
+
+ private:
+  Participant fast_, cyclone_;
+  std::vector<HostileWriter> writers_;
+};
+
+void write_goals(std::uint32_t target, int domain, const std::string& id) {
+  Participant participant(target, domain, kEclipse, 3, transport::own_announcement());
+  const Entity writer = participant.add_writer({topics::goal.name, topics::goal.type_name, true, {}});
+  v1::Goal goal;
+  goal.issuer("stranger");
+  goal.id(id);
+  goal.priority(1);
+  const Bytes payload = transport::serialize(goal);
+  for (int round = 0; wait_a_moment(); ++round) {
+    participant.announce();
+    auto message = participant.message();
+    message.heartbeat(0, writer, 1, 1, static_cast<std::uint32_t>(round + 1))
+        .data(0, writer, 1, kData, {}, payload);
+    participant.send_to_readers(message);
+    say("round " + std::to_string(round));
+  }
+}
+
+void run(const std::vector<std::string>& words) {
+  if (words.size() < 2)
+    throw std::invalid_argument("usage: contract-hostile ROLE DOMAIN [ADDRESS ID | SEED COUNT]");
+  const int domain = std::stoi(words[1]);
+  say("ready");
+  if (words[0] == "writers") return Attackers(kLoopback, domain).run();
+  if (words.size() != 4) throw std::invalid_argument("unknown role " + words[0]);
+  if (words[0] == "goals") return write_goals(address_of(words[2]), domain, words[3]);
+  if (words[0] != "inject") throw std::invalid_argument("unknown role " + words[0]);
+  Injector injector(domain, std::stoull(words[2]));
+  injector.send(std::stoull(words[3]), [sent = false, &words](bool enough) mutable {
+    if (enough && !std::exchange(sent, true)) say("sent " + words[3] + " " + words[2]);
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    return poll(&input, 1, 0) == 0;
+  });
+}
+
+}  // namespace
+}  // namespace roci::services::contract::hostile
+
+int main(int argc, char** argv) {
+  try {
+    roci::services::contract::hostile::run({argv + 1, argv + argc});
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << std::endl;
+    return 2;
+  }
+}

@@ -1,0 +1,69 @@
+// A participant without a vendor: it is discovered, matched and read like any other, and sends whatever bytes it likes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/contract/hostile/rtps_message.hpp"
+
+namespace roci::services::contract::hostile {
+
+/// A UDP socket with a port of its own.
+class Socket {
+ public:
+  Socket();
+  ~Socket();
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+  void send(const Bytes&, std::uint32_t address, int port) const;
+  int port() const { return port_; }
+
+ private:
+  int socket_ = -1;
+  int port_ = 0;
+};
+
+struct WriterDescription {
+  std::string topic;
+  std::string type;
+  bool keyed = false;
+  std::vector<std::string> partitions;
+};
+
+/// Reliable and transient local, so that every reader matches. It ignores what it is sent and says everything again, which
+/// is all that a transient-local writer does for who joins late.
+class Participant {
+ public:
+  Participant(std::uint32_t target, int domain, Vendor, std::uint8_t number, std::string user_data);
+
+  /// The entity id of the new writer.
+  Entity add_writer(const WriterDescription&);
+
+  /// Tells the first participants of the domain on the target of itself and of its writers.
+  void announce();
+  void send_to_readers(const Message&) const;  ///< To the ports for samples of users.
+  void send_to_discovery(const Message&) const;
+  Message message() const { return {prefix_, vendor_}; }
+  const Prefix& prefix() const { return prefix_; }
+  int port() const { return socket_.port(); }
+
+ private:
+  void send(const Message&, int first_port) const;
+  Bytes own_sample() const;
+  Bytes writer_sample(std::size_t index) const;
+
+  const std::uint32_t target_;
+  const int domain_;
+  const Vendor vendor_;
+  const std::string user_data_;
+  Prefix prefix_{};
+  Socket socket_;
+  std::vector<WriterDescription> writers_;
+  std::uint32_t announcements_ = 0;
+};
+
+/// The entity id of the writer that was added as number `index`, from 0.
+Entity writer_id(std::size_t index, bool keyed);
+
+}  // namespace roci::services::contract::hostile

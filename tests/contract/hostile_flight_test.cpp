@@ -1,0 +1,75 @@
+// Whole missions, by the programs that users start, under fire: they end as they would have ended, with the same trace.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+
+#include "services/process/domain_claim.hpp"
+#include "tests/contract/support/child_process.hpp"
+#include "tests/scenario/flight.hpp"
+
+namespace roci::services::contract {
+namespace {
+
+// ROCI_HOSTILE_DATAGRAMS: how many at least are sent into each flight; the flights go on until they are over.
+std::string datagrams(const char* usual) {
+  const char* given = std::getenv("ROCI_HOSTILE_DATAGRAMS");
+  return given == nullptr ? usual : given;
+}
+
+int free_domain() { return process::DomainClaim().id(); }
+
+scenario::Flight fly_in(int domain, const std::string& dds, const std::string& before = "") {
+  scenario::Flight flight;
+  const auto ended =
+      scenario::run(before + "roci-launch " ROCI_SOURCE_DIR "/missions/planetary --dds " + dds +
+                    " --domain " + std::to_string(domain) + " --speed max --headless --json");
+  flight.exit_code = ended.exit_code;
+  flight.summary = scenario::last_line_as_json(ended.output);
+  return flight;
+}
+
+std::vector<std::string> hostile_command(const std::string& role, int domain) {
+  return {ROCI_BINARY_DIR "/tests/contract-hostile", role, std::to_string(domain)};
+}
+
+class HostileFlight : public testing::TestWithParam<const char*> {
+ protected:
+  void expect_undisturbed(const scenario::Flight& flight) {
+    static std::map<std::string, std::string> traces;
+    std::string& undisturbed = traces[GetParam()];
+    if (undisturbed.empty())
+      undisturbed = scenario::fly(ROCI_SOURCE_DIR "/missions/planetary", GetParam())
+                        .summary.value("trace_sha256", "none");
+    EXPECT_EQ(flight.exit_code, 0);
+    EXPECT_EQ(flight.summary.value("result", ""), "achieved");
+    EXPECT_EQ(flight.summary.value("trace_sha256", ""), undisturbed);
+  }
+};
+
+TEST_P(HostileFlight, MutantsOfItsOwnTrafficChangeNothing) {
+  const int domain = free_domain();
+  const std::string seed = "14";
+  auto command = hostile_command("inject", domain);
+  command.insert(command.end(), {seed, datagrams("10000")});
+  ChildProcess injector(command);
+  const auto flight = fly_in(domain, GetParam());
+  expect_undisturbed(flight);
+  EXPECT_TRUE(injector.wait_for("sent " + datagrams("10000") + " " + seed, std::chrono::seconds(1)))
+      << "while the mission flew";
+}
+
+TEST_P(HostileFlight, AnExecutiveThatIsStartedAnewSurvivesWhatIsLatched) {
+  const int domain = free_domain();
+  ChildProcess writers(hostile_command("writers", domain));
+  const auto flight = fly_in(domain, GetParam(), "ROCI_CRASH=after-ack:3 ");
+  EXPECT_EQ(flight.exit_code, 0);
+  EXPECT_EQ(flight.summary.value("result", ""), "achieved");
+  ASSERT_TRUE(writers.wait_for("round 2"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, HostileFlight, testing::Values("fastdds", "cyclonedds"),
+                         [](const auto& test) { return std::string(test.param); });
+
+}  // namespace
+}  // namespace roci::services::contract

@@ -1,0 +1,186 @@
+// Datagrams and samples that mean harm, from participants that are nobody's: none ends a process of ours, none takes
+// somebody's place, and what is bound is bound to loopback alone.
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "services/transport/rtps_ports.hpp"
+#include "tests/contract/hostile/participant.hpp"
+#include "tests/contract/support/pairing.hpp"
+#include "tests/contract/support/peers.hpp"
+
+namespace roci::services::contract {
+namespace {
+
+using hostile::Message;
+using hostile::Prefix;
+
+constexpr std::uint32_t kLoopback = 0x7f000001;
+
+std::vector<std::string> reader_command(const std::string& vendor, int domain) {
+  return {ROCI_BINARY_DIR "/tests/contract-reader", vendor, std::to_string(domain)};
+}
+std::vector<std::string> hostile_command(const std::string& role, int domain) {
+  return {ROCI_BINARY_DIR "/tests/contract-hostile", role, std::to_string(domain)};
+}
+
+class Hostile : public testing::TestWithParam<const char*> {
+ protected:
+  // A goal of an honest writer, in a process of its own, still arrives.
+  void expect_still_reading(ChildProcess& reader) {
+    ChildProcess writer(peer_command(GetParam(), "goal-writer", domain_.id()), {"PEER_PARTITION=roci.team"});
+    writer.send("write ground photo 1");
+    EXPECT_TRUE(reader.wait_for("goal ground photo"));
+    EXPECT_EQ(reader.finish(), 0);
+  }
+
+  process::DomainClaim domain_;
+};
+
+TEST_P(Hostile, MalformedSamplesOnEveryTopicEndNoReader) {
+  ChildProcess reader(reader_command(GetParam(), domain_.id()));
+  ASSERT_TRUE(reader.wait_for("ready"));
+  ChildProcess writers(hostile_command("writers", domain_.id()));
+  ASSERT_TRUE(reader.wait_for("matched all")) << "both hostile participants, on every topic";
+  ASSERT_TRUE(writers.wait_for("round 2"));
+  expect_still_reading(reader);
+}
+
+TEST_P(Hostile, AReaderThatComesLateSurvivesWhatIsLatched) {
+  ChildProcess writers(hostile_command("writers", domain_.id()));
+  ASSERT_TRUE(writers.wait_for("round 2"));
+  ChildProcess reader(reader_command(GetParam(), domain_.id()));
+  ASSERT_TRUE(reader.wait_for("matched all"));
+  ASSERT_TRUE(writers.wait_for_more());
+  ASSERT_TRUE(writers.wait_for_more());
+  expect_still_reading(reader);
+}
+
+// Fast DDS reads statistics behind each message of its own kind; Debian's build asserts that they stand at its end.
+TEST_P(Hostile, StatisticsInTheMiddleOfAMessageAreNotRead) {
+  ChildProcess reader(reader_command(GetParam(), domain_.id()));
+  ASSERT_TRUE(reader.wait_for("ready"));
+  const hostile::Participant attacker(kLoopback, domain_.id(), hostile::kEprosima, 1, "");
+  for (const std::uint8_t fill : {0xff, 0x00, 0x7f, 0x01}) {
+    auto message = attacker.message();
+    message.submessage(0x80, 0, hostile::Bytes(56, fill)).submessage(0x01, 0, hostile::Bytes(60, fill));
+    attacker.send_to_discovery(message);
+    attacker.send_to_readers(message);
+  }
+  expect_still_reading(reader);
+}
+
+// The sockets of all processes on this host that are bound to the ports of a domain, as /proc/net/udp writes them.
+std::vector<std::string> addresses_bound(int domain) {
+  std::vector<std::string> addresses;
+  std::ifstream table("/proc/net/udp");
+  std::string line;
+  std::getline(table, line);
+  while (std::getline(table, line)) {
+    std::istringstream words(line);
+    std::string slot, local;
+    words >> slot >> local;
+    const int first = transport::first_participant_port(domain);
+    const int port = std::stoi(local.substr(9), nullptr, 16);
+    if (port >= first && port < first + 2 * transport::kMaxParticipantsPerHost)
+      addresses.push_back(local.substr(0, 8));
+  }
+  return addresses;
+}
+
+TEST_P(Hostile, SocketsAreBoundToLoopbackAlone) {
+  ChildProcess reader(reader_command(GetParam(), domain_.id()));
+  ASSERT_TRUE(reader.wait_for("ready"));
+  EXPECT_THAT(addresses_bound(domain_.id()),
+              testing::AllOf(testing::SizeIs(testing::Ge(2U)), testing::Each("0100007F")));
+  EXPECT_EQ(reader.finish(), 0);
+}
+
+// Binds the highest port at which both vendors look for others, and hears their announcements there.
+class Eavesdropper {
+ public:
+  explicit Eavesdropper(int domain) : socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in own{};
+    own.sin_family = AF_INET;
+    own.sin_addr.s_addr = htonl(kLoopback);
+    own.sin_port = htons(static_cast<std::uint16_t>(transport::first_participant_port(domain) +
+                                                    2 * (transport::kMaxParticipantsPerHost - 2)));
+    const timeval patience{20, 0};
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    if (bind(socket_, reinterpret_cast<const sockaddr*>(&own), sizeof own) != 0)
+      throw std::runtime_error("the port is taken");
+  }
+  ~Eavesdropper() { close(socket_); }
+  Eavesdropper(const Eavesdropper&) = delete;
+  Eavesdropper& operator=(const Eavesdropper&) = delete;
+
+  /// The next message from a participant that is not `known`.
+  hostile::Bytes hear_other_than(const Prefix& known) const {
+    for (;;) {
+      hostile::Bytes bytes(65536);
+      const auto size = recv(socket_, bytes.data(), bytes.size(), 0);
+      if (size < 0) throw std::runtime_error("nobody announces itself");
+      bytes.resize(static_cast<std::size_t>(size));
+      if (bytes.size() > 20 && prefix_in(bytes) != known) return bytes;
+    }
+  }
+  static Prefix prefix_in(const hostile::Bytes& message) {
+    Prefix prefix;
+    std::copy_n(message.begin() + 8, prefix.size(), prefix.begin());
+    return prefix;
+  }
+
+ private:
+  int socket_;
+};
+
+// Each says that the victim has left: under its name, under the attacker's own, and with a change of name on the way.
+std::vector<Message> farewells_of(const Prefix& victim, const Prefix& own, hostile::Vendor vendor) {
+  constexpr hostile::Entity kWriter = 0x000100c2, kReader = 0x000100c7, kParticipant = 0x000001c1;
+  const auto end =
+      hostile::Parameters().add_guid(0x0070, victim, kParticipant).add(0x0071, {0, 0, 0, 3}).list();
+  const auto named = hostile::Parameters().add_guid(0x0050, victim, kParticipant).sample();
+  hostile::Bytes source{0, 0, 0, 0, 2, 2, vendor[0], vendor[1]};
+  hostile::put_bytes(source, victim);
+  std::vector<Message> messages;
+  for (const Prefix& sender : {victim, own}) {
+    messages.push_back(Message(sender, vendor).data(kReader, kWriter, 1000, hostile::kInlineQos, end, {}));
+    messages.push_back(Message(sender, vendor)
+                           .data(kReader, kWriter, 1001, hostile::kInlineQos | hostile::kKey, end, named));
+  }
+  messages.push_back(Message(own, vendor)
+                         .submessage(0x0c, 0, source)
+                         .data(kReader, kWriter, 1002, hostile::kInlineQos, end, {}));
+  return messages;
+}
+
+TEST_P(Hostile, NobodyElseSaysFarewellForAParticipant) {
+  const Eavesdropper eavesdropper(domain_.id());
+  Peer reader(GetParam(), "goal-reader", domain_.id());
+  ASSERT_TRUE(reader.wait_for("ready"));
+  const Prefix readers = Eavesdropper::prefix_in(eavesdropper.hear_other_than({}));
+  Peer writer(GetParam(), "goal-writer", domain_.id());
+  writer.send("write ground photo 1");
+  ASSERT_TRUE(reader.wait_for("goal ground photo 1"));
+  const Prefix writers = Eavesdropper::prefix_in(eavesdropper.hear_other_than(readers));
+  for (const hostile::Vendor vendor : {hostile::kEprosima, hostile::kEclipse}) {
+    const hostile::Participant attacker(kLoopback, domain_.id(), vendor, 1, "");
+    for (const Message& farewell : farewells_of(writers, attacker.prefix(), vendor))
+      attacker.send_to_discovery(farewell);
+  }
+  writer.send("write ground photo 2");
+  ASSERT_TRUE(reader.wait_for("goal ground photo 2"));
+  EXPECT_EQ(reader.finish(), 0);
+  EXPECT_THAT(reader.lines(), testing::Not(testing::Contains("lost ground photo")));
+  EXPECT_THAT(reader.lines(), testing::Not(testing::Contains("matched 0")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, Hostile, testing::Values("fastdds", "cyclonedds"),
+                         [](const auto& test) { return std::string(test.param); });
+
+}  // namespace
+}  // namespace roci::services::contract

@@ -1,0 +1,35 @@
+// Every source file that opens a file which somebody else may have written, and the test that damages what it reads.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace roci::fuzz {
+
+/// By the path of the source: "TestSuite.Test" of tests/fuzz, or why there is none ("- reason"). A test fails when a source that
+/// opens a file is missing here.
+inline const std::map<std::string, std::string> kFileReaders{
+    {"arm_svc/setup_file.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},
+    {"core/mission/entry.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},
+    {"core/terrain/pgm.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},
+    {"exec_svc/journal/database.cpp", "FuzzJournal.ADamagedFileIsReadOrRefused"},
+    {"exec_svc/journal/journal_batches.cpp", "FuzzStandby.ADamagedJournalIsCopiedOrRefused"},
+    {"exec_svc/mission/mission_model.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},
+    {"exec_svc/standby/persisted_term_file.cpp", "FuzzRunFiles.AreReadOrRefused"},
+    {"exec_svc/trace/journal_reader.cpp", "FuzzRunFiles.ARecordedRunIsReadOrRefused"},
+    {"exec_svc/trace/run_reader.cpp", "FuzzRunFiles.ARecordedRunIsReadOrRefused"},
+    {"ground_console/cli/orders.cpp", "- bytes that the user uploads, sent as they are"},
+    {"planner_svc/settings.cpp", "FuzzPddl.MutatedCorpusNeverCrashes"},
+    {"planner_svc/temporal_pddl/cli/main.cpp", "FuzzPddl.MutatedCorpusNeverCrashes"},
+    {"planner_svc/temporal_pddl/validate/main.cpp", "FuzzPddl.MutatedCorpusNeverCrashes"},
+    {"rehearsal/main.cpp", "- a file that this very process wrote"},
+    {"services/health/heartbeat_sender.cpp", "- /proc/self, which the kernel writes"},
+    {"services/launch/run.cpp", "- the end of a log, shown as text"},
+    {"services/launch/summary.cpp", "FuzzRunFiles.AreReadOrRefused"},
+    {"services/process/incarnation.cpp", "FuzzRunFiles.AreReadOrRefused"},
+    {"services/process/link_report.cpp", "FuzzRunFiles.AreReadOrRefused"},
+    {"services/process/run_record.cpp", "FuzzRunFiles.AreReadOrRefused"},
+    {"services/process/run_summary.cpp", "FuzzRunFiles.AreReadOrRefused"},
+};
+
+}  // namespace roci::fuzz

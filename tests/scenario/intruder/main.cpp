@@ -1,0 +1,201 @@
+// Somebody on a run's domain who knows its identity and says what he likes: commands, acknowledgements and heartbeats in
+// other services' names. He reads what to do from standard input, a line each, and prints what he hears.
+//   intruder DDS DOMAIN RUN
+//   as NAME                             speaks in this name from now on; first as exec_svc
+//   send ACTION OWNER SUBSYSTEM COMMAND ACTIVITY ISSUED SENDER_EPOCH [argument=value …]
+//   beat SERVICE INCARNATION TIMES      heartbeats, four a second
+//   repeat SECONDS                      sends every command that he hears again, twice
+//   await SECONDS TEXT                  until a line that was heard holds the text; fails after that time
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/clock/wall.hpp"
+#include "services/node.hpp"
+#include "services/publisher.hpp"
+#include "services/transport/plug_ins.hpp"
+
+namespace roci::scenario {
+namespace {
+
+namespace topics = services::topics;
+using services::clock::wall_now;
+using services::clock::wall_seconds;
+using namespace std::chrono_literals;
+
+services::node::NodeOptions options_of(const std::string& vendor, const std::string& run,
+                                       const std::string& name) {
+  services::node::NodeOptions options;
+  options.name = name;
+  options.run = run;
+  options.clock = services::clock::ClockMode::observer;
+  options.vendor = vendor;
+  return options;
+}
+
+services::transport::TransportOptions transport_of(int domain) {
+  services::transport::TransportOptions options;
+  options.domain = domain;
+  options.participant = "intruder";
+  return options;
+}
+
+// One name under which he speaks.
+struct Voice {
+  Voice(const std::string& vendor, int domain, const std::string& run, const std::string& name)
+      : node(options_of(vendor, run, name),
+             services::transport::open_transport(vendor, transport_of(domain))),
+        commands(services::advertise(node, topics::command)),
+        beats(services::advertise(node, topics::heartbeat)) {}
+  services::Node node;
+  services::Publisher<v1::Command> commands;
+  services::Publisher<v1::Heartbeat> beats;
+};
+
+class Intruder {
+ public:
+  Intruder(std::string vendor, int domain, std::string run)
+      : vendor_(std::move(vendor)), domain_(domain), run_(std::move(run)) {
+    speak_as("exec_svc");
+    services::Node& node = voice_->node;
+    services::subscribe(node, topics::command_ack, [this](const v1::CommandAck& ack) { hear(ack); });
+    services::subscribe(node, topics::event, [this](const v1::Event& event) {
+      note("event " + event.header().sender() + " " + event.code() + " " + event.text());
+    });
+    services::subscribe(node, topics::command, [this](const v1::Command& command) {
+      const std::string key = command.activity() + " " + std::to_string(command.attempt());
+      if (!repeats_ || !repeated_.insert(key).second) return;
+      for (int i = 0; i < 2; ++i) voice_->commands.write(command);
+    });
+  }
+
+  bool act(const std::string& line) {
+    std::istringstream in(line);
+    std::string what;
+    in >> what;
+    if (what == "as") {
+      in >> what;
+      speak_as(what);
+      return true;
+    }
+    if (what == "send") return send(in);
+    if (what == "beat") return beat(in);
+    double seconds = 0;
+    in >> seconds;
+    if (what == "repeat") {
+      repeats_ = true;
+      spin(seconds, [] { return false; });
+      repeats_ = false;
+      return true;
+    }
+    std::string text;
+    std::getline(in >> std::ws, text);
+    return await(seconds, text);
+  }
+
+ private:
+  void speak_as(const std::string& name) {
+    auto& voice = voices_[name];
+    if (!voice) voice = std::make_unique<Voice>(vendor_, domain_, run_, name);
+    voice_ = voice.get();
+  }
+
+  bool send(std::istringstream& in) {
+    spin(20, [this] { return voice_->commands.matched_readers() > 1; });  // he hears himself, too
+    std::string action;
+    v1::Command out;
+    std::uint64_t issued = 0, epoch = 0;
+    in >> action >> out.owner() >> out.subsystem() >> out.command_name() >> out.activity() >> issued >> epoch;
+    out.action(action == "query"    ? v1::COMMAND_QUERY
+               : action == "cancel" ? v1::COMMAND_CANCEL
+                                    : v1::COMMAND_EXECUTE);
+    out.commander("exec_svc");
+    out.attempt(1);
+    out.epoch(issued);
+    out.sender_epoch(epoch);
+    out.latest_end_us(-1);
+    for (std::string argument; in >> argument;) {
+      v1::Property property;
+      property.name(argument.substr(0, argument.find('=')));
+      property.value(argument.substr(argument.find('=') + 1));
+      out.arguments().push_back(std::move(property));
+    }
+    return voice_->commands.write(out);
+  }
+
+  bool beat(std::istringstream& in) {
+    v1::Heartbeat out;
+    std::uint32_t incarnation = 0;
+    int times = 0;
+    in >> out.service() >> incarnation >> times;
+    out.incarnation(incarnation);
+    out.state(v1::SERVICE_RUNNING);
+    out.host("elsewhere");
+    out.process_id(1);
+    spin(20, [this] { return voice_->beats.matched_readers() > 1; });
+    for (int i = 0; i < times; ++i) {
+      voice_->beats.write(out);
+      spin(0.25, [] { return false; });
+    }
+    return true;
+  }
+
+  bool await(double seconds, const std::string& text) {
+    const auto found = [&] {
+      return std::ranges::any_of(
+          heard_, [&](const std::string& line) { return line.find(text) != std::string::npos; });
+    };
+    if (spin(seconds, found)) return true;
+    std::cout << "nobody said: " << text << std::endl;
+    return false;
+  }
+
+  template <class Done>
+  bool spin(double seconds, Done done) {
+    const auto end = wall_now() + wall_seconds(seconds);
+    while (!done()) {
+      if (wall_now() >= end) return false;
+      for (const auto& [name, voice] : voices_) voice->node.spin_once(5ms);
+    }
+    return true;
+  }
+
+  void hear(const v1::CommandAck& ack) {
+    static const std::vector<std::string> stages{"accepted",  "rejected",      "completed", "failed",
+                                                 "cancelled", "cancel-failed", "unknown"};
+    note("ack " + ack.activity() + " " + std::to_string(ack.epoch()) + " " + stages.at(ack.stage()) + " " +
+         ack.code() + " newest " + std::to_string(ack.newest_epoch()));
+  }
+
+  void note(const std::string& line) {
+    std::cout << line << std::endl;
+    heard_.push_back(line);
+  }
+
+  const std::string vendor_;
+  const int domain_;
+  const std::string run_;
+  std::map<std::string, std::unique_ptr<Voice>> voices_;
+  Voice* voice_ = nullptr;
+  std::vector<std::string> heard_;
+  std::set<std::string> repeated_;
+  bool repeats_ = false;
+};
+
+}  // namespace
+}  // namespace roci::scenario
+
+int main(int argc, char** argv) {
+  if (argc != 4) return 2;
+  roci::scenario::Intruder intruder(argv[1], std::stoi(argv[2]), argv[3]);
+  for (std::string line; std::getline(std::cin, line);)
+    if (!line.empty() && !intruder.act(line)) return 1;
+  return 0;
+}

@@ -1,0 +1,201 @@
+// What the guard lets through to a vendor's parser, and what it does not.
+#include "services/vendors/guard/guard.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "tests/contract/hostile/rtps_message.hpp"
+
+namespace roci::services::vendors::guard {
+namespace {
+
+using contract::hostile::Bytes;
+using contract::hostile::kData;
+using contract::hostile::kEclipse;
+using contract::hostile::kEprosima;
+using contract::hostile::kInlineQos;
+using contract::hostile::kKey;
+using contract::hostile::Message;
+using contract::hostile::Parameters;
+using contract::hostile::Prefix;
+
+constexpr Prefix kOwn{1, 15, 1}, kOther{1, 15, 2};
+constexpr std::uint32_t kUserWriter = 0x00000102, kParticipants = 0x000100c2, kLiveliness = 0x000200c2;
+const Bytes kPayload{0, 1, 0, 0, 1, 2, 3, 4};
+
+Message own() { return {kOwn, kEprosima}; }
+Verdict judge(const Message& message) { return examine(message.bytes()); }
+
+TEST(Guard, WhatVendorsSendPasses) {
+  EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kData, {}, kPayload)), Verdict::pass);
+  EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kInlineQos, Parameters().add(0x70, Bytes(16)).list(), {})),
+            Verdict::pass);
+  EXPECT_EQ(judge(own().heartbeat(0, kUserWriter, 1, 0, 1)), Verdict::pass) << "nothing written yet";
+  EXPECT_EQ(judge(own().gap(0, kUserWriter, 1, 200, 32)), Verdict::pass);
+  EXPECT_EQ(judge(own().acknack(7, kUserWriter, 0, 0)), Verdict::pass)
+      << "Fast DDS, before it knows the writer";
+  EXPECT_EQ(judge(own().fragment(0, kUserWriter, 1, 2, 1, 8, 12, Bytes(4))), Verdict::pass)
+      << "the last one is short";
+  EXPECT_EQ(
+      judge(
+          own().submessage(0x33, 0, Bytes(24)).submessage(0x30, 0, Bytes(64)).submessage(0x34, 0, Bytes(20))),
+      Verdict::pass)
+      << "encrypted";
+}
+
+TEST(Guard, EachKindOfDamageHasItsVerdict) {
+  EXPECT_EQ(examine(Bytes(19)), Verdict::no_rtps);
+  EXPECT_EQ(examine(Bytes(64)), Verdict::no_rtps);
+  Bytes cut = own().heartbeat(0, kUserWriter, 1, 1, 1).bytes();
+  cut.resize(cut.size() - 4);
+  EXPECT_EQ(examine(cut), Verdict::cut);
+  EXPECT_EQ(judge(own().submessage(0x07, 0, Bytes(24))), Verdict::cut) << "shorter than its kind";
+  EXPECT_EQ(judge(own().submessage(0x0f, 0, Bytes(24))), Verdict::unknown_submessage);
+  EXPECT_EQ(judge(own().submessage(0x44, 0, Bytes(24))), Verdict::unknown_submessage);
+  EXPECT_EQ(judge(own().heartbeat(0, kUserWriter, 0, 1, 1)), Verdict::bad_numbers);
+  EXPECT_EQ(judge(own().heartbeat(0, kUserWriter, 5, 3, 1)), Verdict::bad_numbers);
+  EXPECT_EQ(judge(own().gap(0, kUserWriter, 2, std::int64_t{1} << 30, 0)), Verdict::bad_numbers);
+  EXPECT_EQ(judge(own().acknack(7, kUserWriter, 1, 257)), Verdict::bad_numbers);
+  EXPECT_EQ(judge(own().data(0, kUserWriter, 0, kData, {}, kPayload)), Verdict::bad_numbers);
+  EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kData | kKey, {}, kPayload)), Verdict::cut);
+  EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kInlineQos | kData, {}, kPayload)), Verdict::bad_parameters);
+  EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kInlineQos, Parameters().add(0x70, Bytes(8)).list(), {})),
+            Verdict::bad_parameters);
+}
+
+TEST(Guard, FragmentsLieWithinTheirSampleAndAreThere) {
+  const auto fragment = [](std::uint32_t first, std::uint16_t count, std::uint16_t size, std::uint32_t sample,
+                           std::size_t there) {
+    return judge(own().fragment(0, kUserWriter, 1, first, count, size, sample, Bytes(there)));
+  };
+  EXPECT_EQ(fragment(1, 2, 8, 16, 16), Verdict::pass);
+  EXPECT_EQ(fragment(1, 2, 8, 16, 8), Verdict::bad_fragment);
+  EXPECT_EQ(fragment(0, 1, 8, 16, 8), Verdict::bad_fragment);
+  EXPECT_EQ(fragment(1, 0, 8, 16, 8), Verdict::bad_fragment);
+  EXPECT_EQ(fragment(1, 1, 0, 16, 8), Verdict::bad_fragment);
+  EXPECT_EQ(fragment(3, 1, 8, 16, 8), Verdict::bad_fragment);
+  EXPECT_EQ(fragment(0xffffffff, 0xffff, 0xffff, 16, 8), Verdict::bad_fragment);
+  EXPECT_EQ(fragment(1, 1, 8, kMaxSampleBytes + 1, 8), Verdict::oversized);
+  EXPECT_EQ(judge(own().fragment(0, kParticipants, 1, 1, 1, 8, 16, Bytes(8))), Verdict::bad_fragment)
+      << "discovery comes in one piece";
+}
+
+TEST(Guard, ASenderSpeaksInDiscoveryForItselfAlone) {
+  constexpr std::uint32_t kWho = 0x000001c1;
+  const auto told = [](const Prefix& whose) { return Parameters().add_guid(0x50, whose, kWho).sample(); };
+  const auto hash = [](const Prefix& whose) { return Parameters().add_guid(0x70, whose, kWho).list(); };
+  const auto discovery = [](std::uint8_t flags, const Bytes& qos, const Bytes& payload) {
+    return judge(own().data(0, kParticipants, 1, flags, qos, payload));
+  };
+  EXPECT_EQ(discovery(kData, {}, told(kOwn)), Verdict::pass);
+  EXPECT_EQ(discovery(kInlineQos, hash(kOwn), {}), Verdict::pass);
+  EXPECT_EQ(discovery(kData, {}, told(kOther)), Verdict::speaks_for_another);
+  EXPECT_EQ(discovery(kKey, {}, told(kOther)), Verdict::speaks_for_another);
+  EXPECT_EQ(discovery(kInlineQos, hash(kOther), {}), Verdict::speaks_for_another);
+  EXPECT_EQ(discovery(kInlineQos | kData, hash(kOther), told(kOwn)), Verdict::speaks_for_another);
+  EXPECT_EQ(discovery(kKey, {}, Bytes(16, 1)), Verdict::bad_parameters) << "a bare GUID";
+  Bytes alive{0, 1, 0, 0};
+  alive.insert(alive.end(), kOther.begin(), kOther.end());
+  alive.resize(24);
+  EXPECT_EQ(judge(own().data(0, kLiveliness, 1, kData, {}, alive)), Verdict::speaks_for_another);
+  Bytes source(8);
+  source.insert(source.end(), kOther.begin(), kOther.end());
+  EXPECT_EQ(judge(own().submessage(0x0c, 0, source)), Verdict::speaks_for_another);
+}
+
+TEST(Guard, DiscoveryWhoseTextsDoNotFitIsRefused) {
+  const auto discovery = [](const Parameters& parameters) {
+    return judge(own().data(0, kParticipants, 1, kData, {}, parameters.sample()));
+  };
+  EXPECT_EQ(discovery(Parameters().add_string(5, "roci/goal").add_strings(0x29, {"a", "b"})), Verdict::pass);
+  EXPECT_EQ(discovery(Parameters().add(5, {0xff, 0xff, 0xff, 0x7f, 'a', 0, 0, 0})), Verdict::bad_parameters);
+  EXPECT_EQ(discovery(Parameters().add_u32(0x59, 0x40000000)), Verdict::bad_parameters);
+  EXPECT_EQ(discovery(Parameters().add(0x59, {1, 0, 0, 0, 4, 0, 0, 0, 'a', 'b', 'c', 0})),
+            Verdict::bad_parameters)
+      << "a property without its value";
+  EXPECT_EQ(discovery(Parameters().add(0x32, Bytes(20))), Verdict::bad_parameters);
+}
+
+TEST(Guard, VendorsOwnSubmessagesAreTakenOut) {
+  const Bytes bare = own().heartbeat(0, kUserWriter, 1, 2, 3).acknack(7, kUserWriter, 1, 0).bytes();
+  Bytes with = own()
+                   .heartbeat(0, kUserWriter, 1, 2, 3)
+                   .submessage(0x81, 0, Bytes(8, 1))
+                   .acknack(7, kUserWriter, 1, 0)
+                   .submessage(0x80, 0, Bytes(56, 0xff))
+                   .bytes();
+  ASSERT_EQ(examine(with), Verdict::pass);
+  with.resize(strip_vendor_submessages(with));
+  EXPECT_EQ(with, bare);
+}
+
+TEST(Guard, AStrangerIsRefusedWhateverItSays) {
+  Guard guard({{0x7f000001}});
+  Bytes message = own().heartbeat(0, kUserWriter, 1, 1, 1).bytes();
+  EXPECT_EQ(guard.admit(message, Source{0x0a000001, 7400}), 0U);
+  EXPECT_EQ(guard.admit(message, std::nullopt), 0U);
+  EXPECT_EQ(guard.admit(message, Source{0x7f000001, 7400}), message.size());
+  EXPECT_EQ(guard.counts()[static_cast<std::size_t>(Verdict::stranger)], 2U);
+}
+
+TEST(Guard, WhereAVendorsXmlSaysWhoEverybodyIsTakenInButForDamage) {
+  Guard guard(policy_of({.vendor_xml = "profiles.xml"}));
+  Bytes message = own().heartbeat(0, kUserWriter, 1, 1, 1).bytes();
+  EXPECT_EQ(guard.admit(message, Source{0x0a000001, 7400}), message.size());
+  EXPECT_EQ(guard.admit(message, std::nullopt), message.size());
+  message[20] = 0x44;
+  EXPECT_EQ(guard.admit(message, Source{0x0a000001, 7400}), 0U);
+}
+
+constexpr Identities::Time kStart{};
+
+TEST(Identities, APrefixBelongsToWhoeverWasHeardWithItFirst) {
+  Identities identities;
+  EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart), Verdict::pass);
+  EXPECT_EQ(identities.claim(kOwn, {1, 11}, kStart), Verdict::taken_identity);
+  EXPECT_EQ(identities.claim(kOwn, {2, 10}, kStart + std::chrono::hours(1)), Verdict::taken_identity);
+  EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart + std::chrono::hours(1)), Verdict::pass);
+}
+
+TEST(Identities, AParticipantOfOursIsReadFromThePortThatItIsNamedAfterAlone) {
+  Identities identities;
+  Prefix ours{};
+  const auto start = prefix_start(40000);
+  std::copy(start.begin(), start.end(), ours.begin());
+  EXPECT_EQ(identities.claim(ours, {1, 39999}, kStart), Verdict::taken_identity)
+      << "also when nobody was heard";
+  EXPECT_EQ(identities.claim(ours, {1, 40000}, kStart), Verdict::pass);
+  EXPECT_EQ(identities.claim(ours, {2, 40000}, kStart), Verdict::taken_identity);
+}
+
+Prefix prefix(std::size_t i) { return {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i >> 8)}; }
+
+TEST(Identities, ACrowdMakesNobodyForgotten) {
+  Identities identities;
+  EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart), Verdict::pass);
+  std::size_t admitted = 0;
+  for (std::size_t i = 0; i < 4 * Identities::kPerAddress; ++i) {
+    const Source source{1, static_cast<std::uint16_t>(100 + i / 128)};
+    if (identities.claim(prefix(i), source, kStart) == Verdict::pass) ++admitted;
+  }
+  EXPECT_EQ(admitted, Identities::kPerAddress - 1);
+  EXPECT_EQ(identities.claim(kOther, {1, 99}, kStart), Verdict::crowd);
+  EXPECT_EQ(identities.claim(kOther, {2, 99}, kStart), Verdict::pass) << "another host";
+  EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart + std::chrono::seconds(9)), Verdict::pass);
+  EXPECT_EQ(identities.claim(kOther, {2, 99}, kStart + std::chrono::seconds(9)), Verdict::pass);
+  EXPECT_EQ(identities.claim(prefix(9999), {1, 99}, kStart + std::chrono::seconds(11)), Verdict::pass)
+      << "the crowd is silent";
+  EXPECT_EQ(identities.claim(kOwn, {1, 11}, kStart + std::chrono::seconds(11)), Verdict::taken_identity);
+}
+
+TEST(Identities, OneSocketHasNotManyNames) {
+  Identities identities;
+  for (std::size_t i = 0; i < Identities::kPerSource; ++i)
+    EXPECT_EQ(identities.claim(prefix(i), {1, 10}, kStart), Verdict::pass);
+  EXPECT_EQ(identities.claim(kOther, {1, 10}, kStart), Verdict::crowd);
+  EXPECT_EQ(identities.claim(kOther, {1, 11}, kStart), Verdict::pass);
+}
+
+}  // namespace
+}  // namespace roci::services::vendors::guard
