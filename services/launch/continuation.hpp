@@ -31,8 +31,8 @@ struct Continuation {
 
 /// Holds a command line, and what of it comes from an earlier launcher.
 struct ContinuedCommandLine {
-  std::vector<std::string>
-      arguments;  ///< Without the program; in the order that CLI11 takes: the last one first.
+  /// Comes without the program, and in the order that CLI11 takes: the last one first.
+  std::vector<std::string> arguments;
   std::optional<Continuation> continued;
 };
 
