@@ -102,10 +102,10 @@ void Safing::repeat_lost(temporal::Time now) {
     const auto way = settings.round_trips.find(component.owner);
     const bool linked = way != settings.round_trips.end();
     const auto sent = fallbacks_.find(component.name);
-    const bool lost = linked && std::ranges::find(active, &component) != active.end();
+    const bool active_still = std::ranges::find(active, &component) != active.end();
     const bool unanswered = awaited_ && sent != fallbacks_.end() && !sent->second.answered;
-    if (!lost && !unanswered) continue;
-    longest = std::max(longest.value_or(temporal::Duration{0}), linked ? way->second : temporal::Duration{0});
+    if (!linked || (!active_still && !unanswered)) continue;
+    longest = std::max(longest.value_or(temporal::Duration{0}), way->second);
     if (due) send_fallback(component);
   }
   if (!longest) return;

@@ -44,8 +44,8 @@ class Safing {
   /// Takes what owners say to fall-backs. One that was refused for its epoch is sent again in the one that has
   /// begun since.
   void take(const std::vector<executive::CommandAck>& acks);
-  /// Sends fall-backs again that may be lost, under their keys, one after each time in which an answer could have
-  /// come: behind a link, where the component is still active; while the robot is made safe, where no answer came.
+  /// Sends fall-backs behind a link again that may be lost, under their keys, one after each time in which an answer
+  /// could have come: where the component is still active, and, while the robot is made safe, where no answer came.
   /// Then says whether the robot is safe. To be called once in each step, after everything else.
   void watch(temporal::Time now);
   /// After a restart.

@@ -68,10 +68,11 @@ TEST_F(SafingTest, ItIsSaidWhenItWasSeenAndNotBefore) {
 
 TEST_F(SafingTest, AnObservationAloneIsNotTheOwnersWord) {
   answers = false;
+  mission.executive.round_trips["sim_svc"] = seconds(2);
   run(3, driving());
   EXPECT_THAT(trace, Not(Contains("robot.safe")));
   answers = true;
-  run(30, {});  // the fall-back is sent again, under its key
+  run(30, {});  // it is behind a link, so the fall-back is sent again, under its key
   EXPECT_THAT(trace, Contains("robot.safe"));
   ASSERT_EQ(fallbacks.size(), 2U);
   EXPECT_EQ(fallbacks[1].activity, fallbacks[0].activity);
