@@ -19,6 +19,7 @@ constexpr std::chrono::milliseconds kListenTurn{20};
 
 void refuse_foreign(const Node& node, int domain) {
   for (const auto& [run, samples] : node.foreign_runs()) {
+    if (run.empty()) continue;  // every launcher gives its run a name: this is nobody's
     throw std::invalid_argument("domain " + std::to_string(domain) + " is held by another run, \"" + run +
                                 "\"; choose another one, or leave --domain out for a free one");
   }

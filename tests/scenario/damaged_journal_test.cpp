@@ -64,13 +64,14 @@ class DamagedJournal : public ::testing::Test {
     for (std::size_t i = 0; i < journals.size(); ++i) {
       fs::create_directories(run_folder(i));
       std::ofstream(run_folder(i) / "journal.sqlite", std::ios::binary) << journals[i];
-      // Alone in a domain of its own: no other service is there.
+      // Alone in a run of its own: no other service is there.
       script += "(timeout --preserve-status -k 20 4 exec_svc --mission " ROCI_SOURCE_DIR
                 "/missions/planetary --clock live --epoch $(date +%s) --robot rover --dds cyclonedds --run "
                 "damaged-" +
-                std::to_string(i) + " --domain " + std::to_string(101 + i % 100) + " --run-folder " +
-                run_folder(i).string() + " > " + (run_folder(i) / "log").string() + " 2>&1; echo $? > " +
-                (run_folder(i) / "code").string() + ") & ";
+                std::to_string(::getpid()) + "-" + std::to_string(i) + " --domain " +
+                std::to_string(101 + i % 100) + " --run-folder " + run_folder(i).string() + " > " +
+                (run_folder(i) / "log").string() + " 2>&1; echo $? > " + (run_folder(i) / "code").string() +
+                ") & ";
       if (i % 6 == 5) script += "wait; ";
     }
     run(script + "wait");

@@ -5,6 +5,8 @@
 #include <map>
 #include <random>
 
+#include "core/temporal/plan_bounds.hpp"
+
 namespace roci::temporal {
 namespace {
 
@@ -87,8 +89,10 @@ TEST(Condition, MalformedTreesAreNamedAndUnknown) {
 
 TEST(Condition, DeepNestingCostsNoStack) {
   Condition deep = compare("a", Op::eq, true);
-  deep.nodes.insert(deep.nodes.begin(), 1'000'000, {.op = Op::negation, .child_count = 1});
+  deep.nodes.insert(deep.nodes.begin(), kMostConditionNodes - 2, {.op = Op::negation, .child_count = 1});
   EXPECT_EQ(check(deep), "");
+  deep.nodes.insert(deep.nodes.begin(), 1'000'000, {.op = Op::negation, .child_count = 1});
+  EXPECT_EQ(check(deep), "it has more than 10000 nodes");
   EXPECT_EQ(evaluate(deep, World{{{"a", true}}}.lookup()), Truth::yes);
 }
 
