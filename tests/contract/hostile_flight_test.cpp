@@ -23,7 +23,7 @@ scenario::Flight fly_in(int domain, const std::string& dds, const std::string& b
   scenario::Flight flight;
   const auto ended =
       scenario::run(before + "roci-launch " ROCI_SOURCE_DIR "/missions/planetary --dds " + dds +
-                    " --domain " + std::to_string(domain) + " --speed max --headless --json");
+                    " --domain " + std::to_string(domain) + " --shared-domain --speed max --headless --json");
   flight.exit_code = ended.exit_code;
   flight.summary = scenario::last_line_as_json(ended.output);
   return flight;

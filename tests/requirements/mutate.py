@@ -48,8 +48,12 @@ class Build:
         if not commands.exists():
             raise SystemExit(f"mutate: {commands} is missing; build first: cmake/setup.sh release all")
         self.compile_of = {}
+        self.unity_of = {}  # the source that compiles several others in one go
         for entry in json.loads(commands.read_text()):
             self.compile_of.setdefault(str(Path(entry["file"]).resolve()), []).append(shlex.split(entry["command"]))
+            if "/Unity/unity_" in entry["file"]:
+                for source in re.findall(r'^#include "(.*)"$', Path(entry["file"]).read_text(), re.M):
+                    self.unity_of[str(Path(source).resolve())] = entry["file"]
         cache = (self.folder / "CMakeCache.txt").read_text()
         self.sanitized = re.search(r"^ROCI_SANITIZE:\w+=\S", cache, re.M) is not None
         self.links = {}
@@ -134,7 +138,12 @@ class Mutant:
     def compile(self, place):
         source = self.folder / place.file.name
         source.write_text(place.text())
-        known = self.build.compile_of.get(str(place.file.resolve()))
+        unity = self.build.unity_of.get(str(place.file.resolve()))
+        if unity:
+            together = self.folder / "unity.cxx"
+            together.write_text(Path(unity).read_text().replace(f'#include "{place.file.resolve()}"', f'#include "{source}"'))
+            source = together
+        known = self.build.compile_of.get(str(Path(unity or place.file).resolve()))
         if not known:
             raise Untried(f"{place.file.relative_to(ROOT)} is compiled by nothing; only sources can be mutated")
         words = list(known[0])
