@@ -11,6 +11,7 @@
 
 #include "roci_idl/health.h"
 #include "services/clock/wall.hpp"
+#include "services/health/failure_detector.hpp"
 
 namespace roci::services::health {
 
@@ -28,7 +29,7 @@ class NamesakeWatch {
   static constexpr int kBeats = 4;
   static constexpr clock::WallDuration kHeardFor = std::chrono::milliseconds(700);
   /// Whoever claims to have been started so much more often is not believed.
-  static constexpr std::uint32_t kIncarnationJump = 1000;
+  static constexpr std::uint32_t kIncarnationJump = FailureDetector::kIncarnationJump;
   /// So many namesakes are looked after at a time.
   static constexpr std::size_t kMost = 8;
 

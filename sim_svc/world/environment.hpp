@@ -1,3 +1,4 @@
+/// What surrounds the robots of a simulated world and is the same for all: ground, rocks, windows of time.
 #pragma once
 #include <cstddef>
 #include <map>

@@ -2,11 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <map>
 #include <sstream>
 
-#include "services/process/domain_claim.hpp"
-#include "tests/scenario/flight.hpp"
+#include "tests/scenario/attack.hpp"
 
 namespace roci::scenario {
 namespace {
@@ -14,27 +12,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-Ended attack(const std::string& script, const std::string& dds) {
-  const services::process::DomainClaim domain;
-  return run("timeout 200 " ROCI_SOURCE_DIR "/tests/scenario/" + script +
-             " " ROCI_BINARY_DIR "/bin " ROCI_BINARY_DIR "/tests " ROCI_SOURCE_DIR "/missions/planetary " +
-             dds + " " + std::to_string(domain.id()));
-}
-
-// How often each thing was really done: "kind object by activity attempt of epoch" → count.
-std::map<std::string, int> effects_in(const std::string& output) {
-  std::map<std::string, int> out;
-  std::istringstream lines(output);
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with("effect ")) continue;
-    const auto effect = nlohmann::json::parse(line.substr(7));
-    ++out[effect["kind"].get<std::string>() + " " + effect["object"].get<std::string>() + " by " +
-          effect["activity"].get<std::string>() + " " + std::to_string(effect["attempt"].get<int>()) +
-          " of " + std::to_string(effect["epoch"].get<int>())];
-  }
-  return out;
-}
 
 class AttackedRun : public ::testing::TestWithParam<const char*> {};
 
@@ -55,7 +32,7 @@ TEST_P(AttackedRun, GoesOnAndNamesWhoIsNotOfIt) {
   EXPECT_THAT(printed("events"), AllOf(HasSubstr("service.doubled"), HasSubstr("command.epoch_jump"),
                                        HasSubstr("epoch.taken"), Not(HasSubstr("sim_svc was lost"))));
   EXPECT_THAT(printed("launch"), AllOf(HasSubstr("0\t"), HasSubstr("\"result\":\"achieved\"")));
-  for (const auto& [effect, count] : effects_in(ended.output)) EXPECT_EQ(count, 1) << effect;
+  for (const auto& [effect, count] : effects_by_epoch_in(ended.output)) EXPECT_EQ(count, 1) << effect;
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, AttackedRun, ::testing::Values("fastdds", "cyclonedds"),

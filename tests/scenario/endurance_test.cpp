@@ -75,19 +75,19 @@ TEST_F(Endurance, AHelperThatCannotBeKeptIsMissed) {
                         "mission goes on without it"));
 }
 
-// The disk fills up in flight, for four seconds.
+// The disk fills up in flight, until the mission says so.
 TEST_F(Endurance, AFullDiskIsWaitedOut) {
-  const Ended ended = run("mkdir " + run_folder.string() + "; unshare -rm sh -c '" + waiting() +
-                          "mount -t tmpfs -o size=3m,mode=700 tmpfs " + run_folder.string() +
-                          " || exit 77; (" + "timeout 280 " + launch(kPlanetary, "--headless") +
-                          "; echo $? > " + (folder / "code").string() + ") > " + (folder / "out").string() +
-                          " 2>&1 & until_it_says " + (run_folder / "journal.sqlite-wal").string() +
-                          " plan.adopted; dd if=/dev/zero of=" + (run_folder / "fill").string() +
-                          " bs=64k 2>/dev/null; dd if=/dev/zero of=" + (run_folder / "fill2").string() +
-                          " bs=1 count=65536 2>/dev/null; sleep 4; rm " + (run_folder / "fill").string() +
-                          " " + (run_folder / "fill2").string() + "; wait; cp " +
-                          (run_folder / "exec_svc.log").string() + " " + folder.string() + "/; cat " +
-                          (folder / "out").string() + "; exit $(cat " + (folder / "code").string() + ")'");
+  const Ended ended = run(
+      "mkdir " + run_folder.string() + "; unshare -rm sh -c '" + waiting() +
+      "mount -t tmpfs -o size=3m,mode=700 tmpfs " + run_folder.string() + " || exit 77; (" + "timeout 280 " +
+      launch(kPlanetary, "--headless") + "; echo $? > " + (folder / "code").string() + ") > " +
+      (folder / "out").string() + " 2>&1 & until_it_says " + (run_folder / "journal.sqlite-wal").string() +
+      " plan.adopted; dd if=/dev/zero of=" + (run_folder / "fill").string() +
+      " bs=64k 2>/dev/null; dd if=/dev/zero of=" + (run_folder / "fill2").string() +
+      " bs=1 count=65536 2>/dev/null; until_it_says " + (folder / "out").string() + " journal.waiting; rm " +
+      (run_folder / "fill").string() + " " + (run_folder / "fill2").string() + "; wait; cp " +
+      (run_folder / "exec_svc.log").string() + " " + folder.string() + "/; cat " + (folder / "out").string() +
+      "; exit $(cat " + (folder / "code").string() + ")'");
   if (ended.exit_code == 77) GTEST_SKIP() << "this user cannot mount a small disk (unshare -rm)";
   expect_achieved(ended);
   std::ostringstream log;
@@ -106,9 +106,9 @@ TEST_F(Endurance, ASystemClockThatIsSetChangesNothing) {
       " FAKETIME_NO_CACHE=1 FAKETIME_DONT_FAKE_MONOTONIC=1 DONT_FAKE_MONOTONIC=1 " + launch(kPlanetary, "") +
       "; echo $? > " + (folder / "code").string() + ") > " + (folder / "out").string() +
       " 2>&1 & until_it_says " + (run_folder / "journal.sqlite-wal").string() + " plan.adopted; echo -1h > " +
-      set_by + ".new; mv " + set_by + ".new " + set_by + "; sleep 5; echo +300 > " + set_by + ".new; mv " +
-      set_by + ".new " + set_by + "; wait; cat " + (folder / "out").string() + "; exit $(cat " +
-      (folder / "code").string() + ")");
+      set_by + ".new; mv " + set_by + ".new " + set_by + "; until_it_says " + (folder / "out").string() +
+      " clock.set; echo +300 > " + set_by + ".new; mv " + set_by + ".new " + set_by + "; wait; cat " +
+      (folder / "out").string() + "; exit $(cat " + (folder / "code").string() + ")");
   expect_achieved(ended);
   EXPECT_THAT(ended.output, AllOf(HasSubstr("clock.set: the system clock of this host was set back by 36"),
                                   HasSubstr("set forward by 39"), Not(HasSubstr("was lost: hung"))));

@@ -18,6 +18,7 @@
 #include "exec_svc/standby/lease.hpp"
 #include "tests/fuzz/files/damage.hpp"
 #include "tests/fuzz/rounds.hpp"
+#include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::fuzz {
 namespace {
@@ -42,15 +43,7 @@ exec::goals::GoalRequest photo(const std::string& id) {
 
 ReactorInputs robot_stands() {
   ReactorInputs inputs;
-  inputs.observations = {{"rover.nav", state("idle-at", {"here"})},
-                         {"rover.arm", state("idle-pose", {"stow"})},
-                         {"rover.camera", state("idle")},
-                         {"rover.radio", state("idle")},
-                         {"rover.gripper", state("empty")},
-                         {"rover.x", 40.0},
-                         {"rover.y", 40.0},
-                         {"rover.battery", 900000.0},
-                         {"comm.window", false}};
+  inputs.observations = exec::testing::standing_robot();
   return inputs;
 }
 
