@@ -24,7 +24,9 @@ set(ROCI_SANITIZE "" CACHE STRING "Sanitizers, as for -fsanitize= (empty: none)"
 find_program(ROCI_CCACHE ccache)
 if(ROCI_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_C_COMPILER_LAUNCHER "${ROCI_CCACHE}")
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${ROCI_CCACHE}")
+  # What ccache asks for with precompiled headers.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${ROCI_CCACHE}")
+  add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>)
 endif()
 
 # Warnings are for our code; generated code is compiled without them (see Idl.cmake).
