@@ -3,7 +3,8 @@
 #   roci_library(NAME core_pddl HELP "..." SOURCES a.cpp b.cpp DEPENDS core_x PRIVATE_DEPENDS yaml-cpp)
 #   roci_program(NAME roci-plan HELP "..." SOURCES main.cpp DEPENDS planner_temporal_pddl)      installed to bin/
 #   roci_plugin (NAME roci_transport_inproc HELP "..." SOURCES ... DEPENDS ...)        installed to lib/rocinante/
-#   roci_test   (NAME unit_pddl SOURCES parser_test.cpp DEPENDS core_pddl [LABEL contract] [SERIAL])
+#   roci_test   (NAME unit_pddl SOURCES parser_test.cpp DEPENDS core_pddl [LABEL contract] [SERIAL | PROCESSORS 2])
+#     SERIAL: alone, since it is about who is late; PROCESSORS 2: beside one other, since it flies every process of a mission
 #
 # Release builds compile many sources of a part at once (CMake's unity build, CMakePresets.json), which takes a third of the time. Two sources
 # that give one name to two private things cannot be compiled so: give them two names, or list one of them under ALONE.
@@ -74,7 +75,7 @@ function(roci_plugin)
 endfunction()
 
 function(roci_test)
-  cmake_parse_arguments(PART "SERIAL" "NAME;HELP;LABEL" "SOURCES;DEPENDS;ALONE" ${ARGN})
+  cmake_parse_arguments(PART "SERIAL" "NAME;HELP;LABEL;PROCESSORS" "SOURCES;DEPENDS;ALONE" ${ARGN})
   set_source_files_properties(${PART_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   add_executable(${PART_NAME} ${PART_SOURCES})
   target_precompile_headers(${PART_NAME} REUSE_FROM roci_test_headers)
@@ -89,6 +90,9 @@ function(roci_test)
   set(properties LABELS ${PART_LABEL} TIMEOUT 300)  # one: gtest_discover_tests keeps no lists
   if(PART_SERIAL)
     list(APPEND properties RUN_SERIAL TRUE)
+  endif()
+  if(PART_PROCESSORS)
+    list(APPEND properties PROCESSORS ${PART_PROCESSORS})
   endif()
   gtest_discover_tests(${PART_NAME} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
 endfunction()
