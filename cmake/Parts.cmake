@@ -1,7 +1,7 @@
 # The catalogue: every part of the house is declared by one of these calls, with its sources by name.
 #
 #   roci_library(NAME core_pddl HELP "..." SOURCES a.cpp b.cpp DEPENDS core_x PRIVATE_DEPENDS yaml-cpp)
-#   roci_program(NAME roci-plan HELP "..." SOURCES main.cpp DEPENDS planner_temporal_pddl)      installed to bin/
+#   roci_program(NAME roci-plan HELP "..." SOURCES main.cpp DEPENDS planner_temporal_pddl)      installed to bin/, unless NOT_INSTALLED
 #   roci_plugin (NAME roci_transport_inproc HELP "..." SOURCES ... DEPENDS ...)        installed to lib/rocinante/
 #   roci_test   (NAME unit_pddl SOURCES parser_test.cpp DEPENDS core_pddl [LABEL contract] [SERIAL | PROCESSORS 2])
 #     SERIAL: alone, since it is about who is late; PROCESSORS 2: beside one other, since it flies every process of a mission
@@ -34,7 +34,7 @@ target_precompile_headers(
 target_compile_options(roci_test_headers PRIVATE $<$<CONFIG:Release>:-O1>)
 
 function(_roci_part target)
-  cmake_parse_arguments(PART "COLD" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;ALONE" ${ARGN})
+  cmake_parse_arguments(PART "COLD;NOT_INSTALLED" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;ALONE" ${ARGN})
   set_source_files_properties(${PART_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   if(NOT PART_HELP)
     message(FATAL_ERROR "${target}: every part says in HELP what it is for")
@@ -54,14 +54,16 @@ function(roci_library)
 endfunction()
 
 function(roci_program)
-  cmake_parse_arguments(PART "COLD" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;ALONE" ${ARGN})
+  cmake_parse_arguments(PART "COLD;NOT_INSTALLED" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;ALONE" ${ARGN})
   add_executable(${PART_NAME} ${PART_SOURCES})
   _roci_part(${PART_NAME} ${ARGN})
   # A command line is read once; optimizing that takes the compiler longer than anything else.
   list(FILTER PART_SOURCES INCLUDE REGEX "main\\.cpp$")
   set_source_files_properties(${PART_SOURCES} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
   add_dependencies(programs ${PART_NAME})
-  install(TARGETS ${PART_NAME} RUNTIME DESTINATION bin)
+  if(NOT PART_NOT_INSTALLED)
+    install(TARGETS ${PART_NAME} RUNTIME DESTINATION bin)
+  endif()
 endfunction()
 
 function(roci_plugin)

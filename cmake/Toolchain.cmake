@@ -41,6 +41,3 @@ if(ROCI_SANITIZE)
   add_compile_options(-fsanitize=${ROCI_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${ROCI_SANITIZE})
 endif()
-
-include(GNUInstallDirs)
-set(CMAKE_INSTALL_RPATH "$ORIGIN/../lib;$ORIGIN")
