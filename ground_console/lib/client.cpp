@@ -9,8 +9,8 @@
 
 #include "services/clock/wall.hpp"
 #include "services/process/run_record.hpp"
+#include "services/process/service_options.hpp"
 #include "services/topics.hpp"
-#include "services/transport/plug_ins.hpp"
 
 namespace roci::console::lib {
 namespace {
@@ -53,6 +53,8 @@ services::process::Connection choose_run(const services::process::ConnectionFlag
     }
     chosen.domain = runs.front().domain;
     run = runs.front().run;
+    if (!runs.front().network.empty()) chosen.network = runs.front().network;
+    if (!chosen.secure && !runs.front().keys.empty()) chosen.secure = runs.front().keys;
     if (!chosen.dds) chosen.dds = runs.front().dds;
     if (!chosen.address) chosen.address = runs.front().address;
     if (!chosen.peers) {
@@ -64,6 +66,7 @@ services::process::Connection choose_run(const services::process::ConnectionFlag
   services::process::Connection connection = services::process::resolve_connection(chosen, environment, {});
   if (connection.dds == "mixed") connection.dds = "cyclonedds";
   connection.run = run;
+  connection.transport.participant = "roci";
   return connection;
 }
 
@@ -80,7 +83,7 @@ services::process::Connection wait_for_run(const services::process::ConnectionFl
 }
 
 Client::Client(const services::process::Connection& connection)
-    : node_(observer(connection), services::transport::open_transport(connection.dds, connection.transport)),
+    : node_(observer(connection), services::process::connect(connection)),
       goals_(services::advertise(node_, topics::goal)),
       orders_(services::advertise(node_, topics::order)) {
   follow(topics::mission_status);
