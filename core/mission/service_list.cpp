@@ -155,4 +155,9 @@ ServiceList load_service_list(const std::filesystem::path& mission_folder) {
   return read_service_list(load_mission_file(mission_folder / kMissionFile));
 }
 
+ServiceList load_service_list_if_any(const std::filesystem::path& mission_folder) {
+  const Entry mission = load_mission_file(mission_folder / kMissionFile);
+  return mission.find("services") ? read_service_list(mission) : ServiceList{};
+}
+
 }  // namespace roci::mission

@@ -55,5 +55,7 @@ ServiceList read_service_list(const Entry& mission);
 
 /// Reads the list of mission.yaml in that folder. Throws FileError.
 ServiceList load_service_list(const std::filesystem::path& mission_folder);
+/// The same, and an empty list where mission.yaml has none.
+ServiceList load_service_list_if_any(const std::filesystem::path& mission_folder);
 
 }  // namespace roci::mission

@@ -87,6 +87,8 @@ TEST_P(Quarry, FliesAsItsFileExpectsWithOneTracePerExecutive) {
   EXPECT_EQ(flight.summary.value("result", ""), "achieved");
   EXPECT_EQ(flight.summary["goals"].value("achieved", -1), 2);
   EXPECT_EQ(flight.summary["expected"].value("fault", "no report"), "");
+  for (const char* planner : {"planner.digger", "planner.hauler"})
+    EXPECT_TRUE(fs::exists(run_folder / (std::string(planner) + ".planner_calls") / "1.json")) << planner;
   static std::map<std::string, std::map<std::string, std::string>> references;  // by scenario
   const auto [reference, is_new] = references.try_emplace(scenario);
   if (is_new) reference->second = traces(rehearse(scenario));
