@@ -83,10 +83,12 @@ TEST(TopicRightsOfServices, CoverWhatTheyPublishAndSubscribe) {
       const Used used = used_by(mission, entry, live);
       EXPECT_TRUE(used.written.contains("roci/event")) << entry.name;
       for (const security::TopicRights& row : security::topic_rights()) {
-        if (used.written.contains(row.topic))
+        if (used.written.contains(row.topic)) {
           EXPECT_TRUE(any_of(row.writers, roles_of(entry))) << entry.name << " writes " << row.topic;
-        if (used.read.contains(row.topic))
+        }
+        if (used.read.contains(row.topic)) {
           EXPECT_TRUE(any_of(row.readers, roles_of(entry))) << entry.name << " reads " << row.topic;
+        }
       }
     }
   }
@@ -117,10 +119,12 @@ TEST(TopicRightsOfServices, GiveNoMoreThanWhatIsUsed) {
     own.erase(Role::service);  // what every process may
     for (const security::TopicRights& row : security::topic_rights()) {
       if (elsewhere.contains(row.topic)) continue;
-      if (any_of(row.writers, own))
+      if (any_of(row.writers, own)) {
         EXPECT_TRUE(used.written.contains(row.topic)) << entry.name << " may write " << row.topic;
-      if (any_of(row.readers, own))
+      }
+      if (any_of(row.readers, own)) {
         EXPECT_TRUE(used.read.contains(row.topic)) << entry.name << " may read " << row.topic;
+      }
     }
   }
 }

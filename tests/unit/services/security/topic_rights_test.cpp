@@ -25,8 +25,12 @@ TEST(TopicRights, OnlyExecutivesCommand) {
   for (const TopicRights& row : topic_rights()) {
     EXPECT_FALSE(row.writers.empty()) << row.topic;
     EXPECT_FALSE(row.readers.empty()) << row.topic;
-    if (row.topic == "roci/command") EXPECT_EQ(row.writers, std::set{Role::executive});
-    if (row.topic == "roci/order") EXPECT_EQ(row.writers, std::set{Role::console});
+    if (row.topic == "roci/command") {
+      EXPECT_EQ(row.writers, std::set{Role::executive});
+    }
+    if (row.topic == "roci/order") {
+      EXPECT_EQ(row.writers, std::set{Role::console});
+    }
   }
   EXPECT_THAT(writable(roles_of_program("pathplan_svc"), transport::Scope::robot),
               Not(Contains("roci/command")));
