@@ -9,8 +9,8 @@
 
 #include "services/clock/wall.hpp"
 #include "services/process/run_record.hpp"
-#include "services/process/service_options.hpp"
 #include "services/topics.hpp"
+#include "services/transport/plug_ins.hpp"
 
 namespace roci::console::lib {
 namespace {
@@ -66,7 +66,6 @@ services::process::Connection choose_run(const services::process::ConnectionFlag
   services::process::Connection connection = services::process::resolve_connection(chosen, environment, {});
   if (connection.dds == "mixed") connection.dds = "cyclonedds";
   connection.run = run;
-  connection.transport.participant = "roci";
   return connection;
 }
 
@@ -83,7 +82,8 @@ services::process::Connection wait_for_run(const services::process::ConnectionFl
 }
 
 Client::Client(const services::process::Connection& connection)
-    : node_(observer(connection), services::process::connect(connection)),
+    : node_(observer(connection), services::transport::open_transport(
+                                      connection.dds, services::process::admitted(connection, "roci"))),
       goals_(services::advertise(node_, topics::goal)),
       orders_(services::advertise(node_, topics::order)) {
   follow(topics::mission_status);
