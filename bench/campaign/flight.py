@@ -152,7 +152,7 @@ def main() -> None:
     os.chdir(folder)
     flight = Flight(draw(int(seed)), Path(bin), Path(mission), Path(folder), float(speed), secure.split())
     record = flight.fly()
-    if record["violations"]:
+    if record["violations"] or record["time_up"] or "ROCI_CAMPAIGN_KEEP" in os.environ:
         flight.keep()
     print(json.dumps(record))
 

@@ -37,6 +37,21 @@ def first_commanded(journals: list[Path]) -> dict[tuple[str, int], float]:
     return out
 
 
+def after_the_end(journal: Path) -> set[str]:
+    """Goals that were accepted when the robot's service had left for good: its mission was over, as far as it knew."""
+    out: set[str] = set()
+    left = False
+    with sqlite3.connect(f"file:{journal}?mode=ro", uri=True) as database:
+        for (text,) in database.execute("SELECT CAST(text AS TEXT) FROM record WHERE kind='event' ORDER BY seq"):
+            words = text.split()
+            if words[1:2] == ["sim_svc"]:
+                left = words[0] == "service.lost"
+                out = out if left else set()
+            if left and words[0] == "goal.accepted":
+                out.add(words[2])
+    return out
+
+
 def flown_after_recall(recalls: list[dict], effects: list[dict], commanded: dict, speed: float) -> list[str]:
     """Effects of a goal that were commanded only after its recall was acknowledged."""
     out = []
@@ -71,7 +86,8 @@ def judge(flight: dict, effects: list[dict], final: Path | None, journals: list[
     acknowledged = {answer["goal"] for answer in flight["answers"] if answer["verb"] == "add" and answer["state"] != "rejected"}
     asked = acknowledged | set(flight["scenario_goals"])
     lost = [f"goal {goal} is not in the journal" for goal in sorted(asked - set(goals))]
-    lost += [f"goal {goal} is still open ({goals[goal][1]})" for goal in sorted(asked & set(goals))
+    late = after_the_end(final) if final else set()
+    lost += [f"goal {goal} is still open ({goals[goal][1]})" for goal in sorted(asked & set(goals) - late)
              if goals[goal][0] not in FINAL and not flight["time_up"] and "waiting for the ground" not in goals[goal][1]]
     recalls = [answer for answer in flight["answers"] if answer["verb"] == "recall" and answer["state"] == "recalled"]
     recalls_lost = [f"recall of {one['goal']} was acknowledged, and its state is {goals[one['goal']]}" for one in recalls

@@ -35,7 +35,7 @@ def make_mission(source: Path, folder: Path, samples: bool, speed: float, longes
 
     put("ack_timeout_s", 3 * speed)
     put("allowance_s", 1.5 * speed)
-    put("failure_limit", 60)
+    put("failure_limit", 20)
     put("replan_limit", 500)
     text = text.replace("executive:\n", f"executive:\n  fallback_timeout_s: {10 * speed:g}\n  call_retries: 20\n", 1)
     text = text.replace("planner:\n", f"planner:\n  reply_timeout_s: {30 * speed:g}\n", 1)

@@ -3,7 +3,7 @@
 from collections import Counter
 
 COLUMNS = ("missions", "faults", "goals", "goals lost", "recalls", "recalls lost", "effects", "effects doubled", "defined ends",
-           "achieved", "partial", "failed", "with a violation", "95 % bound")
+           "achieved", "partial", "failed", "time up", "with a violation", "95 % bound")
 
 
 def causes(record: dict) -> list[str]:
@@ -20,7 +20,7 @@ def counts(record: dict, cause: str) -> Counter:
                     "goals": record["goals"], "goals lost": record["goals_lost"], "recalls": record["recalls"],
                     "recalls lost": record["recalls_lost"], "effects": record["effects"],
                     "effects doubled": record["doubled"], "defined ends": int(record["defined_end"]),
-                    record["result"] or "failed": 1, "with a violation": int(bool(record["violations"]))})
+                    record["result"] or "failed": 1, "time up": int(record["time_up"]), "with a violation": int(bool(record["violations"]))})
 
 
 def bound(row: Counter) -> str:

@@ -6,6 +6,7 @@ run.py --report FILE.jsonl …            the table of what stands in them"""
 
 import argparse
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -34,6 +35,7 @@ def parse() -> argparse.Namespace:
     parser.add_argument("--mission", type=Path, default=ROOT / "missions/planetary")
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin")
     parser.add_argument("--keep", type=Path, help="folders of flights with violations go here (default: beside --out)")
+    parser.add_argument("--keep-all", action="store_true", help="folders of all flights go there")
     parser.add_argument("--keys", type=Path, help="for --secure of the launcher; without, its own default")
     parser.add_argument("--draw", action="store_true", help="print what the slice would fly, and end")
     parser.add_argument("--report", type=Path, nargs="+", metavar="FILE", help="print the table of these and end")
@@ -71,7 +73,7 @@ def fly(options: argparse.Namespace, seed: int, secure: list[str]) -> dict:
                       "violations": [], "log": (folder / "flight.log").read_text()[-2000:]}
     record["wall_s"] = round(time.monotonic() - begun, 1)
     record["speed"] = options.speed
-    if record["violations"] or "harness_failed" in record:
+    if record["violations"] or record.get("time_up") or "harness_failed" in record or options.keep_all:
         kept = options.keep / str(seed)
         shutil.rmtree(kept, ignore_errors=True)
         shutil.copytree(folder, kept, symlinks=True, ignore=shutil.ignore_patterns("mission", "*.runtime"))
@@ -110,6 +112,8 @@ def main() -> int:
     if options.anew:
         options.out.unlink(missing_ok=True)
     options.keep = options.keep or options.out.parent / "violations"
+    if options.keep_all:
+        os.environ["ROCI_CAMPAIGN_KEEP"] = "1"
     secure = secure_words(options)
     lock = Lock()
     faulty = 0
