@@ -69,6 +69,9 @@ void NodeImpl::read(Arrival&& arrival) {
   Decoded decoded = input.topic.codec.decode(arrival.sample.payload);
   if (!decoded.whole) return refuse_malformed(input, decoded, arrival.sample.writer);
   const std::shared_ptr<const void> value = std::move(decoded.value);
+  const auto sender_of = input.topic.codec.sender;
+  if (sender_of != nullptr && !transport->speaks_as(arrival.sample.writer, sender_of(value.get())))
+    return refusals.note(input.topic.name, Refusal::another_name, arrival.sample.writer);
   const auto run_of = input.topic.codec.run;
   if (run_of != nullptr && !run.obeys(run_of(value.get()), input.topic.name)) {
     for (const auto& [foreign, topic] : run.take_news())
