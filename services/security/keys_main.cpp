@@ -5,7 +5,6 @@
 #include <iostream>
 
 #include "core/mission/entry.hpp"
-#include "core/mission/service_list.hpp"
 #include "services/clock/wall.hpp"
 #include "services/security/authority.hpp"
 #include "services/security/key_folder.hpp"
@@ -37,9 +36,8 @@ fs::path folder_of(const Line& line) {
 }
 
 int make(const Line& line) {
-  const auto list = roci::mission::load_service_list(line.mission);
   auto authority = security::Authority::make(folder_of(line), now_s());
-  authority.learn(list);
+  authority.learn(line.mission);
   const auto made = authority.issue_missing(line.days, now_s());
   std::cout << "keys in " << folder_of(line).string() << "\n";
   for (const std::string& service : made) std::cout << "  " << service << "\n";
