@@ -1,7 +1,9 @@
 // roci-bench-dds [--rounds N] [--pings N] [--seed N] [--kinds LIST] [--vendors LIST] [--load N] [--secure=KEYS]
+//                [--samples FILE]
 // It measures round trips between two processes on loopback: each vendor's bare API against our transport
 // over the same vendor, in one run and in turns, so that both see the same machine. It tells on standard error
-// how far it is, and writes one JSON record to standard output.
+// how far it is, and writes one JSON record to standard output. Every single time is appended to FILE, so that a large
+// number of them can be measured in slices, which merge.py puts together.
 #include <sched.h>
 #include <unistd.h>
 
@@ -10,6 +12,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <fstream>
 #include <iostream>
 #include <map>
 #include <mutex>
@@ -148,6 +151,8 @@ class Rally {
     return microseconds_.empty() ? 0 : *std::max_element(microseconds_.begin(), microseconds_.end());
   }
 
+  const std::vector<double>& microseconds() const { return microseconds_; }
+
   nlohmann::json result() {
     std::sort(microseconds_.begin(), microseconds_.end());
     const auto at = [this](double fraction) {
@@ -197,6 +202,7 @@ struct BenchOptions {
   std::vector<std::string> vendors = kVendors;
   std::vector<std::string> kinds = kKinds;
   unsigned load = 0;
+  std::string samples{};
 };
 
 // Threads that compute without end, so that the scheduler has something better to do than to wake who was asked.
@@ -225,7 +231,7 @@ void tell(const std::string& text, bool now_and_then = false) {
 }
 
 nlohmann::json measure(const std::string& program, const BenchOptions& options) {
-  const auto& [rounds, pings, seed, vendors, kinds, load_threads] = options;
+  const auto& [rounds, pings, seed, vendors, kinds, load_threads, samples] = options;
   pin_to(0);
   std::map<std::string, Rally> rallies;
   for (const auto& vendor : vendors) {
@@ -256,6 +262,16 @@ nlohmann::json measure(const std::string& program, const BenchOptions& options) 
       {"revision", first_line_of({"git", "-C", ROCI_SOURCE_DIR, "describe", "--always", "--dirty"})},
       {"load_threads", load_threads},
       {"seed", seed}};
+  if (!samples.empty()) {
+    std::ofstream out(samples, std::ios::app);
+    for (auto& [variant, rally] : rallies)
+      out << nlohmann::json{{"variant", variant},
+                            {"seed", seed},
+                            {"load_threads", load_threads},
+                            {"revision", record["revision"]},
+                            {"microseconds", rally.microseconds()}}
+          << "\n";
+  }
   for (auto& [variant, rally] : rallies) record["results"][variant] = rally.result();
   for (const auto& vendor : vendors) {
     if (!rallies.contains("bare-" + vendor)) continue;
@@ -292,6 +308,7 @@ int main(int argc, char** argv) {
   app.add_option("--secure", keys,
                  "measure secure runs, too, with the keys of this folder (roci-keys make missions/planetary "
                  "--keys KEYS)");
+  app.add_option("--samples", options.samples, "every single time is appended to this file (merge.py)");
   app.add_option("--serve", serve)->group("");
   app.add_option("--domain", domain)->group("");
   CLI11_PARSE(app, argc, argv);

@@ -79,6 +79,7 @@ ServiceEntry read_service(const Entry& entry, const std::vector<std::string>& ro
   if (!out.essential && out.clock_master)
     entry.at("essential").fail("nothing goes on without the clock; its master is essential");
   if (const auto arguments = entry.find("arguments")) out.arguments = arguments->texts();
+  if (const auto rights = entry.find("rights")) out.rights = rights->texts();
   return out;
 }
 

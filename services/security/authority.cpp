@@ -4,8 +4,6 @@
 #include <system_error>
 #include <utility>
 
-#include "core/mission/mission_file.hpp"
-#include "core/mission/service_list.hpp"
 #include "services/security/key_folder.hpp"
 #include "services/security/private_file.hpp"
 
@@ -14,7 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kDay = 24 * 60 * 60;
 constexpr std::int64_t kAuthorityDays = 20 * 365;
 // Hosts whose clocks are somewhat behind take a certificate at once. The vendors do not agree about the time zone of
 // permissions: these hold a day longer than the certificate at either end, which decides.
@@ -27,11 +24,10 @@ fs::path permissions_key(const fs::path& folder) { return folder / "authority" /
 // The files that all services share.
 transport::Credentials shared_files(const fs::path& folder) { return files_of(folder, "", ""); }
 
-// `words` are its `rights:` in the mission's list; without them it does what its program does.
-std::set<Role> roles_of(const mission::ServiceEntry& entry, const std::vector<std::string>& words) {
+std::set<Role> roles_of(const mission::ServiceEntry& entry) {
   std::set<Role> roles = roles_of_program(fs::path(entry.program).filename().string());
-  if (!words.empty()) roles = {Role::service};
-  for (const std::string& word : words) {
+  if (!entry.rights.empty()) roles = {Role::service};
+  for (const std::string& word : entry.rights) {
     const auto role = role_of(word);
     if (!role)
       throw KeyError("service " + entry.name + ": rights: " + word + " is none; see docs/security.md");
@@ -71,15 +67,9 @@ Authority::Authority(fs::path folder) : folder_(std::move(folder)), issued_(read
   permissions_ = {read_key(permissions_key(folder_)), read_certificate(files.permissions_authority)};
 }
 
-void Authority::learn(const fs::path& mission_folder) {
-  const mission::Entry mission = mission::load_mission_file(mission_folder / "mission.yaml");
-  const auto list = mission::read_service_list(mission).services;
-  const auto entries = mission.at("services").items();
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const auto rights = entries[i].find("rights");
-    const auto words = rights ? rights->texts() : std::vector<std::string>();
-    issued_.services[list[i].name] = {roles_of(list[i], words), list[i].robot};
-  }
+void Authority::learn(const mission::ServiceList& list) {
+  for (const mission::ServiceEntry& entry : list.services)
+    issued_.services[entry.name] = {roles_of(entry), entry.robot};
   issued_.services["launcher"] = {{Role::launcher}, ""};
   issued_.services["roci"] = {{Role::console}, ""};
 }

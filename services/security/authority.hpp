@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/mission/service_list.hpp"
 #include "services/security/issued.hpp"
 #include "services/security/x509.hpp"
 
@@ -22,9 +23,8 @@ class Authority {
   static Authority open(const std::filesystem::path& folder);
 
   /// Knows from now on what the services of a mission are, and the launcher and the console. A service of that name that is
-  /// known already takes on what this mission says. Throws KeyError for a program that is not ours and has no `rights:`
-  /// in the mission's list, mission::FileError.
-  void learn(const std::filesystem::path& mission_folder);
+  /// known already takes on what this mission says. Throws KeyError for a program that is not ours and has no `rights:`.
+  void learn(const mission::ServiceList&);
 
   /// Gives the service a key, a certificate and permissions for each vendor, those before them stay valid until they run out. Throws
   /// KeyError if it is not known.

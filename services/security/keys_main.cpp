@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "core/mission/entry.hpp"
+#include "core/mission/service_list.hpp"
 #include "services/clock/wall.hpp"
 #include "services/security/authority.hpp"
 #include "services/security/key_folder.hpp"
@@ -36,8 +37,9 @@ fs::path folder_of(const Line& line) {
 }
 
 int make(const Line& line) {
+  const auto list = roci::mission::load_service_list(line.mission);
   auto authority = security::Authority::make(folder_of(line), now_s());
-  authority.learn(line.mission);
+  authority.learn(list);
   const auto made = authority.issue_missing(line.days, now_s());
   std::cout << "keys in " << folder_of(line).string() << "\n";
   for (const std::string& service : made) std::cout << "  " << service << "\n";

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include "core/mission/service_list.hpp"
 #include "services/clock/wall.hpp"
 
 namespace roci::services::contract {
@@ -13,7 +14,7 @@ KeyRing::KeyRing() {
   if (mkdtemp(made.data()) == nullptr) throw std::runtime_error("cannot make " + made);
   folder_ = made;
   auto authority = security::Authority::make(path(), now_s());
-  authority.learn(ROCI_SOURCE_DIR "/missions/planetary");
+  authority.learn(mission::load_service_list(ROCI_SOURCE_DIR "/missions/planetary"));
   authority.issue_missing(365, now_s());
 }
 

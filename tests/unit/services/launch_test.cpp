@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "services/launch/anchor_file.hpp"
+#include "services/launch/child.hpp"
 #include "services/launch/continuation.hpp"
+#include "services/launch/log_files.hpp"
 #include "services/launch/options.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/restart_policy.hpp"
@@ -356,6 +358,26 @@ TEST_F(LaunchTest, ASummaryStatesItsFormatAndANewerOneIsRefused) {
     EXPECT_THAT(error.what(),
                 testing::AllOf(HasSubstr("summary.json is of format 2"), HasSubstr("one version")));
   }
+}
+
+// A service that writes all the time goes on, and its log never has more than the limit and what was written meanwhile.
+TEST_F(LaunchTest, ALogIsBoundedWhileItsServiceWrites) {
+  const fs::path log = folder / "talker.log", before = folder / "talker.log.1";
+  Child talker("/bin/sh", {"sh", "-c", "while true; do echo a line of some length; done"}, log);
+  for (int times = 0; times < 3;) {
+    times += bound_log(log, 100'000);
+    ASSERT_LT(fs::file_size(log), 50'000'000U);
+    ASSERT_FALSE(talker.ending());
+  }
+  EXPECT_GT(fs::file_size(before), 100'000U);
+  std::ifstream in(before);
+  std::string line;
+  std::getline(in, line);
+  std::getline(in, line);
+  EXPECT_EQ(line, "a line of some length");
+  EXPECT_FALSE(bound_log(folder / "nobody.log", 0));
+  fs::create_symlink(before, folder / "link.log");
+  EXPECT_FALSE(bound_log(folder / "link.log", 0)) << "a link leads to somebody else's file";
 }
 
 TEST(RestartPolicy, WaitsLongerEachTimeAndGivesUp) {

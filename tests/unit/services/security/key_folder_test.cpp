@@ -3,8 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
-
 #include "services/security/private_file.hpp"
 #include "tests/contract/secure/key_ring.hpp"
 
@@ -116,18 +114,17 @@ TEST(KeyFolder, SomebodyElsesCertificateOrDocumentIsRefused) {
 TEST(KeyFolder, AProgramThatIsNotOursSaysWhatItMayDo) {
   const KeyRing ring;
   auto authority = ring.authority();
-  const fs::path mission = ring.path() + "-mission";
-  fs::create_directories(mission / "bin");
-  std::ofstream(mission / "bin" / "driver") << "#!/bin/sh";
-  const auto learn = [&](const std::string& rights) {
-    std::ofstream(mission / "mission.yaml")
-        << "name: test\nservices:\n  - {name: beacon, program: bin/driver" << rights << "}\n";
-    authority.learn(mission);
-  };
-  EXPECT_THROW(learn(""), KeyError);
-  EXPECT_THROW(learn(", rights: [king]"), KeyError);
-  learn(", rights: [owner]");
+  mission::ServiceList list;
+  mission::ServiceEntry beacon;
+  beacon.name = "beacon";
+  beacon.program = "bin/beacon_driver";
+  list.services.push_back(beacon);
+  EXPECT_THROW(authority.learn(list), KeyError);
+  list.services.back().rights = {"owner"};
+  authority.learn(list);
   EXPECT_EQ(authority.issued().services.at("beacon").roles, (std::set{Role::service, Role::owner}));
+  list.services.back().rights = {"king"};
+  EXPECT_THROW(authority.learn(list), KeyError);
 }
 
 }  // namespace
