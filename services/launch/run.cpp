@@ -26,6 +26,7 @@
 #include "services/process/forced_exit.hpp"
 #include "services/process/private_folder.hpp"
 #include "services/process/run_record.hpp"
+#include "services/process/service_options.hpp"
 #include "services/service.hpp"
 #include "services/transport/plug_ins.hpp"
 
@@ -102,7 +103,18 @@ services::process::RunRecord record_of(const Options& options, std::int64_t star
           options.run_folder,
           options.live ? "live" : "simulated",
           started_unix_us,
-          options.run};
+          options.run,
+          options.connection.keys,
+          options.connection.network};
+}
+
+// Before anything starts: of a secure run no service starts without its keys.
+void require_keys(const Options& options) {
+  for (const std::string& process : options.services) {
+    services::process::Connection connection = options.connection;
+    connection.dds = vendor_of(options, process);
+    services::process::admitted(connection, entry_of(options, process)->name);
+  }
 }
 
 void print_failure(const RunFailure& failure, const fs::path& run_folder) {
@@ -158,11 +170,13 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   keep_command_line_on(options, anchor, started_unix_us, stop_asked);
   if (options.continued) remove_outcome(options.run_folder);
 
+  require_keys(options);
   const bool may_be_held = domain_may_be_held(options);
   const std::string vendor = console_vendor(options.connection.dds);
   transport.participant = "launcher";
-  services::Node node(observer_options(vendor, options.run),
-                      services::transport::open_transport(vendor, transport));
+  services::process::Connection own = options.connection;
+  own.dds = vendor;
+  services::Node node(observer_options(vendor, options.run), services::process::connect(own));
   if (may_be_held) refuse_held_domain(node, options);
   Progress progress(node, !options.headless);
   const services::process::PublishedRun published(services::process::runtime_folder(),
