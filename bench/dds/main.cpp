@@ -1,5 +1,5 @@
 // roci-bench-dds [--rounds N] [--pings N] [--seed N] [--kinds LIST] [--vendors LIST] [--load N] [--secure=KEYS]
-// [--samples FILE]
+//                [--samples FILE]
 // It measures round trips between two processes on loopback: each vendor's bare API against our transport
 // over the same vendor, in one run and in turns, so that both see the same machine. It tells on standard error
 // how far it is, and writes one JSON record to standard output. Every single time is appended to FILE, so that a large
@@ -304,11 +304,11 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::IsMember(roci::bench::kVendors));
   app.add_option("--load", options.load, "threads that compute meanwhile");
-  app.add_option("--samples", options.samples, "every single time is appended to this file (merge.py)");
   std::string keys;
   app.add_option("--secure", keys,
                  "measure secure runs, too, with the keys of this folder (roci-keys make missions/planetary "
                  "--keys KEYS)");
+  app.add_option("--samples", options.samples, "every single time is appended to this file (merge.py)");
   app.add_option("--serve", serve)->group("");
   app.add_option("--domain", domain)->group("");
   CLI11_PARSE(app, argc, argv);
