@@ -9,6 +9,7 @@
 
 #include "services/node.hpp"
 #include "services/owner/command_ledger.hpp"
+#include "services/owner/commander_leases.hpp"
 #include "services/owner/ledger_file.hpp"
 #include "services/publisher.hpp"
 
@@ -54,6 +55,8 @@ class CommandServer {
 
  private:
   void receive(const Request&);
+  void receive(const v1::LeaseRequest&);
+  bool holds_lease(const Request&);
   void stop(const Request&);
   void keep();
   void announce(const Notice&);
@@ -63,8 +66,10 @@ class CommandServer {
   Node& node_;
   Driver& driver_;
   CommandLedger ledger_;
+  CommanderLeases leases_;
   std::optional<LedgerFile> file_;
   Publisher<v1::CommandAck> acks_;
+  Publisher<v1::LeaseState> lease_states_;
   Publisher<v1::Event> events_;
   std::map<std::string, temporal::Time> announced_;  // when operators were told last, by code and text
   bool driver_stops_ = false;

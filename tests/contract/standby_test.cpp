@@ -88,7 +88,7 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
     follower_node_.emplace(options_of("exec_svc.second", services::clock::ClockMode::observer),
                            transport(GetParam().follower));
     follower_.emplace(*follower_node_, "exec_svc", *follower_lease_, *follower_journal_, follower_standing_,
-                      [](const goals::GoalRequest&) {});
+                      standby::GoalsApart(folder_ / "follower.sqlite", Durability::process));
   }
   void stop_leader() {
     leader_.reset();
@@ -120,7 +120,7 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
     for (int i = from; i < to; ++i) {
       leader_journal_->append(temporal::seconds(i), "event", std::string(100, 'x') + std::to_string(i));
       leader_journal_->commit();
-      leader_->send_once_copied([this] { ++sent_; });
+      leader_->send_once_copied([this] { ++sent_; }, false);
     }
   }
   void expect_copy() const { EXPECT_TRUE(everything(*follower_journal_) == everything(*leader_journal_)); }
