@@ -59,6 +59,7 @@ class CommandServer {
   bool holds_lease(const Request&);
   void stop(const Request&);
   void keep();
+  bool begin_file_anew();
   void announce(const Notice&);
   bool send(const std::optional<Ack>&);
   void watch_overruns();
@@ -68,6 +69,7 @@ class CommandServer {
   CommandLedger ledger_;
   CommanderLeases leases_;
   std::optional<LedgerFile> file_;
+  std::vector<LedgerEntry> unwritten_;  // what the disk has not taken yet, in order
   Publisher<v1::CommandAck> acks_;
   Publisher<v1::LeaseState> lease_states_;
   Publisher<v1::Event> events_;

@@ -24,9 +24,12 @@ class Domain {
   Domain& operator=(const Domain&) = delete;
 
   const std::string& config() const { return config_; }
+  /// Whether its participants have credentials: one guard stands before all of them.
+  bool secure() const { return secure_; }
 
  private:
   const std::string config_;
+  const bool secure_;
   const dds_entity_t handle_;
 };
 
