@@ -15,7 +15,8 @@ TEST_P(CutHost, NothingIsLostOrDoneTwice) { expect_nothing_lost(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Cuts, CutHost,
                          ::testing::Values(Cut{"first", "mixed", "live 20", "second"},
-                                           Cut{"second", "mixed", "live 20", "first"},
+                                           Cut{"leader", "mixed", "live 20", "second"},
+                                             Cut{"second", "mixed", "live 20", "first"},
                                            Cut{"robot", "mixed", "live 20", "second"}),
                          [](const auto& test) {
                            return std::string(test.param.where) + "_" + test.param.dds;

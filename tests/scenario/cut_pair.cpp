@@ -41,7 +41,7 @@ void expect_nothing_lost(const Cut& cut) {
   EXPECT_EQ(steps["cut"].printed["executive"].value("leader", ""), cut.leader) << ended.output;
   EXPECT_EQ(steps["add"].exit_code, 0);
   EXPECT_NE(steps["add"].printed.value("state", ""), "rejected");
-  const bool recalls = std::string(cut.where) == "first";
+  const bool recalls = std::string(cut.where) == "leader";
   if (std::string(cut.where) != "robot")
     EXPECT_EQ(steps["add"].printed.value("acknowledged", ""), "journaled") << "by one that is alone";
   if (recalls) {

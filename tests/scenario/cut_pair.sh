@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Flies a mission on three hosts, the pair of executives on one each, and cuts them off in flight.
 #   cut_pair.sh BIN_FOLDER MISSION DDS DOMAIN CUT CLOCK SPEED
-# CUT: between (the two do not hear each other), first (its cable is out), second (its switch is silent),
+# CUT: between (the two do not hear each other), first (its cable is out), leader (the switch of the first is silent), second (its),
 # robot (the first executive and the robot do not hear each other, which the second one does).
 # The hosts are network namespaces of its own, on a bridge in a fourth; no packet leaves them. Needs root.
 # Prints steps as ground_and_kills.sh does: flying, cut (the pair as the robot's host sees it), add (a goal sent
-# meanwhile), recall (of goal depot, with CUT first, from the host that is cut off), healed, ended (goals as they are in the
+# meanwhile), recall (of goal depot, with CUT leader, from the host that is cut off), healed, ended (goals as they are in the
 # end), and, when all is ended, robot, first, second (exit code and summary of each launcher), begun (what the robot did) and
 # led (how often each executive began to lead).
 set -uo pipefail
@@ -59,6 +59,7 @@ part() {  # CUT on|off
     between) for port in first second; do bridge -n $net link set dev $port isolated $2; done ;;
     robot) for port in first robot; do bridge -n $net link set dev $port isolated $2; done ;;
     first) ip -n $net link set first "$([[ $2 == on ]] && echo down || echo up)" ;;
+    leader) bridge -n $net link set dev first state "$([[ $2 == on ]] && echo 0 || echo 3)" ;;
     second) bridge -n $net link set dev second state "$([[ $2 == on ]] && echo 0 || echo 3)" ;;
   esac
 }
@@ -81,8 +82,9 @@ case $cut in
 esac
 step add $? "$(roci robot goal add more photo x=60 y=45)"
 ended='("state":"achieved".*){4}'
-if [[ $cut == first ]]; then
-  step recall $? "$(roci first goal cancel depot)"
+if [[ $cut == leader ]]; then
+  recalled=$(roci first goal cancel depot)
+  step recall $? "$recalled"
   ended='"id":"depot"[^}]*"state":"recalled".*("state":"achieved".*){3}'
 fi
 part $cut off
