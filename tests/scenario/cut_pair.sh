@@ -85,7 +85,7 @@ ended='("state":"achieved".*){4}'
 if [[ $cut == leader ]]; then
   recalled=$(roci first goal cancel depot)
   step recall $? "$recalled"
-  ended='"id":"depot"[^}]*"state":"recalled".*("state":"achieved".*){3}'
+  ended='"id":"depot"[^}]*"state":"recalled"'
 fi
 part $cut off
 until_status healed robot '"standby_ready":true'
