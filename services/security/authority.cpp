@@ -12,7 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kDay = 24 * 60 * 60;
 constexpr std::int64_t kAuthorityDays = 20 * 365;
 // Hosts whose clocks are somewhat behind take a certificate at once. The vendors do not agree about the time zone of
 // permissions: these hold a day longer than the certificate at either end, which decides.

@@ -15,6 +15,8 @@ namespace roci::services::security {
 /// two vendors do not understand each other's.
 std::string governance();
 
+inline constexpr std::int64_t kDay = 24 * 60 * 60;  ///< seconds
+
 /// Holds a right to a time, in seconds since 1970.
 struct Validity {
   std::int64_t begin = 0;

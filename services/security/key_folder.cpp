@@ -12,14 +12,13 @@
 #include <system_error>
 
 #include "services/certificate/subject.hpp"
+#include "services/security/documents.hpp"
 #include "services/security/x509.hpp"
 
 namespace roci::services::security {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::int64_t kDay = 24 * 60 * 60;
 
 std::string remedy(const char* verb, const fs::path& folder) {
   return std::string("roci-keys ") + verb + " --keys " + folder.string();

@@ -115,7 +115,7 @@ TEST(SplitList, LeavesOutEmptyParts) {
 }
 
 TEST_F(ConnectionTest, SecureComesFromTheFlagTheVariableOrTheNetworkFile) {
-  EXPECT_THAT(resolve().keys, IsEmpty());
+  EXPECT_TRUE(resolve().keys.empty());
   flags.network = write("network.yaml", "secure: keys\n");
   EXPECT_EQ(resolve().keys, folder / "keys") << "seen from the file";
   EXPECT_EQ(resolve().network, folder / "network.yaml");

@@ -115,7 +115,10 @@ TEST(KeyFolder, AProgramThatIsNotOursSaysWhatItMayDo) {
   const KeyRing ring;
   auto authority = ring.authority();
   mission::ServiceList list;
-  list.services.push_back({.name = "beacon", .program = "bin/beacon_driver"});
+  mission::ServiceEntry beacon;
+  beacon.name = "beacon";
+  beacon.program = "bin/beacon_driver";
+  list.services.push_back(beacon);
   EXPECT_THROW(authority.learn(list), KeyError);
   list.services.back().rights = {"owner"};
   authority.learn(list);
