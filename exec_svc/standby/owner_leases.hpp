@@ -38,8 +38,8 @@ struct OwnerRequest {
 };
 
 /// Holds all leases or is to command nobody. Two members that have a part each would wait for each other for good, so
-/// one that has had a part for a term gives it back and asks for nothing for some terms: the first member for two, the second
-/// for three. Their times to ask then drift against each other, and in the end one asks alone.
+/// one that has had a part for a term gives it back and asks for nothing for some terms: the first member for two,
+/// the second for three. Their times to ask then drift against each other, and in the end one asks alone.
 class OwnerLeases {
  public:
   /// `patience` is how long a part is held.
@@ -53,7 +53,8 @@ class OwnerLeases {
   /// the owners for their leases now.
   bool wants(std::optional<std::uint64_t> epoch, Moment now);
 
-  /// Returns whether this member holds the lease of every owner in this epoch. It never believes so for longer than the owner does.
+  /// Returns whether this member holds the lease of every owner in this epoch. It never believes so for longer than
+  /// the owner does.
   bool holds_all(std::uint64_t epoch, Moment now) const;
   bool holds_any(std::uint64_t epoch, Moment now) const;
   /// Returns whether every owner was heard within this time.
