@@ -108,7 +108,9 @@ class PairProcess {
                                 services::process::DiskPause([this] { watchdog_.notify(); })),
                  durability_for(options.node)),
         persisted_term_(file_of(options, "standing"), durability_for(options.node)),
-        stop_watch_(signals, [this] { stop_.ask(); }) {}
+        stop_watch_(signals, [this] { stop_.ask(); }) {
+    journal_.watch_extent();
+  }
 
   void run() {
     for (bool superseded = false; !stop_.asked();) {
