@@ -9,6 +9,7 @@ extern "C" {
 #include <string>
 
 #include "services/transport/transport.hpp"
+#include "services/vendors/guard/guard.hpp"
 
 namespace roci::services::vendors::cyclonedds {
 
@@ -24,8 +25,10 @@ class Domain {
   Domain& operator=(const Domain&) = delete;
 
   const std::string& config() const { return config_; }
+  const guard::Guard& guard() const { return *guard_; }
 
  private:
+  const std::shared_ptr<guard::Guard> guard_;
   const std::string config_;
   const dds_entity_t handle_;
 };

@@ -37,7 +37,7 @@ dds::PartitionQosPolicy partition_qos(const std::vector<std::string>& partitions
   return policy;
 }
 
-class FastTransport : public transport::Transport {
+class FastTransport : public transport::Transport, public transport::RefusesDatagrams {
  public:
   explicit FastTransport(const transport::TransportOptions& options)
       : announcement_(options.announcement.value_or("")),
@@ -86,6 +86,7 @@ class FastTransport : public transport::Transport {
   std::optional<transport::Participant> participant_of(const transport::Guid& guid) override {
     return participants_.table.find(guid);
   }
+  std::vector<transport::RefusedDatagrams> refused_datagrams() const override { return guard_->refused(); }
 
  private:
   // DDS gives partitions to publishers and subscribers: there is one of each for the endpoints that share theirs.

@@ -40,6 +40,7 @@ std::size_t Guard::admit(std::span<std::uint8_t> datagram, const std::optional<S
   const Verdict verdict = judge(datagram, source);
   ++counts_[static_cast<std::size_t>(verdict)];
   if (verdict == Verdict::pass) return strip_vendor_submessages(datagram);
+  last_sources_[static_cast<std::size_t>(verdict)] = source;
   report(verdict, source);
   return 0;
 }
@@ -75,6 +76,17 @@ void Guard::report(Verdict verdict, const std::optional<Source>& source) {
 std::array<std::uint64_t, kVerdicts> Guard::counts() const {
   const std::lock_guard lock(mutex_);
   return counts_;
+}
+
+std::vector<transport::RefusedDatagrams> Guard::refused() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<transport::RefusedDatagrams> out;
+  for (std::size_t i = 1; i < kVerdicts; ++i) {
+    if (counts_[i] == 0) continue;
+    const auto& source = last_sources_[i];
+    out.push_back({std::string(kVerdictNames[i]), counts_[i], source ? to_text(source) : ""});
+  }
+  return out;
 }
 
 }  // namespace roci::services::vendors::guard

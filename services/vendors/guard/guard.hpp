@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "services/transport/refused_datagrams.hpp"
 #include "services/transport/transport.hpp"
 #include "services/vendors/guard/identities.hpp"
 #include "services/vendors/guard/message.hpp"
@@ -34,6 +35,8 @@ class Guard {
 
   /// How many datagrams had each verdict.
   std::array<std::uint64_t, kVerdicts> counts() const;
+  /// The same for operators, without those that passed.
+  std::vector<transport::RefusedDatagrams> refused() const;
 
  private:
   Verdict judge(std::span<const std::uint8_t> datagram, const std::optional<Source>&);
@@ -43,6 +46,7 @@ class Guard {
   mutable std::mutex mutex_;
   Identities identities_;
   std::array<std::uint64_t, kVerdicts> counts_{};
+  std::array<std::optional<Source>, kVerdicts> last_sources_{};
   std::array<std::uint64_t, kVerdicts> reported_{};
   std::optional<Identities::Time> last_report_;
 };
