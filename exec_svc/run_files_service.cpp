@@ -1,6 +1,5 @@
 #include "exec_svc/run_files_service.hpp"
 
-#include "core/mission/mission_file.hpp"
 #include "exec_svc/journal/salvage.hpp"
 #include "services/log/log.hpp"
 
@@ -10,8 +9,7 @@ using mission::ExecutiveRole;
 using roci::mission::ServiceList;
 
 ServiceList services_of(const services::RunSettings& settings) {
-  const roci::mission::Entry mission = roci::mission::load_mission_file(settings.mission);
-  return mission.find("services") ? roci::mission::read_service_list(mission) : ServiceList{};
+  return roci::mission::load_service_list_if_any(settings.mission);
 }
 
 ExecutiveRole role_of(const services::RunSettings& settings, const services::node::NodeOptions& node) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/mission/service_list.hpp"
 #include "planner_svc/engine/checked_answer.hpp"
 #include "planner_svc/wire_service.hpp"
 #include "services/clock/wall.hpp"
@@ -24,6 +25,13 @@ std::uint32_t peak_resident_kb() {
   return static_cast<std::uint32_t>(usage.ru_maxrss);
 }
 
+// Of several planners of a mission each has a folder of its own.
+std::filesystem::path records_folder(const Node& node, const services::RunSettings& run) {
+  if (run.run_folder.empty()) return {};
+  const auto list = run.mission.empty() ? mission::ServiceList{} : mission::load_service_list_if_any(run.mission);
+  return run.run_folder / list.file_name(node.options().name, "planner_calls");
+}
+
 }  // namespace
 
 AnsweringHost::AnsweringHost(Node& node, const services::RunSettings& run, const Settings& settings,
@@ -31,7 +39,7 @@ AnsweringHost::AnsweringHost(Node& node, const services::RunSettings& run, const
     : node_(node),
       settings_(settings),
       table_(table),
-      records_(run.run_folder.empty() ? "" : run.run_folder / "planner_calls"),
+      records_(records_folder(node, run)),
       events_(services::advertise(node, services::topics::event)),
       owners_(node, settings.function_timeout) {
   services::serve(node, services::topics::plan_request,

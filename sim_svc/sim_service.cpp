@@ -70,6 +70,7 @@ class SimService final : public services::Service, private owner::Driver {
     if (node.options().clock == services::clock::ClockMode::live && !run_folder_.empty())
       commands_.keep_in(run_folder_ / (node.options().name + ".ledger"));
     if (!run_folder_.empty()) effects_.open(run_folder_ / "effects.jsonl", std::ios::app);
+    if (!run_folder_.empty()) begun_.open(run_folder_ / "begun.json");
     services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
       if (executives_.size() >= kExecutives && !executives_.contains(status.executive())) return;
       executives_[status.executive()] = standing_of(status);
@@ -109,6 +110,7 @@ class SimService final : public services::Service, private owner::Driver {
                  output);
     }
     record_effects();
+    record_begun();
     if (wake_) node_.cancel(*wake_);
     wake_.reset();
     const auto next = world_.next_change();
@@ -241,20 +243,24 @@ class SimService final : public services::Service, private owner::Driver {
     }
   }
 
-  // Writes what was really done, for whoever asks after the run whether anything was done twice.
-  void report_begun() const {
-    nlohmann::json report = nlohmann::json::array();
-    for (const world::Begun& one : world_.begun()) {
-      report.push_back({{"time_us", one.at.count()},
-                        {"robot", one.robot},
-                        {"component", one.component},
-                        {"commander", one.task.key.commander},
-                        {"activity", one.task.key.activity},
-                        {"attempt", one.task.key.attempt},
-                        {"command", one.task.command},
-                        {"arguments", one.task.arguments}});
+  // What was really done, for whoever asks after the run whether anything was done twice: one array, written as it grows.
+  void record_begun() {
+    for (const world::Begun& one : world_.take_begun()) {
+      const nlohmann::json entry{{"time_us", one.at.count()},
+                                 {"robot", one.robot},
+                                 {"component", one.component},
+                                 {"commander", one.task.key.commander},
+                                 {"activity", one.task.key.activity},
+                                 {"attempt", one.task.key.attempt},
+                                 {"command", one.task.command},
+                                 {"arguments", one.task.arguments}};
+      begun_ << std::exchange(begun_separator_, ",\n") << entry.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     }
-    std::ofstream(run_folder_ / "begun.json") << report.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+  }
+
+  void report_begun() {
+    record_begun();
+    begun_ << (begun_separator_[0] == '[' ? "[]\n" : "]\n") << std::flush;
   }
 
   // Writes the result for whoever started the run; the summary takes it up as `expected`.
@@ -271,6 +277,8 @@ class SimService final : public services::Service, private owner::Driver {
   const Scenario scenario_;
   const std::filesystem::path run_folder_;
   std::ofstream effects_;
+  std::ofstream begun_;
+  const char* begun_separator_ = "[\n";
   scenario::EventOrder order_;
   world::World world_;
   services::Client<v1::PathRequest, v1::PathReply> paths_;

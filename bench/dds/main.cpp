@@ -1,7 +1,9 @@
-// roci-bench-dds [--rounds N] [--pings N] [--seed N] [--kinds LIST] [--vendors LIST] [--load N]
+// roci-bench-dds [--rounds N] [--pings N] [--seed N] [--kinds LIST] [--vendors LIST] [--load N] [--secure=KEYS]
+//                [--samples FILE]
 // It measures round trips between two processes on loopback: each vendor's bare API against our transport
 // over the same vendor, in one run and in turns, so that both see the same machine. It tells on standard error
-// how far it is, and writes one JSON record to standard output.
+// how far it is, and writes one JSON record to standard output. Every single time is appended to FILE, so that a large
+// number of them can be measured in slices, which merge.py puts together.
 #include <sched.h>
 #include <unistd.h>
 
@@ -10,6 +12,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <fstream>
 #include <iostream>
 #include <map>
 #include <mutex>
@@ -31,12 +34,21 @@ using services::contract::ChildProcess;
 const std::vector<std::string> kVendors = {"fastdds", "cyclonedds"};
 // The kinds are bare (the vendor's API), ours (writer and reader of our transport), call (services/rpc.hpp on
 // top of it), tuples (1,000 argument tuples in one request of ours) and reaction (from an observation to the
-// executive's command).
+// executive's command). With --secure there are secure and secure_tuples, too: ours and tuples, encrypted.
 const std::vector<std::string> kKinds = {"bare", "ours", "call", "tuples", "reaction"};
+const std::vector<std::string> kSecureKinds = {"secure", "secure_tuples"};
+std::vector<std::string> all_kinds() {
+  auto kinds = kKinds;
+  kinds.insert(kinds.end(), kSecureKinds.begin(), kSecureKinds.end());
+  return kinds;
+}
 
 std::unique_ptr<Port> open(const std::string& variant, PortOptions options) {
   const auto dash = variant.find('-');
   const auto kind = variant.substr(0, dash), vendor = variant.substr(dash + 1);
+  options.secure = kind.starts_with("secure");
+  if (kind == "secure") return open_ours(vendor, std::move(options));
+  if (kind == "secure_tuples") return open_ours_with_tuples(vendor, std::move(options));
   if (variant == "bare-fastdds") return open_fastdds(std::move(options));
   if (variant == "bare-cyclonedds") return open_cyclonedds(std::move(options));
   if (kind == "ours") return open_ours(vendor, std::move(options));
@@ -139,6 +151,8 @@ class Rally {
     return microseconds_.empty() ? 0 : *std::max_element(microseconds_.begin(), microseconds_.end());
   }
 
+  const std::vector<double>& microseconds() const { return microseconds_; }
+
   nlohmann::json result() {
     std::sort(microseconds_.begin(), microseconds_.end());
     const auto at = [this](double fraction) {
@@ -188,6 +202,7 @@ struct BenchOptions {
   std::vector<std::string> vendors = kVendors;
   std::vector<std::string> kinds = kKinds;
   unsigned load = 0;
+  std::string samples{};
 };
 
 // Threads that compute without end, so that the scheduler has something better to do than to wake who was asked.
@@ -216,7 +231,7 @@ void tell(const std::string& text, bool now_and_then = false) {
 }
 
 nlohmann::json measure(const std::string& program, const BenchOptions& options) {
-  const auto& [rounds, pings, seed, vendors, kinds, load_threads] = options;
+  const auto& [rounds, pings, seed, vendors, kinds, load_threads, samples] = options;
   pin_to(0);
   std::map<std::string, Rally> rallies;
   for (const auto& vendor : vendors) {
@@ -247,11 +262,21 @@ nlohmann::json measure(const std::string& program, const BenchOptions& options) 
       {"revision", first_line_of({"git", "-C", ROCI_SOURCE_DIR, "describe", "--always", "--dirty"})},
       {"load_threads", load_threads},
       {"seed", seed}};
+  if (!samples.empty()) {
+    std::ofstream out(samples, std::ios::app);
+    for (auto& [variant, rally] : rallies)
+      out << nlohmann::json{{"variant", variant},
+                            {"seed", seed},
+                            {"load_threads", load_threads},
+                            {"revision", record["revision"]},
+                            {"microseconds", rally.microseconds()}}
+          << "\n";
+  }
   for (auto& [variant, rally] : rallies) record["results"][variant] = rally.result();
   for (const auto& vendor : vendors) {
     if (!rallies.contains("bare-" + vendor)) continue;
     const double bare = record["results"]["bare-" + vendor]["median_us"];
-    for (const std::string kind : {"ours", "call", "reaction"}) {
+    for (const std::string kind : {"ours", "secure", "call", "reaction"}) {
       if (!rallies.contains(kind + "-" + vendor)) continue;
       const double median = record["results"][kind + "-" + vendor]["median_us"];
       record["ratio_to_bare"][kind + "-" + vendor] = median / bare;
@@ -271,17 +296,27 @@ int main(int argc, char** argv) {
   app.add_option("--rounds", options.rounds, "turns of each variant")->check(CLI::PositiveNumber);
   app.add_option("--pings", options.pings, "round trips per turn")->check(CLI::PositiveNumber);
   app.add_option("--seed", options.seed, "of the numbers in the samples");
-  app.add_option("--kinds", options.kinds, "these alone: bare, ours, call, tuples, reaction")
+  app.add_option("--kinds", options.kinds,
+                 "these alone: bare, ours, call, tuples, reaction, secure, secure_tuples")
       ->delimiter(',')
-      ->check(CLI::IsMember(roci::bench::kKinds));
+      ->check(CLI::IsMember(roci::bench::all_kinds()));
   app.add_option("--vendors", options.vendors, "these alone")
       ->delimiter(',')
       ->check(CLI::IsMember(roci::bench::kVendors));
   app.add_option("--load", options.load, "threads that compute meanwhile");
+  std::string keys;
+  app.add_option("--secure", keys,
+                 "measure secure runs, too, with the keys of this folder (roci-keys make missions/planetary "
+                 "--keys KEYS)");
+  app.add_option("--samples", options.samples, "every single time is appended to this file (merge.py)");
   app.add_option("--serve", serve)->group("");
   app.add_option("--domain", domain)->group("");
   CLI11_PARSE(app, argc, argv);
   try {
+    if (!keys.empty()) {
+      setenv(roci::bench::kKeysVariable, keys.c_str(), 1);
+      if (app.count("--kinds") == 0) options.kinds = roci::bench::all_kinds();
+    }
     if (!serve.empty()) return roci::bench::serve(serve, domain);
     std::cout << roci::bench::measure(argv[0], options).dump() << std::endl;
     return 0;

@@ -1,7 +1,12 @@
+#include <cstdlib>
+#include <stdexcept>
+
 #include "bench/dds/port.hpp"
 #include "roci_idl/function.h"
 #include "roci_idl/motion.h"
+#include "services/security/key_folder.hpp"
 #include "services/transport/plug_ins.hpp"
+#include "services/transport/scope.hpp"
 #include "services/transport/type_support.hpp"
 
 namespace roci::bench {
@@ -58,8 +63,17 @@ Ball decode(const v1::FunctionReply& reply) {
   return {reply.reply().related_request_id().sequence_number(), 0, 0};
 }
 
-std::unique_ptr<services::transport::Transport> transport_of(const std::string& vendor, int domain) {
-  return services::transport::open_transport(vendor, {.domain = domain, .participant = "bench"});
+// In a secure run the client is the simulator, and the path planner serves it.
+std::unique_ptr<services::transport::Transport> transport_of(const std::string& vendor,
+                                                             const PortOptions& options) {
+  services::transport::TransportOptions own{.domain = options.domain, .participant = "bench"};
+  if (options.secure) {
+    const char* keys = std::getenv(kKeysVariable);
+    if (keys == nullptr) throw std::invalid_argument("kinds secure and secure_tuples need --secure=KEYS");
+    own.credentials =
+        services::security::files_of(keys, options.side == Side::client ? "sim_svc" : "pathplan_svc", vendor);
+  }
+  return services::transport::open_transport(vendor, own);
 }
 
 template <class Request, class Reply>
@@ -69,10 +83,12 @@ class OurPort : public Port {
           const services::transport::TypeDescription& reply)
       : client_(options.side == Side::client),
         on_ball_(std::move(options.on_ball)),
-        transport_(transport_of(vendor, options.domain)) {
+        transport_(transport_of(vendor, options)) {
     const QosSettings qos{.history_depth = 0, .max_samples = 4096};
-    const services::transport::EndpointDescription requests{"roci/bench/request", request, qos};
-    const services::transport::EndpointDescription replies{"roci/bench/reply", reply, qos};
+    const auto partitions =
+        services::transport::partitions_of(services::transport::Scope::robot, client_ ? "" : "rover");
+    const services::transport::EndpointDescription requests{"roci/path/request", request, qos, partitions};
+    const services::transport::EndpointDescription replies{"roci/path/reply", reply, qos, partitions};
     writer_ = transport_->create_writer(client_ ? requests : replies, {});
     reader_ = transport_->create_reader(client_ ? replies : requests,
                                         {[this](Sample&& sample) { take(sample); }, {}});

@@ -24,7 +24,11 @@ struct PortOptions {
   Side side = Side::client;
   int domain = 0;
   std::function<void(const Ball&)> on_ball;  // called from a vendor thread
+  bool secure = false;                       // of ours alone: with the certificates of kKeysVariable
 };
+
+/// Names the key folder of secure kinds in the environment of both processes.
+inline constexpr char kKeysVariable[] = "ROCI_SECURE";
 
 /// Is the interface of one end.
 class Port {

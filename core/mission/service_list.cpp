@@ -55,8 +55,8 @@ void require_file(const Entry& entry, const std::filesystem::path& file, const c
 }
 
 ServiceEntry read_service(const Entry& entry, const std::vector<std::string>& robots) {
-  entry.allow_only(
-      {"name", "program", "robot", "vendor", "settings", "clock", "standby", "essential", "arguments"});
+  entry.allow_only({"name", "program", "robot", "vendor", "settings", "clock", "standby", "essential",
+                    "arguments", "rights"});
   ServiceEntry out;
   out.name = entry.at("name").text();
   require_name(entry.at("name"), out.name, "service");
@@ -79,6 +79,7 @@ ServiceEntry read_service(const Entry& entry, const std::vector<std::string>& ro
   if (!out.essential && out.clock_master)
     entry.at("essential").fail("nothing goes on without the clock; its master is essential");
   if (const auto arguments = entry.find("arguments")) out.arguments = arguments->texts();
+  if (const auto rights = entry.find("rights")) out.rights = rights->texts();
   return out;
 }
 
@@ -152,6 +153,11 @@ ServiceList read_service_list(const Entry& mission) {
 
 ServiceList load_service_list(const std::filesystem::path& mission_folder) {
   return read_service_list(load_mission_file(mission_folder / kMissionFile));
+}
+
+ServiceList load_service_list_if_any(const std::filesystem::path& mission_folder) {
+  const Entry mission = load_mission_file(mission_folder / kMissionFile);
+  return mission.find("services") ? read_service_list(mission) : ServiceList{};
 }
 
 }  // namespace roci::mission

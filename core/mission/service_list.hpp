@@ -23,6 +23,8 @@ struct ServiceEntry {
   bool paired = false;             ///< the run has a second process of it, a standby (program option --pair)
   bool essential = true;  ///< the run ends when it cannot be kept; else the mission goes on without it
   std::vector<std::string> arguments;  ///< appended to its command line
+  /// What it may do in a secure run, in the words of services/security/topic_rights.hpp; empty: what its program does.
+  std::vector<std::string> rights{};
 };
 
 /// Holds the processes of a run in the order of the mission file.
@@ -53,5 +55,7 @@ ServiceList read_service_list(const Entry& mission);
 
 /// Reads the list of mission.yaml in that folder. Throws FileError.
 ServiceList load_service_list(const std::filesystem::path& mission_folder);
+/// The same, and an empty list where mission.yaml has none.
+ServiceList load_service_list_if_any(const std::filesystem::path& mission_folder);
 
 }  // namespace roci::mission

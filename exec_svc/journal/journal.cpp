@@ -225,6 +225,14 @@ void Journal::forget_inputs_before(std::int64_t number) {
   });
 }
 
+void Journal::forget_texts_before(std::int64_t number) {
+  database_->change([database = database_.get(), number] {
+    Statement(*database, "DELETE FROM record WHERE seq < ? AND kind NOT IN ('input', 'anchor', 'restored')")
+        .bind(number)
+        .run();
+  });
+}
+
 void Journal::for_each_from(std::int64_t number, const Visit& visit) const {
   Statement rows(*database_, "SELECT time_us, kind, text FROM record WHERE seq >= ? ORDER BY seq");
   rows.bind(number);

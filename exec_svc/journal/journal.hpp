@@ -122,6 +122,8 @@ class Journal {
 
   /// Removes inputs and snapshots before this record: nobody can replay what was before it any more.
   void forget_inputs_before(std::int64_t number);
+  /// Removes the records that are text before this one: what was done before it is no longer told here.
+  void forget_texts_before(std::int64_t number);
 
   /// Empty when never set.
   void set_text(std::string_view name, std::string_view value);

@@ -147,7 +147,10 @@ void JournaledReactor::trace(temporal::Time now, const std::string& line) {
 void JournaledReactor::anchor(temporal::Time now, std::string_view kind) {
   const std::int64_t number = journal_->append_bytes(now, kind, reactor_->snapshot());
   journal_->set_number("anchor", number);
-  if (!mission_->executive.keep_inputs) journal_->forget_inputs_before(number);
+  if (!mission_->executive.keep_inputs) {
+    journal_->forget_inputs_before(number);
+    journal_->forget_texts_before(number - static_cast<std::int64_t>(mission_->executive.kept_records));
+  }
   turns_since_anchor_ = 0;
 }
 

@@ -145,6 +145,8 @@ struct ReactorSettings {
   temporal::Duration failure_pause = temporal::seconds(30);  ///< after the second of them; doubles with each
   temporal::Duration failure_pause_max = temporal::seconds(600);  ///< but is never longer
   bool keep_inputs = true;  ///< of the whole mission in the journal; false: since the last anchor
+  /// Where inputs are not kept: so many of the newest traces, events and decisions are, and all since the last anchor.
+  std::uint32_t kept_records = 20'000;
   RecoveryStrategy recovery = RecoveryStrategy::cascade;
   executive::StartPolicy start = executive::StartPolicy::earliest;
   Replanning replanning = Replanning::stop_and_replan;

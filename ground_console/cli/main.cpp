@@ -155,6 +155,8 @@ int main(int argc, char** argv) {
   app.add_option("--address", line.connection.address, "This host's address");
   app.add_option("--peers", line.connection.peers, "Addresses of the hosts, separated by commas");
   app.add_option("--network", line.connection.network, "Network file of this host");
+  app.add_flag(roci::services::process::kSecureFlag, line.connection.secure,
+               roci::services::process::kSecureHelp);
   app.add_option("--executive", line.executive,
                  "Whose mission and plan, where several fly (default: the first by name)");
   add_goal_verbs(app, line);

@@ -53,6 +53,8 @@ services::process::Connection choose_run(const services::process::ConnectionFlag
     }
     chosen.domain = runs.front().domain;
     run = runs.front().run;
+    if (!runs.front().network.empty()) chosen.network = runs.front().network;
+    if (!chosen.secure && !runs.front().keys.empty()) chosen.secure = runs.front().keys;
     if (!chosen.dds) chosen.dds = runs.front().dds;
     if (!chosen.address) chosen.address = runs.front().address;
     if (!chosen.peers) {
@@ -80,7 +82,8 @@ services::process::Connection wait_for_run(const services::process::ConnectionFl
 }
 
 Client::Client(const services::process::Connection& connection)
-    : node_(observer(connection), services::transport::open_transport(connection.dds, connection.transport)),
+    : node_(observer(connection), services::transport::open_transport(
+                                      connection.dds, services::process::admitted(connection, "roci"))),
       goals_(services::advertise(node_, topics::goal)),
       orders_(services::advertise(node_, topics::order)) {
   follow(topics::mission_status);

@@ -93,6 +93,9 @@ std::vector<std::string> command_line_of(const Options& options) {
     out.emplace_back(option);
     out.push_back(text.str());
   };
+  const services::process::Connection& connection = options.connection;
+  if (!connection.network.empty()) out.insert(out.end(), {"--network", connection.network.string()});
+  if (!connection.keys.empty()) out.push_back("--secure=" + connection.keys.string());
   if (options.standby) out.emplace_back("--standby");
   add("--watchdog", options.watchdog_s);
   if (options.speed && *options.speed > 0) add("--speed", *options.speed);

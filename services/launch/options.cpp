@@ -113,6 +113,7 @@ Options parse_options(int argc, const char* const* argv, const services::process
   app.add_option("--address", flags.address, "The one interface address to use (default: loopback)");
   app.add_option("--peers", flags.peers, "Hosts of the run, separated by commas");
   app.add_option("--network", flags.network, "This host's network.yaml");
+  app.add_flag(services::process::kSecureFlag, flags.secure, services::process::kSecureHelp);
   app.add_option("--run-folder", options.run_folder, "Folder for journal, logs and summary");
   app.add_option("--resume",
                  "Go on with the live run of this run folder, whose launcher has ended, as it was started; "
@@ -149,6 +150,9 @@ Options parse_options(int argc, const char* const* argv, const services::process
     throw std::invalid_argument("--standby: no service of this mission has standby: true");
   if (options.run.empty()) options.run = environment("ROCI_RUN").value_or(default_run(options));
   options.connection = services::process::resolve_connection(flags, environment, options.mission);
+  if (options.connection.dds == "mixed" && !options.connection.transport.vendor_xml.empty())
+    throw std::invalid_argument(
+        "--dds mixed and vendor_xml: the file is of one vendor, and reaches every process");
   if (options.standby && options.connection.dds == "inproc")
     throw std::invalid_argument("--standby needs processes: choose another transport than inproc");
   options.domain_given = options.connection.transport.domain != 0;

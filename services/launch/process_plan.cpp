@@ -101,6 +101,12 @@ std::vector<std::string> service_arguments(const Options& options, const std::st
                                      transport.address,
                                      "--peers",
                                      joined(transport.peers)};
+  const services::process::Connection& connection = options.connection;
+  if (!connection.network.empty()) {
+    arguments.emplace_back("--network");
+    arguments.push_back(connection.network.string());
+  }
+  if (!connection.keys.empty()) arguments.push_back("--secure=" + connection.keys.string());
   if (incarnation != 0) {
     arguments.emplace_back("--incarnation");
     arguments.push_back(std::to_string(incarnation));

@@ -2,26 +2,31 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <ctime>
 #include <fstream>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "services/clock/host_anchor.hpp"
 #include "services/clock/wall.hpp"
 #include "services/launch/continuation.hpp"
 #include "services/launch/domain_guard.hpp"
+#include "services/launch/log_files.hpp"
 #include "services/launch/notify_socket.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/progress.hpp"
 #include "services/launch/summary.hpp"
 #include "services/launch/supervisor.hpp"
+#include "services/process/disk_pause.hpp"
 #include "services/process/domain_claim.hpp"
 #include "services/process/forced_exit.hpp"
 #include "services/process/private_folder.hpp"
 #include "services/process/run_record.hpp"
+#include "services/process/service_options.hpp"
 #include "services/service.hpp"
 #include "services/transport/plug_ins.hpp"
 
@@ -32,6 +37,7 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kTurn{20};
 constexpr std::size_t kShownLogLines = 8;
+constexpr clock::WallDuration kLookAtLogs = std::chrono::seconds(10);
 // A user's own program stands elsewhere and loads the same vendors.
 const std::string kPluginPath = "ROCI_PLUGIN_PATH=";
 const std::string kAnchor = std::string(clock::kHostAnchorVariable) + "=";
@@ -97,7 +103,18 @@ services::process::RunRecord record_of(const Options& options, std::int64_t star
           options.run_folder,
           options.live ? "live" : "simulated",
           started_unix_us,
-          options.run};
+          options.run,
+          options.connection.keys,
+          options.connection.network};
+}
+
+// Before anything starts: of a secure run no service starts without its keys.
+void require_keys(const Options& options) {
+  for (const std::string& process : options.services) {
+    services::process::Connection connection = options.connection;
+    connection.dds = vendor_of(options, process);
+    services::process::admitted(connection, entry_of(options, process)->name);
+  }
 }
 
 void print_failure(const RunFailure& failure, const fs::path& run_folder) {
@@ -109,6 +126,25 @@ void print_failure(const RunFailure& failure, const fs::path& run_folder) {
   const std::size_t first = lines.size() > kShownLogLines ? lines.size() - kShownLogLines : 0;
   for (std::size_t i = first; i < lines.size(); ++i) std::cerr << "  " << lines[i] << "\n";
   std::cerr << "  (" << log.string() << ")\n";
+}
+
+bool is_full(const std::system_error& error) {
+  return error.code().value() == ENOSPC || error.code().value() == EDQUOT;
+}
+
+// Who goes on with a run waits for its disk as the services of the run would have; what an earlier launcher wrote down
+// holds until then.
+void keep_command_line_on(const Options& options, const clock::HostAnchor& anchor,
+                          std::int64_t started_unix_us, const std::function<int()>& stop_asked) {
+  for (process::DiskPause pause;;) {
+    try {
+      return keep_command_line(options, anchor, started_unix_us);
+    } catch (const std::system_error& error) {
+      if (!options.continued || !is_full(error) || stop_asked() > 0) throw;
+      if (pause.wait())
+        std::cerr << "roci-launch: waits for its disk: " << error.what() << "\n" << std::flush;
+    }
+  }
 }
 
 ExitCode exit_code(const std::optional<RunFailure>& failure, bool good) {
@@ -131,14 +167,16 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   refuse_used_folder(options);
   services::process::make_own_folder(options.run_folder);
   const FolderLock lock(options.run_folder);
-  keep_command_line(options, anchor, started_unix_us);
+  keep_command_line_on(options, anchor, started_unix_us, stop_asked);
   if (options.continued) remove_outcome(options.run_folder);
 
+  require_keys(options);
   const bool may_be_held = domain_may_be_held(options);
   const std::string vendor = console_vendor(options.connection.dds);
   transport.participant = "launcher";
-  services::Node node(observer_options(vendor, options.run),
-                      services::transport::open_transport(vendor, transport));
+  services::process::Connection own = options.connection;
+  own.dds = vendor;
+  services::Node node(observer_options(vendor, options.run), services::process::connect(own));
   if (may_be_held) refuse_held_domain(node, options);
   Progress progress(node, !options.headless);
   const services::process::PublishedRun published(services::process::runtime_folder(),
@@ -174,6 +212,7 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
     supervisor.watchdog().heard(change, clock::wall_now());
   });
   clock::SystemClockWatch clock_watch;
+  clock::WallTime look_at_logs = begun;
   supervisor.start(clock::wall_now());
   for (int stops = 0; !supervisor.finished();) {
     node.spin_once(kTurn);
@@ -186,6 +225,9 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
     if (const auto set = options.live ? clock_watch.judge(unix_us(anchor), clock::unix_us()) : std::nullopt)
       progress.report(v1::SEVERITY_WARNING, "clock.set", *set);
     progress.show();
+    if (clock::wall_now() < look_at_logs) continue;
+    look_at_logs = clock::wall_now() + kLookAtLogs;
+    for (const std::string& service : options.services) bound_log(options.run_folder / (service + ".log"));
   }
 
   if (supervisor.failure()) print_failure(*supervisor.failure(), options.run_folder);

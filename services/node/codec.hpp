@@ -1,6 +1,7 @@
 // The codec of a generated type. Includes Fast CDR: for the few files that instantiate templates.
 #pragma once
 
+#include <concepts>
 #include <memory>
 #include <utility>
 
@@ -21,6 +22,23 @@ concept OfRun = requires(T value, std::string run) {
   { std::as_const(value).run() } -> std::same_as<const std::string&>;
   value.run(run);
 };
+
+/// The service that a sample says it is from.
+template <class T>
+const std::string& sender_as(const void* value) {
+  const T& sample = *static_cast<const T*>(value);
+  if constexpr (HasHeader<T>) {
+    return std::as_const(sample.header()).sender();
+  } else if constexpr (std::same_as<T, v1::ClockStep>) {
+    return sample.master();
+  } else if constexpr (std::same_as<T, v1::TimeProbe>) {
+    return sample.answerer().empty() ? sample.asker() : sample.answerer();
+  } else if constexpr (std::same_as<T, v1::LeaseMessage> || std::same_as<T, v1::JournalChunk>) {
+    return sample.executive();
+  } else {
+    return sample.service();
+  }
+}
 
 template <class T>
 Decoded decode_as(std::span<const std::uint8_t> payload) {
@@ -50,6 +68,7 @@ TopicSpec spec_of(const Topic<T>& topic) {
   codec.type = transport::describe_type<T>(topic.type_name);
   codec.decode = &decode_as<T>;
   codec.key = &key_as<T>;
+  codec.sender = &sender_as<T>;
   if constexpr (HasHeader<T>) {
     codec.size = &size_as<T>;
     codec.header = [](const void* value) -> const v1::SampleHeader& {

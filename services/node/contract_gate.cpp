@@ -73,6 +73,11 @@ void ContractGate::tell_later(v1::Event event, clock::WallTime now) {
   untold_.push_back({now + clock::wall_seconds(kTellAfterS), std::move(event)});
 }
 
+void ContractGate::tell_now(const v1::Event& event) {
+  prepare_();
+  tell_(event);
+}
+
 void ContractGate::turn(clock::WallTime now) {
   if (!held_.empty()) retry_held();
   for (const ContractMismatch& mismatch : check_.take_mismatches()) {

@@ -29,6 +29,8 @@ class ContractGate {
 
   /// Tells operators of something else that was found out about another participant.
   void tell_later(v1::Event event, clock::WallTime now);
+  /// The same without delay, for a process that ends.
+  void tell_now(const v1::Event&);
 
   /// Samples that were refused so far, or held back in vain.
   std::uint64_t refused() const { return refused_; }

@@ -36,7 +36,8 @@ struct Codec {
   Decoded (*decode)(std::span<const std::uint8_t>) = nullptr;
   const v1::SampleHeader& (*header)(const void* value) = nullptr;  ///< Null for types without one.
   const std::string& (*run)(const void* value) = nullptr;          ///< null for types that name no run
-  transport::Payload (*key)(const void* value) = nullptr;          ///< Empty for types without a key.
+  const std::string& (*sender)(const void* value) = nullptr;  ///< The service that says it, by its own word.
+  transport::Payload (*key)(const void* value) = nullptr;     ///< Empty for types without a key.
   /// In bytes as on the wire, but without the run's name, so that it is the same in every run. Null for types
   /// without a header.
   std::size_t (*size)(const void* value) = nullptr;

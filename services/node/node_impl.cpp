@@ -7,6 +7,17 @@
 #include "services/node/typed_endpoints.hpp"
 
 namespace roci::services::node {
+namespace {
+
+v1::Event warning(const std::string& code, const std::string& text) {
+  v1::Event event;
+  event.severity_level(v1::SEVERITY_WARNING);
+  event.code(code);
+  event.text(text);
+  return event;
+}
+
+}  // namespace
 
 NodeImpl::NodeImpl(NodeOptions node_options, std::unique_ptr<transport::Transport> node_transport)
     : options(std::move(node_options)),
@@ -59,6 +70,9 @@ void NodeImpl::read(Arrival&& arrival) {
   Decoded decoded = input.topic.codec.decode(arrival.sample.payload);
   if (!decoded.whole) return refuse_malformed(input, decoded, arrival.sample.writer);
   const std::shared_ptr<const void> value = std::move(decoded.value);
+  const auto sender_of = input.topic.codec.sender;
+  if (sender_of != nullptr && !transport->speaks_as(arrival.sample.writer, sender_of(value.get())))
+    return refusals.note(input.topic.name, Refusal::another_name, arrival.sample.writer);
   const auto run_of = input.topic.codec.run;
   if (run_of != nullptr && !run.obeys(run_of(value.get()), input.topic.name)) {
     for (const auto& [foreign, topic] : run.take_news())
@@ -137,19 +151,18 @@ void NodeImpl::hear_namesake(const v1::Heartbeat& beat) {
   const auto verdict = namesakes_->hear(beat, clock::wall_now());
   if (verdict == health::NamesakeWatch::Verdict::nothing) return;
   const std::string other = health::process_text(beat);
-  if (verdict == health::NamesakeWatch::Verdict::yields)
-    throw health::Superseded("this run has another " + other +
-                             ", which goes on in this name; this process ends");
+  if (verdict == health::NamesakeWatch::Verdict::yields) {
+    const std::string text =
+        "this run has another " + other + ", which goes on in this name; this process ends";
+    gate.tell_now(warning("service.doubled", text));
+    throw health::Superseded(text);
+  }
   log::warning(options.name + ": this run has another " + other);
   tell("service.doubled", "this run has another " + other + "; that one ends, this one goes on");
 }
 
 void NodeImpl::tell(const std::string& code, const std::string& text) {
-  v1::Event event;
-  event.severity_level(v1::SEVERITY_WARNING);
-  event.code(code);
-  event.text(text);
-  gate.tell_later(std::move(event), clock::wall_now());
+  gate.tell_later(warning(code, text), clock::wall_now());
 }
 
 }  // namespace roci::services::node

@@ -20,6 +20,8 @@ const char* remedy_of(Refusal why) {
       return "too many wait already: its writer is too fast, or this service too slow";
     case Refusal::no_room:
       return "the table that it would have entered is full";
+    case Refusal::another_name:
+      return "its writer has not the certificate of the service that it names as its sender";
   }
   return "";
 }
@@ -36,6 +38,8 @@ const char* to_string(Refusal why) {
       return "queue full";
     case Refusal::no_room:
       return "no room";
+    case Refusal::another_name:
+      return "another's name";
   }
   return "unknown";
 }

@@ -18,10 +18,11 @@
 namespace roci::services::node {
 
 enum class Refusal {
-  malformed,   ///< It does not decode, or says what no sample of its type can say.
-  too_large,   ///< It is larger than its topic allows (topics.hpp).
-  queue_full,  ///< The loop has not yet taken as many as may wait (bounds/limits.hpp).
-  no_room,     ///< The table that it would have entered is full.
+  malformed,     ///< It does not decode, or says what no sample of its type can say.
+  too_large,     ///< It is larger than its topic allows (topics.hpp).
+  queue_full,    ///< The loop has not yet taken as many as may wait (bounds/limits.hpp).
+  no_room,       ///< The table that it would have entered is full.
+  another_name,  ///< In a secure run: it names a sender whose certificate its writer has not.
 };
 
 /// "malformed", "too large", …

@@ -52,6 +52,7 @@ struct Request {
   /// Holds when the step has to be over at the latest; until then the owner may repair (R146). If it is empty
   /// there is no limit.
   std::optional<temporal::Time> latest_end{};
+  std::uint32_t plan = 0;  ///< version of the commander's plan, which never falls in one epoch; 0: not told
   std::uint32_t incarnation = 0;  ///< of the sender; 0: not told
   /// Counts what the sender has sent; it rises while that lives.
   std::uint64_t number = 0;

@@ -33,6 +33,7 @@ Reception CommandLedger::receive(const Request& request, Time now) {
   if (!asks || !harmless) {
     if (auto refused = refuse(request, standing, now)) return *std::move(refused);
   }
+  if (auto old = answer_if_forgotten(request, now)) return {Reception::Order::nothing, std::move(old)};
   switch (request.action) {
     case Action::query:
       return {Reception::Order::nothing, answer(request.key, now)};
@@ -98,6 +99,9 @@ void CommandLedger::raise(const Request& request) {
 }
 
 Reception CommandLedger::execute(const Request& request, Time now) {
+  // Stopping is never refused.
+  if (auto old = stops(request) ? std::nullopt : answer_if_forgotten(request, now))
+    return {Reception::Order::nothing, std::move(old)};
   const auto [record, is_new] = records_.try_emplace(request.key);
   if (!is_new) {
     if (!record->second.word) return {};  // its word is still to come
@@ -108,7 +112,9 @@ Reception CommandLedger::execute(const Request& request, Time now) {
   record->second.robot = request.robot;
   record->second.subsystem = request.subsystem;
   record->second.latest_end = request.latest_end;
-  entries_.push_back({request.key, request.sender, counts ? request.epoch : 0});
+  record->second.plan = request.plan;
+  retention_.taken(request.key, request.plan);
+  entries_.push_back({request.key, request.sender, counts ? request.epoch : 0, std::nullopt, request.plan});
   return {Reception::Order::carry_out, std::nullopt};
 }
 
@@ -153,13 +159,24 @@ void CommandLedger::restore(const LedgerEntry& entry) {
     Commander& commander = commanders_[entry.sender];
     commander.epoch = std::max(commander.epoch, entry.epoch);
   }
-  if (Record& record = records_[entry.key]; entry.word) record.word = entry.word;
+  if (entry.kind == LedgerEntry::Kind::epoch) return;
+  if (entry.kind == LedgerEntry::Kind::forgotten)
+    return retention_.restore(entry.key.commander, {entry.key.issued_epoch, entry.plan});
+  Record& record = records_[entry.key];
+  if (entry.word) {
+    record.word = entry.word;
+  } else {
+    record.plan = entry.plan;
+    retention_.taken(entry.key, entry.plan);
+  }
+  if (is_last(entry.word)) end(entry.key, record);
 }
 
 void CommandLedger::end_restored() {
   for (auto& [key, record] : records_) {
     if (is_last(record.word)) continue;
     record.word = Word{Stage::failed, "owner-restarted", "its owner was started anew while it ran"};
+    retention_.ended(key, record.plan);
   }
 }
 
@@ -176,6 +193,37 @@ Reception CommandLedger::cancel(const Request& request, Time now) {
   return {Reception::Order::nothing, std::move(word)};
 }
 
+/// The record may be gone then.
+void CommandLedger::end(const CommandKey& key, const Record& record) {
+  retention_.ended(key, record.plan);
+  for (const CommandKey& old : retention_.take_due()) records_.erase(old);
+}
+
+std::optional<Ack> CommandLedger::answer_if_forgotten(const Request& request, Time now) const {
+  if (records_.contains(request.key) || !retention_.forgotten(request.key, request.plan)) return std::nullopt;
+  if (request.action == Action::cancel)
+    return ack(request.key, {Stage::cancel_failed, "already-ended", "it has ended long ago"}, now);
+  return ack(request.key, {Stage::failed, "forgotten", "it ended so long ago that its last word is not kept"},
+             now);
+}
+
+std::vector<LedgerEntry> CommandLedger::kept() const {
+  std::vector<LedgerEntry> out;
+  for (const auto& [name, commander] : commanders_)
+    out.push_back({{"", 0, name, 0}, name, commander.epoch, std::nullopt, 0, LedgerEntry::Kind::epoch});
+  for (const auto& [name, mark] : retention_.forgotten_marks())
+    out.push_back({{"", 0, name, mark.epoch}, "", 0, std::nullopt, mark.plan, LedgerEntry::Kind::forgotten});
+  for (const Retention::Ended& one : retention_.ended()) {
+    const auto record = records_.find(one.key);
+    if (record == records_.end()) continue;
+    out.push_back({one.key, "", 0, std::nullopt, one.mark.plan});
+    out.push_back({one.key, "", 0, record->second.word});
+  }
+  for (const auto& [key, record] : records_)
+    if (!is_last(record.word)) out.push_back({key, "", 0, std::nullopt, record.plan});
+  return out;
+}
+
 CommandLedger::Record* CommandLedger::open_record(const CommandKey& key) {
   const auto found = records_.find(key);
   if (found == records_.end() || is_last(found->second.word)) return nullptr;
@@ -190,8 +238,12 @@ std::optional<Ack> CommandLedger::say(const CommandKey& key, Word word, Time now
     word.results.duration = now - record->accepted;
   }
   record->word = std::move(word);
-  if (is_last(record->word)) entries_.push_back({key, "", 0, record->word});
-  return ack(key, *record->word, now);
+  const Ack said = ack(key, *record->word, now);
+  if (is_last(record->word)) {
+    entries_.push_back({key, "", 0, record->word});
+    end(key, *record);
+  }
+  return said;
 }
 
 std::optional<Ack> CommandLedger::refuse_cancel(const CommandKey& key, std::string reason, Time now) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "services/owner/command.hpp"
+#include "services/owner/retention.hpp"
 
 namespace roci::services::owner {
 
@@ -33,15 +34,21 @@ struct Reception {
 /// Is what must outlive the owner's process: a key with its last word (none: it was taken), and the newest
 /// epoch of whoever sent it.
 struct LedgerEntry {
+  /// Other kinds name no activity: `epoch` keeps a sender's newest epoch alone, `forgotten` says that every key of the
+  /// commander up to this epoch and plan that has no entry of its own is an old one.
+  enum class Kind { command, epoch, forgotten };
   CommandKey key;
   std::string sender;
   std::uint64_t epoch = 0;
   std::optional<Word> word{};
+  std::uint32_t plan = 0;
+  Kind kind = Kind::command;
   bool operator==(const LedgerEntry&) const = default;
 };
 
 /// Takes each key once. What repeats it, and every query, gets the last word again. A cancel has two phases:
-/// the order to break off, and how that went. What ended keeps its last word for good.
+/// the order to break off, and how that went. What ended keeps its last word until it is one of the oldest of many
+/// (retention.hpp); then its key is still never taken again, and its answer is `failed`, `forgotten`.
 ///
 /// Epochs are counted by who sends. A command or a cancel that is taken raises its sender's epoch, by kEpochJump at
 /// most; nothing else does. An epoch that is over, that another process of the same name has used, or that is
@@ -85,6 +92,9 @@ class CommandLedger {
   /// Returns what is new since the last call, in order; what is not kept before it is acted upon is lost with the
   /// process.
   std::vector<LedgerEntry> take_entries() { return std::exchange(entries_, {}); }
+  /// Returns what an owner must keep of all that was, so that its file may begin anew with it: as many entries as there
+  /// are commands that are not forgotten, twice, and a few.
+  std::vector<LedgerEntry> kept() const;
   /// Before the first request: takes in what an earlier process kept.
   void restore(const LedgerEntry&);
   /// After the last restore(): what the earlier process had not ended has failed with it.
@@ -99,6 +109,7 @@ class CommandLedger {
     temporal::Time accepted{};
     bool cancelling = false;
     bool repaired = false;
+    std::uint32_t plan = 0;
   };
   // The newest epoch of one sender, and which of its processes has used it.
   struct Commander {
@@ -116,11 +127,14 @@ class CommandLedger {
   Reception execute_for_safety(const Request&, temporal::Time now);
   Reception cancel(const Request&, temporal::Time now);
   Record* open_record(const CommandKey&);
+  std::optional<Ack> answer_if_forgotten(const Request&, temporal::Time now) const;
+  void end(const CommandKey&, const Record&);
   Ack ack(const CommandKey&, Word, temporal::Time now) const;
 
   std::map<std::string, Commander> commanders_;                        // by who sends
   std::map<std::pair<std::string, std::string>, std::string> leases_;  // who holds it, by robot and subsystem
   std::map<CommandKey, Record> records_;
+  Retention retention_;
   std::vector<LedgerEntry> entries_;
 };
 

@@ -13,6 +13,9 @@ namespace {
 constexpr temporal::Duration kAgain = std::chrono::seconds(60);
 constexpr std::size_t kAnnounced = 256;
 
+// So many entries are appended to the file before it begins anew: some times those of the commands that are kept.
+constexpr std::size_t kAppended = 10 * Retention::kKept;
+
 }  // namespace
 
 CommandServer::CommandServer(Node& node, Driver& driver)
@@ -32,16 +35,38 @@ void CommandServer::keep_in(const std::filesystem::path& file) {
   file_.emplace(file);
   for (const LedgerEntry& entry : file_->read()) ledger_.restore(entry);
   ledger_.end_restored();
+  begin_file_anew();
+}
+
+/// A file that cannot be begun anew just goes on.
+bool CommandServer::begin_file_anew() {
+  try {
+    file_->replace(ledger_.kept());
+    unwritten_.clear();
+    return true;
+  } catch (const std::system_error& error) {
+    announce({"ledger.unwritten", error.what()});
+    return false;
+  }
 }
 
 void CommandServer::keep() {
-  const std::vector<LedgerEntry> entries = ledger_.take_entries();
+  std::vector<LedgerEntry> entries = ledger_.take_entries();
   if (!file_) return;
+  unwritten_.insert(unwritten_.end(), entries.begin(), entries.end());
+  if (file_->appended() + unwritten_.size() >= kAppended && begin_file_anew()) return;
+  if (unwritten_.size() >= kAppended) {
+    unwritten_.erase(unwritten_.begin(),
+                     unwritten_.end() - kAppended);  // the file begins anew once the disk takes it
+    return;
+  }
+  auto next = unwritten_.begin();
   try {
-    for (const LedgerEntry& entry : entries) file_->append(entry);
+    for (; next != unwritten_.end(); ++next) file_->append(*next);
   } catch (const std::system_error& error) {
     announce({"ledger.unwritten", error.what()});  // a robot that can still be stopped beats one that cannot
   }
+  unwritten_.erase(unwritten_.begin(), next);
 }
 
 void CommandServer::announce(const Notice& notice) {

@@ -56,6 +56,7 @@ class CommandServer {
   void receive(const Request&);
   void stop(const Request&);
   void keep();
+  bool begin_file_anew();
   void announce(const Notice&);
   bool send(const std::optional<Ack>&);
   void watch_overruns();
@@ -64,6 +65,7 @@ class CommandServer {
   Driver& driver_;
   CommandLedger ledger_;
   std::optional<LedgerFile> file_;
+  std::vector<LedgerEntry> unwritten_;  // what the disk has not taken yet, in order
   Publisher<v1::CommandAck> acks_;
   Publisher<v1::Event> events_;
   std::map<std::string, temporal::Time> announced_;  // when operators were told last, by code and text

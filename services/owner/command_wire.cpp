@@ -49,6 +49,7 @@ Request from_wire(const v1::Command& command) {
   request.sender = command.header().sender();
   request.incarnation = command.header().incarnation();
   request.number = command.header().seq();
+  request.plan = command.plan_version();
   request.robot = command.robot();
   request.subsystem = command.subsystem();
   request.command = command.command_name();

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -66,7 +67,14 @@ json to_json(const LedgerEntry& entry) {
     out["epoch"] = entry.epoch;
   }
   if (entry.word) out["word"] = to_json(*entry.word);
+  if (entry.plan > 0) out["plan"] = entry.plan;
+  if (entry.kind == LedgerEntry::Kind::epoch) out["only"] = "epoch";
+  if (entry.kind == LedgerEntry::Kind::forgotten) out["only"] = "forgotten";
   return out;
+}
+
+std::string line_of(const LedgerEntry& entry) {
+  return to_json(entry).dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 LedgerEntry entry_in(const json& in) {
@@ -76,16 +84,28 @@ LedgerEntry entry_in(const json& in) {
   out.sender = in.value("sender", "");
   out.epoch = in.value("epoch", std::uint64_t{0});
   if (in.contains("word")) out.word = word_in(in["word"]);
+  out.plan = in.value("plan", std::uint32_t{0});
+  const std::string only = in.value("only", "");
+  if (only == "epoch") out.kind = LedgerEntry::Kind::epoch;
+  if (only == "forgotten") out.kind = LedgerEntry::Kind::forgotten;
   return out;
 }
 
 }  // namespace
 
+namespace {
+
+int open_for_appending(const std::filesystem::path& file, int more = 0) {
+  const int descriptor =
+      open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | more, 0600);
+  if (descriptor < 0) throw std::system_error(errno, std::generic_category(), "cannot open " + file.string());
+  return descriptor;
+}
+
+}  // namespace
+
 LedgerFile::LedgerFile(std::filesystem::path file)
-    : file_(std::move(file)),
-      descriptor_(open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0600)) {
-  if (descriptor_ < 0)
-    throw std::system_error(errno, std::generic_category(), "cannot open " + file_.string());
+    : file_(std::move(file)), descriptor_(open_for_appending(file_)) {
   // A line that its writer did not finish must not swallow the next one.
   std::ifstream in(file_, std::ios::binary | std::ios::ate);
   if (in.tellg() <= 0) return;
@@ -111,15 +131,33 @@ std::vector<LedgerEntry> LedgerFile::read() const {
 }
 
 void LedgerFile::append(const LedgerEntry& entry) {
-  const std::string line =
-      (torn_ ? "\n" : "") + to_json(entry).dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+  const std::string line = (torn_ ? "\n" : "") + line_of(entry);
   const ssize_t written = write(descriptor_, line.data(), line.size());
   if (written == static_cast<ssize_t>(line.size())) {
     torn_ = false;
+    ++appended_;
     return;
   }
   torn_ = torn_ || written > 0;
   throw std::system_error(errno, std::generic_category(), "cannot write " + file_.string());
+}
+
+void LedgerFile::replace(const std::vector<LedgerEntry>& entries) {
+  std::string text;
+  for (const LedgerEntry& entry : entries) text += line_of(entry);
+  const std::filesystem::path next = std::filesystem::path(file_).concat(".new");
+  const int descriptor = open_for_appending(next, O_TRUNC);
+  const bool written = write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+                       fsync(descriptor) == 0 && rename(next.c_str(), file_.c_str()) == 0;
+  if (!written) {
+    const int cause = errno;
+    close(descriptor);
+    unlink(next.c_str());
+    throw std::system_error(cause, std::generic_category(), "cannot write " + next.string());
+  }
+  close(std::exchange(descriptor_, descriptor));
+  torn_ = false;
+  appended_ = 0;
 }
 
 }  // namespace roci::services::owner

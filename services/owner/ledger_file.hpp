@@ -1,6 +1,7 @@
 // The file in which an owner keeps what must outlive its process: one JSON object a line, appended.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -23,11 +24,17 @@ class LedgerFile {
   std::vector<LedgerEntry> read() const;
   /// Throws std::system_error if the entry cannot be written whole.
   void append(const LedgerEntry&);
+  /// Begins the file anew with these entries, in one step: whoever reads it finds the old ones or the new ones. Throws
+  /// std::system_error if that is impossible; nothing has changed then.
+  void replace(const std::vector<LedgerEntry>&);
+  /// Returns how many entries were appended since the file was opened or replaced.
+  std::size_t appended() const { return appended_; }
 
  private:
   std::filesystem::path file_;
   int descriptor_ = -1;
   bool torn_ = false;  // the file ends within a line
+  std::size_t appended_ = 0;
 };
 
 }  // namespace roci::services::owner

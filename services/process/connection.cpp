@@ -1,12 +1,16 @@
 #include "services/process/connection.hpp"
 
 #include <charconv>
+#include <cstdint>
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "core/mission/entry.hpp"
+#include "services/clock/wall.hpp"
+#include "services/log/log.hpp"
+#include "services/security/key_folder.hpp"
 
 namespace roci::services::process {
 namespace {
@@ -29,6 +33,12 @@ int parse_domain(const std::string& text, const std::string& from) {
   return checked_domain(domain, from);
 }
 
+std::filesystem::path key_folder(const std::string& given) {
+  const std::filesystem::path folder =
+      given == kDefaultKeys ? security::default_key_folder() : std::filesystem::path(given);
+  return std::filesystem::absolute(folder).lexically_normal();
+}
+
 void apply_mission_file(const std::filesystem::path& folder, Connection& connection) {
   if (folder.empty()) return;
   const auto mission = mission::Entry::load(folder / "mission.yaml");
@@ -42,7 +52,7 @@ void apply_network_file(const std::filesystem::path& file, Connection& connectio
         "nobody sets a DDS partition: partitions follow from the robot that a service belongs to; remove "
         "'partition', and give runs that must not hear each other domains of their own");
   }
-  network.allow_only({"dds", "domain", "address", "peers", "vendor_xml"});
+  network.allow_only({"dds", "domain", "address", "peers", "vendor_xml", "secure"});
   connection.dds = network.text_or("dds", connection.dds);
   auto& transport = connection.transport;
   if (const auto domain = network.find("domain")) {
@@ -51,6 +61,10 @@ void apply_network_file(const std::filesystem::path& file, Connection& connectio
   transport.address = network.text_or("address", transport.address);
   if (const auto peers = network.find("peers")) transport.peers = peers->texts();
   if (const auto xml = network.find("vendor_xml")) transport.vendor_xml = xml->resolve(xml->text());
+  if (const auto secure = network.find("secure"))
+    connection.keys =
+        key_folder(secure->text() == kDefaultKeys ? kDefaultKeys : secure->resolve(secure->text()).string());
+  connection.network = std::filesystem::absolute(file).lexically_normal();
 }
 
 }  // namespace
@@ -91,7 +105,27 @@ Connection resolve_connection(const ConnectionFlags& flags, const Environment& e
   } else if (const auto domain = environment("ROCI_DOMAIN")) {
     connection.transport.domain = parse_domain(*domain, "ROCI_DOMAIN");
   }
+  if (const auto secure = pick(flags.secure, "ROCI_SECURE")) connection.keys = key_folder(*secure);
+  if (!connection.keys.empty() && !connection.transport.vendor_xml.empty()) {
+    throw std::invalid_argument(
+        "a secure run and vendor_xml: a vendor's own XML is used instead of all other settings, those of "
+        "--secure included; "
+        "leave one of them out");
+  }
+  if (!connection.keys.empty() && connection.dds == "inproc")
+    throw std::invalid_argument(
+        "a secure run over inproc: one process has no network; leave out --secure, or choose a vendor");
   return connection;
+}
+
+transport::TransportOptions admitted(const Connection& connection, const std::string& service) {
+  transport::TransportOptions options = connection.transport;
+  if (connection.keys.empty()) return options;
+  const std::int64_t now_s = clock::unix_us() / 1'000'000;
+  options.credentials = security::checked_credentials(connection.keys, service, connection.dds, now_s);
+  if (const std::string warning = security::expiry_warning(*options.credentials, now_s); !warning.empty())
+    log::warning(warning);
+  return options;
 }
 
 }  // namespace roci::services::process

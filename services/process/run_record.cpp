@@ -30,7 +30,9 @@ json to_json(const RunRecord& run) {
           {"run_folder", run.run_folder.string()},
           {"clock", run.clock},
           {"started_unix_us", run.started_unix_us},
-          {"run", run.run}};
+          {"run", run.run},
+          {"keys", run.keys.string()},
+          {"network", run.network.string()}};
 }
 
 // A record that names no version is of version 1.
@@ -56,6 +58,8 @@ std::optional<RunRecord> read(const fs::path& file) {
     run.clock = record.at("clock");
     run.started_unix_us = record.at("started_unix_us");
     run.run = record.value("run", "");
+    run.keys = record.value("keys", "");
+    run.network = record.value("network", "");
     return run;
   } catch (const json::exception&) {
     return std::nullopt;  // it is no record

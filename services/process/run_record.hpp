@@ -24,7 +24,9 @@ struct RunRecord {
   std::filesystem::path run_folder;
   std::string clock;  ///< "live" or "simulated".
   std::int64_t started_unix_us = 0;
-  std::string run{};  // identity; empty in records of before there were any
+  std::string run{};                // identity; empty in records of before there were any
+  std::filesystem::path keys{};     ///< Is the key folder of a secure run; empty: the run is plain.
+  std::filesystem::path network{};  ///< Is the network file that it was given; empty: none.
 
   bool operator==(const RunRecord&) const = default;
 };

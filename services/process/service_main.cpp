@@ -58,7 +58,7 @@ std::unique_ptr<transport::Transport> connect(const Connection& connection) {
     throw transport::TransportError(
         "inproc joins services inside one process: run roci-rehearse, or choose a DDS vendor with --dds");
   }
-  return transport::open_transport(connection.dds, connection.transport);
+  return transport::open_transport(connection.dds, admitted(connection, connection.transport.participant));
 }
 
 void run_service(const ServiceOptions& options, StopSignals& signals, MakeService* make) {

@@ -41,6 +41,7 @@ void add_connection(CLI::App& app, ConnectionFlags& flags) {
   app.add_option("--address", flags.address, "The one interface address to use (or ROCI_ADDRESS)");
   app.add_option("--peers", flags.peers, "Hosts of the run, separated by commas (or ROCI_PEERS)");
   app.add_option("--network", flags.network, "This host's network.yaml (or ROCI_NETWORK)");
+  app.add_flag(kSecureFlag, flags.secure, kSecureHelp);
 }
 
 void add_clock(CLI::App& app, node::NodeOptions& node, std::string& roster, double& epoch_s) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -90,6 +91,18 @@ class Reader {
   virtual int matched_writers() const = 0;
 };
 
+/// The files of DDS Security that a participant joins with (services/security/key_folder.hpp makes and checks them).
+struct Credentials {
+  std::string service;  ///< Whose certificate it is.
+  std::filesystem::path identity_authority;
+  std::filesystem::path certificate;
+  std::filesystem::path private_key;
+  std::filesystem::path revoked;
+  std::filesystem::path permissions_authority;
+  std::filesystem::path governance;
+  std::filesystem::path permissions;
+};
+
 struct TransportOptions {
   int domain = 0;
   std::string participant{};  ///< Vendor tools show it.
@@ -98,6 +111,8 @@ struct TransportOptions {
   std::vector<std::string> peers = {"127.0.0.1"};  ///< These hosts are asked for participants, unicast.
   /// The path of a vendor's own XML, which is used instead of the defaults if not empty.
   std::string vendor_xml{};
+  /// With them nothing is said or heard in plain; a transport that cannot do that is not opened. Without them: a plain run.
+  std::optional<Credentials> credentials{};
   /// The USER_DATA of the participant; nothing stands for the announcement of this build, which open_transport fills in.
   std::optional<std::string> announcement{};
 };
@@ -126,6 +141,9 @@ class Transport {
   /// The participant that a writer or a reader belongs to, also this one and also when it has left. It is known before
   /// its first sample arrives, as long as its USER_DATA does; nothing if it was not discovered. Any thread may ask.
   virtual std::optional<Participant> participant_of(const Guid&) = 0;
+  /// Whether the participant of a writer may call itself `sender`: with credentials it must have that service's
+  /// certificate, in a plain run anybody may. Any thread may ask.
+  virtual bool speaks_as(const Guid& writer, std::string_view sender) const = 0;
 };
 
 /// Each plug-in exports this under the name roci_create_transport. It throws TransportError.

@@ -54,7 +54,8 @@ class World {
   /// then, either.
   std::optional<temporal::Time> next_change() const;
 
-  const std::vector<Begun>& begun() const { return begun_; }
+  /// Returns the commands that components took up since the last call, in order.
+  std::vector<Begun> take_begun() { return std::exchange(begun_, {}); }
   /// Returns what the components have done since the last call, in order.
   std::vector<Effect> take_effects() { return std::exchange(environment_.effects, {}); }
 

@@ -18,9 +18,10 @@ struct House {
 const std::vector<House> kHouses = {
     {"core/", {"core/temporal/", "core/mission/", "core/pddl/", "core/kinematics/", "core/terrain/"}},
     {"services/",
-     {"services/bounds/", "services/clock/", "services/link/", "services/log/", "services/wire/", "services/transport/",
-      "services/vendors/", "services/topics.hpp", "services/health/", "services/node/", "services/rpc/",
-      "services/", "services/owner/", "services/process/", "services/launch/"}},
+     {"services/bounds/", "services/clock/", "services/link/", "services/log/", "services/wire/",
+      "services/transport/", "services/certificate/", "services/vendors/", "services/topics.hpp",
+      "services/health/", "services/node/", "services/rpc/", "services/", "services/owner/",
+      "services/security/", "services/process/", "services/launch/"}},
     {"planner_svc/", {"planner_svc/engine/", "planner_svc/temporal_pddl/", "planner_svc/"}},
     {"sim_svc/",
      {"sim_svc/world/", "sim_svc/setup/", "sim_svc/components/", "sim_svc/scenario/", "sim_svc/"}},

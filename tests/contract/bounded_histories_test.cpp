@@ -114,7 +114,8 @@ TEST_P(BoundedHistories, AWriterWhoseReaderHasStoppedRefusesWhatIsBeyondItsBound
   ASSERT_EQ(::kill(reader.pid(), SIGSTOP), 0);
   const std::size_t before = peak_memory(getpid());
   std::size_t taken = 0;
-  while (taken < 200 && writer->write(payload)) ++taken;
+  // On a slow machine its lease may be over first: nothing is kept for it then.
+  while (taken < 200 && matches.matched() > 0 && writer->write(payload)) ++taken;
   EXPECT_GT(taken, 0U);
   EXPECT_LE(taken, vendors::kUnconfirmedBytes / payload.size() + 1) << "of 200";
   EXPECT_LE(peak_memory(getpid()) - before, vendors::kUnconfirmedBytes + 40 * kMegabyte);

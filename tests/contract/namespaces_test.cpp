@@ -2,6 +2,7 @@
 // is why it is a program of its own; CMake registers it only where `ip netns` works.
 #include <gmock/gmock.h>
 
+#include "tests/contract/secure/key_ring.hpp"
 #include "tests/contract/support/pairing.hpp"
 #include "tests/contract/support/peers.hpp"
 #include "tests/contract/support/two_hosts.hpp"
@@ -35,6 +36,24 @@ TEST_P(Namespaces, StateCrossesAndALateJoinerSeesIt) {
   ASSERT_TRUE(reader.wait_for("disposed ground photo"));
   ASSERT_TRUE(neighbour.wait_for("disposed ground photo"));
   EXPECT_EQ(writer.finish(), 0);
+}
+
+// The rover has a key folder of its own, and no authority.
+TEST_P(Namespaces, SecureParticipantsHearEachOtherAcrossAndOutsidersNobody) {
+  const KeyRing ring;
+  const std::string rover = ring.path() + "-rover";
+  ring.authority().export_to(rover, "rover", {"exec_svc"}, 365, KeyRing::now_s());
+  ChildProcess outsider(peer(hosts_.rover, hosts_.ground, GetParam().reader, "goal-reader"),
+                        {"PEER_PARTITION=roci.team"});
+  ChildProcess writer(peer(hosts_.ground, hosts_.rover, GetParam().writer, "goal-writer"),
+                      peer_keys(ring.path(), "roci"));
+  writer.send("write ground photo 1");
+  ChildProcess reader(peer(hosts_.rover, hosts_.ground, GetParam().reader, "goal-reader"),
+                      peer_keys(rover, "exec_svc"));
+  ASSERT_TRUE(reader.wait_for("goal ground photo 1"));
+  writer.send("write ground photo 2");
+  ASSERT_TRUE(reader.wait_for("goal ground photo 2"));
+  EXPECT_THAT(outsider.lines(), testing::Not(testing::Contains("goal ground photo 1")));
 }
 
 TEST_P(Namespaces, CallsAreAnsweredAcross) {

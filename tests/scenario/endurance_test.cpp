@@ -127,5 +127,24 @@ TEST_F(Endurance, ARunGoesOnWhenItsLauncherWasKilled) {
   EXPECT_THAT(events(), ::testing::Contains(::testing::StartsWith("executive.resumed")));
 }
 
+// The same on a disk that is full just then: it is waited for.
+TEST_F(Endurance, ARunGoesOnOnceItsDiskHasRoom) {
+  const std::string out = (folder / "out").string(), fill = (run_folder / "fill").string();
+  const Ended ended =
+      run("mkdir " + run_folder.string() + "; unshare -rm sh -c '" + waiting() +
+          "mount -t tmpfs -o size=5m,mode=700 tmpfs " + run_folder.string() + " || exit 77; " +
+          launch(kPlanetary, "--headless") + " & pid=$!; until_it_says " +
+          (run_folder / "journal.sqlite-wal").string() +
+          " plan.adopted; kill -9 $pid; wait; dd if=/dev/zero of=" + fill +
+          " bs=64k 2>/dev/null; dd if=/dev/zero of=" + fill +
+          " bs=1 oflag=append conv=notrunc 2>/dev/null; (timeout 280 roci-launch --resume " +
+          run_folder.string() + " --headless --json; echo $? > " + (folder / "code").string() + ") > " + out +
+          " 2>&1 & until_it_says " + out + " \"waits for its disk\"; rm " + fill + "; wait; cat " + out +
+          "; exit $(cat " + (folder / "code").string() + ")'");
+  if (ended.exit_code == 77) GTEST_SKIP() << "this user cannot mount a small disk (unshare -rm)";
+  EXPECT_THAT(ended.output, HasSubstr("waits for its disk"));
+  expect_achieved(ended);
+}
+
 }  // namespace
 }  // namespace roci::scenario

@@ -87,6 +87,8 @@ TEST_P(Quarry, FliesAsItsFileExpectsWithOneTracePerExecutive) {
   EXPECT_EQ(flight.summary.value("result", ""), "achieved");
   EXPECT_EQ(flight.summary["goals"].value("achieved", -1), 2);
   EXPECT_EQ(flight.summary["expected"].value("fault", "no report"), "");
+  for (const char* planner : {"planner.digger", "planner.hauler"})
+    EXPECT_TRUE(fs::exists(run_folder / (std::string(planner) + ".planner_calls") / "1.json")) << planner;
   static std::map<std::string, std::map<std::string, std::string>> references;  // by scenario
   const auto [reference, is_new] = references.try_emplace(scenario);
   if (is_new) reference->second = traces(rehearse(scenario));
@@ -122,6 +124,19 @@ TEST_F(QuarryFlight, EachExecutiveCommandsItsOwnRobotAndKeepsItsOwnFiles) {
   }
   EXPECT_EQ(robot_of,
             (std::map<std::string, std::string>{{"exec.digger", "digger"}, {"exec.hauler", "hauler"}}));
+}
+
+// exec.digger alone may have a standby (mission.yaml); both executives are killed after their second command.
+TEST_F(QuarryFlight, OneOfTwoExecutivesHasAStandbyAndBothAreKilled) {
+  ASSERT_EQ(::setenv("ROCI_CRASH", "after-send:2", 1), 0);
+  const Flight flight = launch("nominal", "cyclonedds", "--standby");
+  ::unsetenv("ROCI_CRASH");
+  ASSERT_EQ(flight.exit_code, 0) << flight.summary.dump();
+  EXPECT_EQ(flight.summary["goals"].value("achieved", -1), 2);
+  EXPECT_EQ(flight.summary["expected"].value("fault", "no report"), "");
+  const json executives = flight.summary["executives"];
+  EXPECT_GT(executives["exec.digger"].value("epoch", 0), 1) << "of a pair who leads again does so in a later epoch";
+  EXPECT_EQ(executives["exec.hauler"].value("epoch", 0), 2);
 }
 
 // Both name the goal in the same words; one alone answers.

@@ -7,7 +7,7 @@
 set -uo pipefail
 bin=$1 tests=$2 mission=$3 dds=$4 domain=$5
 folder=$(mktemp -d)
-trap 'kill -KILL $launcher $(pgrep -P $launcher) 2>/dev/null; rm -rf "$folder"' EXIT
+trap 'kill -KILL $(jobs -p) $launcher $(pgrep -P $launcher) 2>/dev/null; rm -rf "$folder"' EXIT
 export ROCI_PLUGIN_PATH=${bin%/bin}/lib/rocinante
 vendor=${dds/mixed/fastdds}
 
@@ -26,7 +26,7 @@ step() {  # name exit-code file
   printf '%s\t%s\t%s\n' "$1" "$2" "$(tr '\n\t' '  ' <"$3")"
 }
 launch() {  # run folder more…
-  timeout 100 "$bin/roci-launch" "$folder/mission" --scenario short --dds "$dds" --domain "$domain" --run "$1" \
+  exec timeout 100 "$bin/roci-launch" "$folder/mission" --scenario short --dds "$dds" --domain "$domain" --run "$1" \
     --clock live --speed 40 --headless --json --run-folder "$folder/$2" "${@:3}" >"$folder/$2.out" 2>&1
 }
 until_there() {  # file pattern
@@ -36,12 +36,13 @@ until_there() {  # file pattern
   done
 }
 
+"$tests/intruder" "$vendor" "$domain" attacked >"$folder/heard.out" 2>&1 <<<"await 100 scenario.over" &
 launch attacked run &
 launching=$!
 until_there "$folder/run/effects.jsonl" motion
-launcher=$(pgrep -P $launching roci-launch || echo $launching)
-launch another other; step another-run $? "$folder/other.out"
-launch attacked twin; step same-run $? "$folder/twin.out"
+launcher=$(pgrep -P $launching roci-launch)
+(launch another other); step another-run $? "$folder/other.out"
+(launch attacked twin); step same-run $? "$folder/twin.out"
 mkdir "$folder/lone"
 timeout 60 "$bin/exec_svc" --run attacked --robot rover --mission "$folder/mission" --scenario short --run-folder "$folder/lone" \
   --dds "$vendor" --domain "$domain" --clock live --scale 40 --epoch "$(date +%s)" --incarnation 1 >"$folder/lone.out" 2>&1
@@ -61,5 +62,5 @@ kill -KILL "$executive"
 wait $launching
 code=$?
 sed 's/^/effect /' "$folder/run/effects.jsonl"
-step events 0 "$folder/run.out"
+step events 0 "$folder/heard.out"
 printf 'launch\t%s\t%s\n' $code "$(tail -n 1 "$folder/run.out")"

@@ -30,7 +30,7 @@ std::optional<std::uint32_t> address_of(const transport::TransportOptions& optio
 
 dds_entity_t create(const transport::TransportOptions& options, const std::string& config,
                     const std::shared_ptr<guard::Guard>& guard) {
-  const GuardedOpening opening(guard, address_of(options));
+  const GuardedOpening opening(guard, address_of(options), options.credentials.has_value());
   const dds_entity_t handle = dds_create_domain(static_cast<dds_domainid_t>(options.domain), config.c_str());
   if (handle < 0) {
     throw transport::TransportError(
@@ -87,6 +87,7 @@ std::string configuration(const transport::TransportOptions& options) {
 Domain::Domain(const transport::TransportOptions& options, std::string config)
     : guard_(std::make_shared<guard::Guard>(guard::policy_of(options))),
       config_(std::move(config)),
+      secure_(options.credentials.has_value()),
       handle_(create(options, config_, guard_)) {}
 
 Domain::~Domain() { dds_delete(handle_); }
@@ -99,13 +100,15 @@ std::shared_ptr<Domain> join_domain(const transport::TransportOptions& options) 
     throw transport::TransportError("Cyclone DDS configuration " + options.vendor_xml + " does not exist");
   }
   const auto config = options.vendor_xml.empty() ? configuration(options) : options.vendor_xml;
+  const bool secure = options.credentials.has_value();
   const std::lock_guard lock(mutex);
   auto domain = domains[options.domain].lock();
-  if (domain && domain->config() != config) {
-    throw transport::TransportError(
-        "domain " + std::to_string(options.domain) +
-        " is open in this process with another address, other peers or another configuration; "
-        "Cyclone DDS keeps one per domain and process");
+  if (domain && (domain->config() != config || domain->secure() != secure)) {
+    throw transport::TransportError("domain " + std::to_string(options.domain) +
+                                    " is open in this process with another address, other peers or another "
+                                    "configuration, or one is secure and the other "
+                                    "is not; "
+                                    "Cyclone DDS keeps one per domain and process");
   }
   dds_set_log_sink(log_to_standard_error, nullptr);
   if (!domain) domains[options.domain] = domain = std::make_shared<Domain>(options, config);

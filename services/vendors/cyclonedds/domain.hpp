@@ -26,10 +26,13 @@ class Domain {
 
   const std::string& config() const { return config_; }
   const guard::Guard& guard() const { return *guard_; }
+  /// Whether its participants have credentials: one guard stands before all of them.
+  bool secure() const { return secure_; }
 
  private:
   const std::shared_ptr<guard::Guard> guard_;
   const std::string config_;
+  const bool secure_;
   const dds_entity_t handle_;
 };
 

@@ -27,6 +27,14 @@ void roci_keep_what_precedes_first_heartbeat(const struct ddsi_sertype* type, co
   thread_state_asleep(thread);
 }
 
+void roci_take_prefix(struct ddsi_domaingv* domain, const uint8_t prefix[12]) {
+  for (int part = 0; part < 3; ++part) {
+    const uint8_t* bytes = prefix + 4 * part;
+    domain->ppguid_base.prefix.u[part] =
+        (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
+  }
+}
+
 void roci_begin_prefixes_with(struct ddsi_domaingv* domain, const uint8_t start[4]) {
   // The vendor keeps prefixes in the byte order of the machine and counts on in their last eight bytes.
   domain->ppguid_base.prefix.u[0] =

@@ -20,3 +20,6 @@ struct ddsi_domaingv;
 // The GUID prefixes of all participants of the domain begin with these four bytes. To be called before the first
 // participant is made; the other eight bytes stay the vendor's.
 void roci_begin_prefixes_with(struct ddsi_domaingv* domain, const uint8_t start[4]);
+
+// The GUID prefix of the next participant, up to the number that the vendor adds to its last eight bytes.
+void roci_take_prefix(struct ddsi_domaingv* domain, const uint8_t prefix[12]);

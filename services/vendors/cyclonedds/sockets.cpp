@@ -13,7 +13,9 @@ extern "C" {
 #include <map>
 #include <mutex>
 #include <shared_mutex>
+#include <utility>
 
+#include "services/certificate/guid_prefix.hpp"
 #include "services/vendors/cyclonedds/imports.hpp"
 
 namespace roci::services::vendors::cyclonedds {
@@ -22,6 +24,7 @@ namespace {
 struct Opening {
   std::shared_ptr<guard::Guard> guard;
   std::optional<std::uint32_t> address;
+  bool secure = false;
   int bound = 0;
   std::uint16_t sends_from =
       0;  // the port of the one socket for which the vendor leaves the choice to the system
@@ -41,6 +44,19 @@ Guards& guards() {
 decltype(&::bind) real_bind = nullptr;
 decltype(&::recvmsg) real_recvmsg = nullptr;
 int (*real_initialize)(ddsi_domaingv*) = nullptr;
+dds_return_t (*real_new_participant)(ddsi_guid*, ddsi_domaingv*, unsigned, const ddsi_plist*) = nullptr;
+std::uint64_t (*real_number)() = nullptr;
+
+// The ports that the secure domains of this process send from.
+struct SecureDomains {
+  std::mutex mutex;
+  std::map<const ddsi_domaingv*, std::uint16_t> ports;
+};
+SecureDomains& secure_domains() {
+  static auto* const table = new SecureDomains;
+  return *table;
+}
+thread_local bool adds_nothing = false;  // to the prefix of the next participant
 
 std::shared_ptr<guard::Guard> guard_of(int socket) {
   auto& table = guards();
@@ -86,8 +102,30 @@ extern "C" int guarded_initialize(ddsi_domaingv* domain) {
   const int result = real_initialize(domain);
   if (result >= 0 && opening && opening->sends_from != 0)
     roci_begin_prefixes_with(domain, guard::prefix_start(opening->sends_from).data());
+  auto& secure = secure_domains();
+  const std::lock_guard lock(secure.mutex);
+  secure.ports.erase(domain);
+  if (opening && opening->secure) secure.ports[domain] = opening->sends_from;
   return result;
 }
+
+// The vendor takes the prefix of its domain, adds a number by chance, and lets the certificate make the prefix of the participant
+// of that: here the prefix is chosen for what comes of it, and nothing added.
+extern "C" dds_return_t guarded_new_participant(ddsi_guid* guid, ddsi_domaingv* domain, unsigned flags,
+                                                const ddsi_plist* settings) {
+  auto& secure = secure_domains();
+  const std::lock_guard lock(secure.mutex);
+  const auto found = secure.ports.find(domain);
+  if (found == secure.ports.end()) return real_new_participant(guid, domain, flags, settings);
+  roci_take_prefix(domain, certificate::candidate_naming(found->second, certificate::Hashed::prefix).data());
+  adds_nothing = true;
+  const dds_return_t result = real_new_participant(guid, domain, flags, settings);
+  adds_nothing = false;
+  return result;
+}
+
+// Numbers of the vendor's own; the first one that a new participant asks for becomes part of its prefix.
+extern "C" std::uint64_t guarded_number() { return std::exchange(adds_nothing, false) ? 0 : real_number(); }
 
 // What is refused becomes one zero byte, as the vendor itself sends to wake its threads; it reads nothing that is
 // shorter than a header. It cannot be left out: the vendor may wait for other sockets in the same thread.
@@ -113,21 +151,27 @@ void stand_before_the_sockets() {
   real_recvmsg = reinterpret_cast<decltype(real_recvmsg)>(receive);
   void* const initialize = replace_import(library, "rtps_init", reinterpret_cast<void*>(&guarded_initialize));
   real_initialize = reinterpret_cast<decltype(real_initialize)>(initialize);
+  void* const participant =
+      replace_import(library, "ddsi_new_participant", reinterpret_cast<void*>(&guarded_new_participant));
+  real_new_participant = reinterpret_cast<decltype(real_new_participant)>(participant);
+  void* const number = replace_import(library, "ddsi_iid_gen", reinterpret_cast<void*>(&guarded_number));
+  real_number = reinterpret_cast<decltype(real_number)>(number);
 }
 
 }  // namespace
 
-GuardedOpening::GuardedOpening(std::shared_ptr<guard::Guard> guard, std::optional<std::uint32_t> address) {
+GuardedOpening::GuardedOpening(std::shared_ptr<guard::Guard> guard, std::optional<std::uint32_t> address,
+                               bool secure) {
   static std::once_flag once;
   std::call_once(once, stand_before_the_sockets);
-  if (real_bind == nullptr || real_recvmsg == nullptr || real_initialize == nullptr) {
+  if (real_bind == nullptr || real_recvmsg == nullptr || real_initialize == nullptr ||
+      real_new_participant == nullptr || real_number == nullptr) {
     throw transport::TransportError(
-        "this build of Cyclone DDS does not let its sockets be guarded (it imports no bind, recvmsg or "
-        "rtps_init); use "
-        "the "
-        "library of Debian 12, or another transport with --dds");
+        "this build of Cyclone DDS does not let its sockets be guarded (it imports no bind, "
+        "recvmsg, rtps_init, ddsi_new_participant or ddsi_iid_gen); use the library of Debian 12, or another "
+        "transport with --dds");
   }
-  opening = Opening{std::move(guard), address};
+  opening = Opening{std::move(guard), address, secure};
 }
 
 GuardedOpening::~GuardedOpening() { opening.reset(); }

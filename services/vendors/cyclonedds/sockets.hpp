@@ -14,10 +14,11 @@ namespace roci::services::vendors::cyclonedds {
 
 /// From its construction to its end, what this thread lets Cyclone DDS bind belongs to `guard` and is bound to `address`
 /// (IPv4, in host byte order) where the vendor asked for any; without an address it stays as the vendor wants it.
+/// In a `secure` domain every participant has a GUID prefix of which its certificate makes one that names the port.
 /// Throws TransportError if the library cannot be guarded: nothing is opened unguarded.
 class GuardedOpening {
  public:
-  GuardedOpening(std::shared_ptr<guard::Guard> guard, std::optional<std::uint32_t> address);
+  GuardedOpening(std::shared_ptr<guard::Guard> guard, std::optional<std::uint32_t> address, bool secure);
   ~GuardedOpening();
   GuardedOpening(const GuardedOpening&) = delete;
   GuardedOpening& operator=(const GuardedOpening&) = delete;

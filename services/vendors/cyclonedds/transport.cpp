@@ -4,6 +4,8 @@
 #include <map>
 #include <mutex>
 
+#include "services/certificate/guid_prefix.hpp"
+#include "services/vendors/cyclonedds/credentials.hpp"
 #include "services/vendors/cyclonedds/domain.hpp"
 #include "services/vendors/cyclonedds/participants.hpp"
 #include "services/vendors/cyclonedds/qos.hpp"
@@ -18,6 +20,7 @@ QosPtr participant_qos(const transport::TransportOptions& options) {
   dds_qset_entity_name(qos.get(), options.participant.c_str());
   const std::string announcement = options.announcement.value_or("");
   dds_qset_userdata(qos.get(), announcement.data(), announcement.size());
+  if (options.credentials) add_credentials(*options.credentials, qos.get());
   return qos;
 }
 
@@ -37,7 +40,15 @@ class CycloneTransport : public transport::Transport, public transport::RefusesD
                                                     participant_qos(options).get(), nullptr),
                              "a participant in domain " + std::to_string(options.domain))),
         announcement_(options.announcement.value_or("")),
-        participants_(std::make_unique<Participants>(participant_)) {}
+        secure_(options.credentials.has_value()) {
+    try {
+      if (secure_) require_certified(*options.credentials);
+      participants_ = std::make_unique<Participants>(participant_);
+    } catch (...) {
+      dds_delete(participant_);
+      throw;
+    }
+  }
 
   ~CycloneTransport() override {
     participants_.reset();
@@ -68,8 +79,18 @@ class CycloneTransport : public transport::Transport, public transport::RefusesD
       refused.push_back({"too_many_keys", count, ""});
     return refused;
   }
+  bool speaks_as(const transport::Guid& writer, std::string_view sender) const override {
+    return !secure_ || certificate::speaks_as(writer, sender);
+  }
 
  private:
+  // A library without DDS Security passes over the credentials without a word.
+  void require_certified(const transport::Credentials& credentials) const {
+    dds_guid_t guid;
+    checked(dds_get_guid(participant_, &guid), "the identity of its participant");
+    certificate::require_certified(to_guid(guid), credentials.service, vendor());
+  }
+
   // DDS gives partitions to publishers and subscribers: there is one of each for the endpoints that share theirs.
   dds_entity_t publisher_in(const std::vector<std::string>& partitions) {
     const std::lock_guard lock(mutex_);
@@ -112,6 +133,7 @@ class CycloneTransport : public transport::Transport, public transport::RefusesD
   const std::shared_ptr<Domain> domain_;
   const dds_entity_t participant_;
   const std::string announcement_;
+  const bool secure_;
   std::unique_ptr<Participants> participants_;
   std::mutex mutex_;
   std::map<std::vector<std::string>, dds_entity_t> publishers_;

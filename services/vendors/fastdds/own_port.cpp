@@ -10,6 +10,7 @@
 #include <random>
 #include <system_error>
 
+#include "services/certificate/guid_prefix.hpp"
 #include "services/transport/transport.hpp"
 #include "services/vendors/guard/identities.hpp"
 
@@ -63,6 +64,13 @@ eprosima::fastrtps::rtps::GuidPrefix_t prefix_naming(std::uint16_t port) {
                 [&random] { return static_cast<eprosima::fastrtps::rtps::octet>(random()); });
   const auto start = guard::prefix_start(port);
   std::copy(start.begin(), start.end(), std::begin(prefix.value));
+  return prefix;
+}
+
+eprosima::fastrtps::rtps::GuidPrefix_t candidate_naming(std::uint16_t port) {
+  const auto found = certificate::candidate_naming(port, certificate::Hashed::guid);
+  eprosima::fastrtps::rtps::GuidPrefix_t prefix;
+  std::copy(found.begin(), found.end(), std::begin(prefix.value));
   return prefix;
 }
 

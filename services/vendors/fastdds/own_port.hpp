@@ -16,4 +16,8 @@ bool is_ours(std::uint16_t port);
 /// A prefix that nobody else has, of a participant that sends from this port (guard::prefix_start).
 eprosima::fastrtps::rtps::GuidPrefix_t prefix_naming(std::uint16_t port);
 
+/// A prefix of which DDS Security makes one that nobody else has, of a participant that sends from this port
+/// (certificate::candidate_naming).
+eprosima::fastrtps::rtps::GuidPrefix_t candidate_naming(std::uint16_t port);
+
 }  // namespace roci::services::vendors::fastdds

@@ -32,6 +32,24 @@ Locator_t udp_locator(const std::string& address, int port = 0) {
   return locator;
 }
 
+// Fast DDS takes a "file://" before an absolute path.
+void add_credentials(const transport::Credentials& own, rtps::PropertyPolicy& policy) {
+  const auto add = [&policy](const char* name, const std::string& value) {
+    policy.properties().emplace_back(name, value);
+  };
+  const auto file = [](const std::filesystem::path& path) { return "file://" + path.string(); };
+  add("dds.sec.auth.plugin", "builtin.PKI-DH");
+  add("dds.sec.auth.builtin.PKI-DH.identity_ca", file(own.identity_authority));
+  add("dds.sec.auth.builtin.PKI-DH.identity_certificate", file(own.certificate));
+  add("dds.sec.auth.builtin.PKI-DH.identity_crl", file(own.revoked));
+  add("dds.sec.auth.builtin.PKI-DH.private_key", file(own.private_key));
+  add("dds.sec.access.plugin", "builtin.Access-Permissions");
+  add("dds.sec.access.builtin.Access-Permissions.permissions_ca", file(own.permissions_authority));
+  add("dds.sec.access.builtin.Access-Permissions.governance", file(own.governance));
+  add("dds.sec.access.builtin.Access-Permissions.permissions", file(own.permissions));
+  add("dds.sec.crypto.plugin", "builtin.AES-GCM-GMAC");
+}
+
 dds::DomainParticipantQos profile_of(const std::string& xml) {
   auto* factory = dds::DomainParticipantFactory::get_instance();
   factory->load_profiles();
@@ -90,7 +108,8 @@ dds::DomainParticipantQos participant_qos(const transport::TransportOptions& opt
   qos.transport().user_transports = {guarded(udp, guard)};
 
   auto& wire = qos.wire_protocol();
-  wire.prefix = prefix_naming(port);
+  wire.prefix = options.credentials ? candidate_naming(port) : prefix_naming(port);
+  if (options.credentials) add_credentials(*options.credentials, qos.properties());
   auto& discovery = wire.builtin.discovery_config;
   discovery.leaseDuration = Duration_t(kLeaseSeconds, 0);
   discovery.leaseDuration_announcementperiod = Duration_t(0, 500 * kMillisecond);

@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 
+#include "services/certificate/guid_prefix.hpp"
 #include "services/vendors/fastdds/bytes_type.hpp"
 #include "services/vendors/fastdds/guid.hpp"
 #include "services/vendors/fastdds/own_port.hpp"
@@ -41,6 +42,7 @@ class FastTransport : public transport::Transport, public transport::RefusesData
  public:
   explicit FastTransport(const transport::TransportOptions& options)
       : announcement_(options.announcement.value_or("")),
+        secure_(options.credentials.has_value()),
         guard_(std::make_shared<guard::Guard>(guard::policy_of(options))) {
     if (options.vendor_xml.empty()) require_usable_addresses(options);
     switch_intraprocess_delivery_off();
@@ -57,9 +59,14 @@ class FastTransport : public transport::Transport, public transport::RefusesData
       participant_ = nullptr;
     }
     if (!participant_) {
-      throw transport::TransportError("Fast DDS cannot join domain " + std::to_string(options.domain) +
-                                      "; the domain id must be from 0 to 232, its UDP ports must be free");
+      throw transport::TransportError(
+          "Fast DDS cannot join domain " + std::to_string(options.domain) +
+          "; the domain id must be from 0 to 232, its UDP ports must be free" +
+          (secure_ ? ", and it must take the certificate and the signed documents of " +
+                         options.credentials->service
+                   : ""));
     }
+    if (secure_) require_certified(*options.credentials);
     participants_.table.add(to_guid(participant_->guid()), {options.participant, announcement_});
   }
 
@@ -87,6 +94,9 @@ class FastTransport : public transport::Transport, public transport::RefusesData
     return participants_.table.find(guid);
   }
   std::vector<transport::RefusedDatagrams> refused_datagrams() const override { return guard_->refused(); }
+  bool speaks_as(const transport::Guid& writer, std::string_view sender) const override {
+    return !secure_ || certificate::speaks_as(writer, sender);
+  }
 
  private:
   // DDS gives partitions to publishers and subscribers: there is one of each for the endpoints that share theirs.
@@ -130,7 +140,18 @@ class FastTransport : public transport::Transport, public transport::RefusesData
     return *topic;
   }
 
+  // A library without DDS Security passes over the credentials without a word.
+  void require_certified(const transport::Credentials& credentials) {
+    try {
+      certificate::require_certified(to_guid(participant_->guid()), credentials.service, vendor());
+    } catch (...) {
+      dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+      throw;
+    }
+  }
+
   const std::string announcement_;
+  const bool secure_;
   const std::shared_ptr<guard::Guard> guard_;
   Participants participants_;
   dds::DomainParticipant* participant_ = nullptr;

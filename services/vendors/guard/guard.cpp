@@ -25,6 +25,7 @@ std::string to_text(const std::optional<Source>& source) {
 
 Policy policy_of(const transport::TransportOptions& options) {
   Policy policy;
+  policy.secure = options.credentials.has_value();
   if (!options.vendor_xml.empty()) return policy;
   for (const std::string& peer : peers_of(options)) {
     in_addr address{};
@@ -33,13 +34,21 @@ Policy policy_of(const transport::TransportOptions& options) {
   return policy;
 }
 
-Guard::Guard(Policy policy) : policy_(std::move(policy)) {}
+Guard::Guard(Policy policy) : policy_(std::move(policy)), identities_(policy_.secure) {}
 
 std::size_t Guard::admit(std::span<std::uint8_t> datagram, const std::optional<Source>& source) {
   const std::lock_guard lock(mutex_);
   const Verdict verdict = judge(datagram, source);
+  if (verdict == Verdict::pass && !policy_.secure) {
+    ++counts_[static_cast<std::size_t>(verdict)];
+    return strip_vendor_submessages(datagram);
+  }
+  if (verdict == Verdict::pass) {
+    const std::size_t left = strip_plain_submessages(datagram.first(strip_vendor_submessages(datagram)));
+    ++counts_[static_cast<std::size_t>(left > 0 ? Verdict::pass : Verdict::plain)];
+    return left;
+  }
   ++counts_[static_cast<std::size_t>(verdict)];
-  if (verdict == Verdict::pass) return strip_vendor_submessages(datagram);
   last_sources_[static_cast<std::size_t>(verdict)] = source;
   report(verdict, source);
   return 0;
@@ -82,7 +91,8 @@ std::vector<transport::RefusedDatagrams> Guard::refused() const {
   const std::lock_guard lock(mutex_);
   std::vector<transport::RefusedDatagrams> out;
   for (std::size_t i = 1; i < kVerdicts; ++i) {
-    if (counts_[i] == 0) continue;
+    // What a secure run leaves out as plain text is everyday.
+    if (counts_[i] == 0 || i == static_cast<std::size_t>(Verdict::plain)) continue;
     const auto& source = last_sources_[i];
     out.push_back({std::string(kVerdictNames[i]), counts_[i], source ? to_text(source) : ""});
   }

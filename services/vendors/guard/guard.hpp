@@ -19,6 +19,8 @@ namespace roci::services::vendors::guard {
 struct Policy {
   /// Whose datagrams are taken, as IPv4 addresses in host byte order; empty: anybody's (a vendor's own XML says who).
   std::vector<std::uint32_t> peers;
+  /// Nobody is heard in plain but for what DDS Security cannot encrypt, and GUID prefixes are those of certificates.
+  bool secure = false;
 };
 
 /// The peers of these options (peers_of), this host among them. With vendor_xml it takes everybody.
@@ -35,7 +37,7 @@ class Guard {
 
   /// How many datagrams had each verdict.
   std::array<std::uint64_t, kVerdicts> counts() const;
-  /// The same for operators, without those that passed.
+  /// The same for operators, without those that passed and those that were left out as plain text.
   std::vector<transport::RefusedDatagrams> refused() const;
 
  private:

@@ -6,16 +6,13 @@
 
 namespace roci::services::vendors::guard {
 
-namespace {
-
-// A prefix of ours from another port than it names.
-bool is_borrowed(const GuidPrefix& prefix, const Source& source) {
+// A prefix of ours from another port than it names. Those that come of a certificate begin with a bit 1.
+bool Identities::is_borrowed(const GuidPrefix& prefix, const Source& source) const {
+  if (secure_) return prefix[0] < 0x80 || prefix[6] != source.port >> 8 || prefix[7] != (source.port & 0xff);
   const auto own = prefix_start(source.port);
   return std::equal(own.begin(), own.begin() + 2, prefix.begin()) &&
          !std::equal(own.begin(), own.end(), prefix.begin());
 }
-
-}  // namespace
 
 std::array<std::uint8_t, 4> prefix_start(std::uint16_t port) {
   return {'R', 'o', static_cast<std::uint8_t>(port >> 8), static_cast<std::uint8_t>(port)};

@@ -36,6 +36,10 @@ class Identities {
   static constexpr std::size_t kPerSource = 64;       ///< Participants of one process may share a socket.
   static constexpr std::chrono::seconds kSilent{10};  ///< Three leases: the vendor has given it up.
 
+  /// In a secure run a prefix comes of a certificate and names the port in its seventh and eighth byte
+  /// (certificate/guid_prefix.hpp), and no other is heard; in a plain one those of ours name it in the third and fourth.
+  explicit Identities(bool secure = false) : secure_(secure) {}
+
   /// pass, taken_identity or crowd.
   Verdict claim(const GuidPrefix&, const Source&, Time now);
 
@@ -48,9 +52,11 @@ class Identities {
     Time heard;
   };
 
+  bool is_borrowed(const GuidPrefix&, const Source&) const;
   bool make_room(const Source&, Time now);
   void forget(const GuidPrefix&);
 
+  bool secure_;
   std::unordered_map<GuidPrefix, Owner, HashPrefix> owners_;
   std::map<Source, std::size_t> of_source_;
   std::map<std::uint32_t, std::size_t> of_address_;

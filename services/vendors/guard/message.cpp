@@ -13,6 +13,7 @@ constexpr std::size_t kSubmessageHeaderSize = 4;
 constexpr std::uint8_t kFirstVendorId = 0x80;
 constexpr std::uint8_t kPad = 0x01;
 constexpr std::uint8_t kInfoTimestamp = 0x09;
+constexpr std::uint8_t kEncryptedBody = 0x30, kEncryptionPrefix = 0x33, kEncryptionPostfix = 0x34;
 
 // Where a submessage ends, seen from its own beginning; 0 if it reaches over the end of the message.
 std::size_t size_of_first(std::span<const std::uint8_t> rest) {
@@ -23,6 +24,32 @@ std::size_t size_of_first(std::span<const std::uint8_t> rest) {
   if (length == 0) return rest[0] == kPad || rest[0] == kInfoTimestamp ? kSubmessageHeaderSize : rest.size();
   if (length % 4 != 0 || length > rest.size() - kSubmessageHeaderSize) return 0;
   return kSubmessageHeaderSize + length;
+}
+
+// Moves what is kept together, behind the header; returns the new length.
+template <class Keep>
+std::size_t strip(std::span<std::uint8_t> message, Keep keep) {
+  std::size_t end = kHeaderSize;
+  for (std::size_t at = kHeaderSize; at < message.size();) {
+    const std::size_t size = size_of_first(message.subspan(at));
+    if (keep(message.subspan(at, size))) {
+      if (end != at) std::memmove(message.data() + end, message.data() + at, size);
+      end += size;
+    }
+    at += size;
+  }
+  return end;
+}
+
+// SRTPS_PREFIX, SEC_BODY, SRTPS_POSTFIX and nothing else (DDS Security 1.1, 7.3.6.6): a parser that meets the prefix later reads
+// the rest in plain.
+bool is_encrypted(std::span<const std::uint8_t> message) {
+  auto rest = message.subspan(kHeaderSize);
+  for (const std::uint8_t id : {kEncryptionPrefix, kEncryptedBody, kEncryptionPostfix}) {
+    if (rest.empty() || rest[0] != id) return false;
+    rest = rest.subspan(size_of_first(rest));
+  }
+  return rest.empty();
 }
 
 }  // namespace
@@ -53,16 +80,19 @@ GuidPrefix sender_of(std::span<const std::uint8_t> message) {
 }
 
 std::size_t strip_vendor_submessages(std::span<std::uint8_t> message) {
-  std::size_t end = kHeaderSize;
-  for (std::size_t at = kHeaderSize; at < message.size();) {
-    const std::size_t size = size_of_first(message.subspan(at));
-    if (message[at] < kFirstVendorId) {
-      if (end != at) std::memmove(message.data() + end, message.data() + at, size);
-      end += size;
-    }
-    at += size;
-  }
-  return end;
+  return strip(message, [](std::span<const std::uint8_t> one) { return one[0] < kFirstVendorId; });
+}
+
+std::size_t strip_plain_submessages(std::span<std::uint8_t> message) {
+  if (is_encrypted(message)) return message.size();
+  bool speaks = false;
+  const std::size_t length = strip(message, [&speaks](std::span<const std::uint8_t> one) {
+    const ByteView body{one.subspan(kSubmessageHeaderSize), (one[1] & 1) != 0};
+    const Plain kind = plain_kind_of({one[0], one[1], body});
+    speaks = speaks || kind == Plain::speech;
+    return kind != Plain::refused;
+  });
+  return speaks ? length : 0;
 }
 
 }  // namespace roci::services::vendors::guard

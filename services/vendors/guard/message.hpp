@@ -22,4 +22,10 @@ GuidPrefix sender_of(std::span<const std::uint8_t> message);
 /// ones.
 std::size_t strip_vendor_submessages(std::span<std::uint8_t> message);
 
+/// What may be read of a message of a secure run that passed and has no vendor's submessages: all of it if it is encrypted
+/// as a whole; else what precedes the exchange of keys (announcement of participants, handshake) and submessages that are encrypted
+/// one by one. The rest is taken out: also because Cyclone DDS sends acknowledgements and heartbeats of its plain discovery
+/// together with the handshake. Returns the new length; 0 if nothing is left that says something.
+std::size_t strip_plain_submessages(std::span<std::uint8_t> message);
+
 }  // namespace roci::services::vendors::guard

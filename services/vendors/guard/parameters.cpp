@@ -66,6 +66,7 @@ bool fits(std::uint16_t id, const ByteView& value, ListKind kind) {
 
 bool may_speak_for(const GuidPrefix& sender, std::span<const std::uint8_t> other) {
   if (std::equal(sender.begin(), sender.end(), other.begin())) return true;
+  if (sender[0] >= 0x80) return std::equal(sender.begin(), sender.begin() + 8, other.begin());
   const bool ours = sender[0] == 'R' && sender[1] == 'o';
   const bool eclipse = sender[0] == 0x01 && sender[1] == 0x10;
   return (ours || eclipse) && std::equal(sender.begin(), sender.begin() + 4, other.begin());

@@ -65,6 +65,23 @@ Verdict info_source(const Submessage& message, const GuidPrefix& sender) {
   return may_speak_for(sender, message.body.bytes.subspan(8)) ? Verdict::pass : Verdict::speaks_for_another;
 }
 
+// DDS Security 1.1, 7.3.6: key kind, key, session, and a vector, 20 bytes.
+Verdict encryption_prefix(const Submessage& message) { return at_least(message, 20); }
+
+// Neither vendor looks whether what it says of its own length fits; the bytes are not authenticated yet.
+Verdict encrypted_body(const Submessage& message) {
+  const ByteView big{message.body.bytes, false};
+  if (big.size() < 4) return Verdict::cut;
+  return big.u32(0) > big.size() - 4 ? Verdict::cut : Verdict::pass;
+}
+
+// A code of 16 bytes, then counted codes of 20 bytes for single receivers.
+Verdict encryption_postfix(const Submessage& message) {
+  const ByteView big{message.body.bytes, false};
+  if (big.size() < 20) return Verdict::cut;
+  return big.u32(16) > (big.size() - 20) / 20 ? Verdict::cut : Verdict::pass;
+}
+
 Verdict info_timestamp(const Submessage& message) {
   const bool invalidates = (message.flags & 0x02) != 0;
   return invalidates ? Verdict::pass : at_least(message, 8);
@@ -96,14 +113,37 @@ Verdict examine_submessage(const Submessage& message, const GuidPrefix& sender) 
       return examine_data(message, sender);
     case 0x16:
       return examine_data_fragment(message, sender);
-    case 0x30:  // to 0x34: what DDS Security 1.1 (7.3.6) has encrypted or signed
-    case 0x31:
-    case 0x32:
-    case 0x33:
-    case 0x34:
-      return Verdict::pass;
+    case 0x30:  // SEC_BODY
+      return encrypted_body(message);
+    case 0x31:  // SEC_PREFIX
+    case 0x33:  // SRTPS_PREFIX
+      return encryption_prefix(message);
+    case 0x32:  // SEC_POSTFIX
+    case 0x34:  // SRTPS_POSTFIX
+      return encryption_postfix(message);
     default:  // INFO_REPLY (0x0d, 0x0f) among them: neither vendor sends it, and it directs answers elsewhere
       return Verdict::unknown_submessage;
+  }
+}
+
+Plain plain_kind_of(const Submessage& message) {
+  switch (message.id) {
+    case 0x09:  // INFO_TS
+    case 0x0e:  // INFO_DST
+      return Plain::context;
+    case 0x30:  // SEC_BODY, SEC_PREFIX, SEC_POSTFIX
+    case 0x31:
+    case 0x32:
+      return Plain::speech;
+    case 0x15:  // DATA and DATA_FRAG have their writer at the same place
+    case 0x16: {
+      const ByteView writer{message.body.part(8, 4).bytes, false};
+      const bool early =
+          writer.u32(0) == 0x000100c2 || writer.u32(0) == 0x000201c3;  // participants; the handshake
+      return early ? Plain::speech : Plain::refused;
+    }
+    default:
+      return Plain::refused;
   }
 }
 

@@ -16,4 +16,13 @@ struct Submessage {
 /// `id` is below 0x80; `sender` is the participant of the message's header.
 Verdict examine_submessage(const Submessage&, const GuidPrefix& sender);
 
+/// What a submessage is in a secure run if it is not encrypted together with its message.
+enum class Plain {
+  refused,
+  context,  ///< It says where and when those behind it belong.
+  speech,  ///< The announcement of a participant, the handshake of DDS Security (1.1, 7.4.3), or encrypted itself.
+};
+/// The submessage is well-formed, and its id below 0x80.
+Plain plain_kind_of(const Submessage&);
+
 }  // namespace roci::services::vendors::guard

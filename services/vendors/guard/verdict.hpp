@@ -22,9 +22,10 @@ enum class Verdict : std::uint8_t {
   speaks_for_another,  ///< Its discovery data or INFO_SRC names the GUID of a participant that is not its sender.
   taken_identity,  ///< Its GUID prefix names another port, or was heard from another address or port first.
   crowd,           ///< A new GUID prefix from an address or port that has as many as are allowed.
+  plain,           ///< In a secure run: nothing in it is encrypted that must be. It is counted, and not told.
 };
 
-inline constexpr std::array<std::string_view, 12> kVerdictNames{"pass",
+inline constexpr std::array<std::string_view, 13> kVerdictNames{"pass",
                                                                 "stranger",
                                                                 "no_rtps",
                                                                 "cut",
@@ -35,7 +36,8 @@ inline constexpr std::array<std::string_view, 12> kVerdictNames{"pass",
                                                                 "bad_parameters",
                                                                 "speaks_for_another",
                                                                 "taken_identity",
-                                                                "crowd"};
+                                                                "crowd",
+                                                                "plain"};
 inline constexpr std::size_t kVerdicts = kVerdictNames.size();
 
 /// The largest sample that is taken in, in bytes: a plan of 8,000 activities has about 4 MiB.

@@ -83,6 +83,7 @@ class InprocTransport : public transport::Transport {
   std::optional<transport::Participant> participant_of(const transport::Guid& guid) override {
     return bus_->participants().find(guid);
   }
+  bool speaks_as(const transport::Guid&, std::string_view) const override { return true; }
 
  private:
   void check_type(const transport::EndpointDescription& description) {
@@ -109,5 +110,8 @@ class InprocTransport : public transport::Transport {
 
 extern "C" std::unique_ptr<roci::services::transport::Transport> roci_create_transport(
     const roci::services::transport::TransportOptions& options) {
+  if (options.credentials)
+    throw roci::services::transport::TransportError(
+        "inproc has no network that could be secured; leave out --secure");
   return std::make_unique<roci::services::vendors::inproc::InprocTransport>(options);
 }

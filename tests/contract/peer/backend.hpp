@@ -63,6 +63,8 @@ struct Settings {
   std::string run{};           // that goals name
   std::string partition{};     // of all endpoints, if not empty
   std::string announcement{};  // USER_DATA of the participant
+  std::string keys{};  // key folder of a secure participant, which is not checked first; empty: it is plain
+  std::string service{};  // whose certificate it has from there
 };
 
 // Each program links one definition.

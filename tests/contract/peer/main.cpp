@@ -1,4 +1,5 @@
-// peer ROLE VENDOR DOMAIN [ADDRESS PEER]; environment: PEER_RUN, PEER_PARTITION, PEER_ANNOUNCEMENT (own: as this build's)
+// peer ROLE VENDOR DOMAIN [ADDRESS PEER]; environment: PEER_RUN, PEER_PARTITION, PEER_ANNOUNCEMENT (own: as this build's),
+//   PEER_KEYS and PEER_SERVICE (a secure participant with the certificate of that service)
 //   ROLE: goal-writer, goal-reader, path-server, path-client
 // Standard input: write ISSUER ID PRIORITY | dispose ISSUER ID | call SEQUENCE X Y; it ends with the input.
 // Standard output, one line each: ready | matched N | goal ISSUER ID PRIORITY | disposed ISSUER ID | lost
@@ -112,6 +113,8 @@ int run(int argc, char** argv) {
   if (argc == 6) settings.address = argv[4], settings.peer = argv[5];
   settings.run = variable("PEER_RUN", "");
   settings.partition = variable("PEER_PARTITION", "");
+  settings.keys = variable("PEER_KEYS", "");
+  settings.service = variable("PEER_SERVICE", "");
   settings.announcement = variable("PEER_ANNOUNCEMENT", "own");
   if (settings.announcement == "own") settings.announcement = ROCI_ANNOUNCEMENT;
 

@@ -1,6 +1,7 @@
 // The peer on services/transport.hpp: what a process of ours does.
 #include "roci_idl/goal.h"
 #include "roci_idl/motion.h"
+#include "services/security/key_folder.hpp"
 #include "services/transport/plug_ins.hpp"
 #include "services/transport/type_support.hpp"
 #include "tests/contract/peer/backend.hpp"
@@ -14,11 +15,14 @@ using services::transport::Sample;
 using services::transport::SampleKind;
 
 services::transport::TransportOptions options_of(const Settings& settings) {
-  return {.domain = settings.domain,
-          .participant = "peer",
-          .address = settings.address,
-          .peers = {settings.peer},
-          .announcement = settings.announcement};
+  services::transport::TransportOptions options{.domain = settings.domain,
+                                                .participant = "peer",
+                                                .address = settings.address,
+                                                .peers = {settings.peer},
+                                                .announcement = settings.announcement};
+  if (!settings.keys.empty())
+    options.credentials = services::security::files_of(settings.keys, settings.service, settings.vendor);
+  return options;
 }
 
 services::transport::EndpointDescription requests() {

@@ -108,7 +108,6 @@ class Intruder {
   }
 
   bool send(std::istringstream& in) {
-    spin(20, [this] { return voice_->commands.matched_readers() > 1; });  // he hears himself, too
     std::string action;
     v1::Command out;
     std::uint64_t issued = 0, epoch = 0;
@@ -127,7 +126,19 @@ class Intruder {
       property.value(argument.substr(argument.find('=') + 1));
       out.arguments().push_back(std::move(property));
     }
-    return voice_->commands.write(out);
+    // Until its owner answers: others are discovered before him, perhaps.
+    const std::string answer = "ack " + out.activity() + " " + std::to_string(issued) + " ";
+    const std::size_t before = heard_.size();
+    for (int i = 0; i < 20; ++i) {
+      voice_->commands.write(out);
+      const auto answered = [&] {
+        return std::any_of(heard_.begin() + static_cast<std::ptrdiff_t>(before), heard_.end(),
+                           [&](const std::string& line) { return line.starts_with(answer); });
+      };
+      if (spin(1, answered)) return true;
+    }
+    std::cout << "nobody answered: " << action << " " << out.activity() << std::endl;
+    return false;
   }
 
   bool beat(std::istringstream& in) {

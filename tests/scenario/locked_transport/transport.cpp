@@ -58,6 +58,7 @@ class LockedTransport : public services::transport::Transport {
   std::optional<services::transport::Participant> participant_of(const services::transport::Guid&) override {
     return std::nullopt;
   }
+  bool speaks_as(const services::transport::Guid&, std::string_view) const override { return true; }
 };
 
 }  // namespace

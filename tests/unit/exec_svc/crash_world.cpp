@@ -40,6 +40,7 @@ CrashWorld::CrashWorld(const CrashPlan& crash)
       crash_(crash),
       mission_(planetary()) {
   mission_.executive.keep_inputs = !crash.compact;
+  mission_.executive.kept_records = crash.kept_records;
   mission_.executive.replanning = crash.replanning;
   remove_journal(file_);
   for (const Observation& observation : standing_robot()) observe(observation.timeline, observation.value);

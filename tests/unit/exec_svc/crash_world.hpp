@@ -32,6 +32,7 @@ struct CrashPlan {
   temporal::Duration away{0};  // until it is back; the robot goes on meanwhile
   bool compact = false;        // the journal forgets inputs before the newest anchor
   mission::Replanning replanning = mission::Replanning::stop_and_replan;
+  std::uint32_t kept_records = 20'000;  // of texts, where inputs are forgotten
 };
 
 struct Flight {

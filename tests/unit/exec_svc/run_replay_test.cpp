@@ -53,6 +53,30 @@ TEST_F(RunReplayTest, BeginsAtTheAnchorWhereInputsWereForgotten) {
   EXPECT_EQ(run.replayed_sha256, trace);
 }
 
+TEST_F(RunReplayTest, TextsAreForgottenButForTheNewest) {
+  CrashPlan crash{{9}, Moment::after_send, temporal::Duration{0}, true};
+  crash.kept_records = 5;
+  CrashWorld world(crash);
+  world.send(10, photo("first"));
+  world.send(30, photo("second"));
+  const Flight flight = world.fly(600);
+  EXPECT_EQ(flight.not_resumed, 0U);
+  EXPECT_EQ(flight.outcome, "achieved");
+  const Journal journal(world.file(), Durability::process);
+  const RunReplay run = replay_run(journal, planetary());
+  EXPECT_FALSE(run.divergence) << "from the newest anchor on, all is there";
+  EXPECT_GT(run.turns, 0U);
+  std::size_t before = 0;
+  bool anchored = false;
+  journal.for_each([&](temporal::Time, std::string_view kind, std::string_view) {
+    anchored = anchored || kind == "anchor" || kind == "restored";
+    before += !anchored;
+  });
+  EXPECT_TRUE(anchored);
+  EXPECT_LE(before, 5U);
+  EXPECT_EQ(journal.goals().size(), 2U) << "goals are never forgotten";
+}
+
 TEST_F(RunReplayTest, TellsWhereOtherRulesDecideOtherwise) {
   MissionModel other = planetary();
   other.planner.allowance = temporal::seconds(9);

@@ -114,5 +114,16 @@ TEST(SplitList, LeavesOutEmptyParts) {
   EXPECT_THAT(split_list(""), IsEmpty());
 }
 
+TEST_F(ConnectionTest, SecureComesFromTheFlagTheVariableOrTheNetworkFile) {
+  EXPECT_TRUE(resolve().keys.empty());
+  flags.network = write("network.yaml", "secure: keys\n");
+  EXPECT_EQ(resolve().keys, folder / "keys") << "seen from the file";
+  EXPECT_EQ(resolve().network, folder / "network.yaml");
+  variables = {{"ROCI_SECURE", "/var/keys"}};
+  EXPECT_EQ(resolve().keys, "/var/keys");
+  flags.secure = "/flag/keys";
+  EXPECT_EQ(resolve().keys, "/flag/keys");
+}
+
 }  // namespace
 }  // namespace roci::services::process

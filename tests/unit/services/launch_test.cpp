@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "services/launch/anchor_file.hpp"
+#include "services/launch/child.hpp"
 #include "services/launch/continuation.hpp"
+#include "services/launch/log_files.hpp"
 #include "services/launch/options.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/restart_policy.hpp"
@@ -33,14 +35,15 @@ class LaunchTest : public testing::Test {
  protected:
   LaunchTest() {
     fs::create_directories(folder);
-    std::ofstream(folder / "mission.yaml") << "name: test\n"
-                                              "robots: [rover]\n"
-                                              "services:\n"
-                                              "  - {name: arm_svc, robot: rover}\n"
-                                              "  - {name: exec_svc, standby: true}\n"
-                                              "  - {name: planner_svc, vendor: cyclonedds}\n"
-                                              "  - {name: sim_svc, clock: master}\n"
-                                              "  - {name: second.arm, program: arm_svc, arguments: [--seed, 12]}\n";
+    std::ofstream(folder / "mission.yaml")
+        << "name: test\n"
+           "robots: [rover]\n"
+           "services:\n"
+           "  - {name: arm_svc, robot: rover}\n"
+           "  - {name: exec_svc, standby: true}\n"
+           "  - {name: planner_svc, vendor: cyclonedds}\n"
+           "  - {name: sim_svc, clock: master}\n"
+           "  - {name: second.arm, program: arm_svc, arguments: [--seed, 12]}\n";
   }
   ~LaunchTest() override { fs::remove_all(folder); }
 
@@ -62,15 +65,40 @@ TEST_F(LaunchTest, MixedPutsWhoNamesItAndTheConsoleOnTheOtherVendor) {
   EXPECT_THAT(service_arguments(options, "exec_svc", 1, 0), Contains("fastdds"));
   EXPECT_EQ(console_vendor("mixed"), "cyclonedds");
   EXPECT_EQ(console_vendor("fastdds"), "fastdds");
-  EXPECT_THAT(service_arguments(parse({"--dds", "fastdds"}), "planner_svc", 1, 0), Not(Contains("cyclonedds")));
+  EXPECT_THAT(service_arguments(parse({"--dds", "fastdds"}), "planner_svc", 1, 0),
+              Not(Contains("cyclonedds")));
+}
+
+TEST_F(LaunchTest, NetworkFileAndKeysReachEveryProcess) {
+  std::ofstream(folder / "network.yaml") << "address: 127.0.0.1\npeers: []\n";
+  const std::string network = folder / "network.yaml", keys = folder / "keys";
+  const Options options = parse({"--dds", "mixed", "--network", network, "--secure=" + keys});
+  for (const std::string& service : options.services) {
+    const auto arguments = service_arguments(options, service, 1, 0);
+    EXPECT_THAT(arguments, IsSupersetOf({std::string("--network"), network})) << service;
+    EXPECT_THAT(arguments, Contains("--secure=" + keys)) << service;
+  }
+  EXPECT_THAT(service_arguments(parse({"--dds", "mixed"}), "sim_svc", 1, 0),
+              Not(Contains(HasSubstr("--secure"))));
+}
+
+TEST_F(LaunchTest, WhatCannotBeSecureIsRefused) {
+  std::ofstream(folder / "vendor.xml") << "<dds/>";
+  std::ofstream(folder / "network.yaml") << "vendor_xml: vendor.xml\n";
+  const std::string network = folder / "network.yaml";
+  EXPECT_THROW(parse({"--dds", "inproc", "--secure=/keys"}), std::invalid_argument);
+  EXPECT_THROW(parse({"--dds", "fastdds", "--network", network, "--secure=/keys"}), std::invalid_argument);
+  EXPECT_THROW(parse({"--dds", "mixed", "--network", network}), std::invalid_argument)
+      << "of which vendor it is?";
+  EXPECT_EQ(parse({"--dds", "fastdds", "--network", network}).connection.transport.vendor_xml,
+            folder / "vendor.xml");
 }
 
 TEST_F(LaunchTest, OnlyTheMasterKnowsRosterAndPace) {
   const Options options = parse({"--speed", "max"});
-  EXPECT_THAT(
-      service_arguments(options, "sim_svc", 3, 0),
-      IsSupersetOf({"master", "--roster", "arm_svc,exec_svc,planner_svc,sim_svc,second.arm",
-                    "--pace", "0", "--incarnation", "3"}));
+  EXPECT_THAT(service_arguments(options, "sim_svc", 3, 0),
+              IsSupersetOf({"master", "--roster", "arm_svc,exec_svc,planner_svc,sim_svc,second.arm", "--pace",
+                            "0", "--incarnation", "3"}));
   EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Contains("simulated"));
   EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Not(Contains("--roster")));
 }
@@ -84,7 +112,8 @@ TEST_F(LaunchTest, AStandbyIsASecondExecutiveAndNoMemberOfTheRoster) {
               IsSupersetOf({"exec_svc", "--pair", "second", "cyclonedds"}));
   EXPECT_THAT(service_arguments(options, "arm_svc", 1, 0), Not(Contains("--pair")));
   EXPECT_THAT(service_arguments(parse({}), "exec_svc", 1, 0), Not(Contains("--pair")));
-  EXPECT_THAT(parse({"--standby", "--services", "exec_svc.standby"}).services, ElementsAre("exec_svc.standby"));
+  EXPECT_THAT(parse({"--standby", "--services", "exec_svc.standby"}).services,
+              ElementsAre("exec_svc.standby"));
   EXPECT_THROW(parse({"--services", "exec_svc.standby"}), std::invalid_argument);
   EXPECT_THROW(parse({"--standby", "--dds", "inproc"}), std::invalid_argument);
 }
@@ -329,6 +358,26 @@ TEST_F(LaunchTest, ASummaryStatesItsFormatAndANewerOneIsRefused) {
     EXPECT_THAT(error.what(),
                 testing::AllOf(HasSubstr("summary.json is of format 2"), HasSubstr("one version")));
   }
+}
+
+// A service that writes all the time goes on, and its log never has more than the limit and what was written meanwhile.
+TEST_F(LaunchTest, ALogIsBoundedWhileItsServiceWrites) {
+  const fs::path log = folder / "talker.log", before = folder / "talker.log.1";
+  Child talker("/bin/sh", {"sh", "-c", "while true; do echo a line of some length; done"}, log);
+  for (int times = 0; times < 3;) {
+    times += bound_log(log, 100'000);
+    ASSERT_LT(fs::file_size(log), 50'000'000U);
+    ASSERT_FALSE(talker.ending());
+  }
+  EXPECT_GT(fs::file_size(before), 100'000U);
+  std::ifstream in(before);
+  std::string line;
+  std::getline(in, line);
+  std::getline(in, line);
+  EXPECT_EQ(line, "a line of some length");
+  EXPECT_FALSE(bound_log(folder / "nobody.log", 0));
+  fs::create_symlink(before, folder / "link.log");
+  EXPECT_FALSE(bound_log(folder / "link.log", 0)) << "a link leads to somebody else's file";
 }
 
 TEST(RestartPolicy, WaitsLongerEachTimeAndGivesUp) {

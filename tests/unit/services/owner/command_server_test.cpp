@@ -3,10 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 
 #include "services/owner/command_wire.hpp"
 #include "tests/unit/services/owner/example_driver.hpp"
@@ -199,6 +204,50 @@ TEST(CommandServer, ACancelMayBeRefused) {
   run.run();
   EXPECT_TRUE(driver.repaired);
   EXPECT_THAT(heard, ElementsAre("", "repairing", "cannot-cancel"));
+}
+
+// Files of this process cannot grow beyond this meanwhile, as on a full disk.
+class FullDisk {
+ public:
+  explicit FullDisk(std::uintmax_t size) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit full{static_cast<rlim_t>(size), before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &full);
+  }
+  ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+// What was done while the disk took nothing is kept once it takes something.
+TEST(CommandServer, AFullDiskLosesNoKey) {
+  const auto path = std::filesystem::temp_directory_path() / ("roci_full_" + std::to_string(::getpid()));
+  std::filesystem::remove(path);
+  std::optional<FullDisk> full;
+  std::vector<std::string> told;
+  {
+    SimRun run({"master", "drill"});
+    Node& master = run.add("master");
+    Stubborn driver(run.add("drill"));
+    driver.server.keep_in(path);
+    subscribe(master, topics::event, [&](const v1::Event& event) { told.push_back(event.code()); });
+    const auto sender = advertise(master, topics::command);
+    master.at(1s, [&] { full.emplace(std::filesystem::file_size(path)); });
+    master.at(2s, [&] { sender.write(command("a")); });
+    master.at(3s, [&] { full.reset(); });
+    master.at(4s, [&] { sender.write(command("b")); });
+    master.after(5s, [&master] { master.stop(); });
+    run.run();
+  }
+  EXPECT_THAT(told, testing::Contains("ledger.unwritten"));
+  std::vector<std::string> kept;
+  for (const LedgerEntry& entry : LedgerFile(path).read()) kept.push_back(entry.key.activity);
+  EXPECT_THAT(kept, ElementsAre("a", "b"));
+  std::filesystem::remove(path);
 }
 
 // The README shows the code that the tests above ran.

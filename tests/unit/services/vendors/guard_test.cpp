@@ -44,6 +44,93 @@ TEST(Guard, WhatVendorsSendPasses) {
       << "encrypted";
 }
 
+// SEC_BODY says its length itself, high byte first.
+Bytes encrypted(std::uint8_t length) {
+  Bytes body(4 + length);
+  body[3] = length;
+  return body;
+}
+
+TEST(Guard, InASecureRunNothingButTheHandshakeIsPlain) {
+  constexpr std::uint32_t kHandshake = 0x000201c3, kExchange = 0xff0202c3;
+  // How many bytes less than were sent; all: nothing is left to be read.
+  const auto lost = [](const Message& message) {
+    Bytes bytes = message.bytes();
+    EXPECT_EQ(examine(bytes), Verdict::pass);
+    return bytes.size() - strip_plain_submessages(bytes);
+  };
+  const auto all = [](const Message& message) { return message.bytes().size(); };
+  const auto whole =
+      own().submessage(0x33, 0, Bytes(20)).submessage(0x30, 0, encrypted(64)).submessage(0x34, 0, Bytes(20));
+  const auto handshake = own().data(0, kHandshake, 1, kData, {}, kPayload);
+  EXPECT_EQ(lost(whole), 0U);
+  EXPECT_EQ(lost(handshake), 0U);
+  EXPECT_EQ(lost(own()
+                     .submessage(0x31, 0, Bytes(20))
+                     .submessage(0x30, 0, encrypted(64))
+                     .submessage(0x32, 0, Bytes(20))),
+            0U)
+      << "keys are exchanged so";
+  for (const Message& plain :
+       {own().data(0, kExchange, 1, kData, {}, kPayload), own().data(0, kUserWriter, 1, kData, {}, kPayload),
+        own().heartbeat(0, kUserWriter, 1, 0, 1), own().acknack(7, kUserWriter, 1, 0),
+        own().gap(0, kUserWriter, 1, 200, 32), own().submessage(0x0e, 0, Bytes(12))})
+    EXPECT_EQ(lost(plain), all(plain));
+  // Cyclone DDS sends its handshake so.
+  EXPECT_EQ(lost(own().acknack(7, kUserWriter, 1, 0).data(0, kHandshake, 1, kData, {}, kPayload)),
+            all(own().acknack(7, kUserWriter, 1, 0)) - all(own()));
+}
+
+// A parser that meets no prefix at the beginning reads the rest in plain, and so does one that has read the postfix.
+TEST(Guard, AnEncryptedMessageIsNothingElse) {
+  const auto left = [](const Message& message) {
+    Bytes bytes = message.bytes();
+    return strip_plain_submessages(bytes);
+  };
+  EXPECT_EQ(left(own().submessage(0x33, 0, Bytes(20)).data(0, kUserWriter, 1, kData, {}, kPayload)), 0U);
+  EXPECT_EQ(left(own()
+                     .submessage(0x01, 0, Bytes(4))
+                     .submessage(0x33, 0, Bytes(20))
+                     .data(0, kUserWriter, 1, kData, {}, kPayload)),
+            0U);
+  const auto before = own().submessage(0x30, 0, encrypted(8));
+  EXPECT_EQ(left(own()
+                     .submessage(0x33, 0, Bytes(20))
+                     .submessage(0x30, 0, encrypted(8))
+                     .submessage(0x34, 0, Bytes(20))
+                     .heartbeat(0, kUserWriter, 1, 0, 1)),
+            before.bytes().size())
+      << "the body alone, which nobody can decrypt";
+}
+
+TEST(Guard, LengthsOfWhatIsEncryptedFit) {
+  EXPECT_EQ(judge(own().submessage(0x33, 0, Bytes(16))), Verdict::cut);
+  Bytes lying = encrypted(8);
+  lying[3] = 9;
+  EXPECT_EQ(judge(own().submessage(0x30, 0, lying)), Verdict::cut);
+  Bytes codes(40);
+  codes[19] = 1;
+  EXPECT_EQ(judge(own().submessage(0x34, 0, codes)), Verdict::pass);
+  codes[19] = 2;
+  EXPECT_EQ(judge(own().submessage(0x34, 0, codes)), Verdict::cut);
+}
+
+TEST(Identities, InASecureRunAPrefixNamesItsPortBehindTheCertificate) {
+  Identities identities(true);
+  const Source source{0x7f000001, 0x9c40}, other{0x7f000001, 0x9c41};
+  GuidPrefix certified{0x80, 1, 2, 3, 4, 5, 0x9c, 0x40, 6, 7, 8, 9};
+  const auto now = std::chrono::steady_clock::now();
+  EXPECT_EQ(identities.claim(certified, other, now), Verdict::taken_identity);
+  EXPECT_EQ(identities.claim(certified, source, now), Verdict::pass);
+  EXPECT_EQ(identities.claim({0x01, 0x0f, 2, 3, 4, 5, 0x9c, 0x40}, source, now), Verdict::taken_identity);
+  EXPECT_TRUE(may_speak_for(certified, certified));
+  GuidPrefix twin = certified, stranger = certified;
+  twin[11] = 0;     // of the same process
+  stranger[7] = 0;  // another one with the same certificate
+  EXPECT_TRUE(may_speak_for(certified, twin));
+  EXPECT_FALSE(may_speak_for(certified, stranger));
+}
+
 TEST(Guard, EachKindOfDamageHasItsVerdict) {
   EXPECT_EQ(examine(Bytes(19)), Verdict::no_rtps);
   EXPECT_EQ(examine(Bytes(64)), Verdict::no_rtps);

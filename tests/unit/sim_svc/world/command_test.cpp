@@ -29,7 +29,7 @@ TEST(Commands, AKeyIsTakenOnce) {
   run.command(seconds(60), image);
   EXPECT_EQ(run.said.size(), before);
   EXPECT_EQ(run.acks.size(), acks + 1);
-  EXPECT_EQ(run.world.begun().size(), 1u);
+  EXPECT_EQ(run.world.take_begun().size(), 1u);
   EXPECT_EQ(run.stage("i"), Stage::completed);
   EXPECT_EQ(run.state("rover.camera"), (State{"idle", {}}));
 }

@@ -100,9 +100,10 @@ TEST(Robots, TwoInOneWorldActForThemselves) {
   EXPECT_EQ(run.state("rover.nav"), (State{"idle-at", {"here"}}));
   EXPECT_EQ(last_number(run.said, "rover.x"), 20);
   EXPECT_LT(last_number(run.said, "scout.battery"), last_number(run.said, "rover.battery"));
-  ASSERT_EQ(run.world.begun().size(), 1u);
-  EXPECT_EQ(run.world.begun()[0].robot, "scout");
-  EXPECT_EQ(run.world.begun()[0].component, "nav");
+  const auto begun = run.world.take_begun();
+  ASSERT_EQ(begun.size(), 1u);
+  EXPECT_EQ(begun[0].robot, "scout");
+  EXPECT_EQ(begun[0].component, "nav");
 }
 
 TEST(Robots, AmongSeveralACommandNamesItsRobot) {

@@ -1,0 +1,132 @@
+#include "services/security/topic_rights.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "services/topics.hpp"
+
+namespace roci::services::security {
+namespace {
+
+using enum Role;
+using Roles = std::set<Role>;
+
+constexpr std::pair<Role, std::string_view> kWords[] = {{service, "service"},
+                                                        {master, "master"},
+                                                        {executive, "executive"},
+                                                        {planner, "planner"},
+                                                        {path_planner, "path_planner"},
+                                                        {arm_planner, "arm_planner"},
+                                                        {analyst, "analyst"},
+                                                        {owner, "owner"},
+                                                        {world, "world"},
+                                                        {resolver, "resolver"},
+                                                        {launcher, "launcher"},
+                                                        {console, "console"}};
+
+template <class T>
+TopicRights row(const Topic<T>& topic, Roles writers, Roles readers) {
+  return {topic.name, topic.scope, std::move(writers), std::move(readers)};
+}
+
+// Who serves writes the replies; who calls may cancel.
+template <class Request, class Reply>
+void add(std::vector<TopicRights>& rows, const topics::Procedure<Request, Reply>& procedure,
+         const Roles& callers, const Roles& servers) {
+  rows.push_back(row(procedure.request, callers, servers));
+  rows.push_back(row(procedure.reply, servers, callers));
+}
+
+std::vector<TopicRights> make_table() {
+  const Roles all{service, launcher, console};
+  // clang-format off
+  std::vector<TopicRights> rows{
+      //  topic                  writers                                     readers
+      row(topics::clock_ready,     {service},                                {master}),
+      row(topics::clock_step,      {master},                                 all),
+      row(topics::clock_done,      {service},                                {master}),
+      row(topics::heartbeat,       {service},                                all),
+      row(topics::time_probe,      {service},                                {service}),
+
+      row(topics::exec_member,     {executive},                              {executive, console}),
+      row(topics::exec_journal,    {executive},                              {executive}),
+
+      row(topics::event,           all,                                      all),
+      row(topics::goal,            {executive, analyst, world, console},     {executive, planner, console}),
+      row(topics::goal_status,     {executive},                              {planner, console}),
+      row(topics::command,         {executive},                              {owner}),
+      row(topics::command_ack,     {owner},                                  {executive}),
+      row(topics::observation,     {owner, executive},                       {executive, planner, console}),
+      row(topics::data_product,    {owner},                                  {analyst, console}),
+      row(topics::hazard,          {owner},                                  {path_planner, console}),
+      row(topics::plan,            {executive},                              {planner, console}),
+      row(topics::step_status,     {executive},                              {planner, console}),
+      row(topics::mission_status,  {executive},                              {world, launcher, console}),
+      row(topics::function_offer,  {path_planner, arm_planner},              {planner, executive}),
+
+      row(topics::order,           {console},                                {executive}),
+      row(topics::order_status,    {executive},                              {console}),
+      row(topics::decision,        {executive},                              {resolver, console}),
+      row(topics::decision_answer, {resolver},                               {executive}),
+      row(topics::decision_receipt,{executive},                              {resolver}),
+
+      row(topics::plan_delta,      {planner},                                {executive}),
+      row(topics::plan_receipt,    {executive},                              {planner}),
+      row(topics::call_cancel,     {executive, planner, owner},              {planner, path_planner, arm_planner}),
+  };
+  //        procedure                callers       servers
+  add(rows, topics::plan_request,  {executive},  {planner});
+  add(rows, topics::function_call, {planner},    {path_planner, arm_planner});
+  add(rows, topics::path_request,  {owner},      {path_planner});
+  add(rows, topics::arm_motion,    {owner},      {arm_planner});
+  // clang-format on
+  return rows;
+}
+
+bool meet(const Roles& some, const Roles& others) {
+  return std::ranges::any_of(some, [&](Role role) { return others.contains(role); });
+}
+
+std::vector<std::string> topics_for(const Roles& roles, transport::Scope scope, Roles TopicRights::*side) {
+  std::vector<std::string> out;
+  for (const TopicRights& rights : topic_rights())
+    if (rights.scope == scope && meet(rights.*side, roles)) out.push_back(rights.topic);
+  return out;
+}
+
+}  // namespace
+
+std::string_view word_of(Role role) {
+  return std::ranges::find(kWords, role, &std::pair<Role, std::string_view>::first)->second;
+}
+
+std::optional<Role> role_of(std::string_view word) {
+  const auto* found = std::ranges::find(kWords, word, &std::pair<Role, std::string_view>::second);
+  return found == std::end(kWords) ? std::nullopt : std::optional(found->first);
+}
+
+std::span<const TopicRights> topic_rights() {
+  static const std::vector<TopicRights> table = make_table();
+  return table;
+}
+
+std::set<Role> roles_of_program(std::string_view program) {
+  if (program == "exec_svc") return {service, executive};
+  if (program == "planner_svc") return {service, planner};
+  if (program == "pathplan_svc") return {service, path_planner};
+  if (program == "arm_svc") return {service, arm_planner};
+  if (program == "science_svc") return {service, analyst};
+  if (program == "sim_svc") return {service, owner, world};
+  return {};
+}
+
+std::vector<std::string> writable(const std::set<Role>& roles, transport::Scope scope) {
+  return topics_for(roles, scope, &TopicRights::writers);
+}
+
+std::vector<std::string> readable(const std::set<Role>& roles, transport::Scope scope) {
+  return topics_for(roles, scope, &TopicRights::readers);
+}
+
+}  // namespace roci::services::security

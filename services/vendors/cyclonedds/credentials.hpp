@@ -1,0 +1,12 @@
+// The credentials of a participant in the terms of Cyclone DDS: properties of its QoS, so that a secure run keeps the configuration of
+// its domain as it is.
+#pragma once
+
+#include "services/vendors/cyclonedds/qos.hpp"
+
+namespace roci::services::vendors::cyclonedds {
+
+/// Throws TransportError if the vendor's plug-ins for DDS Security are not installed.
+void add_credentials(const transport::Credentials&, dds_qos_t*);
+
+}  // namespace roci::services::vendors::cyclonedds

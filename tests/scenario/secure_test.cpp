@@ -1,0 +1,94 @@
+// Secure flights by the programs that users start: the trace is that of a plain one, and what cannot be secure does not start.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "tests/contract/secure/key_ring.hpp"
+#include "tests/scenario/flight.hpp"
+
+namespace roci::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string kMission = std::string(ROCI_SOURCE_DIR) + "/missions/planetary";
+
+class SecureFlight : public ::testing::TestWithParam<std::string> {
+ protected:
+  const services::contract::KeyRing ring_;
+};
+
+TEST_P(SecureFlight, GivesTheTraceOfThePlainOne) {
+  const std::string folder = ring_.path() + "-run";
+  const Flight secure = fly(kMission, GetParam(), 1, "--secure=" + ring_.path() + " --run-folder " + folder);
+  EXPECT_EQ(secure.exit_code, 0) << secure.summary.dump();
+  const Flight plain = fly(kMission, "inproc");
+  EXPECT_EQ(secure.summary.value("trace_sha256", "none"), plain.summary.value("trace_sha256", "no trace"));
+  // Nothing of ours is taken for a stranger's.
+  const Ended refused = run("cat " + folder + "/*.log | grep -c 'refused before DDS reads them'");
+  EXPECT_EQ(refused.output, "0\n");
+}
+
+INSTANTIATE_TEST_SUITE_P(Transports, SecureFlight, ::testing::Values("fastdds", "cyclonedds", "mixed"),
+                         [](const auto& test) { return test.param; });
+
+Ended launch(const std::string& more) {
+  return run("timeout 60 roci-launch " + kMission + " --speed max --headless " + more + " 2>&1");
+}
+
+TEST(FailClosed, ARunThatCannotBeSecureDoesNotStart) {
+  const Ended nowhere = launch("--dds fastdds --secure=/nowhere/keys");
+  EXPECT_EQ(nowhere.exit_code, 2);
+  EXPECT_THAT(nowhere.output, AllOf(HasSubstr("/nowhere/keys"), HasSubstr("roci-keys make")));
+  const Ended one_process = launch("--dds inproc --secure=/nowhere/keys");
+  EXPECT_EQ(one_process.exit_code, 2);
+  EXPECT_THAT(one_process.output, HasSubstr("inproc"));
+  const Ended named = run("ROCI_SECURE=/nowhere/keys timeout 60 roci-launch " + kMission +
+                          " --dds cyclonedds --headless 2>&1");
+  EXPECT_EQ(named.exit_code, 2);
+}
+
+TEST(FailClosed, AServiceWithoutAValidCertificateDoesNotStart) {
+  const services::contract::KeyRing ring;
+  constexpr std::int64_t kDay = 24 * 3600;
+  const std::int64_t now = services::contract::KeyRing::now_s();
+  ring.authority().renew("arm_svc", 1, now - 10 * kDay);
+  ring.authority().revoke("pathplan_svc", "", now);
+  const auto start = [&](const std::string& service) {
+    return run("timeout 60 " + service + " --mission " + kMission +
+               " --dds cyclonedds --domain 77 --secure=" + ring.path() + " 2>&1");
+  };
+  const Ended expired = start("arm_svc"), revoked = start("pathplan_svc");
+  EXPECT_EQ(expired.exit_code, 2);
+  EXPECT_THAT(expired.output, AllOf(HasSubstr("ran out on"), HasSubstr("roci-keys renew arm_svc")));
+  EXPECT_EQ(revoked.exit_code, 2);
+  EXPECT_THAT(revoked.output, HasSubstr("was revoked"));
+  const Ended whole = launch("--dds mixed --secure=" + ring.path());
+  EXPECT_EQ(whole.exit_code, 2) << "before anything starts";
+}
+
+TEST(Keys, TheProgramMakesListsRenewsAndRevokes) {
+  const services::contract::KeyRing other;  // its folder goes, and what stands beside it with it
+  const std::string keys = " --keys " + other.path() + "-made 2>&1";
+  const Ended made = run("roci-keys make " + kMission + keys);
+  EXPECT_EQ(made.exit_code, 0) << made.output;
+  EXPECT_THAT(made.output, AllOf(HasSubstr("exec_svc"), HasSubstr("launcher"), HasSubstr("roci")));
+  EXPECT_EQ(run("roci-keys list" + keys).exit_code, 0);
+  EXPECT_EQ(run("roci-keys revoke arm_svc" + keys).exit_code, 0);
+  const Ended listed = run("roci-keys list" + keys);
+  EXPECT_EQ(listed.exit_code, 1);
+  EXPECT_THAT(listed.output, HasSubstr("arm_svc, cyclonedds: revoked on 20"));
+  EXPECT_EQ(run("roci-keys renew arm_svc" + keys).exit_code, 0);
+  EXPECT_EQ(run("roci-keys list" + keys).exit_code, 0);
+  const Ended unknown = run("roci-keys renew nobody" + keys);
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.output, HasSubstr("knows no nobody"));
+  EXPECT_EQ(run("roci-keys --help").exit_code, 0);
+  EXPECT_EQ(run("roci-keys").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace roci::scenario

@@ -1,0 +1,133 @@
+// What the services really publish and subscribe against the table of rights: each service of the missions is made on a transport that
+// notes its endpoints, live and simulated.
+#include "services/security/topic_rights.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "rehearsal/flight.hpp"
+#include "services/node.hpp"
+#include "services/time_watch.hpp"
+#include "services/transport/plug_ins.hpp"
+
+namespace roci::scenario {
+namespace {
+
+namespace transport = services::transport;
+namespace security = services::security;
+using security::Role;
+
+// Topics by role, as they were opened.
+struct Used {
+  std::set<std::string> written;
+  std::set<std::string> read;
+};
+
+class NotingTransport : public transport::Transport {
+ public:
+  NotingTransport(std::unique_ptr<Transport> under, Used& used) : under_(std::move(under)), used_(used) {}
+  std::string_view vendor() const override { return under_->vendor(); }
+  std::unique_ptr<transport::Writer> create_writer(const transport::EndpointDescription& endpoint,
+                                                   transport::WriterEvents events) override {
+    used_.written.insert(endpoint.topic);
+    return under_->create_writer(endpoint, std::move(events));
+  }
+  std::unique_ptr<transport::Reader> create_reader(const transport::EndpointDescription& endpoint,
+                                                   transport::ReaderEvents events) override {
+    used_.read.insert(endpoint.topic);
+    return under_->create_reader(endpoint, std::move(events));
+  }
+  std::string announcement() const override { return under_->announcement(); }
+  std::optional<transport::Participant> participant_of(const transport::Guid& guid) override {
+    return under_->participant_of(guid);
+  }
+  bool speaks_as(const transport::Guid& writer, std::string_view sender) const override {
+    return under_->speaks_as(writer, sender);
+  }
+
+ private:
+  std::unique_ptr<Transport> under_;
+  Used& used_;
+};
+
+Used used_by(const std::filesystem::path& mission, const mission::ServiceEntry& entry, bool live) {
+  Used used;
+  services::node::NodeOptions options = rehearsal::node_options(mission, entry, 0);
+  if (live) options.clock = services::clock::ClockMode::live;
+  services::Node node(
+      options, std::make_unique<NotingTransport>(
+                   transport::open_transport("inproc", {.domain = 3, .participant = entry.name}), used));
+  const services::TimeWatch time_watch(node, {.reference = "another"});
+  services::RunSettings run{.mission = mission};
+  run.settings = entry.settings;
+  const auto service = rehearsal::make_of(entry)(node, run);
+  if (live) node.spin_once(std::chrono::milliseconds(0));
+  return used;
+}
+
+std::set<Role> roles_of(const mission::ServiceEntry& entry) {
+  auto roles = security::roles_of_program(entry.program);
+  if (entry.clock_master) roles.insert(Role::master);
+  return roles;
+}
+
+bool any_of(const std::set<Role>& some, const std::set<Role>& others) {
+  return std::any_of(some.begin(), some.end(), [&](Role role) { return others.contains(role); });
+}
+
+TEST(TopicRightsOfServices, CoverWhatTheyPublishAndSubscribe) {
+  const std::filesystem::path mission = ROCI_SOURCE_DIR "/missions/planetary";
+  for (const mission::ServiceEntry& entry : rehearsal::crew_of(mission)) {
+    for (const bool live : {false, true}) {
+      const Used used = used_by(mission, entry, live);
+      EXPECT_TRUE(used.written.contains("roci/event")) << entry.name;
+      for (const security::TopicRights& row : security::topic_rights()) {
+        if (used.written.contains(row.topic)) {
+          EXPECT_TRUE(any_of(row.writers, roles_of(entry))) << entry.name << " writes " << row.topic;
+        }
+        if (used.read.contains(row.topic)) {
+          EXPECT_TRUE(any_of(row.readers, roles_of(entry))) << entry.name << " reads " << row.topic;
+        }
+      }
+    }
+  }
+}
+
+// A right that no service of a program uses is one too many. The engines that plan all the time, pairs and decisions have no part in
+// this mission.
+TEST(TopicRightsOfServices, GiveNoMoreThanWhatIsUsed) {
+  const std::filesystem::path mission = ROCI_SOURCE_DIR "/missions/planetary";
+  const std::set<std::string> elsewhere{"roci/exec/member",
+                                        "roci/exec/journal",
+                                        "roci/decision",
+                                        "roci/decision/answer",
+                                        "roci/decision/receipt",
+                                        "roci/planner/delta",
+                                        "roci/planner/receipt",
+                                        "roci/goal/status",
+                                        "roci/plan",
+                                        "roci/plan/step",
+                                        "roci/order",
+                                        "roci/order/status"};
+  for (const mission::ServiceEntry& entry : rehearsal::crew_of(mission)) {
+    Used used = used_by(mission, entry, false);
+    const Used live = used_by(mission, entry, true);
+    used.written.insert(live.written.begin(), live.written.end());
+    used.read.insert(live.read.begin(), live.read.end());
+    std::set<Role> own = roles_of(entry);
+    own.erase(Role::service);  // what every process may
+    for (const security::TopicRights& row : security::topic_rights()) {
+      if (elsewhere.contains(row.topic)) continue;
+      if (any_of(row.writers, own)) {
+        EXPECT_TRUE(used.written.contains(row.topic)) << entry.name << " may write " << row.topic;
+      }
+      if (any_of(row.readers, own)) {
+        EXPECT_TRUE(used.read.contains(row.topic)) << entry.name << " may read " << row.topic;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace roci::scenario

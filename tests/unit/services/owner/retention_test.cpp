@@ -1,0 +1,131 @@
+// An owner that runs for years forgets the oldest ended commands, and yet carries none of them out a second time.
+#include "services/owner/retention.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "services/owner/command_ledger.hpp"
+#include "services/owner/ledger_file.hpp"
+
+namespace roci::services::owner {
+namespace {
+
+using temporal::seconds;
+using Order = Reception::Order;
+
+constexpr std::size_t kMany = 5 * Retention::kKept;
+constexpr std::uint32_t kPlans = 50;
+
+Request drive(std::size_t number, std::uint32_t plan, Action action = Action::execute) {
+  Request out{{"p" + std::to_string(plan) + "." + std::to_string(number) + "-drive", 1, "exec_svc", 1},
+              action,
+              1,
+              "exec_svc",
+              "rover",
+              "nav",
+              "drive"};
+  out.plan = plan;
+  return out;
+}
+std::uint32_t plan_of(std::size_t number) { return static_cast<std::uint32_t>(1 + number * kPlans / kMany); }
+
+void fly(CommandLedger& ledger, const Request& request) {
+  ASSERT_EQ(ledger.receive(request, seconds(1)).order, Order::carry_out) << request.key.activity;
+  ASSERT_TRUE(ledger.say(request.key, {Stage::accepted}, seconds(1)));
+  ASSERT_TRUE(ledger.say(request.key, {Stage::completed, "done"}, seconds(2)));
+}
+
+CommandLedger after_many() {
+  CommandLedger ledger;
+  for (std::size_t i = 0; i < kMany; ++i) fly(ledger, drive(i, plan_of(i)));
+  return ledger;
+}
+
+void expect_none_taken_again(CommandLedger& ledger) {
+  std::size_t forgotten = 0;
+  for (std::size_t i = 0; i < kMany; ++i) {
+    for (const Action action : {Action::query, Action::execute}) {
+      const Reception again = ledger.receive(drive(i, plan_of(i), action), seconds(3));
+      ASSERT_EQ(again.order, Order::nothing) << i;
+      ASSERT_TRUE(again.ack);
+      ASSERT_NE(again.ack->word.stage, Stage::unknown) << "its commander would send it again";
+      const bool is_old = again.ack->word.code == "forgotten";
+      if (is_old) {
+        EXPECT_EQ(again.ack->word.stage, Stage::failed);
+      }
+      forgotten += is_old;
+    }
+    if (i + Retention::kKept >= kMany) {
+      EXPECT_EQ(ledger.receive(drive(i, plan_of(i), Action::query), seconds(3)).ack->word.code, "done") << i;
+    }
+  }
+  EXPECT_GT(forgotten, kMany);
+}
+
+TEST(Retention, WhatIsKeptIsBoundedAndNothingForgottenIsTakenAgain) {
+  CommandLedger ledger = after_many();
+  EXPECT_LE(ledger.kept().size(), 4 * Retention::kKept + 10);
+  expect_none_taken_again(ledger);
+  fly(ledger, drive(kMany, kPlans));
+  fly(ledger, drive(kMany, kPlans + 1));
+}
+
+TEST(Retention, TheFileKeepsWhatIsForgotten) {
+  const auto path = std::filesystem::temp_directory_path() / ("roci_retention_" + std::to_string(::getpid()));
+  {
+    LedgerFile file(path);
+    file.replace(after_many().kept());
+    file.append({{"x", 1, "other", 0}, "other", 3});
+  }
+  CommandLedger ledger;
+  for (const LedgerEntry& entry : LedgerFile(path).read()) ledger.restore(entry);
+  std::filesystem::remove(path);
+  ledger.end_restored();
+  expect_none_taken_again(ledger);
+  Request old = drive(kMany, kPlans);
+  old.epoch = 0;
+  EXPECT_EQ(ledger.receive(old, seconds(3)).ack->word.code, "old-epoch")
+      << "epochs outlive the file's beginning anew";
+}
+
+TEST(Retention, APlanThatRunsForgetsNothing) {
+  CommandLedger ledger;
+  for (std::size_t i = 0; i < kMany; ++i) fly(ledger, drive(i, 1));
+  EXPECT_EQ(ledger.receive(drive(0, 1, Action::query), seconds(3)).ack->word.code, "done");
+  EXPECT_EQ(ledger.receive(drive(0, 1), seconds(3)).order, Order::nothing);
+}
+
+TEST(Retention, ALaterEpochBeginsItsPlansAnew) {
+  CommandLedger ledger = after_many();
+  Request later = drive(0, 1);
+  later.key.issued_epoch = later.epoch = 2;
+  fly(ledger, later);
+}
+
+TEST(Retention, WhatRunsIsNeverForgotten) {
+  CommandLedger ledger;
+  const Request first = drive(kMany + 1, 1);
+  ASSERT_EQ(ledger.receive(first, seconds(1)).order, Order::carry_out);
+  ASSERT_TRUE(ledger.say(first.key, {Stage::accepted}, seconds(1)));
+  for (std::size_t i = 0; i < kMany; ++i) fly(ledger, drive(i, plan_of(i)));
+  EXPECT_TRUE(ledger.say(first.key, {Stage::completed, "done"}, seconds(9)));
+  EXPECT_EQ(ledger.receive(drive(kMany + 1, 1, Action::query), seconds(9)).ack->word.code, "done");
+}
+
+TEST(Retention, AStopIsObeyedHoweverOldItsKeySeems) {
+  CommandLedger ledger = after_many();
+  Request stop = drive(0, 0);
+  stop.key = {"s1", 1, "exec_svc", 0};
+  stop.command = kStopCommand;
+  EXPECT_EQ(ledger.receive(stop, seconds(3)).order, Order::carry_out);
+  Request fallback = stop;
+  fallback.key.activity = "fallback.0.1.nav";
+  fallback.command = "stow";
+  EXPECT_EQ(ledger.receive(fallback, seconds(3)).ack->word.code, "forgotten");
+}
+
+}  // namespace
+}  // namespace roci::services::owner
