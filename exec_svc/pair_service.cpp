@@ -15,6 +15,7 @@
 #include "services/health/watchdog_notifier.hpp"
 #include "services/log/log.hpp"
 #include "services/node.hpp"
+#include "services/process/clock_watch.hpp"
 #include "services/process/link_report.hpp"
 #include "services/process/service_options.hpp"
 #include "services/process/stop_signals.hpp"
@@ -177,6 +178,7 @@ class PairProcess {
     services::Node node(options, std::move(transport));
     node.on_turn([this] { watchdog_.notify(); });
     const services::TimeWatch time_watch(node, options_.time);
+    const services::process::ClockWatch clock_watch(node, options_.run.run_folder);
     try {
       LeaderService leading(node, options_.node.name, lease, journal_, persisted_term_);
       const auto executive = make_executive(node, options_.run, journal_, leading, turn.doubtful);
