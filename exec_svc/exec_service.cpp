@@ -78,6 +78,10 @@ std::string planner_of(const MissionModel& mission, const services::RunSettings&
   return serving.empty() ? kPlanner : serving;
 }
 
+bool is_in_doubt(const Journal& journal) {
+  return !journal.text(journal::kDamage).empty() || !journal.text(journal::kShortened).empty();
+}
+
 CrashPoints crash_points(const Node& node) {
   const char* setting = std::getenv("ROCI_CRASH");
   return CrashPoints(setting == nullptr ? "" : setting, node.options().incarnation,
@@ -105,7 +109,7 @@ class ExecService final : public services::Service {
         epoch_(epoch),
         leader_(leading),
         apart_(std::move(apart)),
-        reactor_(mission_, journal_, doubtful || !journal.text(journal::kDamage).empty()),
+        reactor_(mission_, journal_, doubtful || is_in_doubt(journal)),
         crash_(crash_points(node)),
         planner_(node, topics::plan_request),
         publisher_(node, mission_, epoch, crash_),
@@ -190,11 +194,14 @@ class ExecService final : public services::Service {
 
   // The ground has been told once the first step is durable.
   void tell_damage() {
-    const std::string damage = journal_.text(journal::kDamage);
-    if (damage.empty()) return;
-    services::log::error(damage);
-    publisher_.report({Severity::error, "journal.damaged", damage});
-    journal_.set_text(journal::kDamage, "");
+    for (const auto& [name, code] : {std::pair(journal::kDamage, "journal.damaged"),
+                                     std::pair(journal::kShortened, "journal.shortened")}) {
+      const std::string text = journal_.text(name);
+      if (text.empty()) continue;
+      services::log::error(text);
+      publisher_.report({Severity::error, code, text});
+      journal_.set_text(name, "");
+    }
   }
 
   // What is not durable is neither acknowledged nor commanded, so nothing else can be done meanwhile. The supervisor
@@ -534,6 +541,7 @@ class LoneExecutive final : public services::Service {
                                                      cause);
                             },
                             nullptr});
+    journal_.watch_extent();
     return journal_.next_epoch();
   }
 

@@ -14,6 +14,7 @@
 #include "services/health/watchdog_notifier.hpp"
 #include "services/log/log.hpp"
 #include "services/node.hpp"
+#include "services/process/clock_watch.hpp"
 #include "services/process/link_report.hpp"
 #include "services/process/service_options.hpp"
 #include "services/process/stop_signals.hpp"
@@ -110,7 +111,9 @@ class PairProcess {
                                 services::process::DiskPause([this] { watchdog_.notify(); })),
                  durability_for(options.node)),
         persisted_term_(file_of(options, "standing"), durability_for(options.node)),
-        stop_watch_(signals, [this] { stop_.ask(); }) {}
+        stop_watch_(signals, [this] { stop_.ask(); }) {
+    journal_.watch_extent();
+  }
 
   void run() {
     for (bool superseded = false; !stop_.asked();) {
@@ -176,6 +179,7 @@ class PairProcess {
     services::Node node(options, std::move(transport));
     node.on_turn([this] { watchdog_.notify(); });
     const services::TimeWatch time_watch(node, options_.time);
+    const services::process::ClockWatch clock_watch(node, options_.run.run_folder);
     try {
       LeaderService leading(node, options_.node.name, lease, journal_, persisted_term_);
       const auto executive = make_executive(node, options_.run, journal_, leading, turn.doubtful,
