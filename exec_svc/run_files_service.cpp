@@ -25,7 +25,8 @@ std::filesystem::path usable_journal(const std::filesystem::path& file, services
   for (bool waited = false;; waited = true) {
     try {
       journal::salvage_if_damaged(file);
-      const journal::Journal usable(file, journal::Durability::process);
+      const std::string lost = journal::Journal(file, journal::Durability::process).watch_extent();
+      if (!lost.empty()) services::log::error("exec_svc: " + lost);
       if (waited)
         services::log::warning("exec_svc waited " + std::to_string(pause.over()) + " s for the disk of " +
                                file.string());

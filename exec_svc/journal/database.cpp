@@ -188,6 +188,7 @@ void Journal::Database::write() {
     execute("COMMIT");
     open_transaction = false;
     changes_.clear();
+    note_extent();
     if (batch) batches.push_back(std::move(*batch));
   } catch (const DiskError&) {
     roll_back();
@@ -250,6 +251,23 @@ void Journal::Database::set_position(const Position& position) {
       .bind(static_cast<std::int64_t>(position.epoch))
       .bind(static_cast<std::int64_t>(position.sequence))
       .run();
+}
+
+Extent Journal::Database::extent() const {
+  Statement row(
+      *this,
+      "SELECT (SELECT COALESCE(MAX(seq), 0) FROM record), (SELECT value FROM number WHERE name = 'epoch')");
+  row.row();
+  return {.epoch = row.number(1), .record = row.number(0)};
+}
+
+void Journal::Database::note_extent() {
+  if (!mark) return;
+  try {
+    mark->write(extent());
+  } catch (const JournalError&) {
+    // The commit stands; the mark is of the one before.
+  }
 }
 
 }  // namespace roci::exec::journal

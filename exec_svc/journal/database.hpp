@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "exec_svc/journal/high_water_mark.hpp"
 #include "exec_svc/journal/journal.hpp"
 
 struct sqlite3;
@@ -65,6 +66,9 @@ struct Journal::Database {
   std::int64_t take_record_number();
   Position position() const;
   void set_position(const Position& position);
+  Extent extent() const;
+  /// Is called after each commit.
+  void note_extent();
 
   sqlite3* handle = nullptr;
   std::unique_ptr<Statement> append_record;
@@ -72,6 +76,7 @@ struct Journal::Database {
   std::vector<Batch> batches;          ///< not taken yet
   bool open_transaction = false;
   DiskWait disk_wait;
+  std::optional<HighWaterMark> mark;  ///< of how far this journal was written, where it is watched
 
  private:
   void begin();
@@ -79,7 +84,7 @@ struct Journal::Database {
   void write();
   void close();
 
-  sqlite3_session* session_ = nullptr;  ///< of the open transaction, if it becomes a batch
+  sqlite3_session* session_ = nullptr;          ///< of the open transaction, if it becomes a batch
   std::vector<std::function<void()>> changes_;  ///< since the last commit
   bool rolled_back_ = false;                    ///< by the disk: changes_ are to be made again
   std::int64_t next_record_ = 1;

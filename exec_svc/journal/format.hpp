@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 struct sqlite3;
 
@@ -15,11 +16,27 @@ inline constexpr int kFormat = 1;
 /// The version of inputs and snapshots, which the journal states as its number `format`. It rises when
 /// reactor/message_fields.hpp or the reactor's snapshot change. Those of another version are never read: the
 /// executive keeps goals and plan numbers and plans anew, roci-replay refuses.
-inline constexpr std::int64_t kInputFormat = 9;
+inline constexpr std::int64_t kInputFormat = 10;
 
-/// Leaves an open journal at kFormat. A journal that states no version is of version 1, as baseline-05 wrote
-/// them; older versions are brought up here, step by step. Throws NewerJournal for a newer one; nothing has
-/// changed then.
+/// What a journal of a version states besides in its second place, SQLite's application_id, so that one flipped byte is not taken
+/// for a newer version.
+constexpr std::int32_t stamp_of(std::int32_t version) { return 0x524f0000 + version; }
+
+/// What a journal states of its version.
+struct StatedFormat {
+  std::int32_t version = 0;  ///< user_version; 0: none
+  std::int32_t stamp = 0;    ///< application_id; 0: none, as before there was a second place
+  bool newer() const { return version > kFormat && stamp == stamp_of(version); }
+  /// Nobody has written it so: it is damaged.
+  bool contradicts_itself() const { return version > kFormat && !newer(); }
+};
+/// Throws JournalError where it cannot be read.
+StatedFormat stated_format(sqlite3* database);
+std::string to_text(const StatedFormat& stated);
+
+/// Leaves an open journal at kFormat, stated in both places. A journal that states no version is of version 1, as baseline-05
+/// wrote them; older versions are brought up here, step by step. Throws NewerJournal for a newer one, and JournalError for one
+/// whose places contradict each other; nothing has changed then.
 void settle_format(sqlite3* database);
 
 }  // namespace roci::exec::journal

@@ -1,5 +1,6 @@
 #include "exec_svc/journal/journal.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -43,6 +44,7 @@ std::string encode(const GoalRecord& record) {
   if (goal.utility.scores().size() > 1) out["ranks"] = goal.utility.scores();
   if (goal.preferred != temporal::no_bound) out["preferred"] = goal.preferred.count();
   if (!goal.robot.empty()) out["robot"] = goal.robot;
+  if (record.revision != 0) out["revision"] = record.revision;
   // Rejected goals may hold anything.
   return out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -85,6 +87,7 @@ void decode(GoalKey key, const std::string& text, GoalRecord& record) {
   goal.recalled = json.at("recalled").get<bool>();
   goal.sample = sample_in(json, "said_in");
   record.answers = sample_in(json, "answers");
+  record.revision = json.value("revision", std::uint32_t{0});
 }
 
 }  // namespace
@@ -97,6 +100,29 @@ Journal::~Journal() = default;
 void Journal::commit() { database_->commit(); }
 
 void Journal::wait_for_disk(DiskWait wait) { database_->disk_wait = std::move(wait); }
+
+std::string Journal::watch_extent() {
+  commit();
+  HighWaterMark mark(file_);
+  const Extent marked = mark.read().value_or(Extent{});
+  const Extent own = database_->extent();
+  database_->mark.emplace(std::move(mark));
+  if (marked.epoch <= own.epoch && marked.record <= own.record) {
+    database_->note_extent();
+    return "";
+  }
+  const std::string text = "the journal " + file_.filename().string() +
+                           " has lost its end: it was written up to record " + std::to_string(marked.record) +
+                           " in epoch " + std::to_string(marked.epoch) + " and goes up to record " +
+                           std::to_string(own.record) + " in epoch " + std::to_string(own.epoch) +
+                           ". All is planned anew; send again what was acknowledged and is missing";
+  append(temporal::Time{0}, "event", "journal.shortened " + text);
+  set_number("epoch", std::max(marked.epoch, own.epoch));
+  set_text(kShortened, text);
+  set_position(kForkedHistory);
+  commit();
+  return text;
+}
 
 std::uint64_t Journal::next_epoch() {
   const std::int64_t epoch = number("epoch", 0) + 1;

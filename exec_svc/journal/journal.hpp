@@ -53,6 +53,9 @@ enum class Durability {
 /// In the run folder; ServiceList::file_name() tells the journals of several executives apart.
 inline constexpr char kJournalFile[] = "journal.sqlite";
 
+/// The name of the journal's text that says what it has lost, for the ground; empty: nothing, or the ground knows.
+inline constexpr char kShortened[] = "shortened";
+
 class Journal {
  public:
   struct Database;  ///< database.hpp
@@ -68,6 +71,12 @@ class Journal {
   /// says, else it throws DiskError; nothing is forgotten then.
   void commit();
   void wait_for_disk(DiskWait);
+
+  /// From now on each commit leaves a mark beside the file (high_water_mark.hpp). Compares the journal with the mark that
+  /// an earlier start has left: what is missing is said in plain words, and stands in the journal as the text kShortened;
+  /// its epoch is at least the mark's then, and no copy goes on from it. Empty: nothing is missing, as far as is known.
+  /// Throws as commit() does.
+  std::string watch_extent();
 
   /// Rises by one with each call: the epoch of this start of the executive.
   std::uint64_t next_epoch();

@@ -79,6 +79,7 @@ void Journal::apply(const Batch& batch) {
   try {
     database_->set_position(batch.at);
     database_->execute("COMMIT");
+    database_->note_extent();
   } catch (const JournalError&) {
     database_->roll_back();
     throw;
@@ -110,12 +111,16 @@ void Journal::replace_with(std::string_view whole) {
   }
   if (durability_ == Durability::power) sync_path(arrived);
   DiskWait disk_wait = std::move(database_->disk_wait);
+  std::optional<HighWaterMark> mark = std::move(database_->mark);
+  if (mark) mark->remove();  // it is of the journal that goes
   database_.reset();
   remove_database_logs(file_);  // they belong to the database that goes
   fs::rename(arrived, file_);
   if (durability_ == Durability::power) sync_path(file_.parent_path());
   database_ = std::make_unique<Database>(file_, durability_);
   database_->disk_wait = std::move(disk_wait);
+  if (mark) database_->mark.emplace(std::move(*mark));
+  database_->note_extent();
 }
 
 }  // namespace roci::exec::journal

@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <set>
@@ -13,6 +14,7 @@
 #include "exec_svc/journal/database_files.hpp"
 #include "exec_svc/journal/first_page.hpp"
 #include "exec_svc/journal/format.hpp"
+#include "exec_svc/journal/high_water_mark.hpp"
 
 namespace roci::exec::journal {
 
@@ -44,6 +46,7 @@ class Connection {
     while ((status = sqlite3_step(opened)) == SQLITE_ROW) visit(opened);
     return status == SQLITE_DONE;
   }
+  sqlite3* handle() const { return handle_; }
   /// The first column of the first row; what went wrong instead, if there is none.
   std::string word(const std::string& sql) const {
     std::string out;
@@ -77,9 +80,10 @@ std::string damage_of_database(const fs::path& file) {
   if (check != "ok") return check;
   const std::string tables = database.word("SELECT count(*) FROM sqlite_schema WHERE type = 'table'");
   const std::string records = database.word("SELECT count(*) FROM sqlite_schema WHERE name = 'record'");
-  const bool newer =
-      std::stoi(database.word("PRAGMA user_version")) > kFormat;  // the journal itself refuses it
-  return newer || tables == "0" || records == "1" ? "" : "it holds tables of something else";
+  const StatedFormat stated = stated_format(database.handle());
+  if (stated.contradicts_itself()) return to_text(stated);
+  // The journal itself refuses a newer one.
+  return stated.newer() || tables == "0" || records == "1" ? "" : "it holds tables of something else";
 }
 
 struct Record {
@@ -224,6 +228,8 @@ void quarantine(const fs::path& file, const fs::path& kept) {
   fs::remove(fs::path(file).concat("-shm"), none);
   if (fs::exists(fs::path(file).concat("-wal")))
     fs::rename(fs::path(file).concat("-wal"), fs::path(kept).concat("-wal"));
+  const fs::path mark = HighWaterMark(file).file();
+  if (fs::exists(mark)) fs::rename(mark, HighWaterMark(kept).file());
   fs::rename(file, kept);
 }
 
@@ -268,6 +274,11 @@ void salvage_if_damaged(const fs::path& file) {
       remains = read_copy(file, mended);
     } else {
       remains.whole = false;
+    }
+    // The mark knows the epoch, too, and the later one holds.
+    if (const auto extent = HighWaterMark(file).read()) {
+      std::int64_t& epoch = remains.numbers["epoch"];
+      epoch = std::max(epoch, extent->epoch);
     }
     write_remains(mended, remains, summary_of(file.filename().string(), damage, remains, kept));
     sync_path(mended);

@@ -12,6 +12,7 @@
 #include "services/launch/options.hpp"
 #include "services/launch/process_plan.hpp"
 #include "services/launch/run.hpp"
+#include "services/process/clock_watch.hpp"
 #include "services/process/private_folder.hpp"
 #include "services/process/service_options.hpp"
 #include "services/process/stop_signals.hpp"
@@ -33,12 +34,14 @@ int become(const std::filesystem::path& name, std::vector<std::string> arguments
   throw std::system_error(errno, std::generic_category(), "cannot start " + program.string());
 }
 
-// Each service of this host, and each start of it, finds the anchor of the first one in the folder that they share.
+// Each service of this host, and each start of it, finds the anchor of the first one in the folder that they share. This
+// process does not stay to watch the system clock: one of them does.
 void hand_anchor(const std::filesystem::path& folder, std::int64_t epoch_us) {
   if (folder.empty()) return;
   process::make_own_folder(folder);
   if (const auto anchor = launch::kept_anchor(folder, epoch_us))
     setenv(roci::services::clock::kHostAnchorVariable, to_text(*anchor).c_str(), 1);
+  setenv(process::kClockWatchVariable, "1", 1);
 }
 
 int start(int argc, char** argv) {

@@ -30,6 +30,7 @@ NodeImpl::NodeImpl(NodeOptions node_options, std::unique_ptr<transport::Transpor
           [this] { advertise(*this, topics::event); },
           [this](const v1::Event& event) { write(advertise(*this, topics::event), event); },
           simulated() ? 0 : Refusals::kTellAfterS),
+      datagrams(options.name, dynamic_cast<const transport::RefusesDatagrams*>(transport.get())),
       work(simulated() ? ResultOrder::as_begun : ResultOrder::as_finished),
       endpoints(
           options, run, [this] { return now(); }, *transport, inbox, contract, refusals),
@@ -115,6 +116,9 @@ void NodeImpl::announce_turn() {
   const clock::WallTime now = clock::wall_now();
   gate.turn(now);
   refusals.turn(now);
+  // An observer hears of what the services of the run refuse, and says nothing itself.
+  if (options.clock != clock::ClockMode::observer)
+    for (v1::Event& event : datagrams.turn(now)) gate.tell_later(std::move(event), now);
   for (std::size_t i = 0; i < on_turn.size(); ++i) {
     const auto handler = on_turn[i];
     handler();

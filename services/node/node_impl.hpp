@@ -17,6 +17,7 @@
 #include "services/node/completion_queue.hpp"
 #include "services/node/contract_check.hpp"
 #include "services/node/contract_gate.hpp"
+#include "services/node/datagram_watch.hpp"
 #include "services/node/endpoints.hpp"
 #include "services/node/inbox.hpp"
 #include "services/node/link_gate.hpp"
@@ -67,6 +68,7 @@ class NodeImpl {
   std::unique_ptr<transport::Transport> transport;
   ContractCheck contract;
   Refusals refusals;
+  DatagramWatch datagrams;
   Inbox inbox;
   TimerQueue timers;
   CompletionQueue work;

@@ -8,6 +8,7 @@
 #include "core/mission/entry.hpp"
 #include "services/health/watchdog_notifier.hpp"
 #include "services/node.hpp"
+#include "services/process/clock_watch.hpp"
 #include "services/process/forced_exit.hpp"
 #include "services/process/incarnation.hpp"
 #include "services/process/link_report.hpp"
@@ -69,6 +70,7 @@ void run_service(const ServiceOptions& options, StopSignals& signals, MakeServic
   Node node(node_options, connect(options.connection));
   node.on_turn([&watchdog] { watchdog.notify(); });
   const TimeWatch time_watch(node, options.time);
+  const ClockWatch clock_watch(node, options.run.run_folder);
   const auto service = make(node, options.run);
   const StopWatch stop(signals, [&node] { node.stop(); });
   run_and_end(node_options.name, [&] {

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 
 #include "services/clock/host_anchor.hpp"
@@ -158,6 +160,40 @@ TEST_P(HostClocks, AnAnchoredServiceKeepsTheMissionClockWhenTheSystemClockIsSet)
     EXPECT_EQ(newest("clock.offset"), nullptr);
     EXPECT_EQ(state_, v1::SERVICE_RUNNING);
   }
+}
+
+// As under systemd: each service is started by itself, and one of the host watches the clock for all, until it dies.
+TEST_P(HostClocks, WhereNoLauncherStaysOneServiceTellsThatTheSystemClockWasSet) {
+  set("+0");
+  const auto become = [this](const std::string& service) {
+    return std::make_unique<ChildProcess>(
+        std::vector<std::string>{ROCI_BINARY_DIR "/bin/roci-launch", mission(), "--become", service,
+                                 "--clock", "live", "--epoch", std::to_string(epoch_ / 1'000'000), "--run",
+                                 "test", "--dds", GetParam(), "--domain", std::to_string(domain_.id()),
+                                 "--run-folder", folder_ / "run"},
+        std::vector<std::string>{"LD_PRELOAD=" ROCI_FAKETIME, "FAKETIME_TIMESTAMP_FILE=" + set_by().string(),
+                                 "FAKETIME_NO_CACHE=1", "FAKETIME_DONT_FAKE_MONOTONIC=1",
+                                 "DONT_FAKE_MONOTONIC=1"});
+  };
+  std::map<std::string, std::unique_ptr<ChildProcess>> services;
+  for (const char* name : {"science_svc", "arm_svc"}) services[name] = become(name);
+  const auto there = [this] { return node_->peer_alive("science_svc") && node_->peer_alive("arm_svc"); };
+  ASSERT_TRUE(until(there));
+  const auto told = [this] {
+    return std::ranges::count_if(events_, [](const v1::Event& event) { return event.code() == "clock.set"; });
+  };
+  set("-1h");
+  ASSERT_TRUE(until([&] { return told() > 0; }));
+  EXPECT_THAT(newest("clock.set")->text(), HasSubstr("was set back by 36"));
+  const std::string teller = newest("clock.set")->header().sender();
+  // Whoever looks once a second would have told by then.
+  const int answered = answers_;
+  ASSERT_TRUE(until([&] { return answers_ >= answered + 60; }));
+  EXPECT_EQ(told(), 1) << "one for all";
+  services.at(teller)->kill();
+  set("+300");
+  ASSERT_TRUE(until([&] { return told() > 1; }));
+  EXPECT_NE(newest("clock.set")->header().sender(), teller);
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, HostClocks, testing::Values("fastdds", "cyclonedds"),

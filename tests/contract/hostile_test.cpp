@@ -5,9 +5,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
+#include "services/clock/wall.hpp"
+#include "services/node.hpp"
+#include "services/publisher.hpp"
 #include "services/transport/rtps_ports.hpp"
 #include "tests/contract/hostile/participant.hpp"
 #include "tests/contract/support/pairing.hpp"
@@ -72,6 +76,43 @@ TEST_P(Hostile, StatisticsInTheMiddleOfAMessageAreNotRead) {
     attacker.send_to_readers(message);
   }
   expect_still_reading(reader);
+}
+
+// Operators hear of what the guard of a service refuses, by a few events however much it is.
+TEST_P(Hostile, WhatIsRefusedIsToldByAnEvent) {
+  node::NodeOptions options;
+  options.name = "listener";
+  options.run = "test";
+  options.clock = clock::ClockMode::observer;
+  Node listener(options,
+                transport::open_transport(GetParam(), {.domain = domain_.id(), .participant = "listener"}));
+  std::vector<v1::Event> told;
+  subscribe(listener, topics::event, [&](const v1::Event& event) {
+    if (event.code() == "datagram.refused") told.push_back(event);
+  });
+  ChildProcess service({ROCI_BINARY_DIR "/tests/contract-robot", "--mission",
+                        ROCI_SOURCE_DIR "/missions/planetary", "--name", "world", "--clock", "live",
+                        "--epoch", std::to_string(clock::unix_us() / 1'000'000), "--run", "test", "--dds",
+                        GetParam(), "--domain", std::to_string(domain_.id())});
+  const auto until = [&](const auto& so) {
+    for (int i = 0; i < 2000 && !so(); ++i) listener.spin_once(std::chrono::milliseconds(10));
+    return so();
+  };
+  ASSERT_TRUE(until([&] { return listener.peer_alive("world"); }));
+  const hostile::Participant attacker(kLoopback, domain_.id(), hostile::kEclipse, 1, "");
+  auto message = attacker.message();
+  message.submessage(0x7e, 0, hostile::Bytes(8));
+  const auto about = [&](const std::string& reason) {
+    return std::ranges::count_if(told, [&](const v1::Event& event) {
+      return event.header().sender() == "world" && event.properties().at(1).value() == reason;
+    });
+  };
+  EXPECT_TRUE(until([&] {
+    for (int i = 0; i < 20; ++i) attacker.send_to_discovery(message);
+    return about("unknown_submessage") >= 2;
+  }));
+  EXPECT_LE(about("unknown_submessage"), 6) << "of some ten thousand";
+  EXPECT_THAT(told.back().properties().at(3).value(), testing::StartsWith("127.0.0.1:"));
 }
 
 // The sockets of all processes on this host that are bound to the ports of a domain, as /proc/net/udp writes them.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Holds docs/requirements.md and mutations.yaml against the tree: every row is there, every file and every test that a row
-names exists, every built row has a mutation whose line is found once, and every test that any page names exists. Builds
-nothing.
+names exists, every built row has a mutation whose line is found once, and every test that any page names exists, in whatever form
+the pages of promises name them. Builds nothing.
 
     check.py            lists what is wrong; exit code 0 if nothing is
     check.py --mend     first writes what has moved, where it is clear: a test that stands elsewhere or under another suite, a
@@ -168,6 +168,55 @@ def check_pages(tree):
     return faults
 
 
+PROMISES = ("docs/resilience.md", "docs/threats.md", "docs/dds.md")
+
+
+def programs_of(tree):
+    """The names of CTest's tests, by the CMakeLists.txt that give them."""
+    lists = "\n".join(text for file, text in tree.texts.items() if file.endswith("CMakeLists.txt"))
+    lists += (ROOT / "cmake/Parts.cmake").read_text()
+    return set(re.findall(r"(?:roci_test|add_test)\(\s*NAME\s+([\w-]+)", lists))
+
+
+def pattern_of(name):
+    """A name in which … and * stand for anything, as a regular expression."""
+    return re.escape(name).replace("…", r"\w*").replace(r"\*", r"\w*")
+
+
+def check_promises(tree):
+    """Every test that the pages of promises name exists: programs of CTest (`unit_services`, `scenario_cut_*`), and what stands
+    in parentheses behind one: suites (`CrashTest`), tests with or without their suite (`Lease.*`, `ATestWith…`), or files. A test
+    that stands alone in a cell is named with its suite (`Hostile.SocketsAreBound…`)."""
+    faults = []
+    programs = programs_of(tree)
+    suites = {name.split(".")[0] for name in tree.tests}
+    short = {name.split(".")[1] for name in tree.tests}
+    bases = {file.rsplit("/", 1)[-1].rsplit(".", 1)[0] for file in tree.files}
+    known = suites | short | set(tree.tests) | bases
+
+    def exists(name, among):
+        pattern = re.compile(pattern_of(name))
+        return any(pattern.fullmatch(one) for one in among)
+
+    for page in PROMISES:
+        text = (ROOT / page).read_text()
+
+        def fault(place, name):
+            faults.append(f"{page}:{text.count(chr(10), 0, place) + 1}: there is no test {name}")
+
+        for match in re.finditer(r"`((?:unit|contract|scenario|fuzz|architecture|requirements)_[\w*]+)`(?:[ \n]\(([^)]*)\))?", text):
+            if not exists(match[1], programs | bases):
+                fault(match.start(), match[1])
+            for name in re.findall(r"`(…?[A-Z][\w.*…]+)`", match[2] or ""):
+                if not exists(name, known):
+                    fault(match.start(), name)
+        for match in re.finditer(r"`([A-Z]\w+\.[A-Z][\w*…]*|…[A-Z]\w+…?)`", text):
+            of_a_suite = match[1].split(".")[0] in suites
+            if (of_a_suite or match[1].startswith("…")) and not exists(match[1], set(tree.tests) | short):
+                fault(match.start(), match[1])
+    return faults
+
+
 def places_of(entries):
     """By row, the file in which its mutation is found."""
     found = {entry["row"]: find_place(entry)[0] for entry in entries if "file" in entry}
@@ -203,6 +252,7 @@ def main():
     rows = read_rows(TABLE.read_text())
     faults += check_mutations(rows, entries, tree)
     faults += check_pages(tree)
+    faults += check_promises(tree)
     for fault in faults:
         print(fault)
     count = {state: sum(row.state == state and row.name.startswith("R") for row in rows) for state in STATES}

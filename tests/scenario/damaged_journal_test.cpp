@@ -107,6 +107,33 @@ TEST_F(DamagedJournal, TheExecutiveStartsAndKeepsWhatCanBeRead) {
   EXPECT_EQ(goals_after(3, true), 0U);
 }
 
+// One flipped bit of the stated version is damage, and no newer version that nobody may start on.
+TEST_F(DamagedJournal, AFlippedBitOfTheVersionKeepsNobodyFromStarting) {
+  std::string high = whole, low = whole;
+  high[60] = static_cast<char>(high[60] ^ 0x40);
+  low[63] = static_cast<char>(low[63] ^ 0x04);
+  start_on({high, low});
+  for (const std::size_t number : {0U, 1U}) EXPECT_EQ(goals_after(number, true), kGoals);
+}
+
+// The newest commits are gone, and only the mark beside the journal knows: nothing goes on as if they had not been.
+TEST_F(DamagedJournal, ALostEndIsNoticedAndTold) {
+  fs::create_directories(run_folder(0));
+  {
+    Journal journal(folder / "whole.sqlite", Durability::process);
+    EXPECT_EQ(journal.watch_extent(), "");
+    journal.set_number("epoch", 12);
+    journal.append(temporal::seconds(200), "event", "the last one");
+    journal.commit();
+  }
+  fs::copy_file(folder / "whole.sqlite-mark", run_folder(0) / "journal.sqlite-mark");
+  start_on({whole});
+  EXPECT_EQ(goals_after(0, false), kGoals);
+  EXPECT_NE(content(0, "log").find("journal.sqlite has lost its end"), std::string::npos)
+      << content(0, "log");
+  EXPECT_EQ(Journal(run_folder(0) / "journal.sqlite", Durability::process).number("epoch", 0), 13);
+}
+
 // Of 96 damages none keeps the executive from starting (./check --full; in ./check of the first few).
 TEST_F(DamagedJournal, NoDamageKeepsTheExecutiveFromStarting) {
   std::mt19937_64 random(1414);

@@ -28,9 +28,9 @@ std::optional<std::uint32_t> address_of(const transport::TransportOptions& optio
   return ntohl(address.s_addr);
 }
 
-dds_entity_t create(const transport::TransportOptions& options, const std::string& config) {
-  const GuardedOpening opening(std::make_shared<guard::Guard>(guard::policy_of(options)), address_of(options),
-                               options.credentials.has_value());
+dds_entity_t create(const transport::TransportOptions& options, const std::string& config,
+                    const std::shared_ptr<guard::Guard>& guard) {
+  const GuardedOpening opening(guard, address_of(options), options.credentials.has_value());
   const dds_entity_t handle = dds_create_domain(static_cast<dds_domainid_t>(options.domain), config.c_str());
   if (handle < 0) {
     throw transport::TransportError(
@@ -85,9 +85,10 @@ std::string configuration(const transport::TransportOptions& options) {
 }
 
 Domain::Domain(const transport::TransportOptions& options, std::string config)
-    : config_(std::move(config)),
+    : guard_(std::make_shared<guard::Guard>(guard::policy_of(options))),
+      config_(std::move(config)),
       secure_(options.credentials.has_value()),
-      handle_(create(options, config_)) {}
+      handle_(create(options, config_, guard_)) {}
 
 Domain::~Domain() { dds_delete(handle_); }
 

@@ -9,6 +9,7 @@ extern "C" {
 #include <string>
 
 #include "services/transport/transport.hpp"
+#include "services/vendors/guard/guard.hpp"
 
 namespace roci::services::vendors::cyclonedds {
 
@@ -24,10 +25,12 @@ class Domain {
   Domain& operator=(const Domain&) = delete;
 
   const std::string& config() const { return config_; }
+  const guard::Guard& guard() const { return *guard_; }
   /// Whether its participants have credentials: one guard stands before all of them.
   bool secure() const { return secure_; }
 
  private:
+  const std::shared_ptr<guard::Guard> guard_;
   const std::string config_;
   const bool secure_;
   const dds_entity_t handle_;

@@ -44,6 +44,22 @@ void set_key_hash(Serdata& data, const ddsi_keyhash_t& hash) {
   data.hash = ddsrt_mh3(hash.value, sizeof hash.value, 0) ^ data.type->serdata_basehash;
 }
 
+std::atomic<std::uint64_t> refused_for_keys = 0;
+
+LiveKeys::Key key_of(const ddsi_keyhash_t& hash) {
+  LiveKeys::Key key;
+  std::copy(std::begin(hash.value), std::end(hash.value), key.begin());
+  return key;
+}
+
+// A received sample, or null if nobody has room for its key. The vendor takes it for malformed then, and confirms it.
+Serdata* received(const Sertype& type, Serdata* data) {
+  if (data == nullptr || !type.type.keyed || type.keys->admits(key_of(data->key_hash))) return data;
+  ++refused_for_keys;
+  ddsi_serdata_unref(data);
+  return nullptr;
+}
+
 // The bytes must stand in `bytes` already.
 Serdata* finish(const Sertype& type, std::unique_ptr<Serdata> data) {
   transport::Payload key;
@@ -87,7 +103,7 @@ ddsi_serdata* from_ser(const ddsi_sertype* type, ddsi_serdata_kind kind, const n
                 data->bytes.begin() + static_cast<long>(filled));
     filled = end;
   }
-  return finish(own(type), std::move(data));
+  return received(own(type), finish(own(type), std::move(data)));
 }
 
 ddsi_serdata* from_ser_iov(const ddsi_sertype* type, ddsi_serdata_kind kind, ddsrt_msg_iovlen_t count,
@@ -106,7 +122,7 @@ ddsi_serdata* from_ser_iov(const ddsi_sertype* type, ddsi_serdata_kind kind, dds
 ddsi_serdata* from_keyhash(const ddsi_sertype* type, const ddsi_keyhash_t* hash) {
   auto data = empty_serdata(own(type), SDK_KEY);
   set_key_hash(*data, *hash);
-  return data.release();
+  return received(own(type), data.release());
 }
 
 void to_ser(const ddsi_serdata* data, std::size_t offset, std::size_t size, void* out) {
@@ -125,6 +141,8 @@ ddsi_serdata* to_untyped(const ddsi_serdata* data) {
   auto key = empty_serdata(own(data->type), SDK_KEY);
   set_key_hash(*key, own(data).key_hash);
   key->type = nullptr;
+  key->kept_in = own(data->type).keys;
+  key->kept_in->add(key_of(key->key_hash));
   return key.release();
 }
 
@@ -136,7 +154,10 @@ void get_keyhash(const ddsi_serdata* data, ddsi_keyhash_t* out, bool force_md5) 
   if (own(sample.type).type.serialized_key(sample.payload(), true, key)) *out = md5_of(key);
 }
 
-void free_serdata(ddsi_serdata* data) { delete static_cast<Serdata*>(data); }
+void free_serdata(ddsi_serdata* data) {
+  if (own(data).kept_in) own(data).kept_in->remove(key_of(own(data).key_hash));
+  delete static_cast<Serdata*>(data);
+}
 
 std::size_t print(const ddsi_sertype*, const ddsi_serdata*, char* out, std::size_t size) {
   if (size > 0) out[0] = 0;
@@ -204,6 +225,27 @@ const ddsi_sertype_ops kSertypeOperations = sertype_operations();
 
 }  // namespace
 
+void LiveKeys::add(const Key& key) {
+  const std::lock_guard lock(mutex_);
+  ++kept_[key];
+  size_ = kept_.size();
+}
+
+void LiveKeys::remove(const Key& key) {
+  const std::lock_guard lock(mutex_);
+  const auto found = kept_.find(key);
+  if (found != kept_.end() && --found->second == 0) kept_.erase(found);
+  size_ = kept_.size();
+}
+
+bool LiveKeys::admits(const Key& key) const {
+  if (size_ < kKeysOfTopic) return true;
+  const std::lock_guard lock(mutex_);
+  return kept_.contains(key);
+}
+
+std::uint64_t samples_of_too_many_keys() { return refused_for_keys; }
+
 InstanceTable::Key Serdata::instance() const {
   return {reinterpret_cast<const char*>(key_hash.value), sizeof key_hash.value};
 }
@@ -216,6 +258,7 @@ ddsi_sertype* make_sertype(const transport::TypeDescription& description) {
       description.keyed ? DDSI_SERTYPE_FLAG_REQUEST_KEYHASH : DDSI_SERTYPE_FLAG_TOPICKIND_NO_KEY);
   type->allowed_data_representation = DDS_DATA_REPRESENTATION_FLAG_XCDR1;
   type->type = description;
+  type->keys = std::make_shared<LiveKeys>();
   return type.release();
 }
 

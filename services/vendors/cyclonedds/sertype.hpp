@@ -9,15 +9,43 @@ extern "C" {
 #include <dds/ddsi/ddsi_sertype.h>
 }
 
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <span>
 
 #include "services/transport/transport.hpp"
+#include "services/vendors/history_limits.hpp"
 #include "services/vendors/instance_table.hpp"
 
 namespace roci::services::vendors::cyclonedds {
 
+/// The keys of one type that the vendor keeps in this process, of its own samples and of received ones: it makes a sample
+/// without type for each of them, and frees it with the instance. Any thread may call it.
+class LiveKeys {
+ public:
+  using Key = std::array<std::uint8_t, 16>;  ///< A key hash.
+
+  void add(const Key&);
+  void remove(const Key&);
+  /// Whether a received sample of this key may be read: there is room (kKeysOfTopic), or it is kept already.
+  bool admits(const Key&) const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<Key, int> kept_;
+  std::atomic<std::size_t> size_ = 0;
+};
+
+/// How many received samples were refused so in this process.
+std::uint64_t samples_of_too_many_keys();
+
 struct Sertype : ddsi_sertype {
   transport::TypeDescription type;
+  std::shared_ptr<LiveKeys> keys;
 };
 
 /// One sample. Immutable and counted by Cyclone DDS, which shares it between writer history, readers and
@@ -26,6 +54,7 @@ struct Serdata : ddsi_serdata {
   transport::Payload bytes;  ///< zero-padded to a multiple of 4, as the network code reads it
   std::size_t size = 0;      ///< of the payload in `bytes`; 0: only the key hash is known
   ddsi_keyhash_t key_hash{};
+  std::shared_ptr<LiveKeys> kept_in{};  ///< of the sample that stands for an instance
 
   std::span<const std::uint8_t> payload() const { return {bytes.data(), size}; }
   InstanceTable::Key instance() const;

@@ -32,7 +32,7 @@ QosPtr partition_qos(const std::vector<std::string>& partitions) {
   return qos;
 }
 
-class CycloneTransport : public transport::Transport {
+class CycloneTransport : public transport::Transport, public transport::RefusesDatagrams {
  public:
   explicit CycloneTransport(const transport::TransportOptions& options)
       : domain_(join_domain(options)),
@@ -72,6 +72,12 @@ class CycloneTransport : public transport::Transport {
   std::string announcement() const override { return announcement_; }
   std::optional<transport::Participant> participant_of(const transport::Guid& guid) override {
     return participants_->find(guid);
+  }
+  std::vector<transport::RefusedDatagrams> refused_datagrams() const override {
+    auto refused = domain_->guard().refused();
+    if (const std::uint64_t count = samples_of_too_many_keys())
+      refused.push_back({"too_many_keys", count, ""});
+    return refused;
   }
   bool speaks_as(const transport::Guid& writer, std::string_view sender) const override {
     return !secure_ || certificate::speaks_as(writer, sender);

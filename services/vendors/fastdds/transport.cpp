@@ -38,7 +38,7 @@ dds::PartitionQosPolicy partition_qos(const std::vector<std::string>& partitions
   return policy;
 }
 
-class FastTransport : public transport::Transport {
+class FastTransport : public transport::Transport, public transport::RefusesDatagrams {
  public:
   explicit FastTransport(const transport::TransportOptions& options)
       : announcement_(options.announcement.value_or("")),
@@ -93,6 +93,7 @@ class FastTransport : public transport::Transport {
   std::optional<transport::Participant> participant_of(const transport::Guid& guid) override {
     return participants_.table.find(guid);
   }
+  std::vector<transport::RefusedDatagrams> refused_datagrams() const override { return guard_->refused(); }
   bool speaks_as(const transport::Guid& writer, std::string_view sender) const override {
     return !secure_ || certificate::speaks_as(writer, sender);
   }

@@ -3,6 +3,7 @@
 #include "services/vendors/fastdds/bytes_type.hpp"
 #include "services/vendors/fastdds/guid.hpp"
 #include "services/vendors/fastdds/qos.hpp"
+#include "services/vendors/history_limits.hpp"
 
 namespace roci::services::vendors::fastdds {
 
@@ -30,24 +31,32 @@ bool FastWriter::write(std::span<const std::uint8_t> payload) {
   Bytes bytes{payload, {}, {}};
   if (payload.size() < 4) return false;
   if (type_.keyed && !(bytes.key_hash = key_hash_of(type_, payload, false))) return false;
-  return has_space() && writer_->write(&bytes);
+  return has_space(payload.size()) && writer_->write(&bytes);
 }
 
 bool FastWriter::dispose(std::span<const std::uint8_t> payload) {
   Bytes bytes{payload, {}, {}};
   if (!type_.keyed || !(bytes.key_hash = key_hash_of(type_, payload, false))) return false;
-  return has_space() && writer_->dispose(&bytes, dds::HANDLE_NIL) == ReturnCode_t::RETCODE_OK;
+  return has_space(payload.size()) && writer_->dispose(&bytes, dds::HANDLE_NIL) == ReturnCode_t::RETCODE_OK;
 }
 
-// Bounds a keep-all history itself, because Fast DDS cannot limit samples without limiting instances. From
-// half of the bound on it looks whether all is acknowledged; at the bound it waits for that.
-bool FastWriter::has_space() {
-  const bool bounded = qos_.reliable && qos_.history_depth == 0 && qos_.max_samples > 0;
-  if (!bounded || ++unconfirmed_ <= qos_.max_samples / 2) return true;
-  const auto patience = unconfirmed_ <= qos_.max_samples ? Duration_t(0, 0) : blocking_time(qos_);
-  if (writer_->wait_for_acknowledgments(patience) == ReturnCode_t::RETCODE_OK) unconfirmed_ = 1;
-  if (unconfirmed_ <= qos_.max_samples) return true;
-  unconfirmed_ = qos_.max_samples;
+// Bounds a keep-all history itself, because Fast DDS cannot limit samples without limiting instances, and knows no bytes. From
+// half of a bound on it looks whether all is acknowledged; at the bound it waits for that.
+bool FastWriter::has_space(std::size_t bytes) {
+  if (!qos_.reliable || qos_.history_depth > 0 || qos_.max_samples <= 0) return true;
+  const int samples = ++unconfirmed_;
+  const std::size_t together = unconfirmed_bytes_ += bytes;
+  if (samples <= qos_.max_samples / 2 && together <= kUnconfirmedBytes / 2) return true;
+  const bool full = samples > qos_.max_samples || (samples > 1 && together > kUnconfirmedBytes);
+  const auto patience = full ? blocking_time(qos_) : Duration_t(0, 0);
+  if (writer_->wait_for_acknowledgments(patience) == ReturnCode_t::RETCODE_OK) {
+    unconfirmed_ = 1;
+    unconfirmed_bytes_ = bytes;
+    return true;
+  }
+  if (!full) return true;
+  --unconfirmed_;
+  unconfirmed_bytes_ -= bytes;
   return false;
 }
 

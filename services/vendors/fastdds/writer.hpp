@@ -23,7 +23,7 @@ class FastWriter : public transport::Writer, private eprosima::fastdds::dds::Dat
   int matched_readers() const override { return matched_; }
 
  private:
-  bool has_space();
+  bool has_space(std::size_t bytes);
   void on_publication_matched(eprosima::fastdds::dds::DataWriter*,
                               const eprosima::fastdds::dds::PublicationMatchedStatus&) override;
 
@@ -32,7 +32,8 @@ class FastWriter : public transport::Writer, private eprosima::fastdds::dds::Dat
   const transport::QosSettings qos_;
   const transport::WriterEvents events_;
   std::atomic<int> matched_ = 0;
-  std::atomic<int> unconfirmed_ = 0;  // samples written since all were known to be acknowledged
+  std::atomic<int> unconfirmed_ = 0;                // samples written since all were known to be acknowledged
+  std::atomic<std::size_t> unconfirmed_bytes_ = 0;  // of these
   eprosima::fastdds::dds::DataWriter* writer_;
 };
 

@@ -49,6 +49,7 @@ std::size_t Guard::admit(std::span<std::uint8_t> datagram, const std::optional<S
     return left;
   }
   ++counts_[static_cast<std::size_t>(verdict)];
+  last_sources_[static_cast<std::size_t>(verdict)] = source;
   report(verdict, source);
   return 0;
 }
@@ -84,6 +85,18 @@ void Guard::report(Verdict verdict, const std::optional<Source>& source) {
 std::array<std::uint64_t, kVerdicts> Guard::counts() const {
   const std::lock_guard lock(mutex_);
   return counts_;
+}
+
+std::vector<transport::RefusedDatagrams> Guard::refused() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<transport::RefusedDatagrams> out;
+  for (std::size_t i = 1; i < kVerdicts; ++i) {
+    // What a secure run leaves out as plain text is everyday.
+    if (counts_[i] == 0 || i == static_cast<std::size_t>(Verdict::plain)) continue;
+    const auto& source = last_sources_[i];
+    out.push_back({std::string(kVerdictNames[i]), counts_[i], source ? to_text(source) : ""});
+  }
+  return out;
 }
 
 }  // namespace roci::services::vendors::guard

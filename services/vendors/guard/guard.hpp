@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "services/transport/refused_datagrams.hpp"
 #include "services/transport/transport.hpp"
 #include "services/vendors/guard/identities.hpp"
 #include "services/vendors/guard/message.hpp"
@@ -36,6 +37,8 @@ class Guard {
 
   /// How many datagrams had each verdict.
   std::array<std::uint64_t, kVerdicts> counts() const;
+  /// The same for operators, without those that passed and those that were left out as plain text.
+  std::vector<transport::RefusedDatagrams> refused() const;
 
  private:
   Verdict judge(std::span<const std::uint8_t> datagram, const std::optional<Source>&);
@@ -45,6 +48,7 @@ class Guard {
   mutable std::mutex mutex_;
   Identities identities_;
   std::array<std::uint64_t, kVerdicts> counts_{};
+  std::array<std::optional<Source>, kVerdicts> last_sources_{};
   std::array<std::uint64_t, kVerdicts> reported_{};
   std::optional<Identities::Time> last_report_;
 };

@@ -29,6 +29,7 @@ class ChildProcess {
   // Ends its input and waits: its exit code, or minus the signal that ended it.
   int finish();
   void kill();  // SIGKILL, no chance to say good-bye
+  pid_t pid() const { return pid_; }
 
  private:
   bool read_more(int timeout_ms);

@@ -14,6 +14,7 @@ inline const std::map<std::string, std::string> kFileReaders{
     {"core/terrain/pgm.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},
     {"exec_svc/journal/database.cpp", "FuzzJournal.ADamagedFileIsReadOrRefused"},
     {"exec_svc/journal/journal_batches.cpp", "FuzzStandby.ADamagedJournalIsCopiedOrRefused"},
+    {"exec_svc/journal/high_water_mark.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"exec_svc/journal/first_page.cpp", "FuzzJournal.ADamagedFileIsReadOrRefused"},
     {"exec_svc/journal/salvage.cpp", "FuzzJournal.ADamagedFileIsReadOrRefused"},
     {"exec_svc/mission/mission_model.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},
@@ -35,6 +36,8 @@ inline const std::map<std::string, std::string> kFileReaders{
     {"services/process/link_report.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"services/process/run_record.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"services/process/run_summary.cpp", "FuzzRunFiles.AreReadOrRefused"},
+    {"services/security/issued.cpp", "FuzzKeys.ADamagedFileIsReadOrRefused"},
+    {"services/security/key_folder.cpp", "FuzzKeys.ADamagedFileIsReadOrRefused"},
 };
 
 }  // namespace roci::fuzz

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/mission/service_list.hpp"
+#include "exec_svc/journal/high_water_mark.hpp"
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/standby/persisted_term_file.hpp"
 #include "exec_svc/trace/recorded_trace.hpp"
@@ -69,6 +70,8 @@ class FuzzRunFiles : public testing::Test {
          [](const fs::path& folder) {
            exec::standby::PersistedTermFile(folder / "first.term", exec::journal::Durability::process).read();
          }},
+        {"journal.sqlite-mark", "                   3                   17  4831190261231\n",
+         [](const fs::path& folder) { exec::journal::HighWaterMark(folder / "journal.sqlite").read(); }},
         {"expected.json", R"({"events":3,"met":true,"fault":""})",
          [](const fs::path& folder) {
            services::launch::Options options;

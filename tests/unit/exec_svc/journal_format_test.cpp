@@ -17,8 +17,8 @@ using goals::GoalRecord;
 using goals::GoalState;
 using journal::Durability;
 using journal::Journal;
-using journal::JournalError;
 using journal::JournaledReactor;
+using journal::JournalError;
 using mission::MissionModel;
 using mission::read_mission;
 
@@ -125,8 +125,10 @@ TEST_F(JournalFormatTest, InputsOfAnotherFormatAreSaidAndNeverRead) {
 }
 
 TEST_F(JournalFormatTest, ANewerFormatIsRefusedInWordsAndLeftAlone) {
-  testing::execute(file, "CREATE TABLE record(number INTEGER); PRAGMA user_version = " +
-                             std::to_string(journal::kFormat + 1));
+  testing::execute(
+      file,
+      "CREATE TABLE record(number INTEGER); PRAGMA user_version = " + std::to_string(journal::kFormat + 1) +
+          "; PRAGMA application_id = " + std::to_string(journal::stamp_of(journal::kFormat + 1)));
   EXPECT_THAT(complaint(),
               AllOf(HasSubstr(file.string()), HasSubstr("format " + std::to_string(journal::kFormat + 1)),
                     HasSubstr("reads up to " + std::to_string(journal::kFormat)),

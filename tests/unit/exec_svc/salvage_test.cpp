@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "exec_svc/journal/database_files.hpp"
+#include "exec_svc/journal/format.hpp"
 #include "exec_svc/journal/journaled_reactor.hpp"
 #include "tests/unit/exec_svc/golden/golden.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
@@ -209,9 +210,20 @@ TEST_F(SalvageTest, AFileOfSomethingElseIsPutAside) {
 
 TEST_F(SalvageTest, ANewerJournalIsNoDamage) {
   write(whole);
-  testing::execute(file, "PRAGMA user_version = 99");
+  testing::execute(
+      file, "PRAGMA user_version = 99; PRAGMA application_id = " + std::to_string(journal::stamp_of(99)));
   EXPECT_THROW(salvage_if_damaged(file), NewerJournal);
   EXPECT_FALSE(fs::exists(fs::path(file).concat(".damaged-1")));
+}
+
+// The version stands in two places: SQLite's user_version (bytes 60 to 63 of the file) and its application_id.
+TEST_F(SalvageTest, AFlippedBitOfTheVersionIsNoNewerJournal) {
+  for (std::size_t bit = 0; bit < 32; ++bit) {
+    SCOPED_TRACE(bit);
+    std::string damaged = whole;
+    damaged[60 + bit / 8] = static_cast<char>(damaged[60 + bit / 8] ^ 1 << bit % 8);
+    EXPECT_EQ(salvage(damaged), kGoals);
+  }
 }
 
 TEST_F(SalvageTest, EachDamageIsKeptUnderANameOfItsOwn) {

@@ -2,11 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "services/bounds/limits.hpp"
 #include "services/bounds/tally.hpp"
 #include "services/clock/clock_master.hpp"
 #include "services/clock/hold_back_queue.hpp"
 #include "services/health/failure_detector.hpp"
+#include "services/launch/progress.hpp"
 #include "services/node/node_impl.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
@@ -38,6 +41,38 @@ TEST(Tally, ManyNamesShareOne) {
   std::size_t told = 0;
   for (int i = 0; i < 10'000; ++i) told += tally.note("name " + std::to_string(i)) != 0 ? 1 : 0;
   EXPECT_LT(told, bounds::Tally::kNames + 10);
+}
+
+// A guard that has refused what the test says.
+struct ScriptedGuard : transport::RefusesDatagrams {
+  std::vector<transport::RefusedDatagrams> refused_datagrams() const override { return refused; }
+  std::vector<transport::RefusedDatagrams> refused{};
+};
+
+TEST(DatagramWatch, TellsEachReasonTheFirstTimeAndWheneverItHasGrownTenfold) {
+  ScriptedGuard guard;
+  node::DatagramWatch watch("arm_svc", &guard);
+  clock::WallTime now{};
+  const auto told_at = [&](std::uint64_t count) {
+    guard.refused = {{"stranger", count, "10.77.0.2:7411"}, {"cut", 1, ""}};
+    now += clock::wall_seconds(node::DatagramWatch::kPeriodS);
+    return watch.turn(now);
+  };
+  EXPECT_THAT(watch.turn(now), SizeIs(0));
+  const auto first = told_at(3);
+  ASSERT_THAT(first, SizeIs(2));
+  EXPECT_EQ(first[0].code(), "datagram.refused");
+  EXPECT_EQ(first[0].properties()[1].value(), "stranger");
+  EXPECT_EQ(first[0].properties()[2].value(), "3");
+  EXPECT_EQ(first[0].properties()[3].value(), "10.77.0.2:7411");
+  EXPECT_EQ(first[1].properties()[3].value(), "unknown");
+  EXPECT_THAT(told_at(9), SizeIs(0));
+  EXPECT_THAT(told_at(10), SizeIs(1));
+  EXPECT_THAT(told_at(99), SizeIs(0));
+  EXPECT_THAT(told_at(123'456), SizeIs(1)) << "at once, however much it has grown";
+  EXPECT_THAT(told_at(200'000), SizeIs(0));
+  guard.refused[0].count = 1'000'000;
+  EXPECT_THAT(watch.turn(now), SizeIs(0)) << "it asks once a second";
 }
 
 // A live node that reads, and somebody who writes bytes on its topics.
@@ -185,6 +220,28 @@ TEST_F(Flood, RequestsThatNobodyAnswersAreRefusedBeyondTheBound) {
                                 rpc::CallStatus::remote_error, rpc::CallStatus::remote_error,
                                 rpc::CallStatus::remote_error));
   EXPECT_THAT(reason, testing::HasSubstr("not answered yet"));
+}
+
+TEST_F(Flood, TheLaunchersLineShowsABoundedNumberOfExecutives) {
+  testing::internal::CaptureStderr();
+  node::NodeOptions observing = options("launcher");
+  observing.clock = clock::ClockMode::observer;
+  Node observer(observing, run_.transport());
+  launch::Progress progress(observer, true);
+  int heard = 0;
+  subscribe(observer, topics::mission_status, [&](const v1::MissionStatus&) { ++heard; });
+  transport::Writer& statuses = writer(topics::mission_status);
+  constexpr int kSent = 300;
+  for (int i = 0; i < kSent; ++i) {
+    v1::MissionStatus status;
+    status.header().run("sol-12");
+    status.executive("exec-" + std::to_string(i));
+    statuses.write(transport::serialize(status));
+  }
+  spin_until(observer, [&] { return heard == kSent; });
+  progress.show();
+  const std::string line = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::ranges::count(line, '/'), 2 * 255) << "between 256 phases, and as many plans";
 }
 
 TEST(HoldBackQueueBounds, StreamsAndTheirSamplesAreBounded) {

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "services/bounds/limits.hpp"
 #include "services/node/contract_gate.hpp"
 
 namespace roci::services::node {
@@ -128,6 +129,22 @@ TEST_F(ContractGateTest, HoldsBackInOrderUntilTheParticipantIsKnown) {
 TEST_F(ContractGateTest, HoldsBackNoMoreThanItsBound) {
   for (std::size_t i = 0; i < ContractGate::kHeldBack + 5; ++i) arrive(8, 1);
   EXPECT_EQ(gate.refused(), 5U);
+}
+
+TEST_F(ContractGateTest, HoldsBackNoMoreBytesThanItsBound) {
+  constexpr std::size_t kSize = std::size_t{1} << 20;
+  constexpr std::size_t kRoom = bounds::kHeldBytes / kSize;
+  for (std::uint8_t i = 0; i < kRoom + 6; ++i) {
+    transport::Payload payload(kSize);
+    payload[0] = 8;
+    payload[1] = i;
+    gate.arrive({&reader, {transport::SampleKind::data, std::move(payload), guid(8)}});
+  }
+  EXPECT_EQ(gate.refused(), 6U);
+  known[8] = {"late", kOwn};
+  gate.turn(clock::WallTime{});
+  ASSERT_EQ(passed.size(), kRoom);
+  EXPECT_EQ(passed.front(), "8.6") << "the oldest went";
 }
 
 TEST_F(ContractGateTest, TellsWhenReadersOfEventsHadTimeToFindIt) {

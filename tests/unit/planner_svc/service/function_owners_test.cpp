@@ -2,7 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "planner_svc/function_owners_service.hpp"
+#include "planner_svc/limits.hpp"
+#include "services/publisher.hpp"
+#include "tests/unit/services/sim_run.hpp"
 
 namespace roci::planner {
 namespace {
@@ -60,6 +65,38 @@ TEST(FunctionOwnersChoice, NoOfferIsToldWithWhatThereIs) {
   EXPECT_EQ(choose_owner(offers_of({{"roads_a", ""}}), "raods", "", {}).reason,
             "no service offers module 'raods'; offered are: roads");
   EXPECT_EQ(choose_owner({}, "roads", "", {}).reason, "no service offers module 'roads'; offered are: none");
+}
+
+// Who offers more than there is room for is not asked; who was there before is, and may say something newer.
+TEST(FunctionOwnersBounds, OffersAreBounded) {
+  using namespace std::chrono_literals;
+  services::SimRun run({"sim_svc", "planner_svc"});
+  services::Node& owner = run.add("sim_svc");
+  services::Node& planner = run.add("planner_svc");
+  const auto offers = services::advertise(owner, services::topics::function_offer);
+  FunctionOwners owners(planner, 1s);
+  owner.at(1s, [&] {
+    for (std::size_t i = 0; i < kOffers + 5; ++i) {
+      v1::FunctionOffer offer;
+      offer.module_name("module-" + std::to_string(1000 + i));
+      offer.owner("sim_svc");
+      offers.write(offer);
+    }
+  });
+  std::map<std::size_t, std::string> reasons;
+  planner.at(2s, [&] {
+    for (const std::size_t i : {kOffers - 1, kOffers}) {
+      engine::FunctionCall call;
+      call.module = "module-" + std::to_string(1000 + i);
+      owners.ask({call}, {}, [&reasons, i](const std::vector<engine::FunctionValue>& values) {
+        reasons[i] = values.at(0).reason;
+      });
+    }
+  });
+  owner.at(10s, [&] { owner.stop(); });
+  run.run();
+  EXPECT_THAT(reasons[kOffers], HasSubstr("no service offers module 'module-1256'"));
+  EXPECT_THAT(reasons[kOffers - 1], ::testing::Not(HasSubstr("no service offers")));
 }
 
 }  // namespace

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
 #include "planner_svc/engine_host_service.hpp"
+#include "planner_svc/limits.hpp"
 #include "services/publisher.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
@@ -151,6 +153,35 @@ TEST_F(SteppedService, AnEngineThatFailsIsMadeAnewAndHearsWhatStillCounts) {
               ElementsAre("planner.defect: engine 'scripted' failed and is made anew: out of ideas"));
   EXPECT_THAT(heard_, ElementsAre("goal first", "goal gone", "end of gone", "goal trap", "goal first",
                                   "goal trap", "goal next"));
+}
+
+// Beyond its bounds the service says so once, and ten times fewer for each further factor of ten.
+TEST_F(SteppedService, WhatFloodsItsTablesIsRefusedAndTold) {
+  constexpr std::size_t kBeyond = 20;
+  const auto observations = services::advertise(executive_, topics::observation);
+  executive_.at(1s, [this, observations] {
+    for (std::size_t i = 0; i < kTimelines + kBeyond; ++i) {
+      v1::Observation observation;
+      observation.timeline("flood-" + std::to_string(i));
+      observations.write(observation);
+    }
+    for (std::size_t i = 0; i < kGoals + kBeyond; ++i) {
+      v1::Goal goal;
+      goal.issuer("flood");
+      goal.id(std::to_string(i));
+      goals_.write(goal);
+    }
+  });
+  tell(2s, "late", v1::GOAL_PENDING);
+  run_until(5s);
+  EXPECT_THAT(versions_, IsEmpty()) << "there is no room for the late one";
+  const auto told = [this](const std::string& of) {
+    return std::ranges::count_if(events_, [&](const std::string& event) {
+      return event.starts_with("planner.no_room: a " + of + " is not taken in");
+    });
+  };
+  EXPECT_EQ(told("timeline"), 2) << "the first and the tenth";
+  EXPECT_EQ(told("goal"), 2);
 }
 
 }  // namespace

@@ -266,5 +266,28 @@ TEST(ChannelProperties, WithoutARateNoSampleDependsOnAnother) {
   }
 }
 
+TEST(ChannelBounds, WhatIsUnderWayIsBounded) {
+  Link link{"l", {"a", "b"}};
+  link.light_time = 20min;
+  Channel channel(link, 1);
+  for (std::uint64_t i = 0; i < kLongestFlight + 10; ++i) channel.offer(passenger(i + 1), 0ms);
+  EXPECT_EQ(channel.counts().under_way, kLongestFlight);
+  EXPECT_EQ(channel.counts().lost, 10U);
+  EXPECT_EQ(channel.take(20min).size(), kLongestFlight);
+  EXPECT_FALSE(channel.offer(passenger(1), 20min));
+  EXPECT_EQ(channel.counts().lost, 10U) << "room again";
+}
+
+TEST(ChannelBounds, InstancesOfStatesAreBounded) {
+  const Link link{"l", {"a", "b"}};
+  Channel channel(link, 1);
+  std::size_t arrived = 0;
+  for (std::uint64_t i = 0; i < kLongestFlight + 10; ++i)
+    arrived += channel.offer(passenger(i + 1, 0, std::to_string(i)), 0ms) ? 1 : 0;
+  EXPECT_EQ(arrived, kLongestFlight);
+  EXPECT_EQ(channel.counts().lost, 10U);
+  EXPECT_TRUE(channel.offer(passenger(1, 0, "7"), 0ms)) << "who is known goes on";
+}
+
 }  // namespace
 }  // namespace roci::services::link

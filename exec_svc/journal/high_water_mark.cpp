@@ -1,0 +1,70 @@
+#include "exec_svc/journal/high_water_mark.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace roci::exec::journal {
+namespace {
+
+// FNV-1a, of the two numbers as they stand in the file.
+std::uint64_t checksum(const std::string& text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return hash;
+}
+
+std::string numbers_text(const Extent& extent) {
+  return std::to_string(extent.epoch) + " " + std::to_string(extent.record);
+}
+
+// Always of one length: it is written over the one before.
+std::string to_text(const Extent& extent) {
+  std::array<char, 96> out{};
+  std::snprintf(out.data(), out.size(), "%20lld %20lld %20llu\n", static_cast<long long>(extent.epoch),
+                static_cast<long long>(extent.record),
+                static_cast<unsigned long long>(checksum(numbers_text(extent))));
+  return out.data();
+}
+
+}  // namespace
+
+HighWaterMark::HighWaterMark(const std::filesystem::path& journal)
+    : file_(std::filesystem::path(journal).concat("-mark")) {}
+
+HighWaterMark::~HighWaterMark() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+HighWaterMark::HighWaterMark(HighWaterMark&& other) noexcept
+    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+std::optional<Extent> HighWaterMark::read() const {
+  std::ifstream in(file_, std::ios::binary);
+  Extent extent;
+  std::uint64_t stated = 0;
+  if (!(in >> extent.epoch >> extent.record >> stated)) return std::nullopt;
+  return stated == checksum(numbers_text(extent)) ? std::optional(extent) : std::nullopt;
+}
+
+void HighWaterMark::write(const Extent& extent) noexcept {
+  if (descriptor_ < 0)
+    descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  if (descriptor_ < 0) return;
+  const std::string text = to_text(extent);
+  if (pwrite(descriptor_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) remove();
+}
+
+void HighWaterMark::remove() noexcept {
+  if (descriptor_ >= 0) close(std::exchange(descriptor_, -1));
+  std::error_code none;
+  std::filesystem::remove(file_, none);
+}
+
+}  // namespace roci::exec::journal

@@ -1,0 +1,38 @@
+// Tells operators of the datagrams that a node's transport refuses: by the event datagram.refused, for each reason the first
+// time and each time that the count has grown tenfold, so that whoever sends a million bad ones brings about seven.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "roci_idl/health.h"
+#include "services/clock/wall.hpp"
+#include "services/transport/refused_datagrams.hpp"
+
+namespace roci::services::node {
+
+class DatagramWatch {
+ public:
+  /// `transport` outlives this; null: nobody guards it, and nothing is told.
+  DatagramWatch(std::string node, const transport::RefusesDatagrams* transport)
+      : node_(std::move(node)), transport_(transport) {}
+
+  /// Is called in each turn of the loop, and asks the transport once in kPeriodS of wall time. Returns what is new.
+  std::vector<v1::Event> turn(clock::WallTime now);
+
+  static constexpr double kPeriodS = 1;
+
+ private:
+  v1::Event event_of(const transport::RefusedDatagrams&) const;
+
+  const std::string node_;
+  const transport::RefusesDatagrams* const transport_;
+  std::optional<clock::WallTime> asked_;
+  std::map<std::string, std::uint64_t>
+      due_;  // the count that is told next, by reason; there are as many as verdicts
+};
+
+}  // namespace roci::services::node
