@@ -6,6 +6,7 @@
 #include <exception>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "exec_svc/order_link_service.hpp"
 #include "exec_svc/output_publisher_service.hpp"
 #include "exec_svc/run_files_service.hpp"
+#include "exec_svc/standby/goals_apart.hpp"
 #include "exec_svc/standby/leader_service.hpp"
 #include "exec_svc/strangers.hpp"
 #include "exec_svc/wire_service.hpp"
@@ -41,6 +43,7 @@ using journal::Journal;
 using journal::JournaledReactor;
 using journal::Recovery;
 using mission::MissionModel;
+using mission::owners_of;
 using mission::read_mission;
 using reactor::DecisionRecord;
 using reactor::Event;
@@ -51,6 +54,7 @@ using reactor::Reactor;
 using reactor::ReactorInputs;
 using reactor::ReactorOutputs;
 using reactor::Severity;
+using standby::GoalsApart;
 using standby::LeaderService;
 using temporal::Verdict;
 
@@ -95,7 +99,7 @@ MissionModel mission_behind_links(const Node& node, const services::RunSettings&
 class ExecService final : public services::Service {
  public:
   ExecService(Node& node, const services::RunSettings& settings, Journal& journal, std::uint64_t epoch,
-              LeaderService* leading, bool doubtful)
+              LeaderService* leading, bool doubtful, std::optional<GoalsApart> apart = std::nullopt)
       : node_(node),
         settings_(settings),
         mission_(mission_behind_links(node, settings)),
@@ -104,6 +108,7 @@ class ExecService final : public services::Service {
         journal_(journal),
         epoch_(epoch),
         leader_(leading),
+        apart_(std::move(apart)),
         reactor_(mission_, journal_, doubtful || is_in_doubt(journal)),
         crash_(crash_points(node)),
         planner_(node, topics::plan_request),
@@ -140,8 +145,7 @@ class ExecService final : public services::Service {
       step_soon();
     });
     node.on_peer_change([this](const services::health::PeerChange& change) { take(change); });
-    if (leader_ != nullptr && node.options().clock == services::clock::ClockMode::live)
-      node.on_turn([this] { tell_pair(); });
+    if (leader_ != nullptr) join_pair();
     if (leader_ == nullptr && node.options().incarnation == 1) {
       listen_first();
     } else {
@@ -225,9 +229,45 @@ class ExecService final : public services::Service {
              divergence.expected + ", got " + divergence.got});
   }
 
+  void join_pair() {
+    publisher_.let_commands_wait([this] { return leader_->may_command(); });
+    leader_->on_hand_over([this](goals::GoalRecord goal) { take(std::move(goal)); });
+    if (apart_) inputs_.handed_over = apart_->goals();
+    lead_owners();
+    const bool live = node_.options().clock == services::clock::ClockMode::live;
+    node_.on_turn([this, live] {
+      if (live) publisher_.announce_epoch();
+      if (live) tell_pair();
+      publisher_.send_waiting();
+    });
+  }
+
+  // What the ground is told of the pair, in mission time: under the simulated clock with a step.
   void tell_pair() {
-    publisher_.announce_epoch();
     for (const Event& event : leader_->take_events()) publisher_.report(event);
+    if (!leader_->take_held()) return;
+    publisher_.acknowledge_as(goals::AckStage::held_by_both);
+    orders_.acknowledge_as(goals::AckStage::held_by_both);
+    publisher_.send_goals(reactor_.reactor());
+    orders_.tell_orders(reactor_.reactor());
+  }
+
+  // Those whom the running plan commands; while there is none, all.
+  void lead_owners() {
+    std::set<std::string> owners;
+    for (const temporal::PlanActivity& activity : reactor_.reactor().plan().activities) {
+      if (!activity.owner.empty()) owners.insert(activity.owner);
+      for (const temporal::PlanCommand& command : activity.then) owners.insert(command.owner);
+    }
+    if (owners.empty()) owners = owners_of(mission_);
+    leader_->require(owners);
+  }
+
+  // As the other executive has it, which led apart.
+  void take(goals::GoalRecord goal) {
+    if (!intake_.admits(goal.request, inputs_.goals, node_.now())) return;
+    inputs_.handed_over.push_back(std::move(goal));
+    step_soon();
   }
 
   // A goal that goes to another executive is recalled here.
@@ -247,6 +287,7 @@ class ExecService final : public services::Service {
     const auto known = missed_.extract(change.service);
     publisher_.forget_told(change.service);
     if (!change.alive) sources_.forget(change.service);
+    if (!change.alive) publisher_.lose_owner(change.service);
     if (!change.alive) {
       journal_.remove_peer(change.service);
       inputs_.losses.push_back({change.service, change.cause});
@@ -367,7 +408,9 @@ class ExecService final : public services::Service {
         reactor_.step(node_.now(), std::exchange(inputs_, {}), std::exchange(seen_, {}));
     crash_.pass("after-write-ahead");
     if (out.wake) wake_at(*out.wake);
+    if (apart_) std::exchange(apart_, std::nullopt)->remove();  // all of it stands in the journal now
     const Reactor& reactor = reactor_.reactor();
+    if (leader_ != nullptr && out.adopted) lead_owners();
     auto send_all = [this, out, version = reactor.plan_version(), status = mission_status(reactor, mission_),
                      hash = reactor_.trace_sha256()] {
       if (leader_ != nullptr) crash_.pass("after-copy");
@@ -376,7 +419,7 @@ class ExecService final : public services::Service {
       if (publisher_.publish(status, hash) && !status.outcome().empty()) write_summary();
     };
     if (leader_ == nullptr) return send_all();
-    leader_->send_once_copied(std::move(send_all));
+    leader_->send_once_copied(std::move(send_all), !out.commands.empty());
   }
 
   void wake_at(temporal::Time time) {
@@ -388,6 +431,10 @@ class ExecService final : public services::Service {
   }
 
   void send(const ReactorOutputs& out, std::uint32_t version) {
+    if (leader_ != nullptr) {
+      publisher_.acknowledge_as(leader_->ack_stage());
+      orders_.acknowledge_as(leader_->ack_stage());
+    }
     publisher_.send(out, version);
     decisions_.send(out);
     orders_.send(out);
@@ -395,8 +442,7 @@ class ExecService final : public services::Service {
       return decision.status.state == executive::DecisionState::open;
     };
     if (std::ranges::any_of(out.decisions, is_open)) crash_.pass("after-question");
-    if (leader_ != nullptr)
-      for (const Event& event : leader_->take_events()) publisher_.report(event);
+    if (leader_ != nullptr) tell_pair();
     if (out.cancelled_call && call_.id == *out.cancelled_call) planner_.cancel(call_.sent);
     if (out.call) call_planner(*out.call);
     if (out.receipt) engine_->tell(*out.receipt);
@@ -446,7 +492,8 @@ class ExecService final : public services::Service {
   std::filesystem::path summary_file_;
   Journal& journal_;
   std::uint64_t epoch_;
-  LeaderService* leader_;  // none: no other executive follows
+  LeaderService* leader_;            // none: no other executive follows
+  std::optional<GoalsApart> apart_;  // until the first step has taken them in
   JournaledReactor reactor_;
   CrashPoints crash_;
   TimelineSources sources_;
@@ -509,8 +556,9 @@ std::unique_ptr<services::Service> make_service(Node& node, const services::RunS
 }
 
 std::unique_ptr<services::Service> make_executive(Node& node, const services::RunSettings& settings,
-                                                  Journal& journal, LeaderService& leading, bool doubtful) {
-  return std::make_unique<ExecService>(node, settings, journal, leading.epoch(), &leading, doubtful);
+                                                  Journal& journal, LeaderService& leading, bool doubtful,
+                                                  const GoalsApart& apart) {
+  return std::make_unique<ExecService>(node, settings, journal, leading.epoch(), &leading, doubtful, apart);
 }
 
 }  // namespace roci::exec

@@ -12,14 +12,16 @@ namespace journal {
 class Journal;
 }
 namespace standby {
+class GoalsApart;
 class LeaderService;
-}
+}  // namespace standby
 
 /// Alone, with the journal of the run folder.
 std::unique_ptr<services::Service> make_service(services::Node&, const services::RunSettings&);
 
-/// The leader of a pair; `doubtful` as in JournaledReactor.
+/// The leader of a pair; `doubtful` as in JournaledReactor. It takes in the goals that are kept `apart` first.
 std::unique_ptr<services::Service> make_executive(services::Node&, const services::RunSettings&,
-                                                  journal::Journal&, standby::LeaderService&, bool doubtful);
+                                                  journal::Journal&, standby::LeaderService&, bool doubtful,
+                                                  const standby::GoalsApart& apart);
 
 }  // namespace roci::exec

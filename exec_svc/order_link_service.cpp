@@ -77,6 +77,10 @@ void OrderLink::send(const ReactorOutputs& out) const {
 
 void OrderLink::tell(const Reactor& reactor) const {
   for (const auto& [timeline, value] : reactor.ground_values()) tell(Observation{timeline, value});
+  tell_orders(reactor);
+}
+
+void OrderLink::tell_orders(const Reactor& reactor) const {
   for (const OrderStatus& status : reactor.order_statuses()) tell(status);
 }
 
@@ -91,6 +95,7 @@ void OrderLink::tell(const OrderStatus& status) const {
   out.stage(static_cast<v1::OrderStage>(status.stage));
   out.reason(status.reason);
   out.plan_version(status.plan_version);
+  out.ack_stage(static_cast<v1::AckStage>(ack_stage_));
   statuses_.write(std::move(out));
 }
 

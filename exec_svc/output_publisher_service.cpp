@@ -48,25 +48,56 @@ OutputPublisher::OutputPublisher(services::Node& node, const MissionModel& missi
       events_(services::advertise(node, topics::event)) {}
 
 void OutputPublisher::send_goals(const Reactor& reactor) const {
-  for (const GoalRecord* goal : reactor.goals().all()) goal_statuses_.write(to_wire(*goal, executive_));
+  for (const GoalRecord* goal : reactor.goals().all())
+    goal_statuses_.write(to_wire(*goal, executive_, ack_stage_));
 }
 
 void OutputPublisher::send_plan(const Reactor& reactor) const {
   if (reactor.plan().version != 0) plans_.write(plan_sample(reactor.plan()));
-  for (const StepStatus& step : reactor.steps()) steps_.write(to_wire(step, executive_, reactor.plan_version()));
+  for (const StepStatus& step : reactor.steps())
+    steps_.write(to_wire(step, executive_, reactor.plan_version()));
 }
 
 void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version) {
-  for (const GoalRecord& goal : out.goal_changes) sent(goal_statuses_.write(to_wire(goal, executive_)));
+  for (const GoalRecord& goal : out.goal_changes)
+    sent(goal_statuses_.write(to_wire(goal, executive_, ack_stage_)));
   if (out.adopted) sent(plans_.write(plan_sample(*out.adopted)));
   for (const Command& command : out.commands) {
     v1::Command sample = to_wire(command, executive_, version, epoch_);
     sent_keys_.emplace_back(sample.epoch(), sample.activity(), sample.attempt());
     if (sent_keys_.size() > kSentKeys) sent_keys_.pop_front();
-    sent(commands_.write(std::move(sample)));
+    send(std::move(sample));
   }
   for (const StepStatus& step : out.steps) sent(steps_.write(to_wire(step, executive_, version)));
   for (const Event& event : out.events) report(event);
+}
+
+void OutputPublisher::send(v1::Command command) {
+  send_waiting();
+  const bool safety =
+      command.command_name() == owner::kStopCommand || command.activity().starts_with(owner::kFallbackPrefix);
+  const auto same_key = [&](const v1::Command& other) {
+    return other.epoch() == command.epoch() && other.activity() == command.activity() &&
+           other.attempt() == command.attempt();
+  };
+  if (command.action() == v1::COMMAND_CANCEL) std::erase_if(waiting_, same_key);
+  const bool begins = command.action() == v1::COMMAND_EXECUTE && !safety;
+  if (!begins || !may_command_ || may_command_()) {
+    sent(commands_.write(std::move(command)));
+  } else if (std::ranges::none_of(waiting_, same_key)) {
+    waiting_.push_back(std::move(command));
+  }
+}
+
+void OutputPublisher::send_waiting() {
+  while (!waiting_.empty() && may_command_()) {
+    commands_.write(std::move(waiting_.front()));
+    waiting_.pop_front();
+  }
+}
+
+void OutputPublisher::lose_owner(const std::string& owner) {
+  std::erase_if(waiting_, [&](const v1::Command& command) { return command.owner() == owner; });
 }
 
 v1::Plan OutputPublisher::plan_sample(const temporal::FlexiblePlan& plan) const {

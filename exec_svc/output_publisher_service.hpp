@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -23,6 +24,14 @@ class OutputPublisher {
   OutputPublisher(services::Node&, const mission::MissionModel&, std::uint64_t epoch,
                   journal::CrashPoints& crash);
 
+  /// Who holds what is acknowledged from now on.
+  void acknowledge_as(goals::AckStage stage) { ack_stage_ = stage; }
+  /// Commands that begin something wait while this says false; what ends something, and what asks, does not. One that is
+  /// cancelled meanwhile, or whose owner is lost, is not sent at all.
+  void let_commands_wait(std::function<bool()> may_command) { may_command_ = std::move(may_command); }
+  /// Sends what waits, if it may go now.
+  void send_waiting();
+
   /// Goals, plan and steps as they stand, for who joins after a restart.
   void send_goals(const reactor::Reactor&) const;
   void send_plan(const reactor::Reactor&) const;
@@ -39,6 +48,8 @@ class OutputPublisher {
   void announce_epoch();
   /// An owner that was started anew may know no epoch: it is to be told again.
   void forget_told(const std::string& owner) { told_epoch_.erase(owner); }
+  /// The executive has closed what it commanded there.
+  void lose_owner(const std::string& owner);
   /// Leads the owner, which holds `held`, in later and later epochs up to this one: it takes no wider step
   /// (services/owner/command.hpp). False: the way is too long.
   bool climb(const std::string& owner, std::uint64_t held);
@@ -50,6 +61,7 @@ class OutputPublisher {
  private:
   void sent(bool) const { crash_->pass("during-send"); }
 
+  void send(v1::Command);
   void lead(const std::string& owner, std::uint64_t epoch) const;
   v1::Plan plan_sample(const temporal::FlexiblePlan&) const;
 
@@ -60,6 +72,9 @@ class OutputPublisher {
   std::set<std::string> told_epoch_;  // owners
   /// Keys of the newest commands: epoch of issue, activity, attempt.
   std::deque<std::tuple<std::uint64_t, std::string, std::uint32_t>> sent_keys_;
+  goals::AckStage ack_stage_ = goals::AckStage::journaled;
+  std::function<bool()> may_command_;
+  std::deque<v1::Command> waiting_;
   v1::MissionStatus last_status_;
   services::Publisher<v1::Command> commands_;
   services::Publisher<v1::GoalStatus> goal_statuses_;

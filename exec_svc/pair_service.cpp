@@ -11,7 +11,6 @@
 #include "exec_svc/standby/follower_service.hpp"
 #include "exec_svc/standby/leader_service.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
-#include "exec_svc/wire_service.hpp"
 #include "services/health/watchdog_notifier.hpp"
 #include "services/log/log.hpp"
 #include "services/node.hpp"
@@ -26,8 +25,11 @@ namespace roci::exec {
 
 using journal::Durability;
 using journal::Journal;
+using mission::MissionModel;
+using mission::owners_of;
 using mission::read_mission;
 using standby::FollowerService;
+using standby::GoalsApart;
 using standby::LeaderService;
 using standby::Lease;
 using standby::LeaseSettings;
@@ -103,8 +105,8 @@ class PairProcess {
       : options_(options),
         watchdog_(options.notify_socket),
         self_(member_of(options.run.pair)),
-        lease_{read_mission(options.run.mission_file(), role_of(options.run, options.node))
-                   .executive.standby_term},
+        mission_(read_mission(options.run.mission_file(), role_of(options.run, options.node))),
+        lease_{mission_.executive.standby_term},
         journal_(usable_journal(file_of(options, journal::kJournalFile),
                                 services::process::DiskPause([this] { watchdog_.notify(); })),
                  durability_for(options.node)),
@@ -115,7 +117,7 @@ class PairProcess {
 
   void run() {
     for (bool superseded = false; !stop_.asked();) {
-      Lease lease(self_, lease_, persisted_term_.read(), superseded, moment());
+      Lease lease(self_, lease_, persisted_term_.read(), superseded, moment(), owners_of(mission_));
       const auto lead = follow(lease);
       if (!lead) return;
       log(*lead, lease);
@@ -158,9 +160,8 @@ class PairProcess {
     options.name += "." + options_.run.pair;
     options.clock = services::clock::ClockMode::observer;
     services::Node node(options, std::move(transport));
-    const auto goals = services::advertise(node, services::topics::goal);
     FollowerService following(node, options_.node.name, lease, journal_, persisted_term_,
-                              [&goals](const goals::GoalRequest& goal) { goals.write(exec::to_wire(goal)); });
+                              GoalsApart(journal_.file(), durability_for(options_.node)));
     node.on_turn([this] { watchdog_.notify(); });
     const InterruptibleNode reach(stop_, node);
     node.run();
@@ -181,7 +182,8 @@ class PairProcess {
     const services::process::ClockWatch clock_watch(node, options_.run.run_folder);
     try {
       LeaderService leading(node, options_.node.name, lease, journal_, persisted_term_);
-      const auto executive = make_executive(node, options_.run, journal_, leading, turn.doubtful);
+      const auto executive = make_executive(node, options_.run, journal_, leading, turn.doubtful,
+                                            GoalsApart(journal_.file(), durability_for(options_.node)));
       const InterruptibleNode reach(stop_, node);
       node.run();
       services::process::write_link_report(node, options_.run.run_folder);
@@ -198,6 +200,7 @@ class PairProcess {
   const services::process::ServiceOptions& options_;
   services::health::WatchdogNotifier watchdog_;
   Member self_;
+  MissionModel mission_;
   LeaseSettings lease_;
   Journal journal_;
   PersistedTermFile persisted_term_;

@@ -122,7 +122,7 @@ v1::Goal to_wire(const GoalRequest& in) {
   return out;
 }
 
-v1::GoalStatus to_wire(const GoalRecord& in, const std::string& executive) {
+v1::GoalStatus to_wire(const GoalRecord& in, const std::string& executive, goals::AckStage stage) {
   v1::GoalStatus out;
   out.executive(executive);
   out.issuer(in.request.key.issuer);
@@ -135,6 +135,7 @@ v1::GoalStatus to_wire(const GoalRecord& in, const std::string& executive) {
   out.goal_kind(in.request.kind);
   out.reason(in.reason);
   out.plan_version(in.plan_version);
+  out.ack_stage(static_cast<v1::AckStage>(stage));
   return out;
 }
 

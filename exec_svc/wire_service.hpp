@@ -16,11 +16,12 @@ executive::CommandAck from_wire(const v1::CommandAck&);
 reactor::PlanReply from_wire(std::uint64_t call, const v1::PlanReply&);
 
 v1::Goal to_wire(const goals::GoalRequest&);
-v1::GoalStatus to_wire(const goals::GoalRecord&, const std::string& executive);
+v1::GoalStatus to_wire(const goals::GoalRecord&, const std::string& executive, goals::AckStage);
 /// `epoch`: of the commander now; the key's is that of issue, see Command::epoch.
 v1::Command to_wire(const executive::Command&, const std::string& commander, std::uint32_t plan_version,
                     std::uint64_t epoch);
-v1::StepStatus to_wire(const executive::StepStatus&, const std::string& executive, std::uint32_t plan_version);
+v1::StepStatus to_wire(const executive::StepStatus&, const std::string& executive,
+                       std::uint32_t plan_version);
 v1::PlanRequest to_wire(const reactor::PlanRequest&, const mission::MissionModel&);
 v1::PlanReceipt to_wire(const reactor::PlanReceipt&, const std::string& executive);
 v1::Event to_wire(const reactor::Event&);

@@ -47,6 +47,9 @@ inline constexpr Topic<v1::TimeProbe>     time_probe    {"roci/clock/probe",    
 
 inline constexpr Topic<v1::LeaseMessage>  exec_member   {"roci/exec/member",      "roci::v1::LeaseMessage",  Qos::state, wall, robot, PayloadLimit::word};
 inline constexpr Topic<v1::JournalChunk>  exec_journal  {"roci/exec/journal",     "roci::v1::JournalChunk",  Qos::request, wall, robot, PayloadLimit::journal};
+inline constexpr Topic<v1::LeaseRequest>  lease_request {"roci/lease/request",    "roci::v1::LeaseRequest",  Qos::state, wall, robot, PayloadLimit::word};
+inline constexpr Topic<v1::LeaseState>    lease_state   {"roci/lease/state",      "roci::v1::LeaseState",    Qos::state, wall, robot, PayloadLimit::word};
+inline constexpr Topic<v1::GoalHandOver>  goal_hand_over{"roci/exec/goal",        "roci::v1::GoalHandOver",  Qos::state, wall, robot, PayloadLimit::page};
 
 inline constexpr Topic<v1::Event>         event         {"roci/event",            "roci::v1::Event",         Qos::event, clocked, everyone, PayloadLimit::page};
 inline constexpr Topic<v1::Goal>          goal          {"roci/goal",             "roci::v1::Goal",          Qos::state, clocked, team, PayloadLimit::word};

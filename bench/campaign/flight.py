@@ -1,6 +1,7 @@
 """Flies one seed, in mount, network and process namespaces of its own (run.py makes them); prints one JSON record.
 
-flight.py SEED BIN MISSION FOLDER SPEED SECURE: FOLDER is empty; what is in it afterwards is all that the flight left."""
+flight.py SEED BIN MISSION FOLDER SPEED secure|plain: FOLDER is empty; what is in it afterwards is all that the flight left.
+With `plain` a seed that draws a secured flight flies plainly."""
 
 import json
 import os
@@ -33,10 +34,10 @@ def vendor_of(draw: Draw, host: str) -> str:
 
 
 class Flight:
-    def __init__(self, draw: Draw, bin: Path, mission: Path, folder: Path, speed: float, secure: list[str]):
+    def __init__(self, draw: Draw, bin: Path, mission: Path, folder: Path, speed: float, secure: bool):
         self.draw, self.bin, self.folder, self.speed = draw, bin, folder, speed
-        self.secure = secure if draw.secured else []
         self.scenario_goals = make_mission(mission, folder / "mission", draw.samples, speed, LONGEST_S)
+        self.secure = self.make_keys() if secure and draw.secured else []
         subprocess.run(["mount", "-t", "tmpfs", "tmpfs", "/dev/shm"], check=True)  # libfaketime names things by process ids
         self.hosts = Hosts(list(draw.placed()))
         self.over = Event()
@@ -44,6 +45,13 @@ class Flight:
         self.effects = folder / "effects.jsonl"
         self.effects.touch()
         self.launchers = {host: self.launcher(host, services) for host, services in draw.placed().items()}
+
+    def make_keys(self) -> list[str]:
+        """Of this flight alone; all hosts share the folder."""
+        keys = self.folder / "keys"
+        subprocess.run([self.bin / "roci-keys", "make", self.folder / "mission", "--keys", keys], check=True,
+                       stdout=subprocess.DEVNULL)
+        return [f"--secure={keys}"]
 
     def launcher(self, host: str, services: list[str]) -> Launcher:
         run_folder = self.folder / host
@@ -150,7 +158,7 @@ class Flight:
 def main() -> None:
     seed, bin, mission, folder, speed, secure = sys.argv[1:]
     os.chdir(folder)
-    flight = Flight(draw(int(seed)), Path(bin), Path(mission), Path(folder), float(speed), secure.split())
+    flight = Flight(draw(int(seed)), Path(bin), Path(mission), Path(folder), float(speed), secure == "secure")
     record = flight.fly()
     if record["violations"] or record["time_up"] or "ROCI_CAMPAIGN_KEEP" in os.environ:
         flight.keep()

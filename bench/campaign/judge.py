@@ -37,18 +37,23 @@ def first_commanded(journals: list[Path]) -> dict[tuple[str, int], float]:
     return out
 
 
-def after_the_end(journal: Path) -> set[str]:
-    """Goals that were accepted when the robot's service had left for good: its mission was over, as far as it knew."""
+def after_the_end(journal: Path, speed: float) -> set[str]:
+    """Goals that were accepted when the robot's service had left for good, or so shortly before that it cannot have heard:
+    its mission was over, as far as it knew."""
     out: set[str] = set()
+    accepted: dict[str, float] = {}
     left = False
     with sqlite3.connect(f"file:{journal}?mode=ro", uri=True) as database:
-        for (text,) in database.execute("SELECT CAST(text AS TEXT) FROM record WHERE kind='event' ORDER BY seq"):
+        rows = database.execute("SELECT time_us / 1e6, CAST(text AS TEXT) FROM record WHERE kind='event' ORDER BY seq")
+        for at, text in rows:
             words = text.split()
+            if words[0] == "goal.accepted":
+                accepted[words[2]] = at
+                if left:
+                    out.add(words[2])
             if words[1:2] == ["sim_svc"]:
-                left = words[0] == "service.lost"
-                out = out if left else set()
-            if left and words[0] == "goal.accepted":
-                out.add(words[2])
+                left = words[0] == "service.lost" and text.endswith("left")
+                out = {goal for goal, then in accepted.items() if at - then < ON_ITS_WAY_S * speed} if left else set()
     return out
 
 
@@ -86,7 +91,7 @@ def judge(flight: dict, effects: list[dict], final: Path | None, journals: list[
     acknowledged = {answer["goal"] for answer in flight["answers"] if answer["verb"] == "add" and answer["state"] != "rejected"}
     asked = acknowledged | set(flight["scenario_goals"])
     lost = [f"goal {goal} is not in the journal" for goal in sorted(asked - set(goals))]
-    late = after_the_end(final) if final else set()
+    late = after_the_end(final, speed) if final else set()
     lost += [f"goal {goal} is still open ({goals[goal][1]})" for goal in sorted(asked & set(goals) - late)
              if goals[goal][0] not in FINAL and not flight["time_up"] and "waiting for the ground" not in goals[goal][1]]
     recalls = [answer for answer in flight["answers"] if answer["verb"] == "recall" and answer["state"] == "recalled"]

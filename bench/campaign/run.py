@@ -36,7 +36,6 @@ def parse() -> argparse.Namespace:
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin")
     parser.add_argument("--keep", type=Path, help="folders of flights with violations go here (default: beside --out)")
     parser.add_argument("--keep-all", action="store_true", help="folders of all flights go there")
-    parser.add_argument("--keys", type=Path, help="for --secure of the launcher; without, its own default")
     parser.add_argument("--draw", action="store_true", help="print what the slice would fly, and end")
     parser.add_argument("--report", type=Path, nargs="+", metavar="FILE", help="print the table of these and end")
     return parser.parse_args()
@@ -48,18 +47,16 @@ def flown(file: Path) -> set[int]:
     return {json.loads(line)["seed"] for line in file.read_text().splitlines() if line.strip()}
 
 
-def secure_words(options: argparse.Namespace) -> list[str]:
-    """Empty where the launcher does not know secured runs: the seeds that draw one fly plainly then, and say so."""
+def knows_secure(options: argparse.Namespace) -> bool:
+    """Where the launcher does not know secured runs, the seeds that draw one fly plainly, and say so."""
     known = subprocess.run([options.bin / "roci-launch", "--help"], text=True, capture_output=True).stdout
-    if "--secure" not in known:
-        return []
-    return ["--secure", str(options.keys.resolve())] if options.keys else ["--secure"]
+    return "--secure" in known and (options.bin / "roci-keys").exists()
 
 
-def fly(options: argparse.Namespace, seed: int, secure: list[str]) -> dict:
+def fly(options: argparse.Namespace, seed: int, secure: bool) -> dict:
     folder = Path(tempfile.mkdtemp(prefix=f"roci_campaign_{seed}_"))
     command = [*APART, sys.executable, Path(__file__).parent / "flight.py", str(seed), options.bin.resolve(),
-               options.mission.resolve(), folder, str(options.speed), " ".join(secure)]
+               options.mission.resolve(), folder, str(options.speed), "secure" if secure else "plain"]
     begun = time.monotonic()
     with open(folder / "flight.log", "w") as log:
         flying = subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, stderr=log, text=True)
@@ -114,7 +111,7 @@ def main() -> int:
     options.keep = options.keep or options.out.parent / "violations"
     if options.keep_all:
         os.environ["ROCI_CAMPAIGN_KEEP"] = "1"
-    secure = secure_words(options)
+    secure = knows_secure(options)
     lock = Lock()
     faulty = 0
 

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "exec_svc/goals/goal_merge.hpp"
 #include "exec_svc/mission/template_text.hpp"
 
 namespace roci::exec::goals {
@@ -183,6 +184,7 @@ GoalSet::Disposition GoalSet::change(GoalRecord& record, const GoalRequest& requ
     if (is_final(record.state)) return Disposition::repeated;
     record.state = GoalState::recalled;
     record.reason = "recalled by " + request.key.issuer;
+    ++record.revision;
     return Disposition::recalled;
   }
   std::string fault = fault_of(request, now);
@@ -195,7 +197,33 @@ GoalSet::Disposition GoalSet::change(GoalRecord& record, const GoalRequest& requ
   record.request = request;
   record.state = GoalState::pending;
   record.reason = "changed by " + request.key.issuer;
+  ++record.revision;
   return Disposition::accepted;
+}
+
+const GoalRecord* GoalSet::merge(const GoalRecord& theirs) {
+  const auto found = records_.find(theirs.request.key);
+  if (found == records_.end()) {
+    if (theirs.state == GoalState::rejected) return nullptr;
+    // Its window may have closed meanwhile, which is no fault of the goal.
+    std::string fault = fault_of(theirs.request, temporal::Time{0});
+    GoalRecord& record = records_[theirs.request.key];
+    record = theirs;
+    record.arrival = next_arrival_++;
+    record.plan_version = 0;
+    if (!fault.empty()) {
+      record.state = GoalState::rejected;
+      record.reason = std::move(fault);
+    } else if (!is_final(record.state)) {
+      record.state = GoalState::pending;
+    }
+    return &record;
+  }
+  const auto changed = merged(found->second, theirs);
+  if (!changed) return nullptr;
+  if (!is_final(changed->state) && !fault_of(changed->request, temporal::Time{0}).empty()) return nullptr;
+  found->second = *changed;
+  return &found->second;
 }
 
 void GoalSet::restore(const GoalRecord& record) {

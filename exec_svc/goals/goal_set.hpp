@@ -64,7 +64,11 @@ struct GoalRecord {
   std::uint64_t arrival = 0;  ///< rises with each goal
   std::uint32_t plan_version = 0;
   SampleId answers;  ///< the newest request of this key, also one that was refused or changed nothing
+  std::uint32_t revision = 0;  ///< rises with each change and recall that is taken
 };
+
+/// Who holds what is acknowledged: this executive alone, or both of a pair. In the order of AckStage in idl/goal.idl.
+enum class AckStage { journaled, held_by_both };
 
 bool is_final(GoalState state);
 
@@ -92,6 +96,10 @@ class GoalSet {
   /// These, but each after those of them that its arguments name: who joins a writer late hears goals of
   /// different keys in any order.
   std::vector<GoalRequest> in_reference_order(std::vector<GoalRequest> requests) const;
+
+  /// Takes in what another executive, which led apart, has of a goal (goal_merge.hpp). Returns the record if that
+  /// changes it or it is new; a goal that this mission cannot have is new and rejected.
+  const GoalRecord* merge(const GoalRecord& theirs);
 
   /// Puts a goal back as the journal has it.
   void restore(const GoalRecord& record);

@@ -44,6 +44,7 @@ std::string encode(const GoalRecord& record) {
   if (goal.utility.scores().size() > 1) out["ranks"] = goal.utility.scores();
   if (goal.preferred != temporal::no_bound) out["preferred"] = goal.preferred.count();
   if (!goal.robot.empty()) out["robot"] = goal.robot;
+  if (record.revision != 0) out["revision"] = record.revision;
   // Rejected goals may hold anything.
   return out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -86,6 +87,7 @@ void decode(GoalKey key, const std::string& text, GoalRecord& record) {
   goal.recalled = json.at("recalled").get<bool>();
   goal.sample = sample_in(json, "said_in");
   record.answers = sample_in(json, "answers");
+  record.revision = json.value("revision", std::uint32_t{0});
 }
 
 }  // namespace

@@ -221,4 +221,10 @@ MissionModel read_mission(const std::filesystem::path& folder_or_file, const Exe
   return out;
 }
 
+std::set<std::string> owners_of(const MissionModel& mission) {
+  std::set<std::string> out;
+  for (const Component& component : mission.components) out.insert(component.owner);
+  return out;
+}
+
 }  // namespace roci::exec::mission

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -181,6 +182,9 @@ struct MissionModel {
 
   bool has_domain() const { return !domain_name.empty(); }
 };
+
+/// The services that execute the commands of its components.
+std::set<std::string> owners_of(const MissionModel& mission);
 
 /// Reads a mission file (or the mission.yaml of a folder) for one of its executives. In names of timelines
 /// {robot} is the executive's robot; components of other robots are left out. Throws roci::mission::FileError

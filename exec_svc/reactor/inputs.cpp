@@ -38,6 +38,31 @@ bool take_goals(MissionState& state, Time now, const std::vector<GoalRequest>& r
   return accepted;
 }
 
+bool take_handed_over(MissionState& state, const std::vector<GoalRecord>& records) {
+  bool opened = false;
+  for (const GoalRecord& theirs : records) {
+    const GoalRecord* before = state.goals.find(theirs.request.key);
+    const bool was_open = before != nullptr && !is_final(before->state);
+    const GoalRecord* record = state.goals.merge(theirs);
+    if (record == nullptr) continue;
+    state.out.goal_changes.push_back(*record);
+    const std::string name = "goal " + record->request.key.text();
+    state.report(Severity::info, "goal.merged", name + " is taken over from the other executive");
+    if (record->state == GoalState::rejected) continue;
+    assume_unobserved(state, record->request);
+    const bool is_open = !is_final(record->state);
+    if (is_open) {
+      state.want_plan(name + " arrived");
+      opened = true;
+    } else if (was_open &&
+               (state.phase == MissionPhase::executing || state.phase == MissionPhase::planning)) {
+      state.want_plan(name + " was " +
+                      (record->state == GoalState::recalled ? "recalled" : "ended by another"));
+    }
+  }
+  return opened;
+}
+
 void assume_unobserved(MissionState& state, const GoalRequest& goal) {
   const auto values = template_values(goal);
   for (const auto& [timeline, templates] : state.mission->goal_kinds.at(goal.kind).unobserved) {

@@ -9,6 +9,10 @@ namespace roci::exec::reactor {
 /// and a plan is wanted for it.
 bool take_goals(MissionState& state, temporal::Time now, const std::vector<goals::GoalRequest>& requests);
 
+/// Takes in what another executive that led apart has of goals, with recalls, changes and ends. True: one is open
+/// that was not, and a plan is wanted for it.
+bool take_handed_over(MissionState& state, const std::vector<goals::GoalRecord>& records);
+
 /// Until they are observed, the timelines that the goal brings with it are as its kind says.
 void assume_unobserved(MissionState& state, const goals::GoalRequest& goal);
 

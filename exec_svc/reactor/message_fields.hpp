@@ -42,7 +42,7 @@ void fields(A& a, archive::Of<AnswerReceipt, A>& v) {
 template <class A>
 void fields(A& a, archive::Of<ReactorInputs, A>& v) {
   a(v.restarted, v.epoch, v.goals, v.observations, v.acks, v.losses, v.arrivals, v.models, v.reply, v.deltas);
-  a(v.answers, v.ground_orders);
+  a(v.answers, v.ground_orders, v.handed_over);
 }
 template <class A>
 void fields(A& a, archive::Of<PlannedAction, A>& v) {

@@ -101,6 +101,7 @@ struct ReactorInputs {
   std::vector<temporal::PlanDelta> deltas;   ///< of an engine that plans all the time
   std::vector<GivenAnswer> answers;          ///< to decisions of the running plan
   std::vector<orders::Order> ground_orders;  ///< of the ground
+  std::vector<goals::GoalRecord> handed_over;  ///< as another executive has them, which led apart
 };
 
 /// In the order of MissionPhase in idl/plan.idl.

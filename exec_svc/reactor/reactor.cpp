@@ -63,6 +63,7 @@ ReactorOutputs Reactor::step(Time now, const ReactorInputs& came_in) {
   take_services(inputs);
   parts_->call.note_models(inputs.models);
   if (take_goals(state, now, inputs.goals)) parts_->planning.keep_reserves();
+  if (take_handed_over(state, inputs.handed_over)) parts_->planning.keep_reserves();
   note_achieved(state);
   parts_->plan.give_answers(parts_->decisions.admit(inputs.answers, state.out));
   parts_->plan.step(now, inputs);

@@ -7,22 +7,31 @@
 namespace roci::exec::standby {
 
 using goals::GoalRecord;
-using goals::GoalState;
 using journal::Journal;
 
 namespace topics = services::topics;
 
+namespace {
+
+constexpr Moment kHandOverAgain = std::chrono::seconds(1);
+
+}  // namespace
+
 FollowerService::FollowerService(services::Node& node, std::string executive, Lease& lease, Journal& journal,
-                                 PersistedTermFile& persisted_term, TellGoal tell_goal)
+                                 PersistedTermFile& persisted_term, GoalsApart apart)
     : node_(node),
       executive_(std::move(executive)),
       lease_(&lease),
       journal_(&journal),
       persisted_term_(&persisted_term),
-      copy_(journal),
+      copy_(journal, [this] { apart_.keep(*journal_); }),
+      apart_(std::move(apart)),
+      handed_over_(apart_.goals()),
       messages_(services::advertise(node, topics::exec_member)),
-      tell_goal_(std::move(tell_goal)) {
+      lease_requests_(services::advertise(node, topics::lease_request)),
+      goals_(services::advertise(node, topics::goal_hand_over)) {
   services::subscribe(node, topics::exec_member, [this](const v1::LeaseMessage& member) { hear(member); });
+  services::subscribe(node, topics::lease_state, [this](const v1::LeaseState& state) { hear(state); });
   services::subscribe(node, topics::exec_journal, [this](const v1::JournalChunk& chunk) {
     if (chunk.executive() == executive_) take(from_wire(chunk));
   });
@@ -39,26 +48,29 @@ void FollowerService::hear(const v1::LeaseMessage& member) {
   turn();
 }
 
+void FollowerService::hear(const v1::LeaseState& state) {
+  if (state.commander() != executive_) return;
+  lease_->hear(from_wire(state), moment());
+  turn();
+}
+
 void FollowerService::take(const Chunk& chunk) {
   if (lead_) return;
-  const bool completes = chunk.parts > 0 && chunk.part + 1 == chunk.parts;
-  const std::vector<GoalRecord> earlier = completes ? journal_->goals() : std::vector<GoalRecord>{};
   const JournalCopy::Result taken = copy_.take(chunk, lease_->epoch());
   if (taken == JournalCopy::Result::old || taken == JournalCopy::Result::corrupt) return;
   lease_->hear_leader(chunk.leader, moment());
-  if (taken == JournalCopy::Result::whole) ask_again(earlier);
+  if (taken == JournalCopy::Result::whole) handed_over_ = apart_.goals();
   if (taken != JournalCopy::Result::known) say();
 }
 
-// Asks again for goals that this member took in while it led alone, and that the leader never heard of.
-void FollowerService::ask_again(const std::vector<GoalRecord>& earlier) {
-  const std::vector<GoalRecord> goals = journal_->goals();
-  for (const GoalRecord& goal : earlier) {
-    const bool open = goal.state == GoalState::pending || goal.state == GoalState::planned;
-    const bool known = std::ranges::any_of(
-        goals, [&](const GoalRecord& other) { return other.request.key == goal.request.key; });
-    if (open && !known) tell_goal_(goal.request);
-  }
+// Until the copy of the leader's journal shows that it has them.
+void FollowerService::hand_over() {
+  if (handed_over_.empty() || moment() - handed_over_at_ < kHandOverAgain) return;
+  handed_over_at_ = moment();
+  handed_over_ = GoalsApart::missing(handed_over_, journal_->goals());
+  if (handed_over_.empty()) return apart_.remove();
+  for (const GoalRecord& goal : handed_over_)
+    goals_.write(to_wire(goal, executive_, lease_->request().member));
 }
 
 void FollowerService::turn() {
@@ -66,6 +78,7 @@ void FollowerService::turn() {
   const Lease::Turn turn = lease_->turn(copy_.has(), moment());
   persisted_term_->keep(lease_->persisted_term());
   if (turn.speak) say();
+  hand_over();
   if (turn.change != Lease::Change::lead) return;
   lead_ = turn;
   node_.stop();
@@ -73,6 +86,7 @@ void FollowerService::turn() {
 
 void FollowerService::say() {
   messages_.write(to_wire(lease_->message(copy_.has()), copy_.arrival(), executive_));
+  lease_requests_.write(to_wire(lease_->request(), executive_));
 }
 
 }  // namespace roci::exec::standby

@@ -2,11 +2,11 @@
 // when to lead.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "exec_svc/standby/goals_apart.hpp"
 #include "exec_svc/standby/journal_copy.hpp"
 #include "exec_svc/standby/lease.hpp"
 #include "exec_svc/standby/persisted_term_file.hpp"
@@ -15,18 +15,15 @@
 
 namespace roci::exec::standby {
 
-/// Sends a goal as its issuer would.
-using TellGoal = std::function<void(const goals::GoalRequest&)>;
-
 /// Follows until it is this member's turn to lead or the run is over; then it stops the node.
 class FollowerService {
  public:
   /// Stands on an observer's node, and so outside the simulated clock. All arguments must outlive it.
   /// `executive` is the logical name of the pair; what is said by and for another one is passed over.
-  /// `tell_goal` hears of goals that this member took in while it led alone and that the leader does not
-  /// know.
+  /// Goals that this member took in while it led apart and that the leader does not have are handed over to that
+  /// one; `apart` keeps them until then.
   FollowerService(services::Node& node, std::string executive, Lease& lease, journal::Journal& journal,
-                  PersistedTermFile& persisted_term, TellGoal tell_goal);
+                  PersistedTermFile& persisted_term, GoalsApart apart);
 
   /// Says why this member leads, once it does; the node has been stopped then.
   const std::optional<Lease::Turn>& lead() const { return lead_; }
@@ -35,8 +32,9 @@ class FollowerService {
 
  private:
   void hear(const v1::LeaseMessage& member);
+  void hear(const v1::LeaseState& state);
   void take(const Chunk& chunk);
-  void ask_again(const std::vector<goals::GoalRecord>& earlier);
+  void hand_over();
   void turn();
   void say();
 
@@ -48,8 +46,12 @@ class FollowerService {
   JournalCopy copy_;
   std::optional<Lease::Turn> lead_;
   bool over_ = false;
+  GoalsApart apart_;
+  std::vector<goals::GoalRecord> handed_over_;  ///< that the leader may not have yet
+  Moment handed_over_at_{0};
   services::Publisher<v1::LeaseMessage> messages_;
-  TellGoal tell_goal_;
+  services::Publisher<v1::LeaseRequest> lease_requests_;
+  services::Publisher<v1::GoalHandOver> goals_;
 };
 
 }  // namespace roci::exec::standby

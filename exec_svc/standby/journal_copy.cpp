@@ -38,6 +38,7 @@ JournalCopy::Result JournalCopy::take_part(const Chunk& chunk) {
   if (++arrival_.parts < chunk.parts) return Result::part;
   const std::string whole = std::exchange(arriving_, {});
   arrival_ = {};
+  if (before_replacement_) before_replacement_();
   try {
     journal_->replace_with(whole);
   } catch (const JournalError&) {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/standby/chunk.hpp"
@@ -13,7 +15,10 @@ namespace roci::exec::standby {
 /// Takes only what fits on the journal as it is, or a whole journal in its place.
 class JournalCopy {
  public:
-  explicit JournalCopy(journal::Journal& journal) : journal_(&journal), has_(journal.position()) {}
+  /// `before_replacement` is called with the journal complete, right before another one takes its place; what it throws
+  /// passes through, and the journal stays.
+  explicit JournalCopy(journal::Journal& journal, std::function<void()> before_replacement = nullptr)
+      : journal_(&journal), has_(journal.position()), before_replacement_(std::move(before_replacement)) {}
 
   enum class Result {
     batch,    ///< it is in the journal, on the disk
@@ -40,6 +45,7 @@ class JournalCopy {
   journal::Position has_;
   TransferProgress arrival_;
   std::string arriving_;
+  std::function<void()> before_replacement_;
 };
 
 }  // namespace roci::exec::standby

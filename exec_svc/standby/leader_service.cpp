@@ -2,12 +2,11 @@
 
 #include <utility>
 
-#include "exec_svc/standby/standby_wire_service.hpp"
-
 namespace roci::exec::standby {
 
 using journal::Batch;
 using journal::Journal;
+using journal::Position;
 using reactor::Severity;
 
 namespace topics = services::topics;
@@ -33,8 +32,14 @@ LeaderService::LeaderService(services::Node& node, std::string executive, Lease&
       persisted_term_(&persisted_term),
       feed_(begin_feed(lease.epoch(), journal)),
       messages_(services::advertise(node, topics::exec_member)),
+      lease_requests_(services::advertise(node, topics::lease_request)),
       chunks_(services::advertise(node, topics::exec_journal)) {
   services::subscribe(node, topics::exec_member, [this](const v1::LeaseMessage& member) { hear(member); });
+  services::subscribe(node, topics::lease_state, [this](const v1::LeaseState& state) { hear(state); });
+  services::subscribe(node, topics::goal_hand_over, [this](const v1::GoalHandOver& goal) {
+    if (goal.executive() != executive_ || !take_goal_) return;
+    if (auto record = from_wire(goal)) take_goal_(*std::move(record));
+  });
   node.on_turn([this] { turn(); });
 }
 
@@ -48,12 +53,22 @@ void LeaderService::hear(const v1::LeaseMessage& member) {
   turn();
 }
 
+void LeaderService::hear(const v1::LeaseState& state) {
+  if (state.commander() != executive_) return;
+  lease_->hear(from_wire(state), moment());
+  turn();
+}
+
 void LeaderService::turn() {
   const Lease::Turn turn = lease_->turn(feed_.newest(), moment());
   persisted_term_->keep(lease_->persisted_term());
   if (turn.change == Lease::Change::stand_down) throw StandDown(turn.reason, lease_->superseded());
   report(turn.change, turn.reason);
-  if (turn.speak) messages_.write(to_wire(lease_->message(feed_.newest()), {}, executive_));
+  if (turn.speak) {
+    messages_.write(to_wire(lease_->message(feed_.newest()), {}, executive_));
+    lease_requests_.write(to_wire(lease_->request(), executive_));
+  }
+  report_leases();
   feed();
   release();
 }
@@ -65,22 +80,59 @@ void LeaderService::report(Lease::Change change, const std::string& reason) {
     events_.push_back({Severity::info, "standby.ready", "an executive stands by: " + reason});
 }
 
+// Nobody leads then, as far as this one knows: who commands has the leases of all owners.
+void LeaderService::report_leases() {
+  const auto since = lease_->unleased_since();
+  const bool split = since && moment() - *since >= 2 * lease_->settings().term;
+  if (split == told_split_) return;
+  told_split_ = split;
+  if (!split)
+    return events_.push_back(
+        {Severity::info, "lead.whole", "holds the leases of all owners, and commands again"});
+  const OwnerLeases& leases = lease_->owner_leases();
+  events_.push_back({Severity::warning, "lead.split",
+                     "commands nothing: the leases of " + leases.missing(lease_->epoch(), moment()) +
+                         " are missing" +
+                         (leases.other_holds_any(moment()) ? "; the other executive holds some" : "")});
+}
+
+goals::AckStage LeaderService::ack_stage() {
+  const Position decided = sending_.value_or(feed_.newest());
+  if (lease_->held_by_both(decided)) return goals::AckStage::held_by_both;
+  told_alone_ = decided;
+  return goals::AckStage::journaled;
+}
+
+bool LeaderService::take_held() {
+  if (!told_alone_ || !lease_->held_by_both(*told_alone_)) return false;
+  told_alone_.reset();
+  return true;
+}
+
 void LeaderService::feed() {
   const auto whole = [this] { return journal_->serialized(); };
   for (const Chunk& chunk : feed_.due(moment(), whole)) chunks_.write(to_wire(chunk, executive_));
 }
 
-void LeaderService::send_once_copied(std::function<void()> send) {
+void LeaderService::send_once_copied(std::function<void()> send, bool commands) {
   for (Batch& batch : journal_->take_batches()) feed_.add(std::move(batch));
-  held_.push_back({feed_.newest(), node_.begin_work(), std::move(send)});
+  held_.push_back({commands, feed_.newest(), node_.begin_work(), std::move(send)});
   turn();
+}
+
+bool LeaderService::waits_for_leases() const {
+  const auto since = lease_->unleased_since();
+  return !may_command() && (!since || moment() - *since < lease_->settings().term);
 }
 
 void LeaderService::release() {
   while (!held_.empty() && lease_->may_send(held_.front().decided, moment())) {
+    if (held_.front().commands && waits_for_leases()) return;
     const PendingOutput held = std::move(held_.front());
     held_.pop_front();
+    sending_ = held.decided;
     held.send();
+    sending_.reset();
     node_.post_work_result(held.work, [] {});
   }
 }

@@ -4,6 +4,8 @@
 
 #include <deque>
 #include <functional>
+#include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "exec_svc/standby/journal_feed.hpp"
 #include "exec_svc/standby/lease.hpp"
 #include "exec_svc/standby/persisted_term_file.hpp"
+#include "exec_svc/standby/standby_wire_service.hpp"
 #include "services/node.hpp"
 #include "services/publisher.hpp"
 
@@ -25,7 +28,7 @@ class StandDown : public std::runtime_error {
   const bool superseded;  ///< says whether another leader leads, for all it knows
 };
 
-/// Lets nothing out that the follower should have and has not.
+/// Lets nothing out that the follower should have and has not, and no command without the leases of all owners.
 class LeaderService {
  public:
   /// Takes a `lease` that leads already; its epoch begins in the journal. All arguments must outlive this
@@ -35,8 +38,19 @@ class LeaderService {
 
   /// Lets out what was decided with the journal's newest commit: `send` runs now or later, in the order of
   /// these calls, unless this leader stands down before. Under the simulated clock the micro-step lasts until
-  /// then.
-  void send_once_copied(std::function<void()> send);
+  /// then. With `commands`, it also waits for the owners' leases, a term at most: then `send` has to keep the
+  /// commands back itself, as may_command() says.
+  void send_once_copied(std::function<void()> send, bool commands);
+  /// Returns whether a command may go out now.
+  bool may_command() const { return lease_->may_command(moment()); }
+  /// Within `send`: returns who holds what goes out. Else: who holds all that is decided so far.
+  goals::AckStage ack_stage();
+  /// Returns, once, whether all that was acknowledged by this executive alone is held by both now.
+  bool take_held();
+  /// From now on the plan commands these owners, and their leases are needed.
+  void require(std::set<std::string> owners) { lease_->require(std::move(owners)); }
+  /// Hears of goals that the other one has, which led apart.
+  void on_hand_over(std::function<void(goals::GoalRecord)> take) { take_goal_ = std::move(take); }
   /// Takes in that an owner refused a command of this epoch, as it holds `epoch`. Throws StandDown.
   void refused(std::uint64_t epoch);
 
@@ -46,11 +60,15 @@ class LeaderService {
 
  private:
   struct PendingOutput {
+    bool commands = false;
     journal::Position decided;
     services::Node::WorkId work;
     std::function<void()> send;
   };
   void hear(const v1::LeaseMessage& member);
+  void hear(const v1::LeaseState& state);
+  void report_leases();
+  bool waits_for_leases() const;
   void turn();
   void feed();
   void release();
@@ -64,7 +82,12 @@ class LeaderService {
   JournalFeed feed_;
   std::deque<PendingOutput> held_;
   std::vector<reactor::Event> events_;
+  std::function<void(goals::GoalRecord)> take_goal_;
+  std::optional<journal::Position> sending_;     ///< what goes out right now was decided here
+  std::optional<journal::Position> told_alone_;  ///< newest that was acknowledged as journaled here alone
+  bool told_split_ = false;
   services::Publisher<v1::LeaseMessage> messages_;
+  services::Publisher<v1::LeaseRequest> lease_requests_;
   services::Publisher<v1::JournalChunk> chunks_;
 };
 

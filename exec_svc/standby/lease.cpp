@@ -26,11 +26,13 @@ std::string milliseconds_text(Moment time) {
 }  // namespace
 
 Lease::Lease(Member self, const LeaseSettings& settings, const PersistedTerm& persisted_term, bool superseded,
-             Moment now)
+             Moment now, std::set<std::string> owners)
     : self_(self),
       settings_(settings),
       persisted_term_(persisted_term),
       spoke_at_(now - settings.renewal),
+      owner_leases_(self, std::move(owners), settings.term),
+      request_{self, 0, false, false, settings.owner_term, Moment{0}},
       takeover_forbidden_(superseded),
       leaderless_since_(now),
       started_(now) {}
@@ -54,6 +56,12 @@ void Lease::hear_leader(std::uint64_t epoch, Moment now) {
   if (role_ == Role::following && epoch == persisted_term_.epoch) leaderless_since_ = now;
 }
 
+void Lease::hear(const OwnerWord& word, Moment now) {
+  owner_leases_.hear(word, now);
+  // Somebody has commanded in a later epoch, and this member has not heard of it.
+  note_epoch(std::min(word.newest_epoch, persisted_term_.epoch + kEpochJump));
+}
+
 bool Lease::believable(std::uint64_t epoch) const {
   const std::uint64_t known = persisted_term_.epoch;
   return known == 0 || epoch <= known || epoch - known <= kEpochJump;
@@ -74,43 +82,62 @@ void Lease::note_epoch(std::uint64_t epoch) {
 Lease::Turn Lease::turn(const Position& newest, Moment now) {
   Turn out = role_ == Role::following ? follow(newest, now) : keep_leading(newest, now);
   if (out.change == Change::stand_down) return out;
-  out.speak = out.speak || out.change != Change::none || now - spoke_at_ >= settings_.renewal;
+  const bool wanted_before = request_.wanted;
+  if (role_ == Role::leading) ask_owners(true, now);
+  out.speak = out.speak || out.change != Change::none || now - spoke_at_ >= settings_.renewal ||
+              request_.wanted != wanted_before;
   if (!out.speak) return out;
   spoke_at_ = now;
+  request_.said = now;
   if (replication_ == ReplicationState::paired) entitled_at_ = now;
   return out;
 }
 
+void Lease::ask_owners(bool wanted, Moment now) {
+  const std::uint64_t epoch = role_ == Role::leading ? own_epoch_ : next_epoch(self_, persisted_term_.epoch);
+  request_.epoch = epoch;
+  request_.leads = role_ == Role::leading;
+  request_.wanted = owner_leases_.wants(wanted ? std::optional(epoch) : std::nullopt, now);
+}
+
 Lease::Turn Lease::follow(const Position& newest, Moment now) {
-  if (const auto reason = reason_to_lead(newest, now)) return lead(*reason, now);
-  const Moment waited = now - leaderless_since_;
-  if (takeover_forbidden_ || heard_lately(now) || waited < settings_.solo_timeout) return {};
-  Turn out = lead("it heard nobody for " + milliseconds_text(waited) + "", now);
-  out.doubtful = true;
+  const auto claimed = claim(newest, now);
+  const bool wanted_before = request_.wanted;
+  // It asks early, so that the way to the owners takes nothing of the time in which its right holds.
+  const bool soon = right_holds(newest, now) && now - leaderless_since_ >= settings_.owner_term;
+  ask_owners(claimed ? !claimed->agreed : soon, now);
+  Turn out;
+  out.speak = request_.wanted != wanted_before;
+  if (!claimed || (!claimed->agreed && !owner_leases_.holds_all(request_.epoch, now))) return out;
+  // Somebody led in an epoch of which this journal has nothing: what was done then is not known here.
+  const bool lacks_epoch = persisted_term_.epoch > newest.epoch;
+  out = lead(claimed->reason, now);
+  out.doubtful = claimed->doubtful || lacks_epoch;
   return out;
 }
 
-std::optional<std::string> Lease::reason_to_lead(const Position& newest, Moment now) const {
+std::optional<Lease::Claim> Lease::claim(const Position& newest, Moment now) const {
   const bool other_follows = heard_lately(now) && other_->message.role == Role::following;
   const auto is_new = [](std::uint64_t epoch, const Position& has) {
     return epoch == 0 && has == Position{};
   };
   if (self_ == Member::first && other_follows && is_new(persisted_term_.epoch, newest) &&
       is_new(other_->message.epoch, other_->message.has))
-    return "both are new";
+    return Claim{"both are new", true};
   const Moment waited = now - leaderless_since_;
   if (waited < settings_.term) return std::nullopt;
   if (right_holds(newest, now))
-    return "the leader of epoch " + std::to_string(persisted_term_.epoch) + " was not heard for " +
-           milliseconds_text(waited);
-  if (persisted_term_.alone) return "it led alone before";
+    return Claim{"the leader of epoch " + std::to_string(persisted_term_.epoch) + " was not heard for " +
+                 milliseconds_text(waited)};
+  if (persisted_term_.alone) return Claim{"it led alone before", other_follows};
   if (other_follows) {
     const auto since = sent_since();
     const bool open =
         !other_->message.entitled && other_->message.searching && since && now - *since < settings_.term;
-    if (open && wins(other_->message, newest)) return "of both it has the longer journal";
+    if (open && wins(other_->message, newest)) return Claim{"of both it has the longer journal", true};
   }
-  return std::nullopt;
+  if (takeover_forbidden_ || heard_lately(now) || waited < settings_.solo_timeout) return std::nullopt;
+  return Claim{"it heard nobody for " + milliseconds_text(waited), false, true};
 }
 
 bool Lease::right_holds(const Position& newest, Moment now) const {
@@ -149,7 +176,23 @@ Lease::Turn Lease::keep_leading(const Position& newest, Moment now) {
             "it stood still for " + milliseconds_text(now - spoke_at_) + ", longer than its lease"};
   }
   note_progress(newest, now);
+  if (owner_leases_.holds_all(own_epoch_, now)) {
+    unleased_since_.reset();
+  } else if (!unleased_since_) {
+    unleased_since_ = now;
+  }
+  if (should_hand_over(now)) {
+    return {Change::stand_down, "it lacks the leases of " + owner_leases_.missing(own_epoch_, now) +
+                                    ", and the other hears all owners"};
+  }
   return update_replication(newest, now);
+}
+
+// The other has the whole journal, has a right to lead from it, and hears every owner; so it takes over a term from now.
+bool Lease::should_hand_over(Moment now) const {
+  return replication_ == ReplicationState::paired && unleased_since_ &&
+         now - *unleased_since_ >= settings_.term && heard_lately(now) &&
+         other_->message.role == Role::following && other_->message.entitled;
 }
 
 void Lease::note_progress(const Position& newest, Moment now) {
@@ -224,6 +267,10 @@ bool Lease::may_send(const Position& decided, Moment now) const {
   return false;
 }
 
+bool Lease::may_command(Moment now) const {
+  return role_ == Role::leading && !superseded() && owner_leases_.holds_all(own_epoch_, now);
+}
+
 LeaseMessage Lease::message(const Position& newest) const {
   LeaseMessage out;
   out.member = self_;
@@ -231,7 +278,9 @@ LeaseMessage Lease::message(const Position& newest) const {
   out.epoch = role_ == Role::leading ? own_epoch_ : persisted_term_.epoch;
   out.has = newest;
   out.entitled = role_ == Role::leading ? replication_ == ReplicationState::paired
-                                        : right_holds(newest, spoke_at_) || persisted_term_.alone;
+                                        : (right_holds(newest, spoke_at_) &&
+                                           owner_leases_.hears_all(settings_.term, spoke_at_)) ||
+                                              persisted_term_.alone;
   out.said = spoke_at_;
   if (other_) {
     out.receipt = other_->message.has;

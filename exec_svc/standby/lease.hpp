@@ -5,15 +5,14 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "exec_svc/journal/batch.hpp"
+#include "exec_svc/standby/owner_leases.hpp"
 
 namespace roci::exec::standby {
 
-using Moment = std::chrono::microseconds;  ///< counts on a clock that never jumps, of this member alone
-
-enum class Member { first, second };
 enum class Role { following, leading };
 
 /// What a member says of itself.
@@ -23,7 +22,7 @@ struct LeaseMessage {
   std::uint64_t epoch = 0;  ///< the highest that it knows of; a leader's own
   journal::Position has;    ///< is what its journal has
   /// Says of a leader that the other may take over once this message is a term old; says of a follower that
-  /// it will.
+  /// it will, and that it hears all owners of commands.
   bool entitled = false;
   /// Says of a leader what it knows that the other has; with less on its disk the other is not entitled.
   journal::Position receipt;
@@ -44,6 +43,9 @@ struct LeaseSettings {
   /// and a message that came late gives none.
   Moment takeover_window = term / 2;
   Moment solo_timeout = 10 * term;  ///< passes until one leads in doubt that hears nobody
+  /// An owner's lease lasts so long beyond its renewal. It is over before a follower may take over, so that the
+  /// owners of a leader that died are free by then.
+  Moment owner_term = 3 * term / 4;
 };
 
 /// Holds what must be on the disk before anything that stands on it is said.
@@ -53,20 +55,28 @@ struct PersistedTerm {
   bool operator==(const PersistedTerm&) const = default;
 };
 
-/// Decides for one member; no epoch has two leaders.
+/// Decides for one member; no epoch has two leaders. A member that cannot agree with the other one leads only with
+/// the leases of all owners (owner_leases.hpp), and a leader commands only with them: so one that is cut off from the
+/// robot never replaces one that has it.
 class Lease {
  public:
   /// A member that knows an epoch takes no wider step from it at a time: the pair rises by two with each change of
   /// its leader, so a wider one comes from no member.
   static constexpr std::uint64_t kEpochJump = 1000;
 
-  /// With `superseded`, this member led until another one did.
+  /// With `superseded`, this member led until another one did. `owners` are those that the plan commands; with none,
+  /// nobody is asked for a lease.
   Lease(Member self, const LeaseSettings& settings, const PersistedTerm& persisted_term, bool superseded,
-        Moment now);
+        Moment now, std::set<std::string> owners = {});
+
+  /// From now on the plan commands these owners.
+  void require(std::set<std::string> owners) { owner_leases_.require(std::move(owners)); }
 
   void hear(const LeaseMessage& message, Moment now);
   /// Takes in that something of the leader of this epoch's journal came.
   void hear_leader(std::uint64_t epoch, Moment now);
+  /// Takes in what an owner says of its lease.
+  void hear(const OwnerWord& word, Moment now);
   /// Takes in that an owner refused this leader: somebody leads in this epoch or a later one. Whoever of the pair
   /// leads next does so in a later one still.
   void refused(std::uint64_t epoch);
@@ -81,7 +91,7 @@ class Lease {
   struct Turn {
     Change change = Change::none;
     std::string reason;     ///< says in plain words why it changed
-    bool doubtful = false;  ///< lead: the other may have gone on from this journal, unheard
+    bool doubtful = false;  ///< lead: the other may have gone on from this journal, unheard, or has
     bool speak = false;     ///< message() is to be sent now
   };
   /// Says what to do now; it is to be called often, and after everything heard. When persisted_term() has
@@ -92,7 +102,36 @@ class Lease {
   /// before sending.
   bool may_send(const journal::Position& decided, Moment now) const;
 
+  /// The same for a command, for which the leases of all owners are needed as well.
+  bool may_command(Moment now) const;
+  /// Returns since when this leader lacks a lease of an owner; nothing: it has them all.
+  std::optional<Moment> unleased_since() const { return unleased_since_; }
+  /// Returns whether the other has this position of the journal on its disk.
+  bool held_by_both(const journal::Position& position) const { return other_has(position); }
+  const LeaseSettings& settings() const { return settings_; }
+  const OwnerLeases& owner_leases() const { return owner_leases_; }
+
+  /// Shows `see` everything that decides what this object does next, each member by itself; times as ages, so that two
+  /// objects that show the same behave alike from now on.
+  template <class See>
+  void show(See&& see, Moment now) const {
+    see(persisted_term_.epoch, persisted_term_.alone, role_, other_.has_value(), refused_, now - spoke_at_);
+    if (other_) {
+      const LeaseMessage& said = other_->message;
+      see(said.role, said.epoch, said.has.epoch, said.has.sequence, said.entitled, said.searching);
+      see(now - other_->at, now - said.echo, said.echo < started_);
+    }
+    owner_leases_.show(see, now);
+    see(request_.epoch, request_.wanted, unleased_since_ ? now - *unleased_since_ : Moment(-1));
+    see(takeover_forbidden_, entitled_, receipt_.epoch, receipt_.sequence, now - entitled_since_);
+    see(now - leaderless_since_, own_epoch_, settled_, replication_, now - entitled_at_);
+    see(now - behind_since_, behind_, progress_.epoch, progress_.sequence, joined_at_.epoch,
+        joined_at_.sequence);
+  }
+
   LeaseMessage message(const journal::Position& newest) const;
+  /// Is to be sent to all owners whenever message() is sent.
+  OwnerRequest request() const { return request_; }
   const PersistedTerm& persisted_term() const { return persisted_term_; }
   /// Returns, of a leader that stands down, whether another one leads.
   bool superseded() const { return refused_ || persisted_term_.epoch > own_epoch_; }
@@ -109,12 +148,20 @@ class Lease {
   };
   bool believable(std::uint64_t epoch) const;
   void note_epoch(std::uint64_t epoch);
+  /// Is why a follower would lead, and what that takes.
+  struct Claim {
+    std::string reason;
+    bool agreed = false;    ///< with the other, which follows: no owner has to be asked first
+    bool doubtful = false;  ///< the other may have gone on from this journal, unheard
+  };
   Turn follow(const journal::Position& newest, Moment now);
+  void ask_owners(bool wanted, Moment now);
+  bool should_hand_over(Moment now) const;
   Turn lead(std::string reason, Moment now);
   Turn keep_leading(const journal::Position& newest, Moment now);
   void note_progress(const journal::Position& newest, Moment now);
   Turn update_replication(const journal::Position& newest, Moment now);
-  std::optional<std::string> reason_to_lead(const journal::Position& newest, Moment now) const;
+  std::optional<Claim> claim(const journal::Position& newest, Moment now) const;
   bool right_holds(const journal::Position& newest, Moment now) const;
   bool wins(const LeaseMessage& other, const journal::Position& newest) const;
   bool expired(Moment now) const { return now - entitled_at_ >= settings_.term; }
@@ -132,6 +179,9 @@ class Lease {
   std::optional<Heard> other_;
   bool refused_ = false;
   Moment spoke_at_{0};
+  OwnerLeases owner_leases_;
+  OwnerRequest request_;
+  std::optional<Moment> unleased_since_;  ///< leading
 
   bool takeover_forbidden_;    ///< following: the newest leader does not want it to take over
   bool entitled_ = false;      ///< following: by its newest message, with a journal that has

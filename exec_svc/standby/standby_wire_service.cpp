@@ -4,10 +4,12 @@
 
 #include <array>
 
+#include "exec_svc/goals/goal_fields.hpp"
 #include "services/clock/wall.hpp"
 
 namespace roci::exec::standby {
 
+using goals::GoalRecord;
 using journal::Position;
 
 namespace {
@@ -70,6 +72,53 @@ LeaseMessage from_wire(const v1::LeaseMessage& in) {
 
 TransferProgress arrival_of(const v1::LeaseMessage& in) {
   return {from_wire(in.arriving()), in.arrived_parts()};
+}
+
+v1::LeaseRequest to_wire(const OwnerRequest& request, const std::string& commander) {
+  v1::LeaseRequest out;
+  out.commander(commander);
+  out.member(name_of(request.member));
+  out.epoch(request.epoch);
+  out.wanted(request.wanted);
+  out.leads(request.leads);
+  out.term_us(request.term.count());
+  out.said_us(request.said.count());
+  return out;
+}
+
+OwnerWord from_wire(const v1::LeaseState& in) {
+  OwnerWord out;
+  out.owner = in.owner();
+  if (!in.member().empty()) out.holder = member_of(in.member());
+  out.epoch = in.epoch();
+  out.newest_epoch = in.newest_epoch();
+  out.echo = Moment(in.echo_us());
+  out.term = Moment(in.term_us());
+  return out;
+}
+
+v1::GoalHandOver to_wire(const GoalRecord& goal, const std::string& executive, Member member) {
+  v1::GoalHandOver out;
+  out.executive(executive);
+  out.issuer(goal.request.key.issuer);
+  out.id(goal.request.key.id);
+  out.member(name_of(member));
+  const std::string record = archive::to_bytes(goal);
+  out.record().assign(record.begin(), record.end());
+  return out;
+}
+
+std::optional<GoalRecord> from_wire(const v1::GoalHandOver& in) {
+  try {
+    auto out = archive::from_bytes<GoalRecord>(std::string(in.record().begin(), in.record().end()));
+    const bool known = out.state >= goals::GoalState::rejected && out.state <= goals::GoalState::recalled &&
+                       out.request.importance >= goals::GoalClass::hard &&
+                       out.request.importance <= goals::GoalClass::opportunistic;
+    if (!known || out.request.key != goals::GoalKey{in.issuer(), in.id()}) return std::nullopt;
+    return out;
+  } catch (const archive::ArchiveError&) {
+    return std::nullopt;
+  }
 }
 
 v1::JournalChunk to_wire(const Chunk& chunk, const std::string& executive) {

@@ -63,7 +63,8 @@ json to_json(const v1::OrderStatus& status) {
           {"id", status.id()},
           {"stage", kStages.at(static_cast<std::size_t>(status.stage()))},
           {"reason", status.reason()},
-          {"plan_version", status.plan_version()}};
+          {"plan_version", status.plan_version()},
+          {"acknowledged", lib::name_of(status.ack_stage())}};
 }
 
 json to_json(const v1::Decision& decision) {

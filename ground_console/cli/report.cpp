@@ -29,7 +29,8 @@ json to_json(const v1::GoalStatus& status) {
           {"class", lib::name_of(status.importance())},
           {"state", lib::name_of(status.goal_state())},
           {"reason", status.reason()},
-          {"plan_version", status.plan_version()}};
+          {"plan_version", status.plan_version()},
+          {"acknowledged", lib::name_of(status.ack_stage())}};
 }
 
 json to_json(const v1::Event& event) {
@@ -115,7 +116,8 @@ json plan_json(const lib::MissionView& view) {
 std::string goal_line(const v1::GoalStatus& status) {
   return printable(padded(status.issuer() + "/" + status.id(), 24) + " " + padded(status.goal_kind(), 12) +
                    " " + padded(lib::name_of(status.importance()), 14) + " " +
-                   padded(lib::name_of(status.goal_state()), 9) + " " + status.reason());
+                   padded(lib::name_of(status.goal_state()), 9) + " " + status.reason() +
+                   (status.reason().empty() ? "(" : " (") + lib::name_of(status.ack_stage()) + ")");
 }
 
 std::string event_line(const v1::Event& event) {

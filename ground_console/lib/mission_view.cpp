@@ -213,6 +213,8 @@ const char* name_of(v1::GoalClass importance) {
   return name_in(std::array{"hard", "optional", "opportunistic"}, importance);
 }
 
+const char* name_of(v1::AckStage stage) { return name_in(std::array{"journaled", "held by both"}, stage); }
+
 const char* name_of(v1::ActivityState state) {
   return name_in(
       std::array{"waiting", "dispatched", "running", "succeeded", "failed", "skipped", "cancelled"}, state);

@@ -112,6 +112,7 @@ class MissionView {
 const char* name_of(v1::MissionPhase phase);
 const char* name_of(v1::GoalState state);
 const char* name_of(v1::GoalClass importance);
+const char* name_of(v1::AckStage stage);  ///< "journaled", "held by both"
 const char* name_of(v1::ActivityState state);
 const char* name_of(v1::Severity severity);
 const char* name_of(v1::ServiceState state);

@@ -19,7 +19,11 @@ Supervisor::Supervisor(const std::vector<std::string>& services, std::string mas
       master_is_clock_(master_is_clock),
       watchdog_(std::move(watchdog)),
       hooks_(std::move(hooks)) {
-  for (const std::string& name : services) services_[name].incarnation = incarnations;
+  for (const std::string& name : services) {
+    services_[name].incarnation = incarnations;
+    services_[name].ran =
+        incarnations > 0;  // an earlier launcher has flown the run: its network is out, not missing
+  }
 }
 
 void Supervisor::start(clock::WallTime now) {

@@ -67,7 +67,7 @@ class Supervisor {
     clock::WallTime started;
     std::optional<clock::WallTime> restart;
     RestartPolicy policy;
-    bool ran = false;         // any incarnation of it got as far as its loop
+    bool ran = false;         // any incarnation of it got as far as its loop, also of an earlier launcher
     bool missed = false;      // the mission goes on without it
     std::string hung_reason;  // empty: it was not killed as hung
   };

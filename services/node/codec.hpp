@@ -33,8 +33,13 @@ const std::string& sender_as(const void* value) {
     return sample.master();
   } else if constexpr (std::same_as<T, v1::TimeProbe>) {
     return sample.answerer().empty() ? sample.asker() : sample.answerer();
-  } else if constexpr (std::same_as<T, v1::LeaseMessage> || std::same_as<T, v1::JournalChunk>) {
+  } else if constexpr (std::same_as<T, v1::LeaseMessage> || std::same_as<T, v1::JournalChunk> ||
+                       std::same_as<T, v1::GoalHandOver>) {
     return sample.executive();
+  } else if constexpr (std::same_as<T, v1::LeaseRequest>) {
+    return sample.commander();
+  } else if constexpr (std::same_as<T, v1::LeaseState>) {
+    return sample.owner();
   } else {
     return sample.service();
   }

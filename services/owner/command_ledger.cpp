@@ -145,6 +145,20 @@ Reception CommandLedger::refuse_fallback(const Request& request, const std::stri
   return out;
 }
 
+std::uint64_t CommandLedger::newest_epoch(const std::string& commander) const {
+  const auto known = commanders_.find(commander);
+  return known == commanders_.end() ? 0 : known->second.epoch;
+}
+
+Ack CommandLedger::refuse_unleased(const Request& request, std::uint64_t holder_epoch, Time now) const {
+  return {request.key,
+          {Stage::rejected, "not-leased",
+           "the lease of " + request.sender + "'s commands is held in epoch " + std::to_string(holder_epoch)},
+          now,
+          std::max(holder_epoch, newest_epoch(request.sender)),
+          true};
+}
+
 void CommandLedger::release(const std::string& commander) {
   std::erase_if(leases_, [&](const auto& lease) { return lease.second == commander; });
 }

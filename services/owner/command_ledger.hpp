@@ -63,6 +63,12 @@ class CommandLedger {
 
   Reception receive(const Request&, temporal::Time now);
 
+  /// Returns the newest epoch of this commander that was taken; 0: none.
+  std::uint64_t newest_epoch(const std::string& commander) const;
+  /// Returns the answer to whom another process of the same name keeps from commanding, which holds the lease in
+  /// `holder_epoch` (commander_leases.hpp). It takes nothing, so its key is free still.
+  Ack refuse_unleased(const Request&, std::uint64_t holder_epoch, temporal::Time now) const;
+
   /// Takes in that this commander is gone: it holds no lease any more.
   void release(const std::string& commander);
   /// Returns who holds the lease of a robot's subsystem, or "" if nobody does.

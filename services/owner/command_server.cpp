@@ -1,8 +1,10 @@
 #include "services/owner/command_server.hpp"
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
+#include "services/clock/wall.hpp"
 #include "services/owner/command_wire.hpp"
 
 namespace roci::services::owner {
@@ -13,6 +15,11 @@ namespace {
 constexpr temporal::Duration kAgain = std::chrono::seconds(60);
 constexpr std::size_t kAnnounced = 256;
 
+// Leases last in wall time, as processes die and links break in it.
+CommanderLeases::Moment moment() {
+  return std::chrono::duration_cast<CommanderLeases::Moment>(clock::wall_now().time_since_epoch());
+}
+
 // So many entries are appended to the file before it begins anew: some times those of the commands that are kept.
 constexpr std::size_t kAppended = 10 * Retention::kKept;
 
@@ -22,10 +29,12 @@ CommandServer::CommandServer(Node& node, Driver& driver)
     : node_(node),
       driver_(driver),
       acks_(advertise(node, topics::command_ack)),
+      lease_states_(advertise(node, topics::lease_state)),
       events_(advertise(node, topics::event)) {
   subscribe(node, topics::command, [this](const v1::Command& command) {
     if (command.owner() == node_.options().name) receive(from_wire(command));
   });
+  subscribe(node, topics::lease_request, [this](const v1::LeaseRequest& request) { receive(request); });
   node.on_peer_change([this](const health::PeerChange& change) {
     if (!change.alive) ledger_.release(change.service);
   });
@@ -85,8 +94,36 @@ void CommandServer::announce(const Notice& notice) {
   events_.write(event);
 }
 
+void CommandServer::receive(const v1::LeaseRequest& request) {
+  const std::uint64_t newest = ledger_.newest_epoch(request.commander());
+  const LeaseGrant grant =
+      leases_.ask({request.commander(), request.member(), request.epoch(), request.wanted(), request.leads(),
+                   CommanderLeases::Moment(request.term_us()), CommanderLeases::Moment(request.said_us())},
+                  newest, moment());
+  v1::LeaseState state;
+  state.owner(node_.options().name);
+  state.commander(request.commander());
+  state.member(grant.member);
+  state.epoch(grant.epoch);
+  state.newest_epoch(std::max(newest, leases_.newest_led(request.commander())));
+  state.echo_us(grant.echo.count());
+  state.term_us(grant.term.count());
+  lease_states_.write(std::move(state));
+}
+
+/// Of the processes that command in one name. Who only asks changes nothing, and a stop is taken from anybody.
+bool CommandServer::holds_lease(const Request& request) {
+  const bool stops = request.action == Action::execute && request.command == kStopCommand;
+  return leases_.admits(request.sender, request.epoch, moment()) || request.action == Action::query || stops;
+}
+
 void CommandServer::receive(const Request& request) {
   driver_.catch_up();
+  if (!holds_lease(request)) {
+    const LeaseGrant held = leases_.grant(request.sender, moment());
+    send(ledger_.refuse_unleased(request, held.epoch, node_.now()));
+    return;
+  }
   const Reception reception = ledger_.receive(request, node_.now());
   if (reception.notice) announce(*reception.notice);
   send(reception.ack);

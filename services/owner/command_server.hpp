@@ -9,6 +9,7 @@
 
 #include "services/node.hpp"
 #include "services/owner/command_ledger.hpp"
+#include "services/owner/commander_leases.hpp"
 #include "services/owner/ledger_file.hpp"
 #include "services/publisher.hpp"
 
@@ -54,6 +55,8 @@ class CommandServer {
 
  private:
   void receive(const Request&);
+  void receive(const v1::LeaseRequest&);
+  bool holds_lease(const Request&);
   void stop(const Request&);
   void keep();
   bool begin_file_anew();
@@ -64,9 +67,11 @@ class CommandServer {
   Node& node_;
   Driver& driver_;
   CommandLedger ledger_;
+  CommanderLeases leases_;
   std::optional<LedgerFile> file_;
   std::vector<LedgerEntry> unwritten_;  // what the disk has not taken yet, in order
   Publisher<v1::CommandAck> acks_;
+  Publisher<v1::LeaseState> lease_states_;
   Publisher<v1::Event> events_;
   std::map<std::string, temporal::Time> announced_;  // when operators were told last, by code and text
   bool driver_stops_ = false;

@@ -51,6 +51,9 @@ std::vector<TopicRights> make_table() {
 
       row(topics::exec_member,     {executive},                              {executive, console}),
       row(topics::exec_journal,    {executive},                              {executive}),
+      row(topics::lease_request,   {executive},                              {owner}),
+      row(topics::lease_state,     {owner},                                  {executive}),
+      row(topics::goal_hand_over,  {executive},                              {executive}),
 
       row(topics::event,           all,                                      all),
       row(topics::goal,            {executive, analyst, world, console},     {executive, planner, console}),

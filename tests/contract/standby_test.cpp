@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 
 #include "exec_svc/standby/follower_service.hpp"
 #include "exec_svc/standby/leader_service.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
 #include "services/clock/wall.hpp"
+#include "services/owner/commander_leases.hpp"
 #include "services/process/domain_claim.hpp"
 #include "services/transport/plug_ins.hpp"
 
@@ -81,6 +83,7 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
     ASSERT_EQ(leader_lease_->turn(leader_journal_->position(), moment()).change, Lease::Change::lead);
     leader_node_.emplace(options_of("exec_svc", services::clock::ClockMode::live),
                          transport(GetParam().leader));
+    leader_lease_->require(owners_);
     leader_.emplace(*leader_node_, "exec_svc", *leader_lease_, *leader_journal_, leader_standing_);
   }
   void start_follower() {
@@ -88,7 +91,7 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
     follower_node_.emplace(options_of("exec_svc.second", services::clock::ClockMode::observer),
                            transport(GetParam().follower));
     follower_.emplace(*follower_node_, "exec_svc", *follower_lease_, *follower_journal_, follower_standing_,
-                      [](const goals::GoalRequest&) {});
+                      standby::GoalsApart(folder_ / "follower.sqlite", Durability::process));
   }
   void stop_leader() {
     leader_.reset();
@@ -120,7 +123,7 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
     for (int i = from; i < to; ++i) {
       leader_journal_->append(temporal::seconds(i), "event", std::string(100, 'x') + std::to_string(i));
       leader_journal_->commit();
-      leader_->send_once_copied([this] { ++sent_; });
+      leader_->send_once_copied([this] { ++sent_; }, false);
     }
   }
   void expect_copy() const { EXPECT_TRUE(everything(*follower_journal_) == everything(*leader_journal_)); }
@@ -134,6 +137,7 @@ class StandbyTest : public ::testing::TestWithParam<Vendors> {
   std::optional<services::Node> leader_node_, follower_node_;
   std::optional<LeaderService> leader_;
   std::optional<FollowerService> follower_;
+  std::set<std::string> owners_;
   int sent_ = 0;
 };
 
@@ -149,6 +153,74 @@ TEST_P(StandbyTest, NothingIsSentThatTheFollowerDoesNotHave) {
     ASSERT_EQ(follower_journal_->position(), leader_journal_->position());
   }
   expect_copy();
+}
+
+TEST_P(StandbyTest, CommandsWaitForTheLeasesOfTheirOwners) {
+  owners_ = {"drill"};
+  start_leader();
+  const auto send = [this](bool commands) {
+    leader_journal_->append(temporal::seconds(1), "event", "something");
+    leader_journal_->commit();
+    leader_->send_once_copied([this] { ++sent_; }, commands);
+  };
+  send(false);
+  EXPECT_EQ(sent_, 1);
+  send(true);
+  EXPECT_EQ(sent_, 1);
+  EXPECT_FALSE(leader_->may_command());
+  services::Node drill(options_of("drill", services::clock::ClockMode::observer),
+                       transport(GetParam().follower));
+  const auto states = services::advertise(drill, services::topics::lease_state);
+  services::owner::CommanderLeases leases;
+  services::subscribe(drill, services::topics::lease_request, [&](const v1::LeaseRequest& request) {
+    const auto grant =
+        leases.ask({request.commander(), request.member(), request.epoch(), request.wanted(), request.leads(),
+                    standby::Moment(request.term_us()), standby::Moment(request.said_us())},
+                   0, moment());
+    v1::LeaseState state;
+    state.owner("drill");
+    state.commander(request.commander());
+    state.member(grant.member);
+    state.epoch(grant.epoch);
+    state.echo_us(grant.echo.count());
+    state.term_us(grant.term.count());
+    states.write(std::move(state));
+  });
+  ASSERT_TRUE(wait([&] {
+    drill.spin_once(2ms);
+    return leader_->may_command();
+  }));
+  ASSERT_TRUE(wait([&] { return sent_ == 2; }));
+  ASSERT_TRUE(wait([&] { return !leader_->may_command(); })) << "the drill is silent, and its lease runs out";
+}
+
+// The other one led apart, and its journal goes; its goals do not.
+TEST_P(StandbyTest, GoalsOfAReplacedJournalAreHandedOver) {
+  goals::GoalRecord goal;
+  goal.request.key = {"ground", "ridge"};
+  goal.request.kind = "photo";
+  goal.request.recalled = true;
+  goal.state = goals::GoalState::recalled;
+  goal.revision = 1;
+  follower_journal_->begin_epoch(1);
+  follower_journal_->put_goal(goal);
+  follower_journal_->commit();
+  start_leader();
+  write(0, 3);
+  leader_->on_hand_over([this](const goals::GoalRecord& theirs) {
+    if (!leader_journal_->goals().empty()) return;
+    leader_journal_->put_goal(theirs);
+    leader_journal_->commit();
+    leader_->send_once_copied([] {}, false);
+  });
+  start_follower();
+  const fs::path apart = folder_ / "follower.sqlite.apart-1";
+  ASSERT_TRUE(wait([&] { return fs::exists(apart); })) << "before the journal is replaced";
+  ASSERT_TRUE(wait([&] { return !fs::exists(apart); })) << "once the leader has them";
+  ASSERT_EQ(leader_journal_->goals().size(), 1U);
+  EXPECT_TRUE(leader_journal_->goals()[0].request.recalled);
+  EXPECT_EQ(leader_journal_->goals()[0].state, goals::GoalState::recalled);
+  ASSERT_EQ(follower_journal_->goals().size(), 1U);
 }
 
 TEST_P(StandbyTest, ALateJoinerGetsTheWholeJournal) {

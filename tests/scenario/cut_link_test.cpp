@@ -13,8 +13,8 @@ class CutLink : public ::testing::TestWithParam<Cut> {};
 TEST_P(CutLink, NothingIsLostOrDoneTwice) { expect_nothing_lost(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Cuts, CutLink,
-                         ::testing::Values(Cut{"between", "cyclonedds", "simulated 400"},
-                                           Cut{"between", "mixed", "simulated 400"}),
+                         ::testing::Values(Cut{"between", "cyclonedds", "simulated 400", "first"},
+                                           Cut{"between", "mixed", "simulated 400", "first"}),
                          [](const auto& test) {
                            return std::string(test.param.where) + "_" + test.param.dds;
                          });

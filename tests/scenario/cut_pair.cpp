@@ -12,15 +12,15 @@
 namespace roci::scenario {
 namespace {
 
-// Goals, by the status of a flight that goes on, or by the summary of the host that led at the end.
-int achieved(std::map<std::string, Step>& steps) {
-  if (const nlohmann::json& status = steps["achieved"].printed; status.is_object())
+// Goals in this state, by the status of a flight that goes on, or by the summary of the host that led at the end.
+int goals_that_are(const std::string& state, std::map<std::string, Step>& steps) {
+  if (const nlohmann::json& status = steps["ended"].printed; status.is_object())
     return static_cast<int>(std::ranges::count_if(
-        status["goals"], [](const auto& goal) { return goal.value("state", "") == "achieved"; }));
+        status["goals"], [&](const auto& goal) { return goal.value("state", "") == state; }));
   int most = 0;
   for (const char* host : {"first", "second"}) {
     const nlohmann::json& summary = steps[host].printed;
-    if (summary.is_object()) most = std::max(most, summary["goals"].value("achieved", 0));
+    if (summary.is_object()) most = std::max(most, summary["goals"].value(state, 0));
   }
   return most;
 }
@@ -38,11 +38,26 @@ void expect_nothing_lost(const Cut& cut) {
   auto steps = steps_of(ended.output);
   for (const char* name : {"flying", "cut", "healed"})
     ASSERT_TRUE(steps[name].printed.is_object()) << name << "\n" << ended.output;
-  EXPECT_EQ(steps["cut"].printed["executive"].value("leader", ""), "second") << ended.output;
+  EXPECT_EQ(steps["cut"].printed["executive"].value("leader", ""), cut.leader) << ended.output;
   EXPECT_EQ(steps["add"].exit_code, 0);
   EXPECT_NE(steps["add"].printed.value("state", ""), "rejected");
+  const bool recalls = std::string(cut.where) == "leader";
+  if (std::string(cut.where) != "robot")
+    EXPECT_EQ(steps["add"].printed.value("acknowledged", ""), "journaled") << "by one that is alone";
+  if (recalls) {
+    EXPECT_EQ(steps["recall"].printed.value("state", ""), "recalled") << ended.output;
+    EXPECT_EQ(steps["recall"].printed.value("acknowledged", ""), "journaled");
+    EXPECT_EQ(goals_that_are("recalled", steps), 1) << ended.output;
+  }
   EXPECT_TRUE(steps["healed"].printed["executive"].value("standby_ready", false)) << ended.output;
-  EXPECT_EQ(achieved(steps), 4) << "the three of the mission and the one of meanwhile\n" << ended.output;
+  EXPECT_EQ(steps["healed"].printed["executive"].value("leader", ""), cut.leader) << ended.output;
+  if (!recalls)
+    EXPECT_EQ(goals_that_are("achieved", steps), 4) << "the three of the mission and the one of meanwhile\n"
+                                                    << ended.output;
+  const bool stays = std::string(cut.leader) == "first";
+  if (steps["led"].printed.is_array())
+    EXPECT_EQ(steps["led"].printed, nlohmann::json({1, stays ? 0 : 1})) << "nobody else ever led\n"
+                                                                        << ended.output;
   ASSERT_TRUE(steps["begun"].printed.is_array());
   std::set<std::pair<std::string, int>> begun;
   for (const nlohmann::json& command : steps["begun"].printed)

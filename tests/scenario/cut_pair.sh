@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # Flies a mission on three hosts, the pair of executives on one each, and cuts them off in flight.
 #   cut_pair.sh BIN_FOLDER MISSION DDS DOMAIN CUT CLOCK SPEED
-# CUT: between (the two do not hear each other), first (its cable is out), second (its switch is silent).
+# CUT: between (the two do not hear each other), first (its cable is out), leader (the switch of the first is silent), second (its),
+# robot (the first executive and the robot do not hear each other, which the second one does).
 # The hosts are network namespaces of its own, on a bridge in a fourth; no packet leaves them. Needs root.
-# Prints steps as ground_and_kills.sh does: flying, cut (the pair as its follower's host sees it, or the robot's), add (a
-# goal sent meanwhile), healed, achieved, and, when all is ended, robot, first, second (exit code and summary of each
-# launcher) and begun (what the robot did).
+# Prints steps as ground_and_kills.sh does: flying, cut (the pair as the robot's host sees it), add (a goal sent
+# meanwhile), recall (of goal depot, with CUT leader, from the host that is cut off), healed, ended (goals as they are in the
+# end), and, when all is ended, robot, first, second (exit code and summary of each launcher), begun (what the robot did) and
+# led (how often each executive began to lead).
 set -uo pipefail
 bin=$1 mission=$2 dds=$3 domain=$4 cut=$5 clock=$6 speed=$7
 net=roci-net-$$
@@ -55,7 +57,9 @@ until_status() {  # name host pattern: asks there until the status shows it, or 
 part() {  # CUT on|off
   case $1 in
     between) for port in first second; do bridge -n $net link set dev $port isolated $2; done ;;
+    robot) for port in first robot; do bridge -n $net link set dev $port isolated $2; done ;;
     first) ip -n $net link set first "$([[ $2 == on ]] && echo down || echo up)" ;;
+    leader) bridge -n $net link set dev first state "$([[ $2 == on ]] && echo 0 || echo 3)" ;;
     second) bridge -n $net link set dev second state "$([[ $2 == on ]] && echo 0 || echo 3)" ;;
   esac
 }
@@ -68,14 +72,29 @@ launch second exec_svc.standby --standby &
 second=$!
 until_status flying robot '"leader":"first".*"standby_ready":true.*"phase":"executing"'
 part $cut on
-until_status cut $([[ $cut == second ]] && echo second || echo robot) '"leader":"second"'
+case $cut in
+  between) until_status cut robot '"leader":"first".*"standby_ready":false' ;;
+  second)
+    until_status cut robot '"leader":"first".*"standby_ready":false'
+    sleep 25  # by then it would lead that hears nobody
+    ;;
+  *) until_status cut robot '"leader":"second"' ;;
+esac
 step add $? "$(roci robot goal add more photo x=60 y=45)"
+ended='("state":"achieved".*){4}'
+if [[ $cut == leader ]]; then
+  recalled=$(roci first goal cancel depot)
+  step recall $? "$recalled"
+  ended='"id":"depot"[^}]*"state":"recalled"'
+fi
 part $cut off
 until_status healed robot '"standby_ready":true'
-until_status achieved robot '("state":"achieved".*){4}'
+until_status ended robot "$ended"
 kill -TERM $robot $first $second 2>/dev/null
 for host in robot first second; do
   wait ${!host}
   step $host $? "$(tail -n 1 "$folder/$host.summary")"
 done
 step begun 0 "$(tr -d '\n' <"$folder/robot/begun.json")"
+for host in first second; do grep -c 'leads in epoch' "$folder/$host"/exec_svc*.log; done |
+  paste -sd , | { read -r counts; step led 0 "[$counts]"; }

@@ -95,7 +95,7 @@ TEST(TopicRightsOfServices, CoverWhatTheyPublishAndSubscribe) {
 }
 
 // A right that no service of a program uses is one too many. The engines that plan all the time, pairs and decisions have no part in
-// this mission.
+// this mission; an executive of a pair writes the goals anew that it takes over, and an engine that plans all the time reads more.
 TEST(TopicRightsOfServices, GiveNoMoreThanWhatIsUsed) {
   const std::filesystem::path mission = ROCI_SOURCE_DIR "/missions/planetary";
   const std::set<std::string> elsewhere{"roci/exec/member",
@@ -119,10 +119,13 @@ TEST(TopicRightsOfServices, GiveNoMoreThanWhatIsUsed) {
     own.erase(Role::service);  // what every process may
     for (const security::TopicRights& row : security::topic_rights()) {
       if (elsewhere.contains(row.topic)) continue;
-      if (any_of(row.writers, own)) {
+      const bool continuous =
+          entry.program == "planner_svc" && (row.topic == "roci/goal" || row.topic == "roci/observation");
+      const bool paired = entry.program == "exec_svc" && row.topic == "roci/goal";
+      if (any_of(row.writers, own) && !paired) {
         EXPECT_TRUE(used.written.contains(row.topic)) << entry.name << " may write " << row.topic;
       }
-      if (any_of(row.readers, own)) {
+      if (any_of(row.readers, own) && !continuous) {
         EXPECT_TRUE(used.read.contains(row.topic)) << entry.name << " may read " << row.topic;
       }
     }

@@ -53,6 +53,7 @@ void draw_goals(const lib::MissionView& view, const Rectangle& area, Canvas& can
     canvas.put(row, area.column + 22, status.goal_kind(), Style::plain, 11);
     canvas.put(row, area.column + 34, lib::name_of(status.importance()));
     std::string rest = lib::name_of(status.goal_state());
+    if (view.leader() != nullptr) rest += std::string(" (") + lib::name_of(status.ack_stage()) + ")";
     if (const std::string window = window_of(view.goal(key)); !window.empty()) rest += ", " + window;
     if (!status.reason().empty()) rest += ", " + status.reason();
     canvas.put(row++, area.column + 48, rest, look.style, area.width > 48 ? area.width - 48 : 0);

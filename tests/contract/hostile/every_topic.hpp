@@ -19,6 +19,9 @@ void for_each_topic(Use use) {
   use(topics::time_probe);
   use(topics::exec_member);
   use(topics::exec_journal);
+  use(topics::lease_request);
+  use(topics::lease_state);
+  use(topics::goal_hand_over);
   use(topics::event);
   use(topics::goal);
   use(topics::goal_status);

@@ -36,6 +36,8 @@ inline const std::map<std::string, std::string> kFileReaders{
     {"services/process/link_report.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"services/process/run_record.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"services/process/run_summary.cpp", "FuzzRunFiles.AreReadOrRefused"},
+    {"services/security/issued.cpp", "FuzzKeys.ADamagedFileIsReadOrRefused"},
+    {"services/security/key_folder.cpp", "FuzzKeys.ADamagedFileIsReadOrRefused"},
 };
 
 }  // namespace roci::fuzz

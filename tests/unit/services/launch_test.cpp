@@ -398,7 +398,8 @@ TEST(RestartPolicy, ALongLifeStartsANewRow) {
 class SupervisorTest : public LaunchTest {
  protected:
   Supervisor make(std::vector<std::string> names, bool master_is_clock = true,
-                  const std::function<void(Supervisor::Hooks&)>& add = nullptr) {
+                  const std::function<void(Supervisor::Hooks&)>& add = nullptr,
+                  std::uint32_t incarnations = 0) {
     Supervisor::Hooks hooks;
     if (add) add(hooks);
     hooks.start = [this](const std::string& service, std::uint32_t incarnation) {
@@ -411,7 +412,7 @@ class SupervisorTest : public LaunchTest {
     hooks.on_death = [this](const std::string& service, const std::string& what) {
       deaths.push_back(service + " " + what);
     };
-    return {names, "sim_svc", master_is_clock, Watchdog(10), std::move(hooks)};
+    return {names, "sim_svc", master_is_clock, Watchdog(10), std::move(hooks), incarnations};
   }
   static void turn_until(Supervisor& supervisor, clock::WallTime now, const std::function<bool()>& done) {
     while (!done()) supervisor.turn(now);
@@ -543,6 +544,18 @@ TEST_F(SupervisorTest, AServiceWaitsAsLongAsItsNetworkIsOut) {
   EXPECT_THAT(deaths.back(), HasSubstr("as long as its network is out; starting it again"));
   EXPECT_FALSE(supervisor.failure());
   EXPECT_EQ(starts.size(), 41U);
+}
+
+// The network is out when another launcher goes on with a run.
+TEST_F(SupervisorTest, AServiceOfAContinuedRunWaitsForItsNetworkFromTheStart) {
+  script = {{"arm_svc", "exit 3"}, {"sim_svc", "exec tail -f /dev/null"}};
+  auto supervisor = make({"arm_svc", "sim_svc"}, false, nullptr, 10'000);
+  supervisor.start(start);
+  auto now = start;
+  for (std::size_t death = 1; death <= 3; ++death, now += 2s)
+    turn_until(supervisor, now, [&] { return deaths.size() == death || supervisor.failure(); });
+  EXPECT_FALSE(supervisor.failure());
+  EXPECT_THAT(starts, Contains("arm_svc#10003"));
 }
 
 TEST_F(SupervisorTest, TheRunEndsWithItsClock) {

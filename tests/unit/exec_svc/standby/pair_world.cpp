@@ -1,51 +1,98 @@
 #include "tests/unit/exec_svc/standby/pair_world.hpp"
 
 #include <algorithm>
+#include <sstream>
+#include <type_traits>
 #include <utility>
+
+#include "exec_svc/goals/goal_merge.hpp"
 
 namespace roci::exec::testing {
 
+using goals::GoalRecord;
+using goals::GoalState;
 using journal::Position;
 using standby::Lease;
 using standby::LeaseSettings;
 using standby::Member;
 using standby::Moment;
+using standby::OwnerWord;
 using standby::Role;
 
 namespace {
 
-constexpr Moment kStep = std::chrono::milliseconds(10);
+constexpr int kRounds = 4;  // of a step in which every message comes: asked, answered, acted on, copied
+constexpr char kCommander[] = "exec_svc";
 
-bool contains(const std::vector<Line>& lines, const std::string& text) {
-  return std::ranges::any_of(lines, [&](const Line& line) { return line.text == text; });
+std::string owner_name(int owner) { return "owner-" + std::to_string(owner); }
+int owner_of(int goal) { return goal % PairWorld::kOwners; }
+std::string name_of(Member member) { return member == Member::first ? "first" : "second"; }
+
+std::set<std::string> owner_names() {
+  std::set<std::string> out;
+  for (int owner = 0; owner < PairWorld::kOwners; ++owner) out.insert(owner_name(owner));
+  return out;
 }
+
+GoalRecord new_goal(int number) {
+  GoalRecord out;
+  out.request.key = {"ground", std::to_string(number)};
+  out.request.kind = "photo";
+  return out;
+}
+
+int number_of(const GoalRecord& goal) { return std::stoi(goal.request.key.id); }
 
 }  // namespace
 
-PairWorld::PairWorld(std::uint64_t seed, const LeaseSettings& settings) : random_(seed), settings_(settings) {
+void Disk::write(Line line) {
+  if (line.goal) goals[number_of(*line.goal)] = *line.goal;
+  lines.push_back(std::move(line));
+}
+
+PairWorld::PairWorld(std::uint64_t seed, const LeaseSettings& settings, Bug bug)
+    : random_(seed), settings_(settings), bug_(bug) {
   start(Member::first);
   start(Member::second);
 }
 
+Moment PairWorld::clock(Member member) const {
+  return now_ + std::chrono::seconds(member == Member::first ? 100 : 5);
+}
+
+Moment PairWorld::owner_clock() const { return now_ + std::chrono::seconds(3600); }
+
+bool PairWorld::reaches(Member member, int owner) const { return !network.owner_cut[index(member)][owner]; }
+
 void PairWorld::start(Member member, bool superseded) {
   Process& process = at(member);
-  process.lease = std::make_unique<Lease>(member, settings_, process.disk.persisted_term, superseded, now_);
+  const std::set<std::string> owners = bug_ == Bug::no_owner_leases ? std::set<std::string>{} : owner_names();
+  process.lease.emplace(member, settings_, process.disk.persisted_term, superseded, clock(member), owners);
   process.paused = false;
   process.unsent.clear();
+  process.waiting.clear();
   process.late.reset();
   process.other.reset();
+  process.told_alone.reset();
 }
 
 void PairWorld::kill(Member member) {
   at(member).lease.reset();
   at(member).unsent.clear();
+  at(member).waiting.clear();
+}
+
+void PairWorld::lose_disk(Member member) {
+  at(member).disk = {};
+  std::erase_if(acknowledged_, [&](const auto& one) { return !one.second.held && one.second.by == member; });
+  for (auto& [goal, one] : acknowledged_)
+    if (!one.recall_held && one.by == member) one.recalled = false;
 }
 
 void PairWorld::resume(Member member) {
   Process& process = at(member);
   process.paused = process.stops_before_sending = false;
-  if (const auto late = std::exchange(process.late, std::nullopt); late && process.lease)
-    command(member, *late);
+  if (const auto late = std::exchange(process.late, std::nullopt); late && process.lease) send(member, *late);
 }
 
 void PairWorld::run(Moment time) {
@@ -53,14 +100,59 @@ void PairWorld::run(Moment time) {
 }
 
 void PairWorld::step() {
-  now_ += kStep;
-  for (const Member member : {Member::first, Member::second}) act(member);
+  now_ += step_;
+  for (int i = 0; i < (eager_ ? kRounds : 1); ++i) round();
 }
 
-void PairWorld::post(Message message) {
-  if (network.cut || static_cast<int>(random_() % 100) < network.loss_percent) return;
+void PairWorld::round() {
+  deliver_to_owners();
+  for (const Member member : {Member::first, Member::second}) act(member);
+  check_dispatchers();
+}
+
+// Whether or not they can know of each other.
+void PairWorld::check_dispatchers() {
+  if (commands(Member::first) && commands(Member::second)) faults.push_back("two dispatch");
+}
+
+bool PairWorld::commands(Member member) const {
+  const Process& process = members_[index(member)];
+  return process.lease && process.lease->may_command(clock(member));
+}
+
+void PairWorld::post(Message message, bool cut) {
+  if (cut || static_cast<int>(random_() % 100) < network.loss_percent) return;
   message.due = now_ + Moment(static_cast<std::int64_t>(random_() % (network.longest_delay.count() + 1)));
   under_way_.push_back(std::move(message));
+}
+
+void PairWorld::deliver_to_owners() {
+  std::vector<Message> mine;
+  std::erase_if(under_way_, [&](const Message& message) {
+    if (message.to_owner < 0 || message.due > now_) return false;
+    mine.push_back(message);
+    return true;
+  });
+  for (const Message& message : mine) {
+    Owner& owner = owners_[message.to_owner];
+    const auto& request = *message.request;
+    const auto grant = owner.leases.ask({kCommander, name_of(request.member), request.epoch, request.wanted,
+                                         request.leads, request.term, request.said},
+                                        owner.epoch, owner_clock());
+    OwnerWord word;
+    word.owner = owner_name(message.to_owner);
+    if (!grant.member.empty()) word.holder = grant.member == "first" ? Member::first : Member::second;
+    word.epoch = grant.epoch;
+    word.newest_epoch = std::max(owner.epoch, owner.leases.newest_led(kCommander));
+    word.echo = grant.echo;
+    word.term = grant.term;
+    for (const Member member : {Member::first, Member::second}) {
+      Message out;
+      out.to = member;
+      out.word = word;
+      post(std::move(out), !reaches(member, message.to_owner));
+    }
+  }
 }
 
 void PairWorld::act(Member member) {
@@ -68,80 +160,185 @@ void PairWorld::act(Member member) {
   if (!process.lease || process.paused) return;
   std::vector<Message> mine;
   std::erase_if(under_way_, [&](const Message& message) {
-    if (message.to != member || message.due > now_) return false;
+    if (message.to_owner >= 0 || message.to != member || message.due > now_) return false;
     mine.push_back(message);
     return true;
   });
   for (const Message& message : mine) take(member, message);
-  const bool by_right =
-      process.lease->message(process.disk.newest()).entitled && !process.disk.persisted_term.alone;
-  const Lease::Turn turn = process.lease->turn(process.disk.newest(), now_);
+  const Lease::Turn turn = process.lease->turn(process.disk.newest(), clock(member));
   process.disk.persisted_term = process.lease->persisted_term();
   if (turn.change != Lease::Change::none) process.last_change = turn.change;
   if (turn.change == Lease::Change::stand_down) return start(member, process.lease->superseded());
+  const bool by_right = turn.reason.starts_with("the leader of epoch");
   if (turn.change == Lease::Change::lead && by_right) check_right(process);
-  if (turn.doubtful) ledger_.clear();  // it plans anew, and lacks what it lacks
-  if (turn.change == Lease::Change::lead) lead(member);
-  if (turn.speak) post({{}, other(member), process.lease->message(process.disk.newest()), 0, {}, {}, false});
+  if (turn.change == Lease::Change::lead) lead(member, turn.doubtful);
+  if (turn.speak) speak(member);
   if (process.lease->role() != Role::leading) return;
+  hear_ground(member);
   work(member);
   feed(member);
   send_unsent(member);
 }
 
+void PairWorld::speak(Member member) {
+  Process& process = at(member);
+  Message message;
+  message.to = other(member);
+  message.message = process.lease->message(process.disk.newest());
+  post(std::move(message), network.cut);
+  for (int owner = 0; owner < kOwners; ++owner) {
+    Message request;
+    request.to_owner = owner;
+    request.request = process.lease->request();
+    post(std::move(request), !reaches(member, owner));
+  }
+  if (process.lease->role() == Role::leading) return;
+  for (const auto& [number, goal] : process.disk.apart) {
+    Message out;
+    out.to = other(member);
+    out.handed_over = goal;
+    post(std::move(out), network.cut);
+  }
+}
+
 void PairWorld::take(Member member, const Message& message) {
   Process& process = at(member);
+  if (message.word) return process.lease->hear(*message.word, clock(member));
   if (message.message) {
-    process.lease->hear(*message.message, now_);
+    process.lease->hear(*message.message, clock(member));
     process.other = message.message;
     return;
   }
-  if (process.lease->role() == Role::leading || message.leader < process.lease->epoch()) return;
-  process.lease->hear_leader(message.leader, now_);
-  if (message.whole) {
-    // Goals that only this one knew are asked for again.
-    for (const Line& line : std::exchange(process.disk.lines, message.lines)) {
-      if (line.text.starts_with("goal ") && !contains(process.disk.lines, line.text))
-        replan_wanted_.insert(std::stoi(line.text.substr(5)));
-    }
-  } else if (message.after == process.disk.newest()) {
-    process.disk.lines.insert(process.disk.lines.end(), message.lines.begin(), message.lines.end());
+  const bool leads = process.lease->role() == Role::leading;
+  if (message.handed_over) {
+    if (leads) merge(process, *message.handed_over);
+    return;
   }
-  post({{}, other(member), process.lease->message(process.disk.newest()), 0, {}, {}, false});
+  if (leads || message.leader < process.lease->epoch()) return;
+  process.lease->hear_leader(message.leader, clock(member));
+  Disk& disk = process.disk;
+  if (message.whole) {
+    if (bug_ != Bug::goals_not_merged) {
+      for (const auto& [number, goal] : disk.goals) {
+        const auto [known, is_new] = disk.apart.try_emplace(number, goal);
+        if (const auto both = goals::merged(known->second, goal)) known->second = *both;
+      }
+    }
+    disk.lines.clear();
+    disk.goals.clear();
+    for (const Line& line : message.lines) disk.write(line);
+  } else if (message.after == disk.newest()) {
+    for (const Line& line : message.lines) disk.write(line);
+  }
+  std::erase_if(disk.apart, [&](const auto& one) {
+    const auto known = disk.goals.find(one.first);
+    return known != disk.goals.end() && !goals::merged(known->second, one.second);
+  });
+  Message receipt;
+  receipt.to = other(member);
+  receipt.message = process.lease->message(disk.newest());
+  post(std::move(receipt), network.cut);
 }
 
-// As after a restart: the owner is asked with the new epoch, and what was decided is sent again.
-void PairWorld::lead(Member member) {
+// As after a restart: what was decided is sent again under its key; in doubt all is planned anew.
+void PairWorld::lead(Member member, bool doubtful) {
   ++leads_;
   Process& process = at(member);
   process.fed = process.disk.newest();
-  command(member, {{}, "query"});
-  process.unsent.assign(process.disk.lines.begin(), process.disk.lines.end());
-  commit(process, "lead");
+  process.commanded.clear();
+  process.unsent.clear();
+  for (const Line& line : process.disk.lines) {
+    if (line.text == "lead anew") {  // what was commanded before was forgotten
+      process.commanded.clear();
+      process.unsent.clear();
+    }
+    if (!line.is("command") || doubtful) continue;
+    process.commanded.insert(line.number());
+    if (!is_final(process.disk.goals.at(line.number()).state)) process.unsent.push_back(line);
+  }
+  commit(process, doubtful ? "lead anew" : "lead");
+  for (const auto& [number, goal] : process.disk.goals)  // the ground is told where it all stands
+    process.unsent.push_back({process.disk.newest(), "status " + std::to_string(number), goal});
+  for (const auto& [number, goal] : std::exchange(process.disk.apart, {})) merge(process, goal);
 }
 
-void PairWorld::commit(Process& process, const std::string& text) {
+void PairWorld::commit(Process& process, const std::string& text, std::optional<GoalRecord> goal) {
   const Position at{process.lease->epoch(), process.disk.newest().sequence + 1};
-  process.disk.lines.push_back({at, text});
-  process.unsent.push_back({at, text});
+  process.disk.write({at, text, goal});
+  process.unsent.push_back({at, text, std::move(goal)});
 }
 
-// Who leads because the last leader said that it may has all that an owner ever carried out.
+void PairWorld::merge(Process& process, const GoalRecord& theirs) {
+  const int number = number_of(theirs);
+  GoalRecord record = theirs;
+  if (bug_ == Bug::recall_not_merged) record.request.recalled = false;
+  if (bug_ == Bug::recall_not_merged && record.state == GoalState::recalled)
+    record.state = GoalState::pending;
+  const auto known = process.disk.goals.find(number);
+  if (known != process.disk.goals.end()) {
+    const auto both = goals::merged(known->second, record);
+    if (!both) return;
+    record = *both;
+  }
+  commit(process, "merge " + std::to_string(number), record);
+}
+
+// Who leads because the last leader said that it may has all that an owner ever carried out in that one's epochs.
 void PairWorld::check_right(const Process& process) {
-  for (const Position& done : ledger_) {
-    if (std::ranges::find(process.disk.lines, done, &Line::at) == process.disk.lines.end())
-      faults.push_back("a leader by right lacks " + std::to_string(done.epoch) + ":" +
-                       std::to_string(done.sequence));
+  for (const Owner& owner : owners_) {
+    for (const Position& done : owner.done) {
+      if (std::ranges::find(process.disk.lines, done, &Line::at) == process.disk.lines.end() &&
+          done.epoch >= process.disk.newest().epoch)
+        faults.push_back("a leader by right lacks " + std::to_string(done.epoch) + ":" +
+                         std::to_string(done.sequence));
+    }
+  }
+}
+
+void PairWorld::hear_ground(Member member) {
+  if (network.ground_cut[index(member)]) return;
+  Process& process = at(member);
+  for (const Wish& wish : wishes_) {
+    const auto known = process.disk.goals.find(wish.goal);
+    const bool is_new = known == process.disk.goals.end();
+    const std::string text = wish.what + " " + std::to_string(wish.goal);
+    if (wish.what == "goal") {
+      if (is_new) commit(process, text, new_goal(wish.goal));
+      continue;
+    }
+    if (is_new) continue;
+    GoalRecord record = known->second;
+    if (wish.what == "recall") {
+      if (record.request.recalled) continue;
+      record.request.recalled = true;
+      ++record.revision;
+      if (!is_final(record.state)) record.state = GoalState::recalled;
+    } else {
+      if (record.request.priority >= wish.goal || is_final(record.state)) continue;
+      record.request.priority = wish.goal;
+      ++record.revision;
+    }
+    commit(process, text, record);
   }
 }
 
 void PairWorld::work(Member member) {
   Process& process = at(member);
-  for (const int goal : replan_wanted_) {
-    const std::string text = "goal " + std::to_string(goal);
-    if (!contains(process.disk.lines, text)) commit(process, text);
+  std::vector<Line> decided;
+  for (const auto& [number, goal] : process.disk.goals) {
+    if (is_final(goal.state)) continue;
+    const std::string name = " " + std::to_string(number);
+    if (effects(number) > 0 && reaches(member, owner_of(number))) {
+      GoalRecord done = goal;
+      done.state = GoalState::achieved;
+      decided.push_back({{}, "done" + name, done});
+    } else if (!process.commanded.contains(number) && reaches(member, owner_of(number)) &&
+               (eager_ || random_() % 50 == 0)) {
+      process.commanded.insert(number);
+      decided.push_back({{}, "command" + name});
+    }
   }
-  if (random_() % 20 == 0) commit(process, "command");
+  for (Line& line : decided) commit(process, line.text, std::move(line.goal));
 }
 
 void PairWorld::feed(Member member) {
@@ -151,7 +348,8 @@ void PairWorld::feed(Member member) {
   const auto& lines = process.disk.lines;
   const auto known = std::ranges::find(lines, has, &Line::at);
   const bool whole = known == lines.end() && has != Position{};
-  if (now_ - process.fed_at > std::chrono::milliseconds(300) || process.fed < has) {
+  const bool again = now_ - process.fed_at > std::chrono::milliseconds(300) && (!eager_ || has < process.fed);
+  if (again || process.fed < has) {
     process.fed = has;
     process.fed_at = now_;
   } else if (whole) {
@@ -159,41 +357,97 @@ void PairWorld::feed(Member member) {
   }
   const auto from = whole ? lines.begin() : std::ranges::upper_bound(lines, process.fed, {}, &Line::at);
   if (from == lines.end()) return;
-  const Position after = from == lines.begin() ? Position{} : std::prev(from)->at;
-  post({{}, other(member), std::nullopt, process.lease->epoch(), after, {from, lines.end()}, whole});
+  Message out;
+  out.to = other(member);
+  out.leader = process.lease->epoch();
+  out.after = from == lines.begin() ? Position{} : std::prev(from)->at;
+  out.lines = {from, lines.end()};
+  out.whole = whole;
+  post(std::move(out), network.cut);
   process.fed = lines.back().at;
 }
 
 void PairWorld::send_unsent(Member member) {
   Process& process = at(member);
-  while (!process.unsent.empty() && process.lease->may_send(process.unsent.front().at, now_)) {
-    if (std::exchange(process.stops_before_sending, false)) {
-      process.paused = true;
-      process.late = process.unsent.front();
+  const auto now = clock(member);
+  if (process.told_alone && process.lease->held_by_both(*process.told_alone)) {
+    for (auto& [goal, one] : acknowledged_) {
+      if (one.by != member || !process.disk.goals.contains(goal)) continue;
+      one.held = true;
+      one.recall_held = one.recall_held || one.recalled;
+    }
+    process.told_alone.reset();
+  }
+  while (!process.waiting.empty() && process.lease->may_command(now)) {
+    send(member, process.waiting.front());
+    process.waiting.pop_front();
+  }
+  while (!process.unsent.empty()) {
+    const Line line = process.unsent.front();
+    const bool early = bug_ == Bug::acknowledges_early && !line.is("command");
+    if (!early && !process.lease->may_send(line.at, now)) return;
+    if (line.is("command") && !process.lease->may_command(now)) {
+      const auto since = process.lease->unleased_since();
+      if (!since || now - *since < settings_.term) return;
       process.unsent.pop_front();
+      process.waiting.push_back(line);
+      continue;
+    }
+    process.unsent.pop_front();
+    if (line.is("command") && std::exchange(process.stops_before_sending, false)) {
+      process.paused = true;
+      process.late = line;
       return;
     }
-    command(member, process.unsent.front());
-    process.unsent.pop_front();
+    send(member, line);
   }
 }
 
-void PairWorld::command(Member member, const Line& decision) {
+void PairWorld::send(Member member, const Line& line) {
+  Process& process = at(member);
+  if (line.is("command")) return command(member, line);
+  if (line.is("recall"))
+    std::erase_if(process.waiting, [&](const Line& other) { return other.number() == line.number(); });
+  if (line.goal) acknowledge(member, line);
+}
+
+void PairWorld::acknowledge(Member member, const Line& line) {
+  if (network.ground_cut[index(member)]) return;
+  const int number = number_of(*line.goal);
+  Process& process = at(member);
+  const bool held = process.lease->held_by_both(line.at) || bug_ == Bug::acknowledges_early;
+  if (!held) process.told_alone = line.at;
+  Acknowledged& known = acknowledged_[number];
+  const bool news = line.goal->revision >= known.revision;
+  if (news)
+    known = {line.goal->revision, line.goal->request.recalled || known.recalled,
+             (line.goal->request.recalled && held) || known.recall_held, held, member};
+  std::erase_if(wishes_, [&](const Wish& wish) {
+    if (wish.goal != number) return false;
+    if (wish.what == "goal") return true;
+    return wish.what == "recall" ? line.goal->request.recalled
+                                 : line.goal->request.priority >= wish.goal || is_final(line.goal->state);
+  });
+}
+
+void PairWorld::command(Member member, const Line& line) {
+  const int goal = line.number();
+  Owner& owner = owners_[owner_of(goal)];
+  if (!reaches(member, owner_of(goal))) return;
   const std::uint64_t epoch = at(member).lease->epoch();
-  if (decision.text.starts_with("goal ")) {
-    const int goal = std::stoi(decision.text.substr(5));
-    acknowledged_.insert(goal);
-    replan_wanted_.erase(goal);
-    return;
-  }
-  if (epoch < owner_epoch_) {
+  if (!owner.leases.admits(kCommander, epoch, owner_clock()) || epoch < owner.epoch) {
     ++refused_;
-    return at(member).lease->refused(owner_epoch_);
+    return at(member).lease->refused(
+        std::max(owner.epoch, owner.leases.grant(kCommander, owner_clock()).epoch));
   }
-  owner_epoch_ = epoch;
+  owner.epoch = epoch;
   const auto [commander, fresh] = commanders_.try_emplace(epoch, member);
   if (commander->second != member) faults.push_back("two leaders of epoch " + std::to_string(epoch));
-  if (decision.text == "command" && ledger_.insert(decision.at).second) ++carried_out_;
+  if (!owner.done.insert(line.at).second) return;
+  ++carried_out_;
+  if (++effects_[goal] > 1) faults.push_back("goal " + std::to_string(goal) + " was flown twice");
+  if (acknowledged_.contains(goal) && acknowledged_.at(goal).recall_held)
+    faults.push_back("goal " + std::to_string(goal) + " was flown after its recall");
 }
 
 std::optional<Member> PairWorld::leader() const {
@@ -207,12 +461,84 @@ std::optional<Member> PairWorld::leader() const {
 bool PairWorld::copy_is_near() const {
   const auto& first = members_[0].disk.lines;
   const auto& second = members_[1].disk.lines;
-  const auto [a, b] = std::ranges::mismatch(first, second);
+  const auto [a, b] = std::ranges::mismatch(first, second, {}, &Line::at, &Line::at);
   return (a == first.end() || b == second.end()) && first.end() - a <= 3 && second.end() - b <= 3;
 }
 
-bool PairWorld::has_goal(Member member, int goal) const {
-  return contains(disk(member).lines, "goal " + std::to_string(goal));
+std::set<int> PairWorld::acknowledged_goals() const {
+  std::set<int> out;
+  for (const auto& [goal, one] : acknowledged_) out.insert(goal);
+  return out;
+}
+
+std::vector<std::string> PairWorld::lost() const {
+  std::vector<std::string> out;
+  const auto leading = leader();
+  for (const auto& [goal, one] : acknowledged_) {
+    const std::string name = "goal " + std::to_string(goal);
+    if (!leading || !disk(*leading).goals.contains(goal)) {
+      out.push_back(name);
+      continue;
+    }
+    const GoalRecord& record = disk(*leading).goals.at(goal);
+    if (record.revision < one.revision) out.push_back("a change of " + name);
+    const bool ended = record.state == GoalState::recalled || record.state == GoalState::achieved;
+    if (one.recalled && (!record.request.recalled || !ended)) out.push_back("the recall of " + name);
+  }
+  return out;
+}
+
+std::string PairWorld::fingerprint(Moment oldest) const {
+  std::ostringstream out;
+  const auto see_one = [&](const auto& value) {
+    using T = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<T, Moment>) {
+      out << std::min(value, oldest).count();
+    } else if constexpr (std::is_enum_v<T>) {
+      out << static_cast<int>(value);
+    } else {
+      out << value;
+    }
+    out << ' ';
+  };
+  const auto see = [&](const auto&... values) { (see_one(values), ...); };
+  const auto see_line = [&](const Line& line) { see(line.at.epoch, line.at.sequence, line.text); };
+  const auto see_goal = [&](int number, const GoalRecord& goal) {
+    see(number, goal.state, goal.revision, goal.request.recalled, goal.request.priority);
+  };
+  for (const Member member : {Member::first, Member::second}) {
+    const Process& process = members_[index(member)];
+    out << "| " << process.disk.persisted_term.epoch << process.disk.persisted_term.alone << ' ';
+    for (const Line& line : process.disk.lines) see_line(line);
+    for (const auto& [number, goal] : process.disk.goals) see_goal(number, goal);
+    out << "/ ";
+    for (const auto& [number, goal] : process.disk.apart) see_goal(number, goal);
+    out << (process.lease ? "lives " : "dead ");
+    if (!process.lease) continue;
+    process.lease->show(see, clock(member));
+    for (const Line& line : process.unsent) see_line(line);
+    out << "/ ";
+    for (const Line& line : process.waiting) see_line(line);
+    for (const int goal : process.commanded) see(goal);
+    if (process.other) see(process.other->has.epoch, process.other->has.sequence, process.other->role);
+    see(process.fed.epoch, process.fed.sequence, process.told_alone.has_value());
+    if (process.told_alone) see(process.told_alone->epoch, process.told_alone->sequence);
+  }
+  for (const Owner& owner : owners_) {
+    out << "| " << owner.epoch << ' ';
+    owner.leases.show(see, owner_clock());
+    for (const Position& done : owner.done) see(done.epoch, done.sequence);
+  }
+  out << "| " << network.cut << ' ';
+  for (const auto& links : network.owner_cut)
+    for (const bool link : links) out << link;
+  for (const bool link : network.ground_cut) out << link;
+  for (const Wish& wish : wishes_) see(wish.what, wish.goal);
+  for (const auto& [goal, one] : acknowledged_)
+    see(goal, one.revision, one.recalled, one.recall_held, one.held, one.by);
+  for (const auto& [goal, count] : effects_) see(goal, count);
+  out << "| " << under_way_.size();
+  return out.str();
 }
 
 }  // namespace roci::exec::testing

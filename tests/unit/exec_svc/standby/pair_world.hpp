@@ -1,61 +1,91 @@
-// Two members of a pair, a bad network between them, an owner of commands and somebody who asks for goals:
-// what the rules of the lease promise, watched at every step. Wall time goes on in steps of 10 ms.
+// Two members of a pair, three owners of commands and the ground, with a link between any two of them that may be cut,
+// lose and delay: what the rules of the lease and of merged goals promise, watched at every step. Wall time goes on in
+// steps of 10 ms; every host has a clock of its own.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <memory>
 #include <optional>
 #include <random>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "exec_svc/goals/goal_set.hpp"
 #include "exec_svc/standby/lease.hpp"
+#include "services/owner/commander_leases.hpp"
 
 namespace roci::exec::testing {
 
-// A journal of which each commit is one line.
+// A commit of a journal: what it says, and the goal's record that it writes.
 struct Line {
   journal::Position at;
-  std::string text;  // "goal 7", "command" or "lead"
-  bool operator==(const Line&) const = default;
+  std::string
+      text;  // "goal 7", "recall 7", "change 7", "merge 7", "done 7", "command 7", "lead" or (in doubt) "lead anew"
+  std::optional<goals::GoalRecord> goal{};
+  int number() const { return std::stoi(text.substr(text.find(' ') + 1)); }
+  bool is(const char* what) const { return text.starts_with(std::string(what) + " "); }
 };
 
 // What survives the death of a member.
 struct Disk {
   standby::PersistedTerm persisted_term;
   std::vector<Line> lines;
+  std::map<int, goals::GoalRecord> goals;  // by the lines
+  std::map<int, goals::GoalRecord> apart;  // of a journal that was replaced, until the leader has them
   journal::Position newest() const { return lines.empty() ? journal::Position{} : lines.back().at; }
+  void write(Line line);
 };
 
 struct Network {
   int loss_percent = 0;
   standby::Moment longest_delay{0};
-  bool cut = false;  // between the members; the owner hears both
+  bool cut = false;                                // between the members
+  std::array<std::array<bool, 3>, 2> owner_cut{};  // between a member and an owner
+  std::array<bool, 2> ground_cut{};                // between a member and the ground
 };
+
+// What the tests plant to see that they can fail.
+enum class Bug { none, no_owner_leases, goals_not_merged, recall_not_merged, acknowledges_early };
 
 class PairWorld {
  public:
-  PairWorld(std::uint64_t seed, const standby::LeaseSettings& settings);
+  static constexpr int kOwners = 3;
+
+  PairWorld(std::uint64_t seed, const standby::LeaseSettings& settings, Bug bug = Bug::none);
 
   void run(standby::Moment time);
+  // For who compares worlds: nothing is left to chance, every message is there within its step, and a step takes this
+  // long.
+  void be_deterministic(standby::Moment step) {
+    eager_ = true;
+    step_ = step;
+  }
+  // Two worlds that say the same go on alike; times count as ages up to `oldest`.
+  std::string fingerprint(standby::Moment oldest) const;
 
   Network network;
   void kill(standby::Member member);
   void start(standby::Member member) { start(member, false); }
   void pause(standby::Member member) { at(member).paused = true; }
   void resume(standby::Member member);
-  bool alive(standby::Member member) const { return members_[index(member)].lease != nullptr; }
+  bool alive(standby::Member member) const { return members_[index(member)].lease.has_value(); }
   bool paused(standby::Member member) const { return members_[index(member)].paused; }
-  void lose_disk(standby::Member member) { at(member).disk = {}; }
+  // With it goes what this member alone has acknowledged.
+  void lose_disk(standby::Member member);
+  void restart_owner(int owner) { owners_[owner].leases = {}; }
   void drop_messages() { under_way_.clear(); }
-  void ask_for_a_goal() { replan_wanted_.insert(++goals_); }
-  // It is paused between looking at its lease and sending, the next time; resumed, it sends first.
+  // The ground asks until somebody acknowledges.
+  void ask_for_a_goal() { wishes_.push_back({"goal", ++goals_}); }
+  void recall(int goal) { wishes_.push_back({"recall", goal}); }
+  void change(int goal) { wishes_.push_back({"change", goal}); }
+  // It is paused between looking at its lease and sending a command, the next time; resumed, it sends first.
   void stop_before_sending(standby::Member member) { at(member).stops_before_sending = true; }
 
   std::optional<standby::Member> leader() const;  // the one that leads and is neither dead nor paused
+  bool commands(standby::Member member) const;    // it believes that it may command
   const Disk& disk(standby::Member member) const { return members_[index(member)].disk; }
   standby::Lease::Change last_change(standby::Member member) const {
     return members_[index(member)].last_change;
@@ -68,62 +98,110 @@ class PairWorld {
   standby::Lease& lease(standby::Member member) { return *at(member).lease; }
   // One journal is the other but for its newest lines, three at most.
   bool copy_is_near() const;
-  bool has_goal(standby::Member member, int goal) const;
-  const std::set<int>& acknowledged_goals() const { return acknowledged_; }
+  bool has_goal(standby::Member member, int goal) const { return disk(member).goals.contains(goal); }
+  std::set<int> acknowledged_goals() const;
+  bool recall_acknowledged(int goal) const {
+    return acknowledged_.contains(goal) && acknowledged_.at(goal).recalled;
+  }
+  int effects(int goal) const { return effects_.contains(goal) ? effects_.at(goal) : 0; }
+  // What was acknowledged and the leader does not have, though every disk that has it is there.
+  std::vector<std::string> lost() const;
+
+  // Nothing is left to be acknowledged or done.
+  bool settled() const { return wishes_.empty(); }
 
   std::vector<std::string> faults;  // what must never be
 
  private:
   struct Process {
     Disk disk;
-    std::unique_ptr<standby::Lease> lease;  // none: dead
+    std::optional<standby::Lease> lease;  // none: dead
     bool paused = false;
     bool stops_before_sending = false;
     std::deque<Line> unsent;
+    std::deque<Line> waiting;  // commands without leases
+    std::set<int> commanded;   // goals, as its plan knows
     std::optional<Line> late;
     std::optional<standby::LeaseMessage> other;  // newest word of the other, as far as the copy is concerned
     journal::Position fed;                       // up to which lines are under way
     standby::Moment fed_at{0};
+    std::optional<journal::Position> told_alone;
     standby::Lease::Change last_change = standby::Lease::Change::none;
   };
+  struct Owner {
+    services::owner::CommanderLeases leases;
+    std::uint64_t epoch = 0;           // the newest that it has taken
+    std::set<journal::Position> done;  // keys
+  };
   struct Message {
-    standby::Moment due;
-    standby::Member to;
-    std::optional<standby::LeaseMessage> message;
-    std::uint64_t leader = 0;  // of the lines
-    journal::Position after;   // none of the sender's lines before them: the whole journal
-    std::vector<Line> lines;
+    standby::Moment due{0};
+    standby::Member to = standby::Member::first;
+    std::optional<standby::LeaseMessage> message{};
+    std::optional<standby::OwnerWord> word{};  // of an owner
+    std::uint64_t leader = 0;                  // of the lines
+    journal::Position after{};                 // none of the sender's lines before them: the whole journal
+    std::vector<Line> lines{};
     bool whole = false;
+    std::optional<goals::GoalRecord> handed_over{};
+    int to_owner = -1;
+    std::optional<standby::OwnerRequest> request{};
+  };
+  struct Wish {
+    std::string what;
+    int goal;
+  };
+  // What the ground was told of a goal.
+  struct Acknowledged {
+    std::uint32_t revision = 0;
+    bool recalled = false;
+    bool recall_held = false;  // by both: it flies no more
+    bool held = false;         // by both
+    standby::Member by = standby::Member::first;
   };
   static std::size_t index(standby::Member member) { return member == standby::Member::first ? 0 : 1; }
   static standby::Member other(standby::Member member) {
     return member == standby::Member::first ? standby::Member::second : standby::Member::first;
   }
   Process& at(standby::Member member) { return members_[index(member)]; }
+  // Each has its own clock.
+  standby::Moment clock(standby::Member member) const;
+  standby::Moment owner_clock() const;
+  bool reaches(standby::Member member, int owner) const;
   void start(standby::Member member, bool superseded);
   void step();
+  void round();
   void act(standby::Member member);
+  void deliver_to_owners();
   void take(standby::Member member, const Message& message);
-  void lead(standby::Member member);
+  void speak(standby::Member member);
+  void lead(standby::Member member, bool doubtful);
   void work(standby::Member member);
+  void hear_ground(standby::Member member);
   void feed(standby::Member member);
   void check_right(const Process& process);
-  void commit(Process& process, const std::string& text);
+  void check_dispatchers();
+  void commit(Process& process, const std::string& text, std::optional<goals::GoalRecord> goal = {});
+  void merge(Process& process, const goals::GoalRecord& theirs);
   void send_unsent(standby::Member member);
+  void send(standby::Member member, const Line& decision);
   void command(standby::Member member, const Line& decision);
-  void post(Message message);
+  void acknowledge(standby::Member member, const Line& line);
+  void post(Message message, bool cut);
 
-  std::mt19937_64 random_;
+  std::minstd_rand random_;
+  bool eager_ = false;
+  standby::Moment step_ = std::chrono::milliseconds(10);
   standby::LeaseSettings settings_;
+  Bug bug_;
   standby::Moment now_{0};
   Process members_[2];
+  std::array<Owner, kOwners> owners_;
   std::vector<Message> under_way_;
   int goals_ = 0;
-  std::set<int> replan_wanted_;  // not acknowledged yet: their issuer asks again
-  std::set<int> acknowledged_;
-  std::uint64_t owner_epoch_ = 0;
+  std::vector<Wish> wishes_;
+  std::map<int, Acknowledged> acknowledged_;
+  std::map<int, int> effects_;                           // how often each goal was flown
   std::map<std::uint64_t, standby::Member> commanders_;  // by epoch
-  std::set<journal::Position> ledger_;  // commands carried out, by their place in the journal
   std::size_t carried_out_ = 0;
   std::size_t refused_ = 0;
   int leads_ = 0;

@@ -49,7 +49,8 @@ v1::Command in_rock(v1::Command out, std::int64_t latest_end_us = -1) {
 }
 
 // What the drill of the README says to these commands, each sent at its time: "<s> activity STAGE code".
-std::vector<std::string> talk(const std::multimap<temporal::Duration, v1::Command>& commands) {
+std::vector<std::string> talk(const std::multimap<temporal::Duration, v1::Command>& commands,
+                              const std::optional<v1::LeaseRequest>& lease = std::nullopt) {
   SimRun run({"master", "drill"});
   Node& master = run.add("master");
   const auto drill = example::make_drill(run.add("drill"));
@@ -62,6 +63,13 @@ std::vector<std::string> talk(const std::multimap<temporal::Duration, v1::Comman
                     (ack.code().empty() ? "" : " " + ack.code()));
   });
   const auto sender = advertise(master, topics::command);
+  const auto requests = advertise(master, topics::lease_request);
+  bool granted = !lease;
+  subscribe(master, topics::lease_state,
+            [&](const v1::LeaseState& state) { granted = granted || state.member() == lease->member(); });
+  master.on_turn([&] {
+    if (!granted) requests.write(*lease);
+  });
   for (const auto& [at, one] : commands) master.at(at, [&sender, one = one] { sender.write(one); });
   master.after(300s, [&master] { master.stop(); });
   run.run();
@@ -117,6 +125,26 @@ TEST(CommandServer, TwoLeadersOfOneNameNeverGetEachOthersAnswers) {
               ElementsAre("1 p2.1-bore accepted", "41 p2.1-bore completed done", "50 p2.1-bore accepted",
                           "51 p2.1-bore rejected old-epoch", "52 p2.1-bore completed done",
                           "90 p2.1-bore completed done"));
+}
+
+// Another process of this name holds the lease. The simulated clock outruns it: a term is wall time.
+TEST(CommandServer, WithoutTheLeaseOneMayOnlyAskAndStop) {
+  v1::LeaseRequest lease;
+  lease.commander("master");
+  lease.member("second");
+  lease.epoch(2);
+  lease.wanted(true);
+  lease.term_us(60'000'000);
+  EXPECT_THAT(talk({{101s, command("a", v1::COMMAND_EXECUTE, "bore", 3, 3)},
+                    {102s, command("b", v1::COMMAND_EXECUTE, "bore", 2, 2)},
+                    {103s, command("b", v1::COMMAND_CANCEL, "bore", 3, 2)},
+                    {104s, command("b", v1::COMMAND_QUERY, "bore", 3, 2)},
+                    {105s, command("fallback.1.1.drill", v1::COMMAND_EXECUTE, "bore", 3, 3)},
+                    {106s, command("s", v1::COMMAND_EXECUTE, "stop", 3, 3)}},
+                   lease),
+              ElementsAre("101 a rejected not-leased", "102 b accepted", "103 b rejected not-leased",
+                          "104 b accepted", "105 fallback.1.1.drill rejected not-leased",
+                          "106 b cancelled stopped", "106 s completed done"));
 }
 
 TEST(CommandServer, LeavesTheCommandsOfOtherOwnersAlone) {

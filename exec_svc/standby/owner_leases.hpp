@@ -1,0 +1,94 @@
+// The leases of the owners of commands, as a member of the pair sees them: whom it has to ask, what it holds, and when
+// it gives back what it has. It is pure.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+namespace roci::exec::standby {
+
+using Moment = std::chrono::microseconds;  ///< counts on a clock that never jumps, of this member alone
+
+enum class Member { first, second };
+
+/// Is what an owner says of its lease (services/owner/commander_leases.hpp).
+struct OwnerWord {
+  std::string owner;
+  std::optional<Member> holder;    ///< nothing: nobody
+  std::uint64_t epoch = 0;         ///< in which it holds the lease
+  std::uint64_t newest_epoch = 0;  ///< in which the pair has commanded there
+  Moment echo{0};                  ///< the newest time that the holder said, on the holder's clock
+  Moment term{0};                  ///< the lease lasts so long from then on at least
+  bool operator==(const OwnerWord&) const = default;
+};
+
+/// Is what a member says to all owners.
+struct OwnerRequest {
+  Member member = Member::first;
+  std::uint64_t epoch = 0;
+  bool wanted = false;
+  bool leads = false;  ///< in that epoch; false: it would
+  Moment term{0};
+  Moment said{0};
+  bool operator==(const OwnerRequest&) const = default;
+};
+
+/// Holds all leases or is to command nobody. Two members that have a part each would wait for each other for good, so
+/// one that has had a part for a term gives it back and asks for nothing for some terms: the first member for two,
+/// the second for three. Their times to ask then drift against each other, and in the end one asks alone.
+class OwnerLeases {
+ public:
+  /// `patience` is how long a part is held.
+  OwnerLeases(Member self, std::set<std::string> owners, Moment patience);
+
+  /// From now on these owners are to be led.
+  void require(std::set<std::string> owners) { owners_ = std::move(owners); }
+
+  void hear(const OwnerWord& word, Moment now);
+  /// Takes in that this member wants to command in this epoch, or (nothing) does not. Returns whether it is to ask
+  /// the owners for their leases now.
+  bool wants(std::optional<std::uint64_t> epoch, Moment now);
+
+  /// Returns whether this member holds the lease of every owner in this epoch. It never believes so for longer than
+  /// the owner does.
+  bool holds_all(std::uint64_t epoch, Moment now) const;
+  bool holds_any(std::uint64_t epoch, Moment now) const;
+  /// Returns whether every owner was heard within this time.
+  bool hears_all(Moment within, Moment now) const;
+  /// Returns whether the other member holds any of the leases, as far as is known.
+  bool other_holds_any(Moment now) const;
+  /// Names the owners whose lease is missing, in plain words.
+  std::string missing(std::uint64_t epoch, Moment now) const;
+
+  /// Shows everything that decides what this object does next, as Lease::show().
+  template <class See>
+  void show(See&& see, Moment now) const {
+    for (const auto& [owner, heard] : heard_) {
+      const OwnerWord& word = heard.word;
+      see(owner, word.holder.has_value(), word.holder.value_or(Member::first), word.epoch, word.newest_epoch);
+      see(now - heard.at, word.holder == self_ ? now - word.echo : Moment{0}, word.term);
+    }
+    see(partial_since_ ? now - *partial_since_ : Moment(-1),
+        silent_until_ ? *silent_until_ - now : Moment(-1));
+  }
+
+ private:
+  struct Heard {
+    OwnerWord word;
+    Moment at{0};
+  };
+  bool holds(const std::string& owner, std::uint64_t epoch, Moment now) const;
+
+  Member self_;
+  std::set<std::string> owners_;
+  Moment patience_;
+  std::map<std::string, Heard> heard_;
+  std::optional<Moment> partial_since_;
+  std::optional<Moment> silent_until_;
+};
+
+}  // namespace roci::exec::standby

@@ -1,0 +1,32 @@
+// All that can happen to a pair of executives, three owners and the ground within bounds, by breadth-first search over
+// the real values: whoever finds a state in which a promise is broken also has the way there.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "tests/unit/exec_svc/standby/pair_world.hpp"
+
+namespace roci::exec::testing {
+
+// How much may happen.
+struct Bounds {
+  int goals = 2;
+  int recalls = 1;
+  int cuts = 2;
+  int kills = 2;
+  int quiet_steps = 12;  // in a row without anything happening; the last times of all rules are over by then
+  std::size_t states = 1000000;
+};
+
+struct Exploration {
+  std::size_t states = 0;  // that differ
+  std::size_t transitions = 0;
+  bool complete = false;         // all within the bounds
+  std::vector<std::string> way;  // what happened until a promise was broken, and how; empty: none was
+};
+
+Exploration explore(const Bounds& bounds, Bug bug);
+
+}  // namespace roci::exec::testing

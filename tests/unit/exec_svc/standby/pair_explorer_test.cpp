@@ -1,0 +1,59 @@
+// Everything that can happen to a pair within bounds is tried: never two command, nothing that was acknowledged is lost,
+// nothing is flown twice or after its recall, and whenever all is mended somebody leads again.
+#include "tests/unit/exec_svc/standby/pair_explorer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+
+namespace roci::exec::testing {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+void expect_no_fault(const Bounds& bounds) {
+  const Exploration exploration = explore(bounds, Bug::none);
+  EXPECT_THAT(exploration.way, IsEmpty());
+  std::cout << exploration.states << " states, " << exploration.transitions << " transitions"
+            << (exploration.complete ? "" : ", not all") << std::endl;
+}
+
+TEST(PairExplorer, FindsNoFaultWithACutAndADeath) {
+  Bounds bounds;
+  bounds.goals = 1;
+  bounds.cuts = 1;
+  bounds.kills = 1;
+  bounds.quiet_steps = 6;
+  bounds.states = 3000;
+  expect_no_fault(bounds);
+}
+
+// ROCI_PAIR_STATES bounds the states of the search.
+TEST(PairExplorer, FindsNoFaultWithTwoCutsAndTwoDeaths) {
+  const char* states = std::getenv("ROCI_PAIR_STATES");
+  Bounds bounds;
+  bounds.states = states == nullptr ? 2000 : std::stoull(states);
+  expect_no_fault(bounds);
+}
+
+class Planted : public ::testing::TestWithParam<Bug> {};
+
+TEST_P(Planted, BugIsFound) {
+  Bounds bounds;
+  bounds.goals = 1;
+  bounds.cuts = 1;
+  bounds.kills = 1;
+  const Exploration exploration = explore(bounds, GetParam());
+  EXPECT_THAT(exploration.way, Not(IsEmpty())) << exploration.states << " states";
+  for (const std::string& event : exploration.way) std::cout << "  " << event << "\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(Bugs, Planted,
+                         ::testing::Values(Bug::no_owner_leases, Bug::goals_not_merged,
+                                           Bug::recall_not_merged, Bug::acknowledges_early));
+
+}  // namespace
+}  // namespace roci::exec::testing
