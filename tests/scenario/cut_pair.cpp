@@ -42,8 +42,9 @@ void expect_nothing_lost(const Cut& cut) {
   EXPECT_EQ(steps["add"].exit_code, 0);
   EXPECT_NE(steps["add"].printed.value("state", ""), "rejected");
   const bool recalls = std::string(cut.where) == "leader";
-  if (std::string(cut.where) != "robot")
+  if (std::string(cut.where) != "robot") {
     EXPECT_EQ(steps["add"].printed.value("acknowledged", ""), "journaled") << "by one that is alone";
+  }
   if (recalls) {
     EXPECT_EQ(steps["recall"].printed.value("state", ""), "recalled") << ended.output;
     EXPECT_EQ(steps["recall"].printed.value("acknowledged", ""), "journaled");
@@ -51,13 +52,15 @@ void expect_nothing_lost(const Cut& cut) {
   }
   EXPECT_TRUE(steps["healed"].printed["executive"].value("standby_ready", false)) << ended.output;
   EXPECT_EQ(steps["healed"].printed["executive"].value("leader", ""), cut.leader) << ended.output;
-  if (!recalls)
+  if (!recalls) {
     EXPECT_EQ(goals_that_are("achieved", steps), 4) << "the three of the mission and the one of meanwhile\n"
                                                     << ended.output;
+  }
   const bool stays = std::string(cut.leader) == "first";
-  if (steps["led"].printed.is_array())
+  if (steps["led"].printed.is_array()) {
     EXPECT_EQ(steps["led"].printed, nlohmann::json({1, stays ? 0 : 1})) << "nobody else ever led\n"
                                                                         << ended.output;
+  }
   ASSERT_TRUE(steps["begun"].printed.is_array());
   std::set<std::pair<std::string, int>> begun;
   for (const nlohmann::json& command : steps["begun"].printed)
