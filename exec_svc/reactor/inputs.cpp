@@ -52,7 +52,7 @@ bool take_handed_over(MissionState& state, const std::vector<GoalRecord>& record
     assume_unobserved(state, record->request);
     const bool is_open = !is_final(record->state);
     if (is_open) {
-      state.want_plan(name + " arrived");
+      state.want_plan(name + " was taken over");
       opened = true;
     } else if (was_open &&
                (state.phase == MissionPhase::executing || state.phase == MissionPhase::planning)) {

@@ -65,7 +65,9 @@ TEST(NewerJournal, EndsTheRunWithCodeTwoAndTheRemedy) {
   fs::create_directories(folder);
   sqlite3* database = nullptr;
   sqlite3_open((folder / "journal.sqlite").c_str(), &database);
-  sqlite3_exec(database, "PRAGMA user_version = 99; CREATE TABLE kept(x)", nullptr, nullptr, nullptr);
+  const std::string newer =
+      "PRAGMA user_version = 99; PRAGMA application_id = " + std::to_string(0x524f0000 + 99);
+  sqlite3_exec(database, (newer + "; CREATE TABLE kept(x)").c_str(), nullptr, nullptr, nullptr);
   sqlite3_close(database);
   const Ended ended = run("timeout 60 exec_svc --mission " + std::string(ROCI_SOURCE_DIR) +
                           "/missions/planetary --run-folder " + folder.string() + " 2>&1");
@@ -79,14 +81,16 @@ TEST(NewerJournal, EndsTheRunWithCodeTwoAndTheRemedy) {
 TEST(Become, TheProcessTurnsIntoAServiceOfTheList) {
   const fs::path folder = fs::temp_directory_path() / ("roci_become_" + std::to_string(::getpid()));
   fs::create_directories(folder);
-  std::ofstream(folder / "mission.yaml") << "name: mine\nrobots: [scout]\nservices:\n"
-                                            "  - {name: left.drill, program: ./drill, robot: scout, arguments: [--bit, 3]}\n";
+  std::ofstream(folder / "mission.yaml")
+      << "name: mine\nrobots: [scout]\nservices:\n"
+         "  - {name: left.drill, program: ./drill, robot: scout, arguments: [--bit, 3]}\n";
   std::ofstream(folder / "drill") << "#!/bin/sh\necho \"$@\"\n";
   fs::permissions(folder / "drill", fs::perms::owner_all);
-  const Ended ended = run("roci-launch " + folder.string() + " --become left.drill --clock live --epoch 5 2>&1");
+  const Ended ended =
+      run("roci-launch " + folder.string() + " --become left.drill --clock live --epoch 5 2>&1");
   EXPECT_EQ(ended.exit_code, 0);
-  EXPECT_THAT(ended.output, AllOf(HasSubstr("--name left.drill"), HasSubstr("--robot scout"), HasSubstr("--bit 3"),
-                                  HasSubstr("--clock live"), HasSubstr("--epoch 5")));
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("--name left.drill"), HasSubstr("--robot scout"),
+                                  HasSubstr("--bit 3"), HasSubstr("--clock live"), HasSubstr("--epoch 5")));
   const Ended wrong = run("roci-launch " + folder.string() + " --become drill --clock live 2>&1");
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.output, HasSubstr("unknown service drill; this mission has: left.drill"));

@@ -104,6 +104,9 @@ TEST(TopicRightsOfServices, GiveNoMoreThanWhatIsUsed) {
   const std::filesystem::path mission = ROCI_SOURCE_DIR "/missions/planetary";
   const std::set<std::string> elsewhere{"roci/exec/member",
                                         "roci/exec/journal",
+                                        "roci/exec/goal",
+                                        "roci/lease/request",
+                                        "roci/lease/state",
                                         "roci/decision",
                                         "roci/decision/answer",
                                         "roci/decision/receipt",
