@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "services/owner/command.hpp"
+
 namespace roci::services::owner {
 
 LeaseGrant CommanderLeases::ask(const LeaseAsk& ask, std::uint64_t newest_epoch, Moment now) {
@@ -10,7 +12,9 @@ LeaseGrant CommanderLeases::ask(const LeaseAsk& ask, std::uint64_t newest_epoch,
   // A process that was replaced may be heard late.
   const bool outdated = holds && (ask.said < held.echo || ask.epoch < held.epoch);
   if (outdated || (!held.member.empty() && !holds)) return held;
-  if (!ask.wanted || ask.member.empty() || ask.epoch < std::max(newest_epoch, newest_led(ask.commander))) {
+  const std::uint64_t newest = std::max(newest_epoch, newest_led(ask.commander));
+  if (ask.epoch > newest && ask.epoch - newest > kEpochJump) return held;
+  if (!ask.wanted || ask.member.empty() || ask.epoch < newest) {
     leases_.erase(ask.commander);
     return {};
   }

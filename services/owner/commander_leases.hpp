@@ -44,7 +44,7 @@ class CommanderLeases {
 
   /// Takes a request in and returns who holds the lease now. `newest_epoch` is the newest in which the commander has
   /// commanded here. Who asks in an older one, or in one older than that of a holder who led, gets nothing: it was
-  /// replaced.
+  /// replaced. An epoch more than kEpochJump after them changes nothing, as with commands (command_ledger.hpp).
   LeaseGrant ask(const LeaseAsk& ask, std::uint64_t newest_epoch, Moment now);
   /// Returns the newest epoch of a holder who led; 0: none did.
   std::uint64_t newest_led(const std::string& commander) const;

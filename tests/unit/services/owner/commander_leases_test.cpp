@@ -64,6 +64,18 @@ TEST(CommanderLeases, AreNotForWhoWasReplacedByOneThatLed) {
   EXPECT_EQ(leases.ask(ask("first", 3, 10s), 0, 130s).member, "first");
 }
 
+// One forged request must not keep the pair from its robot for good.
+TEST(CommanderLeases, AreNotForAnEpochFarAhead) {
+  CommanderLeases leases;
+  LeaseAsk forged = ask("first", 1000000, 10s);
+  forged.leads = true;
+  EXPECT_EQ(leases.ask(forged, 0, 100s).member, "");
+  EXPECT_EQ(leases.newest_led("exec_svc"), 0U);
+  leases.ask(ask("first", 1, 10s), 0, 100s);
+  EXPECT_EQ(leases.ask(forged, 0, 101s), (LeaseGrant{"first", 1, 2s, 10s})) << "nor in the name of the holder";
+  EXPECT_EQ(leases.ask(ask("first", 1000, 11s), 0, 101s).epoch, 1000U);
+}
+
 TEST(CommanderLeases, HaveABoundOnTermsAndOnCommanders) {
   CommanderLeases leases;
   LeaseAsk greedy = ask("first", 1, 10s);
