@@ -6,9 +6,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "exec_svc/journal/journal.hpp"
+#include "services/process/domain_claim.hpp"
 #include "tests/scenario/flight.hpp"
 
 namespace roci::scenario {
@@ -35,6 +37,19 @@ class Endurance : public ::testing::Test {
     return "roci-launch " + mission + " --dds cyclonedds --clock live --speed 30 --json --run-folder " +
            run_folder.string() + " " + more;
   }
+  // The planetary mission, with this script in the place of science_svc.
+  fs::path mission_with_science(const std::string& script) const {
+    fs::copy(kPlanetary, folder / "planetary", fs::copy_options::recursive);
+    std::ostringstream text;
+    text << std::ifstream(folder / "planetary/mission.yaml").rdbuf();
+    std::string mission = text.str();
+    const std::string right = "{name: science_svc, ";
+    mission.replace(mission.find(right), right.size(), "{name: science_svc, program: ./science, ");
+    std::ofstream(folder / "planetary/mission.yaml") << mission;
+    std::ofstream(folder / "planetary/science") << script;
+    fs::permissions(folder / "planetary/science", fs::perms::owner_all);
+    return folder / "planetary";
+  }
   // A shell function that waits until a file holds a text, for a minute at most.
   static std::string waiting() {
     return "until_it_says() { for i in $(seq 600); do grep -aqs \"$2\" $1 && return 0; sleep 0.1; done; "
@@ -59,20 +74,48 @@ class Endurance : public ::testing::Test {
 
 // Nobody needs it: the mission goes on, and says so.
 TEST_F(Endurance, AHelperThatCannotBeKeptIsMissed) {
-  fs::copy(kPlanetary, folder / "planetary", fs::copy_options::recursive);
-  std::ostringstream text;
-  text << std::ifstream(folder / "planetary/mission.yaml").rdbuf();
-  std::string mission = text.str();
-  const std::string right = "{name: science_svc, ";
-  mission.replace(mission.find(right), right.size(), "{name: science_svc, program: ./dies, ");
-  std::ofstream(folder / "planetary/mission.yaml") << mission;
-  std::ofstream(folder / "planetary/dies") << "#!/bin/sh\nexit 1\n";
-  fs::permissions(folder / "planetary/dies", fs::perms::owner_all);
-  const Ended ended = run("timeout 280 " + launch((folder / "planetary").string(), "--headless 2>&1"));
+  const fs::path mission = mission_with_science("#!/bin/sh\nexit 1\n");
+  const Ended ended = run("timeout 280 " + launch(mission.string(), "--headless 2>&1"));
   expect_achieved(ended);
   EXPECT_THAT(ended.output,
               HasSubstr("service.missed: science_svc ended with code 1, the 5th time in a row; the "
                         "mission goes on without it"));
+}
+
+// It died in flight, and each further start of it ends at once: the simulated clock waits for a while, and goes on.
+TEST_F(Endurance, TheSimulatedClockGoesOnWithoutAHelperThatDied) {
+  const fs::path mission = mission_with_science(
+      "#!/bin/sh\n[ -e started ] && exit 1\n: > started\necho $$ > pid.new\nmv pid.new pid\n"
+      "exec ${ROCI_BIN:-" ROCI_BINARY_DIR "/bin}/science_svc \"$@\"\n");
+  const Ended ended = run("cd " + folder.string() + "; " + waiting() + "(timeout 280 roci-launch " +
+                          mission.string() + " --dds cyclonedds --speed 60 --json --headless --run-folder " +
+                          run_folder.string() + "; echo $? > code) > out 2>&1 & " + "until_it_says " +
+                          (run_folder / "journal.sqlite-wal").string() +
+                          " plan.adopted; kill -9 $(cat pid); wait; cat out; exit $(cat code)");
+  expect_achieved(ended);
+  EXPECT_THAT(ended.output, HasSubstr("service.missed: science_svc ended with code 1"));
+}
+
+// Each of the two has a disk of its own. The one that leads cannot write for longer than ten seconds: it is replaced, what was
+// said meanwhile goes to the other, and it joins again when it can write.
+TEST_F(Endurance, ALeaderOfAPairWhoseDiskIsFullIsReplaced) {
+  const services::process::DomainClaim domain;
+  const Ended ended = run("timeout 280 unshare -rm " ROCI_SOURCE_DIR
+                          "/tests/scenario/full_disk_pair.sh " ROCI_BINARY_DIR "/bin " +
+                          std::string(kPlanetary) + " cyclonedds " + std::to_string(domain.id()));
+  if (ended.exit_code == 77) GTEST_SKIP() << "this user cannot mount a small disk (unshare -rm)";
+  auto steps = steps_of(ended.output);
+  EXPECT_THAT(steps["replaced"].printed.dump(), HasSubstr("\"leader\":\"second\"")) << ended.output;
+  EXPECT_EQ(steps["add"].exit_code, 0);
+  EXPECT_THAT(steps["joined"].printed.dump(), HasSubstr("\"standby_ready\":true"));
+  EXPECT_EQ(steps["robot"].exit_code, 0) << ended.output;
+  EXPECT_EQ(steps["second"].printed["goals"].value("achieved", 0), 4) << ended.output;
+  EXPECT_GE(steps["full"].exit_code, 10) << "seconds";
+  std::map<std::string, int> begun;
+  for (const auto& one : steps["begun"].printed)
+    ++begun[one.value("activity", "") + " " + std::to_string(one.value("attempt", 0))];
+  EXPECT_FALSE(begun.empty());
+  for (const auto& [command, count] : begun) EXPECT_EQ(count, 1) << command;
 }
 
 // The disk fills up in flight, until the mission says so.

@@ -5,6 +5,7 @@
 //   send ACTION OWNER SUBSYSTEM COMMAND ACTIVITY ISSUED SENDER_EPOCH [argument=value …]
 //   beat SERVICE INCARNATION TIMES      heartbeats, four a second
 //   repeat SECONDS                      sends every command that he hears again, twice
+//   flood SECONDS                       well-formed goals, observations, hazards and requests that nobody wants, as fast as he can
 //   await SECONDS TEXT                  until a line that was heard holds the text; fails after that time
 #include <algorithm>
 #include <chrono>
@@ -20,6 +21,7 @@
 #include "services/clock/wall.hpp"
 #include "services/node.hpp"
 #include "services/publisher.hpp"
+#include "services/rpc.hpp"
 #include "services/transport/plug_ins.hpp"
 
 namespace roci::scenario {
@@ -89,6 +91,7 @@ class Intruder {
     if (what == "beat") return beat(in);
     double seconds = 0;
     in >> seconds;
+    if (what == "flood") return flood(seconds);
     if (what == "repeat") {
       repeats_ = true;
       spin(seconds, [] { return false; });
@@ -155,6 +158,48 @@ class Intruder {
       voice_->beats.write(out);
       spin(0.25, [] { return false; });
     }
+    return true;
+  }
+
+  // Each goal, timeline and hazard has a name of its own; none changes what the mission does.
+  bool flood(double seconds) {
+    services::Node& node = voice_->node;
+    const auto goals = services::advertise(node, topics::goal);
+    const auto observations = services::advertise(node, topics::observation);
+    const auto hazards = services::advertise(node, topics::hazard);
+    const auto paths = services::make_client(node, topics::path_request);
+    const bool found = spin(20, [&] {
+      return goals.matched_readers() > 0 && observations.matched_readers() > 0 &&
+             hazards.matched_readers() > 0;
+    });
+    if (!found) return false;
+    std::uint64_t sent = 0;
+    const auto send_some = [&] {
+      for (int i = 0; i < 20; ++i) {
+        const std::string name = "flood-" + std::to_string(++sent);
+        v1::Goal goal;
+        goal.issuer("intruder");
+        goal.id(name);
+        goal.goal_kind("nonsense");
+        goals.write(goal);
+        v1::Observation observation;
+        observation.timeline(name);
+        observation.observed().number(static_cast<double>(sent));
+        observations.write(observation);
+        v1::Hazard hazard;
+        hazard.found_by("intruder");
+        hazard.id(name);
+        hazard.radius_m(-1);
+        hazards.write(hazard);
+      }
+      v1::PathRequest request;
+      request.origin().x_m(-1e6);
+      request.goal_pose().x_m(1e6);
+      paths.call(request, "", 1s, [](const auto&) {});
+      return false;
+    };
+    spin(seconds, send_some);
+    std::cout << "flooded " << sent << std::endl;
     return true;
   }
 
