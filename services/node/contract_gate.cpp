@@ -4,28 +4,19 @@
 
 #include "services/bounds/limits.hpp"
 #include "services/log/log.hpp"
+#include "services/node/make_event.hpp"
 
 namespace roci::services::node {
 namespace {
 
 v1::Event event_of(const ContractMismatch& mismatch) {
-  v1::Event event;
-  event.severity_level(v1::SEVERITY_ERROR);
-  event.code("contract.mismatch");
-  event.text(to_text(mismatch));
-  const auto add = [&event](const char* name, const std::string& value) {
-    v1::Property property;
-    property.name(name);
-    property.value(value);
-    event.properties().push_back(std::move(property));
-  };
-  add("topic", mismatch.topic);
-  add("participant", mismatch.participant);
-  add("own_build", mismatch.own_build);
-  add("own_hash", mismatch.own_hash);
-  add("other_build", mismatch.other_build);
-  add("other_hash", mismatch.other_hash);
-  return event;
+  return make_event(v1::SEVERITY_ERROR, "contract.mismatch", to_text(mismatch),
+                    {{"topic", mismatch.topic},
+                     {"participant", mismatch.participant},
+                     {"own_build", mismatch.own_build},
+                     {"own_hash", mismatch.own_hash},
+                     {"other_build", mismatch.other_build},
+                     {"other_hash", mismatch.other_hash}});
 }
 
 }  // namespace

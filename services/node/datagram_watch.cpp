@@ -1,6 +1,6 @@
 #include "services/node/datagram_watch.hpp"
 
-#include <utility>
+#include "services/node/make_event.hpp"
 
 namespace roci::services::node {
 
@@ -20,22 +20,10 @@ std::vector<v1::Event> DatagramWatch::turn(clock::WallTime now) {
 v1::Event DatagramWatch::event_of(const transport::RefusedDatagrams& refused) const {
   const std::string count = std::to_string(refused.count);
   const std::string source = refused.last_source.empty() ? "unknown" : refused.last_source;
-  v1::Event event;
-  event.severity_level(v1::SEVERITY_WARNING);
-  event.code("datagram.refused");
-  event.text(node_ + " has refused " + count + " datagrams before DDS read them (" + refused.reason +
-             "), the last one from " + source);
-  const auto add = [&event](const char* name, const std::string& value) {
-    v1::Property property;
-    property.name(name);
-    property.value(value);
-    event.properties().push_back(std::move(property));
-  };
-  add("service", node_);
-  add("reason", refused.reason);
-  add("count", count);
-  add("source", source);
-  return event;
+  return make_event(v1::SEVERITY_WARNING, "datagram.refused",
+                    node_ + " has refused " + count + " datagrams before DDS read them (" + refused.reason +
+                        "), the last one from " + source,
+                    {{"service", node_}, {"reason", refused.reason}, {"count", count}, {"source", source}});
 }
 
 }  // namespace roci::services::node

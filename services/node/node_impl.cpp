@@ -4,21 +4,10 @@
 #include <utility>
 
 #include "services/log/log.hpp"
+#include "services/node/make_event.hpp"
 #include "services/node/typed_endpoints.hpp"
 
 namespace roci::services::node {
-namespace {
-
-v1::Event warning(const std::string& code, const std::string& text) {
-  v1::Event event;
-  event.severity_level(v1::SEVERITY_WARNING);
-  event.code(code);
-  event.text(text);
-  return event;
-}
-
-}  // namespace
-
 NodeImpl::NodeImpl(NodeOptions node_options, std::unique_ptr<transport::Transport> node_transport)
     : options(std::move(node_options)),
       run(options.name, options.run, options.clock == clock::ClockMode::observer),
@@ -154,7 +143,7 @@ void NodeImpl::hear_namesake(const v1::Heartbeat& beat) {
   if (verdict == health::NamesakeWatch::Verdict::yields) {
     const std::string text =
         "this run has another " + other + ", which goes on in this name; this process ends";
-    gate.tell_now(warning("service.doubled", text));
+    gate.tell_now(make_event(v1::SEVERITY_WARNING, "service.doubled", text));
     throw health::Superseded(text);
   }
   log::warning(options.name + ": this run has another " + other);
@@ -162,7 +151,7 @@ void NodeImpl::hear_namesake(const v1::Heartbeat& beat) {
 }
 
 void NodeImpl::tell(const std::string& code, const std::string& text) {
-  gate.tell_later(warning(code, text), clock::wall_now());
+  gate.tell_later(make_event(v1::SEVERITY_WARNING, code, text), clock::wall_now());
 }
 
 }  // namespace roci::services::node

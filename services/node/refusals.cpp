@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "services/log/log.hpp"
+#include "services/node/make_event.hpp"
 
 namespace roci::services::node {
 namespace {
@@ -70,23 +71,14 @@ std::string Refusals::name_of(const transport::Guid& writer) const {
 }
 
 v1::Event Refusals::event_of(const New& one) const {
-  v1::Event event;
-  event.severity_level(v1::SEVERITY_WARNING);
-  event.code("sample.refused");
-  event.text(node_ + " refuses a sample of " + one.topic + ": " + remedy_of(one.why) + " (" +
-             std::to_string(one.count) + " so far)");
-  const auto add = [&event](const char* name, const std::string& value) {
-    v1::Property property;
-    property.name(name);
-    property.value(value);
-    event.properties().push_back(std::move(property));
-  };
-  add("service", node_);
-  add("topic", one.topic);
-  add("reason", to_string(one.why));
-  add("count", std::to_string(one.count));
-  add("participant", name_of(one.writer));
-  return event;
+  return make_event(v1::SEVERITY_WARNING, "sample.refused",
+                    node_ + " refuses a sample of " + one.topic + ": " + remedy_of(one.why) + " (" +
+                        std::to_string(one.count) + " so far)",
+                    {{"service", node_},
+                     {"topic", one.topic},
+                     {"reason", to_string(one.why)},
+                     {"count", std::to_string(one.count)},
+                     {"participant", name_of(one.writer)}});
 }
 
 void Refusals::turn(clock::WallTime now) {

@@ -1,3 +1,4 @@
+/// Writes the samples of one topic with Fast DDS, as bytes that were encoded before.
 #pragma once
 
 #include <atomic>

@@ -45,6 +45,15 @@ class Secure : public testing::TestWithParam<Pairing> {
     }
   }
 
+  // A writer that opened, and that a certified reader does not hear.
+  void expect_unheard(ChildProcess& thief) const {
+    ASSERT_TRUE(thief.wait_for("ready", kPatience));
+    thief.send("write ground theft 1");
+    ChildProcess reader = certified(GetParam().reader, "goal-reader", "exec_svc");
+    let_two_others_meet(&reader);
+    EXPECT_THAT(reader.lines(), Not(Contains("goal ground theft 1")));
+  }
+
   process::DomainClaim domain_;
   KeyRing ring_;
 };
@@ -82,11 +91,7 @@ TEST_P(Secure, ACertificateWithTheWrongRightsIsNotHeardByOthers) {
   auto environment = peer_keys(ring_.path(), "pathplan_svc");
   environment.emplace_back("LD_PRELOAD=" ROCI_LAWLESS);
   ChildProcess thief(peer_command("fastdds", "goal-writer", domain_.id()), environment);
-  ASSERT_TRUE(thief.wait_for("ready", kPatience));
-  thief.send("write ground theft 1");
-  ChildProcess reader = certified(GetParam().reader, "goal-reader", "exec_svc");
-  let_two_others_meet(&reader);
-  EXPECT_THAT(reader.lines(), Not(Contains("goal ground theft 1")));
+  expect_unheard(thief);
 }
 
 // Its governance says that nobody needs a right; all must have the same.
@@ -99,11 +104,7 @@ TEST_P(Secure, AParticipantWithAnotherGovernanceIsNotHeard) {
                                    security::read_certificate(keys + "/permissions_authority.pem")};
   security::write_private(keys + "/governance.p7s", security::signed_document(authority, lax));
   ChildProcess thief = with_keys(GetParam().writer, "goal-writer", "pathplan_svc", keys);
-  ASSERT_TRUE(thief.wait_for("ready", kPatience));
-  thief.send("write ground theft 1");
-  ChildProcess reader = certified(GetParam().reader, "goal-reader", "exec_svc");
-  let_two_others_meet(&reader);
-  EXPECT_THAT(reader.lines(), Not(Contains("goal ground theft 1")));
+  expect_unheard(thief);
 }
 
 // With the keys, the documents and the list of revoked certificates of before.
@@ -111,11 +112,7 @@ TEST_P(Secure, ARevokedCertificateIsNotHeardByOthers) {
   const std::string keys = ring_.stolen_copy("before");
   ring_.authority().revoke("science_svc", "", KeyRing::now_s());
   ChildProcess thief = with_keys(GetParam().writer, "goal-writer", "science_svc", keys);
-  ASSERT_TRUE(thief.wait_for("ready", kPatience));
-  thief.send("write ground theft 1");
-  ChildProcess reader = certified(GetParam().reader, "goal-reader", "exec_svc");
-  let_two_others_meet(&reader);
-  EXPECT_THAT(reader.lines(), Not(Contains("goal ground theft 1")));
+  expect_unheard(thief);
 }
 
 TEST_P(Secure, AnExpiredCertificateOpensNothing) {
