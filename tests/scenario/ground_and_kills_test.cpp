@@ -25,7 +25,7 @@ TEST_P(GroundAndKills, NothingIsLost) {
   }
   const auto state_after = [&](const std::string& name) { return steps[name].printed.value("state", ""); };
   EXPECT_EQ(steps["add"].exit_code, 0);
-  EXPECT_NE(state_after("add"), "rejected");
+  EXPECT_TRUE(state_after("add") == "pending" || state_after("add") == "planned") << ended.output;
   EXPECT_EQ(steps["refused"].exit_code, 1);
   EXPECT_EQ(state_after("refused"), "rejected");
   EXPECT_EQ(steps["cancel-unknown"].exit_code, 1);
