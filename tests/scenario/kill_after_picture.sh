@@ -26,7 +26,7 @@ step() {  # name exit_code output
   printf '%s\t%s\t%s\n' "$1" "$2" "$3"
 }
 
-"$bin/roci-launch" "$folder/mission" --scenario one --dds "$dds" --domain "$domain" --clock live --speed 40 \
+"$bin/roci-launch" "$folder/mission" --scenario one --dds "$dds" --domain "$domain" --clock live --speed 80 \
   --headless --json --run-folder "$folder/run" >"$folder/summary" &
 launcher=$!
 until grep -qs '"kind":"image"' "$folder/run/effects.jsonl" || ! kill -0 $launcher 2>/dev/null; do sleep 0.02; done

@@ -60,9 +60,9 @@ TEST_P(PlannerTimeout, InFlightCostsGoalsWithTheirReasonAndNothingElse) {
                           " --clock live --speed 20 --headless --json --run-folder " + (folder / "run").string());
   EXPECT_EQ(ended.exit_code, 1) << ended.output;
   const nlohmann::json summary = last_line_as_json(ended.output);
-  EXPECT_EQ(summary.value("result", ""), "failed") << ended.output;
+  EXPECT_EQ(summary.value("result", ""), "partial") << ended.output;
   EXPECT_EQ(summary["goals"].value("open", -1), 0) << ended.output;
-  EXPECT_LT(summary.value("mission_time_s", 1e9), 1800) << ended.output;
+  EXPECT_LT(summary.value("sim_s", 1e9), 1800) << ended.output;
   EXPECT_THAT(events(), Contains(AllOf(HasSubstr("goal.dropped"), HasSubstr("nice"), HasSubstr("time"))));
   EXPECT_THAT(events(), Contains(AllOf(HasSubstr("goal.failed"), HasSubstr("near"), HasSubstr("time"))));
 }

@@ -48,7 +48,6 @@ TEST_P(Resume, WaitsForANetworkThatIsOut) {
   EXPECT_EQ(steps["waits"].printed, "1") << "it says so once";
   EXPECT_EQ(steps["back"].exit_code, 0) << ended.output;
   EXPECT_EQ(steps["run"].exit_code, 1) << "ended by us, not for a network";
-  EXPECT_TRUE(steps["run"].printed.is_object()) << ended.output;
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, Resume, ::testing::Values("fastdds", "cyclonedds"),
