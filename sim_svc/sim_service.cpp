@@ -11,7 +11,7 @@
 #include "services/rpc.hpp"
 #include "sim_svc/scenario/run_file.hpp"
 #include "sim_svc/wire_service.hpp"
-#include "sim_svc/world_file.hpp"
+#include "sim_svc/world_file_service.hpp"
 
 namespace roci::sim {
 

@@ -10,7 +10,7 @@
 #include "core/mission/entry.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
-#include "sim_svc/world_file.hpp"
+#include "sim_svc/world_file_service.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
 namespace roci::sim {

@@ -1,4 +1,4 @@
-#include "sim_svc/world_file.hpp"
+#include "sim_svc/world_file_service.hpp"
 
 #include <cmath>
 #include <fstream>
