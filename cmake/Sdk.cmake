@@ -50,8 +50,9 @@ install(FILES "${PROJECT_BINARY_DIR}/rocinante-config.cmake" "${PROJECT_BINARY_D
               cmake/sdk/rocinante-service.cmake
         DESTINATION ${sdk_cmake})
 
-install(DIRECTORY services core/temporal core/mission DESTINATION include/rocinante FILES_MATCHING PATTERN "*.hpp"
-        PATTERN "services/vendors" EXCLUDE PATTERN "services/launch" EXCLUDE PATTERN "services/systemd" EXCLUDE)
+install(DIRECTORY services DESTINATION include/rocinante FILES_MATCHING PATTERN "*.hpp" PATTERN "services/vendors" EXCLUDE
+        PATTERN "services/launch" EXCLUDE PATTERN "services/systemd" EXCLUDE)
+install(DIRECTORY core/temporal core/mission DESTINATION include/rocinante/core FILES_MATCHING PATTERN "*.hpp")
 set(generated "${PROJECT_BINARY_DIR}/idl/generated/roci_idl")
 install(DIRECTORY "${generated}" DESTINATION include/rocinante FILES_MATCHING PATTERN "*.h" PATTERN "*PubSubTypes.h" EXCLUDE)
 install(DIRECTORY idl/ DESTINATION share/rocinante/idl FILES_MATCHING PATTERN "*.idl")

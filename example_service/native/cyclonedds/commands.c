@@ -173,14 +173,12 @@ static void stop(const roci_v1_Command *request) {
 }
 
 static void cancel(const roci_v1_Command *request, struct Command *known) {
-  if (known == NULL)
-    return acknowledge(request, roci_v1_STAGE_UNKNOWN, "unknown-key", "this activity was never commanded here", NULL,
-                       newest_epoch(request->commander), false);
   if (is_open(known)) {
     if (known->cancelling) return;  // its outcome is still to come
     known->cancelling = true;
     raise_epoch(request);
-    return driver->break_off(known, roci_v1_STAGE_CANCELLED, "cancelled", "cancelled on request");
+    driver->break_off(known, roci_v1_STAGE_CANCELLED, "cancelled", "cancelled on request");
+    return;
   }
   char reason[128];
   snprintf(reason, sizeof reason, "it has already ended (%s)", known->code);
@@ -194,14 +192,23 @@ void receive_command(const void *sample) {
   const bool executes = request->action == roci_v1_COMMAND_EXECUTE;
   const bool stops = executes && strcmp(request->command_name, "stop") == 0;
   if (!stops && refused(request)) return;  // a stop is never refused
-  if (request->action == roci_v1_COMMAND_CANCEL) return cancel(request, known);
-  if (known != NULL) return tell(known);  // a repeated command, or a query
-  if (!executes) return cancel(request, NULL);
-  if (stops) return stop(request);
-  raise_epoch(request);
-  struct Command *taken = take(request);
-  if (strcmp(request->command_name, "lead") == 0) return say(taken, roci_v1_STAGE_COMPLETED, "done", "", NAN);
-  driver->carry_out(taken, request);
+  if (known == NULL && !executes) {
+    acknowledge(request, roci_v1_STAGE_UNKNOWN, "unknown-key", "this activity was never commanded here", NULL,
+                newest_epoch(request->commander), false);
+  } else if (request->action == roci_v1_COMMAND_CANCEL) {
+    cancel(request, known);
+  } else if (known != NULL) {
+    tell(known);  // a repeated command, or a query
+  } else if (stops) {
+    stop(request);
+  } else {
+    raise_epoch(request);
+    struct Command *taken = take(request);
+    if (strcmp(request->command_name, "lead") == 0)
+      say(taken, roci_v1_STAGE_COMPLETED, "done", "", NAN);
+    else
+      driver->carry_out(taken, request);
+  }
 }
 
 void serve_commands(const struct Driver *its, struct Output *its_acks) {

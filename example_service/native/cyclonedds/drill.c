@@ -48,9 +48,14 @@ static const char *argument(const roci_v1_Command *request, const char *name) {
 }
 
 static void carry_out(struct Command *command, const roci_v1_Command *request) {
-  if (strcmp(request->command_name, "bore") != 0)
-    return say(command, roci_v1_STAGE_REJECTED, "unknown-command", "it can only bore", NAN);
-  if (running != NULL) return say(command, roci_v1_STAGE_REJECTED, "busy", "it still bores", NAN);
+  if (strcmp(request->command_name, "bore") != 0) {
+    say(command, roci_v1_STAGE_REJECTED, "unknown-command", "it can only bore", NAN);
+    return;
+  }
+  if (running != NULL) {
+    say(command, roci_v1_STAGE_REJECTED, "busy", "it still bores", NAN);
+    return;
+  }
   const double depth_m = atof(argument(request, "depth"));
   running = command;
   snprintf(place, sizeof place, "%s", argument(request, "place"));
@@ -63,9 +68,10 @@ static void carry_out(struct Command *command, const roci_v1_Command *request) {
 static void bored(void) {
   if (hard) {
     hard = false;
-    if (!repair(running, "the bit jammed; it tries again"))
-      return rest(roci_v1_STAGE_FAILED, "jammed", "the rock is hard, and no time is left", NAN);
-    due_us += (int64_t)(kAgainS * 1e6);
+    if (repair(running, "the bit jammed; it tries again"))
+      due_us = now_us() + (int64_t)(kAgainS * 1e6);
+    else
+      rest(roci_v1_STAGE_FAILED, "jammed", "the rock is hard, and no time is left", NAN);
     return;
   }
   char timeline[128];
