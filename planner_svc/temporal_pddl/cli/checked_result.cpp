@@ -35,7 +35,8 @@ void check(const pddl::Domain& domain, const pddl::Problem& problem, Result& res
   result.plan.reset();
   result.verdict = Verdict::crashed;
   result.reason =
-      "a plan was found that the validator refuses, so it is not printed; this is a defect of the planner, please "
+      "a plan was found that the validator refuses, so it is not printed; this is a defect of the planner, "
+      "please "
       "report it with both files:\n" +
       refusal + printed;
 }
