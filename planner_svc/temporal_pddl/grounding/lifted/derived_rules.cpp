@@ -11,7 +11,7 @@ namespace roci::planner::temporal_pddl::grounding::lifted {
 
 namespace {
 
-constexpr std::size_t kMaxCopied = 1'000'000;  // conditions, for the alternatives of one body
+constexpr std::size_t kMaxCopied = 250'000;  // conditions, for the alternatives of one body
 
 // Splits bodies into rules.
 class Splitter {

@@ -126,15 +126,18 @@ TEST_F(Program, AMemoryLimitIsSetWithoutAskingAndIsACleanVerdict) {
   EXPECT_EQ(run("--help"), 0);
   EXPECT_THAT(read("out"), HasSubstr("--memory"));
   EXPECT_THAT(read("out"), HasSubstr("4096 or three quarters of the machine's memory"));
-  std::string objects;
-  for (int i = 0; i < 300; ++i) objects += " o" + std::to_string(i);
+  std::string objects, facts;
+  for (int i = 0; i < 200; ++i) {
+    objects += " o" + std::to_string(i);
+    facts += " (q o" + std::to_string(i) + ")";
+  }
   write("wide",
         "(define (domain w) (:predicates (p ?x ?y) (q ?x)) (:action a :parameters (?x ?y) :precondition "
-        "(q ?x) :effect (p ?x ?y)))");
-  write("many", "(define (problem p) (:domain w) (:objects" + objects +
-                    ") (:init (q o1)) (:goal (and (forall (?x ?y) (p ?x ?y)) (q o1))))");
+        "(and (q ?x) (q ?y)) :effect (p ?x ?y)))");
+  write("many",
+        "(define (problem p) (:domain w) (:objects" + objects + ") (:init" + facts + ") (:goal (p o1 o2)))");
   EXPECT_EQ(run("domain sound --memory 4096"), 0);
-  EXPECT_EQ(run("wide many --memory 2"), 5) << read("err");
+  EXPECT_EQ(run("wide many --memory 8"), 5) << read("err");
   EXPECT_THAT(read("err"), StartsWith("out_of_memory: "));
   EXPECT_THAT(read("err"), Not(HasSubstr("terminate")));
 }
