@@ -14,12 +14,12 @@ using extraction::Activity, extraction::Plan;
 
 namespace {
 
-constexpr double kChart = 1000;      // pixels for the whole makespan
-constexpr double kRow = 22;          // height of a row, the gap below its bar included
-constexpr double kTop = 48;          // title and scale
-constexpr double kLetter = 7;        // width of a letter
-constexpr double kNarrowest = 2;     // so that an instant is seen
-constexpr std::size_t kName = 28;    // letters of a lane's name
+constexpr double kChart = 1000;    // pixels for the whole makespan
+constexpr double kRow = 22;        // height of a row, the gap below its bar included
+constexpr double kTop = 48;        // title and scale
+constexpr double kLetter = 7;      // width of a letter
+constexpr double kNarrowest = 2;   // so that an instant is seen
+constexpr std::size_t kName = 28;  // letters of a lane's name
 constexpr std::array kColours = {"#7fb3d5", "#f5b041", "#82c99d", "#d98880", "#bb8fce", "#73c6b6",
                                  "#e5c07b", "#a9b7c6", "#f1948a", "#85a5e8", "#c0ca7a", "#d7a98c"};
 
@@ -148,9 +148,10 @@ class Picture {
     const double width = std::max(kNarrowest, x(to) - x(from));
     const std::string name = whole_name(activity);
     out_ << "<rect x=\"" << x(from) << "\" y=\"" << y << "\" width=\"" << width << "\" height=\"" << kRow - 4
-         << "\" rx=\"2\" fill=\"" << colour(activity.name) << "\" stroke=\"#555\" stroke-width=\"0.5\"><title>"
-         << escaped(name) << ": " << from << " to " << to << " s</title></rect>\n";
-    const std::string label = cut(name, static_cast<std::size_t>(width / kLetter));
+         << "\" rx=\"2\" fill=\"" << colour(activity.name)
+         << "\" stroke=\"#555\" stroke-width=\"0.5\"><title>" << escaped(name) << ": " << from << " to " << to
+         << " s</title></rect>\n";
+    const std::string label = cut(name, static_cast<std::size_t>(std::max(0.0, width - 8) / kLetter));
     if (!label.empty())
       out_ << "<text x=\"" << x(from) + 3 << "\" y=\"" << y + 13 << "\" pointer-events=\"none\">"
            << escaped(label) << "</text>\n";
@@ -164,8 +165,8 @@ class Picture {
   std::vector<Lane> lanes_;
   std::map<std::string, std::size_t> colours_;
   std::size_t rows_ = 0;
-  double whole_ = 0;   // seconds
-  double left_ = 0;    // where the chart begins
+  double whole_ = 0;  // seconds
+  double left_ = 0;   // where the chart begins
   double height_ = 0;
   std::ostringstream out_;
 };

@@ -66,10 +66,10 @@ std::size_t default_megabytes() {
 
 struct Arguments {
   std::string domain, problem, functions, stats, remaining, gantt;
-  double seconds = 0;            // 0: no limit
-  double processor_seconds = 0;  // 0: no limit
+  double seconds = 0;                           // 0: no limit
+  double processor_seconds = 0;                 // 0: no limit
   std::size_t megabytes = default_megabytes();  // 0: no limit
-  std::size_t evaluations = 0;  // 0: no limit
+  std::size_t evaluations = 0;                  // 0: no limit
   std::uint64_t seed = 0;
   std::size_t improve = 0;
   bool strict = false;
@@ -281,7 +281,8 @@ int run(const Arguments& arguments) {
   for (const std::string& warning : result.warnings) std::cerr << warning << '\n';
   if (!arguments.gantt.empty() && result.plan) {
     std::ofstream file(arguments.gantt);
-    if (!(file << to_svg(*result.plan, arguments.problem))) std::cerr << arguments.gantt << ": cannot be written\n";
+    if (!(file << to_svg(*result.plan, arguments.problem)))
+      std::cerr << arguments.gantt << ": cannot be written\n";
   }
   nlohmann::json statistics = statistics_json(result, elapsed());
   add_findings(findings, statistics);
@@ -312,9 +313,10 @@ int run_command_line(int argc, char** argv) {
   app.add_option("--improve", arguments.improve, "look for better plans with so many evaluations");
   app.add_option("--evaluations", arguments.evaluations,
                  "limit in heuristic evaluations until the first plan; 1: what grounding costs");
-  app.add_option("--memory", arguments.megabytes,
-                 "limit in MiB of all data of the process; 0: none; if not given, 4096 or three quarters of the "
-                 "machine's memory, whatever is less")
+  app.add_option(
+         "--memory", arguments.megabytes,
+         "limit in MiB of all data of the process; 0: none; if not given, 4096 or three quarters of the "
+         "machine's memory, whatever is less")
       ->capture_default_str();
   app.add_option("--functions", arguments.functions,
                  "values of external functions: (traverse_time a b) 12.5");

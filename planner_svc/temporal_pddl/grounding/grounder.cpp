@@ -54,10 +54,11 @@ void warn(const pddl::Problem& problem, const Symbols& symbols, const ConstantFu
   const std::string place = problem.file + ":" + std::to_string(problem.where.line) + ":" +
                             std::to_string(problem.where.column) + ": warning: ";
   const auto tell = [&](const std::string& fluent) {
-    warnings.push_back(place + fluent +
-                       " has no initial value, and nothing assigns one: no condition on it holds, and no action "
-                       "that reads or changes it can run (add (= " +
-                       fluent + " …) to :init)");
+    warnings.push_back(
+        place + fluent +
+        " has no initial value, and nothing assigns one: no condition on it holds, and no action "
+        "that reads or changes it can run (add (= " +
+        fluent + " …) to :init)");
   };
   std::size_t more = 0;
   for (const UndefinedNumber& one : undefined) {

@@ -32,7 +32,6 @@ struct GroundingReport {
 /// (`unsupported` with the place in the model, `unsolvable` with the goal that nothing can reach,
 /// `function_unavailable`), and what SearchLimits throws.
 Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, engine::FunctionSource& functions,
-                 const call::Options& options, call::SearchLimits& limits,
-                 GroundingReport& report);
+                 const call::Options& options, call::SearchLimits& limits, GroundingReport& report);
 
 }  // namespace roci::planner::temporal_pddl::grounding

@@ -54,8 +54,8 @@ bool drop_shorter_than_separation(GroundModel& model, const Task& task, Duration
     if (!orderings) orderings.emplace(task, epsilon);
     std::vector<StepConstraint> apart;
     orderings->add(std::array{action.start}, action.end, {}, apart);
-    if (std::ranges::none_of(
-            apart, [&](const StepConstraint& one) { return one.lower > action.max_duration; }))
+    if (std::ranges::none_of(apart,
+                             [&](const StepConstraint& one) { return one.lower > action.max_duration; }))
       continue;
     dropped.resize(task.actions.size(), false);
     dropped[i] = true;

@@ -30,7 +30,7 @@ constexpr std::size_t kMostPatterns = 200;  // that are looked at
 
 std::string seconds(Duration duration) {
   const std::string text = std::to_string(std::chrono::duration<double>(duration).count());
-  return text.substr(0, text.size() - 3) + " s";
+  return (text.ends_with("000") ? text.substr(0, text.size() - 3) : text) + " s";
 }
 
 // The parts of a conjunction, those of conjunctions in it among them.
@@ -86,10 +86,12 @@ class Diagnosis {
     std::vector<const pddl::Condition*> parts;
     collect_parts(known_.problem.goal, parts);
     for (const pddl::Condition* part : parts) {
-      const auto* atom = std::get_if<pddl::Atom>(&part->node);
+      const auto* negation = std::get_if<pddl::Not>(&part->node);
+      const auto* atom = std::get_if<pddl::Atom>(&(negation ? *negation->body : *part).node);
       if (atom == nullptr) continue;
       Pattern pattern{symbols_.predicate(atom->symbol), {}};
       for (const pddl::Term& term : atom->arguments) pattern.objects.push_back(symbols_.object(term.name));
+      pattern.negated = negation != nullptr;
       want(std::move(pattern), "the goal");
     }
     for (const auto& alternative : known_.goal) {
@@ -135,7 +137,8 @@ class Diagnosis {
 
   void explain(const Wanted& wanted) {
     if (wanted.pattern.negated) {
-      return tell(wanted.by + " needs " + text(wanted.pattern) + ", but it is in :init and no effect deletes it");
+      return tell(wanted.by + " needs " + text(wanted.pattern) +
+                  ", but it is in :init and no effect deletes it");
     }
     for (const ImpossibleAction& note : model_.impossible_actions) {
       if (brings(note.adds, wanted.pattern)) return tell(why(note));
@@ -148,7 +151,8 @@ class Diagnosis {
       for (const auto* effects : {&action.start_effects, &action.end_effects}) {
         for (const LiftedEffect& effect : *effects) {
           Binding binding(action.slots);
-          if (effect.kind != LiftedEffect::Kind::add || !unify(effect, action, wanted.pattern, binding)) continue;
+          if (effect.kind != LiftedEffect::Kind::add || !unify(effect, action, wanted.pattern, binding))
+            continue;
           any = true;
           explain(action, effect, binding);
         }
@@ -182,18 +186,20 @@ class Diagnosis {
   void explain(const LiftedAction& action, const LiftedEffect& effect, const Binding& binding) {
     const std::string name = text(action, binding);
     std::vector<const LiftedFormula*> parts;
-    for (const auto* condition : {&action.at_start, &action.over_all, &action.at_end, &effect.start_condition,
-                                  &effect.end_condition})
+    for (const auto* condition :
+         {&action.at_start, &action.over_all, &action.at_end, &effect.start_condition, &effect.end_condition})
       collect_parts(*condition, parts);
     bool blocked = false;
     for (const LiftedFormula* part : parts) {
       if (part->kind == LiftedFormula::Kind::comparison) {
-        for (const LiftedExpression& side : part->sides) blocked = lacks_value(side, name, binding) || blocked;
+        for (const LiftedExpression& side : part->sides)
+          blocked = lacks_value(side, name, binding) || blocked;
       }
       const bool positive = part->kind == LiftedFormula::Kind::atom;
       if (!positive && part->kind != LiftedFormula::Kind::not_atom) continue;
       if (changes_at_start(action, part->atom.predicate)) continue;
-      blocked = want({part->atom.predicate, objects_of(part->atom.arguments, binding), !positive}, name) || blocked;
+      blocked =
+          want({part->atom.predicate, objects_of(part->atom.arguments, binding), !positive}, name) || blocked;
     }
     for (const auto& rule : action.duration) blocked = lacks_value(rule.bound, name, binding) || blocked;
     for (const auto* effects : {&action.start_effects, &action.end_effects}) {
@@ -240,7 +246,8 @@ class Diagnosis {
     const std::string remedy = "give it one in :init, (= " + fluent + " …)";
     if (static_model_.constants().is_constant(function)) {
       if (!pattern.is_ground() || static_model_.constants().value(function, pattern.objects)) return false;
-      tell(symbols_[function].module.empty() ? told + remedy : by + " reads " + fluent + ", which is unreachable");
+      tell(symbols_[function].module.empty() ? told + remedy
+                                             : by + " reads " + fluent + ", which is unreachable");
       return true;
     }
     bool assigned = false;
@@ -255,7 +262,8 @@ class Diagnosis {
 
   // The atom that says that the number has a value was made by simplification/defined_numbers.
   bool is_assigned(std::uint32_t number) const {
-    const std::string name = "has-value:" + symbols_[FunctionId(std::size_t{model_.numbers.symbol(number)})].name;
+    const std::string name =
+        "has-value:" + symbols_[FunctionId(std::size_t{model_.numbers.symbol(number)})].name;
     for (std::uint32_t i = 0; i < model_.atoms.size(); ++i) {
       const PredicateId predicate(std::size_t{model_.atoms.symbol(i)});
       if (predicate.index() < known_.symbols.predicates() && symbols_.name(predicate) == name &&
@@ -314,7 +322,8 @@ class Diagnosis {
 std::string literal_text(const UnreachableGoal& known, GroundLiteral literal) {
   std::string text =
       "(" + known.symbols.name(PredicateId(std::size_t{known.model.atoms.symbol(literal.atom)}));
-  for (const ObjectId object : known.model.atoms.objects(literal.atom)) text += " " + known.symbols.name(object);
+  for (const ObjectId object : known.model.atoms.objects(literal.atom))
+    text += " " + known.symbols.name(object);
   text += ")";
   return literal.negated ? "(not " + text + ")" : text;
 }
@@ -324,8 +333,9 @@ std::string literal_text(const UnreachableGoal& known, GroundLiteral literal) {
 std::string window_too_short(const UnreachableGoal& known) {
   const WindowMisfit* nearest = nullptr;
   for (const WindowMisfit& note : known.model.window_misfits) {
-    const bool missed = std::ranges::any_of(
-        note.adds, [&](std::uint32_t atom) { return !known.reached[literal_index({atom, false})]; });
+    const bool missed = std::ranges::any_of(note.adds, [&](std::uint32_t atom) {
+      return !known.reached[literal_index({atom, false})];
+    });
     const auto lack = [](const WindowMisfit& action) { return action.duration - action.window; };
     if (missed && (!nearest || lack(note) < lack(*nearest))) nearest = &note;
   }
@@ -361,7 +371,8 @@ void refuse(const UnreachableGoal& known) {
     blocked.push_back({std::move(fact), causes + "no sequence of actions reaches it" + misfit});
   throw PlanningFailure(
       Verdict::unsolvable,
-      causes + "no sequence of actions reaches, even if nothing were ever deleted and numbers did not count:" +
+      causes +
+          "no sequence of actions reaches, even if nothing were ever deleted and numbers did not count:" +
           text + misfit,
       std::move(blocked));
 }

@@ -116,10 +116,10 @@ struct GroundModel {
   std::vector<GroundAction> actions;
   /// Holds sorted lists, of which the first is empty. Neighbours with equal read sets share one.
   std::vector<std::vector<ReadVariable>> read_sets = std::vector<std::vector<ReadVariable>>(1);
-  std::vector<WindowMisfit> window_misfits;  ///< taken out of `actions`
+  std::vector<WindowMisfit> window_misfits;          ///< taken out of `actions`
   std::vector<ImpossibleAction> impossible_actions;  ///< taken out of `actions`
-  std::vector<GroundRule> rules;             ///< stand in order of layers
-  std::vector<TimedChange> timed;            ///< stand in order of time, one per instant
+  std::vector<GroundRule> rules;                     ///< stand in order of layers
+  std::vector<TimedChange> timed;                    ///< stand in order of time, one per instant
   Disjunction goal;
   task::Metric metric;
   /// It is indexed by number: nothing else asks for it, and it is never assigned.

@@ -103,7 +103,8 @@ ConstantFunctions::ConstantFunctions(const pddl::Problem& problem, const std::ve
     define(function, objects, initial.value);
   }
   const auto total_cost = symbols.total_cost();
-  if (total_cost && constant_[*total_cost] && !tuples_.find(total_cost->value, {})) define(*total_cost, {}, 0);
+  if (total_cost && constant_[*total_cost] && !tuples_.find(total_cost->value, {}))
+    define(*total_cost, {}, 0);
 }
 
 void ConstantFunctions::load_external(FunctionSource& source, const std::function<bool()>& cancelled,

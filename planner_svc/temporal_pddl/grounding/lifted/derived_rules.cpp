@@ -11,7 +11,7 @@ namespace roci::planner::temporal_pddl::grounding::lifted {
 
 namespace {
 
-constexpr std::size_t kMaxCopied = 1'000'000;  // conditions, for the alternatives of one body
+constexpr std::size_t kMaxCopied = 250'000;  // conditions, for the alternatives of one body
 
 // Splits bodies into rules.
 class Splitter {
@@ -69,10 +69,11 @@ class Splitter {
   }
 
   [[noreturn]] void refuse(const DerivedRule& rule) const {
-    throw ModelFailure(temporal::Verdict::unsupported,
-                       pddl::Diagnostic{domain_.file, rule.rule.where,
-                                        "derived predicate " + rule.rule.name + " has too many combinations of alternatives",
-                                        "give a part of its body a derived predicate of its own"});
+    throw ModelFailure(
+        temporal::Verdict::unsupported,
+        pddl::Diagnostic{domain_.file, rule.rule.where,
+                         "derived predicate " + rule.rule.name + " has too many combinations of alternatives",
+                         "give a part of its body a derived predicate of its own"});
   }
 
   // Quantifiers side by side may use one name; the second of them stays where it is.

@@ -108,9 +108,8 @@ class DefinedNumbers {
 }  // namespace
 
 std::vector<UndefinedNumber> require_values(GroundModel& model, Symbols& symbols) {
-  const bool all_defined = std::ranges::none_of(model.initial_numbers, [](double value) {
-    return std::isnan(value);
-  });
+  const bool all_defined =
+      std::ranges::none_of(model.initial_numbers, [](double value) { return std::isnan(value); });
   return all_defined ? std::vector<UndefinedNumber>() : DefinedNumbers(model, symbols).run();
 }
 

@@ -6,8 +6,8 @@
 namespace roci::planner::temporal_pddl::testing {
 
 using call::Budget, call::Monitor, call::Options, call::SearchLimits;
-using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionSource,
-    engine::FunctionValue, engine::NoFunctions;
+using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionSource, engine::FunctionValue,
+    engine::NoFunctions;
 using grounding::ground;
 using grounding::Grounding;
 using task::ActionId, task::FactId, task::NumberId, task::Task;

@@ -27,8 +27,7 @@ constexpr const char* kVan = R"((:requirements :typing :durative-actions :numeri
 constexpr const char* kTwoVans = "(:objects v w - van a b - place)";
 
 TEST(UndefinedNumbers, WhatChangesOneWaitsForAnAssignment) {
-  const auto model =
-      testing::model(kVan, std::string(kTwoVans) + "(:init (at v a)) (:goal (at v b))");
+  const auto model = testing::model(kVan, std::string(kTwoVans) + "(:init (at v a)) (:goal (at v b))");
   const Result result = testing::solved(model);
   testing::expect_valid(model, result);
   ASSERT_EQ(result.plan->activities.size(), 2u);
@@ -49,7 +48,8 @@ TEST(UndefinedNumbers, TheVerdictAndAWarningNameTheFunctionAndTheMissingLine) {
   EXPECT_THAT(result.reason, HasSubstr("(go v ? b) reads (fuel v), which has no value"));
   EXPECT_THAT(result.reason, HasSubstr("(= (fuel v) …)"));
   EXPECT_THAT(result.reason, Not(HasSubstr("nan")));
-  EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("problem.pddl:1:1: warning: (fuel v) has no initial value")));
+  EXPECT_THAT(result.warnings,
+              ElementsAre(HasSubstr("problem.pddl:1:1: warning: (fuel v) has no initial value")));
   EXPECT_THAT(result.warnings.front(), HasSubstr("(add (= (fuel v) …) to :init)"));
 }
 
@@ -123,7 +123,8 @@ TEST_P(RandomUndefinedNumbers, EveryPlanIsValidAndNoSwitchChangesTheVerdict) {
     EXPECT_FALSE(result.verdict == Verdict::solved && other.verdict == Verdict::unsolvable) << other.reason;
     EXPECT_FALSE(other.verdict == Verdict::solved && result.verdict == Verdict::unsolvable) << result.reason;
     solved += result.verdict == Verdict::solved;
-    asked += !result.warnings.empty() || (result.plan && testing::number(testing::grounded(model).task, "(x)").index() == 0);
+    asked += !result.warnings.empty() ||
+             (result.plan && testing::number(testing::grounded(model).task, "(x)").index() == 0);
   }
   EXPECT_GT(solved, 20u);
   EXPECT_GT(asked, 20u);
