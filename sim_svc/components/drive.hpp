@@ -30,6 +30,7 @@ class Drive final : public world::Component, public world::Mobility {
   Drive(DriveSettings, world::RandomStream noise);
 
   std::vector<world::CommandForm> commands() const override { return {{"drive", {"to", "x", "y"}}}; }
+  std::vector<world::StateForm> state_forms() const override { return {{"idle-at", 1}, {"going-to", 1}}; }
   /// Returns idle-at (place) or going-to (place).
   temporal::State state() const override;
   bool busy() const override { return target_.has_value(); }

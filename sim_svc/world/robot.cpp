@@ -177,6 +177,14 @@ void Robot::break_component(const std::string& component, Time until, Time now, 
   break_off(*one, TaskStage::failed, {"fault", "the component broke down"}, now, environment, out);
 }
 
+void Robot::slow_component(const std::string& component, double pace, Time until, Time now,
+                           Environment& environment, Outputs& out) {
+  Part* one = part(component);
+  if (!one) return;
+  Surroundings surroundings = around(environment, out);
+  one->component->slow_down(pace, until, now, surroundings);
+}
+
 void Robot::ground_changed(Time now, Environment& environment, Outputs& out) {
   Surroundings surroundings = around(environment, out);
   for (Part& one : parts_) one.component->ground_changed(now, surroundings);

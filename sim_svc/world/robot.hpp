@@ -99,6 +99,8 @@ class Robot {
   void finish_due(temporal::Time now, Environment&, Outputs& out);
   void break_component(const std::string& component, temporal::Time until, temporal::Time now, Environment&,
                        Outputs& out);
+  void slow_component(const std::string& component, double pace, temporal::Time until, temporal::Time now,
+                      Environment&, Outputs& out);
   void ground_changed(temporal::Time now, Environment&, Outputs& out);
   void lose_energy(double joules);
 

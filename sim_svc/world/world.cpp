@@ -108,7 +108,10 @@ Outputs World::disturb(Time now, const Disturbance& disturbance) {
   advance_to(now);
   settle(now);
   if (const auto* fault = std::get_if<ComponentFault>(&disturbance)) {
-    if (Robot* one = robot(fault->robot)) {
+    Robot* one = robot(fault->robot);
+    if (one && fault->pace) {
+      one->slow_component(fault->component, *fault->pace, fault->until, now, environment_, out_);
+    } else if (one) {
       one->break_component(fault->component, fault->until, now, environment_, out_);
     }
   } else if (const auto* fall = std::get_if<RockFall>(&disturbance)) {
