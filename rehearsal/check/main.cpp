@@ -61,11 +61,12 @@ void print(const check::CheckReport& report, const fs::path& mission) {
   for (const check::UnplannedKind& one : report.plans.not_tried)
     std::cout << "goal kind '" << one.kind << "' was not planned: " << one.why << "\n";
   const std::size_t count = report.findings.size();
+  const bool planned = !report.plans.planned.empty() || !report.plans.not_tried.empty();
   std::cout << mission.filename().string() << ": "
             << counted(report.scenarios.size(), "scenario", "scenarios") << " read, "
             << counted(report.plans.planned.size(), "goal kind", "goal kinds") << " planned, "
             << (count == 0 ? "nothing found" : counted(count, "finding", "findings"))
-            << (count == 0 ? "" : "; goals are planned when nothing else is wrong") << "\n";
+            << (planned || count == 0 ? "" : "; goals are planned when nothing else is wrong") << "\n";
 }
 
 }  // namespace

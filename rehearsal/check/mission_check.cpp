@@ -43,6 +43,22 @@ bool is_linked(const mission::ServiceEntry& entry) {
          std::ranges::find(programs(), entry.program, &Program::name) != programs().end();
 }
 
+// A program that is none of ours must stand beside roci-launch.
+void check_programs(const CheckedMission& mission) {
+  std::vector<std::string> known;
+  for (const Program& one : programs()) known.push_back(one.name);
+  std::error_code error;
+  const auto bin = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  mission.file.at("services").each([&](const Entry& entry) {
+    const Entry program = entry.find("program").value_or(entry.at("name"));
+    const std::string name = program.text();
+    if (name.find('/') != std::string::npos || contains(known, name) ||
+        std::filesystem::exists(bin / name, error))
+      return;
+    program.fail("there is no program '" + name + "' beside roci-launch; " + instead_of(name, known));
+  });
+}
+
 void read_executives(CheckedMission& out, Findings& findings) {
   for (const mission::ServiceEntry* entry : out.services.of_program("exec_svc")) {
     note(findings, [&] {
@@ -97,8 +113,11 @@ void plan_goals(const CheckedMission& mission, const std::vector<std::string>& s
   AskedOwners owners(mission.folder, mission.services, scenarios.empty() ? "nominal" : scenarios.front(),
                      out.findings);
   if (out.findings.size() > 0) return;
+  for (const CheckedExecutive& executive : mission.executives)
+    check_functions(mission, executive, owners, out.findings);
+  if (out.findings.size() > 0) return;
   for (const CheckedExecutive& executive : mission.executives) {
-    DryPlans plans = dry_plan(mission, executive, owners);
+    DryPlans plans = dry_plan(mission, executive, owners, out.findings);
     std::ranges::move(plans.planned, std::back_inserter(out.plans.planned));
     std::ranges::move(plans.not_tried, std::back_inserter(out.plans.not_tried));
   }
@@ -115,6 +134,7 @@ CheckReport check_mission(const std::filesystem::path& folder, const std::string
   CheckedMission mission{folder, *file, {}, {}, {}, {}};
   note(out.findings, [&] { mission.services = mission::read_service_list(*file); });
   if (mission.services.services.empty()) return out;
+  note(out.findings, [&] { check_programs(mission); });
   mission.closed = std::ranges::all_of(mission.services.services, is_linked);
   const mission::ServiceEntry* master = mission.services.clock_master();
   const bool simulated = master != nullptr && program_of(*master) == kSimulator;
