@@ -24,7 +24,7 @@ class BadWell : public ::testing::Test {
     for (const char* file : {"mission.yaml", "domain.pddl"})
       fs::copy_file(fs::path(ROCI_SOURCE_DIR "/tests/missions/well") / file, folder / file);
     std::ofstream(folder / "scenarios/nominal.yaml") << "duration_s: 100\n"
-                                                        "start: {x: 40, y: 40, battery: 260000}\n"
+                                                        "start: {x: 40, y: 40, battery: 310000}\n"
                                                         "expect: [plan.adoptde]\n";
   }
   ~BadWell() override { fs::remove_all(folder); }
@@ -44,7 +44,7 @@ TEST_F(BadWell, EndsWithOneAndAllFindings) {
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_THAT(
       ended.output,
-      AllOf(HasSubstr("scenarios/nominal.yaml:2:32: error: the battery would begin with 260000 J"),
+      AllOf(HasSubstr("scenarios/nominal.yaml:2:32: error: the battery would begin with 310000 J"),
             HasSubstr("scenarios/nominal.yaml:3:10: error: no service tells of an event 'plan.adoptde'\n"
                       "    did you mean 'plan.adopted'?\n"),
             HasSubstr("2 findings")));
