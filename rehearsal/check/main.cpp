@@ -22,7 +22,7 @@ const char* to_string(Severity severity) { return severity == Severity::error ? 
 // As seen from the working folder, if it lies below.
 std::string short_name(const std::string& file) {
   if (file.empty()) return file;
-  const fs::path near = fs::path(file).lexically_proximate(fs::current_path());
+  const fs::path near = fs::path(file).lexically_normal().lexically_proximate(fs::current_path());
   return near.empty() || *near.begin() == ".." ? file : near.string();
 }
 
@@ -92,7 +92,8 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? kNothingFound : kBadInput;
   }
   try {
-    const fs::path mission = roci::services::process::mission_folder(name);
+    fs::path mission = roci::services::process::mission_folder(name);
+    if (!mission.has_filename()) mission = mission.parent_path();  // "." ends in a slash
     const check::CheckReport report = check::check_mission(mission, scenario);
     if (json) {
       std::cout << as_json(report, mission).dump() << "\n";
