@@ -6,7 +6,9 @@
 
 #include "core/mission/nearest_word.hpp"
 #include "core/pddl/check.hpp"
+#include "core/pddl/overloaded.hpp"
 #include "core/pddl/types.hpp"
+#include "exec_svc/mission/goal_kind_entries.hpp"
 #include "exec_svc/mission/template_text.hpp"
 
 namespace roci::exec::mission {
@@ -28,20 +30,25 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
   return out;
 }
 
+void require_symbol(const Entry& entry, const std::string& name, std::size_t arguments,
+                    const std::vector<pddl::Signature>& symbols, const std::string& what) {
+  const auto symbol = std::ranges::find(symbols, name, &pddl::Signature::name);
+  if (symbol == symbols.end()) {
+    entry.fail("the domain has no " + what + " '" + name +
+               "'; it has: " + known_names(name, names_of(symbols)));
+  }
+  if (symbol->parameters.size() != arguments) {
+    entry.fail("'" + name + "' has " + std::to_string(symbol->parameters.size()) +
+               " arguments in the domain, not " + std::to_string(arguments));
+  }
+}
+
 // "(at ?1)": the first word is one of the symbols, the others are its arguments.
 void require_symbol(const Entry& entry, const std::string& text, const std::vector<pddl::Signature>& symbols,
                     const std::string& what) {
   const auto words = words_of(text);
   if (words.empty()) entry.fail("expected a " + what + ", e.g. \"(at home)\"");
-  const auto symbol = std::ranges::find(symbols, words.front(), &pddl::Signature::name);
-  if (symbol == symbols.end()) {
-    entry.fail("the domain has no " + what + " '" + words.front() +
-               "'; it has: " + known_names(words.front(), names_of(symbols)));
-  }
-  if (symbol->parameters.size() != words.size() - 1) {
-    entry.fail("'" + words.front() + "' has " + std::to_string(symbol->parameters.size()) +
-               " arguments in the domain, not " + std::to_string(words.size() - 1));
-  }
+  require_symbol(entry, words.front(), words.size() - 1, symbols, what);
 }
 
 class NameCheck {
@@ -63,6 +70,11 @@ class NameCheck {
     if (!list) return;
     list->each(
         [&](const Entry& fact) { require_symbol(fact, fact.text(), domain_.predicates, "predicate"); });
+  }
+  void goals(const Entry& kind) const {
+    const auto list = kind.find("goal");
+    if (!list) return;
+    list->each([&](const Entry& goal) { formula(goal, read_goal(goal, kind)); });
   }
   void fact(const Entry& parent, const char* key) const {
     if (const auto entry = parent.find(key))
@@ -95,7 +107,7 @@ class NameCheck {
     kinds->each_field([&](const std::string&, const Entry& kind) {
       objects(kind);
       facts(kind, "facts");
-      facts(kind, "goal");
+      goals(kind);
       fact(kind, "window");
       if (const auto unobserved = kind.find("unobserved"))
         unobserved->each([&](const Entry& item) { facts(item, "facts"); });
@@ -119,6 +131,45 @@ class NameCheck {
   }
 
  private:
+  void formulas(const Entry& goal, const std::vector<pddl::Condition>& parts) const {
+    for (const pddl::Condition& part : parts) formula(goal, part);
+  }
+  void formula(const Entry& goal, const pddl::Condition& condition) const {
+    std::visit(pddl::Overloaded{
+                   [&](const pddl::Atom& fact) {
+                     require_symbol(goal, fact.symbol, fact.arguments.size(), domain_.predicates,
+                                    "predicate");
+                   },
+                   [&](const pddl::And& all) { formulas(goal, all.parts); },
+                   [&](const pddl::Or& any) { formulas(goal, any.parts); },
+                   [&](const pddl::Not& negated) { formula(goal, *negated.body); },
+                   [&](const pddl::Imply& imply) {
+                     formula(goal, *imply.premise);
+                     formula(goal, *imply.conclusion);
+                   },
+                   [&](const pddl::Forall& all) { formula(goal, *all.body); },
+                   [&](const pddl::Exists& some) { formula(goal, *some.body); },
+                   [&](const pddl::TermEquality&) {},
+                   [&](const pddl::Comparison& comparison) {
+                     number(goal, comparison.left);
+                     number(goal, comparison.right);
+                   },
+               },
+               condition.node);
+  }
+  void number(const Entry& goal, const pddl::Expression& expression) const {
+    if (const auto* sum = std::get_if<pddl::Arithmetic>(&expression.node))
+      for (const pddl::Expression& operand : sum->operands) number(goal, operand);
+    const auto* fluent = std::get_if<pddl::Atom>(&expression.node);
+    if (fluent == nullptr) return;
+    for (const pddl::Module& module : domain_.modules)
+      if (std::ranges::find(module.functions, fluent->symbol, &pddl::Signature::name) !=
+          module.functions.end())
+        goal.fail("nobody observes '" + fluent->symbol + "', a function of module '" + module.name +
+                  "'; compare a fluent of the domain instead");
+    require_symbol(goal, fluent->symbol, fluent->arguments.size(), domain_.functions, "function");
+  }
+
   const pddl::Domain& domain_;
   pddl::TypeTree types_;
 };

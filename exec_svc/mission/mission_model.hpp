@@ -93,8 +93,10 @@ struct GoalKind {
   std::string window_fact;  ///< empty: the kind has no window
   /// Achieved when it holds; empty: when all of `goal` are observed.
   temporal::Condition achieved;
-  /// The PDDL goal; empty: the facts that the states of `achieved` stand for.
+  /// The PDDL goal: all of these conditions, mostly facts. It is what `achieved` stands for where the kind names none.
   std::vector<std::string> goal;
+  /// Some of `goal` is no fact that is observed by itself, but derived, negated, an alternative or about numbers.
+  bool formula = false;
 };
 
 /// What an action of the plan means as a command. Argument values may hold ?1, ?2.x (a property of that

@@ -46,6 +46,8 @@ class Arm final : public world::Component, public world::Manipulator, public wor
   bool moves() const override { return next_change().has_value(); }
   /// Returns the joints as q0, q1, …
   std::vector<world::NamedNumber> numbers() const override;
+  world::Memory memory() const override;
+  void restore(const world::Memory&) override;
 
  private:
   void rest(std::string pose);

@@ -51,6 +51,8 @@ class Drive final : public world::Component, public world::Mobility {
   bool moves() const override { return next_change().has_value(); }
   /// Returns as `detours` how many rocks the drive went around.
   std::map<std::string, temporal::Value> results() const override { return {{"detours", last_detours_}}; }
+  world::Memory memory() const override;
+  void restore(const world::Memory&) override;
 
  private:
   struct Target {

@@ -56,6 +56,8 @@ class Gripper final : public world::Component,
   double peak_power_w() const override { return busy() ? settings_.power_w : 0; }
   /// Returns in-place (place), held or dropped (place) as sample.<name>, for each sample that it touched.
   std::vector<world::NamedState> states() const override;
+  world::Memory memory() const override;
+  void restore(const world::Memory&) override;
 
  private:
   struct Work {

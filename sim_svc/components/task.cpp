@@ -193,4 +193,21 @@ std::map<std::string, temporal::Value> TaskComponent::results() const {
   return out;
 }
 
+// A colon parts the names of numbers, which are the mission's, from the state's.
+world::Memory TaskComponent::memory() const {
+  world::Memory out{{"state", run_ ? run_->stopped : state_}};
+  for (std::size_t i = 0; i < values_.size(); ++i) out["number:" + settings_.numbers[i].name] = values_[i];
+  return out;
+}
+
+void TaskComponent::restore(const world::Memory& memory) {
+  const auto kept = memory.find("state");
+  if (const auto* state = kept == memory.end() ? nullptr : std::get_if<State>(&kept->second)) state_ = *state;
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const auto number = memory.find("number:" + settings_.numbers[i].name);
+    const auto* value = number == memory.end() ? nullptr : std::get_if<double>(&number->second);
+    if (value) values_[i] = *value;
+  }
+}
+
 }  // namespace roci::sim::components

@@ -83,6 +83,8 @@ class TaskComponent final : public world::Component {
   std::vector<world::NamedState> states() const override;
   /// Returns the component's numbers, as the task left them.
   std::map<std::string, temporal::Value> results() const override;
+  world::Memory memory() const override;
+  void restore(const world::Memory&) override;
 
  private:
   struct Run {

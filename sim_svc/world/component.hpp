@@ -59,6 +59,9 @@ struct NamedNumber {
   double resolution = 1e-3;
 };
 
+/// Is what of a component outlives the process that speaks for it, by names of its own.
+using Memory = std::map<std::string, temporal::Value>;
+
 /// Says what the robot asks of each of its parts. begin() is called only while it is not busy; next_change()
 /// and finish() only matter while it is. Between calls everything is a function of time, so that results do
 /// not depend on how the world is sliced. `stop` needs no code: the robot halts the component.
@@ -110,6 +113,12 @@ class Component {
   virtual bool moves() const { return false; }
   /// Returns named values of the task that finish() has just ended.
   virtual std::map<std::string, temporal::Value> results() const { return {}; }
+
+  /// Returns how the component would stand if its task were broken off now.
+  virtual Memory memory() const { return {}; }
+  /// Takes up what memory() returned in an earlier process, before the first task. Names that it does not know, and values
+  /// that it cannot use, change nothing.
+  virtual void restore(const Memory&) {}
 };
 
 }  // namespace roci::sim::world

@@ -56,6 +56,19 @@ bool World::runs(const TaskKey& key) const {
   return std::any_of(robots_.begin(), robots_.end(), [&](const Robot& one) { return one.runs(key); });
 }
 
+WorldMemory World::memory() const {
+  WorldMemory out{now_, {}, environment_.samples};
+  for (const Robot& one : robots_) out.robots[one.name()] = one.memory();
+  return out;
+}
+
+void World::restore(const WorldMemory& memory) {
+  now_ = memory.at;
+  environment_.samples = memory.samples;
+  for (Robot& one : robots_)
+    if (const auto own = memory.robots.find(one.name()); own != memory.robots.end()) one.restore(own->second, memory.at);
+}
+
 Outputs World::advance(Time now) {
   advance_to(now);
   return std::exchange(out_, {});

@@ -45,6 +45,7 @@ TEST_F(Installed, FliesFromAFolderThatWasMoved) {
   EXPECT_FALSE(fs::exists(folder / "first/bin/roci-bench-limited")) << "a tool of the benches";
 
   fs::rename(folder / "first", folder / "moved");
+  expect_a_users_services_to_fly(folder / "moved");
   if (!may_hide_the_source()) GTEST_SKIP() << "this user cannot hide the source folder (unshare -rm)";
   expect_to_fly_from(folder / "moved");
 }
