@@ -65,8 +65,22 @@ void add_with_named(const GoalRequest& goal, const std::vector<GoalRequest>& all
   out.push_back(goal);
 }
 
+// The example of a kind that no scenario asks for, if it names no other goal.
+std::optional<GoalRequest> example_of(const mission::Entry& entry, const MissionModel& model,
+                                      const GoalKind& kind) {
+  GoalRequest out;
+  out.key = {"ground", "check"};
+  out.robot = model.role.robot;
+  out.kind = kind.name;
+  if (const auto example = entry.find("example"))
+    for (const auto& [name, value] : example->fields()) out.arguments[name] = value.text();
+  for (const auto& [name, type] : kind.arguments)
+    if (type == exec::mission::ArgumentKind::goal || !out.arguments.contains(name)) return std::nullopt;
+  return out;
+}
+
 std::vector<Candidate> candidates(const CheckedMission& mission, const MissionModel& model,
-                                  const GoalKind& kind) {
+                                  const GoalKind& kind, const mission::Entry& entry) {
   std::vector<Candidate> out;
   const CheckedScenario* any = nullptr;
   for (const CheckedScenario& scenario : mission.scenarios) {
@@ -78,13 +92,8 @@ std::vector<Candidate> candidates(const CheckedMission& mission, const MissionMo
       add_with_named(goal, all, model, candidate.goals);
     }
   }
-  if (out.empty() && any != nullptr && kind.arguments.empty()) {
-    GoalRequest goal;
-    goal.key = {"ground", "check"};
-    goal.robot = model.role.robot;
-    goal.kind = kind.name;
-    out.push_back({any, {std::move(goal)}});
-  }
+  if (!out.empty() || any == nullptr) return out;
+  if (auto example = example_of(entry, model, kind)) out.push_back({any, {std::move(*example)}});
   return out;
 }
 
@@ -194,8 +203,9 @@ DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executi
       out.not_tried.push_back({name, why});
       continue;
     }
-    const auto tries = candidates(mission, model, kind);
-    if (tries.empty()) out.not_tried.push_back({name, "no scenario asks for one"});
+    const auto tries = candidates(mission, model, kind, kinds->at(name));
+    if (tries.empty())
+      out.not_tried.push_back({name, "no scenario asks for one, and it has no example of its own"});
     std::optional<Answer> first;
     for (std::size_t i = 0; i < std::min(kTries, tries.size()); ++i) {
       Answer answer = planned(model, tries[i], owners);

@@ -84,7 +84,8 @@ int main(int argc, char** argv) {
   app.add_option("--scenario", scenario, "Read this scenario alone (default: all)");
   app.add_flag("--json", json, "One JSON object instead of lines");
   app.footer(
-      "Exit code: 0 nothing found, 1 findings, 2 wrong command line or no such mission, 3 a defect of this "
+      "Exit code: 0 no error found (warnings may be), 1 errors, 2 wrong command line or no such mission, 3 a "
+      "defect of this "
       "program.");
   try {
     app.parse(argc, argv);
@@ -100,7 +101,7 @@ int main(int argc, char** argv) {
     } else {
       print(report, mission);
     }
-    return report.findings.size() == 0 ? kNothingFound : kFound;
+    return report.findings.errors() == 0 ? kNothingFound : kFound;
   } catch (const roci::mission::FileError& error) {
     std::cerr << "roci-check: " << error.what() << "\n";
     return kBadInput;

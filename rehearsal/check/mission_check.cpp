@@ -8,6 +8,7 @@
 #include "core/mission/mission_file.hpp"
 #include "core/mission/nearest_word.hpp"
 #include "core/mission/scenario.hpp"
+#include "core/pddl/ast.hpp"
 #include "rehearsal/check/action_check.hpp"
 #include "rehearsal/check/component_check.hpp"
 #include "rehearsal/check/goal_kind_check.hpp"
@@ -85,6 +86,16 @@ void read_scenario(CheckedMission& mission, const std::string& name, bool simula
   });
 }
 
+// What was read with a warning.
+void note_warnings(const CheckedMission& mission, Findings& findings) {
+  for (const CheckedExecutive& executive : mission.executives) {
+    if (!executive.model.domain) continue;
+    for (const pddl::Diagnostic& one : executive.model.domain->warnings)
+      findings.add(
+          {one.file, one.where.line, one.where.column, mission::Severity::warning, one.message, one.remedy});
+  }
+}
+
 void check_science(const CheckedMission& mission) {
   if (mission.services.of_program("science_svc").empty()) return;
   const auto section = mission.file.find("science");
@@ -112,10 +123,10 @@ void check_names(const CheckedMission& mission, Findings& findings) {
 void plan_goals(const CheckedMission& mission, const std::vector<std::string>& scenarios, CheckReport& out) {
   AskedOwners owners(mission.folder, mission.services, scenarios.empty() ? "nominal" : scenarios.front(),
                      out.findings);
-  if (out.findings.size() > 0) return;
+  if (out.findings.errors() > 0) return;
   for (const CheckedExecutive& executive : mission.executives)
     check_functions(mission, executive, owners, out.findings);
-  if (out.findings.size() > 0) return;
+  if (out.findings.errors() > 0) return;
   for (const CheckedExecutive& executive : mission.executives) {
     DryPlans plans = dry_plan(mission, executive, owners, out.findings);
     std::ranges::move(plans.planned, std::back_inserter(out.plans.planned));
@@ -148,8 +159,9 @@ CheckReport check_mission(const std::filesystem::path& folder, const std::string
   if (simulated && !mission.scenarios.empty())
     mission.world = simulated_world(mission.scenarios.front().run, master->name);
   read_executives(mission, out.findings);
+  note_warnings(mission, out.findings);
   check_names(mission, out.findings);
-  if (out.findings.size() == 0) plan_goals(mission, out.scenarios, out);
+  if (out.findings.errors() == 0) plan_goals(mission, out.scenarios, out);
   return out;
 }
 

@@ -263,13 +263,40 @@ TEST(MissionCheck, AServiceOfTheMissionFindsAFaultInItsOwnFile) {
   EXPECT_THAT(report.findings.all().front().text(), HasSubstr("poses.yaml:" + std::to_string(line)));
 }
 
-TEST(MissionCheck, ADomainThatCannotBeReadIsOneFindingAndNoDoubtOfTheRest) {
+TEST(MissionCheck, AllFaultsOfADomainAreFindingsAndNoDoubtOfTheRest) {
   const CopiedMission copy(kPlanetary);
-  const int line = copy.edit("domain.pddl", "(over all (arm-at stow))", "(over all (arm-ta stow))");
+  const int first = copy.edit("domain.pddl", "(over all (arm-at stow))", "(over all (arm-ta stow))");
+  const int second = copy.edit("domain.pddl", "(at start (holding ?s))", "(at start (hodling ?s))");
+  const CheckReport report = check_mission(copy.folder());
+  const auto found = report.findings.sorted();
+  ASSERT_EQ(found.size(), 2U) << ::testing::PrintToString(printed(report));
+  EXPECT_EQ(found[0].line, first);
+  EXPECT_EQ(found[1].line, second);
+  for (const auto& one : found) EXPECT_EQ(fs::path(one.file).filename(), "domain.pddl");
+  EXPECT_THAT(found[1].remedy, HasSubstr("holding"));
+}
+
+TEST(MissionCheck, WhatIsReadWithAWarningIsTold) {
+  const CopiedMission copy(kPlanetary);
+  const int line = copy.edit("domain.pddl", "(camera-idle)\n", "(camera-idle),\n");
   const CheckReport report = check_mission(copy.folder());
   ASSERT_EQ(report.findings.size(), 1U) << ::testing::PrintToString(printed(report));
+  EXPECT_EQ(report.findings.errors(), 0U);
   EXPECT_EQ(report.findings.all().front().line, line);
-  EXPECT_THAT(report.findings.all().front().file, HasSubstr("domain.pddl"));
+  EXPECT_EQ(report.plans.planned.size(), 3U) << "it can be flown";
+}
+
+TEST(MissionCheck, AGoalKindThatNoScenarioAsksForIsPlannedByItsExample) {
+  const CopiedMission copy(kPlanetary);
+  fs::remove_all(copy.folder() / "scenarios");
+  fs::create_directory(copy.folder() / "scenarios");
+  std::ofstream(copy.folder() / "scenarios/nominal.yaml")
+      << "duration_s: 100\nstart: {x: 40, y: 40, heading: 0, arm: stow, battery: 900000}\n";
+  const CheckReport report = check_mission(copy.folder());
+  EXPECT_THAT(printed(report), IsEmpty());
+  EXPECT_EQ(report.plans.planned.size(), 2U);
+  ASSERT_EQ(report.plans.not_tried.size(), 1U);
+  EXPECT_EQ(report.plans.not_tried.front().kind, "drop_sample") << "its example names another goal";
 }
 
 }  // namespace
