@@ -32,10 +32,13 @@ Finding finding_of(const std::string& text, Severity severity = Severity::error)
 class Findings {
  public:
   void add(Finding);
-  /// Notes the text of a FileError.
-  void add(const std::string& text, Severity severity = Severity::error) { add(finding_of(text, severity)); }
+  /// Notes the text of a FileError: one finding for each line that begins with a place. Lines "place: error: what
+  /// (remedy)" and "place: warning: …", as core/pddl writes them, say their own severity.
+  void add(const std::string& text, Severity severity = Severity::error);
   const std::vector<Finding>& all() const { return all_; }
   std::size_t size() const { return all_.size(); }
+  /// Returns how many are errors.
+  std::size_t errors() const;
   /// Returns them by file, line and column.
   std::vector<Finding> sorted() const;
 

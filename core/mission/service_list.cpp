@@ -53,7 +53,7 @@ void read_robot(const Entry& entry, const std::vector<std::string>& robots, Serv
 void require_file(const Entry& entry, const std::filesystem::path& file, const char* what) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
-    entry.complain(std::string("there is no ") + what + " " + file.string());
+    entry.complain(std::string("there is no ") + what + " " + file.string() + "; correct the name, or put it there");
 }
 
 ServiceEntry read_service(const Entry& entry, const std::vector<std::string>& robots) {

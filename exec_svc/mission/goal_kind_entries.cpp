@@ -151,7 +151,7 @@ GoalKind read_goal_kind(const std::string& name, const Entry& entry, const Missi
     out.goal = entry.at("goal").texts();
     if (out.goal.empty()) entry.at("goal").fail("a goal kind needs at least one goal fact");
     for (const Entry& item : entry.at("goal").items())
-      if (!is_observed_fact(read_goal(item, entry), *mission.domain)) out.formula = true;
+      if (mission.domain && !is_observed_fact(read_goal(item, entry), *mission.domain)) out.formula = true;
   } else {
     out.goal = facts_of(entry.at("achieved"), out.achieved, mission);
   }

@@ -59,7 +59,9 @@ AskedOwners::AskedOwners(const std::filesystem::path& mission, const mission::Se
   self.name = "roci-check";
   node_ = node_of(live(node_options(mission, self, 0)), domain_);
   services::subscribe(*node_, services::topics::function_offer, [this](const v1::FunctionOffer& offer) {
-    if (!contains(offered_, offer.module_name())) offered_.push_back(offer.module_name());
+    auto& functions = offered_[offer.module_name()];
+    for (const v1::FunctionSignature& function : offer.functions())
+      if (!contains(functions, function.name())) functions.push_back(function.name());
   });
   owners_ = std::make_unique<planner::FunctionOwners>(*node_, temporal::seconds(kBatchTimeoutS));
   for (Seat& one : seats_) one.thread = std::thread([&node = *one.node] { node.run(); });
@@ -90,9 +92,16 @@ void AskedOwners::seat(const std::filesystem::path& mission, const mission::Serv
 }
 
 void AskedOwners::await_offer(const std::string& module_name) {
+  if (!awaited_.insert(module_name).second) return;
   const auto begun = services::clock::wall_now();
-  while (!contains(offered_, module_name) && services::clock::wall_now() - begun < kPatience)
+  while (!offered_.contains(module_name) && services::clock::wall_now() - begun < kPatience)
     node_->spin_once(kTurn);
+}
+
+const std::map<std::string, std::vector<std::string>>& AskedOwners::offered(
+    const std::vector<std::string>& modules) {
+  for (const std::string& module_name : modules) await_offer(module_name);
+  return offered_;
 }
 
 std::vector<FunctionValue> AskedOwners::evaluate(std::span<const FunctionCall> calls,

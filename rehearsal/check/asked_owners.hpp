@@ -1,7 +1,9 @@
 // The mission's own services in this process, asked for function values as the planner would ask them.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -27,6 +29,8 @@ class AskedOwners final : public planner::engine::FunctionSource {
   AskedOwners(const AskedOwners&) = delete;
   AskedOwners& operator=(const AskedOwners&) = delete;
 
+  /// The functions that are offered, by module, once those of these modules are or they were awaited in vain.
+  const std::map<std::string, std::vector<std::string>>& offered(const std::vector<std::string>& modules);
   /// The call that the next values are wanted for: its robot and objects go to the owners.
   void begin(const planner::engine::Request& request) { request_ = &request; }
   std::vector<planner::engine::FunctionValue> evaluate(std::span<const planner::engine::FunctionCall> calls,
@@ -47,7 +51,8 @@ class AskedOwners final : public planner::engine::FunctionSource {
   int domain_;
   std::vector<Seat> seats_;
   std::unique_ptr<services::Node> node_;
-  std::vector<std::string> offered_;  // modules
+  std::map<std::string, std::vector<std::string>> offered_;  // module → its functions
+  std::set<std::string> awaited_;                            // modules
   std::unique_ptr<planner::FunctionOwners> owners_;
   const planner::engine::Request* request_ = nullptr;
 };

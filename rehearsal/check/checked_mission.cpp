@@ -34,6 +34,8 @@ std::vector<std::string> CheckedMission::windows() const {
 KnownTimelines::KnownTimelines(const CheckedMission& mission, const CheckedExecutive& executive)
     : mission_(mission), robot_(executive.model.role.robot), names_(mission.world.timelines) {
   for (const SimulatedFamily& family : mission.world.families) prefixes_.push_back(family.prefix);
+  for (const SimulatedComponent& component : mission.world.components)
+    if (!component.known) prefixes_.push_back(component.timeline() + ".");  // numbers of its own, perhaps
   for (const exec::mission::Component& component : executive.model.components) {
     if (component.owner == mission.world.service) continue;
     names_.push_back(component.timeline);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/mission/nearest_word.hpp"
 #include "core/pddl/ast.hpp"
 #include "exec_svc/beliefs/beliefs.hpp"
 #include "exec_svc/mission/template_text.hpp"
@@ -13,6 +14,7 @@
 #include "planner_svc/engine/checked_answer.hpp"
 #include "planner_svc/engines.hpp"
 #include "rehearsal/check/scenario_check.hpp"
+#include "rehearsal/check/words.hpp"
 #include "services/clock/wall.hpp"
 #include "sim_svc/world/world.hpp"
 
@@ -63,8 +65,22 @@ void add_with_named(const GoalRequest& goal, const std::vector<GoalRequest>& all
   out.push_back(goal);
 }
 
+// The example of a kind that no scenario asks for, if it names no other goal.
+std::optional<GoalRequest> example_of(const mission::Entry& entry, const MissionModel& model,
+                                      const GoalKind& kind) {
+  GoalRequest out;
+  out.key = {"ground", "check"};
+  out.robot = model.role.robot;
+  out.kind = kind.name;
+  if (const auto example = entry.find("example"))
+    for (const auto& [name, value] : example->fields()) out.arguments[name] = value.text();
+  for (const auto& [name, type] : kind.arguments)
+    if (type == exec::mission::ArgumentKind::goal || !out.arguments.contains(name)) return std::nullopt;
+  return out;
+}
+
 std::vector<Candidate> candidates(const CheckedMission& mission, const MissionModel& model,
-                                  const GoalKind& kind) {
+                                  const GoalKind& kind, const mission::Entry& entry) {
   std::vector<Candidate> out;
   const CheckedScenario* any = nullptr;
   for (const CheckedScenario& scenario : mission.scenarios) {
@@ -76,13 +92,8 @@ std::vector<Candidate> candidates(const CheckedMission& mission, const MissionMo
       add_with_named(goal, all, model, candidate.goals);
     }
   }
-  if (out.empty() && any != nullptr && kind.arguments.empty()) {
-    GoalRequest goal;
-    goal.key = {"ground", "check"};
-    goal.robot = model.role.robot;
-    goal.kind = kind.name;
-    out.push_back({any, {std::move(goal)}});
-  }
+  if (!out.empty() || any == nullptr) return out;
+  if (auto example = example_of(entry, model, kind)) out.push_back({any, {std::move(*example)}});
   return out;
 }
 
@@ -150,15 +161,18 @@ Answer planned(const MissionModel& model, const Candidate& candidate, AskedOwner
   return answer_checked(planner::engines(), request, limits, owners);
 }
 
-// What stands in the way, at the kind's entry.
-void tell(const mission::Entry& kind, const std::string& name, const Candidate& candidate,
-          const Answer& answer) {
-  std::string reason = answer.reason;
-  for (std::size_t at = reason.find("; "); at != std::string::npos; at = reason.find("; ", at))
-    reason.replace(at, 2, ", ");
-  kind.complain("no plan achieves a goal of kind '" + name + "' (goal '" + candidate.goals.back().key.id +
-                "' of scenario '" + candidate.scenario->name + "'): " + to_string(answer.verdict) + ", " +
-                reason + "; check its facts, the domain's actions, the place, and the scenario's start");
+// What stands in the way, at the kind's entry. A budget that is spent proves nothing.
+mission::Finding obstacle(const mission::Entry& kind, const std::string& name, const Candidate& candidate,
+                          const Answer& answer) {
+  const bool spent = answer.verdict == Verdict::timeout || answer.verdict == Verdict::out_of_memory;
+  mission::Finding out =
+      mission::finding_of(kind.place() + ": ", spent ? mission::Severity::warning : mission::Severity::error);
+  out.what = "no plan achieves a goal of kind '" + name + "' (goal '" + candidate.goals.back().key.id +
+             "' of scenario '" + candidate.scenario->name + "'): " + to_string(answer.verdict) + ": " +
+             answer.reason;
+  out.remedy = spent ? "raise planner.budget, or make the goal easier"
+                     : "check its facts, the domain's actions, the place, and the scenario's start";
+  return out;
 }
 
 std::string why_not_tried(const CheckedMission& mission, const MissionModel& model) {
@@ -178,7 +192,8 @@ std::string why_no_functions(const CheckedMission& mission, const MissionModel& 
 
 }  // namespace
 
-DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners) {
+DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners,
+                  mission::Findings& findings) {
   DryPlans out;
   const MissionModel& model = executive.model;
   const auto kinds = executive.file.find("goal_kinds");
@@ -188,8 +203,9 @@ DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executi
       out.not_tried.push_back({name, why});
       continue;
     }
-    const auto tries = candidates(mission, model, kind);
-    if (tries.empty()) out.not_tried.push_back({name, "no scenario asks for one"});
+    const auto tries = candidates(mission, model, kind, kinds->at(name));
+    if (tries.empty())
+      out.not_tried.push_back({name, "no scenario asks for one, and it has no example of its own"});
     std::optional<Answer> first;
     for (std::size_t i = 0; i < std::min(kTries, tries.size()); ++i) {
       Answer answer = planned(model, tries[i], owners);
@@ -205,10 +221,38 @@ DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executi
     if (std::string unasked = why_no_functions(mission, model, *first); !unasked.empty()) {
       out.not_tried.push_back({name, std::move(unasked)});
     } else {
-      tell(kinds->at(name), name, tries.front(), *first);
+      findings.add(obstacle(kinds->at(name), name, tries.front(), *first));
     }
   }
   return out;
+}
+
+void check_functions(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners,
+                     mission::Findings& findings) {
+  if (!executive.model.domain) return;
+  const pddl::Domain& domain = *executive.model.domain;
+  std::vector<std::string> modules;
+  for (const pddl::Module& one : domain.modules) modules.push_back(one.name);
+  const auto& offered = owners.offered(modules);
+  std::vector<std::string> known;
+  for (const auto& [name, functions] : offered) known.push_back(name);
+  const auto add = [&](const pddl::SourceLocation& where, const std::string& what, const std::string& word,
+                       const std::vector<std::string>& words) {
+    if (!mission.closed && mission::nearest_word(word, words).empty()) return;
+    findings.add(
+        {domain.file, where.line, where.column, mission::Severity::error, what, instead_of(word, words)});
+  };
+  for (const pddl::Module& one : domain.modules) {
+    const auto functions = offered.find(one.name);
+    if (functions == offered.end()) {
+      add(one.where, "no service of the mission offers module '" + one.name + "'", one.name, known);
+      continue;
+    }
+    for (const pddl::Signature& function : one.functions)
+      if (!contains(functions->second, function.name))
+        add(function.where, "module '" + one.name + "' offers no function '" + function.name + "'",
+            function.name, functions->second);
+  }
 }
 
 }  // namespace roci::rehearsal::check

@@ -33,6 +33,12 @@ struct DryPlans {
 /// windows do not count. A component that is not simulated is taken to be in its first inactive state. A
 /// kind of which none can be planned is a finding at its entry in the mission file. Goal kinds of missions whose
 /// engine or world is not linked here are not tried.
-DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners);
+DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners,
+                  mission::Findings& findings);
+
+/// Finds modules and external functions of the domain that no service of the mission offers. Where programs of the
+/// mission's own could offer them, only names that are nearly an offered one are findings.
+void check_functions(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners,
+                     mission::Findings& findings);
 
 }  // namespace roci::rehearsal::check

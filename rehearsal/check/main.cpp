@@ -22,7 +22,7 @@ const char* to_string(Severity severity) { return severity == Severity::error ? 
 // As seen from the working folder, if it lies below.
 std::string short_name(const std::string& file) {
   if (file.empty()) return file;
-  const fs::path near = fs::path(file).lexically_proximate(fs::current_path());
+  const fs::path near = fs::path(file).lexically_normal().lexically_proximate(fs::current_path());
   return near.empty() || *near.begin() == ".." ? file : near.string();
 }
 
@@ -61,11 +61,12 @@ void print(const check::CheckReport& report, const fs::path& mission) {
   for (const check::UnplannedKind& one : report.plans.not_tried)
     std::cout << "goal kind '" << one.kind << "' was not planned: " << one.why << "\n";
   const std::size_t count = report.findings.size();
+  const bool planned = !report.plans.planned.empty() || !report.plans.not_tried.empty();
   std::cout << mission.filename().string() << ": "
             << counted(report.scenarios.size(), "scenario", "scenarios") << " read, "
             << counted(report.plans.planned.size(), "goal kind", "goal kinds") << " planned, "
             << (count == 0 ? "nothing found" : counted(count, "finding", "findings"))
-            << (count == 0 ? "" : "; goals are planned when nothing else is wrong") << "\n";
+            << (planned || count == 0 ? "" : "; goals are planned when nothing else is wrong") << "\n";
 }
 
 }  // namespace
@@ -83,7 +84,8 @@ int main(int argc, char** argv) {
   app.add_option("--scenario", scenario, "Read this scenario alone (default: all)");
   app.add_flag("--json", json, "One JSON object instead of lines");
   app.footer(
-      "Exit code: 0 nothing found, 1 findings, 2 wrong command line or no such mission, 3 a defect of this "
+      "Exit code: 0 no error found (warnings may be), 1 errors, 2 wrong command line or no such mission, 3 a "
+      "defect of this "
       "program.");
   try {
     app.parse(argc, argv);
@@ -91,14 +93,15 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? kNothingFound : kBadInput;
   }
   try {
-    const fs::path mission = roci::services::process::mission_folder(name);
+    fs::path mission = roci::services::process::mission_folder(name);
+    if (!mission.has_filename()) mission = mission.parent_path();  // "." ends in a slash
     const check::CheckReport report = check::check_mission(mission, scenario);
     if (json) {
       std::cout << as_json(report, mission).dump() << "\n";
     } else {
       print(report, mission);
     }
-    return report.findings.size() == 0 ? kNothingFound : kFound;
+    return report.findings.errors() == 0 ? kNothingFound : kFound;
   } catch (const roci::mission::FileError& error) {
     std::cerr << "roci-check: " << error.what() << "\n";
     return kBadInput;

@@ -8,6 +8,7 @@
 #include "core/mission/mission_file.hpp"
 #include "core/mission/nearest_word.hpp"
 #include "core/mission/scenario.hpp"
+#include "core/pddl/ast.hpp"
 #include "rehearsal/check/action_check.hpp"
 #include "rehearsal/check/component_check.hpp"
 #include "rehearsal/check/goal_kind_check.hpp"
@@ -43,6 +44,22 @@ bool is_linked(const mission::ServiceEntry& entry) {
          std::ranges::find(programs(), entry.program, &Program::name) != programs().end();
 }
 
+// A program that is none of ours must stand beside roci-launch.
+void check_programs(const CheckedMission& mission) {
+  std::vector<std::string> known;
+  for (const Program& one : programs()) known.push_back(one.name);
+  std::error_code error;
+  const auto bin = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  mission.file.at("services").each([&](const Entry& entry) {
+    const Entry program = entry.find("program").value_or(entry.at("name"));
+    const std::string name = program.text();
+    if (name.find('/') != std::string::npos || contains(known, name) ||
+        std::filesystem::exists(bin / name, error))
+      return;
+    program.fail("there is no program '" + name + "' beside roci-launch; " + instead_of(name, known));
+  });
+}
+
 void read_executives(CheckedMission& out, Findings& findings) {
   for (const mission::ServiceEntry* entry : out.services.of_program("exec_svc")) {
     note(findings, [&] {
@@ -67,6 +84,16 @@ void read_scenario(CheckedMission& mission, const std::string& name, bool simula
     scenario.sound = findings.size() == before;
     mission.scenarios.push_back(std::move(scenario));
   });
+}
+
+// What was read with a warning.
+void note_warnings(const CheckedMission& mission, Findings& findings) {
+  for (const CheckedExecutive& executive : mission.executives) {
+    if (!executive.model.domain) continue;
+    for (const pddl::Diagnostic& one : executive.model.domain->warnings)
+      findings.add(
+          {one.file, one.where.line, one.where.column, mission::Severity::warning, one.message, one.remedy});
+  }
 }
 
 void check_science(const CheckedMission& mission) {
@@ -96,9 +123,12 @@ void check_names(const CheckedMission& mission, Findings& findings) {
 void plan_goals(const CheckedMission& mission, const std::vector<std::string>& scenarios, CheckReport& out) {
   AskedOwners owners(mission.folder, mission.services, scenarios.empty() ? "nominal" : scenarios.front(),
                      out.findings);
-  if (out.findings.size() > 0) return;
+  if (out.findings.errors() > 0) return;
+  for (const CheckedExecutive& executive : mission.executives)
+    check_functions(mission, executive, owners, out.findings);
+  if (out.findings.errors() > 0) return;
   for (const CheckedExecutive& executive : mission.executives) {
-    DryPlans plans = dry_plan(mission, executive, owners);
+    DryPlans plans = dry_plan(mission, executive, owners, out.findings);
     std::ranges::move(plans.planned, std::back_inserter(out.plans.planned));
     std::ranges::move(plans.not_tried, std::back_inserter(out.plans.not_tried));
   }
@@ -115,6 +145,7 @@ CheckReport check_mission(const std::filesystem::path& folder, const std::string
   CheckedMission mission{folder, *file, {}, {}, {}, {}};
   note(out.findings, [&] { mission.services = mission::read_service_list(*file); });
   if (mission.services.services.empty()) return out;
+  note(out.findings, [&] { check_programs(mission); });
   mission.closed = std::ranges::all_of(mission.services.services, is_linked);
   const mission::ServiceEntry* master = mission.services.clock_master();
   const bool simulated = master != nullptr && program_of(*master) == kSimulator;
@@ -128,8 +159,9 @@ CheckReport check_mission(const std::filesystem::path& folder, const std::string
   if (simulated && !mission.scenarios.empty())
     mission.world = simulated_world(mission.scenarios.front().run, master->name);
   read_executives(mission, out.findings);
+  note_warnings(mission, out.findings);
   check_names(mission, out.findings);
-  if (out.findings.size() == 0) plan_goals(mission, out.scenarios, out);
+  if (out.findings.errors() == 0) plan_goals(mission, out.scenarios, out);
   return out;
 }
 

@@ -23,11 +23,13 @@ Start read_robot_start(const Entry& entry, const RobotEntry& robot) {
   for (const auto& component : robot.components) known.insert(component.name);
   setup::refuse_unknown_keys(entry, known);
   Start out;
-  if (robot.on_ground || entry.find("x") || entry.find("y")) {
+  entry.attempt([&] {
+    if (!robot.on_ground && !entry.find("x") && !entry.find("y")) return;
     out.pose = {entry.at("x").number(), entry.at("y").number(), entry.number_or("heading", 0)};
     out.pose_entry = entry;
-  }
-  if (robot.power) {
+  });
+  entry.attempt([&] {
+    if (!robot.power) return;
     const Entry battery = entry.at("battery");
     out.battery_j = at_least(battery, 0);
     if (*out.battery_j > robot.power->capacity_j) {
@@ -35,7 +37,7 @@ Start read_robot_start(const Entry& entry, const RobotEntry& robot) {
                        std::to_string(std::llround(robot.power->capacity_j)) +
                        " J; lower it, or raise the robot's capacity_j");
     }
-  }
+  });
   if (const auto battery = entry.find("battery"); battery && !robot.power) {
     battery->complain("'" + robot.name +
                       "' has no battery; drop it, or give the robot power in mission.yaml");

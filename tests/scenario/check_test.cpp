@@ -21,10 +21,15 @@ class BadWell : public ::testing::Test {
  protected:
   BadWell() {
     fs::create_directories(folder / "scenarios");
-    for (const char* file : {"mission.yaml", "domain.pddl"})
-      fs::copy_file(fs::path(ROCI_SOURCE_DIR "/tests/missions/well") / file, folder / file);
+    fs::copy_file(ROCI_SOURCE_DIR "/tests/missions/well/domain.pddl", folder / "domain.pddl");
+    std::ifstream in(ROCI_SOURCE_DIR "/tests/missions/well/mission.yaml");
+    std::ofstream out(folder / "mission.yaml");
+    for (std::string line; std::getline(in, line);)
+      out << (line.starts_with("site:") ? "site: " ROCI_SOURCE_DIR "/missions/planetary/site/site.yaml"
+                                        : line)
+          << "\n";
     std::ofstream(folder / "scenarios/nominal.yaml") << "duration_s: 100\n"
-                                                        "start: {x: 40, y: 40, battery: 260000}\n"
+                                                        "start: {x: 40, y: 40, battery: 310000}\n"
                                                         "expect: [plan.adoptde]\n";
   }
   ~BadWell() override { fs::remove_all(folder); }
@@ -44,10 +49,10 @@ TEST_F(BadWell, EndsWithOneAndAllFindings) {
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_THAT(
       ended.output,
-      AllOf(HasSubstr("scenarios/nominal.yaml:2:32: error: the battery would begin with 260000 J"),
+      AllOf(HasSubstr("scenarios/nominal.yaml:2:32: error: the battery would begin with 310000 J"),
             HasSubstr("scenarios/nominal.yaml:3:10: error: no service tells of an event 'plan.adoptde'\n"
                       "    did you mean 'plan.adopted'?\n"),
-            HasSubstr("2 findings")));
+            HasSubstr("well: 1 scenario read, 0 goal kinds planned, 2 findings")));
 }
 
 TEST_F(BadWell, IsToldAsJson) {

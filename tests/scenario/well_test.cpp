@@ -6,7 +6,8 @@
 
 #include <filesystem>
 #include <fstream>
-#include <map>
+#include <string>
+#include <vector>
 
 #include "tests/scenario/flight.hpp"
 
@@ -25,11 +26,14 @@ class Well : public ::testing::Test {
                "--scenario " + scenario + " --run-folder " + folder_.string());
   }
 
-  // How often each kind of deed was done (effects.jsonl).
-  std::map<std::string, int> deeds() const {
-    std::map<std::string, int> out;
+  // When each deed of this kind was done, in seconds (effects.jsonl).
+  std::vector<double> times_of(const std::string& kind) const {
+    std::vector<double> out;
     std::ifstream in(folder_ / "effects.jsonl");
-    for (std::string line; std::getline(in, line);) ++out[json::parse(line).value("kind", "")];
+    for (std::string line; std::getline(in, line);) {
+      const json deed = json::parse(line);
+      if (deed.value("kind", "") == kind) out.push_back(deed.value("time_us", 0.0) / 1e6);
+    }
     return out;
   }
 
@@ -41,15 +45,19 @@ TEST_F(Well, BoresAndChargesByData) {
   const Flight flight = launch("nominal", "mixed");
   ASSERT_EQ(flight.exit_code, 0) << flight.summary.dump();
   EXPECT_EQ(flight.summary["expected"].value("fault", "no report"), "");
-  EXPECT_EQ(deeds()["bore"], 2);
-  EXPECT_GE(deeds()["charge"], 1);
+  EXPECT_EQ(times_of("bore").size(), 2U);
+  EXPECT_EQ(times_of("charge").size(), 1U) << "the energy does not suffice for both";
+  ASSERT_EQ(times_of("motion").size(), 2U);
+  EXPECT_LT(times_of("motion")[1], 900);
 }
 
 TEST_F(Well, BoresWithADrillThatIsStuckSlowAndOutOfOrder) {
   const Flight flight = launch("bad_drill", "cyclonedds");
   ASSERT_EQ(flight.exit_code, 0) << flight.summary.dump();
   EXPECT_EQ(flight.summary["expected"].value("fault", "no report"), "");
-  EXPECT_GT(deeds()["bore"], 2) << "one was begun in vain";
+  EXPECT_EQ(times_of("bore").size(), 3U) << "the second was begun in vain";
+  ASSERT_GE(times_of("motion").size(), 2U);
+  EXPECT_GT(times_of("motion")[1], 1000) << "stuck for 300 s and slow for 200 s, the first hole took longer";
 }
 
 }  // namespace

@@ -48,11 +48,10 @@
 
   (:durative-action charge
     :parameters (?l - location)
-    :duration (= ?duration 1500)
+    :duration (= ?duration 700)
     :condition (and
       (at start (blanket-rolled))
-      (over all (at ?l))
-      (at start (<= (battery) 100000)))
+      (over all (at ?l)))
     :effect (and
       (at start (not (blanket-rolled)))
       (at end (blanket-rolled))

@@ -32,7 +32,7 @@ std::vector<std::string> printed(const CheckReport& report) {
   return out;
 }
 
-// A copy of a mission; what is large in it is linked.
+// A copy of a mission with those of its scenarios that are broken here; what is large in it is linked.
 class CopiedMission {
  public:
   explicit CopiedMission(const fs::path& mission)
@@ -48,6 +48,8 @@ class CopiedMission {
         fs::copy(entry.path(), to, fs::copy_options::recursive);
       }
     }
+    for (const char* name : {"battery_low", "blocked_window", "map_changes", "opportunistic"})
+      fs::remove(folder_ / "scenarios" / (std::string(name) + ".yaml"));
   }
   ~CopiedMission() { fs::remove_all(folder_.parent_path()); }
 
@@ -128,6 +130,8 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{kMission, "owner: sim_svc\n    fallback: stop\n    states:\n      idle-pose",
              "owner: sim_scv\n    fallback: stop\n    states:\n      idle-pose", "no service 'sim_scv'",
              "did you mean 'sim_svc'?"},
+        Slip{kMission, "- {name: arm_svc,", "- {name: arm_scv,", "there is no program 'arm_scv'",
+             "did you mean 'arm_svc'?"},
         Slip{kMission, "drive: {owner: sim_svc", "drive: {owner: sim_scv", "no service 'sim_scv'",
              "did you mean 'sim_svc'?"},
         Slip{kMission, "{name: arm_svc, robot: rover}", "{name: arm_svc, robot: rovre}", "no robot 'rovre'",
@@ -190,6 +194,8 @@ INSTANTIATE_TEST_SUITE_P(
                            "{di} stands here", "did you mean 'id'?"},
                       Slip{kMission, "goal_kind: photo", "goal_kind: phtoo", "no goal kind 'phtoo'",
                            "did you mean 'photo'?"},
+                      Slip{"domain.pddl", "(:module pathplan", "(:module pathpaln",
+                           "no service of the mission offers module 'pathpaln'", "did you mean 'pathplan'?"},
                       Slip{"domain.pddl", "(at end (sent ?i))", "(at end (have-image ?i))",
                            "no plan achieves a goal of kind 'photo' (goal 'ridge' of scenario 'nominal')",
                            "check", "    help: take an image"}));
@@ -251,19 +257,46 @@ TEST(MissionCheck, AllFindingsAreListedInTheOrderOfTheFiles) {
 // What the mission's files hold for other services is read by these services themselves.
 TEST(MissionCheck, AServiceOfTheMissionFindsAFaultInItsOwnFile) {
   const CopiedMission copy(kPlanetary);
-  const int line = copy.edit("arm/poses.yaml", "tip: scoop_tip", "tip: scop_tip");
+  const int line = copy.edit("arm/poses.yaml", "margin: 0.01", "magrin: 0.01");
   const CheckReport report = check_mission(copy.folder());
   ASSERT_EQ(report.findings.size(), 1U) << ::testing::PrintToString(printed(report));
   EXPECT_THAT(report.findings.all().front().text(), HasSubstr("poses.yaml:" + std::to_string(line)));
 }
 
-TEST(MissionCheck, ADomainThatCannotBeReadIsOneFindingAndNoDoubtOfTheRest) {
+TEST(MissionCheck, AllFaultsOfADomainAreFindingsAndNoDoubtOfTheRest) {
   const CopiedMission copy(kPlanetary);
-  const int line = copy.edit("domain.pddl", "(over all (arm-at stow))", "(over all (arm-ta stow))");
+  const int first = copy.edit("domain.pddl", "(over all (arm-at stow))", "(over all (arm-ta stow))");
+  const int second = copy.edit("domain.pddl", "(at start (holding ?s))", "(at start (hodling ?s))");
+  const CheckReport report = check_mission(copy.folder());
+  const auto found = report.findings.sorted();
+  ASSERT_EQ(found.size(), 2U) << ::testing::PrintToString(printed(report));
+  EXPECT_EQ(found[0].line, first);
+  EXPECT_EQ(found[1].line, second);
+  for (const auto& one : found) EXPECT_EQ(fs::path(one.file).filename(), "domain.pddl");
+  EXPECT_THAT(found[1].remedy, HasSubstr("holding"));
+}
+
+TEST(MissionCheck, WhatIsReadWithAWarningIsTold) {
+  const CopiedMission copy(kPlanetary);
+  const int line = copy.edit("domain.pddl", "(camera-idle)\n", "(camera-idle),\n");
   const CheckReport report = check_mission(copy.folder());
   ASSERT_EQ(report.findings.size(), 1U) << ::testing::PrintToString(printed(report));
+  EXPECT_EQ(report.findings.errors(), 0U);
   EXPECT_EQ(report.findings.all().front().line, line);
-  EXPECT_THAT(report.findings.all().front().file, HasSubstr("domain.pddl"));
+  EXPECT_EQ(report.plans.planned.size(), 3U) << "it can be flown";
+}
+
+TEST(MissionCheck, AGoalKindThatNoScenarioAsksForIsPlannedByItsExample) {
+  const CopiedMission copy(kPlanetary);
+  fs::remove_all(copy.folder() / "scenarios");
+  fs::create_directory(copy.folder() / "scenarios");
+  std::ofstream(copy.folder() / "scenarios/nominal.yaml")
+      << "duration_s: 100\nstart: {x: 40, y: 40, heading: 0, arm: stow, battery: 900000}\n";
+  const CheckReport report = check_mission(copy.folder());
+  EXPECT_THAT(printed(report), IsEmpty());
+  EXPECT_EQ(report.plans.planned.size(), 2U);
+  ASSERT_EQ(report.plans.not_tried.size(), 1U);
+  EXPECT_EQ(report.plans.not_tried.front().kind, "drop_sample") << "its example names another goal";
 }
 
 }  // namespace

@@ -53,6 +53,24 @@ TEST(Findings, AreKeptOnceAndSortedByPlace) {
   EXPECT_THAT(texts, ElementsAre("first", "second", "later"));
 }
 
+TEST(Findings, AreOneForEachPlaceInWhatAReaderOfPddlSays) {
+  Findings all;
+  all.add(
+      "d.pddl:3:4: error: unknown type 'lcoation' (did you mean 'location'? else declare it (in :types))\n"
+      "d.pddl:9:1: warning: a comma (leave it out)\n"
+      "and 3 more");
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all.all()[0].what, "unknown type 'lcoation'");
+  EXPECT_EQ(all.all()[0].remedy, "did you mean 'location'? else declare it (in :types)");
+  EXPECT_EQ(all.all()[1].line, 9);
+  EXPECT_EQ(all.all()[1].severity, Severity::warning);
+  EXPECT_THAT(all.all()[1].what, HasSubstr("a comma"));
+  Findings one;
+  one.add("m.yaml:1:1: it names no services; add for example\n  services:\n    - {name: a}");
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_EQ(one.all()[0].remedy, "add for example\n  services:\n    - {name: a}");
+}
+
 class CollectedFile : public ::testing::Test {
  protected:
   CollectedFile() {
