@@ -110,7 +110,7 @@ void require_robot(const Entry& entry, const std::string& text) {
 std::vector<ObjectModel> read_objects(const Entry& parent, bool has_domain) {
   std::vector<ObjectModel> out;
   if (const auto list = parent.find("objects")) {
-    for (const Entry& item : list->items()) out.push_back(read_object(item, has_domain));
+    list->each([&](const Entry& item) { out.push_back(read_object(item, has_domain)); });
   }
   return out;
 }

@@ -21,6 +21,9 @@
 namespace roci::pddl {
 struct Domain;
 }
+namespace roci::mission {
+class Findings;
+}
 
 namespace roci::exec::mission {
 
@@ -190,7 +193,9 @@ std::set<std::string> owners_of(const MissionModel& mission);
 
 /// Reads a mission file (or the mission.yaml of a folder) for one of its executives. In names of timelines
 /// {robot} is the executive's robot; components of other robots are left out. Throws roci::mission::FileError
-/// naming file, line, column and remedy.
-MissionModel read_mission(const std::filesystem::path& folder_or_file, const ExecutiveRole& role = {});
+/// naming file, line, column and remedy; with `findings` it notes all faults there, and what is returned lacks the
+/// parts that could not be read.
+MissionModel read_mission(const std::filesystem::path& folder_or_file, const ExecutiveRole& role = {},
+                          roci::mission::Findings* findings = nullptr);
 
 }  // namespace roci::exec::mission

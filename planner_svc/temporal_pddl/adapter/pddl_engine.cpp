@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/pddl/check.hpp"
 #include "core/pddl/function_table.hpp"
-#include "core/pddl/parser.hpp"
 #include "core/pddl/plan_text.hpp"
 #include "planner_svc/temporal_pddl/adapter/owners_verdicts.hpp"
 #include "planner_svc/temporal_pddl/extraction/flexible_plan_export.hpp"
@@ -89,8 +89,8 @@ std::vector<BlockingGoal> blocking_goals(const std::vector<BlockedFact>& blocked
 
 Answer plan_for(const Request& request, const Limits& limits, FunctionSource& functions,
                 const std::vector<pddl::PlanStep>& remaining, std::vector<FunctionUse>& used) {
-  const pddl::Domain domain = pddl::parse_domain(request.model, "domain");
-  const pddl::Problem problem = pddl::parse_problem(request.problem_text, "problem");
+  const pddl::Domain domain = pddl::load_domain(request.model, "domain");
+  const pddl::Problem problem = pddl::load_problem(request.problem_text, "problem", domain);
   Budget budget;
   if (request.work != 0) budget.evaluations = request.work;
   if (request.memory_bytes != 0) budget.memory_bytes = request.memory_bytes;
@@ -102,6 +102,8 @@ Answer plan_for(const Request& request, const Limits& limits, FunctionSource& fu
   const std::vector<NamedGoal> goals = named_goals(request.goals);
   Result result = temporal_pddl::plan(domain, problem, functions, budget, monitor, options, remaining, goals);
   Answer out;
+  for (const auto* warnings : {&domain.warnings, &problem.warnings})
+    for (const pddl::Diagnostic& warning : *warnings) out.warnings.push_back(pddl::to_string(warning));
   out.verdict = result.verdict;
   out.reason = std::move(result.reason);
   out.statistics.expanded = result.statistics.expanded;
@@ -125,7 +127,8 @@ Answer PddlEngine::answer(const Request& request, const Limits& limits, Function
   try {
     out = plan_for(request, limits, functions, remaining, used);
   } catch (const pddl::ParseError& error) {
-    out = engine::without_plan(Verdict::invalid_input, error.what());
+    out = engine::without_plan(error.unsupported() ? Verdict::unsupported : Verdict::invalid_input,
+                               error.what());
   } catch (const std::bad_alloc&) {
     out = engine::without_plan(Verdict::out_of_memory,
                                "memory ran out outside the search; give the call a larger budget");
