@@ -99,10 +99,11 @@ void PlanningCycle::take_reply(Time now, const PlanReply& reply) {
 void PlanningCycle::adopt(Time now, const PlanReply& reply) {
   call_->clear_failures();
   call_->note_fresh();
-  if (!reply.plan.activities.empty())
+  if (!reply.plan.activities.empty()) {
     planned_without_activities_.clear();
-  else if (give_up_unseen())
+  } else if (give_up_unseen()) {
     return begin(now);
+  }
   temporal::FlexiblePlan plan = reply.plan;
   plan.origin = call_->request().origin;
   std::vector<PlannedAction> planned;  // what is left of a plan is told as PDDL actions

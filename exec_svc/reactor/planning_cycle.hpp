@@ -60,8 +60,8 @@ class PlanningCycle {
   PlannerCall* call_;
   Safing* safing_;
   Relaxation relaxed_;  ///< in the newest call
-  std::vector<goals::GoalKey>
-      planned_without_activities_;  ///< in the newest plan: no goal, unless it has no activities
+  /// The goals of the newest plan if that has no activities.
+  std::vector<goals::GoalKey> planned_without_activities_;
 };
 
 }  // namespace roci::exec::reactor

@@ -247,9 +247,9 @@ int main(int argc, char** argv) {
       app, line, "events", "What happens, as it happens",
       [](lib::Client& client, const Line& l) { return cli::follow_events(client, l.count, l.json); });
   events->add_option("--count", line.count, "End after so many events");
-  CLI::App* watching =
-      add_verb(app, line, "watch", "Live view of the mission in the terminal; waits for one to run",
-               [](lib::Client& client, const Line& l) { return cli::watch::watch(client, l.json); });
+  CLI::App* watching = add_verb(
+      app, line, "watch", "Live view of the mission in the terminal; waits for one to run",
+      [](lib::Client& client, const Line& l) { return cli::watch::watch(client, l.launcher != 0, l.json); });
   watching->preparse_callback([&line](std::size_t) { line.waits = true; });
   events->add_option("--launcher", line.launcher, "Join the run of this roci-launch, by its process id");
   watching->add_option("--launcher", line.launcher, "Join the run of this roci-launch, by its process id");
@@ -265,6 +265,7 @@ int main(int argc, char** argv) {
     lib::Client client(line.waits && line.launcher == 0 ? lib::wait_for_run(line.connection, tell_waiting)
                                                         : lib::choose_run(line.connection, line.launcher));
     client.look_at(line.executive);
+    client.watch_launcher(line.launcher);
     return line.verb(client, line);
   } catch (const std::invalid_argument& error) {
     std::cerr << "roci: " << error.what() << "\n";

@@ -35,9 +35,9 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return out;
 }
 
-std::string arguments_of(const v1::PlanActivity& activity) {
+std::string arguments_text(const v1::PlanActivity& activity) {
   std::vector<std::string> words;
-  for (const v1::Property& argument : activity.arguments())
+  for (const v1::Property& argument : arguments_of(activity))
     words.push_back(argument.name().empty() ||
                             std::isdigit(static_cast<unsigned char>(argument.name()[0])) != 0
                         ? argument.value()
@@ -64,6 +64,11 @@ std::string duration_of(const v1::PlanActivity& activity) {
 
 }  // namespace
 
+const std::vector<v1::Property>& arguments_of(const v1::PlanActivity& activity) {
+  const bool own = !activity.arguments().empty() || activity.commands().empty();
+  return own ? activity.arguments() : activity.commands().front().arguments();
+}
+
 std::int64_t planned_start_us(const v1::Plan& plan, const v1::PlanActivity& activity) {
   return start_in(schedule_of(plan), plan, activity);
 }
@@ -81,7 +86,7 @@ std::string plan_table(const lib::MissionView& view) {
   for (const v1::PlanActivity* activity : order) {
     const v1::StepStatus* step = view.step(activity->id());
     const std::int64_t start = start_in(schedule, plan, *activity);
-    rows.push_back({activity->id(), activity->name(), arguments_of(*activity),
+    rows.push_back({activity->id(), activity->name(), arguments_text(*activity),
                     step == nullptr ? "waiting" : lib::name_of(step->state()),
                     start < 0 ? "" : lib::clock_text(start), duration_of(*activity), window_of(step),
                     executed_of(step), joined(activity->goals_served(), ", ")});

@@ -1,7 +1,9 @@
 // The running plan as a table: what, with which arguments, when, and for which goals.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "ground_console/lib/mission_view.hpp"
 
@@ -11,6 +13,9 @@ namespace roci::console::cli {
 /// plan came with and its least duration, `window` when it may start as things stand, `executed` when it did start and end.
 /// "no plan yet" without a plan.
 std::string plan_table(const lib::MissionView& view);
+
+/// The arguments of the action, else those of its first command.
+const std::vector<v1::Property>& arguments_of(const v1::PlanActivity& activity);
 
 /// Mission time in microseconds at which an activity starts in the plan's schedule of earliest times; -1 without one.
 std::int64_t planned_start_us(const v1::Plan& plan, const v1::PlanActivity& activity);

@@ -119,7 +119,7 @@ json plan_json(const lib::MissionView& view) {
                {"planned_start_us", planned_start_us(*view.plan(), activity)},
                {"duration_us", activity.duration_lower_us()},
                {"arguments", json::object()}};
-    for (const v1::Property& argument : activity.arguments())
+    for (const v1::Property& argument : arguments_of(activity))
       entry["arguments"][argument.name()] = argument.value();
     if (const v1::StepStatus* step = view.step(activity.id())) {
       entry["state"] = lib::name_of(step->state());

@@ -90,6 +90,7 @@ std::string timelines_table(const Timelines& timelines, const MissionWords& word
   using temporal::ProjectionKind;
   std::vector<std::vector<std::string>> rows{
       {"TIMELINE", "NOW", "SINCE", "PLANNED LAST", "PROJECTED LAST", "UNIT"}};
+  std::vector<std::vector<std::string>> of_the_plan;  // facts that nobody has seen yet
   for (const auto& [name, changes] : timelines) {
     const temporal::ProjectedChange* last[3]{};  // by kind
     const auto slot = [](ProjectionKind kind) {
@@ -102,9 +103,11 @@ std::string timelines_table(const Timelines& timelines, const MissionWords& word
     const auto at = [&](int kind) {
       return last[kind] == nullptr ? "" : value(kind) + " at " + lib::clock_text(last[kind]->time.count());
     };
-    rows.push_back({name, value(0), last[0] == nullptr ? "" : lib::clock_text(last[0]->time.count()), at(1),
+    auto& part = last[0] == nullptr ? of_the_plan : rows;
+    part.push_back({name, value(0), last[0] == nullptr ? "" : lib::clock_text(last[0]->time.count()), at(1),
                     at(2), words.unit_of(name)});
   }
+  rows.insert(rows.end(), of_the_plan.begin(), of_the_plan.end());
   return table_text(rows);
 }
 

@@ -24,7 +24,7 @@ nlohmann::json timelines_json(const lib::MissionView& view, const Timelines& tim
 /// A block of lines for each timeline: time, value with its unit, kind, activity.
 std::string timelines_text(const Timelines& timelines, const MissionWords& words = {});
 /// A row for each timeline, once: its newest executed value and when it came about, the last one planned, and the last one
-/// projected, with its unit.
+/// projected, with its unit. What was observed comes first.
 std::string timelines_table(const Timelines& timelines, const MissionWords& words);
 
 }  // namespace roci::console::cli

@@ -189,7 +189,7 @@ int show_timelines(lib::Client& client, const std::vector<std::string>& names, c
 
 int follow_events(lib::Client& client, std::size_t count, bool as_json) {
   std::uint64_t printed = 0;
-  const auto ended = [&] { return client.view().ended(); };
+  const auto ended = [&] { return client.over(); };
   for (bool last = false; !last;) {
     last = client.wait([&] { return client.view().events_seen() > printed || ended(); },
                        std::chrono::hours(24)) &&

@@ -18,8 +18,9 @@ enum ExitCode {
   kBadUsage = 2,
   kNoMission = 3,
   kNotAchieved = 4,  ///< goal add --wait: dropped, failed or recalled
-  kStillOpen =
-      5,  ///< goal add --wait: the mission ended, or nothing was heard of it, before the goal had its end
+  /// goal add --wait: the mission ended, or nothing was heard of it, before the goal had its end. watch --launcher: the view
+  /// was closed before the mission ended.
+  kStillOpen = 5,
 };
 
 struct GoalArguments {

@@ -36,6 +36,15 @@ std::string described(const services::process::RunRecord& run) {
          run.scenario + ", " + run.dds + ")";
 }
 
+// Also of a child that nobody has waited for: its record is gone, and it will never have another.
+bool has_ended(std::int64_t pid) {
+  std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  if (!std::getline(stat, text)) return true;
+  const std::size_t name_end = text.rfind(')');
+  return name_end == std::string::npos || text.substr(name_end + 2, 1) == "Z";
+}
+
 }  // namespace
 
 services::process::Connection choose_run(const services::process::ConnectionFlags& flags,
@@ -83,19 +92,6 @@ std::optional<services::process::RunRecord> local_run(const services::process::C
   return runs.front();
 }
 
-namespace {
-
-// Also of a child that nobody has waited for: its record is gone, and it will never have another.
-bool has_ended(std::int64_t pid) {
-  std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
-  std::string text;
-  if (!std::getline(stat, text)) return true;
-  const std::size_t name_end = text.rfind(')');
-  return name_end == std::string::npos || text.substr(name_end + 2, 1) == "Z";
-}
-
-}  // namespace
-
 bool wait_for_launcher(std::int64_t pid) {
   for (; !has_ended(pid); std::this_thread::sleep_for(milliseconds(100))) {
     const auto runs = services::process::find_runs(services::process::runtime_folder());
@@ -141,6 +137,8 @@ template <class T>
 void Client::follow(const services::Topic<T>& topic) {
   services::subscribe(node_, topic, [this](const T& value) { view_.take(value); });
 }
+
+bool Client::over() const { return view_.ended() || (launcher_ != 0 && has_ended(launcher_)); }
 
 bool Client::wait(const std::function<bool()>& done, milliseconds limit) {
   const auto end = services::clock::wall_now() + limit;

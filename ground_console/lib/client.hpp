@@ -46,6 +46,11 @@ class Client {
   /// Whose mission, plan and steps the view shows (MissionView::look_at).
   void look_at(const std::string& executive) { view_.look_at(executive); }
 
+  /// The run is the one of this launcher: it is over, too, when that process has ended.
+  void watch_launcher(std::int64_t pid) { launcher_ = pid; }
+  /// Every mission that is looked at has its outcome, or the launcher is gone.
+  bool over() const;
+
   /// Handles what comes until `done` or for at most `limit` of wall time; returns whether `done`.
   bool wait(const std::function<bool()>& done, std::chrono::milliseconds limit);
 
@@ -74,6 +79,7 @@ class Client {
   void follow(const services::Topic<T>& topic);
 
   MissionView view_;
+  std::int64_t launcher_ = 0;  // 0: none is watched
   services::Node node_;
   services::Publisher<v1::Goal> goals_;
   services::Publisher<v1::Order> orders_;

@@ -58,8 +58,11 @@ Progress::Progress(services::Node& node, bool shown)
   services::subscribe(node, topics::event, [this](const v1::Event& event) { take(event); });
 }
 
-Progress::~Progress() {
-  if (shown_ && terminal_ && !drawn_.empty()) std::cerr << '\n';
+Progress::~Progress() { end(); }
+
+void Progress::end() {
+  if (shown_ && terminal_ && !drawn_.empty()) std::cerr << '\n' << std::flush;
+  drawn_.clear();
 }
 
 void Progress::take(const v1::Event& event) {

@@ -22,7 +22,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void show();  ///< Draws what has changed.
+  void show();  ///< Draws what has changed; the line is cut to the terminal's width.
+  void end();   ///< Ends the line, so that what is printed next begins another one.
   /// Sends an event of the launcher itself to all consoles and to the line.
   void report(v1::Severity, const std::string& code, const std::string& text);
 

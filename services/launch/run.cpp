@@ -254,6 +254,7 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
     for (const std::string& service : options.services) bound_log(options.run_folder / (service + ".log"));
   }
 
+  progress.end();
   if (supervisor.failure()) print_failure(*supervisor.failure(), options.run_folder);
   const Summary summary =
       complete_summary(options, std::chrono::duration<double>(clock::wall_now() - begun).count(),

@@ -6,6 +6,7 @@ and a set-up that only says that it was called.
 
 from __future__ import annotations
 
+import codecs
 import fcntl
 import os
 import pty
@@ -32,6 +33,7 @@ class Terminal:
 
     def __init__(self, command: list[str], columns: int, rows: int, environment: dict[str, str]) -> None:
         self.text = ""
+        self.decoder = codecs.getincrementaldecoder("utf-8")("replace")
         self.pid, self.fd = pty.fork()
         if self.pid == 0:
             os.execvpe(command[0], command, environment)
@@ -44,7 +46,7 @@ class Terminal:
             if not ready:
                 return False
             try:
-                self.text += os.read(self.fd, 65536).decode(errors="replace")
+                self.text += self.decoder.decode(os.read(self.fd, 65536))
             except OSError:  # the other end is closed
                 return seen(self.text)
         return True
@@ -112,7 +114,7 @@ class Run(Place):
         drawn = [part for part in re.split(r"[\r\n]+", CONTROL.sub("", terminal.text)) if "goals:" in part]
         self.assertTrue(drawn)
         for line in drawn:
-            self.assertLess(len(line), 80)
+            self.assertLess(len(line), 80, line)
 
 
 class SetUp(unittest.TestCase):

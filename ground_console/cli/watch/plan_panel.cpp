@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "ground_console/cli/plan_table.hpp"
 #include "ground_console/cli/watch/axis.hpp"
 
 namespace roci::console::cli::watch {
@@ -31,7 +32,7 @@ StepLook step_look(const v1::StepStatus* step) {
 
 std::string label_of(const v1::PlanActivity& activity) {
   std::string out = activity.name();
-  for (const v1::Property& argument : activity.arguments()) {
+  for (const v1::Property& argument : arguments_of(activity)) {
     const bool is_name = argument.value().find_first_not_of("0123456789.-") != std::string::npos;
     if (is_name) out += " " + argument.value();
   }

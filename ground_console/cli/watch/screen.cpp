@@ -11,7 +11,7 @@ constexpr std::size_t kGoals = 96;      // columns; the map takes what is left b
 constexpr std::size_t kLeastMap = 24;   // columns
 constexpr std::size_t kNarrowest = 76;  // columns, for a map beside goals that are cut short
 constexpr std::size_t kMapRows = 12;
-constexpr std::size_t kEventRows = 9;
+constexpr std::size_t kEventRows = 9;  // fewer on a low terminal, so that the plan has room
 constexpr std::size_t kLeastPlan = 8;  // rows; below that the plan takes those of the levels
 
 void draw_head(const lib::MissionView& view, Canvas& canvas) {
@@ -66,7 +66,8 @@ Canvas watch_screen(const lib::MissionView& view, std::size_t width, std::size_t
   if (map_fits) draw_map(view, {2, goals_width + 1, width - goals_width - 1, top}, canvas);
   draw_robot(view, top + 3, canvas);
   const std::size_t plan_row = top + 5;
-  const std::size_t events_row = height > plan_row + kEventRows ? height - kEventRows : plan_row;
+  const std::size_t event_rows = std::clamp<std::size_t>(height / 4, 4, kEventRows);
+  const std::size_t events_row = height > plan_row + event_rows ? height - event_rows : plan_row;
   const std::vector<Level> levels = levels_of(view);
   const std::size_t levels_height = levels.empty() ? 0 : levels.size() + 2;
   const std::size_t steps = view.plan() ? view.plan()->activities().size() + 2 : 0;

@@ -83,8 +83,8 @@ class Screen {
 };
 
 int watch_as_json(lib::Client& client) {
-  while (!client.view().ended() && interrupted == 0) {
-    client.wait([&] { return client.view().ended() || interrupted != 0; }, std::chrono::seconds(1));
+  while (!client.over() && interrupted == 0) {
+    client.wait([&] { return client.over() || interrupted != 0; }, std::chrono::seconds(1));
     std::cout << json_text(status_json(client.view())) << std::endl;
   }
   return kDone;
@@ -92,7 +92,7 @@ int watch_as_json(lib::Client& client) {
 
 }  // namespace
 
-int watch(lib::Client& client, bool json) {
+int watch(lib::Client& client, bool closing_matters, bool json) {
   std::signal(SIGINT, [](int) { interrupted = 1; });
   if (json) return watch_as_json(client);
   const auto draw = [&] {
@@ -103,7 +103,7 @@ int watch(lib::Client& client, bool json) {
   {
     Screen screen;
     Keys keys;
-    const auto over = [&] { return interrupted != 0 || client.view().ended() || keys.quit(); };
+    const auto over = [&] { return interrupted != 0 || client.over() || keys.quit(); };
     while (!over()) {
       client.wait(over, std::chrono::milliseconds(250));
       last = draw();
@@ -111,7 +111,7 @@ int watch(lib::Client& client, bool json) {
     }
   }
   std::cout << last;  // the last picture stays
-  return kDone;
+  return client.over() || !closing_matters ? kDone : kStillOpen;
 }
 
 }  // namespace roci::console::cli::watch

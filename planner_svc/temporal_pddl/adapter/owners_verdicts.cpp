@@ -45,7 +45,7 @@ std::string described(const std::string& name, const std::vector<Object>& object
   return name + " (" + properties + ")";
 }
 
-// The last use that speaks against the object as the goal of the way; null if some tuple with it has a value.
+// The first use that speaks against the object as the goal of the way; null if some tuple with it has a value.
 const FunctionUse* use_against(const std::string& object, std::span<const FunctionUse> uses) {
   const FunctionUse* out = nullptr;
   for (const FunctionUse& use : uses) {
@@ -54,7 +54,7 @@ const FunctionUse* use_against(const std::string& object, std::span<const Functi
         std::ranges::any_of(arguments, [&](const std::string& one) { return one != object; });
     if (arguments.empty() || arguments.back() != object || !of_others) continue;
     if (use.answer.outcome != FunctionOutcome::unreachable) return nullptr;
-    out = &use;
+    if (out == nullptr) out = &use;
   }
   return out;
 }
@@ -71,8 +71,8 @@ std::string words_against(const std::vector<std::string>& facts, const pddl::Pro
     if (use->answer.reason.starts_with(about))
       return described(object, objects) + ": " + use->answer.reason.substr(about.size()) + " (says " +
              said.owner + ", model " + said.model_version + ")";
-    return said.owner + " finds no " + use->call.function + " to " + described(object, objects) +
-           " on its model " + said.model_version;
+    return described(object, objects) + " is unreachable (says " + said.owner + ", " + use->call.function +
+           ", model " + said.model_version + ")";
   }
   return "";
 }
