@@ -32,7 +32,7 @@ const std::vector<Flag>& flags() {
       {":duration-inequalities", {}},
       {":continuous-effects", {}},
       {":timed-initial-literals", {":timed-initial-fluents"}},
-      {":timed-initial-fluents", {}},
+      {":timed-initial-fluents", {":timed-initial-literals"}},
       {":derived-predicates", {}}};
   return all;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/pddl/check_parts.hpp"
+#include "core/pddl/hidden_variables.hpp"
 #include "core/pddl/printer.hpp"
 #include "core/pddl/requirements.hpp"
 
@@ -146,6 +147,7 @@ void settle(Domain& domain, DiagnosticLog& log) {
   settle_signatures(domain.functions, "function", log);
   Declared constants;
   settle_objects(domain.constants, constants, "constant", log);
+  rename_hiding_variables(domain, log);
   if (log.errors() == 0) warn_of_requirements(lacking_requirements(domain), log);
 }
 
@@ -162,6 +164,7 @@ void settle(Problem& problem, const Domain& domain, DiagnosticLog& log) {
   Known known(domain);
   settle_object_types(problem, known, log);
   settle_values(problem, known, log);
+  rename_hiding_variables(problem, log);
   if (log.errors() == 0) warn_of_requirements(lacking_requirements(problem, domain), log);
 }
 
