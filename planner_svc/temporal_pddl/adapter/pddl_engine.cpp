@@ -11,6 +11,7 @@
 #include "core/pddl/check.hpp"
 #include "core/pddl/function_table.hpp"
 #include "core/pddl/plan_text.hpp"
+#include "planner_svc/temporal_pddl/adapter/owners_verdicts.hpp"
 #include "planner_svc/temporal_pddl/extraction/flexible_plan_export.hpp"
 #include "planner_svc/temporal_pddl/planner.hpp"
 
@@ -57,6 +58,7 @@ pddl::FunctionTable table_of(const std::vector<FunctionUse>& uses) {
 std::vector<std::string> facts_of(const engine::Goal& goal) {
   std::vector<std::string> facts;
   for (const temporal::ConditionNode& node : goal.achieved.nodes) {
+    if (node.op == temporal::ConditionOp::any_of || node.op == temporal::ConditionOp::negation) return {};
     const bool* holds = std::get_if<bool>(&node.operand);
     if (node.op != temporal::ConditionOp::eq || holds == nullptr) continue;
     facts.push_back(*holds ? node.timeline : "(not " + node.timeline + ")");
@@ -70,15 +72,17 @@ std::vector<NamedGoal> named_goals(const std::vector<engine::Goal>& goals) {
   return out;
 }
 
-// Each goal of which a fact is out of reach, once.
-std::vector<BlockingGoal> blocking_goals(const std::vector<BlockedFact>& blocked,
-                                         const std::vector<engine::Goal>& goals) {
+// Each goal of which a fact is out of reach, once; where an owner of functions said so, with its words.
+std::vector<BlockingGoal> blocking_goals(const std::vector<BlockedFact>& blocked, const Request& request,
+                                         const pddl::Problem& problem, const std::vector<FunctionUse>& uses) {
   std::vector<BlockingGoal> out;
-  for (const engine::Goal& goal : goals) {
+  for (const engine::Goal& goal : request.goals) {
     const std::vector<std::string> facts = facts_of(goal);
     const auto found = std::ranges::find_if(
         blocked, [&](const BlockedFact& one) { return std::ranges::count(facts, one.fact) > 0; });
-    if (found != blocked.end()) out.push_back({goal.issuer, goal.id, found->fact, found->reason});
+    if (found == blocked.end()) continue;
+    const std::string words = words_against(facts, problem, request.objects, uses);
+    out.push_back({goal.issuer, goal.id, found->fact, words.empty() ? found->reason : words});
   }
   return out;
 }
@@ -106,7 +110,7 @@ Answer plan_for(const Request& request, const Limits& limits, FunctionSource& fu
   out.statistics.evaluated = result.statistics.evaluated;
   out.statistics.bytes_per_state = result.statistics.bytes_per_state;
   out.statistics.from_remaining = result.statistics.from_remaining;
-  out.blocking = blocking_goals(result.blocked, request.goals);
+  out.blocking = blocking_goals(result.blocked, request, problem, result.functions);
   std::vector<std::string> names;
   for (const NamedGoal& goal : goals) names.push_back(goal.name);
   if (result.plan) out.plan = export_plan(*result.plan, result.functions, names);

@@ -1,12 +1,15 @@
 // roci-plan DOMAIN PROBLEM [--time S | --cpu-time S] [--evaluations N] [--memory MB] [--functions FILE]
-//           [--remaining PLAN] [--stats FILE] [--json] [--seed N]
+//           [--remaining PLAN] [--stats FILE] [--json] [--seed N] [--progress] [--gantt FILE]
 // roci-plan DOMAIN PROBLEM --parse-only [--strict]
 //
 // The plan goes to standard output, what is wrong to standard error, the verdict into the exit code
 // (docs/exit-codes.md).
+#include <sys/ioctl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <ctime>
@@ -16,7 +19,11 @@
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "planner_svc/temporal_pddl/cli/checked_result.hpp"
+#include "planner_svc/temporal_pddl/cli/gantt.hpp"
+#include "planner_svc/temporal_pddl/cli/progress_line.hpp"
 #include "planner_svc/temporal_pddl/cli/read_model.hpp"
 #include "planner_svc/temporal_pddl/cli/table_functions.hpp"
 #include "planner_svc/temporal_pddl/extraction/plan_text.hpp"
@@ -37,20 +44,39 @@ using extraction::Plan;
 using extraction::to_ipc;
 using temporal::Verdict;
 
+constexpr int kDefect = 8;
 constexpr int kUsageError = 64;
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;  // its shadow memory is more than any limit
+#elif defined(__has_feature)
+constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+constexpr bool kSanitized = false;
+#endif
+
+// 4 GiB, or three quarters of a smaller machine's memory.
+std::size_t default_megabytes() {
+  constexpr std::size_t kMost = 4096;
+  const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
+  if (kSanitized) return 0;
+  if (pages <= 0 || bytes <= 0) return kMost;
+  return std::min(kMost, (static_cast<std::size_t>(pages) * static_cast<std::size_t>(bytes) >> 20) / 4 * 3);
+}
+
 struct Arguments {
-  std::string domain, problem, functions, stats, remaining;
-  double seconds = 0;            // 0: no limit
-  double processor_seconds = 0;  // 0: no limit
-  std::size_t megabytes = 0;
-  std::size_t evaluations = 0;  // 0: no limit
+  std::string domain, problem, functions, stats, remaining, gantt;
+  double seconds = 0;                           // 0: no limit
+  double processor_seconds = 0;                 // 0: no limit
+  std::size_t megabytes = default_megabytes();  // 0: no limit
+  std::size_t evaluations = 0;                  // 0: no limit
   std::uint64_t seed = 0;
   std::size_t improve = 0;
   bool strict = false;
   bool parse_only = false;
   bool json = false;
   bool plain_search = false;
+  bool progress = false;
 };
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -74,8 +100,9 @@ int exit_code(Verdict verdict) {
     case Verdict::cancelled:
       return 7;
     case Verdict::crashed:
+      return kDefect;
     case Verdict::no_reply:
-      break;  // the engine does not say these of itself
+      break;  // the engine does not say this of itself
   }
   return kUsageError;
 }
@@ -88,12 +115,18 @@ void limit_memory(std::size_t megabytes) {
 
 double seconds(temporal::Duration duration) { return std::chrono::duration<double>(duration).count(); }
 
+// A verdict as roci-plan tells it: what went wrong inside it is its own defect.
+std::string name_of(Verdict verdict) {
+  return verdict == Verdict::crashed ? "internal error" : std::string(temporal::to_string(verdict));
+}
+
 nlohmann::json statistics_json(const Result& result, double wall_s) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const Statistics& statistics = result.statistics;
-  return {{"verdict", temporal::to_string(result.verdict)},
+  return {{"verdict", name_of(result.verdict)},
           {"reason", result.reason},
+          {"warnings", result.warnings},
           {"makespan", result.plan ? nlohmann::json(seconds(result.plan->makespan)) : nlohmann::json()},
           {"metric", result.plan ? nlohmann::json(result.plan->metric) : nlohmann::json()},
           {"actions", result.plan ? nlohmann::json(result.plan->activities.size()) : nlohmann::json()},
@@ -172,7 +205,15 @@ Result refused(const ModelRefused& why) {
   return result;
 }
 
+std::size_t terminal_columns() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
+}
+
 Result plan(const Arguments& arguments, const Model& model, const std::function<bool()>& out_of_time) {
+  std::optional<ProgressLine> line;
+  if (arguments.progress || isatty(STDERR_FILENO) != 0)
+    line.emplace(std::cerr, ProgressLine::Clock::now(), terminal_columns());
   std::unique_ptr<FunctionSource> functions = std::make_unique<NoFunctions>();
   if (!arguments.functions.empty()) {
     functions = std::make_unique<TableFunctions>(
@@ -184,6 +225,7 @@ Result plan(const Arguments& arguments, const Model& model, const std::function<
   if (arguments.evaluations > 0) budget.evaluations = arguments.evaluations;
   Monitor monitor;
   monitor.cancelled = [] { return interrupted != 0; };
+  if (line) monitor.watch = [&](const call::Progress& progress) { line->show(progress); };
   Options options;
   options.seed = arguments.seed;
   if (arguments.plain_search) {
@@ -198,7 +240,9 @@ Result plan(const Arguments& arguments, const Model& model, const std::function<
   std::vector<pddl::PlanStep> remaining;
   if (!arguments.remaining.empty())
     remaining = pddl::parse_plan(read_file(arguments.remaining), arguments.remaining);
-  return temporal_pddl::plan(model.domain, model.problem, *functions, budget, monitor, options, remaining);
+  Result result = temporal_pddl::plan(model.domain, model.problem, *functions, budget, monitor, options, remaining);
+  check(model.domain, model.problem, result);
+  return result;
 }
 
 // Ends --parse-only where there is nothing to refuse.
@@ -234,6 +278,12 @@ int run(const Arguments& arguments) {
     result.verdict = Verdict::out_of_memory;
     result.reason = "the model itself takes more than the memory limit";
   }
+  for (const std::string& warning : result.warnings) std::cerr << warning << '\n';
+  if (!arguments.gantt.empty() && result.plan) {
+    std::ofstream file(arguments.gantt);
+    if (!(file << to_svg(*result.plan, arguments.problem)))
+      std::cerr << arguments.gantt << ": cannot be written\n";
+  }
   nlohmann::json statistics = statistics_json(result, elapsed());
   add_findings(findings, statistics);
   if (!arguments.stats.empty()) {
@@ -247,7 +297,7 @@ int run(const Arguments& arguments) {
   } else if (result.plan) {
     std::cout << to_ipc(*result.plan);
   }
-  if (!result.plan) std::cerr << temporal::to_string(result.verdict) << ": " << result.reason << '\n';
+  if (!result.plan) std::cerr << name_of(result.verdict) << ": " << result.reason << '\n';
   return exit_code(result.verdict);
 }
 
@@ -263,7 +313,11 @@ int run_command_line(int argc, char** argv) {
   app.add_option("--improve", arguments.improve, "look for better plans with so many evaluations");
   app.add_option("--evaluations", arguments.evaluations,
                  "limit in heuristic evaluations until the first plan; 1: what grounding costs");
-  app.add_option("--memory", arguments.megabytes, "limit in MiB of all data of the process");
+  app.add_option(
+         "--memory", arguments.megabytes,
+         "limit in MiB of all data of the process; 0: none; if not given, 4096 or three quarters of the "
+         "machine's memory, whatever is less")
+      ->capture_default_str();
   app.add_option("--functions", arguments.functions,
                  "values of external functions: (traverse_time a b) 12.5");
   app.add_option("--remaining", arguments.remaining, "what is left of an earlier plan, to begin with");
@@ -272,6 +326,9 @@ int run_command_line(int argc, char** argv) {
                "refuse what departs from PDDL instead of reading it with a warning");
   app.add_flag("--parse-only", arguments.parse_only,
                "read and check both files, tell what is wrong with them, and end");
+  app.add_option("--gantt", arguments.gantt, "draw the plan into this file, as SVG");
+  app.add_flag("--progress", arguments.progress,
+               "tell on standard error what it is doing, as it does by itself on a terminal");
   app.add_flag("--json", arguments.json, "plan and statistics as one JSON object");
   app.add_flag(
       "--plain-search", arguments.plain_search,
