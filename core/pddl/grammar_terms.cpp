@@ -122,16 +122,20 @@ Term read_term(const Sexpr& s, const Atom& owner, const Source& source) {
   return {read_name(s, "an object or variable", source), s.where};
 }
 
-// Takes "a- t" apart into a, - and t, as it stands in typed lists.
+// Whether items[i] is "a-" with a type behind it, as it stands in typed lists.
+bool has_glued_hyphen(std::span<const Sexpr> items, std::size_t i) {
+  return !items[i].is_list && items[i].word.size() > 1 && items[i].word.back() == '-' &&
+         i + 1 < items.size() && !items[i + 1].is_word("-") &&
+         (items[i + 1].is_list || items[i + 1].word.front() != '?');
+}
+
+// Takes "a- t" apart into a, - and t.
 std::vector<Sexpr> with_hyphens_apart(std::span<const Sexpr> items, const Source& source) {
   std::vector<Sexpr> apart;
   apart.reserve(items.size());
   for (std::size_t i = 0; i < items.size(); ++i) {
     apart.push_back(items[i]);
-    const bool glued = !items[i].is_list && items[i].word.size() > 1 && items[i].word.back() == '-' &&
-                       i + 1 < items.size() && !items[i + 1].is_word("-") &&
-                       (items[i + 1].is_list || items[i + 1].word.front() != '?');
-    if (!glued) continue;
+    if (!has_glued_hyphen(items, i)) continue;
     Sexpr hyphen;
     hyphen.word = "-";
     hyphen.where = items[i].where;
@@ -144,8 +148,7 @@ std::vector<Sexpr> with_hyphens_apart(std::span<const Sexpr> items, const Source
   return apart;
 }
 
-std::vector<TypedName> read_names(const std::vector<Sexpr>& items, std::string_view what,
-                                  const Source& source) {
+std::vector<TypedName> read_names(std::span<const Sexpr> items, std::string_view what, const Source& source) {
   std::vector<TypedName> names;
   std::size_t untyped = 0;  // names[untyped…] still wait for their type
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -174,7 +177,9 @@ std::vector<TypedName> read_names(const std::vector<Sexpr>& items, std::string_v
 
 std::vector<TypedName> read_typed_names(std::span<const Sexpr> items, std::string_view what,
                                         const Source& source) {
-  return read_names(with_hyphens_apart(items, source), what, source);
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (has_glued_hyphen(items, i)) return read_names(with_hyphens_apart(items, source), what, source);
+  return read_names(items, what, source);
 }
 
 std::vector<TypedName> read_variables(std::span<const Sexpr> items, const Source& source) {

@@ -1,5 +1,6 @@
 #include "core/pddl/lexer.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace roci::pddl {
@@ -77,8 +78,10 @@ void Lexer::skip_blank() {
       log_.warn(Departure::comma, here_, "a comma is read as a blank",
                 "PDDL separates by blanks: take it away");
       advance();
+    } else if (is_word_character(peek()) || peek() == '(' || peek() == ')') {
+      return;
     } else if (!skip_odd_blank()) {
-      if (is_word_character(peek()) || peek() == '(' || peek() == ')' || !odd_dash().empty()) return;
+      if (odd_dash() > 0) return;
       report_bytes();
     }
   }
@@ -95,52 +98,52 @@ bool Lexer::skip_odd_blank() {
   return false;
 }
 
-std::string Lexer::odd_dash() const {
+std::size_t Lexer::odd_dash() const {
+  if (static_cast<unsigned char>(peek()) < 0x80) return 0;
   for (const std::string_view dash : kOddDashes)
-    if (starts_with(dash)) return std::string(dash);
-  return "";
+    if (starts_with(dash)) return dash.size();
+  return 0;
 }
 
 // Passes over a run of bytes that no word is made of.
 void Lexer::report_bytes() {
   log_.error(here_, describe_byte(peek()) + " outside of a comment", "PDDL names are plain ASCII");
   while (!at_end() && !is_blank(peek()) && !is_word_character(peek()) && peek() != '(' && peek() != ')' &&
-         peek() != ';' && peek() != ',' && odd_dash().empty())
+         peek() != ';' && peek() != ',' && odd_dash() == 0)
     advance();
 }
 
 void Lexer::read_word(Token& token) {
-  if (const std::string dash = odd_dash(); !dash.empty()) {
+  if (const std::size_t dash = odd_dash(); dash > 0) {
     log_.warn(Departure::odd_character, here_, "a dash beyond ASCII is read as '-'", "write a plain '-'");
-    advance(dash.size());
+    advance(dash);
     token.word = "-";
     return;
   }
-  const bool glued = peek() == '-' && is_letter(peek(1));
-  bool too_long = false;
-  while (!at_end() && is_word_character(peek())) {
-    if (peek() == '?' && !token.word.empty()) {
-      log_.warn(Departure::question_mark, here_, "a blank is missing before '?'", "write the blank");
-      return;
-    }
-    if (token.word.size() < kMaxWord) {
-      token.word += lower(peek());
-    } else {
-      too_long = true;
-    }
-    advance();
-    if (glued) {
-      log_.warn(Departure::hyphen, token.where, "'-' without a blank behind it is read as if there were one",
-                "write NAME - TYPE");
-      return;
-    }
+  if (peek() == '-' && is_letter(peek(1))) {
+    log_.warn(Departure::hyphen, here_, "'-' without a blank behind it is read as if there were one",
+              "write NAME - TYPE");
+    token.word = "-";
+    return advance();
+  }
+  const std::size_t begin = next_;
+  std::size_t end = begin + 1;  // a '?' in front is part of the word
+  while (end < text_.size() && is_word_character(text_[end]) && text_[end] != '?') ++end;
+  const bool too_long = end - begin > kMaxWord;
+  token.word.assign(text_, begin, std::min(end - begin, kMaxWord));
+  for (char& c : token.word) c = lower(c);
+  next_ = end;  // a word has no end of line in it
+  here_.column += static_cast<int>(end - begin);
+  if (peek() == '?') {
+    log_.warn(Departure::question_mark, here_, "a blank is missing before '?'", "write the blank");
+    return;
   }
   if (too_long) {
     log_.error(token.where, "a name of more than " + std::to_string(kMaxWord) + " characters",
                "shorten it; it was read up to there");
   }
   if (token.word == "?") join_question_mark(token);
-  if (static_cast<unsigned char>(peek()) >= 0x80 && !skip_odd_blank() && odd_dash().empty()) report_bytes();
+  if (static_cast<unsigned char>(peek()) >= 0x80 && !skip_odd_blank() && odd_dash() == 0) report_bytes();
 }
 
 // "? x" is "?x" where the rest of a name follows in the same line.

@@ -36,7 +36,7 @@ class Lexer {
  private:
   void skip_blank();
   bool skip_odd_blank();
-  std::string odd_dash() const;
+  std::size_t odd_dash() const;
   void read_word(Token& token);
   void join_question_mark(Token& token);
   void report_bytes();

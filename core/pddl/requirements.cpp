@@ -32,7 +32,7 @@ const std::vector<Flag>& flags() {
       {":duration-inequalities", {}},
       {":continuous-effects", {}},
       {":timed-initial-literals", {":timed-initial-fluents"}},
-      {":timed-initial-fluents", {}},
+      {":timed-initial-fluents", {":timed-initial-literals"}},
       {":derived-predicates", {}}};
   return all;
 }
@@ -40,18 +40,18 @@ const std::vector<Flag>& flags() {
 // Walks a tree and keeps the first place at which each flag is needed.
 class Needs {
  public:
-  void need(const char* flag, SourceLocation where) { first_.emplace(flag, where); }
+  void need(std::string_view flag, SourceLocation where) { first_.emplace(flag, where); }
 
   void types_of(const std::vector<TypedName>& names) {
     for (const TypedName& name : names)
-      if (name.types != std::vector<std::string>{"object"}) need(":typing", name.where);
+      if (name.types.size() != 1 || name.types.front() != "object") need(":typing", name.where);
   }
 
   void condition(const Condition& condition) {
     const auto parts = [&](const std::vector<Condition>& all) {
       for (const Condition& part : all) this->condition(part);
     };
-    const auto quantified = [&](const auto& quantifier, const char* flag) {
+    const auto quantified = [&](const auto& quantifier, std::string_view flag) {
       need(flag, condition.where);
       types_of(quantifier.variables);
       this->condition(*quantifier.body);
@@ -160,7 +160,7 @@ class Needs {
     for (const Effect& effect : action.continuous_effects) need(":continuous-effects", effect.where);
   }
 
-  std::map<std::string, SourceLocation, std::less<>> first_;
+  std::map<std::string_view, SourceLocation> first_;  // flags are literals
 };
 
 void add_flags(const std::vector<Requirement>& requirements, std::set<std::string_view>& given) {
@@ -181,13 +181,14 @@ std::map<std::string, SourceLocation> lacking_requirements(const Problem& proble
   std::set<std::string_view> given;
   add_flags(domain.requirements, given);
   add_flags(problem.requirements, given);
-  Needs in_domain;  // told with the domain
-  in_domain.domain(domain);
-  const auto told = in_domain.lacking(given);
-  for (const auto& [flag, ignored] : told) given.insert(flag);
   Needs needs;
   needs.problem(problem);
-  return needs.lacking(given);
+  auto lacking = needs.lacking(given);
+  if (lacking.empty()) return lacking;
+  Needs in_domain;  // told with the domain
+  in_domain.domain(domain);
+  for (const auto& [flag, ignored] : in_domain.lacking(given)) lacking.erase(flag);
+  return lacking;
 }
 
 }  // namespace roci::pddl

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "core/pddl/check_parts.hpp"
+#include "core/pddl/hidden_variables.hpp"
 #include "core/pddl/printer.hpp"
 #include "core/pddl/requirements.hpp"
 
@@ -42,49 +48,85 @@ bool alike(const Signature& a, const Signature& b) {
 
 // Erases signatures that say again what one before them says.
 void settle_signatures(std::vector<Signature>& signatures, std::string_view what, DiagnosticLog& log) {
-  std::map<std::string, Signature> seen;
-  std::erase_if(signatures, [&](const Signature& signature) {
-    const auto [first, is_new] = seen.emplace(signature.name, signature);
-    if (is_new || !alike(first->second, signature)) return false;
-    log.warn(Departure::signature_twice, signature.where,
-             std::string(what) + " '" + signature.name + "' is declared twice alike, and counts once",
+  std::map<std::string_view, std::size_t> seen;
+  std::vector<std::size_t> again;
+  for (std::size_t i = 0; i < signatures.size(); ++i) {
+    const auto [first, is_new] = seen.emplace(signatures[i].name, i);
+    if (is_new || !alike(signatures[first->second], signatures[i])) continue;
+    log.warn(Departure::signature_twice, signatures[i].where,
+             std::string(what) + " '" + signatures[i].name + "' is declared twice alike, and counts once",
              "keep one");
-    return true;
-  });
+    again.push_back(i);
+  }
+  if (again.empty()) return;
+  std::vector<Signature> kept;
+  for (std::size_t i = 0; i < signatures.size(); ++i)
+    if (!std::ranges::binary_search(again, i)) kept.push_back(std::move(signatures[i]));
+  signatures = std::move(kept);
 }
 
-void settle_objects(const std::vector<TypedName>& names,
-                    std::map<std::string, std::vector<std::string>>& seen, std::string_view what,
+using Declared = std::unordered_map<std::string_view, const TypedName*>;
+
+// An object that is declared again with another type has both types; that is no departure.
+void settle_objects(const std::vector<TypedName>& names, Declared& seen, std::string_view what,
                     DiagnosticLog& log) {
   for (const TypedName& name : names) {
-    const auto [first, is_new] = seen.emplace(name.name, name.types);
-    if (is_new || (first->second != name.types && !only_object(name))) continue;  // or of two types
+    const auto [first, is_new] = seen.emplace(name.name, &name);
+    if (is_new || (first->second->types != name.types && !only_object(name) && !only_object(*first->second)))
+      continue;
     log.warn(Departure::object_twice, name.where,
              std::string(what) + " '" + name.name + "' is declared twice, and is one object", "keep one");
   }
 }
 
-void settle_object_types(Problem& problem, const Symbols& symbols, DiagnosticLog& log) {
+// Names of what a domain declares. Nearest words, which take more, are looked for only where something is unknown.
+class Known {
+ public:
+  explicit Known(const Domain& domain) : domain_(domain), types_{"object"} {
+    for (const TypedName& type : domain.types) {
+      types_.insert(type.name);
+      types_.insert(type.types.begin(), type.types.end());
+    }
+    for (const Signature& function : domain.functions) functions_.insert(function.name);
+    for (const Module& module : domain.modules)
+      for (const Signature& function : module.functions) functions_.insert(function.name);
+  }
+
+  bool type(std::string_view name) const { return types_.contains(name); }
+  bool function(std::string_view name) const { return functions_.contains(name); }
+  const Symbols& symbols() {
+    if (!symbols_) symbols_.emplace(domain_);
+    return *symbols_;
+  }
+
+ private:
+  const Domain& domain_;
+  std::set<std::string_view> types_;
+  std::set<std::string_view> functions_;
+  std::optional<Symbols> symbols_;
+};
+
+void settle_object_types(Problem& problem, Known& known, DiagnosticLog& log) {
   for (TypedName& object : problem.objects) {
     std::erase_if(object.types, [&](const std::string& type) {
-      if (symbols.types().knows(type)) return false;
+      if (known.type(type)) return false;
       log.warn(Departure::undeclared_type, object.where,
                "type '" + type + "' of '" + object.name +
                    "' is not declared; it counts as an object of no other type",
-               symbols.remedy_for_type(type, "declare it in :types"));
+               known.symbols().remedy_for_type(type, "declare it in :types"));
       return true;
     });
     if (object.types.empty()) object.types = {"object"};
   }
 }
 
-void settle_values(Problem& problem, const Symbols& symbols, DiagnosticLog& log) {
+void settle_values(Problem& problem, Known& known, DiagnosticLog& log) {
   std::erase_if(problem.values, [&](const InitialValue& initial) {
     const std::string& function = initial.fluent.symbol;
-    if (symbols.find_fluent(function) || symbols.find_external(function)) return false;
+    if (known.function(function)) return false;
     log.warn(Departure::undeclared_function, initial.fluent.where,
              "function '" + function + "' is not declared; its initial value is passed over",
-             symbols.remedy_for_function(function, "declare it in :functions"));
+             known.symbols().remedy_for_function(function, "declare it in :functions"));
     return true;
   });
 }
@@ -103,24 +145,26 @@ void settle(Domain& domain, DiagnosticLog& log) {
   settle_types(domain, log);
   settle_signatures(domain.predicates, "predicate", log);
   settle_signatures(domain.functions, "function", log);
-  std::map<std::string, std::vector<std::string>> constants;
+  Declared constants;
   settle_objects(domain.constants, constants, "constant", log);
+  rename_hiding_variables(domain, log);
   if (log.errors() == 0) warn_of_requirements(lacking_requirements(domain), log);
 }
 
 void settle(Problem& problem, const Domain& domain, DiagnosticLog& log) {
-  const Symbols symbols(domain);
   if (problem.domain_name != domain.name && !problem.domain_name.empty()) {
     log.warn(Departure::domain_name, problem.where,
              "the problem is for domain '" + problem.domain_name + "', and is read for '" + domain.name + "'",
              "write (:domain " + domain.name + "), or use the domain file that it was written for");
     problem.domain_name = domain.name;
   }
-  std::map<std::string, std::vector<std::string>> objects;
-  for (const TypedName& constant : domain.constants) objects.emplace(constant.name, constant.types);
+  Declared objects;
+  for (const TypedName& constant : domain.constants) objects.emplace(constant.name, &constant);
   settle_objects(problem.objects, objects, "object", log);
-  settle_object_types(problem, symbols, log);
-  settle_values(problem, symbols, log);
+  Known known(domain);
+  settle_object_types(problem, known, log);
+  settle_values(problem, known, log);
+  rename_hiding_variables(problem, log);
   if (log.errors() == 0) warn_of_requirements(lacking_requirements(problem, domain), log);
 }
 

@@ -120,8 +120,10 @@ class Reader {
   void add_word(Token token) {
     if (open_.empty()) return report_outside(token.where);
     const bool is_head = open_.back().list.items.empty();
-    if (is_head && is_one_of(kSections, token.word)) begin_section(token.word);
-    if (open_.size() == 1 && is_one_of(kFields, token.word)) reopen_action(token);
+    if (token.word.front() == ':') {
+      if (is_head && is_one_of(kSections, token.word)) begin_section(token.word);
+      if (open_.size() == 1 && is_one_of(kFields, token.word)) reopen_action(token);
+    }
     Sexpr word;
     word.word = std::move(token.word);
     word.where = token.where;

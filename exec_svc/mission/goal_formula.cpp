@@ -91,7 +91,10 @@ Translated translated(const pddl::Condition& formula) {
 }  // namespace
 
 pddl::Condition read_goal_formula(const std::string& text) {
-  return pddl::parse_problem("(define (problem p) (:domain d) (:init) (:goal " + text + "))", "goal").goal;
+  // Strictly: a text that closes more than it opens would end the problem, and lose what follows.
+  return pddl::parse_problem("(define (problem p) (:domain d) (:init) (:goal " + text + "))", "goal",
+                             pddl::Strictness::strict)
+      .goal;
 }
 
 bool is_observed_fact(const pddl::Condition& formula, const pddl::Domain& domain) {

@@ -117,9 +117,16 @@ TEST(Departures, OfDeclarations) {
   const std::string head = "(define (domain d) (:requirements :typing :fluents)\n";
   const std::vector<Departed> cases = {
       {head + "(:types\n room hall - hall))", Departure::type_under_itself, {3, 7}, "'hall - object'"},
-      {head + "(:types a - object\n a - b b - object))", Departure::type_twice, {3, 2}, "'a' is declared twice"},
+      {head + "(:types a - object\n a - b b - object))",
+       Departure::type_twice,
+       {3, 2},
+       "'a' is declared twice"},
       {head + "(:types a\n a))", Departure::type_twice, {3, 2}, "'a' is declared twice"},
       {head + "(:types t)\n(:constants c c - t))", Departure::object_twice, {3, 15}, "constant 'c'"},
+      {head + "(:predicates (p ?x))\n(:derived (p ?x)\n(p ?x)))",
+       Departure::missing_requirement,
+       {3, 11},
+       ":derived"},
       {head + "(:predicates (p ?x)\n(p ?y)))", Departure::signature_twice, {3, 1}, "twice alike"},
       {head + "(:functions (f)\n(f)))", Departure::signature_twice, {3, 1}, "function 'f'"},
       {head + "(:functions (f) -\nreal))", Departure::number_type, {3, 1}, "read as 'number'"}};
@@ -184,6 +191,22 @@ TEST(Departures, OfTypesKeepWhatStandsBeforeThemInTheList) {
   const Domain d = load_domain("(define (domain d) (:requirements :typing) (:types room hall - hall))", "d");
   EXPECT_EQ(d.types[0].types, std::vector<std::string>{"hall"});
   EXPECT_EQ(d.types[1].types, std::vector<std::string>{"object"});
+}
+
+TEST(Departures, OfVariablesKeepInnerAndOuterApart) {
+  const Domain d = load_domain(
+      "(define (domain d) (:requirements :adl)\n(:predicates (p ?x) (q ?x))\n(:action a :parameters (?x)\n"
+      " :precondition (and (p ?x) (forall (?x) (or (q ?x) (exists (?x) (p ?x)))) (q ?x))\n"
+      " :effect (forall (?x ?y) (when (q ?y) (p ?x)))))",
+      "d");
+  EXPECT_EQ(print(d.actions[0].precondition),
+            "(and (p ?x) (forall (?x' - object) (or (q ?x') (exists (?x'' - object) (p ?x'')))) (q ?x))");
+  const auto& forall = std::get<ForallEffect>(d.actions[0].effects[0].node);
+  EXPECT_EQ(forall.variables[0].name, "?x'");
+  EXPECT_EQ(print(std::get<Literal>(std::get<When>(forall.effects[0].node).effects[0].node)), "(p ?x')");
+  EXPECT_EQ(d.warnings.size(), 3U) << to_text(d.warnings);
+  EXPECT_EQ(d.warnings[0].where, (SourceLocation{4, 37})) << to_text(d.warnings);
+  EXPECT_EQ(load_domain(print(d), "d"), d);
 }
 
 TEST(Departures, ALineMayEndAsOnAnyMachine) {
