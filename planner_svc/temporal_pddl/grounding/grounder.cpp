@@ -116,7 +116,9 @@ Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, Funct
     std::vector<Compression> compression(model.actions.size());
     if (options.compression_safety) compression = find_compression(model, groups, limits);
     Task task = build_task(model, symbols, actions, groups, compression, limits);
-    if (drop_shorter_than_separation(model, task, options.epsilon)) continue;
+    const std::size_t dropped = drop_shorter_than_separation(model, task, options.epsilon);
+    report.shorter_than_separation += dropped;
+    if (dropped > 0) continue;
     return {std::move(symbols), std::move(constants), std::move(task)};
   }
 }
