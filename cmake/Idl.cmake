@@ -39,7 +39,7 @@ function(roci_idl)
     COMMENT "IDL to contract: ${IDL_NAME}"
     VERBATIM)
   add_library(${IDL_NAME} STATIC ${sources} "${contract}")
-  target_include_directories(${IDL_NAME} SYSTEM PUBLIC "${include}" PRIVATE "${PROJECT_SOURCE_DIR}")
+  target_include_directories(${IDL_NAME} SYSTEM PUBLIC "$<BUILD_INTERFACE:${include}>" PRIVATE "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${IDL_NAME} PUBLIC fastcdr)
   set_property(GLOBAL APPEND PROPERTY ROCI_PARTS "${IDL_NAME}: ${IDL_HELP}")
 endfunction()

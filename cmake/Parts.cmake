@@ -40,8 +40,11 @@ function(_roci_part target)
     message(FATAL_ERROR "${target}: every part says in HELP what it is for")
   endif()
   set_property(GLOBAL APPEND PROPERTY ROCI_PARTS "${target}: ${PART_HELP}")
-  target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}")
-  target_link_libraries(${target} PUBLIC ${PART_DEPENDS} PRIVATE ${PART_PRIVATE_DEPENDS} roci_warnings)
+  target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>")
+  # What is headers alone is compiled in; who links an installed library does not need it.
+  list(TRANSFORM PART_PRIVATE_DEPENDS REPLACE "^(CLI11::CLI11|nlohmann_json::nlohmann_json|spdlog::spdlog_header_only)$"
+                                              "$<BUILD_INTERFACE:\\1>")
+  target_link_libraries(${target} PUBLIC ${PART_DEPENDS} PRIVATE ${PART_PRIVATE_DEPENDS} $<BUILD_INTERFACE:roci_warnings>)
   if(PART_COLD)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "rehearsal/loaded.hpp"
 #include "services/link/link_file.hpp"
 #include "services/node.hpp"
 #include "services/process/link_report.hpp"
@@ -69,8 +70,7 @@ services::MakeService* make_of(const mission::ServiceEntry& entry, const std::ve
   if (linked != programs().end()) return linked->make;
   const std::string file = std::filesystem::path(entry.program).filename();
   if (const auto own = std::ranges::find(more, file, &Program::name); own != more.end()) return own->make;
-  throw std::invalid_argument("service " + entry.name + " is a program of its own, " + entry.program +
-                              ", that a rehearsal in one process cannot start; fly with roci-launch");
+  return load_service(entry.program);
 }
 
 void fly(const FlightOptions& options) {

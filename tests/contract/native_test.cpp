@@ -29,6 +29,19 @@ TEST_P(Native, KeyedStateReachesALateJoiner) {
   EXPECT_EQ(reader.finish(), 0);
 }
 
+TEST_P(Native, AThousandKeysReachALateJoiner) {
+  constexpr int kCount = 1000;
+  Peer writer(GetParam().writer, "goal-writer", domain_.id());
+  for (int i = 1; i <= kCount; ++i)
+    writer.send("write ground goal-" + std::to_string(i) + " " + std::to_string(i));
+  ASSERT_TRUE(writer.wait_for("ready"));
+  Peer reader(GetParam().reader, "goal-reader", domain_.id());
+  for (int i = 1; i <= kCount; ++i)
+    ASSERT_TRUE(reader.wait_for("goal ground goal-" + std::to_string(i) + " " + std::to_string(i))) << i;
+  EXPECT_EQ(writer.finish(), 0);
+  EXPECT_EQ(reader.finish(), 0);
+}
+
 class NativeDispose : public Native {};
 
 TEST_P(NativeDispose, EndsTheInstanceUntilItIsWrittenAgain) {

@@ -41,9 +41,11 @@ TEST_F(Installed, FliesFromAFolderThatWasMoved) {
   std::ostringstream unit;
   unit << std::ifstream(folder / "first/lib/systemd/user/rocinante@.service").rdbuf();
   EXPECT_THAT(unit.str(), HasSubstr("ExecStart=" + (folder / "first/bin/roci-launch").string() + " "));
+  EXPECT_TRUE(fs::exists(folder / "first/bin/roci-check"));
   EXPECT_FALSE(fs::exists(folder / "first/bin/roci-bench-limited")) << "a tool of the benches";
 
   fs::rename(folder / "first", folder / "moved");
+  expect_a_users_services_to_fly(folder / "moved");
   if (!may_hide_the_source()) GTEST_SKIP() << "this user cannot hide the source folder (unshare -rm)";
   expect_to_fly_from(folder / "moved");
 }

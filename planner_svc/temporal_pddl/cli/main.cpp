@@ -1,5 +1,6 @@
 // roci-plan DOMAIN PROBLEM [--time S | --cpu-time S] [--evaluations N] [--memory MB] [--functions FILE]
 //           [--remaining PLAN] [--stats FILE] [--json] [--seed N] [--progress] [--gantt FILE]
+// roci-plan DOMAIN PROBLEM --parse-only [--strict]
 //
 // The plan goes to standard output, what is wrong to standard error, the verdict into the exit code
 // (docs/exit-codes.md).
@@ -12,20 +13,18 @@
 #include <chrono>
 #include <csignal>
 #include <ctime>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/pddl/check.hpp"
 #include "planner_svc/temporal_pddl/cli/checked_result.hpp"
 #include "planner_svc/temporal_pddl/cli/gantt.hpp"
 #include "planner_svc/temporal_pddl/cli/progress_line.hpp"
+#include "planner_svc/temporal_pddl/cli/read_model.hpp"
 #include "planner_svc/temporal_pddl/cli/table_functions.hpp"
 #include "planner_svc/temporal_pddl/extraction/plan_text.hpp"
 #include "planner_svc/temporal_pddl/planner.hpp"
@@ -73,6 +72,8 @@ struct Arguments {
   std::size_t evaluations = 0;                  // 0: no limit
   std::uint64_t seed = 0;
   std::size_t improve = 0;
+  bool strict = false;
+  bool parse_only = false;
   bool json = false;
   bool plain_search = false;
   bool progress = false;
@@ -104,15 +105,6 @@ int exit_code(Verdict verdict) {
       break;  // the engine does not say this of itself
   }
   return kUsageError;
-}
-
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file || std::filesystem::is_directory(path)) {
-    throw pddl::ParseError({path, {}, "cannot be read", "check the path and its permissions"});
-  }
-  return text;
 }
 
 // The engine counts its large tables and ends in time; this holds for all else, too.
@@ -170,17 +162,58 @@ nlohmann::json plan_json(const Plan& plan) {
   return activities;
 }
 
+// What reading the two files has to say, one line each.
+struct Findings {
+  std::vector<std::string> warnings;
+  std::vector<std::string> errors;
+};
+
+std::vector<std::string> lines_of(const std::vector<pddl::Diagnostic>& findings) {
+  std::vector<std::string> lines;
+  for (const pddl::Diagnostic& finding : findings) lines.push_back(pddl::to_string(finding));
+  return lines;
+}
+
+// Warnings are told before the planning, which may take long.
+Model read(const Arguments& arguments, Findings& findings) {
+  const auto strictness = arguments.strict ? pddl::Strictness::strict : pddl::Strictness::tolerant;
+  try {
+    Model model = read_model(arguments.domain, arguments.problem, strictness);
+    findings.warnings = lines_of(warnings_of(model));
+    for (const std::string& warning : findings.warnings) std::cerr << warning << '\n';
+    return model;
+  } catch (const ModelRefused& refused) {
+    findings.errors = lines_of(refused.findings());
+    throw;
+  }
+}
+
+// The findings stand in front of what planning has added.
+void add_findings(const Findings& findings, nlohmann::json& statistics) {
+  nlohmann::json warnings = findings.warnings;
+  for (const nlohmann::json& other : statistics["warnings"]) warnings.push_back(other);
+  statistics["warnings"] = std::move(warnings);
+  if (!findings.errors.empty()) statistics["errors"] = findings.errors;
+}
+
+Result refused(const ModelRefused& why) {
+  Result result;
+  result.verdict = why.verdict();
+  result.reason = why.what();
+  if (why.findings().size() > 1)
+    result.reason = std::to_string(why.findings().size()) + " findings\n" + result.reason;
+  return result;
+}
+
 std::size_t terminal_columns() {
   winsize size{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
 }
 
-Result plan(const Arguments& arguments, const std::function<bool()>& out_of_time) {
+Result plan(const Arguments& arguments, const Model& model, const std::function<bool()>& out_of_time) {
   std::optional<ProgressLine> line;
   if (arguments.progress || isatty(STDERR_FILENO) != 0)
     line.emplace(std::cerr, ProgressLine::Clock::now(), terminal_columns());
-  const pddl::Domain domain = pddl::load_domain(read_file(arguments.domain), arguments.domain);
-  const pddl::Problem problem = pddl::load_problem(read_file(arguments.problem), arguments.problem, domain);
   std::unique_ptr<FunctionSource> functions = std::make_unique<NoFunctions>();
   if (!arguments.functions.empty()) {
     functions = std::make_unique<TableFunctions>(
@@ -207,9 +240,15 @@ Result plan(const Arguments& arguments, const std::function<bool()>& out_of_time
   std::vector<pddl::PlanStep> remaining;
   if (!arguments.remaining.empty())
     remaining = pddl::parse_plan(read_file(arguments.remaining), arguments.remaining);
-  Result result = temporal_pddl::plan(domain, problem, *functions, budget, monitor, options, remaining);
-  check(domain, problem, result);
+  Result result = temporal_pddl::plan(model.domain, model.problem, *functions, budget, monitor, options, remaining);
+  check(model.domain, model.problem, result);
   return result;
+}
+
+// Ends --parse-only where there is nothing to refuse.
+int tell_readable(const Arguments& arguments, const Findings& findings) {
+  if (arguments.json) std::cout << nlohmann::json{{"warnings", findings.warnings}}.dump(2) << '\n';
+  return 0;
 }
 
 int run(const Arguments& arguments) {
@@ -225,8 +264,13 @@ int run(const Arguments& arguments) {
 
   if (arguments.megabytes > 0) limit_memory(arguments.megabytes);
   Result result;
+  Findings findings;
   try {
-    result = plan(arguments, out_of_time);
+    const Model model = read(arguments, findings);
+    if (arguments.parse_only) return tell_readable(arguments, findings);
+    result = plan(arguments, model, out_of_time);
+  } catch (const ModelRefused& why) {
+    result = refused(why);
   } catch (const pddl::ParseError& error) {
     result.verdict = Verdict::invalid_input;
     result.reason = error.what();
@@ -240,7 +284,8 @@ int run(const Arguments& arguments) {
     if (!(file << to_svg(*result.plan, arguments.problem)))
       std::cerr << arguments.gantt << ": cannot be written\n";
   }
-  const nlohmann::json statistics = statistics_json(result, elapsed());
+  nlohmann::json statistics = statistics_json(result, elapsed());
+  add_findings(findings, statistics);
   if (!arguments.stats.empty()) {
     std::ofstream file(arguments.stats);
     if (!(file << statistics.dump(2) << '\n')) std::cerr << arguments.stats << ": cannot be written\n";
@@ -277,6 +322,10 @@ int run_command_line(int argc, char** argv) {
                  "values of external functions: (traverse_time a b) 12.5");
   app.add_option("--remaining", arguments.remaining, "what is left of an earlier plan, to begin with");
   app.add_option("--stats", arguments.stats, "write statistics as JSON to this file");
+  app.add_flag("--strict", arguments.strict,
+               "refuse what departs from PDDL instead of reading it with a warning");
+  app.add_flag("--parse-only", arguments.parse_only,
+               "read and check both files, tell what is wrong with them, and end");
   app.add_option("--gantt", arguments.gantt, "draw the plan into this file, as SVG");
   app.add_flag("--progress", arguments.progress,
                "tell on standard error what it is doing, as it does by itself on a terminal");

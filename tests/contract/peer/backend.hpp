@@ -49,6 +49,7 @@ class Backend {
   virtual void open_goal_reader() = 0;
   virtual void open_path_server() = 0;
   virtual void open_path_client() = 0;
+  virtual void open_stranger() = 0;  // writes goals on the topic of path requests
   virtual bool write(const Goal&) = 0;
   virtual bool dispose(const Goal&) = 0;
   virtual bool call(const Call&) = 0;

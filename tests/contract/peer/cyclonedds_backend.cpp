@@ -78,6 +78,7 @@ class CycloneBackend : public Backend {
     writer_ = open_writer(roci_v1_PathRequest_desc, "roci/path/request", false);
     open_reader(roci_v1_PathReply_desc, "roci/path/reply", false, &CycloneBackend::on_answer);
   }
+  void open_stranger() override { writer_ = open_writer(roci_v1_Goal_desc, "roci/path/request", false); }
 
   bool write(const Goal& goal) override {
     const auto value = wire_goal(goal);

@@ -114,6 +114,7 @@ class FastBackend : public Backend {
                             reply.length_m(), reply.waypoints().size()});
         });
   }
+  void open_stranger() override { open_writer<v1::GoalPubSubType>("roci/path/request", false); }
 
   bool write(const Goal& goal) override {
     auto value = wire_goal(goal);

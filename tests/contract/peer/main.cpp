@@ -1,6 +1,7 @@
 // peer ROLE VENDOR DOMAIN [ADDRESS PEER]; environment: PEER_RUN, PEER_PARTITION, PEER_ANNOUNCEMENT (own: as this build's),
 //   PEER_KEYS and PEER_SERVICE (a secure participant with the certificate of that service)
-//   ROLE: goal-writer, goal-reader, path-server, path-client
+//   PEER_WAYPOINTS (of the ways that a path-server answers; 2)
+//   ROLE: goal-writer, goal-reader, path-server, path-client, stranger (a goal-writer on the topic of path requests)
 // Standard input: write ISSUER ID PRIORITY | dispose ISSUER ID | call SEQUENCE X Y; it ends with the input.
 // Standard output, one line each: ready | matched N | goal ISSUER ID PRIORITY | disposed ISSUER ID | lost
 // ISSUER ID |
@@ -72,7 +73,8 @@ Handlers handlers(Loop& loop, std::unique_ptr<Backend>& backend) {
         std::ostringstream line;
         line << "call " << call.sequence << " " << call.x_m << " " << call.y_m;
         say(line.str());
-        if (!backend->answer({call.client, call.sequence, 0, "found", std::hypot(call.x_m, call.y_m), 2})) {
+        if (!backend->answer({call.client, call.sequence, 0, "found", std::hypot(call.x_m, call.y_m),
+                              std::stoul(variable("PEER_WAYPOINTS", "2"))})) {
           say("refused");
         }
       }),
@@ -104,6 +106,7 @@ void open_role(Backend& backend, const std::string& role) {
   if (role == "goal-reader") return backend.open_goal_reader();
   if (role == "path-server") return backend.open_path_server();
   if (role == "path-client") return backend.open_path_client();
+  if (role == "stranger") return backend.open_stranger();
   throw std::invalid_argument("unknown role " + role);
 }
 

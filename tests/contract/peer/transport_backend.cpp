@@ -54,6 +54,11 @@ class TransportBackend : public Backend {
     writer_ = transport_->create_writer(requests(), {handlers_.matched});
     reader_ = transport_->create_reader(replies(), {[this](Sample&& sample) { take_answer(sample); }, {}});
   }
+  void open_stranger() override {
+    writer_ = transport_->create_writer(
+        contract::endpoint<v1::Goal>("roci/path/request", "roci::v1::Goal", contract::request()),
+        {handlers_.matched});
+  }
 
   bool write(const Goal& goal) override {
     return writer_->write(contract::goal(goal.id, goal.priority, goal.issuer, settings_.run));

@@ -1,0 +1,14 @@
+// Programs of others in a rehearsal: rocinante_service() builds beside each program a file that holds the same service.
+#pragma once
+
+#include <filesystem>
+
+#include "services/service.hpp"
+
+namespace roci::rehearsal {
+
+/// Loads the service that stands in `program` with ".so" behind it; it stays loaded. Throws std::invalid_argument with the
+/// remedy if there is no such file, it holds no service, or it was built with another Rocinante than this one.
+services::MakeService* load_service(const std::filesystem::path& program);
+
+}  // namespace roci::rehearsal
