@@ -85,6 +85,7 @@ Grounding grounded(const pddl::Domain& domain, const pddl::Problem& problem, Fun
   const auto tell = [&] {
     result.functions = std::move(report.functions);
     result.warnings = std::move(report.warnings);
+    result.statistics.temporally_inconsistent += report.shorter_than_separation;
   };
   try {
     Grounding grounding = ground(domain, problem, functions, options, limits, report);

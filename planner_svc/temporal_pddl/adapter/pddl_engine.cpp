@@ -110,6 +110,7 @@ Answer plan_for(const Request& request, const Limits& limits, FunctionSource& fu
   out.statistics.evaluated = result.statistics.evaluated;
   out.statistics.bytes_per_state = result.statistics.bytes_per_state;
   out.statistics.from_remaining = result.statistics.from_remaining;
+  out.warnings.insert(out.warnings.end(), result.warnings.begin(), result.warnings.end());
   out.blocking = blocking_goals(result.blocked, request, problem, result.functions);
   std::vector<std::string> names;
   for (const NamedGoal& goal : goals) names.push_back(goal.name);

@@ -47,19 +47,21 @@ std::string text(const std::string& name, std::span<const ObjectId> objects, con
   return result + ")";
 }
 
-// Names what has no value though something reads it, and will not get one.
-void warn(const pddl::Problem& problem, const Symbols& symbols, const ConstantFunctions& constants,
-          const GroundModel& model, const std::vector<UndefinedNumber>& undefined,
-          std::vector<std::string>& warnings) {
-  const std::string place = problem.file + ":" + std::to_string(problem.where.line) + ":" +
-                            std::to_string(problem.where.column) + ": warning: ";
-  const auto tell = [&](const std::string& fluent) {
-    warnings.push_back(
-        place + fluent +
-        " has no initial value, and nothing assigns one: no condition on it holds, and no action "
-        "that reads or changes it can run (add (= " +
-        fluent + " …) to :init)");
-  };
+std::string warning(const pddl::Problem& problem, const std::string& what) {
+  return problem.file + ":" + std::to_string(problem.where.line) + ":" +
+         std::to_string(problem.where.column) + ": warning: " + what;
+}
+
+std::string lacks_value(const std::string& fluent) {
+  return fluent +
+         " has no initial value, and nothing assigns one: no condition on it holds, and no action that reads "
+         "or changes it can run (add (= " +
+         fluent + " …) to :init)";
+}
+
+// Names the numbers that have no value though something reads them, and will not get one.
+void warn_of_undefined(const pddl::Problem& problem, const Symbols& symbols, const GroundModel& model,
+                       const std::vector<UndefinedNumber>& undefined, std::vector<std::string>& warnings) {
   std::size_t more = 0;
   for (const UndefinedNumber& one : undefined) {
     if (one.assigned) continue;
@@ -68,12 +70,19 @@ void warn(const pddl::Problem& problem, const Symbols& symbols, const ConstantFu
       continue;
     }
     const FunctionId function(std::size_t{model.numbers.symbol(one.number.value)});
-    tell(text(symbols[function].name, model.numbers.objects(one.number.value), symbols));
+    const auto objects = model.numbers.objects(one.number.value);
+    warnings.push_back(warning(problem, lacks_value(text(symbols[function].name, objects, symbols))));
   }
-  if (more > 0) warnings.push_back(place + "so have " + std::to_string(more) + " more");
+  if (more > 0) warnings.push_back(warning(problem, "so have " + std::to_string(more) + " more"));
+}
+
+// Where there is no plan: constants that some action asked for in vain. That a table has gaps is nothing to
+// speak of otherwise.
+void warn_of_gaps(const pddl::Problem& problem, const Symbols& symbols, const ConstantFunctions& constants,
+                  std::vector<std::string>& warnings) {
   for (std::size_t i = 0; i < symbols.functions(); ++i) {
     if (const auto& objects = constants.missed(FunctionId(i)))
-      tell(text(symbols[FunctionId(i)].name, *objects, symbols));
+      warnings.push_back(warning(problem, lacks_value(text(symbols[FunctionId(i)].name, *objects, symbols))));
   }
 }
 
@@ -91,21 +100,25 @@ Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, Funct
   GroundModel model =
       instantiate(domain, problem, actions, static_model, explore(actions, static_model, limits), limits);
   drop_self_defeating(model);
-  warn(problem, symbols, constants, model, require_values(model, symbols), report.warnings);
+  warn_of_undefined(problem, symbols, model, require_values(model, symbols), report.warnings);
   extract_timed_windows(model, options.windows, options.epsilon);
   split_envelopes_by_duration(model, symbols);
   const Disjunction goal = model.goal;
   while (true) {
     const std::vector<bool> reached = prune(model, limits);
-    if (model.goal.empty())
+    if (model.goal.empty()) {
+      warn_of_gaps(problem, symbols, constants, report.warnings);
       refuse({problem, actions, static_model, symbols, model, goal, reached, options.epsilon});
+    }
     settle_read_sets(model);
     drop_irrelevant_effects(model);
     const auto groups = find_mutex_groups(model, reached, symbols.predicates(), actions.size(), limits);
     std::vector<Compression> compression(model.actions.size());
     if (options.compression_safety) compression = find_compression(model, groups, limits);
     Task task = build_task(model, symbols, actions, groups, compression, limits);
-    if (drop_shorter_than_separation(model, task, options.epsilon)) continue;
+    const std::size_t dropped = drop_shorter_than_separation(model, task, options.epsilon);
+    report.shorter_than_separation += dropped;
+    if (dropped > 0) continue;
     return {std::move(symbols), std::move(constants), std::move(task)};
   }
 }

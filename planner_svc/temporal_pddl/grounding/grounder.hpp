@@ -1,6 +1,7 @@
 // The grounder leads from a checked model to the ground task.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct GroundingReport {
   std::vector<engine::FunctionUse> functions;  ///< every external value that was asked for
   /// "FILE:LINE:COLUMN: warning: …", one for each number that has no value though something reads it.
   std::vector<std::string> warnings;
+  std::size_t shorter_than_separation = 0;  ///< action instances, see impossible_actions.hpp
 };
 
 /// Grounds the model. Throws PlanningFailure

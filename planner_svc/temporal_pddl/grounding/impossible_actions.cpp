@@ -18,7 +18,7 @@ using temporal::Duration;
 namespace {
 
 std::optional<GroundLiteral> broken_by_own_start(const GroundModel& model, const GroundAction& action) {
-  if (!action.durative || action.min_duration <= Duration{0}) return std::nullopt;
+  if (!action.durative) return std::nullopt;
   for (const GroundLiteral literal : action.over_all.literals) {
     const auto& against = literal.negated ? action.start_effects.adds : action.start_effects.deletes;
     if (!model.derived[literal.atom] && std::ranges::binary_search(against, literal.atom)) return literal;
@@ -45,7 +45,7 @@ void drop_self_defeating(GroundModel& model) {
   });
 }
 
-bool drop_shorter_than_separation(GroundModel& model, const Task& task, Duration epsilon) {
+std::size_t drop_shorter_than_separation(GroundModel& model, const Task& task, Duration epsilon) {
   std::optional<Orderings> orderings;
   std::vector<bool> dropped;
   for (std::size_t i = 0; i < task.actions.size(); ++i) {
@@ -61,10 +61,9 @@ bool drop_shorter_than_separation(GroundModel& model, const Task& task, Duration
     dropped[i] = true;
     model.impossible_actions.push_back(note_of(model.actions[i]));
   }
-  if (dropped.empty()) return false;
+  if (dropped.empty()) return 0;
   std::size_t i = 0;
-  std::erase_if(model.actions, [&](const GroundAction&) { return dropped[i++]; });
-  return true;
+  return std::erase_if(model.actions, [&](const GroundAction&) { return dropped[i++]; });
 }
 
 }  // namespace roci::planner::temporal_pddl::grounding

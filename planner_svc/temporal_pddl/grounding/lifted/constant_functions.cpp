@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "planner_svc/temporal_pddl/call/planning_failure.hpp"
 #include "planner_svc/temporal_pddl/grounding/lifted/model_failure.hpp"
@@ -140,7 +141,11 @@ void ConstantFunctions::load_external(FunctionSource& source, const std::functio
 std::optional<double> ConstantFunctions::value(FunctionId function, std::span<const ObjectId> objects) const {
   const auto tuple = tuples_.find(function.value, objects);
   if (tuple) return values_[*tuple];
-  if (!external_[function] && !missed_[function]) missed_[function].emplace(objects.begin(), objects.end());
+  // A way from a thing to itself hardly ever has a value, and nobody misses it.
+  const bool one_thing =
+      objects.size() > 1 && std::ranges::count(objects, objects.front()) == std::ssize(objects);
+  if (!external_[function] && !missed_[function] && !one_thing)
+    missed_[function].emplace(objects.begin(), objects.end());
   return std::nullopt;
 }
 

@@ -33,10 +33,9 @@ TEST(ImpossibleActions, ADurationOfZeroIsTakenWhereStartAndEndHaveNothingInCommo
   testing::expect_valid(model, testing::solved(model));
 }
 
-TEST(ImpossibleActions, NothingIsInsideADurationOfZero) {
-  const auto model =
-      testing::model("(:requirements :durative-actions)" + blink("0", "(at start (not (p)))"), kGoal);
-  testing::expect_valid(model, testing::solved(model));
+TEST(ImpossibleActions, AnOverAllCountsForADurationOfZeroToo) {
+  EXPECT_THAT(why(blink("0", "(at start (not (p)))"), kGoal),
+              StartsWith("(blink) can never run: its start makes its own condition over all false, (p)"));
 }
 
 TEST(ImpossibleActions, ADurationOfLessThanEpsilonIsNamedWithEpsilon) {
