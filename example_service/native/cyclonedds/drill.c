@@ -75,7 +75,7 @@ static void bored(void) {
     return;
   }
   char timeline[128];
-  snprintf(timeline, sizeof timeline, "hole.%s", place);
+  snprintf(timeline, sizeof timeline, "drill.hole.%s", place);
   report(timeline, "bored");
   rest(roci_v1_STAGE_COMPLETED, "done", "", 1200);
 }

@@ -117,7 +117,7 @@ void Drill::bored() {
     due_us_ = clock_.now_us() + us(kAgainS);
     return;
   }
-  report("hole." + place_, "bored");
+  report("drill.hole." + place_, "bored");
   rest({v1::STAGE_COMPLETED, "done", "", 1200});
 }
 
