@@ -1,9 +1,15 @@
 #!/usr/bin/env bash
 # Installs what is missing (Debian 12 packages) and builds. Called by ./run and ./check:
-#   cmake/setup.sh PRESET [TARGET ...]
-# Exits 0 when build/PRESET is up to date, 3 when a package is missing and cannot be installed.
+#   cmake/setup.sh [--yes] PRESET [TARGET ...]
+# Asks before it uses sudo, unless --yes is given or ROCI_YES is set. Exits 0 when build/PRESET is up to date, 3 when a package
+# is missing and cannot be installed.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
+yes=${ROCI_YES:-}
+if [[ ${1:-} == --yes ]]; then
+  yes=1
+  shift
+fi
 preset=$1
 shift
 
@@ -29,6 +35,15 @@ if ((${#missing[@]})); then
   if ((EUID != 0)); then
     command -v sudo >/dev/null || { echo "setup: as root, run: apt-get install ${missing[*]}" >&2; exit 3; }
     sudo=(sudo)
+    if [[ -z $yes ]]; then
+      echo "setup: these Debian packages are missing: ${missing[*]}" >&2
+      if [[ ! -t 0 || ! -t 2 ]]; then
+        echo "setup: nobody is there to ask; say --yes to install them with sudo apt-get, or install them by hand" >&2
+        exit 3
+      fi
+      read -r -p "Install them with sudo apt-get? [y/N] " answer
+      [[ $answer == [yY]* ]] || { echo "setup: nothing was installed" >&2; exit 3; }
+    fi
   fi
   echo "setup: installing ${missing[*]}" >&2
   log=$(mktemp)
@@ -44,8 +59,12 @@ cd "$root"
 if [[ ! -f build/$preset/build.ninja ]]; then
   cmake --preset "$preset" >&2
 fi
-if (($#)); then
+# A build that has nothing to do, or next to nothing, says nothing.
+steps=$(ninja -C "build/$preset" -n "$@" 2>/dev/null | grep -c '^\[' || true)
+if ((steps > 3)); then
   ninja -C "build/$preset" "$@" >&2
 else
-  ninja -C "build/$preset" >&2
+  log=$(mktemp)
+  ninja -C "build/$preset" "$@" >"$log" 2>&1 || { cat "$log" >&2; rm -f "$log"; exit 1; }
+  rm -f "$log"
 fi

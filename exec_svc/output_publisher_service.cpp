@@ -68,7 +68,11 @@ void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version) {
     if (sent_keys_.size() > kSentKeys) sent_keys_.pop_front();
     send(std::move(sample));
   }
-  for (const StepStatus& step : out.steps) sent(steps_.write(to_wire(step, executive_, version)));
+  for (const StepStatus& step : out.steps) {
+    const v1::StepStatus sample = to_wire(step, executive_, version);
+    sent(steps_.write(sample));
+    if (temporal::is_over(step.state)) steps_.dispose(sample);
+  }
   for (const Event& event : out.events) report(event);
 }
 

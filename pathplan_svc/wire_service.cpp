@@ -90,6 +90,7 @@ FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request
     return {v1::FUNCTION_UNREACHABLE};
   };
   answer.reply = wire::answer_batches(request, planner.map().version(), kFunctions, estimate, stop);
+  wire::put_words(answer.reply, answer.unusable_places);
   return answer;
 }
 

@@ -24,7 +24,7 @@ struct FunctionAnswer {
 };
 
 /// Gives every tuple an outcome. An object is a place if it has properties x and y, finite numbers in metres.
-/// A place off the map or inside an obstacle is unreachable. Once stopped, the rest is FUNCTION_FAILED.
+/// A place off the map or inside an obstacle is unreachable, and the reply says why in words. Once stopped, the rest is FUNCTION_FAILED.
 FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request,
                         const std::stop_token& stop);
 

@@ -28,7 +28,8 @@ std::uint32_t peak_resident_kb() {
 // Of several planners of a mission each has a folder of its own.
 std::filesystem::path records_folder(const Node& node, const services::RunSettings& run) {
   if (run.run_folder.empty()) return {};
-  const auto list = run.mission.empty() ? mission::ServiceList{} : mission::load_service_list_if_any(run.mission);
+  const auto list =
+      run.mission.empty() ? mission::ServiceList{} : mission::load_service_list_if_any(run.mission);
   return run.run_folder / list.file_name(node.options().name, "planner_calls");
 }
 
@@ -161,8 +162,12 @@ void AnsweringHost::finish(const Answer& answer, double wall_s) {
   reply.statistics().wall_s(wall_s);
   reply.statistics().peak_rss_kb(peak_resident_kb());
   records_.keep(answer, wall_s);
+  for (const std::string& warning : answer.warnings)
+    if (told_warnings_.size() < kMostWarnings && told_warnings_.insert(warning).second)
+      report("planner.warning", warning);
   if (answer.verdict != Verdict::solved && answer.verdict != Verdict::cancelled)
-    report(std::string("planning ended as ") + to_string(answer.verdict) + ": " + answer.reason);
+    report("planner.verdict",
+           std::string("planning ended as ") + to_string(answer.verdict) + ": " + answer.reason);
   answering_ =
       node_.after(simulated_time_of(answer), [this, reply = std::move(reply)] { answer_job(reply); });
 }
@@ -181,10 +186,10 @@ void AnsweringHost::answer_job(const v1::PlanReply& reply) {
   start_next();
 }
 
-void AnsweringHost::report(const std::string& text) {
+void AnsweringHost::report(const std::string& code, const std::string& text) {
   v1::Event event;
   event.severity_level(v1::SEVERITY_WARNING);
-  event.code("planner.verdict");
+  event.code(code);
   event.text(text);
   events_.write(std::move(event));
 }

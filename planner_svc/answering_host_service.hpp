@@ -6,6 +6,7 @@
 #include <deque>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <thread>
@@ -55,7 +56,7 @@ class AnsweringHost final : private engine::FunctionSource {
   void finish(const engine::Answer& answer, double wall_s);
   temporal::Duration simulated_time_of(const engine::Answer& answer) const;
   void answer_job(const v1::PlanReply& reply);
-  void report(const std::string& text);
+  void report(const std::string& code, const std::string& text);
 
   services::Node& node_;
   const Settings& settings_;
@@ -65,6 +66,8 @@ class AnsweringHost final : private engine::FunctionSource {
   FunctionOwners owners_;
   std::deque<Job> queue_;
   std::uint64_t taken_ = 0;  // requests so far
+  static constexpr std::size_t kMostWarnings = 200;
+  std::set<std::string> told_warnings_;  // each is told once: every call comes with the same domain
   std::optional<Job> job_;
   std::optional<services::Node::TimerId> answering_;  // set once the job's answer is known
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "services/wire/function_wire.hpp"
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::planner {
@@ -195,11 +196,16 @@ std::vector<FunctionValue> values_of(const std::vector<FunctionCall>& calls, con
   }
   const Provenance provenance{reply.owner(), std::to_string(reply.model_version()),
                               temporal::Time(reply.computed_us())};
+  const std::map<std::string, std::string> words = services::wire::words_of(reply);
   std::vector<FunctionValue> values;
   for (std::size_t i = 0; i < calls.size(); ++i) {
     const double number = reply.results()[0].numbers()[i];
     const v1::FunctionOutcome outcome = reply.results()[0].outcomes()[i];
-    values.push_back({from_wire(outcome, number), number, provenance, reason_of(outcome)});
+    std::string reason = reason_of(outcome);
+    if (outcome == v1::FUNCTION_UNREACHABLE)
+      for (const std::string& object : calls[i].arguments)
+        if (const auto why = words.find(object); why != words.end()) reason = object + ": " + why->second;
+    values.push_back({from_wire(outcome, number), number, provenance, std::move(reason)});
   }
   return values;
 }

@@ -103,7 +103,9 @@ int main(int argc, char** argv) {
   app.add_option("--scenario", arguments.scenario, "Scenario of the mission")->capture_default_str();
   app.add_option("--runs", arguments.runs, "Number of flights, with seeds counted up")
       ->check(CLI::PositiveNumber);
-  app.add_option("--seed", arguments.seed, "Seed of the first flight")->capture_default_str();
+  app.add_option("--seed", arguments.seed, "Seed of the first flight")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_option("--speed", arguments.speed, "Simulated seconds per second, or max")
       ->check(CLI::PositiveNumber | CLI::IsMember({"max"}));
   app.add_option("--run-folder", arguments.folder,

@@ -21,9 +21,9 @@ class Publisher {
   explicit Publisher(node::TopicWriter& stream) : stream_(&stream) {}
 
   /// Fills in the header of clocked types. Returns false if the transport refused the sample (see
-  /// Writer::write), or more than kMicroStepLimit samples of the instance were written in one micro-step.
+  /// Writer::write), or more than micro_step_limit() samples of the instance were written in one micro-step.
   bool write(T value) const { return node::TypedEndpoints<T>::write(*stream_, std::move(value)); }
-  /// Late joiners no longer see the instance; nobody is told.
+  /// The instance has its last word: it goes once there are newer such ones (TopicWriter); nobody is told.
   bool dispose(const T& value) const { return node::TypedEndpoints<T>::dispose(*stream_, value); }
   /// Returns how many were written so far: for clocked types the `seq` of the newest one.
   std::uint64_t written() const { return node::written(*stream_); }

@@ -33,6 +33,25 @@ bool is_for(const Node& node, const v1::RequestHeader& header) {
   return header.instance_name().empty() || header.instance_name() == node.options().name;
 }
 
+// All answers that a server may owe at once have gone out by then (transport/micro_step.hpp).
+constexpr int kMostPostponed = 32;
+
+// What a micro-step has no room for goes out in the next.
+template <class Reply>
+void send(Node& node, const Publisher<Reply>& replies, const std::shared_ptr<const void>& reply, int postponed = 0) {
+  if (replies.write(*static_cast<const Reply*>(reply.get()))) return;
+  if (!node.impl().simulated() || postponed == kMostPostponed) return;
+  node.after(temporal::Duration(0),
+             [&node, replies, reply, postponed] { send<Reply>(node, replies, reply, postponed + 1); });
+}
+
+// Whether the caller may ask again for what it was answered: live, from outside the run, or over a link. Else the barrier
+// delivers, and nothing is kept for it.
+bool may_ask_again(Node& node, const v1::SampleHeader& header) {
+  return !node.impl().simulated() || header.incarnation() == 0 ||
+         node.impl().links.round_trip(header.sender()).has_value();
+}
+
 rpc::ReplyCache::Id id_of(const v1::RequestHeader& header) {
   return {header.request_id().writer_guid(), header.request_id().sequence_number()};
 }
@@ -44,7 +63,8 @@ std::shared_ptr<rpc::PendingCalls> Calls<Request, Reply>::client(
     Node& node, const topics::Procedure<Request, Reply>& procedure) {
   auto& table = node.impl().attachment<rpc::CallRegistry>().table(procedure.request.name);
   if (table) return table;
-  const node::TopicWriter& requests = node.impl().endpoints.out(node::spec_of(procedure.request));
+  node::TopicWriter& requests = node.impl().endpoints.out(node::spec_of(procedure.request));
+  requests.refuse_quietly();
   node::TopicReader& replies = node.impl().subscribe(node::spec_of(procedure.reply));
   table = std::make_shared<rpc::PendingCalls>(
       node.impl(), requests.guid(), procedure.request.name,
@@ -86,16 +106,19 @@ void Calls<Request, Reply>::serve(Node& node, const topics::Procedure<Request, R
   auto& server = node.impl().attachment<rpc::CallRegistry>().server(procedure.request.name);
   if (server) throw std::logic_error(node.options().name + " serves " + procedure.request.name + " twice");
   server = std::make_shared<rpc::ReplyCache>();
-  const rpc::PendingReply::Write write = [publisher = advertise(node, procedure.reply)](const void* reply) {
-    publisher.write(*static_cast<const Reply*>(reply));
-    return Reply::getCdrSerializedSize(*static_cast<const Reply*>(reply));
+  node.impl().endpoints.out(node::spec_of(procedure.reply)).refuse_quietly();
+  const rpc::PendingReply::Write write = [&node, publisher = advertise(node, procedure.reply)](
+                                             const std::shared_ptr<const void>& reply) {
+    send<Reply>(node, publisher, reply);
+    return Reply::getCdrSerializedSize(*static_cast<const Reply*>(reply.get()));
   };
   subscribe(node, procedure.request,
             [&node, server, write, handler = std::move(handler),
              name = std::string(procedure.request.name)](const Request& request) {
               const v1::RequestHeader& header = request.request();
               if (!is_for(node, header) || !server->accept(id_of(header))) return;
-              auto pending = std::make_shared<rpc::PendingReply>(server, header.request_id(), write);
+              auto pending = std::make_shared<rpc::PendingReply>(server, header.request_id(), write,
+                                                                 may_ask_again(node, request.header()));
               if (server->open() > bounds::kOpenRequests) {
                 node.impl().refusals.note(name, node::Refusal::no_room);
                 return Answer<Reply>::fail(

@@ -11,6 +11,7 @@
 #include "services/rpc.hpp"
 #include "sim_svc/scenario/run_file.hpp"
 #include "sim_svc/wire_service.hpp"
+#include "sim_svc/world_file.hpp"
 
 namespace roci::sim {
 
@@ -67,8 +68,10 @@ class SimService final : public services::Service, private owner::Driver {
         events_(services::advertise(node, topics::event)) {
     commands_.leave_stops_to_driver();  // the world knows its components
     // A live robot outlives the process that speaks for it. A simulated clock ends with its process.
-    if (node.options().clock == services::clock::ClockMode::live && !run_folder_.empty())
+    if (node.options().clock == services::clock::ClockMode::live && !run_folder_.empty()) {
       commands_.keep_in(run_folder_ / (node.options().name + ".ledger"));
+      go_on_with(run_folder_ / (node.options().name + ".world"));
+    }
     if (!run_folder_.empty()) effects_.open(run_folder_ / "effects.jsonl", std::ios::app);
     if (!run_folder_.empty()) begun_.open(run_folder_ / "begun.json");
     services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
@@ -98,12 +101,21 @@ class SimService final : public services::Service, private owner::Driver {
     tell(world_.halt(node_.now(), wire::task_key(key), stage, {why.code, why.reason}));
   }
 
+  // What it held, and where it stood, a robot still does when the process that speaks for it comes back.
+  void go_on_with(const std::filesystem::path& file) {
+    kept_.emplace(file);
+    const auto memory = kept_->read();
+    if (!memory) return;
+    world_.restore(*memory);
+    goes_on_from_ = memory->at;
+  }
+
   // Sends what the world says and wakes up again when it may say more.
   void tell(const world::Outputs& outputs) {
     for (const world::Output& output : outputs) {
       std::visit(Match{[this](const TaskReport& task) { report(task); },
                        [this](const Observed& observed) { observations_.write(wire::to_wire(observed)); },
-                       [this](const Image& image) { products_.write(wire::to_wire(image)); },
+                       [this](const Image& image) { publish(image); },
                        [this](const RockSeen& rock) { warn_of(rock); },
                        [this](const PathWanted& path) { ask(path); },
                        [this](const MotionWanted& motion) { ask(motion); }},
@@ -111,6 +123,7 @@ class SimService final : public services::Service, private owner::Driver {
     }
     record_effects();
     record_begun();
+    if (kept_) kept_->keep(world_.memory());
     if (wake_) node_.cancel(*wake_);
     wake_.reset();
     const auto next = world_.next_change();
@@ -119,6 +132,12 @@ class SimService final : public services::Service, private owner::Driver {
       wake_.reset();
       tell(world_.advance(node_.now()));
     });
+  }
+
+  void publish(const Image& image) {
+    const v1::DataProduct product = wire::to_wire(image);
+    products_.write(product);
+    if (image.sent) products_.dispose(product);
   }
 
   void report(const TaskReport& task) {
@@ -179,7 +198,10 @@ class SimService final : public services::Service, private owner::Driver {
                        hazards_.write(wire::to_wire(
                            RockSeen{hazard.id, "", rock.x, rock.y, rock.radius, node_.now()}, kGround));
                      },
-                     [this](const world::Disturbance& disturbance) {
+                     [this, &stimulus](const world::Disturbance& disturbance) {
+                       // An earlier process has lost this energy already; a fall of rocks is no part of its memory.
+                       const bool lost = std::holds_alternative<world::EnergyLoss>(disturbance);
+                       if (lost && goes_on_from_ && stimulus.at <= *goes_on_from_) return;
                        tell(world_.disturb(node_.now(), disturbance));
                      }},
                stimulus.what);
@@ -276,6 +298,8 @@ class SimService final : public services::Service, private owner::Driver {
   services::Node& node_;
   const Scenario scenario_;
   const std::filesystem::path run_folder_;
+  std::optional<WorldFile> kept_;  // of a live robot
+  std::optional<Time> goes_on_from_;
   std::ofstream effects_;
   std::ofstream begun_;
   const char* begun_separator_ = "[\n";

@@ -47,6 +47,10 @@ def flown(file: Path) -> set[int]:
     return {json.loads(line)["seed"] for line in file.read_text().splitlines() if line.strip()}
 
 
+def can_fly_apart() -> bool:
+    return subprocess.run([*APART, "true"], capture_output=True).returncode == 0
+
+
 def knows_secure(options: argparse.Namespace) -> bool:
     """Where the launcher does not know secured runs, the seeds that draw one fly plainly, and say so."""
     known = subprocess.run([options.bin / "roci-launch", "--help"], text=True, capture_output=True).stdout
@@ -106,6 +110,9 @@ def main() -> int:
         for seed in seeds:
             print(json.dumps(draw(seed).as_json()))
         return 0
+    if not can_fly_apart():
+        print(f"run.py: SKIPPED: this user cannot make what keeps a flight apart ({' '.join(APART)})", file=sys.stderr)
+        return 77
     if options.anew:
         options.out.unlink(missing_ok=True)
     options.keep = options.keep or options.out.parent / "violations"

@@ -35,9 +35,9 @@ def broken_drop_order(flight: Flight) -> list[str]:
             continue
         if code == "goal.accepted":
             open_goals = [*(one for one in open_goals if one is not goal), goal]
-        if code in ("goal.dropped", "goal.failed") and "times in a row" not in words:
-            proved = "proved that not all goals fit" in words
-            candidates = [one for one in open_goals if proved and names(words, one)] or open_goals
+        if code in ("goal.dropped", "goal.failed") and "in a row" not in words:
+            proved = "\ndetails: " in goal.reason
+            candidates = [one for one in open_goals if proved and names(goal.reason, one)] or open_goals
             right = to_go(candidates)
             if right is not None and right is not goal:
                 faults.append(f"goal {goal.key} went at {time_s:.1f} s, but it was the turn of {right.key}")

@@ -79,7 +79,7 @@ def hard_section(records: list[Record]) -> str:
 
 
 def shorten(reason: str) -> str:
-    text = reason.replace("proved that not all goals fit: ", "").replace("|", "/")
+    text = reason.split("\n")[0].replace("|", "/")
     return text if len(text) < 100 else text[:97] + "…"
 
 

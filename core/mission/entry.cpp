@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mission/findings.hpp"
+#include "core/mission/nearest_word.hpp"
+
 namespace roci::mission {
 namespace {
 
@@ -24,16 +27,16 @@ std::string listed(std::initializer_list<std::string_view> names) {
 
 }  // namespace
 
-Entry::Entry(std::shared_ptr<const std::filesystem::path> file, const YAML::Node& node)
-    : file_(std::move(file)), node_(std::make_shared<const YAML::Node>(node)) {}
+Entry::Entry(std::shared_ptr<const Document> document, const YAML::Node& node)
+    : document_(std::move(document)), node_(std::make_shared<const YAML::Node>(node)) {}
 
-Entry Entry::load(const std::filesystem::path& file) {
-  auto path = std::make_shared<const std::filesystem::path>(file);
+Entry Entry::load(const std::filesystem::path& file, Findings* findings) {
+  auto document = std::make_shared<const Document>(Document{file, findings});
   try {
     YAML::Node root = YAML::LoadFile(file.string());
     if (!root.IsMap())
       throw FileError(file.string() + ":1:1: the file holds no 'key: value' pairs; see docs/missions.md");
-    return Entry(path, root);
+    return Entry(document, root);
   } catch (const YAML::BadFile&) {
     throw FileError(file.string() + ": cannot be read; check that the file exists");
   } catch (const YAML::Exception& error) {
@@ -43,13 +46,13 @@ Entry Entry::load(const std::filesystem::path& file) {
 }
 
 Entry Entry::parse(const std::string& text, const std::string& name) {
-  auto path = std::make_shared<const std::filesystem::path>(name);
+  auto document = std::make_shared<const Document>(Document{name});
   try {
     YAML::Node root = YAML::Load(text);
     if (!root.IsMap()) throw FileError(name + ":1:1: it holds no 'key: value' pairs; see docs/missions.md");
-    return Entry(path, root);
+    return Entry(document, root);
   } catch (const YAML::Exception& error) {
-    throw FileError(place_of(*path, error.mark) + ": not valid YAML (" + error.msg +
+    throw FileError(place_of(document->file, error.mark) + ": not valid YAML (" + error.msg +
                     "); mend the syntax there");
   }
 }
@@ -63,13 +66,13 @@ std::optional<Entry> Entry::find(std::string_view key) const {
   if (!node().IsMap()) fail("expected 'key: value' pairs");
   const YAML::Node child = node()[std::string(key)];
   if (!child.IsDefined() || child.IsNull()) return std::nullopt;
-  return Entry(file_, child);
+  return Entry(document_, child);
 }
 
 std::vector<Entry> Entry::items() const {
   if (!node().IsSequence()) fail("expected a list");
   std::vector<Entry> out;
-  for (const YAML::Node& child : node()) out.push_back(Entry(file_, child));
+  for (const YAML::Node& child : node()) out.push_back(Entry(document_, child));
   return out;
 }
 
@@ -77,8 +80,17 @@ std::vector<std::pair<std::string, Entry>> Entry::fields() const {
   if (!node().IsMap()) fail("expected 'key: value' pairs");
   std::vector<std::pair<std::string, Entry>> out;
   for (const auto& child : node())
-    out.emplace_back(Entry(file_, child.first).text(), Entry(file_, child.second));
+    out.emplace_back(Entry(document_, child.first).text(), Entry(document_, child.second));
   return out;
+}
+
+void Entry::each(const std::function<void(const Entry&)>& read) const {
+  for (const Entry& item : items()) item.attempt([&] { read(item); });
+}
+
+void Entry::each_field(const std::function<void(const std::string&, const Entry&)>& read) const {
+  for (const auto& [key, value] : fields())
+    value.attempt([&, &key = key, &value = value] { read(key, value); });
 }
 
 bool Entry::is_mapping() const { return node().IsMap(); }
@@ -136,21 +148,34 @@ bool Entry::truth_or(std::string_view key, bool fallback) const {
 void Entry::allow_only(std::initializer_list<std::string_view> known) const {
   if (!node().IsMap()) fail("expected 'key: value' pairs");
   for (const auto& child : node()) {
-    const Entry key(file_, child.first);
-    if (std::find(known.begin(), known.end(), key.text()) == known.end()) {
-      key.fail("unknown key '" + key.text() + "'; known here: " + listed(known));
-    }
+    const Entry key(document_, child.first);
+    if (std::find(known.begin(), known.end(), key.text()) != known.end()) continue;
+    key.complain("unknown key '" + key.text() + "'; known here: " + listed(known) +
+                 did_you_mean(key.text(), {known.begin(), known.end()}));
   }
 }
 
 void Entry::fail(const std::string& what) const { throw FileError(place() + ": " + what); }
 
-std::string Entry::place() const { return place_of(*file_, node().Mark()); }
+void Entry::complain(const std::string& what) const {
+  attempt([&] { fail(what); });
+}
 
-const std::filesystem::path& Entry::file() const { return *file_; }
+void Entry::attempt(const std::function<void()>& read) const {
+  if (document_->findings == nullptr) return read();
+  try {
+    read();
+  } catch (const FileError& error) {
+    document_->findings->add(error.what());
+  }
+}
+
+std::string Entry::place() const { return place_of(document_->file, node().Mark()); }
+
+const std::filesystem::path& Entry::file() const { return document_->file; }
 
 std::filesystem::path Entry::resolve(const std::string& relative) const {
-  return file_->parent_path() / relative;
+  return document_->file.parent_path() / relative;
 }
 
 }  // namespace roci::mission

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -18,6 +19,8 @@ class Node;
 
 namespace roci::mission {
 
+class Findings;
+
 /// Says in what(): "file:line:column: what is wrong; remedy".
 class FileError : public std::runtime_error {
  public:
@@ -26,10 +29,14 @@ class FileError : public std::runtime_error {
 
 /// Is one value of a mission file with its place in it. Every accessor throws FileError when the value is not
 /// of the kind asked for.
+///
+/// A file that was loaded with `findings` is read to its end: each(), each_field(), attempt(), complain() and
+/// allow_only() note a fault there and go on, so that one reader serves who flies (the first fault ends it) and
+/// who checks (all of them).
 class Entry {
  public:
   /// Reads the root of a file. Throws FileError if it cannot be read, is not YAML, or is not a mapping.
-  static Entry load(const std::filesystem::path& file);
+  static Entry load(const std::filesystem::path& file, Findings* findings = nullptr);
   /// Reads a text that came otherwise; `name` stands for the file in what it says of places. Throws FileError
   /// as load() does.
   static Entry parse(const std::string& text, const std::string& name);
@@ -41,6 +48,12 @@ class Entry {
   std::vector<Entry> items() const;
   /// Returns the fields of a mapping, in the order of the file.
   std::vector<std::pair<std::string, Entry>> fields() const;
+  /// Reads the items of a sequence one by one.
+  void each(const std::function<void(const Entry&)>& read) const;
+  /// Reads the fields of a mapping one by one.
+  void each_field(const std::function<void(const std::string& key, const Entry& value)>& read) const;
+  /// Reads a part that the rest can do without.
+  void attempt(const std::function<void()>& read) const;
   bool is_mapping() const;
   bool is_sequence() const;
 
@@ -58,16 +71,23 @@ class Entry {
   void allow_only(std::initializer_list<std::string_view> known) const;
 
   [[noreturn]] void fail(const std::string& what) const;
+  /// Fails, or where findings are collected notes it and returns: for faults after which reading goes on.
+  void complain(const std::string& what) const;
   std::string place() const;  ///< It reads "file:line:column".
   const std::filesystem::path& file() const;
   /// Resolves a name relative to the file's folder.
   std::filesystem::path resolve(const std::string& relative) const;
 
  private:
-  Entry(std::shared_ptr<const std::filesystem::path> file, const YAML::Node& node);
+  struct Document {
+    std::filesystem::path file;
+    Findings* findings = nullptr;  ///< null: the first fault is thrown
+  };
+
+  Entry(std::shared_ptr<const Document> document, const YAML::Node& node);
   const YAML::Node& node() const { return *node_; }
 
-  std::shared_ptr<const std::filesystem::path> file_;
+  std::shared_ptr<const Document> document_;
   std::shared_ptr<const YAML::Node> node_;
 };
 

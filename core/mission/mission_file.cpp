@@ -24,8 +24,8 @@ std::filesystem::path mission_file(const std::filesystem::path& folder_or_file) 
                                                                  : folder_or_file / "mission.yaml";
 }
 
-Entry load_mission_file(const std::filesystem::path& folder_or_file) {
-  Entry mission = Entry::load(mission_file(folder_or_file));
+Entry load_mission_file(const std::filesystem::path& folder_or_file, Findings* findings) {
+  Entry mission = Entry::load(mission_file(folder_or_file), findings);
   require_known_format(mission);
   return mission;
 }

@@ -14,7 +14,7 @@ inline constexpr int kMissionFormat = 1;
 std::filesystem::path mission_file(const std::filesystem::path& folder_or_file);
 
 /// Reads a mission file; one that states no `format` is of format 1. Throws FileError, also for a file of a newer
-/// format: it is never misread.
-Entry load_mission_file(const std::filesystem::path& folder_or_file);
+/// format: it is never misread. `findings` as in Entry::load().
+Entry load_mission_file(const std::filesystem::path& folder_or_file, Findings* findings = nullptr);
 
 }  // namespace roci::mission

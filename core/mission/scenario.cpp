@@ -3,28 +3,36 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/mission/nearest_word.hpp"
+
 namespace roci::mission {
 namespace {
 
-std::string scenarios_of(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  std::error_code missing;
-  for (const auto& file : std::filesystem::directory_iterator(folder, missing)) {
-    if (file.path().extension() == ".yaml") names.push_back(file.path().stem());
-  }
-  std::sort(names.begin(), names.end());
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
-  return out.empty() ? "none" : out;
+std::filesystem::path scenarios_folder(const std::filesystem::path& folder_or_file) {
+  return mission_file(folder_or_file).parent_path() / "scenarios";
 }
 
 }  // namespace
 
-Entry load_scenario(const std::filesystem::path& folder_or_file, const std::string& name) {
-  const auto folder = mission_file(folder_or_file).parent_path() / "scenarios";
-  const auto file = folder / (name + ".yaml");
-  if (std::filesystem::exists(file)) return Entry::load(file);
-  throw FileError(file.string() + ": there is no such scenario; choose one of: " + scenarios_of(folder));
+std::vector<std::string> scenario_names(const std::filesystem::path& folder_or_file) {
+  std::vector<std::string> names;
+  std::error_code missing;
+  for (const auto& file : std::filesystem::directory_iterator(scenarios_folder(folder_or_file), missing)) {
+    if (file.path().extension() == ".yaml") names.push_back(file.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Entry load_scenario(const std::filesystem::path& folder_or_file, const std::string& name,
+                    Findings* findings) {
+  const auto file = scenarios_folder(folder_or_file) / (name + ".yaml");
+  if (std::filesystem::exists(file)) return Entry::load(file, findings);
+  const auto names = scenario_names(folder_or_file);
+  std::string all;
+  for (const std::string& one : names) all += (all.empty() ? "" : ", ") + one;
+  throw FileError(file.string() + ": there is no such scenario; choose one of: " +
+                  (all.empty() ? "none" : all) + did_you_mean(name, names));
 }
 
 }  // namespace roci::mission

@@ -3,13 +3,19 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/mission/entry.hpp"
 #include "core/mission/mission_file.hpp"
 
 namespace roci::mission {
 
+/// The names of the scenarios of a mission, in alphabetical order.
+std::vector<std::string> scenario_names(const std::filesystem::path& folder_or_file);
+
 /// Reads a scenario of a mission. Throws FileError; for a name that no file has, it lists those that there are.
-Entry load_scenario(const std::filesystem::path& folder_or_file, const std::string& name);
+/// `findings` as in Entry::load().
+Entry load_scenario(const std::filesystem::path& folder_or_file, const std::string& name,
+                    Findings* findings = nullptr);
 
 }  // namespace roci::mission

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "core/mission/mission_file.hpp"
+#include "core/mission/nearest_word.hpp"
 
 namespace roci::mission {
 namespace {
@@ -25,12 +26,12 @@ std::vector<std::string> read_robots(const Entry& mission) {
   std::vector<std::string> robots;
   const auto list = mission.find("robots");
   if (!list) return robots;
-  for (const Entry& entry : list->items()) {
+  list->each([&](const Entry& entry) {
     const std::string name = entry.text();
     require_name(entry, name, "robot");
     if (std::ranges::find(robots, name) != robots.end()) entry.fail("robot '" + name + "' stands twice");
     robots.push_back(name);
-  }
+  });
   return robots;
 }
 
@@ -45,13 +46,14 @@ void read_robot(const Entry& entry, const std::vector<std::string>& robots, Serv
   if (!robot) return;
   out.robot = robot->text();
   if (std::ranges::find(robots, out.robot) == robots.end())
-    robot->fail("no robot '" + out.robot + "' stands in robots:; known: " + joined(robots));
+    robot->complain("no robot '" + out.robot + "' stands in robots:; known: " + joined(robots) +
+                    did_you_mean(out.robot, robots));
 }
 
 void require_file(const Entry& entry, const std::filesystem::path& file, const char* what) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
-    entry.fail(std::string("there is no ") + what + " " + file.string());
+    entry.complain(std::string("there is no ") + what + " " + file.string());
 }
 
 ServiceEntry read_service(const Entry& entry, const std::vector<std::string>& robots) {
@@ -71,7 +73,7 @@ ServiceEntry read_service(const Entry& entry, const std::vector<std::string>& ro
   out.settings = entry.resolve(entry.text_or("settings", kMissionFile));
   if (const auto settings = entry.find("settings")) require_file(*settings, out.settings, "settings file");
   if (const auto clock = entry.find("clock")) {
-    if (clock->text() != "master") clock->fail("clock: " + clock->text() + "; the only value is master");
+    if (clock->text() != "master") clock->complain("clock: " + clock->text() + "; the only value is master");
     out.clock_master = true;
   }
   out.paired = entry.truth_or("standby", false);
@@ -140,14 +142,14 @@ ServiceList read_service_list(const Entry& mission) {
         "    - {name: sim_svc, clock: master}\n"
         "    - {name: exec_svc}");
   }
-  for (const Entry& entry : list->items()) {
+  list->each([&](const Entry& entry) {
     ServiceEntry service = read_service(entry, out.robots);
     if (out.find(service.name) != nullptr)
       entry.at("name").fail("service '" + service.name + "' stands twice");
     out.services.push_back(std::move(service));
-  }
+  });
   if (std::ranges::count(out.services, true, &ServiceEntry::clock_master) > 1)
-    list->fail("several services have clock: master; one alone drives the simulated clock");
+    list->complain("several services have clock: master; one alone drives the simulated clock");
   return out;
 }
 

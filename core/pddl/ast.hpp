@@ -252,6 +252,7 @@ struct Domain {
   std::vector<Action> actions;
   std::vector<DurativeAction> durative_actions;
   SourceLocation where;
+  std::vector<Diagnostic> warnings;  ///< what departs from PDDL, and how it was read; no part of equality
 };
 
 // ---- Problem
@@ -300,9 +301,10 @@ struct Problem {
   Condition goal;
   std::optional<Metric> metric;
   SourceLocation where;
+  std::vector<Diagnostic> warnings;  ///< what departs from PDDL, and how it was read; no part of equality
 };
 
-// Equality compares what is said, wherever it stands (file names and locations are ignored).
+// Equality compares what is said, wherever it stands (file names, locations and warnings are ignored).
 
 bool operator==(const Term&, const Term&);
 bool operator==(const TypedName&, const TypedName&);

@@ -1,6 +1,6 @@
 #include "core/pddl/check.hpp"
 #include "core/pddl/check_parts.hpp"
-#include "core/pddl/parser.hpp"
+#include "core/pddl/settle.hpp"
 #include "core/pddl/stratify.hpp"
 
 namespace roci::pddl {
@@ -9,8 +9,8 @@ namespace {
 
 class DomainChecker {
  public:
-  explicit DomainChecker(const Domain& domain)
-      : domain_(domain), findings_(domain.file), symbols_(domain), formulas_(symbols_, findings_) {}
+  DomainChecker(const Domain& domain, const Unread& unread)
+      : domain_(domain), findings_(domain.file), symbols_(domain, unread), formulas_(symbols_, findings_) {}
 
   std::vector<Diagnostic> run() {
     check_hierarchy();
@@ -37,7 +37,14 @@ class DomainChecker {
   }
 
   void check_hierarchy() {
+    const std::string& too_deep = symbols_.types().too_deep();
     for (const TypedName& type : domain_.types) {
+      if (!too_deep.empty() && type.name == too_deep) {
+        return findings_.add(type.where,
+                             "type '" + type.name + "' has more than " +
+                                 std::to_string(TypeTree::kMostAbove) + " types above it",
+                             "take types out of the chain in :types");
+      }
       for (const std::string& parent : type.types) {
         if (type.name == "object" || !symbols_.types().is_a(parent, type.name)) continue;
         findings_.add(type.where, "type '" + type.name + "' is above itself", "break the circle in :types");
@@ -68,8 +75,10 @@ class DomainChecker {
     for (const DerivedPredicate& derived : domain_.derived) {
       const Signature* declared = symbols_.find_predicate(derived.head.name);
       if (!declared) {
-        findings_.add(derived.head.where, "unknown predicate '" + derived.head.name + "'",
-                      "declare it in :predicates");
+        if (!symbols_.unread().predicates) {
+          findings_.add(derived.head.where, "unknown predicate '" + derived.head.name + "'",
+                        symbols_.remedy_for_predicate(derived.head.name, "declare it in :predicates"));
+        }
       } else if (declared->parameters.size() != derived.head.parameters.size()) {
         findings_.add(derived.head.where,
                       "derived predicate '" + derived.head.name + "' has another arity than declared",
@@ -77,7 +86,7 @@ class DomainChecker {
       }
       formulas_.bind(derived.head.parameters);
       formulas_.check_condition(derived.body);
-      formulas_.unbind(derived.head.parameters.size());
+      formulas_.unbind(derived.head.parameters);
     }
     const Strata strata = stratify(domain_);
     for (const DerivedPredicate& derived : domain_.derived) {
@@ -109,7 +118,7 @@ class DomainChecker {
     formulas_.bind(action.parameters);
     formulas_.check_condition(action.precondition);
     formulas_.check_effects(action.effects, {});
-    formulas_.unbind(action.parameters.size());
+    formulas_.unbind(action.parameters);
   }
 
   void check_action(const DurativeAction& action) {
@@ -121,7 +130,7 @@ class DomainChecker {
     formulas_.check_effects(action.start_effects, {.duration = true});
     formulas_.check_effects(action.end_effects, {.duration = true});
     formulas_.check_effects(action.continuous_effects, {.duration = true, .continuous_time = true});
-    formulas_.unbind(action.parameters.size());
+    formulas_.unbind(action.parameters);
   }
 
   const Domain& domain_;
@@ -132,11 +141,20 @@ class DomainChecker {
 
 }  // namespace
 
-std::vector<Diagnostic> check(const Domain& domain) { return DomainChecker(domain).run(); }
+std::vector<Diagnostic> check(const Domain& domain, const Unread& unread) {
+  return DomainChecker(domain, unread).run();
+}
 
-Domain load_domain(std::string_view text, std::string_view file) {
-  Domain domain = parse_domain(text, file);
-  if (auto findings = check(domain); !findings.empty()) throw ParseError(std::move(findings.front()));
+std::vector<Diagnostic> check(const Domain& domain) { return check(domain, Unread{}); }
+
+Domain load_domain(std::string_view text, std::string_view file, Strictness strictness) {
+  DiagnosticLog log{std::string(file), strictness};
+  Unread unread;
+  Domain domain = read_domain(text, log, unread);
+  settle(domain, log);
+  for (Diagnostic& finding : check(domain, unread)) log.add(std::move(finding));
+  log.throw_errors();
+  domain.warnings = log.warnings();
   return domain;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/pddl/check_parts.hpp"
+#include "core/pddl/nearest_word.hpp"
 #include "core/pddl/overloaded.hpp"
 #include "core/pddl/printer.hpp"
 
@@ -22,19 +23,29 @@ void FormulaChecker::bind(const std::vector<TypedName>& variables) {
     if (variable.name == "?duration") {
       findings_.add(variable.where, "?duration as the name of a variable", "it is reserved: rename it");
     }
-    const bool again = std::any_of(bound_.begin(), bound_.end(),
-                                   [&](const TypedName* outer) { return outer->name == variable.name; });
-    if (again) {
+    if (bound_.contains(variable.name))
       findings_.add(variable.where, "variable '" + variable.name + "' hides an outer one", "rename it");
-    }
   }
-  for (const TypedName& variable : variables) bound_.push_back(&variable);
+  for (const TypedName& variable : variables) bound_[variable.name].push_back(&variable);
+}
+
+void FormulaChecker::unbind(const std::vector<TypedName>& variables) {
+  for (const TypedName& variable : variables) {
+    const auto it = bound_.find(variable.name);
+    it->second.pop_back();
+    if (it->second.empty()) bound_.erase(it);
+  }
 }
 
 const TypedName* FormulaChecker::find_variable(const std::string& name) const {
-  const auto it = std::find_if(bound_.begin(), bound_.end(),
-                               [&](const TypedName* variable) { return variable->name == name; });
-  return it == bound_.end() ? nullptr : *it;
+  const auto it = bound_.find(name);
+  return it == bound_.end() ? nullptr : it->second.front();
+}
+
+std::string FormulaChecker::remedy_for_variable(const std::string& name) const {
+  NearestWord near(name);
+  for (const auto& [bound, ignored] : bound_) near.offer(bound);
+  return near.remedy("add it to :parameters or a quantifier");
 }
 
 // A variable must fit whichever object it takes; an object fits if one of its types does.
@@ -45,8 +56,7 @@ void FormulaChecker::check_argument(const Term& term, const TypedName& parameter
   if (term.is_variable()) {
     const TypedName* variable = find_variable(term.name);
     if (!variable) {
-      findings_.add(term.where, "unbound variable '" + term.name + "'",
-                    "add it to :parameters or a quantifier");
+      findings_.add(term.where, "unbound variable '" + term.name + "'", remedy_for_variable(term.name));
       return;
     }
     given = &variable->types;
@@ -54,13 +64,18 @@ void FormulaChecker::check_argument(const Term& term, const TypedName& parameter
   } else {
     given = symbols_.find_object_types(term.name);
     if (!given) {
-      findings_.add(term.where, "unknown object '" + term.name + "'", "declare it in :objects or :constants");
+      if (symbols_.unread().objects) return;
+      const bool has_variable = find_variable("?" + term.name);
+      findings_.add(term.where, "unknown object '" + term.name + "'",
+                    has_variable
+                        ? "did you mean the variable '?" + term.name + "'?"
+                        : symbols_.remedy_for_object(term.name, "declare it in :objects or :constants"));
       return;
     }
     fits = std::any_of(given->begin(), given->end(),
                        [&](const std::string& type) { return types.accepts(parameter.types, {type}); });
   }
-  if (fits) return;
+  if (fits || symbols_.unread().types) return;
   findings_.add(term.where,
                 "'" + term.name + "' is of type " + join(*given) + ", but " + owner + " takes " +
                     join(parameter.types) + " here",
@@ -84,8 +99,9 @@ void FormulaChecker::check_arguments(const Atom& atom, const Signature& signatur
 void FormulaChecker::check_fact(const Atom& atom) {
   if (const Signature* signature = symbols_.find_predicate(atom.symbol)) {
     check_arguments(atom, *signature, "predicate");
-  } else {
-    findings_.add(atom.where, "unknown predicate '" + atom.symbol + "'", "declare it in :predicates");
+  } else if (!symbols_.unread().predicates) {
+    findings_.add(atom.where, "unknown predicate '" + atom.symbol + "'",
+                  symbols_.remedy_for_predicate(atom.symbol, "declare it in :predicates"));
   }
 }
 
@@ -103,8 +119,9 @@ void FormulaChecker::check_fluent(const Atom& atom) {
   } else if (symbols_.find_external(atom.symbol)) {
     findings_.add(atom.where, "external function '" + atom.symbol + "' is set",
                   "its module alone gives its values");
-  } else {
-    findings_.add(atom.where, "unknown function '" + atom.symbol + "'", "declare it in :functions");
+  } else if (!symbols_.unread().functions) {
+    findings_.add(atom.where, "unknown function '" + atom.symbol + "'",
+                  symbols_.remedy_for_function(atom.symbol, "declare it in :functions"));
   }
 }
 
@@ -119,8 +136,10 @@ void FormulaChecker::check_expression(const Expression& expression, ExpressionCo
                    const Signature* signature = symbols_.find_fluent(atom.symbol);
                    if (!signature) signature = symbols_.find_external(atom.symbol);
                    if (signature) return check_arguments(atom, *signature, "function");
-                   findings_.add(atom.where, "unknown function '" + atom.symbol + "'",
-                                 "declare it in :functions or :modules");
+                   if (symbols_.unread().functions) return;
+                   findings_.add(
+                       atom.where, "unknown function '" + atom.symbol + "'",
+                       symbols_.remedy_for_function(atom.symbol, "declare it in :functions or :modules"));
                  },
                  [&](const DurationVariable&) {
                    require(context.duration, "?duration", "it stands in effects of durative actions");
@@ -142,7 +161,7 @@ void FormulaChecker::check_condition(const Condition& condition) {
   const auto check_quantified = [&](const auto& quantified) {
     bind(quantified.variables);
     check_condition(*quantified.body);
-    unbind(quantified.variables.size());
+    unbind(quantified.variables);
   };
   std::visit(
       Overloaded{[&](const And& all) { check_all(all.parts); }, [&](const Or& any) { check_all(any.parts); },
@@ -157,6 +176,7 @@ void FormulaChecker::check_condition(const Condition& condition) {
                  [&](const TermEquality& equality) {
                    for (const Term* term : {&equality.left, &equality.right}) {
                      if (find_variable(term->name) || symbols_.find_object_types(term->name)) continue;
+                     if (!term->is_variable() && symbols_.unread().objects) continue;
                      findings_.add(term->where, "unknown '" + term->name + "'",
                                    "bind the variable or declare the object; functions stand in parentheses");
                    }
@@ -188,7 +208,7 @@ void FormulaChecker::check_effects(const std::vector<Effect>& effects, Expressio
                           [&](const ForallEffect& forall) {
                             bind(forall.variables);
                             check_effects(forall.effects, context);
-                            unbind(forall.variables.size());
+                            unbind(forall.variables);
                           }},
                effect.node);
   }

@@ -4,9 +4,11 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/pddl/ast.hpp"
+#include "core/pddl/parse_parts.hpp"
 #include "core/pddl/types.hpp"
 
 namespace roci::pddl {
@@ -19,6 +21,7 @@ class Findings {
   void add(SourceLocation where, std::string message, std::string remedy) {
     diagnostics_.push_back({file_, where, std::move(message), std::move(remedy)});
   }
+  std::size_t size() const { return diagnostics_.size(); }
   std::vector<Diagnostic> take() { return std::move(diagnostics_); }
 
  private:
@@ -36,9 +39,20 @@ struct ExpressionContext {
 /// Knows everything declared, by name. It points into the domain, which must outlive it.
 class Symbols {
  public:
-  explicit Symbols(const Domain& domain);
+  /// Bounds the types of one object, all its declarations together.
+  static constexpr std::size_t kMostTypes = 200;
+
+  /// `unread` says where something may be declared that could not be read.
+  explicit Symbols(const Domain& domain, Unread unread = {});
 
   void add_objects(const std::vector<TypedName>& objects);
+  const Unread& unread() const { return unread_; }
+
+  /// These return what to do about an unknown name: the nearest known one, or `otherwise`.
+  std::string remedy_for_type(std::string_view name, std::string_view otherwise) const;
+  std::string remedy_for_predicate(std::string_view name, std::string_view otherwise) const;
+  std::string remedy_for_function(std::string_view name, std::string_view otherwise) const;
+  std::string remedy_for_object(std::string_view name, std::string_view otherwise) const;
 
   const Signature* find_predicate(const std::string& name) const;
   const Signature* find_fluent(const std::string& name) const;
@@ -55,6 +69,11 @@ class Symbols {
   std::map<std::string, std::vector<std::string>> objects_;
   std::set<std::string> derived_;
   TypeTree types_;
+  Unread unread_;
+
+  // Comparing an unknown name with all known ones takes time; a text with more of them than these has other troubles.
+  bool may_compare() const { return comparisons_left_ > 0 && comparisons_left_-- > 0; }
+  mutable int comparisons_left_ = 200;
 };
 
 /// Walks conditions, effects and expressions with the variables bound so far. `Symbols` and `Findings` must
@@ -63,9 +82,9 @@ class FormulaChecker {
  public:
   FormulaChecker(const Symbols& symbols, Findings& findings) : symbols_(symbols), findings_(findings) {}
 
-  /// Binds variables for the checks that follow, until unbind(variables.size()).
+  /// Binds variables for the checks that follow, until unbind() with the same ones.
   void bind(const std::vector<TypedName>& variables);
-  void unbind(std::size_t count) { bound_.resize(bound_.size() - count); }
+  void unbind(const std::vector<TypedName>& variables);
 
   void check_fact(const Atom& atom);        ///< predicate, arity, arguments
   void check_basic_fact(const Atom& atom);  ///< … and not derived: what effects and :init may set
@@ -79,10 +98,11 @@ class FormulaChecker {
   void check_arguments(const Atom& atom, const Signature& signature, std::string_view what);
   void check_argument(const Term& term, const TypedName& parameter, const std::string& owner);
   const TypedName* find_variable(const std::string& name) const;
+  std::string remedy_for_variable(const std::string& name) const;
 
   const Symbols& symbols_;
   Findings& findings_;
-  std::vector<const TypedName*> bound_;
+  std::map<std::string_view, std::vector<const TypedName*>> bound_;  // the innermost one last
 };
 
 /// Reports every type of the names that nobody declared.
@@ -90,5 +110,9 @@ void check_types(const std::vector<TypedName>& names, const Symbols& symbols, Fi
 
 /// Checks the types of the variables, and that none stands twice.
 void check_variables(const std::vector<TypedName>& variables, const Symbols& symbols, Findings& findings);
+
+/// These check what could be read; what is unknown there because something could not be read is not told.
+std::vector<Diagnostic> check(const Domain& domain, const Unread& unread);
+std::vector<Diagnostic> check(const Problem& problem, const Domain& domain, const Unread& unread);
 
 }  // namespace roci::pddl

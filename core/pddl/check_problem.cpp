@@ -1,7 +1,7 @@
 #include "core/pddl/check.hpp"
 #include "core/pddl/check_parts.hpp"
-#include "core/pddl/parser.hpp"
 #include "core/pddl/printer.hpp"
+#include "core/pddl/settle.hpp"
 
 namespace roci::pddl {
 
@@ -26,16 +26,16 @@ void check_init(const Problem& problem, FormulaChecker& formulas, Findings& find
 
 }  // namespace
 
-std::vector<Diagnostic> check(const Problem& problem, const Domain& domain) {
+std::vector<Diagnostic> check(const Problem& problem, const Domain& domain, const Unread& unread) {
   Findings findings(problem.file);
   if (problem.domain_name != domain.name) {
     findings.add(problem.where,
                  "the problem is for domain '" + problem.domain_name + "', not '" + domain.name + "'",
                  "use the domain file that it was written for");
   }
-  Symbols symbols(domain);
-  check_types(problem.objects, symbols, findings);
+  Symbols symbols(domain, unread);
   symbols.add_objects(problem.objects);
+  check_types(problem.objects, symbols, findings);
   FormulaChecker formulas(symbols, findings);
   check_init(problem, formulas, findings);
   formulas.check_condition(problem.goal);
@@ -43,10 +43,19 @@ std::vector<Diagnostic> check(const Problem& problem, const Domain& domain) {
   return findings.take();
 }
 
-Problem load_problem(std::string_view text, std::string_view file, const Domain& domain) {
-  Problem problem = parse_problem(text, file);
-  if (auto findings = check(problem, domain); !findings.empty())
-    throw ParseError(std::move(findings.front()));
+std::vector<Diagnostic> check(const Problem& problem, const Domain& domain) {
+  return check(problem, domain, Unread{});
+}
+
+Problem load_problem(std::string_view text, std::string_view file, const Domain& domain,
+                     Strictness strictness) {
+  DiagnosticLog log{std::string(file), strictness};
+  Unread unread;
+  Problem problem = read_problem(text, log, unread);
+  settle(problem, domain, log);
+  for (Diagnostic& finding : check(problem, domain, unread)) log.add(std::move(finding));
+  log.throw_errors();
+  problem.warnings = log.warnings();
   return problem;
 }
 

@@ -1,4 +1,7 @@
+#include <algorithm>
+
 #include "core/pddl/check_parts.hpp"
+#include "core/pddl/nearest_word.hpp"
 
 namespace roci::pddl {
 
@@ -10,9 +13,14 @@ typename Map::mapped_type find_in(const Map& map, const std::string& name) {
   return it == map.end() ? nullptr : it->second;
 }
 
+template <typename Map>
+void offer_keys(const Map& map, NearestWord& near) {
+  for (const auto& [name, ignored] : map) near.offer(name);
+}
+
 }  // namespace
 
-Symbols::Symbols(const Domain& domain) : types_(domain) {
+Symbols::Symbols(const Domain& domain, Unread unread) : types_(domain), unread_(unread) {
   for (const Signature& predicate : domain.predicates) predicates_.emplace(predicate.name, &predicate);
   for (const Signature& function : domain.functions) fluents_.emplace(function.name, &function);
   for (const Module& module : domain.modules) {
@@ -25,8 +33,40 @@ Symbols::Symbols(const Domain& domain) : types_(domain) {
 void Symbols::add_objects(const std::vector<TypedName>& objects) {
   for (const TypedName& object : objects) {
     auto& types = objects_[object.name];
-    types.insert(types.end(), object.types.begin(), object.types.end());
+    for (const std::string& type : object.types)
+      if (types.size() <= kMostTypes && std::ranges::count(types, type) == 0) types.push_back(type);
   }
+}
+
+std::string Symbols::remedy_for_type(std::string_view name, std::string_view otherwise) const {
+  NearestWord near(name);
+  if (may_compare()) types_.offer(near);
+  return near.remedy(otherwise);
+}
+
+std::string Symbols::remedy_for_predicate(std::string_view name, std::string_view otherwise) const {
+  NearestWord near(name);
+  if (may_compare()) offer_keys(predicates_, near);
+  if (near.found().empty() && find_fluent(std::string(name)))
+    return "it is a function: compare its value with a number; else " + std::string(otherwise);
+  return near.remedy(otherwise);
+}
+
+std::string Symbols::remedy_for_function(std::string_view name, std::string_view otherwise) const {
+  NearestWord near(name);
+  if (may_compare()) {
+    offer_keys(fluents_, near);
+    offer_keys(externals_, near);
+  }
+  if (near.found().empty() && find_predicate(std::string(name)))
+    return "it is a predicate and has no value; else " + std::string(otherwise);
+  return near.remedy(otherwise);
+}
+
+std::string Symbols::remedy_for_object(std::string_view name, std::string_view otherwise) const {
+  NearestWord near(name);
+  if (may_compare()) offer_keys(objects_, near);
+  return near.remedy(otherwise);
 }
 
 const Signature* Symbols::find_predicate(const std::string& name) const { return find_in(predicates_, name); }
@@ -40,8 +80,15 @@ const std::vector<std::string>* Symbols::find_object_types(const std::string& na
 void check_types(const std::vector<TypedName>& names, const Symbols& symbols, Findings& findings) {
   for (const TypedName& name : names) {
     for (const std::string& type : name.types) {
-      if (symbols.types().knows(type)) continue;
-      findings.add(name.where, "unknown type '" + type + "' of '" + name.name + "'", "declare it in :types");
+      if (symbols.types().knows(type) || symbols.unread().types) continue;
+      findings.add(name.where, "unknown type '" + type + "' of '" + name.name + "'",
+                   symbols.remedy_for_type(type, "declare it in :types"));
+    }
+    const std::vector<std::string>* all = symbols.find_object_types(name.name);
+    if (all && all->size() > Symbols::kMostTypes) {
+      findings.add(name.where,
+                   "'" + name.name + "' has more than " + std::to_string(Symbols::kMostTypes) + " types",
+                   "declare a type above them");
     }
   }
 }

@@ -47,14 +47,14 @@ int degree(const Expression& expression, const std::set<std::string>& changing) 
   }
   int highest = 0;
   int sum = 0;
+  int last = 0;  // of the operand that divides
   for (const Expression& operand : arithmetic->operands) {
-    const int one = degree(operand, changing);
-    highest = std::max(highest, one);
-    sum += one;
+    last = degree(operand, changing);
+    highest = std::max(highest, last);
+    sum += last;
   }
   if (arithmetic->op == ArithmeticOperator::multiply) return std::min(sum, 2);
-  if (arithmetic->op == ArithmeticOperator::divide && degree(arithmetic->operands.back(), changing) > 0)
-    return 2;
+  if (arithmetic->op == ArithmeticOperator::divide && last > 0) return 2;
   return highest;
 }
 
@@ -88,7 +88,7 @@ std::vector<Diagnostic> forbidden_effects(const Domain& domain, const Problem& p
                           const std::string& what, const std::string& remedy) {
     found.push_back({domain.file, where,
                      "action '" + action + "' has a " + what + " effect on " + print(assignment.fluent),
-                     remedy});
+                     remedy, Severity::unsupported});
   };
   const auto check_linear = [&](const std::string& action, const Assignment& assignment,
                                 SourceLocation where) {

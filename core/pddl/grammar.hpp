@@ -1,6 +1,7 @@
 // This file is internal to core/pddl: its functions lead each piece of the grammar from the skeleton
-// (sexpr.hpp) to the tree (ast.hpp). All of them throw ParseError. `Source` stands for the file in their
-// messages.
+// (sexpr.hpp) to the tree (ast.hpp). Each throws ParseError where it has nothing to return; lists tell what is wrong
+// with one of their parts to `Source` and go on with the next, so that what they return is whole only if the source
+// counts no errors.
 #pragma once
 
 #include <span>
@@ -13,16 +14,38 @@
 
 namespace roci::pddl::grammar {
 
-/// Names the file that is read, and throws ParseError for it.
+/// Stands for the text that is read: takes what is wrong or odd with it.
 class Source {
  public:
-  explicit Source(std::string_view file) : file_(file) {}
+  /// `log` must outlive the source.
+  explicit Source(DiagnosticLog& log) : log_(log) {}
 
-  const std::string& file() const { return file_; }
+  const std::string& file() const { return log_.file(); }
+  /// Throws ParseError with this one finding, for the next attempt() around.
   [[noreturn]] void fail(SourceLocation where, std::string message, std::string remedy) const;
+  /// Does so for what may be right, but is not taken by anything in this tree.
+  [[noreturn]] void refuse(SourceLocation where, std::string message, std::string remedy) const;
+  /// These tell a finding and go on.
+  void report(SourceLocation where, std::string message, std::string remedy) const;
+  void warn(Departure departure, SourceLocation where, std::string message, std::string remedy) const;
+  /// Counts what was reported, also by attempts.
+  std::size_t errors() const { return log_.errors(); }
+
+  /// Calls read() and reports the ParseError that it throws. Returns whether nothing was reported meanwhile.
+  template <typename Read>
+  bool attempt(Read read) const {
+    const std::size_t before = errors();
+    try {
+      read();
+    } catch (const ParseError& error) {
+      if (log_.full()) throw;
+      for (const Diagnostic& diagnostic : error.diagnostics()) log_.add(diagnostic);
+    }
+    return errors() == before;
+  }
 
  private:
-  std::string file_;
+  DiagnosticLog& log_;
 };
 
 /// Returns what follows the head of a list.
@@ -36,6 +59,8 @@ double read_number(const Sexpr& s, std::string_view what, const Source& source);
 const Sexpr& require_list(const Sexpr& s, std::string_view what, const Source& source);
 std::vector<TypedName> read_typed_names(std::span<const Sexpr> items, std::string_view what,
                                         const Source& source);
+/// Reads `?x ?y - t …`; the other function reads it from a list.
+std::vector<TypedName> read_variables(std::span<const Sexpr> items, const Source& source);
 std::vector<TypedName> read_variables(const Sexpr& list, const Source& source);
 Atom read_atom(const Sexpr& s, std::string_view what, const Source& source);
 /// Reads `(f a …)`, or the bare name of a function without parameters.
@@ -77,10 +102,14 @@ DurativeEffects read_durative_effects(const Sexpr& s, const Source& source);
 Action read_action(const Sexpr& s, const Source& source);
 DurativeAction read_durative_action(const Sexpr& s, const Source& source);
 
-// ---- Shared by domain and problem
+// ---- grammar_files.cpp: what domain and problem share
 
 /// Checks `(define (KIND NAME) …` and returns NAME.
 std::string read_define(const Sexpr& s, std::string_view kind, const Source& source);
+/// Reads `(:requirements …)`; flags that are unknown, or of what is not supported, are told and left out.
 std::vector<Requirement> read_requirements(const Sexpr& s, const Source& source);
+/// These tell what is wrong with a section of another name than the known ones.
+std::string unknown_section(const Sexpr& s, std::string_view kind);
+std::string remedy_for_section(const Sexpr& s, std::span<const std::string_view> known);
 
 }  // namespace roci::pddl::grammar

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <map>
 
 #include "core/pddl/grammar.hpp"
+#include "core/pddl/nearest_word.hpp"
 
 namespace roci::pddl::grammar {
 
@@ -12,33 +14,42 @@ class Fields {
   Fields(const Sexpr& action, std::initializer_list<std::string_view> known, const Source& source)
       : source_(source) {
     const auto items = rest(action, 2);
-    for (std::size_t i = 0; i < items.size(); i += 2) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
       const Sexpr& key = items[i];
-      bool found = false;
-      for (const std::string_view name : known) found = found || key.is_word(name);
-      if (!found) {
-        const std::string what = key.is_list ? "a list" : "'" + key.word + "'";
-        source.fail(key.where, what + " where a keyword of the action is expected", "known: " + join(known));
+      if (std::ranges::count_if(known, [&](std::string_view name) { return key.is_word(name); }) == 0) {
+        report_unknown(key, known);
+        if (!key.is_list && i + 1 < items.size() && items[i + 1].is_list) ++i;
+        continue;
       }
-      if (i + 1 == items.size())
-        source.fail(key.where, key.word + " without a value", "write a list after it");
-      if (!fields_.emplace(key.word, &items[i + 1]).second) {
-        source.fail(key.where, key.word + " stands twice", "keep one");
+      const bool has_value = i + 1 < items.size() && !is_keyword(items[i + 1]);
+      if (!has_value) {
+        source.report(key.where, key.word + " without a value", "write a list after it");
+        continue;
       }
+      if (!fields_.emplace(key.word, &items[++i]).second)
+        source.report(key.where, key.word + " stands twice", "keep one");
     }
   }
 
-  // Returns nullptr if the key is absent.
-  const Sexpr* find(const std::string& key) const {
+  // Reads the field, if there is one. Returns whether nothing is wrong with it.
+  template <typename Read>
+  bool read(const std::string& key, Read read) const {
     const auto it = fields_.find(key);
-    return it == fields_.end() ? nullptr : &require_list(*it->second, "a list after " + key, source_);
+    if (it == fields_.end()) return true;
+    return source_.attempt([&] { read(require_list(*it->second, "a list after " + key, source_)); });
   }
 
+  bool has(const std::string& key) const { return fields_.contains(key); }
+
  private:
-  static std::string join(std::initializer_list<std::string_view> names) {
-    std::string text;
-    for (const std::string_view name : names) text += (text.empty() ? "" : " ") + std::string(name);
-    return text;
+  static bool is_keyword(const Sexpr& s) { return !s.is_list && s.word.front() == ':'; }
+
+  void report_unknown(const Sexpr& key, std::initializer_list<std::string_view> known) const {
+    const std::string what = key.is_list ? "a list" : "'" + key.word + "'";
+    std::string all;
+    for (const std::string_view name : known) all += (all.empty() ? "" : " ") + std::string(name);
+    source_.report(key.where, what + " where a keyword of the action is expected",
+                   nearest(key.word, known).remedy("known: " + all));
   }
 
   const Source& source_;
@@ -55,7 +66,7 @@ void add_duration(const Sexpr& s, TimePoint at, std::vector<DurationConstraint>&
   const std::string_view head = s.head();
   if (s.items.empty()) return;
   if (head == "and") {
-    for (const Sexpr& item : rest(s)) add_duration(item, at, out, source);
+    for (const Sexpr& item : rest(s)) source.attempt([&] { add_duration(item, at, out, source); });
     return;
   }
   if (head == "at" && s.items.size() == 3 && (s.items[1].is_word("start") || s.items[1].is_word("end"))) {
@@ -71,6 +82,15 @@ void add_duration(const Sexpr& s, TimePoint at, std::vector<DurationConstraint>&
   out.push_back({*op, read_expression(s.items[2], source), at, s.where});
 }
 
+// What is left of an action whose parameters are not known: nothing in it could be checked.
+template <typename AnyAction>
+AnyAction without_body(AnyAction action) {
+  AnyAction bare;
+  bare.name = std::move(action.name);
+  bare.where = action.where;
+  return bare;
+}
+
 }  // namespace
 
 Action read_action(const Sexpr& s, const Source& source) {
@@ -78,10 +98,13 @@ Action read_action(const Sexpr& s, const Source& source) {
   action.where = s.where;
   action.name = read_action_name(s, source);
   const Fields fields(s, {":parameters", ":precondition", ":effect"}, source);
-  if (const Sexpr* list = fields.find(":parameters")) action.parameters = read_variables(*list, source);
-  if (const Sexpr* list = fields.find(":precondition")) action.precondition = read_condition(*list, source);
-  if (const Sexpr* list = fields.find(":effect"))
-    action.effects = read_effects(*list, TimePoint::start, source);
+  const bool readable = fields.read(
+      ":parameters", [&](const Sexpr& list) { action.parameters = read_variables(list, source); });
+  fields.read(":precondition",
+              [&](const Sexpr& list) { action.precondition = read_condition(list, source); });
+  fields.read(":effect",
+              [&](const Sexpr& list) { action.effects = read_effects(list, TimePoint::start, source); });
+  if (!readable) return without_body(std::move(action));
   return action;
 }
 
@@ -90,17 +113,21 @@ DurativeAction read_durative_action(const Sexpr& s, const Source& source) {
   action.where = s.where;
   action.name = read_action_name(s, source);
   const Fields fields(s, {":parameters", ":duration", ":condition", ":effect"}, source);
-  if (const Sexpr* list = fields.find(":parameters")) action.parameters = read_variables(*list, source);
-  const Sexpr* duration = fields.find(":duration");
-  if (!duration) source.fail(s.where, "durative action '" + action.name + "' without :duration", "add one");
-  add_duration(*duration, TimePoint::start, action.duration, source);
-  if (const Sexpr* list = fields.find(":condition")) action.condition = read_timed_condition(*list, source);
-  if (const Sexpr* list = fields.find(":effect")) {
-    DurativeEffects effects = read_durative_effects(*list, source);
+  const bool readable = fields.read(
+      ":parameters", [&](const Sexpr& list) { action.parameters = read_variables(list, source); });
+  if (!fields.has(":duration"))
+    source.report(s.where, "durative action '" + action.name + "' without :duration", "add one");
+  fields.read(":duration",
+              [&](const Sexpr& list) { add_duration(list, TimePoint::start, action.duration, source); });
+  fields.read(":condition",
+              [&](const Sexpr& list) { action.condition = read_timed_condition(list, source); });
+  fields.read(":effect", [&](const Sexpr& list) {
+    DurativeEffects effects = read_durative_effects(list, source);
     action.start_effects = std::move(effects.at_start);
     action.end_effects = std::move(effects.at_end);
     action.continuous_effects = std::move(effects.continuous);
-  }
+  });
+  if (!readable) return without_body(std::move(action));
   return action;
 }
 

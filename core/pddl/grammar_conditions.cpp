@@ -14,7 +14,7 @@ void require_parts(const Sexpr& s, std::size_t count, std::string_view form, con
 
 std::vector<Condition> read_parts(const Sexpr& s, const Source& source) {
   std::vector<Condition> parts;
-  for (const Sexpr& item : rest(s)) parts.push_back(read_condition(item, source));
+  for (const Sexpr& item : rest(s)) source.attempt([&] { parts.push_back(read_condition(item, source)); });
   return parts;
 }
 
@@ -98,11 +98,11 @@ void add_timed(const Sexpr& s, PartsByTime& out, const Source& source) {
   const std::string_view head = s.head();
   if (s.items.empty()) return;
   if (head == "and") {
-    for (const Sexpr& item : rest(s)) add_timed(item, out, source);
+    for (const Sexpr& item : rest(s)) source.attempt([&] { add_timed(item, out, source); });
   } else if (head == "forall") {
     add_forall(s, out, source);
   } else if (head == "preference") {
-    source.fail(s.where, "preferences are not supported", "state it as a condition or a goal");
+    source.refuse(s.where, "preferences are not supported", "state it as a condition or a goal");
   } else if (s.items.size() == 3 && head == "at" && s.items[1].is_word("start")) {
     out.at_start.push_back(read_condition(s.items[2], source));
   } else if (s.items.size() == 3 && head == "at" && s.items[1].is_word("end")) {

@@ -37,7 +37,7 @@ void add_effects(const Sexpr& s, TimePoint moment, std::vector<Effect>& out, con
   const std::string_view head = s.head();
   if (s.items.empty()) return;
   if (head == "and") {
-    for (const Sexpr& item : rest(s)) add_effects(item, moment, out, source);
+    for (const Sexpr& item : rest(s)) source.attempt([&] { add_effects(item, moment, out, source); });
   } else if (head == "not") {
     if (s.items.size() != 2) source.fail(s.where, "'not' needs one atom", "write (not (p …))");
     out.push_back({Literal{read_atom(s.items[1], "an atom", source), true}, s.where});
@@ -85,7 +85,7 @@ void add_durative(const Sexpr& s, DurativeEffects& out, const Source& source) {
   const std::string_view head = s.head();
   if (s.items.empty()) return;
   if (head == "and") {
-    for (const Sexpr& item : rest(s)) add_durative(item, out, source);
+    for (const Sexpr& item : rest(s)) source.attempt([&] { add_durative(item, out, source); });
   } else if (head == "forall") {
     require_body(s, "(forall (?x - TYPE …) EFFECT)", source);
     const auto variables = read_variables(s.items[1], source);

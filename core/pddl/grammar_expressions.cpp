@@ -52,7 +52,7 @@ Expression read_expression(const Sexpr& s, const Source& source) {
   }
   if (s.head() == "total-time" && s.items.size() == 1) return {TotalTime{}, s.where};
   if (s.head() == "is-violated") {
-    source.fail(s.where, "preferences are not supported", "remove 'is-violated' from the metric");
+    source.refuse(s.where, "preferences are not supported", "remove 'is-violated' from the metric");
   }
   return {read_function(s, source), s.where};
 }

@@ -1,12 +1,26 @@
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/pddl/grammar.hpp"
+#include "core/pddl/nearest_word.hpp"
 
 namespace roci::pddl::grammar {
 
 void Source::fail(SourceLocation where, std::string message, std::string remedy) const {
-  throw ParseError({file_, where, std::move(message), std::move(remedy)});
+  throw ParseError({file(), where, std::move(message), std::move(remedy)});
+}
+
+void Source::refuse(SourceLocation where, std::string message, std::string remedy) const {
+  throw ParseError({file(), where, std::move(message), std::move(remedy), Severity::unsupported});
+}
+
+void Source::report(SourceLocation where, std::string message, std::string remedy) const {
+  log_.error(where, std::move(message), std::move(remedy));
+}
+
+void Source::warn(Departure departure, SourceLocation where, std::string message, std::string remedy) const {
+  log_.warn(departure, where, std::move(message), std::move(remedy));
 }
 
 std::span<const Sexpr> rest(const Sexpr& list, std::size_t skip) {
@@ -40,36 +54,67 @@ const Sexpr& require_list(const Sexpr& s, std::string_view what, const Source& s
 
 namespace {
 
+// More types than these would be compared with one another for ever.
+constexpr std::size_t kMostAlternatives = 200;
+
 // Reads `t` or `(either t u …)`.
 std::vector<std::string> read_type(const Sexpr& s, const Source& source) {
   if (!s.is_list) return {read_name(s, "a type", source)};
   if (s.head() != "either" || s.items.size() < 2) {
     source.fail(s.where, "a type expected, found a list", "write a name or (either a b)");
   }
+  if (s.items.size() > kMostAlternatives + 1) {
+    source.fail(s.where, "'either' with more than " + std::to_string(kMostAlternatives) + " types",
+                "declare a type above them");
+  }
   std::vector<std::string> types;
   for (const Sexpr& item : rest(s)) types.push_back(read_name(item, "a type", source));
   return types;
 }
 
-Term read_term(const Sexpr& s, const Atom& owner, const Source& source) {
+// What is wrong with an atom that has a list for an argument.
+[[noreturn]] void fail_for_list(const Sexpr& s, const Atom& owner, const Source& source) {
   static constexpr std::array<std::string_view, 10> kTrajectory = {
       "always",          "sometime",      "within",     "at-most-once", "sometime-after",
       "sometime-before", "always-within", "hold-after", "hold-during",  "preference"};
-  if (s.is_list) {
-    if (std::find(kTrajectory.begin(), kTrajectory.end(), owner.symbol) != kTrajectory.end()) {
-      const bool preference = owner.symbol == "preference";
-      source.fail(owner.where,
+  static constexpr std::array<std::string_view, 2> kUncertain = {"probabilistic", "oneof"};
+  static constexpr std::array<std::string_view, 14> kConnectives = {
+      "and",    "or",       "not",      "imply",    "forall",     "exists", "when",
+      "assign", "increase", "decrease", "scale-up", "scale-down", "over",   "preference"};
+  const auto is_one_of = [&](const auto& words) { return std::ranges::count(words, owner.symbol) > 0; };
+  if (is_one_of(kTrajectory)) {
+    const bool preference = owner.symbol == "preference";
+    source.refuse(owner.where,
                   preference ? "preferences are not supported"
                              : "trajectory constraint '" + owner.symbol + "' is not supported",
                   "state it as a condition or a goal");
-    }
-    if (owner.symbol == "at" || owner.symbol == "over") {
-      source.fail(owner.where, "'" + owner.symbol + " …' with a condition or effect is out of place here",
-                  "times stand around the parts of a durative action, and in :init");
-    }
-    source.fail(s.where, "an argument of '" + owner.symbol + "' is a list: object fluents are not supported",
-                "use a predicate and a parameter for the object");
   }
+  if (is_one_of(kUncertain)) {
+    source.refuse(owner.where, "uncertain effects ('" + owner.symbol + "') are not supported",
+                  "state what the action is expected to do");
+  }
+  if (owner.symbol == "at" || owner.symbol == "over") {
+    source.fail(owner.where, "'" + owner.symbol + " …' with a condition or effect is out of place here",
+                "times stand around the parts of a durative action, and in :init");
+  }
+  if (is_one_of(kConnectives)) {
+    source.fail(s.where,
+                "an argument of '" + owner.symbol +
+                    "' is a list where a fact is wanted, and object fluents are not supported",
+                "a fact is a predicate and its objects: (NAME OBJECT …)");
+  }
+  const NearestWord near = nearest(owner.symbol, kConnectives);
+  if (!near.found().empty()) {
+    source.fail(owner.where, "unknown '" + owner.symbol + "' around other lists",
+                near.remedy("a predicate takes objects and variables, no lists"));
+  }
+  source.fail(s.where, "an argument of '" + owner.symbol + "' is a list: object fluents are not supported",
+              "close '(" + owner.symbol +
+                  " …' before it if a ')' is missing; else use a predicate with a parameter for the object");
+}
+
+Term read_term(const Sexpr& s, const Atom& owner, const Source& source) {
+  if (s.is_list) fail_for_list(s, owner, source);
   if (s.word.front() == '?') {
     if (s.word.size() == 1) source.fail(s.where, "a variable without a name", "write ?x");
     return {s.word, s.where};
@@ -77,46 +122,83 @@ Term read_term(const Sexpr& s, const Atom& owner, const Source& source) {
   return {read_name(s, "an object or variable", source), s.where};
 }
 
-}  // namespace
+// Takes "a- t" apart into a, - and t, as it stands in typed lists.
+std::vector<Sexpr> with_hyphens_apart(std::span<const Sexpr> items, const Source& source) {
+  std::vector<Sexpr> apart;
+  apart.reserve(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    apart.push_back(items[i]);
+    const bool glued = !items[i].is_list && items[i].word.size() > 1 && items[i].word.back() == '-' &&
+                       i + 1 < items.size() && !items[i + 1].is_word("-") &&
+                       (items[i + 1].is_list || items[i + 1].word.front() != '?');
+    if (!glued) continue;
+    Sexpr hyphen;
+    hyphen.word = "-";
+    hyphen.where = items[i].where;
+    hyphen.where.column += static_cast<int>(items[i].word.size()) - 1;
+    source.warn(Departure::hyphen, hyphen.where, "'-' without a blank before it is read as if there were one",
+                "write NAME - TYPE");
+    apart.back().word.pop_back();
+    apart.push_back(std::move(hyphen));
+  }
+  return apart;
+}
 
-std::vector<TypedName> read_typed_names(std::span<const Sexpr> items, std::string_view what,
-                                        const Source& source) {
+std::vector<TypedName> read_names(const std::vector<Sexpr>& items, std::string_view what,
+                                  const Source& source) {
   std::vector<TypedName> names;
   std::size_t untyped = 0;  // names[untyped…] still wait for their type
   for (std::size_t i = 0; i < items.size(); ++i) {
-    if (!items[i].is_word("-")) {
-      TypedName name;
-      name.name = read_name(items[i], what, source);
-      name.where = items[i].where;
-      names.push_back(std::move(name));
-      continue;
-    }
-    if (untyped == names.size())
-      source.fail(items[i].where, "'-' without a name before it", "write NAME - TYPE");
-    if (++i == items.size())
-      source.fail(items[i - 1].where, "'-' without a type after it", "write NAME - TYPE");
-    const auto types = read_type(items[i], source);
-    for (; untyped < names.size(); ++untyped) names[untyped].types = types;
+    source.attempt([&] {
+      if (!items[i].is_word("-")) {
+        TypedName name;
+        name.name = read_name(items[i], what, source);
+        name.where = items[i].where;
+        names.push_back(std::move(name));
+        return;
+      }
+      if (i + 1 == items.size())
+        source.fail(items[i].where, "'-' without a type after it", "write NAME - TYPE");
+      const Sexpr& type = items[++i];
+      if (untyped == names.size())
+        source.fail(items[i - 1].where, "'-' without a name before it", "write NAME - TYPE");
+      const std::size_t first = std::exchange(untyped, names.size());
+      const auto types = read_type(type, source);
+      for (std::size_t name = first; name < names.size(); ++name) names[name].types = types;
+    });
   }
   return names;
 }
 
-std::vector<TypedName> read_variables(const Sexpr& list, const Source& source) {
-  require_list(list, "a list of variables", source);
-  std::vector<Sexpr> bare = list.items;  // without question marks, to be read as names
+}  // namespace
+
+std::vector<TypedName> read_typed_names(std::span<const Sexpr> items, std::string_view what,
+                                        const Source& source) {
+  return read_names(with_hyphens_apart(items, source), what, source);
+}
+
+std::vector<TypedName> read_variables(std::span<const Sexpr> items, const Source& source) {
+  std::vector<Sexpr> bare = with_hyphens_apart(items, source);  // without question marks, to be read as names
   bool type_next = false;
   for (Sexpr& item : bare) {
     if (!item.is_list && item.word != "-" && !type_next) {
-      if (item.word.front() != '?' || item.word.size() == 1) {
-        source.fail(item.where, "a variable expected, found '" + item.word + "'", "variables begin with '?'");
+      if (item.word.front() == '?' && item.word.size() > 1) {
+        item.word.erase(0, 1);
+      } else {
+        source.report(item.where, "a variable expected, found '" + item.word + "'",
+                      item.word == "?" ? "write ?x" : "variables begin with '?': write ?" + item.word);
+        if (item.word == "?") item.word = "x";  // is not used: there is an error
       }
-      item.word.erase(0, 1);
     }
     type_next = item.is_word("-");
   }
-  auto variables = read_typed_names(bare, "a variable", source);
+  auto variables = read_names(bare, "a variable", source);
   for (TypedName& variable : variables) variable.name.insert(0, 1, '?');
   return variables;
+}
+
+std::vector<TypedName> read_variables(const Sexpr& list, const Source& source) {
+  return read_variables(require_list(list, "a list of variables", source).items, source);
 }
 
 Atom read_atom(const Sexpr& s, std::string_view what, const Source& source) {
@@ -142,24 +224,30 @@ Signature read_signature(const Sexpr& s, std::string_view what, const Source& so
   Signature signature;
   signature.where = s.where;
   signature.name = read_name(s.items.front(), what, source);
-  Sexpr parameters = s;
-  parameters.items.erase(parameters.items.begin());
-  signature.parameters = read_variables(parameters, source);
+  signature.parameters = read_variables(rest(s), source);
   return signature;
 }
 
 std::vector<Signature> read_functions(std::span<const Sexpr> items, const Source& source) {
+  static constexpr std::array<std::string_view, 5> kNumbers = {"real", "float", "double", "int", "integer"};
   std::vector<Signature> functions;
   for (std::size_t i = 0; i < items.size(); ++i) {
-    if (!items[i].is_word("-")) {
-      functions.push_back(read_signature(items[i], "a function", source));
-      continue;
-    }
-    if (++i == items.size()) source.fail(items[i - 1].where, "'-' without a type after it", "write - number");
-    if (!items[i].is_word("number")) {
-      source.fail(items[i].where, "a function of another type than number: object fluents are not supported",
-                  "use a predicate with a parameter for the value");
-    }
+    source.attempt([&] {
+      if (!items[i].is_word("-")) {
+        functions.push_back(read_signature(items[i], "a function", source));
+        return;
+      }
+      if (i + 1 == items.size()) source.fail(items[i].where, "'-' without a type after it", "write - number");
+      const Sexpr& type = items[++i];
+      if (type.is_word("number")) return;
+      if (!type.is_list && std::ranges::count(kNumbers, type.word) > 0) {
+        source.warn(Departure::number_type, type.where, "'" + type.word + "' is read as 'number'",
+                    "write - number, or nothing");
+        return;
+      }
+      source.refuse(type.where, "a function of another type than number: object fluents are not supported",
+                    "use a predicate with a parameter for the value");
+    });
   }
   return functions;
 }

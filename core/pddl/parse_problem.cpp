@@ -1,4 +1,8 @@
+#include <array>
+#include <utility>
+
 #include "core/pddl/grammar.hpp"
+#include "core/pddl/parse_parts.hpp"
 #include "core/pddl/parser.hpp"
 
 namespace roci::pddl {
@@ -42,18 +46,16 @@ void read_timed(const Sexpr& s, Problem& problem, const Source& source) {
   }
 }
 
-void read_init(const Sexpr& s, Problem& problem, const Source& source) {
-  for (const Sexpr& item : rest(s)) {
-    if (is_timed(item)) {
-      read_timed(item, problem, source);
-    } else if (item.head() == "=") {
-      Value value = read_value(item, source);
-      problem.values.push_back({std::move(value.fluent), value.value});
-    } else if (item.head() == "not") {
-      problem.false_facts.push_back(read_literal(item, source).atom);
-    } else {
-      problem.facts.push_back(read_atom(item, "a fact", source));
-    }
+void read_fact(const Sexpr& s, Problem& problem, const Source& source) {
+  if (is_timed(s)) {
+    read_timed(s, problem, source);
+  } else if (s.head() == "=") {
+    Value value = read_value(s, source);
+    problem.values.push_back({std::move(value.fluent), value.value});
+  } else if (s.head() == "not") {
+    problem.false_facts.push_back(read_literal(s, source).atom);
+  } else {
+    problem.facts.push_back(read_atom(s, "a fact", source));
   }
 }
 
@@ -85,7 +87,9 @@ void require_first(bool& seen, const Sexpr& s, const Source& source) {
   seen = true;
 }
 
-void read_section(const Sexpr& s, Problem& problem, Seen& seen, const Source& source) {
+void read_section(const Sexpr& s, Problem& problem, Seen& seen, const Source& source, Unread& unread) {
+  static constexpr std::array<std::string_view, 6> kKnown = {":domain", ":requirements", ":objects",
+                                                             ":init",   ":goal",         ":metric"};
   const std::string_view head = s.head();
   if (head == ":domain") {
     require_first(seen.domain, s, source);
@@ -93,42 +97,67 @@ void read_section(const Sexpr& s, Problem& problem, Seen& seen, const Source& so
   } else if (head == ":requirements") {
     problem.requirements = read_requirements(s, source);
   } else if (head == ":objects") {
-    for (TypedName& name : read_typed_names(rest(s), "an object", source))
-      problem.objects.push_back(std::move(name));
+    const bool whole = source.attempt([&] {
+      for (TypedName& name : read_typed_names(rest(s), "an object", source))
+        problem.objects.push_back(std::move(name));
+    });
+    unread.objects = !whole || unread.objects;
   } else if (head == ":init") {
     require_first(seen.init, s, source);
-    read_init(s, problem, source);
+    for (const Sexpr& item : rest(s)) source.attempt([&] { read_fact(item, problem, source); });
   } else if (head == ":goal") {
     require_first(seen.goal, s, source);
     problem.goal = read_condition(only_part(s, "condition", source), source);
   } else if (head == ":metric") {
     if (problem.metric) source.fail(s.where, "a second :metric", "keep one");
     problem.metric = read_metric(s, source);
+  } else if (head == ":length") {
+    source.warn(Departure::old_section, s.where, "unknown section ':length', of PDDL 1.2, is passed over",
+                "take it away");
   } else if (head == ":constraints") {
-    source.fail(s.where, "trajectory constraints are not supported", "state them as conditions or goals");
+    source.refuse(s.where, "trajectory constraints are not supported", "state them as conditions or goals");
+  } else if (head == ":htn") {
+    source.refuse(s.where, "hierarchical tasks (HDDL) are not supported", "state goals instead of tasks");
   } else {
-    source.fail(s.where, "unknown section of a problem",
-                "known: :domain :requirements :objects :init :goal :metric");
+    source.fail(s.where, unknown_section(s, "problem"), remedy_for_section(s, kKnown));
   }
+}
+
+// What is missing may stand in something that could not be read.
+void require_sections(const Seen& seen, SourceLocation where, const Source& source) {
+  if (source.errors() > 0) return;
+  const auto require = [&](bool present, std::string_view keyword) {
+    if (!present) source.report(where, "the problem has no " + std::string(keyword), "add one");
+  };
+  require(seen.domain, ":domain");
+  require(seen.init, ":init");
+  if (seen.goal) return;
+  source.warn(Departure::missing_goal, where, "the problem has no :goal, and nothing is asked for",
+              "add (:goal …)");
 }
 
 }  // namespace
 
-Problem parse_problem(std::string_view text, std::string_view file) {
-  const Source source(file);
-  const Sexpr s = read_sexpr(text, file);
+Problem read_problem(std::string_view text, DiagnosticLog& log, Unread& unread) {
+  const Source source(log);
+  const Sexpr s = read_sexpr(text, "problem", log);
   Problem problem;
   problem.file = source.file();
   problem.where = s.where;
-  problem.name = read_define(s, "problem", source);
+  if (!source.attempt([&] { problem.name = read_define(s, "problem", source); })) log.throw_errors();
   Seen seen;
-  for (const Sexpr& section : rest(s, 2)) read_section(section, problem, seen, source);
-  const auto require = [&](bool present, std::string_view keyword) {
-    if (!present) source.fail(s.where, "the problem has no " + std::string(keyword), "add one");
-  };
-  require(seen.domain, ":domain");
-  require(seen.init, ":init");
-  require(seen.goal, ":goal");
+  for (const Sexpr& section : rest(s, 2))
+    source.attempt([&] { read_section(section, problem, seen, source, unread); });
+  require_sections(seen, s.where, source);
+  return problem;
+}
+
+Problem parse_problem(std::string_view text, std::string_view file, Strictness strictness) {
+  DiagnosticLog log{std::string(file), strictness};
+  Unread unread;
+  Problem problem = read_problem(text, log, unread);
+  log.throw_errors();
+  problem.warnings = log.warnings();
   return problem;
 }
 

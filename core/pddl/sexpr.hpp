@@ -1,5 +1,4 @@
-// This file reads the parenthesised skeleton of PDDL text: tokens and lists with their places, before any
-// meaning.
+// This file reads the parenthesised skeleton of PDDL text: lists and words with their places, before any meaning.
 #pragma once
 
 #include <optional>
@@ -7,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/pddl/source.hpp"
+#include "core/pddl/diagnostic_log.hpp"
 
 namespace roci::pddl {
 
@@ -28,9 +27,12 @@ struct Sexpr {
   std::string_view head() const;
 };
 
-/// Reads exactly one list, `;` comments aside. Throws ParseError for a parenthesis without partner, text
-/// after the list, nesting beyond kMaxNesting, a byte that PDDL does not know, or no list at all.
-Sexpr read_sexpr(std::string_view text, std::string_view file);
+/// Reads the one list `(define (KIND …) …)`. What else stands in the text is told as a warning and left out; where there is
+/// no such list, the first list of the text is returned. What is wrong is told to the log and read on:
+/// a parenthesis too few or too many is placed by the keywords of sections, (:action …) and the like, which stand in
+/// (define …) alone, and by the indentation, so that the sections behind it are read in their place.
+/// Throws ParseError, with all findings so far, for nesting beyond kMaxNesting, or no list at all.
+Sexpr read_sexpr(std::string_view text, std::string_view kind, DiagnosticLog& log);
 
 /// Returns the word as a finite decimal number ("5", "-0.5", ".5", "1e3"), if it is one.
 std::optional<double> as_number(std::string_view word);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "core/pddl/overloaded.hpp"
 
@@ -44,23 +46,27 @@ Strata stratify(const Domain& domain) {
     collect(derived.body, false, dependencies[derived.head.name]);
   }
   Strata strata;
-  for (const auto& [name, ignored] : dependencies) strata.layer[name] = 0;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const auto& [name, needs] : dependencies) {
+  std::map<std::string, std::vector<std::pair<std::string, bool>>> dependents;  // with whether they negate
+  std::vector<std::string> open;  // whose dependents may stand too low
+  for (const auto& [name, needs] : dependencies) {
+    strata.layer[name] = 0;
+    open.push_back(name);
+    for (const Dependency& need : needs)
+      if (dependencies.contains(need.on)) dependents[need.on].emplace_back(name, need.negative);
+  }
+  while (!open.empty()) {
+    const std::string below = std::move(open.back());
+    open.pop_back();
+    for (const auto& [name, negative] : dependents[below]) {
       int& layer = strata.layer[name];
-      for (const Dependency& need : needs) {
-        const auto other = strata.layer.find(need.on);
-        if (other == strata.layer.end()) continue;
-        const int least = other->second + (need.negative ? 1 : 0);
-        if (least <= layer) continue;
-        layer = least;
-        changed = true;
-        if (layer >= kMaxLayers) {
-          strata.failed = name;
-          return strata;
-        }
+      const int least = strata.layer[below] + (negative ? 1 : 0);
+      if (least <= layer) continue;
+      layer = least;
+      if (layer >= kMaxLayers) {
+        strata.failed = name;
+        return strata;
       }
+      open.push_back(name);
     }
   }
   return strata;

@@ -15,15 +15,22 @@ TypeTree::TypeTree(const Domain& domain) {
   for (const auto& [type, above] : parents) {
     auto& closure = ancestors_[type];
     std::vector<std::string> open = {type};
-    while (!open.empty()) {
+    while (!open.empty() && too_deep_.empty()) {
       const std::string next = std::move(open.back());
       open.pop_back();
       if (!closure.insert(next).second) continue;
+      if (closure.size() > kMostAbove + 1) too_deep_ = type;
       const auto& further = parents.at(next);
       open.insert(open.end(), further.begin(), further.end());
     }
     closure.insert("object");
   }
+  if (too_deep_.empty()) return;
+  for (auto& [type, closure] : ancestors_) closure = {type, "object"};
+}
+
+void TypeTree::offer(NearestWord& word) const {
+  for (const auto& [type, ignored] : ancestors_) word.offer(type);
 }
 
 bool TypeTree::knows(std::string_view type) const { return ancestors_.contains(type); }

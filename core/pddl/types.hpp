@@ -9,14 +9,23 @@
 #include <vector>
 
 #include "core/pddl/ast.hpp"
+#include "core/pddl/nearest_word.hpp"
 
 namespace roci::pddl {
 
 /// Knows which types are above which; "object" is above every type. A type that is only named as a supertype
-/// exists too. Cycles are tolerated here (their types are all above one another) and refused by check().
+/// exists too. Cycles are tolerated here (their types are all above one another) and refused by check(), and so is a type
+/// with more than kMostAbove types above it: with such a one, nothing is above any type but "object".
 class TypeTree {
  public:
+  static constexpr std::size_t kMostAbove = 200;
+
   explicit TypeTree(const Domain& domain);
+
+  /// Names a type with more than kMostAbove types above it; it is empty if there is none.
+  const std::string& too_deep() const { return too_deep_; }
+  /// Offers the names of all types.
+  void offer(NearestWord& word) const;
 
   bool knows(std::string_view type) const;
   /// Returns the type itself, all above it, and "object"; there are none for unknown types.
@@ -30,6 +39,7 @@ class TypeTree {
 
  private:
   std::map<std::string, std::set<std::string, std::less<>>, std::less<>> ancestors_;
+  std::string too_deep_;
 };
 
 /// Numbers the constants of the domain and the objects of the problem from 0, in the order of their first

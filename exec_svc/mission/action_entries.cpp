@@ -5,6 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/mission/nearest_word.hpp"
+
 namespace roci::exec::mission {
 
 using executive::Contingency;
@@ -25,14 +27,21 @@ Meaning read_word(const Entry& entry, const char* what,
     if (text == word) return meaning;
     known += (known.empty() ? "" : ", ") + std::string(word);
   }
-  entry.fail("unknown " + std::string(what) + " '" + text + "'; one of: " + known);
+  std::vector<std::string> all;
+  for (const auto& [word, meaning] : words) all.emplace_back(word);
+  entry.fail("unknown " + std::string(what) + " '" + text + "'; one of: " + known +
+             roci::mission::did_you_mean(text, all));
 }
 
 const Component& read_component(const Entry& entry, const std::vector<Component>& components) {
   const std::string name = entry.text();
   const auto found = std::ranges::find(components, name, &Component::name);
-  if (found == components.end())
-    entry.fail("no component '" + name + "' in this mission; declare it under 'components'");
+  if (found == components.end()) {
+    std::vector<std::string> known;
+    for (const Component& component : components) known.push_back(component.name);
+    entry.fail("no component '" + name + "' in this mission; declare it under 'components'" +
+               roci::mission::did_you_mean(name, known));
+  }
   return *found;
 }
 

@@ -1,9 +1,11 @@
 #include "exec_svc/mission/goal_kind_entries.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "exec_svc/mission/condition_entry.hpp"
+#include "exec_svc/mission/goal_formula.hpp"
 #include "exec_svc/mission/template_text.hpp"
 
 namespace roci::exec::mission {
@@ -89,6 +91,15 @@ std::vector<std::string> facts_of(const Entry& achieved, const temporal::Conditi
   return out;
 }
 
+// Texts of `goal` with something in the place of each {name}: enough to be read.
+std::map<std::string, std::string> placeholders(const Entry& kind) {
+  std::map<std::string, std::string> out{{"id", "id"}, {"robot", "robot"}};
+  if (const auto arguments = kind.find("arguments"))
+    for (const auto& [name, argument] : arguments->fields())
+      out[name] = read_argument_kind(argument) == ArgumentKind::number ? "1" : name;
+  return out;
+}
+
 void require_robot(const Entry& entry, const std::string& text) {
   if (text.find(kRobot) != std::string::npos)
     entry.fail("'{robot}' stands here, and this executive has no robot; give it one under 'services'");
@@ -99,13 +110,14 @@ void require_robot(const Entry& entry, const std::string& text) {
 std::vector<ObjectModel> read_objects(const Entry& parent, bool has_domain) {
   std::vector<ObjectModel> out;
   if (const auto list = parent.find("objects")) {
-    for (const Entry& item : list->items()) out.push_back(read_object(item, has_domain));
+    list->each([&](const Entry& item) { out.push_back(read_object(item, has_domain)); });
   }
   return out;
 }
 
 GoalKind read_goal_kind(const std::string& name, const Entry& entry, const MissionModel& mission) {
-  entry.allow_only({"help", "arguments", "objects", "facts", "unobserved", "window", "goal", "achieved"});
+  entry.allow_only(
+      {"help", "arguments", "example", "objects", "facts", "unobserved", "window", "goal", "achieved"});
   GoalKind out;
   out.name = name;
   out.help = entry.text_or("help", "");
@@ -113,6 +125,10 @@ GoalKind read_goal_kind(const std::string& name, const Entry& entry, const Missi
     for (const auto& [argument, kind] : arguments->fields())
       out.arguments[argument] = read_argument_kind(kind);
   }
+  if (const auto example = entry.find("example"))
+    for (const auto& [argument, value] : example->fields())
+      if (!out.arguments.contains(argument))
+        value.fail("a " + name + " has no argument '" + argument + "'; name one of its 'arguments'");
   out.objects = read_objects(entry, mission.has_domain());
   if (const auto achieved = entry.find("achieved")) {
     out.achieved = read_condition(*achieved);
@@ -134,10 +150,21 @@ GoalKind read_goal_kind(const std::string& name, const Entry& entry, const Missi
   if (out.achieved.empty() || entry.find("goal")) {
     out.goal = entry.at("goal").texts();
     if (out.goal.empty()) entry.at("goal").fail("a goal kind needs at least one goal fact");
+    for (const Entry& item : entry.at("goal").items())
+      if (!is_observed_fact(read_goal(item, entry), *mission.domain)) out.formula = true;
   } else {
     out.goal = facts_of(entry.at("achieved"), out.achieved, mission);
   }
   return out;
+}
+
+pddl::Condition read_goal(const Entry& goal, const Entry& kind) {
+  try {
+    return read_goal_formula(fill_names(goal.text(), placeholders(kind)));
+  } catch (const pddl::ParseError& error) {
+    goal.fail("'" + goal.text() + "' is no condition of PDDL: " + error.diagnostic().message +
+              "; write a fact, \"(sent image-{id})\", or one with not, or, and, or a comparison of numbers");
+  }
 }
 
 void refuse_without_domain(const Entry& entry, std::initializer_list<const char*> keys) {

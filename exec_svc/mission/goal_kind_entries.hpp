@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mission/entry.hpp"
+#include "core/pddl/ast.hpp"
 #include "exec_svc/mission/mission_model.hpp"
 
 namespace roci::exec::mission {
@@ -13,7 +14,11 @@ namespace roci::exec::mission {
 /// The list `objects` of this entry; none if it has no such list. Their types may be left out without a domain.
 std::vector<ObjectModel> read_objects(const roci::mission::Entry& parent, bool has_domain);
 
-/// `mission` knows its role, its components and its families. With a domain a kind has a `goal` of facts or an
+/// The formula of an item of `goal`, in which something stands in the place of each {name}. Throws FileError at the item
+/// for what is no condition of PDDL.
+pddl::Condition read_goal(const roci::mission::Entry& goal, const roci::mission::Entry& kind);
+
+/// `mission` knows its role, its components and its families. With a domain a kind has a `goal` of conditions or an
 /// `achieved` whose states stand for facts; without one it has `achieved` and no facts.
 GoalKind read_goal_kind(const std::string& name, const roci::mission::Entry& entry,
                         const MissionModel& mission);

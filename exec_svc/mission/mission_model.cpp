@@ -32,13 +32,13 @@ std::string whole_file(const Entry& name) {
 
 std::vector<StateModel> read_states(const Entry& states, bool has_domain) {
   std::vector<StateModel> out;
-  for (const auto& [name, entry] : states.fields()) {
+  states.each_field([&](const std::string& name, const Entry& entry) {
+    StateModel& state = out.emplace_back(StateModel{name, false, {}});
     entry.allow_only({"active", "facts"});
     if (!has_domain) refuse_without_domain(entry, {"facts"});
-    const auto facts = entry.find("facts");
-    out.push_back(
-        {name, entry.truth_or("active", false), facts ? facts->texts() : std::vector<std::string>{}});
-  }
+    state.active = entry.truth_or("active", false);
+    if (const auto facts = entry.find("facts")) state.facts = facts->texts();
+  });
   return out;
 }
 
@@ -56,9 +56,11 @@ Component read_component(const Entry& entry, const MissionModel& mission) {
   bool has_active = false;
   for (const StateModel& state : out.states) (state.active ? has_active : has_inactive) = true;
   if (!has_inactive)
-    entry.at("states").fail("component '" + out.name + "' has no inactive state; planning needs one (R43)");
+    entry.at("states").complain("component '" + out.name +
+                                "' has no inactive state; planning needs one (R43)");
   if (has_active && out.fallback.empty()) {
-    entry.fail("component '" + out.name + "' has active states; name the 'fallback' command that ends them");
+    entry.complain("component '" + out.name +
+                   "' has active states; name the 'fallback' command that ends them");
   }
   return out;
 }
@@ -72,7 +74,7 @@ TimelineFamily read_family(const Entry& entry, const MissionModel& mission) {
   TimelineFamily out{pattern, read_states(entry.at("states"), mission.has_domain())};
   for (const StateModel& state : out.states) {
     if (state.active)
-      entry.fail("states of a family are inactive; make '" + state.name + "' a component's state");
+      entry.complain("states of a family are inactive; make '" + state.name + "' a component's state");
   }
   return out;
 }
@@ -100,7 +102,7 @@ WindowModel read_window(const Entry& entry, const MissionModel& mission) {
     refuse_without_domain(entry, {"fact"});
     out.timeline = read_timeline(entry.at("timeline"), mission.role);
   }
-  for (const Entry& item : entry.at("open").items()) {
+  entry.at("open").each([&](const Entry& item) {
     const auto ends = item.items();
     if (ends.size() != 2) item.fail("expected [from, to] in seconds");
     const auto from = seconds(ends[0]);
@@ -110,7 +112,7 @@ WindowModel read_window(const Entry& entry, const MissionModel& mission) {
       item.fail("windows must be in ascending order and must not touch; merge or reorder them");
     }
     out.open.emplace_back(from, to);
-  }
+  });
   return out;
 }
 
@@ -168,6 +170,7 @@ void read_model(const Entry& root, MissionModel& out) {
         "'domain' is the model of an engine that reads PDDL; name 'model' or 'domain', not both");
   if (model_file) out.model_text = whole_file(*model_file);
   if (!domain_file) return;
+  out.domain_name = "unread";  // with findings: what speaks of it is not doubted
   out.model_text = whole_file(*domain_file);
   out.domain = std::make_shared<const pddl::Domain>(
       read_domain(out.model_text, root.resolve(domain_file->text()).string()));
@@ -182,42 +185,49 @@ void keep_own(std::vector<Component>& components, const std::string& robot) {
 
 void read_actions(const Entry& root, MissionModel& out) {
   if (!out.has_domain()) return refuse_without_domain(root, {"actions", "fluents"});
-  for (const auto& [name, entry] : root.at("actions").fields())
+  root.at("actions").each_field([&](const std::string& name, const Entry& entry) {
     out.actions[name] = read_action(entry, out.components, out.contingencies);
+  });
 }
 
 }  // namespace
 
-MissionModel read_mission(const std::filesystem::path& folder_or_file, const ExecutiveRole& role) {
-  const Entry root = roci::mission::load_mission_file(folder_or_file);
+MissionModel read_mission(const std::filesystem::path& folder_or_file, const ExecutiveRole& role,
+                          roci::mission::Findings* findings) {
+  const Entry root = roci::mission::load_mission_file(folder_or_file, findings);
   MissionModel out;
-  out.name = root.at("name").text();
   out.role = role;
-  read_model(root, out);
-  out.objects = read_objects(root, out.has_domain());
-  for (const Entry& item : root.at("components").items()) out.components.push_back(read_component(item, out));
-  if (const auto list = root.find("families")) {
-    for (const Entry& item : list->items()) out.families.push_back(read_family(item, out));
-  }
-  if (const auto list = root.find("fluents")) {
-    for (const Entry& item : list->items()) out.fluents.push_back(read_fluent(item, role));
-  }
-  if (const auto list = root.find("windows")) {
-    for (const Entry& item : list->items()) out.windows.push_back(read_window(item, out));
-  }
-  if (const auto contingencies = root.find("contingencies")) {
-    for (const auto& [name, entry] : contingencies->fields())
+  root.attempt([&] { out.name = root.at("name").text(); });
+  root.attempt([&] { read_model(root, out); });
+  root.attempt([&] { out.objects = read_objects(root, out.has_domain()); });
+  root.attempt([&] {
+    root.at("components").each([&](const Entry& item) {
+      out.components.push_back(read_component(item, out));
+    });
+  });
+  if (const auto list = root.find("families"))
+    list->each([&](const Entry& item) { out.families.push_back(read_family(item, out)); });
+  if (const auto list = root.find("fluents"))
+    list->each([&](const Entry& item) { out.fluents.push_back(read_fluent(item, role)); });
+  if (const auto list = root.find("windows"))
+    list->each([&](const Entry& item) { out.windows.push_back(read_window(item, out)); });
+  if (const auto contingencies = root.find("contingencies"))
+    contingencies->each_field([&](const std::string& name, const Entry& entry) {
       out.contingencies[name] = read_contingency(name, entry, out.components);
-  }
-  read_actions(root, out);
+    });
+  root.attempt([&] { read_actions(root, out); });
   keep_own(out.components, role.robot);
-  for (const auto& [name, entry] : root.at("goal_kinds").fields()) {
-    out.goal_kinds[name] = read_goal_kind(name, entry, out);
-  }
+  root.attempt([&] {
+    root.at("goal_kinds").each_field([&](const std::string& name, const Entry& entry) {
+      out.goal_kinds[name] = read_goal_kind(name, entry, out);
+    });
+  });
   if (out.domain) require_domain_names(root, *out.domain);
-  out.planner = read_planner(root.at("planner"), out);
-  if (const auto executive = root.find("executive")) out.executive = read_executive(*executive);
-  if (const auto ground = root.find("ground")) out.ground = read_ground(*ground, out.contingencies);
+  root.attempt([&] { out.planner = read_planner(root.at("planner"), out); });
+  if (const auto executive = root.find("executive"))
+    executive->attempt([&] { out.executive = read_executive(*executive); });
+  if (const auto ground = root.find("ground"))
+    ground->attempt([&] { out.ground = read_ground(*ground, out.contingencies); });
   return out;
 }
 

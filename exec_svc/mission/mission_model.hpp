@@ -21,6 +21,9 @@
 namespace roci::pddl {
 struct Domain;
 }
+namespace roci::mission {
+class Findings;
+}
 
 namespace roci::exec::mission {
 
@@ -90,8 +93,10 @@ struct GoalKind {
   std::string window_fact;  ///< empty: the kind has no window
   /// Achieved when it holds; empty: when all of `goal` are observed.
   temporal::Condition achieved;
-  /// The PDDL goal; empty: the facts that the states of `achieved` stand for.
+  /// The PDDL goal: all of these conditions, mostly facts. It is what `achieved` stands for where the kind names none.
   std::vector<std::string> goal;
+  /// Some of `goal` is no fact that is observed by itself, but derived, negated, an alternative or about numbers.
+  bool formula = false;
 };
 
 /// What an action of the plan means as a command. Argument values may hold ?1, ?2.x (a property of that
@@ -188,7 +193,9 @@ std::set<std::string> owners_of(const MissionModel& mission);
 
 /// Reads a mission file (or the mission.yaml of a folder) for one of its executives. In names of timelines
 /// {robot} is the executive's robot; components of other robots are left out. Throws roci::mission::FileError
-/// naming file, line, column and remedy.
-MissionModel read_mission(const std::filesystem::path& folder_or_file, const ExecutiveRole& role = {});
+/// naming file, line, column and remedy; with `findings` it notes all faults there, and what is returned lacks the
+/// parts that could not be read.
+MissionModel read_mission(const std::filesystem::path& folder_or_file, const ExecutiveRole& role = {},
+                          roci::mission::Findings* findings = nullptr);
 
 }  // namespace roci::exec::mission

@@ -7,6 +7,7 @@
 
 #include "core/pddl/ast.hpp"
 #include "core/pddl/printer.hpp"
+#include "exec_svc/mission/goal_formula.hpp"
 #include "exec_svc/mission/template_text.hpp"
 #include "exec_svc/problem/problem_writer.hpp"
 #include "exec_svc/problem/usable_parts.hpp"
@@ -103,18 +104,30 @@ class Draft {
       if (is_final(record->state)) continue;
       GoalPart part{goal.key, {}};
       for (const std::string& fact : goal_facts(situation_.mission, goal)) {
-        part.facts.push_back({atom_of(fact), {}});
+        if (kind.formula) {
+          part.facts.push_back(mission::read_goal_formula(fact));
+        } else {
+          part.facts.push_back({atom_of(fact), {}});
+        }
         declare_words(fact);
       }
       goals_.push_back(std::move(part));
     }
   }
 
-  Problem finish(const std::string& name) {
+  Problem finish(const std::string& name) const {
+    Problem out;
+    pddl::Problem tree = this->tree(name, out);
+    if (situation_.mission.domain) keep_usable_parts(tree, goals_, *situation_.mission.domain, out);
+    out.text = print(tree);
+    return out;
+  }
+
+  /// Names in `out` the objects as their owners see them.
+  pddl::Problem tree(const std::string& name, Problem& out) const {
     pddl::Problem tree;
     tree.name = name;
     tree.domain_name = situation_.mission.domain_name;
-    Problem out;
     for (const std::string& object_name : declared_) {
       const auto model = known_.find(object_name);
       if (model == known_.end()) continue;
@@ -134,9 +147,7 @@ class Draft {
       goal.parts.insert(goal.parts.end(), part.facts.begin(), part.facts.end());
     tree.goal.node = std::move(goal);
     tree.metric = pddl::Metric{pddl::Metric::Sense::minimize, {pddl::TotalTime{}, {}}, {}};
-    if (situation_.mission.domain) keep_usable_parts(tree, goals_, *situation_.mission.domain, out);
-    out.text = print(tree);
-    return out;
+    return tree;
   }
 
  private:
@@ -196,14 +207,23 @@ class Draft {
   std::vector<GoalPart> goals_;
 };
 
-}  // namespace
-
-Problem write_pddl_problem(const Situation& situation, const std::string& name, Reserves reserves) {
+Draft draft_of(const Situation& situation, Reserves reserves) {
   Draft draft(situation, reserves);
   draft.add_state();
   draft.foresee();
   draft.add_goals();
-  return draft.finish(name);
+  return draft;
+}
+
+}  // namespace
+
+Problem write_pddl_problem(const Situation& situation, const std::string& name, Reserves reserves) {
+  return draft_of(situation, reserves).finish(name);
+}
+
+pddl::Problem pddl_tree(const Situation& situation, Reserves reserves) {
+  Problem ignored;
+  return draft_of(situation, reserves).tree("now", ignored);
 }
 
 }  // namespace roci::exec::problem

@@ -1,7 +1,11 @@
 #include "exec_svc/problem/problem_writer.hpp"
 
+#include <charconv>
+
 #include "exec_svc/mission/condition_entry.hpp"
+#include "exec_svc/mission/goal_formula.hpp"
 #include "exec_svc/mission/template_text.hpp"
+#include "exec_svc/problem/closed_world.hpp"
 #include "exec_svc/problem/pddl_problem.hpp"
 #include "exec_svc/problem/timeline_problem.hpp"
 
@@ -34,12 +38,33 @@ temporal::Condition all_facts(const std::vector<std::string>& facts) {
   return parts.size() == 1 ? parts.front() : temporal::all_of(parts);
 }
 
+// PDDL knows no exponents.
+void write_numbers_out(const GoalKind& kind, std::map<std::string, std::string>& values) {
+  for (const auto& [name, argument] : kind.arguments) {
+    std::string& text = values[name];
+    double number = 0;
+    const bool has_exponent = text.find_first_of("eE") != std::string::npos;
+    if (argument != mission::ArgumentKind::number || !has_exponent) continue;
+    if (std::from_chars(text.data(), text.data() + text.size(), number).ec == std::errc())
+      text = number_text(number);
+  }
+}
+
+// The kind's PDDL goal over timelines; empty where they cannot say it.
+temporal::Condition pddl_goal(const MissionModel& mission, const GoalRequest& goal) {
+  const GoalKind* kind = kind_of(mission, goal);
+  if (kind == nullptr || !kind->formula) return all_facts(goal_facts(mission, goal));
+  pddl::And all;
+  for (const std::string& fact : goal_facts(mission, goal))
+    all.parts.push_back(mission::read_goal_formula(fact));
+  return mission::over_timelines({std::move(all), {}});
+}
+
 ProblemGoal problem_goal(const MissionModel& mission, const GoalRequest& goal) {
-  return {
-      goal.key,        mission.has_domain() ? all_facts(goal_facts(mission, goal)) : achieved(mission, goal),
-      goal.importance, goal.utility,
-      goal.priority,   goal.preferred,
-      goal.opens,      goal.closes};
+  return {goal.key,        mission.has_domain() ? pddl_goal(mission, goal) : achieved(mission, goal),
+          goal.importance, goal.utility,
+          goal.priority,   goal.preferred,
+          goal.opens,      goal.closes};
 }
 
 }  // namespace
@@ -48,7 +73,9 @@ std::vector<std::string> goal_facts(const MissionModel& mission, const GoalReque
   std::vector<std::string> out;
   const GoalKind* kind = kind_of(mission, goal);
   if (kind == nullptr) return out;
-  for (const std::string& fact : kind->goal) out.push_back(fill_names(fact, template_values(goal)));
+  auto values = template_values(goal);
+  if (kind->formula) write_numbers_out(*kind, values);
+  for (const std::string& fact : kind->goal) out.push_back(fill_names(fact, values));
   return out;
 }
 
@@ -57,6 +84,20 @@ bool is_achieved(const MissionModel& mission, const Beliefs& beliefs, const Goal
   if (condition.empty()) return beliefs.holds(goal_facts(mission, goal));
   return evaluate(condition, [&](const std::string& name) { return beliefs.lookup(name); }) ==
          temporal::Truth::yes;
+}
+
+bool is_achieved(const MissionModel& mission, const Beliefs& beliefs, const GoalSet& goals,
+                 const GoalRequest& goal, temporal::Time now) {
+  const GoalKind* kind = kind_of(mission, goal);
+  if (kind == nullptr || !kind->formula || !kind->achieved.empty())
+    return is_achieved(mission, beliefs, goal);
+  if (!beliefs.unobserved().empty()) return false;
+  const Forecast none;
+  const pddl::Problem known = pddl_tree({mission, beliefs, goals, now, now, none}, Reserves::kept);
+  const ClosedWorld world(*mission.domain, known);
+  for (const std::string& fact : goal_facts(mission, goal))
+    if (world.truth_of(mission::read_goal_formula(fact)) != temporal::Truth::yes) return false;
+  return true;
 }
 
 Problem write_problem(const MissionModel& mission, const Beliefs& beliefs, const GoalSet& goals,

@@ -18,11 +18,17 @@ Problem write_problem(const mission::MissionModel& mission, const beliefs::Belie
                       temporal::Time origin, Reserves reserves = Reserves::kept,
                       const Forecast& forecast = {});
 
-/// The goal's PDDL facts; none without a domain.
+/// The goal's PDDL conditions, mostly facts; none without a domain.
 std::vector<std::string> goal_facts(const mission::MissionModel& mission, const goals::GoalRequest& goal);
 
-/// Whether what was observed achieves the goal: the condition of its kind, or else all of its facts.
+/// Whether what was observed achieves the goal: the condition of its kind, or else all of its facts. Not for kinds that
+/// are judged on everything that is known (GoalKind::formula).
 bool is_achieved(const mission::MissionModel& mission, const beliefs::Beliefs& beliefs,
                  const goals::GoalRequest& goal);
+
+/// The same for every kind. A formula holds if it holds at the beginning of the problem of now, so that planner and
+/// executive never differ on it; none does while a component has not been observed.
+bool is_achieved(const mission::MissionModel& mission, const beliefs::Beliefs& beliefs,
+                 const goals::GoalSet& goals, const goals::GoalRequest& goal, temporal::Time now);
 
 }  // namespace roci::exec::problem

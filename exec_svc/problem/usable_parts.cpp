@@ -12,7 +12,9 @@ namespace {
 // Why the problem is invalid, as the planner will read it; empty: it is not.
 std::string fault_of(const pddl::Problem& tree, const pddl::Domain& domain) {
   try {
-    pddl::load_problem(print(tree), "problem", domain);
+    // What the planner would pass over is left out by its name, too.
+    for (const pddl::Diagnostic& warning : pddl::load_problem(print(tree), "problem", domain).warnings)
+      if (warning.departure == pddl::Departure::undeclared_function) return warning.message;
     return "";
   } catch (const pddl::ParseError& error) {
     return error.diagnostic().message;

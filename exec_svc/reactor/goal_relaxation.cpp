@@ -41,23 +41,54 @@ bool keeps_reserves(const MissionModel& mission) {
                      [](const FluentSource& source) { return source.last.has_value(); });
 }
 
+std::string with_details(const std::string& reason, const PlanReply& reply) {
+  return reply.reason.empty() ? reason : reason + "\ndetails: " + reply.reason;
+}
+
+std::string names_of_others(const GoalSet& goals, const GoalKey& key) {
+  constexpr std::size_t kNamed = 6;
+  std::string out;
+  std::size_t count = 0;
+  for (const GoalRecord* record : goals.open()) {
+    if (record->request.key == key || ++count > kNamed) continue;
+    out += (out.empty() ? "" : ", ") + record->request.key.id;
+  }
+  return count > kNamed ? out + " and " + std::to_string(count - kNamed) + " more" : out;
+}
+
+/// Why a goal leaves. Of one that no proof blames nobody knows whether it would fit alone, so nothing is said of that.
+std::string reason_to_leave(const PlanReply& reply, const GoalSet& goals, const GoalKey& key) {
+  if (reply.verdict != Verdict::unsolvable)
+    return std::string(to_string(reply.verdict)) + (reply.reason.empty() ? "" : ": " + reply.reason);
+  const auto blamed = std::ranges::find(reply.blocking, key, &BlockingGoal::key);
+  if (blamed != reply.blocking.end())
+    return with_details("out of reach: " + (blamed->reason.empty() ? blamed->timeline : blamed->reason),
+                        reply);
+  const std::string others = names_of_others(goals, key);
+  return with_details(others.empty() ? "no plan achieves it" : "no plan achieves it together with " + others,
+                      reply);
+}
+
+std::vector<RelaxationStep::Leaving> leaving(const PlanReply& reply, const GoalSet& goals,
+                                             const std::vector<GoalKey>& keys) {
+  std::vector<RelaxationStep::Leaving> out;
+  for (const GoalKey& key : keys) out.push_back({key, reason_to_leave(reply, goals, key)});
+  return out;
+}
+
 }  // namespace
 
 RelaxationStep relax(const PlanReply& reply, const GoalSet& goals, const MissionModel& mission,
                      const Relaxation& relaxed) {
   using Kind = RelaxationStep::Kind;
-  const bool proved = reply.verdict == Verdict::unsolvable;
-  const std::string reason =
-      std::string(proved ? "proved that not all goals fit" : to_string(reply.verdict)) +
-      (reply.reason.empty() ? "" : ": " + reply.reason);
   if (const auto soft = soft_goal_to_give_up(reply, goals, relaxed))
-    return {Kind::give_up_soft, {*soft}, reason};
+    return {Kind::give_up_soft, leaving(reply, goals, {*soft}), ""};
   const std::vector<GoalKey> blamed = blamed_goals(reply, goals);
   if (!blamed.empty() && relaxed.soft_goals_left_out.empty() && goals.drop_candidate())
-    return {Kind::leave_out_soft, {}, reason};
+    return {Kind::leave_out_soft, {}, with_details("no plan has the hard goals beside it", reply)};
   const auto hard = blamed.empty() ? std::vector{newest_hard(goals)} : blamed;
   const bool spend = keeps_reserves(mission) && relaxed.reserves == problem::Reserves::kept;
-  return {spend ? Kind::spend_reserves : Kind::give_up_hard, hard, reason};
+  return {spend ? Kind::spend_reserves : Kind::give_up_hard, leaving(reply, goals, hard), ""};
 }
 
 std::optional<GoalKey> soft_goal_to_give_up(const PlanReply& reply, const GoalSet& goals,

@@ -36,8 +36,14 @@ struct RelaxationStep {
     spend_reserves,  ///< no goal leaves yet: one more call may use what the mission keeps back
   };
   Kind kind = Kind::give_up_soft;
-  std::vector<goals::GoalKey> goals;  ///< that leave, or would have to
-  std::string reason;
+  /// A goal that leaves, or would have to, and why: in the words of the mission, and in a second line, "details: …", in
+  /// those of the planner.
+  struct Leaving {
+    goals::GoalKey goal;
+    std::string reason;
+  };
+  std::vector<Leaving> goals;
+  std::string reason;  ///< with leave_out_soft: of the soft goal that will leave if the others fit without it
 };
 
 /// The next step after a reply that says that the goals do not fit (temporal::speaks_of_goals). What the

@@ -72,9 +72,9 @@ void assume_unobserved(MissionState& state, const GoalRequest& goal) {
   }
 }
 
-void note_achieved(MissionState& state) {
+void note_achieved(MissionState& state, Time now) {
   for (const GoalRecord* record : state.goals.open()) {
-    if (!problem::is_achieved(*state.mission, state.beliefs, record->request)) continue;
+    if (!problem::is_achieved(*state.mission, state.beliefs, state.goals, record->request, now)) continue;
     const GoalKey key = record->request.key;
     state.set_goal(key, GoalState::achieved, "observed");
     state.report(Severity::info, "goal.achieved", "goal " + key.text() + " achieved");

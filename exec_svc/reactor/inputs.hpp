@@ -17,6 +17,6 @@ bool take_handed_over(MissionState& state, const std::vector<goals::GoalRecord>&
 void assume_unobserved(MissionState& state, const goals::GoalRequest& goal);
 
 /// Open goals whose success is observed are achieved, whoever brought it about.
-void note_achieved(MissionState& state);
+void note_achieved(MissionState& state, temporal::Time now);
 
 }  // namespace roci::exec::reactor

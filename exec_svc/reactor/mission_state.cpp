@@ -9,6 +9,8 @@ using goals::GoalKey;
 using goals::GoalRecord;
 using goals::GoalState;
 
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
 void MissionState::want_plan(const std::string& reason) {
   replan_wanted = true;
   replan_reason = reason;
@@ -35,9 +37,9 @@ void MissionState::give_up(const std::vector<GoalKey>& keys, const std::string& 
     set_goal(key, hard ? GoalState::failed : GoalState::dropped, reason);
     if (hard) {
       report(Severity::error, "goal.failed",
-             "hard goal " + key.text() + " failed: " + reason + "; the ground is asked");
+             "hard goal " + key.text() + " failed: " + first_line(reason) + "; the ground is asked");
     } else {
-      report(Severity::warning, "goal.dropped", "goal " + key.text() + " dropped: " + reason);
+      report(Severity::warning, "goal.dropped", "goal " + key.text() + " dropped: " + first_line(reason));
     }
   }
 }

@@ -13,6 +13,9 @@
 
 namespace roci::exec::reactor {
 
+/// The text up to its first line feed.
+std::string first_line(const std::string& text);
+
 struct MissionState {
   /// The model outlives the state.
   explicit MissionState(const mission::MissionModel& model) : mission(&model), beliefs(model), goals(model) {}
@@ -35,7 +38,8 @@ struct MissionState {
   void report(Severity level, std::string code, std::string text);
   void set_goal(const goals::GoalKey& key, goals::GoalState goal_state, const std::string& reason,
                 std::uint32_t plan_version = 0);
-  /// Ends goals that cannot be reached. Hard ones are never dropped: they fail, and the ground is asked.
+  /// Ends goals that cannot be reached. Hard ones are never dropped: they fail, and the ground is asked. Of a reason of
+  /// several lines operators are told the first, in the words of the mission; the goal keeps them all.
   void give_up(const std::vector<goals::GoalKey>& keys, const std::string& reason);
   std::vector<goals::GoalKey> open_goals() const;
   void wake_at(temporal::Time time);

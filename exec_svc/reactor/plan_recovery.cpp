@@ -1,6 +1,7 @@
 #include "exec_svc/reactor/plan_recovery.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace roci::exec::reactor {
 
@@ -41,11 +42,13 @@ PlanRecovery::PlanRecovery(MissionState& state, RunningPlan& plan, PlannerCall& 
       safing_(&safing),
       policy_(recovery_policy_of(state.mission->executive.recovery)),
       backoff_(state.mission->executive.failure_limit, state.mission->executive.failure_pause,
-               state.mission->executive.failure_pause_max) {}
+               state.mission->executive.failure_pause_max),
+      breaks_(backoff_) {}
 
 void PlanRecovery::note_successes() {
   for (const StepStatus& step : state_->out.steps) {
     if (step.state != temporal::ActivityState::succeeded) continue;
+    breaks_.succeeded(std::exchange(last_break_, {}));
     if (const auto* activity = plan_->executive().activity(step.activity))
       backoff_.succeeded(activity->subsystem);
   }
@@ -62,14 +65,21 @@ void PlanRecovery::monitor(Time now, bool next_is_coming) {
     state_->phase = MissionPhase::idle;
     if (all && !state_->goals.open().empty()) state_->want_plan("the plan ended with goals open");
   } else if (outcome.kind == OutcomeKind::running && (!state_->replan_wanted || !all)) {
-    if (const auto conflict = plan_->conflict_ahead(now)) break_plan(now, conflict->reason);
+    if (const auto conflict = plan_->conflict_ahead(now)) {
+      break_plan(now, conflict->reason);
+      if (state_->replan_wanted) count_break(now, conflict->activity, "conflict");
+    }
   }
 }
 
 void PlanRecovery::handle_failure(Time now, const Outcome& outcome) {
   break_plan(now, (outcome.activity.empty() ? "" : outcome.activity + ": ") + outcome.reason);
   if (!state_->replan_wanted) return;
-  if (outcome.breakage == Breakage::activity_failed) count_failure(now, outcome);
+  if (outcome.breakage == Breakage::activity_failed) {
+    count_failure(now, outcome);
+  } else if (outcome.breakage != Breakage::refused_for_good) {
+    count_break(now, outcome.activity, "outcome");
+  }
   if (outcome.breakage == Breakage::refused_for_good) {
     state_->give_up(goals_behind(plan_->executive().plan(), outcome.activity, state_->goals),
                     outcome.activity + " will never be taken: " + outcome.reason);
@@ -98,6 +108,23 @@ void PlanRecovery::count_failure(Time now, const Outcome& outcome) {
     state_->give_up(goals_behind(plan_->executive().plan(), outcome.activity, state_->goals),
                     activity->subsystem + " failed " + std::to_string(count.in_a_row) +
                         " times in a row, last as " + outcome.activity + " " + outcome.reason);
+  } else if (count.pause > temporal::Duration{0}) {
+    call_->wait_until(now + count.pause);
+  }
+}
+
+void PlanRecovery::count_break(Time now, const std::string& activity, const std::string& kind) {
+  const temporal::PlanActivity* broken = plan_->executive().activity(activity);
+  if (broken == nullptr) return;
+  std::string place = kind + " " + broken->name;
+  for (const temporal::Property& argument : broken->arguments) place += " " + argument.value;
+  if (place != last_break_) breaks_.succeeded(last_break_);
+  last_break_ = place;
+  const FailureBackoff::Count count = breaks_.failed(place);
+  if (count.used_up) {
+    state_->give_up(goals_behind(plan_->executive().plan(), activity, state_->goals),
+                    std::to_string(count.in_a_row) + " plans in a row broke at " + broken->name +
+                        ", with nothing done in between");
   } else if (count.pause > temporal::Duration{0}) {
     call_->wait_until(now + count.pause);
   }

@@ -33,10 +33,15 @@ class PlanRecovery {
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self) {
     FailureBackoff::fields(archive, self.backoff_);
+    FailureBackoff::fields(archive, self.breaks_);
+    archive(self.last_break_);
   }
 
  private:
   void handle_failure(temporal::Time now, const executive::Outcome& outcome);
+  /// `kind` of break of an activity, which is no failure of its command: one like the break before, with nothing done since,
+  /// waits before the next plan as a component that fails again does (FailureBackoff); in the end its goals are given up.
+  void count_break(temporal::Time now, const std::string& activity, const std::string& kind);
   void count_failure(temporal::Time now, const executive::Outcome& outcome);
 
   MissionState* state_;
@@ -45,6 +50,8 @@ class PlanRecovery {
   Safing* safing_;
   RecoveryPolicy policy_;
   FailureBackoff backoff_;  ///< of components whose commands fail again and again
+  FailureBackoff breaks_;   ///< of plans that break at the same place again and again
+  std::string last_break_;  ///< its place and kind; empty: something was done since
 };
 
 }  // namespace roci::exec::reactor

@@ -1,5 +1,6 @@
 #include "exec_svc/reactor/planning_cycle.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "exec_svc/problem/problem_writer.hpp"
@@ -98,6 +99,10 @@ void PlanningCycle::take_reply(Time now, const PlanReply& reply) {
 void PlanningCycle::adopt(Time now, const PlanReply& reply) {
   call_->clear_failures();
   call_->note_fresh();
+  if (!reply.plan.activities.empty())
+    planned_without_activities_.clear();
+  else if (give_up_unseen())
+    return begin(now);
   temporal::FlexiblePlan plan = reply.plan;
   plan.origin = call_->request().origin;
   std::vector<PlannedAction> planned;  // what is left of a plan is told as PDDL actions
@@ -111,6 +116,24 @@ void PlanningCycle::adopt(Time now, const PlanReply& reply) {
   plan_->keep_actions(std::move(planned));
   note_planned();
   plan_->begin(now);
+}
+
+bool PlanningCycle::give_up_unseen() {
+  std::vector<goals::GoalKey> unseen;
+  for (const goals::GoalKey& key : state_->open_goals()) {
+    if (std::ranges::count(planned_without_activities_, key) > 0) {
+      unseen.push_back(key);
+    } else {
+      planned_without_activities_.push_back(key);
+    }
+  }
+  std::erase_if(planned_without_activities_,
+                [&](const goals::GoalKey& key) { return std::ranges::count(unseen, key) > 0; });
+  state_->give_up(
+      unseen,
+      "the planner finds it achieved, and nothing that is observed says so: no state of a component or of a "
+      "family stands for its facts in mission.yaml");
+  return !unseen.empty();
 }
 
 /// Every open goal is in the plan: the planner was asked for all of them.
@@ -130,10 +153,10 @@ bool PlanningCycle::relax(const PlanReply& reply) {
   const RelaxationStep step = reactor::relax(reply, state_->goals, *state_->mission, relaxed_);
   switch (step.kind) {
     case RelaxationStep::Kind::give_up_soft:
-      state_->give_up(step.goals, step.reason);
+      for (const auto& [goal, reason] : step.goals) state_->give_up({goal}, reason);
       return true;
     case RelaxationStep::Kind::give_up_hard:
-      state_->give_up(step.goals, step.reason);
+      for (const auto& [goal, reason] : step.goals) state_->give_up({goal}, reason);
       keep_reserves();
       return true;
     case RelaxationStep::Kind::leave_out_soft:
@@ -142,8 +165,8 @@ bool PlanningCycle::relax(const PlanReply& reply) {
     case RelaxationStep::Kind::spend_reserves:
       relaxed_.reserves = Reserves::spent;
       state_->report(Severity::warning, "reserve.spent",
-                     "what is kept back is now used, before hard goal " + step.goals.front().text() +
-                         " is given up: " + step.reason);
+                     "what is kept back is now used, before hard goal " + step.goals.front().goal.text() +
+                         " is given up: " + first_line(step.goals.front().reason));
       return true;
   }
   return true;

@@ -22,7 +22,9 @@ class PlanningCycle {
   void call(temporal::Time now, temporal::Time origin, const problem::Forecast& forecast);
   /// Acts on the reply to a call that begin() made.
   void take_reply(temporal::Time now, const PlanReply& reply);
-  /// Binds the plan to its commands and runs it. A plan that cannot be executed makes the robot safe.
+  /// Binds the plan to its commands and runs it. A plan that cannot be executed makes the robot safe. A plan without
+  /// activities says that all goals hold already: it is adopted for a goal once, since an observation may follow, and the
+  /// second time the goal is given up.
   void adopt(temporal::Time now, const PlanReply& reply);
 
   /// Not all goals fit: one leaves, or the next call is relaxed. False: that call is to be made as it is, for
@@ -36,6 +38,7 @@ class PlanningCycle {
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self) {
     Relaxation::fields(archive, self.relaxed_);
+    archive(self.planned_without_activities_);
   }
 
  private:
@@ -48,12 +51,17 @@ class PlanningCycle {
   bool suspect_a_goal(temporal::Time now, const PlanReply& reply);
   void try_again_later(temporal::Time now, const PlanReply& reply);
   void note_planned();
+  /// Ends the goals for which a plan without activities was adopted before, with nothing achieved by it. True: there were
+  /// such goals.
+  bool give_up_unseen();
 
   MissionState* state_;
   RunningPlan* plan_;
   PlannerCall* call_;
   Safing* safing_;
   Relaxation relaxed_;  ///< in the newest call
+  std::vector<goals::GoalKey>
+      planned_without_activities_;  ///< in the newest plan: no goal, unless it has no activities
 };
 
 }  // namespace roci::exec::reactor

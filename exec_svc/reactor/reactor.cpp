@@ -64,7 +64,7 @@ ReactorOutputs Reactor::step(Time now, const ReactorInputs& came_in) {
   parts_->call.note_models(inputs.models);
   if (take_goals(state, now, inputs.goals)) parts_->planning.keep_reserves();
   if (take_handed_over(state, inputs.handed_over)) parts_->planning.keep_reserves();
-  note_achieved(state);
+  note_achieved(state, now);
   parts_->plan.give_answers(parts_->decisions.admit(inputs.answers, state.out));
   parts_->plan.step(now, inputs);
   parts_->decisions.note_results(parts_->plan.answer_results(), state.out);
@@ -225,7 +225,8 @@ ReactorCounts Reactor::counts() const {
 }
 
 std::string Reactor::outcome() const {
-  const bool ground_goes_on = !parts_->state.authority.may_replan();  // a release or a relaunch may still come
+  const bool ground_goes_on =
+      !parts_->state.authority.may_replan();  // a release or a relaunch may still come
   if (phase() == MissionPhase::safe && ground_goes_on) return "";
   if (phase() == MissionPhase::safe) return parts_->state.beliefs.active().empty() ? "partial" : "failed";
   if (phase() != MissionPhase::finished) return "";

@@ -25,8 +25,8 @@ double slack(double value) { return 1e-9 * std::max(1.0, std::abs(value)); }
 
 ResourceMonitor::Segment::Segment() : least(-kInfinity), most(kInfinity) {}
 
-bool ResourceMonitor::Segment::holds(double value) const {
-  return value + slack(value) >= least && value - slack(value) <= most;
+bool ResourceMonitor::Segment::holds(const Range& values) const {
+  return values.high + slack(values.high) >= least && values.low - slack(values.low) <= most;
 }
 
 ResourceMonitor::Segment ResourceMonitor::join(const Segment& first, const Segment& second) {
@@ -52,14 +52,15 @@ void ResourceMonitor::Timeline::clear(std::size_t leaf) {
 }
 
 // Walks down to the first leaf that fails; `before` becomes the value that the activity will find.
-std::optional<std::size_t> ResourceMonitor::Timeline::first_failing(double value, double& before) const {
-  before = value;
+std::optional<std::size_t> ResourceMonitor::Timeline::first_failing(Range values, Range& before) const {
+  before = values;
   if (tree[1].holds(before)) return std::nullopt;
   std::size_t i = 1;
   while (i < leaves()) {
     i = 2 * i;
     if (!tree[i].holds(before)) continue;
-    before += tree[i].change;
+    before.low += tree[i].change;
+    before.high += tree[i].change;
     ++i;
   }
   return i - leaves();
@@ -113,6 +114,11 @@ void ResourceMonitor::remove(const std::string& activity) {
   }
 }
 
+void ResourceMonitor::begin(const std::string& activity) {
+  const auto index = index_of_.find(activity);
+  if (index != index_of_.end()) under_way_.insert(index->second);
+}
+
 void ResourceMonitor::charge_again(const std::string& activity, const temporal::Lookup& now) {
   settle(activity);
   const auto index = index_of_.find(activity);
@@ -125,13 +131,46 @@ void ResourceMonitor::charge_again(const std::string& activity, const temporal::
 }
 
 void ResourceMonitor::settle(const std::string& activity) {
+  if (const auto index = index_of_.find(activity); index != index_of_.end()) under_way_.erase(index->second);
   for (auto& [timeline, charges] : charges_)
     std::erase_if(charges, [&](const Charge& charge) { return charge.activity == activity; });
+}
+
+void ResourceMonitor::end(const std::string& activity, const temporal::Lookup& now) {
+  const auto index = index_of_.find(activity);
+  if (index != index_of_.end() && under_way_.contains(index->second)) {
+    for (const auto& [timeline, change] : activities_[index->second].changes) {
+      const auto value = now(timeline);
+      const double* number = value ? std::get_if<double>(&*value) : nullptr;
+      if (number != nullptr) unseen_ends_[timeline][index->second] = *number;
+    }
+  }
+  settle(activity);
 }
 
 double ResourceMonitor::Charge::remaining(double value) const {
   const double left = expected - value;
   return change < 0 ? std::clamp(left, change, 0.0) : std::clamp(left, 0.0, change);
+}
+
+ResourceMonitor::Range ResourceMonitor::reckoned(const std::string& timeline, double value) const {
+  Range out{value, value};
+  if (const auto charges = charges_.find(timeline); charges != charges_.end()) {
+    for (const Charge& charge : charges->second) {
+      out.low += charge.remaining(value);
+      out.high += charge.remaining(value);
+    }
+  }
+  const auto may_come = [&](std::size_t activity) {
+    const auto change = activities_[activity].changes.find(timeline);
+    if (change == activities_[activity].changes.end()) return;
+    (change->second < 0 ? out.low : out.high) += change->second;
+  };
+  for (const std::size_t activity : under_way_) may_come(activity);
+  if (const auto ends = unseen_ends_.find(timeline); ends != unseen_ends_.end())
+    for (const auto& [activity, value_then] : ends->second)
+      if (value_then == value) may_come(activity);
+  return out;
 }
 
 std::optional<PredictedConflict> ResourceMonitor::conflict(const temporal::Lookup& now) const {
@@ -141,19 +180,17 @@ std::optional<PredictedConflict> ResourceMonitor::conflict(const temporal::Looku
     const auto value = now(name);
     const double* number = value ? std::get_if<double>(&*value) : nullptr;
     if (number == nullptr) continue;
-    double left = *number;
-    if (const auto charges = charges_.find(name); charges != charges_.end())
-      for (const Charge& charge : charges->second) left += charge.remaining(*number);
-    double before = 0;
-    const auto leaf = timeline.first_failing(left, before);
+    Range before{};
+    const auto leaf = timeline.first_failing(reckoned(name, *number), before);
     if (!leaf || (first && *first <= timeline.activities[*leaf])) continue;
     first = timeline.activities[*leaf];
     const Asked& activity = activities_[*first];
-    const auto projected = [&, &name = name](const std::string& asked) -> std::optional<Value> {
-      return asked == name ? std::optional<Value>(before) : std::nullopt;
-    };
     for (const ConditionNode& node : conjuncts(activity.pre)) {
       const Condition part{{node}};
+      const bool upper = node.op == ConditionOp::le || node.op == ConditionOp::lt;
+      const auto projected = [&, &name = name](const std::string& asked) -> std::optional<Value> {
+        return asked == name ? std::optional<Value>(upper ? before.low : before.high) : std::nullopt;
+      };
       if (node.timeline == name && temporal::evaluate(part, projected) == temporal::Truth::no)
         out = PredictedConflict{activity.id, temporal::explain(part, projected)};
     }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -17,9 +18,10 @@ namespace roci::exec::reactor {
 
 /// For every numeric timeline that the plan's activities change by a known amount, and in no other way: the
 /// range in which its value must lie now, so that the pre conditions of all waiting activities hold in plan
-/// order. What the first attempt of a running activity will still take counts as nothing, so that no alarm is
-/// false; what another attempt will take counts until it is seen. An activity
-/// that waits no more costs the logarithm of the plan's length, a check one comparison for each timeline.
+/// order. Nobody sees how much of it the first attempt of a running activity has taken or given already: it may still
+/// do any part of what was planned, and whatever part would do is reckoned with, so that no alarm is false. What another
+/// attempt will take counts until it is seen. An activity that waits no more costs the logarithm of the plan's length, a
+/// check two comparisons for each timeline.
 class ResourceMonitor {
  public:
   ResourceMonitor() = default;
@@ -28,23 +30,32 @@ class ResourceMonitor {
 
   /// The activity waits no more: it was started, skipped or cancelled.
   void remove(const std::string& activity);
+  /// It was started and runs: until it is settled it may change its timelines by all that was planned.
+  void begin(const std::string& activity);
   /// A running activity is tried again and takes once more, from the values of now on, all that was planned for
   /// it (R99). What has been seen to be taken since then counts no more.
   void charge_again(const std::string& activity, const temporal::Lookup& now);
   /// The activity has ended: nothing more is taken by it.
   void settle(const std::string& activity);
+  /// The same; but what a first attempt did may not be seen yet: until a timeline has another value than now, the activity
+  /// counts as before.
+  void end(const std::string& activity, const temporal::Lookup& now);
 
   /// The first waiting activity, in plan order, whose pre conditions will fail on the values of now.
   std::optional<PredictedConflict> conflict(const temporal::Lookup& now) const;
 
  private:
+  /// The values that a timeline may have.
+  struct Range {
+    double low, high;
+  };
   /// A part of the plan: what its waiting activities add up to, and the range that they ask of the value
   /// before the first of them.
   struct Segment {
     double change = 0;
     double least, most;
     Segment();
-    bool holds(double value) const;
+    bool holds(const Range& values) const;
   };
   /// The segments of one timeline as a tree in an array: node i holds 2i and 2i + 1, the leaves are the
   /// activities that touch the timeline.
@@ -54,7 +65,7 @@ class ResourceMonitor {
     std::size_t leaves() const { return tree.size() / 2; }
     void build(const std::vector<Segment>& of_activities);
     void clear(std::size_t leaf);
-    std::optional<std::size_t> first_failing(double value, double& before) const;
+    std::optional<std::size_t> first_failing(Range values, Range& before) const;
   };
   struct Asked {
     std::string id;
@@ -69,10 +80,15 @@ class ResourceMonitor {
     double remaining(double value) const;
   };
 
+  /// The value of now, with what is charged, and with all or nothing of what running activities may still do.
+  Range reckoned(const std::string& timeline, double value) const;
   static Segment join(const Segment& first, const Segment& second);
 
   std::map<std::string, Timeline> timelines_;
   std::map<std::string, std::vector<Charge>> charges_;  ///< by timeline
+  std::set<std::size_t> under_way_;                     ///< in their first attempts
+  /// First attempts that have ended, by timeline: the value at their end.
+  std::map<std::string, std::map<std::size_t, double>> unseen_ends_;
   std::vector<Asked> activities_;
   std::unordered_map<std::string, std::size_t> index_of_;
 };

@@ -25,6 +25,12 @@ namespace {
 /// size of the plan.
 constexpr std::size_t kReportedAhead = 32;
 
+bool under_way(const StepStatus& step) {
+  const bool begun =
+      step.state == temporal::ActivityState::dispatched || step.state == temporal::ActivityState::running;
+  return begun && step.attempt <= 1;
+}
+
 temporal::FlexiblePlan in_order_of_starts(const temporal::FlexiblePlan& plan) {
   temporal::FlexiblePlan out = plan;
   const auto times = temporal::earliest_schedule(plan.point_count, temporal::all_constraints(plan));
@@ -54,16 +60,15 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
   told.answers = std::exchange(answers_, {});
   Outputs done = executive_.step(now, told);
   answer_results_ = std::move(done.answers);
+  const auto lookup = [this](const std::string& timeline) { return state_->beliefs.lookup(timeline); };
   for (const StepStatus& step : done.changes) {
     conflict_monitor_.change(step.activity, step.state);
     if (step.state != temporal::ActivityState::waiting) resource_monitor_.remove(step.activity);
-    if (step.ended) resource_monitor_.settle(step.activity);
+    if (under_way(step)) resource_monitor_.begin(step.activity);
+    if (step.ended) resource_monitor_.end(step.activity, lookup);
   }
   for (const RecoveryStep& recovery : done.recoveries) {
-    if (recovery.action == RecoveryAction::retry)
-      resource_monitor_.charge_again(recovery.activity, [this](const std::string& timeline) {
-        return state_->beliefs.lookup(timeline);
-      });
+    if (recovery.action == RecoveryAction::retry) resource_monitor_.charge_again(recovery.activity, lookup);
     state_->report(Severity::info, std::string("recovery.") + to_string(recovery.action),
                    recovery.activity + ": " + recovery.reason);
   }
@@ -102,6 +107,7 @@ void RunningPlan::watch(const temporal::FlexiblePlan& plan, bool launched_again)
     for (const StepStatus& step : executive_.steps()) {
       conflicts.change(step.activity, step.state);
       if (step.state != temporal::ActivityState::waiting) resource_monitor_.remove(step.activity);
+      if (under_way(step)) resource_monitor_.begin(step.activity);
     }
   }
   conflict_monitor_ = std::move(conflicts);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "exec_svc/standby/standby_wire_service.hpp"
+#include "services/log/log.hpp"
 
 namespace roci::exec::standby {
 
@@ -78,10 +79,19 @@ void FollowerService::turn() {
   const Lease::Turn turn = lease_->turn(copy_.has(), moment());
   persisted_term_->keep(lease_->persisted_term());
   if (turn.speak) say();
+  tell_what_it_lacks(turn);
   hand_over();
   if (turn.change != Lease::Change::lead) return;
   lead_ = turn;
   node_.stop();
+}
+
+// Once for each reason, and again when it is about other owners.
+void FollowerService::tell_what_it_lacks(const Lease::Turn& turn) {
+  const std::string lacks = turn.lacks + (turn.doubtful ? " in doubt" : "");
+  if (turn.lacks.empty() || lacks == told_to_lack_) return;
+  told_to_lack_ = lacks;
+  services::log::info(executive_ + " would lead, since " + turn.reason + ", and does not: it lacks the leases of " + turn.lacks);
 }
 
 void FollowerService::say() {

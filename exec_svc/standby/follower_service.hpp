@@ -35,6 +35,7 @@ class FollowerService {
   void hear(const v1::LeaseState& state);
   void take(const Chunk& chunk);
   void hand_over();
+  void tell_what_it_lacks(const Lease::Turn&);
   void turn();
   void say();
 
@@ -45,6 +46,7 @@ class FollowerService {
   PersistedTermFile* persisted_term_;
   JournalCopy copy_;
   std::optional<Lease::Turn> lead_;
+  std::string told_to_lack_;
   bool over_ = false;
   GoalsApart apart_;
   std::vector<goals::GoalRecord> handed_over_;  ///< that the leader may not have yet

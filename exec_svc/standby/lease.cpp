@@ -108,7 +108,13 @@ Lease::Turn Lease::follow(const Position& newest, Moment now) {
   ask_owners(claimed ? !claimed->agreed : soon, now);
   Turn out;
   out.speak = request_.wanted != wanted_before;
-  if (!claimed || (!claimed->agreed && !owner_leases_.holds_all(request_.epoch, now))) return out;
+  if (!claimed) return out;
+  if (!claimed->agreed && !owner_leases_.holds_all(request_.epoch, now)) {
+    out.reason = claimed->reason;
+    out.doubtful = claimed->doubtful;
+    out.lacks = owner_leases_.missing(request_.epoch, now);
+    return out;
+  }
   // Somebody led in an epoch of which this journal has nothing: what was done then is not known here.
   const bool lacks_epoch = persisted_term_.epoch > newest.epoch;
   out = lead(claimed->reason, now);

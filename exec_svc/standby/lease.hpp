@@ -93,6 +93,7 @@ class Lease {
     std::string reason;     ///< says in plain words why it changed
     bool doubtful = false;  ///< lead: the other may have gone on from this journal, unheard, or has
     bool speak = false;     ///< message() is to be sent now
+    std::string lacks{};    ///< following: it would lead for this reason, and lacks the leases of these owners
   };
   /// Says what to do now; it is to be called often, and after everything heard. When persisted_term() has
   /// changed, it goes to the disk before anything else is done.

@@ -4,10 +4,17 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
+#include "core/mission/entry.hpp"
+#include "ground_console/cli/mission_words.hpp"
 #include "ground_console/cli/orders.hpp"
+#include "ground_console/cli/reach.hpp"
+#include "ground_console/cli/report.hpp"
+#include "ground_console/cli/runs.hpp"
 #include "ground_console/cli/verbs.hpp"
 #include "ground_console/cli/watch/watch.hpp"
+#include "services/process/mission_folder.hpp"
 
 namespace {
 
@@ -23,8 +30,39 @@ struct Line {
   cli::OrderArguments order;
   std::size_t count = 0;
   std::vector<std::string> timelines;
+  std::string mission;  // folder or name, for what its file says
+  std::int64_t launcher = 0;
+  cli::ReachArguments reach;
+  std::vector<double> from;
+  bool prunes = false;
+  std::size_t kept = 20;
   int (*verb)(lib::Client&, const Line&) = nullptr;
+  int (*own)(const Line&) = nullptr;  // of a verb that joins no mission
 };
+
+// What the file of the mission says, as far as it stands on this machine.
+cli::MissionWords words_of(const Line& line) {
+  if (!line.mission.empty())
+    return cli::read_mission_words(roci::services::process::mission_folder(line.mission));
+  const auto run = lib::local_run(line.connection);
+  if (!run || run->mission.empty()) return {};
+  try {
+    return cli::read_mission_words(run->mission);
+  } catch (const roci::mission::FileError& error) {
+    std::cerr << "roci: " << error.what() << "\n";  // it flies, whatever the file says now
+    return {};
+  }
+}
+
+int list_goal_kinds(const Line& line) {
+  if (line.mission.empty() && !lib::local_run(line.connection)) {
+    std::cerr << "roci: no mission runs on this machine, or several do; name one: roci goal kinds MISSION\n";
+    return cli::kNoMission;
+  }
+  const cli::MissionWords words = words_of(line);
+  std::cout << (line.json ? cli::json_text(cli::goal_kinds_json(words)) + "\n" : cli::goal_kinds_text(words));
+  return cli::kDone;
+}
 
 CLI::App* add_verb(CLI::App& parent, Line& line, const char* name, const char* help,
                    int (*verb)(lib::Client&, const Line&)) {
@@ -43,7 +81,10 @@ void add_goal_verbs(CLI::App& app, Line& line) {
   add->add_option("id", line.goal.id, "A name of your choice")->required();
   add->add_option("kind", line.goal.kind, "One of the mission's goal kinds, e.g. photo")->required();
   add->add_option("arguments", line.goal.arguments, "name=value …, e.g. x=110 y=60");
-  add->add_option("--class", line.goal.importance, "hard, optional or opportunistic")->capture_default_str();
+  add->add_option(
+         "--class", line.goal.importance,
+         "hard (the mission fails without it), optional (may be dropped) or opportunistic (goes first)")
+      ->capture_default_str();
   add->add_option("--robot", line.goal.robot, "The robot that is to achieve it (default: the only one)");
   add->add_option("--utility", line.goal.utility,
                   "Among optional goals the lowest goes first; several by rank, the highest first: 2,0.5")
@@ -52,14 +93,23 @@ void add_goal_verbs(CLI::App& app, Line& line) {
   add->add_option("--opens", line.goal.opens_s, "Earliest mission time in seconds");
   add->add_option("--closes", line.goal.closes_s, "Latest mission time in seconds");
   add->add_option("--issuer", line.goal.issuer, "Who asks")->capture_default_str();
+  add->add_flag("--wait", line.goal.waits,
+                "Wait for the goal's end: exit code 0 achieved, 4 dropped, failed or recalled, 5 the mission "
+                "ended first");
+  add->add_flag("--why", line.goal.why, "With --wait: why it was given up, in the planner's own words too");
   CLI::App* cancel =
       add_verb(*goal, line, "cancel", "Take a goal back", [](lib::Client& client, const Line& l) {
         return cli::cancel_goal(client, l.goal.issuer, l.goal.id, l.json);
       });
   cancel->add_option("id", line.goal.id, "The goal's id")->required();
   cancel->add_option("--issuer", line.goal.issuer, "Who asked")->capture_default_str();
-  add_verb(*goal, line, "list", "All goals with their states and reasons",
-           [](lib::Client& client, const Line& l) { return cli::list_goals(client, l.json); });
+  CLI::App* list = add_verb(
+      *goal, line, "list", "All goals with their states and reasons",
+      [](lib::Client& client, const Line& l) { return cli::list_goals(client, l.goal.why, l.json); });
+  list->add_flag("--why", line.goal.why, "The reasons in the planner's own words, too");
+  CLI::App* kinds = add_verb(*goal, line, "kinds", "What may be asked for, with an example of each", nullptr);
+  kinds->add_option("mission", line.mission, "Mission folder or name (default: the one that runs here)");
+  kinds->callback([&line] { line.own = list_goal_kinds; });
 }
 
 CLI::App* add_order(CLI::App& parent, Line& line, const char* name, const char* help,
@@ -165,10 +215,34 @@ int main(int argc, char** argv) {
            [](lib::Client& client, const Line& l) { return cli::show_status(client, l.json); });
   add_verb(app, line, "plan", "The running plan and the state of each activity",
            [](lib::Client& client, const Line& l) { return cli::show_plan(client, l.json); });
-  CLI::App* timelines = add_verb(
-      app, line, "timelines", "Planned, executed and projected values of every timeline",
-      [](lib::Client& client, const Line& l) { return cli::show_timelines(client, l.timelines, l.json); });
-  timelines->add_option("names", line.timelines, "These alone, e.g. rover.nav rover.battery");
+  CLI::App* timelines =
+      add_verb(app, line, "timelines", "Planned, executed and projected values of every timeline",
+               [](lib::Client& client, const Line& l) {
+                 return cli::show_timelines(client, l.timelines, words_of(l), l.json);
+               });
+  timelines->add_option("names", line.timelines, "Every change of these alone, e.g. rover.nav rover.battery");
+  timelines->add_option("--mission", line.mission,
+                        "Mission folder or name, for the units (default: as it runs here)");
+  CLI::App* reach = add_verb(app, line, "reach", "Is there a way to a place, how long, how much energy",
+                             [](lib::Client& client, const Line& l) {
+                               cli::ReachArguments asked = l.reach;
+                               if (l.from.size() == 2) {
+                                 asked.from_x_m = l.from[0];
+                                 asked.from_y_m = l.from[1];
+                               }
+                               return cli::show_reach(client, asked, l.json);
+                             });
+  reach->add_option("x", line.reach.x_m, "Metres in the frame of the map")->required();
+  reach->add_option("y", line.reach.y_m, "Metres in the frame of the map")->required();
+  reach->add_option("--from", line.from, "Where the way begins: X Y (default: where the robot is)")
+      ->expected(2);
+  reach->add_option("--robot", line.reach.robot, "From where this robot is (default: the only one)");
+  reach->add_option("--service", line.reach.service, "The path planner that is asked")->capture_default_str();
+  CLI::App* runs = add_verb(app, line, "runs", "The runs of this machine: when, what, result, size", nullptr);
+  runs->add_flag("--prune", line.prunes, "Remove the folders of all but the newest runs");
+  runs->add_option("--keep", line.kept, "With --prune: so many stay")->capture_default_str();
+  runs->callback(
+      [&line] { line.own = [](const Line& l) { return cli::show_runs(l.prunes, l.kept, l.json); }; });
   CLI::App* events = add_verb(
       app, line, "events", "What happens, as it happens",
       [](lib::Client& client, const Line& l) { return cli::follow_events(client, l.count, l.json); });
@@ -177,6 +251,8 @@ int main(int argc, char** argv) {
       add_verb(app, line, "watch", "Live view of the mission in the terminal; waits for one to run",
                [](lib::Client& client, const Line& l) { return cli::watch::watch(client, l.json); });
   watching->preparse_callback([&line](std::size_t) { line.waits = true; });
+  events->add_option("--launcher", line.launcher, "Join the run of this roci-launch, by its process id");
+  watching->add_option("--launcher", line.launcher, "Join the run of this roci-launch, by its process id");
   app.add_subcommand("replay", "Repeat a run from its journal: roci replay JOURNAL (--help tells more)");
   try {
     app.parse(argc, argv);
@@ -184,8 +260,10 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? cli::kDone : cli::kBadUsage;
   }
   try {
-    lib::Client client(line.waits ? lib::wait_for_run(line.connection, tell_waiting)
-                                  : lib::choose_run(line.connection));
+    if (line.own != nullptr) return line.own(line);
+    if (line.launcher != 0 && !lib::wait_for_launcher(line.launcher)) return cli::kNoMission;
+    lib::Client client(line.waits && line.launcher == 0 ? lib::wait_for_run(line.connection, tell_waiting)
+                                                        : lib::choose_run(line.connection, line.launcher));
     client.look_at(line.executive);
     return line.verb(client, line);
   } catch (const std::invalid_argument& error) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "ground_console/cli/plan_table.hpp"
+
 namespace roci::console::cli {
 
 using nlohmann::json;
@@ -22,13 +24,25 @@ std::string json_text(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+constexpr std::string_view kDetails = "\ndetails: ";
+
+std::string reason_of(const v1::GoalStatus& status) {
+  return status.reason().substr(0, status.reason().find(kDetails));
+}
+
+std::string details_of(const v1::GoalStatus& status) {
+  const std::size_t end = status.reason().find(kDetails);
+  return end == std::string::npos ? "" : status.reason().substr(end + kDetails.size());
+}
+
 json to_json(const v1::GoalStatus& status) {
   return {{"issuer", status.issuer()},
           {"id", status.id()},
           {"kind", status.goal_kind()},
           {"class", lib::name_of(status.importance())},
           {"state", lib::name_of(status.goal_state())},
-          {"reason", status.reason()},
+          {"reason", reason_of(status)},
+          {"details", details_of(status)},
           {"plan_version", status.plan_version()},
           {"acknowledged", lib::name_of(status.ack_stage())}};
 }
@@ -99,7 +113,14 @@ json plan_json(const lib::MissionView& view) {
   json out{
       {"executive", view.executive()}, {"version", view.plan()->version()}, {"activities", json::array()}};
   for (const v1::PlanActivity& activity : view.plan()->activities()) {
-    json entry{{"id", activity.id()}, {"name", activity.name()}, {"goals", activity.goals_served()}};
+    json entry{{"id", activity.id()},
+               {"name", activity.name()},
+               {"goals", activity.goals_served()},
+               {"planned_start_us", planned_start_us(*view.plan(), activity)},
+               {"duration_us", activity.duration_lower_us()},
+               {"arguments", json::object()}};
+    for (const v1::Property& argument : activity.arguments())
+      entry["arguments"][argument.name()] = argument.value();
     if (const v1::StepStatus* step = view.step(activity.id())) {
       entry["state"] = lib::name_of(step->state());
       entry["started_us"] = step->started_us();
@@ -116,7 +137,7 @@ json plan_json(const lib::MissionView& view) {
 std::string goal_line(const v1::GoalStatus& status) {
   return printable(padded(status.issuer() + "/" + status.id(), 24) + " " + padded(status.goal_kind(), 12) +
                    " " + padded(lib::name_of(status.importance()), 14) + " " +
-                   padded(lib::name_of(status.goal_state()), 9) + " " + status.reason() +
+                   padded(lib::name_of(status.goal_state()), 9) + " " + reason_of(status) +
                    (status.reason().empty() ? "(" : " (") + lib::name_of(status.ack_stage()) + ")");
 }
 

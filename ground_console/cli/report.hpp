@@ -20,6 +20,10 @@ std::string padded(std::string text, std::size_t width);
 /// Control characters of others never reach the terminal: "?" stands for each.
 std::string printable(std::string text);
 
+/// A goal's reason has a first line in the words of the mission; what follows, "details: …", are those of the planner.
+std::string reason_of(const v1::GoalStatus& status);
+std::string details_of(const v1::GoalStatus& status);  ///< empty if there are none
+
 std::string goal_line(const v1::GoalStatus& status);
 std::string event_line(const v1::Event& event);
 std::string status_text(const lib::MissionView& view);

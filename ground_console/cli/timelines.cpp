@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ground_console/cli/report.hpp"
+#include "ground_console/cli/table.hpp"
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::console::cli {
@@ -52,12 +53,15 @@ Timelines timelines_of(const lib::MissionView& view, const std::vector<std::stri
   return out;
 }
 
-nlohmann::json timelines_json(const lib::MissionView& view, const Timelines& timelines) {
+nlohmann::json timelines_json(const lib::MissionView& view, const Timelines& timelines,
+                              const MissionWords& words) {
   nlohmann::json out{{"time_s", static_cast<double>(view.now_us()) / 1e6},
                      {"plan_version", view.plan() ? view.plan()->version() : 0},
-                     {"timelines", nlohmann::json::object()}};
+                     {"timelines", nlohmann::json::object()},
+                     {"units", nlohmann::json::object()}};
   for (const auto& [name, changes] : timelines) {
     nlohmann::json& list = out["timelines"][name] = nlohmann::json::array();
+    if (const std::string unit = words.unit_of(name); !unit.empty()) out["units"][name] = unit;
     for (const temporal::ProjectedChange& change : changes) {
       list.push_back({{"time_s", seconds_of(change.time)},
                       {"value", temporal::to_text(change.value)},
@@ -68,10 +72,11 @@ nlohmann::json timelines_json(const lib::MissionView& view, const Timelines& tim
   return out;
 }
 
-std::string timelines_text(const Timelines& timelines) {
+std::string timelines_text(const Timelines& timelines, const MissionWords& words) {
   std::string out;
   for (const auto& [name, changes] : timelines) {
-    out += printable(name) + "\n";
+    const std::string unit = words.unit_of(name);
+    out += printable(name + (unit.empty() ? "" : " [" + unit + "]")) + "\n";
     for (const temporal::ProjectedChange& change : changes) {
       out += "  " + lib::clock_text(change.time.count()) + "  " +
              padded(temporal::to_string(change.kind), 10) +
@@ -79,6 +84,28 @@ std::string timelines_text(const Timelines& timelines) {
     }
   }
   return out;
+}
+
+std::string timelines_table(const Timelines& timelines, const MissionWords& words) {
+  using temporal::ProjectionKind;
+  std::vector<std::vector<std::string>> rows{
+      {"TIMELINE", "NOW", "SINCE", "PLANNED LAST", "PROJECTED LAST", "UNIT"}};
+  for (const auto& [name, changes] : timelines) {
+    const temporal::ProjectedChange* last[3]{};  // by kind
+    const auto slot = [](ProjectionKind kind) {
+      return kind == ProjectionKind::executed ? 0 : kind == ProjectionKind::planned ? 1 : 2;
+    };
+    for (const temporal::ProjectedChange& change : changes) last[slot(change.kind)] = &change;
+    const auto value = [&](int kind) {
+      return last[kind] == nullptr ? "" : temporal::to_text(last[kind]->value);
+    };
+    const auto at = [&](int kind) {
+      return last[kind] == nullptr ? "" : value(kind) + " at " + lib::clock_text(last[kind]->time.count());
+    };
+    rows.push_back({name, value(0), last[0] == nullptr ? "" : lib::clock_text(last[0]->time.count()), at(1),
+                    at(2), words.unit_of(name)});
+  }
+  return table_text(rows);
 }
 
 }  // namespace roci::console::cli

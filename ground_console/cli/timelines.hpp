@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/temporal/projection.hpp"
+#include "ground_console/cli/mission_words.hpp"
 #include "ground_console/lib/mission_view.hpp"
 
 namespace roci::console::cli {
@@ -18,8 +19,12 @@ using Timelines = std::map<std::string, std::vector<temporal::ProjectedChange>>;
 /// that no executive sends.
 Timelines timelines_of(const lib::MissionView& view, const std::vector<std::string>& names);
 
-nlohmann::json timelines_json(const lib::MissionView& view, const Timelines& timelines);
-/// A block of lines for each timeline: time, value, kind, activity.
-std::string timelines_text(const Timelines& timelines);
+nlohmann::json timelines_json(const lib::MissionView& view, const Timelines& timelines,
+                              const MissionWords& words = {});
+/// A block of lines for each timeline: time, value with its unit, kind, activity.
+std::string timelines_text(const Timelines& timelines, const MissionWords& words = {});
+/// A row for each timeline, once: its newest executed value and when it came about, the last one planned, and the last one
+/// projected, with its unit.
+std::string timelines_table(const Timelines& timelines, const MissionWords& words);
 
 }  // namespace roci::console::cli

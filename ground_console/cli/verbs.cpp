@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "ground_console/cli/plan_table.hpp"
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/timelines.hpp"
 
@@ -36,14 +37,51 @@ int no_mission() {
   return kNoMission;
 }
 
+void print_goal(const v1::GoalStatus& status, bool why, bool as_json) {
+  if (as_json) {
+    std::cout << json_text(to_json(status)) << std::endl;
+    return;
+  }
+  std::cout << goal_line(status) << std::endl;
+  if (const std::string details = details_of(status); why && !details.empty())
+    std::cout << "  the planner: " << printable(details) << std::endl;
+}
+
 int report_goal(const std::optional<v1::GoalStatus>& status, bool as_json) {
   if (!status) return no_mission();
-  if (as_json) {
-    std::cout << json_text(to_json(*status)) << "\n";
-  } else {
-    std::cout << goal_line(*status) << "\n";
-  }
+  print_goal(*status, false, as_json);
   return status->goal_state() == v1::GOAL_REJECTED ? kRefused : kDone;
+}
+
+// Prints each state that the goal comes to, until its last one.
+int follow_goal(lib::Client& client, v1::GoalStatus status, const GoalArguments& arguments, bool as_json) {
+  const lib::MissionView::GoalKey key{status.issuer(), status.id()};
+  const auto newest = [&]() -> const v1::GoalStatus& { return client.view().goals().at(key); };
+  for (;;) {
+    switch (status.goal_state()) {
+      case v1::GOAL_ACHIEVED:
+        return kDone;
+      case v1::GOAL_REJECTED:
+        return kRefused;
+      case v1::GOAL_DROPPED:
+      case v1::GOAL_FAILED:
+      case v1::GOAL_RECALLED:
+        return kNotAchieved;
+      case v1::GOAL_PENDING:
+      case v1::GOAL_PLANNED:
+        break;
+    }
+    const auto changed = [&] {
+      return newest().goal_state() != status.goal_state() || newest().reason() != status.reason();
+    };
+    if (!client.wait([&] { return changed() || client.view().ended(); }, std::chrono::hours(24)) ||
+        (!changed() && !client.wait(changed, std::chrono::milliseconds(500)))) {
+      std::cerr << "roci: the mission ended before goal " << printable(key.second) << " did\n";
+      return kStillOpen;
+    }
+    status = newest();
+    print_goal(status, arguments.why, as_json);
+  }
 }
 
 }  // namespace
@@ -61,7 +99,9 @@ int add_goal(lib::Client& client, const GoalArguments& arguments, bool as_json) 
   goal.priority(arguments.priority);
   goal.opens_us(static_cast<std::int64_t>(arguments.opens_s * 1e6));
   goal.closes_us(static_cast<std::int64_t>(arguments.closes_s * 1e6));
-  return report_goal(client.send_goal(goal, kAnswerLimit), as_json);
+  const auto status = client.send_goal(goal, kAnswerLimit);
+  const int code = report_goal(status, as_json);
+  return code == kDone && arguments.waits ? follow_goal(client, *status, arguments, as_json) : code;
 }
 
 int cancel_goal(lib::Client& client, const std::string& issuer, const std::string& id, bool as_json) {
@@ -79,7 +119,7 @@ int cancel_goal(lib::Client& client, const std::string& issuer, const std::strin
   return report_goal(client.send_goal(goal, kAnswerLimit), as_json);
 }
 
-int list_goals(lib::Client& client, bool as_json) {
+int list_goals(lib::Client& client, bool why, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
   client.wait([] { return false; }, std::chrono::milliseconds(300));  // the other goals come right behind
   json list = json::array();
@@ -87,7 +127,7 @@ int list_goals(lib::Client& client, bool as_json) {
     if (as_json) {
       list.push_back(to_json(status));
     } else {
-      std::cout << goal_line(status) << "\n";
+      print_goal(status, why, false);
     }
   }
   if (as_json) std::cout << json_text(list) << "\n";
@@ -123,18 +163,12 @@ int show_plan(lib::Client& client, bool as_json) {
     std::cout << json_text(plan_json(client.view())) << "\n";
     return kDone;
   }
-  if (!client.view().plan()) {
-    std::cout << "no plan yet\n";
-    return kDone;
-  }
-  for (const v1::PlanActivity& activity : client.view().plan()->activities()) {
-    const v1::StepStatus* step = client.view().step(activity.id());
-    std::cout << activity.id() << "  " << (step == nullptr ? "waiting" : lib::name_of(step->state())) << "\n";
-  }
+  std::cout << plan_table(client.view());
   return kDone;
 }
 
-int show_timelines(lib::Client& client, const std::vector<std::string>& names, bool as_json) {
+int show_timelines(lib::Client& client, const std::vector<std::string>& names, const MissionWords& words,
+                   bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
   client.wait([&] { return client.view().plan() != nullptr; }, std::chrono::milliseconds(1000));
   client.wait([] { return false; }, std::chrono::milliseconds(300));
@@ -145,8 +179,11 @@ int show_timelines(lib::Client& client, const std::vector<std::string>& names, b
     std::cerr << "roci: nothing is known of timeline '" << name << "'; see roci timelines\n";
     return kRefused;
   }
-  std::cout << (as_json ? json_text(timelines_json(client.view(), timelines)) + "\n"
-                        : timelines_text(timelines));
+  if (as_json) {
+    std::cout << json_text(timelines_json(client.view(), timelines, words)) << "\n";
+  } else {
+    std::cout << (names.empty() ? timelines_table(timelines, words) : timelines_text(timelines, words));
+  }
   return kDone;
 }
 

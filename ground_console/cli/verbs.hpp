@@ -7,11 +7,20 @@
 #include <string>
 #include <vector>
 
+#include "ground_console/cli/mission_words.hpp"
 #include "ground_console/lib/client.hpp"
 
 namespace roci::console::cli {
 
-enum ExitCode { kDone = 0, kRefused = 1, kBadUsage = 2, kNoMission = 3 };
+enum ExitCode {
+  kDone = 0,
+  kRefused = 1,
+  kBadUsage = 2,
+  kNoMission = 3,
+  kNotAchieved = 4,  ///< goal add --wait: dropped, failed or recalled
+  kStillOpen =
+      5,  ///< goal add --wait: the mission ended, or nothing was heard of it, before the goal had its end
+};
 
 struct GoalArguments {
   std::string issuer = "ground";
@@ -19,11 +28,13 @@ struct GoalArguments {
   std::string kind;
   std::string robot;                   ///< that is to achieve it; empty: the only one
   std::vector<std::string> arguments;  ///< "x=110"
-  std::string importance = "hard";
+  std::string importance = "optional";
   std::vector<double> utility;  ///< by rank, the highest first
   std::int32_t priority = 0;
   double opens_s = 0;   ///< 0: any time
   double closes_s = 0;  ///< 0: never
+  bool waits = false;   ///< for the goal's end
+  bool why = false;     ///< the planner's own words, too
 };
 
 /// How long a verb waits for the mission's answer, in wall time.
@@ -31,11 +42,12 @@ inline constexpr std::chrono::milliseconds kAnswerLimit{15000};
 
 int add_goal(lib::Client& client, const GoalArguments& arguments, bool json);
 int cancel_goal(lib::Client& client, const std::string& issuer, const std::string& id, bool json);
-int list_goals(lib::Client& client, bool json);
+int list_goals(lib::Client& client, bool why, bool json);
 int show_status(lib::Client& client, bool json);
 int show_plan(lib::Client& client, bool json);
-/// Planned, executed and projected values; `names`: of these timelines alone.
-int show_timelines(lib::Client& client, const std::vector<std::string>& names, bool json);
+/// Planned, executed and projected values; a row for each timeline, or, with `names`, every change of these alone.
+int show_timelines(lib::Client& client, const std::vector<std::string>& names, const MissionWords& words,
+                   bool json);
 /// Prints events as they come; `count`: ends after so many, 0: never, unless the mission ends.
 int follow_events(lib::Client& client, std::size_t count, bool json);
 

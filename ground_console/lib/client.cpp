@@ -3,12 +3,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 
 #include "services/clock/wall.hpp"
 #include "services/process/run_record.hpp"
+#include "services/rpc.hpp"
 #include "services/topics.hpp"
 #include "services/transport/plug_ins.hpp"
 
@@ -36,12 +38,15 @@ std::string described(const services::process::RunRecord& run) {
 
 }  // namespace
 
-services::process::Connection choose_run(const services::process::ConnectionFlags& flags) {
+services::process::Connection choose_run(const services::process::ConnectionFlags& flags,
+                                         std::int64_t launcher) {
   const auto environment = services::process::process_environment();
   services::process::ConnectionFlags chosen = flags;
   std::string run;
   if (!flags.domain && !flags.network && !environment("ROCI_DOMAIN") && !environment("ROCI_NETWORK")) {
-    const auto runs = services::process::find_runs(services::process::runtime_folder());
+    auto runs = services::process::find_runs(services::process::runtime_folder());
+    if (launcher != 0)
+      std::erase_if(runs, [&](const services::process::RunRecord& run) { return run.pid != launcher; });
     const auto refused = services::process::refused_runs(services::process::runtime_folder());
     if (runs.empty() && !refused.empty()) throw std::runtime_error("a mission runs, but " + refused.front());
     if (runs.empty())
@@ -67,6 +72,37 @@ services::process::Connection choose_run(const services::process::ConnectionFlag
   if (connection.dds == "mixed") connection.dds = "cyclonedds";
   connection.run = run;
   return connection;
+}
+
+std::optional<services::process::RunRecord> local_run(const services::process::ConnectionFlags& flags) {
+  auto runs = services::process::find_runs(services::process::runtime_folder());
+  const auto domain = flags.domain;
+  if (domain)
+    std::erase_if(runs, [&](const services::process::RunRecord& run) { return run.domain != *domain; });
+  if (runs.size() != 1) return std::nullopt;
+  return runs.front();
+}
+
+namespace {
+
+// Also of a child that nobody has waited for: its record is gone, and it will never have another.
+bool has_ended(std::int64_t pid) {
+  std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  if (!std::getline(stat, text)) return true;
+  const std::size_t name_end = text.rfind(')');
+  return name_end == std::string::npos || text.substr(name_end + 2, 1) == "Z";
+}
+
+}  // namespace
+
+bool wait_for_launcher(std::int64_t pid) {
+  for (; !has_ended(pid); std::this_thread::sleep_for(milliseconds(100))) {
+    const auto runs = services::process::find_runs(services::process::runtime_folder());
+    if (std::ranges::any_of(runs, [&](const services::process::RunRecord& run) { return run.pid == pid; }))
+      return true;
+  }
+  return false;
 }
 
 services::process::Connection wait_for_run(const services::process::ConnectionFlags& flags,
@@ -149,6 +185,22 @@ std::optional<v1::OrderStatus> Client::send_order(const v1::Order& order,
     if (last && (last->stage() == v1::ORDER_REFUSED || last->stage() == v1::ORDER_APPLIED)) return last;
   } while (wait([&] { return stages().size() > seen; }, limit));
   return last;
+}
+
+std::optional<v1::PathReply> Client::find_path(Place from, Place to, const std::string& service,
+                                               milliseconds limit, std::string& why) {
+  v1::PathRequest request;
+  request.origin().x_m(from.x_m);
+  request.origin().y_m(from.y_m);
+  request.goal_pose().x_m(to.x_m);
+  request.goal_pose().y_m(to.y_m);
+  std::optional<services::CallResult<v1::PathReply>> result;
+  const auto paths = services::make_client(node_, topics::path_request);
+  paths.call(std::move(request), service, limit, [&](const auto& ended) { result = ended; });
+  wait([&] { return result.has_value(); }, limit + milliseconds(500));
+  why = result ? result->reason : "it took too long";
+  if (!result || result->status != services::rpc::CallStatus::ok) return std::nullopt;
+  return result->reply;
 }
 
 bool Client::wait_for_mission(milliseconds limit) {

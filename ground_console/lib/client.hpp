@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "ground_console/lib/mission_view.hpp"
 #include "services/node.hpp"
 #include "services/process/connection.hpp"
+#include "services/process/run_record.hpp"
 #include "services/publisher.hpp"
 
 namespace roci::console::lib {
@@ -21,10 +23,18 @@ class NoRun : public std::runtime_error {
 };
 
 /// Where to join: what the command line and the environment say, else the one mission that runs on this
-/// machine. Throws NoRun when there is none, std::runtime_error when several run, with the remedy.
-services::process::Connection choose_run(const services::process::ConnectionFlags& flags);
+/// machine; with `launcher`, the process id of a roci-launch, that of its own. Throws NoRun when there is none, std::runtime_error when several run, with the remedy.
+services::process::Connection choose_run(const services::process::ConnectionFlags& flags,
+                                         std::int64_t launcher = 0);
 
-/// The same, but waits until a mission runs; calls `tell_waiting` once if it has to. Wall time.
+/// The run that the command line names or that is the only one here; nothing if there is none or a choice. Its mission
+/// folder stands on this machine.
+std::optional<services::process::RunRecord> local_run(const services::process::ConnectionFlags& flags);
+
+/// Waits until the launcher with this process id has published its run. False: the process has ended.
+bool wait_for_launcher(std::int64_t pid);
+
+/// As choose_run(), but waits until a mission runs; calls `tell_waiting` once if it has to. Wall time.
 services::process::Connection wait_for_run(const services::process::ConnectionFlags& flags,
                                            const std::function<void()>& tell_waiting);
 
@@ -49,6 +59,10 @@ class Client {
   std::optional<v1::OrderStatus> send_order(const v1::Order& order,
                                             const std::function<void(const v1::OrderStatus&)>& tell,
                                             std::chrono::milliseconds limit);
+  /// Asks a path planner of the mission for a way, in wall time; nothing if none answered, and why. It changes nothing.
+  std::optional<v1::PathReply> find_path(Place from, Place to, const std::string& service,
+                                         std::chrono::milliseconds limit, std::string& why);
+
   /// No other console ever has the same.
   const std::string& name() const { return node_.options().name; }
 

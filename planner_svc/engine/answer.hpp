@@ -42,6 +42,7 @@ struct Answer {
   std::vector<BlockingGoal> blocking;
   std::optional<temporal::FlexiblePlan> plan;  ///< is there with solved alone
   Statistics statistics;
+  std::vector<std::string> warnings;  ///< what of the texts departs from their language, and how it was read
   std::vector<RecordFile> record;
 };
 

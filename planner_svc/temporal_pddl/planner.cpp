@@ -28,7 +28,7 @@ using call::Budget, call::Monitor, call::NamedGoal, call::Options, call::Plannin
 using dead_ends::DeadEndDetectors, dead_ends::MutexDeadEnds, dead_ends::ResourceDeadEnds;
 using engine::FunctionSource;
 using extraction::build_plan;
-using grounding::Grounding, grounding::ground, grounding::ground_remaining_plan;
+using grounding::Grounding, grounding::GroundingReport, grounding::ground, grounding::ground_remaining_plan;
 using grounding::lifted::ModelFailure;
 using heuristics::CostMeasure, heuristics::FfHeuristic, heuristics::Heuristic, heuristics::LandmarkCount;
 using improvement::Restarts, improvement::improve, improvement::warm_start;
@@ -79,14 +79,33 @@ void explain(FfHeuristic& ff, ResourceDeadEnds& resources, SearchOutcome outcome
   result.blocked = std::move(outcome.blocked);
 }
 
+Grounding grounded(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
+                   const Options& options, SearchLimits& limits, Result& result) {
+  GroundingReport report;
+  const auto tell = [&] {
+    result.functions = std::move(report.functions);
+    result.warnings = std::move(report.warnings);
+  };
+  try {
+    Grounding grounding = ground(domain, problem, functions, options, limits, report);
+    tell();
+    return grounding;
+  } catch (...) {
+    tell();
+    throw;
+  }
+}
+
 void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
            const Options& options, std::span<const pddl::PlanStep> remaining,
            std::span<const NamedGoal> goals, SearchLimits& limits, Result& result) {
   require_model(domain, problem);
-  const Grounding grounding = ground(domain, problem, functions, options, limits, result.functions);
+  limits.phase("grounding");
+  const Grounding grounding = grounded(domain, problem, functions, options, limits, result);
   const Task& task = grounding.task;
   describe(task, result.statistics);
   limits.hold(task.bytes());
+  limits.phase("looking for landmarks");
   FfHeuristic ff(task);
   std::optional<LandmarkCount> landmarks;
   if (options.landmarks) landmarks.emplace(task, ff, limits);
@@ -98,6 +117,7 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   const Guide guide{landmarks ? static_cast<Heuristic&>(*landmarks) : ff, detectors, CostMeasure::duration};
   const SearchContext context{task, options, limits, result.statistics};
   SearchOutcome outcome;
+  limits.phase("completing the earlier plan");
   outcome.plan = warm_start(context, ground_remaining_plan(task, remaining), guide);
   result.statistics.from_remaining = outcome.plan.has_value();
   if (!outcome.plan) outcome = search_portfolio(context, guide, ff);

@@ -26,6 +26,8 @@ struct Result {
   std::optional<extraction::Plan> plan;   ///< is there with solved alone
   call::Statistics statistics;
   std::vector<engine::FunctionUse> functions;  ///< every tuple that was asked for
+  /// "FILE:LINE:COLUMN: warning: …": what is legal and yet hardly meant, as a number that has no value.
+  std::vector<std::string> warnings;
 };
 
 }  // namespace roci::planner::temporal_pddl

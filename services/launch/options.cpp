@@ -83,7 +83,9 @@ Options parse_options(int argc, const char* const* argv, const services::process
   app.add_option("--scenario", options.scenario, "Scenario of the mission")->capture_default_str();
   app.add_option("--dds", flags.dds, "fastdds, cyclonedds, mixed, or inproc (one process)");
   app.add_option("--speed", speed, "Mission seconds per second, or max (default: 60 simulated, 1 live)");
-  app.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
+  app.add_option("--seed", options.seed, "Seed of everything random")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_option("--clock", clock, "simulated or live")
       ->check(CLI::IsMember({"simulated", "live"}))
       ->capture_default_str();

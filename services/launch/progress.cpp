@@ -1,6 +1,7 @@
 #include "services/launch/progress.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <array>
@@ -20,6 +21,24 @@ const char* phase_name(v1::MissionPhase phase) {
   return index < names.size() ? names[index] : "unknown";
 }
 
+// At most so many columns of the text, one for each code point; control characters of others become "?".
+std::string fitted(const std::string& text, std::size_t columns) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const bool begins = (byte & 0xC0U) != 0x80U;
+    if (begins && columns-- == 0) break;
+    out += byte < 0x20 || byte == 0x7f ? '?' : text[i];
+  }
+  return out;
+}
+
+std::size_t terminal_columns() {
+  winsize window{};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &window) != 0 || window.ws_col == 0) return 80;
+  return window.ws_col;
+}
+
 std::string clock_text(temporal::Time time) {
   const auto s = std::chrono::duration_cast<std::chrono::seconds>(time).count();
   return fmt::format("{:02}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
@@ -32,11 +51,10 @@ Progress::Progress(services::Node& node, bool shown)
       events_(services::advertise(node, topics::event)),
       shown_(shown),
       terminal_(isatty(STDERR_FILENO) == 1) {
-  services::subscribe(node, topics::mission_status,
-                      [this](const v1::MissionStatus& status) {
-                        if (statuses_.size() < kExecutives || statuses_.contains(status.executive()))
-                          statuses_[status.executive()] = status;
-                      });
+  services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
+    if (statuses_.size() < kExecutives || statuses_.contains(status.executive()))
+      statuses_[status.executive()] = status;
+  });
   services::subscribe(node, topics::event, [this](const v1::Event& event) { take(event); });
 }
 
@@ -84,7 +102,7 @@ void Progress::show() {
   const std::string time = clock_text(node_.now());
   std::string text = line();
   if (terminal_) {
-    text = time + "  " + text;
+    text = fitted(time + "  " + text, terminal_columns() - 1);  // the last column would wrap
     if (text == drawn_) return;
     std::cerr << '\r' << text << "\x1b[K" << std::flush;
   } else {

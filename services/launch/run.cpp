@@ -6,9 +6,11 @@
 #include <ctime>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "services/clock/host_anchor.hpp"
@@ -37,6 +39,7 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kTurn{20};
 constexpr std::size_t kShownLogLines = 8;
+constexpr clock::WallDuration kLookAtNetwork = std::chrono::seconds(1);
 constexpr clock::WallDuration kLookAtLogs = std::chrono::seconds(10);
 // A user's own program stands elsewhere and loads the same vendors.
 const std::string kPluginPath = "ROCI_PLUGIN_PATH=";
@@ -147,6 +150,27 @@ void keep_command_line_on(const Options& options, const clock::HostAnchor& ancho
   }
 }
 
+// Who goes on with a run waits for its network as the services of the run would have: they are started again for as long as
+// it is out. The vendor is there, as it flew the run before.
+std::unique_ptr<transport::Transport> connect_on(const process::Connection& own, const Options& options,
+                                                 const std::function<int()>& stop_asked) {
+  for (bool told = false;;) {
+    try {
+      auto transport = process::connect(own);
+      if (told) std::cerr << "roci-launch: its network is back\n" << std::flush;
+      return transport;
+    } catch (const transport::TransportError& error) {
+      if (!options.continued || stop_asked() > 0) throw;
+      if (!std::exchange(told, true))
+        std::cerr << "roci-launch: waits for its network, and looks every second (Ctrl-C ends it): " << error.what()
+                  << "\n"
+                  << std::flush;
+    }
+    const clock::WallTime again = clock::wall_now() + kLookAtNetwork;
+    while (clock::wall_now() < again && stop_asked() == 0) std::this_thread::sleep_for(kTurn);
+  }
+}
+
 ExitCode exit_code(const std::optional<RunFailure>& failure, bool good) {
   if (failure) return failure->bad_input ? kBadInput : kServiceFailed;
   return good ? kAchieved : kNotAchieved;
@@ -176,7 +200,7 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   transport.participant = "launcher";
   services::process::Connection own = options.connection;
   own.dds = vendor;
-  services::Node node(observer_options(vendor, options.run), services::process::connect(own));
+  services::Node node(observer_options(vendor, options.run), connect_on(own, options, stop_asked));
   if (may_be_held) refuse_held_domain(node, options);
   Progress progress(node, !options.headless);
   const services::process::PublishedRun published(services::process::runtime_folder(),

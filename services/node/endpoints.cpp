@@ -7,6 +7,7 @@
 #include "services/bounds/limits.hpp"
 #include "services/clock/stream_topic.hpp"
 #include "services/log/log.hpp"
+#include "services/transport/micro_step.hpp"
 #include "services/transport/qos.hpp"
 
 namespace roci::services::node {
@@ -18,6 +19,11 @@ void check_same_type(const TopicSpec& known, const TopicSpec& wanted) {
                          wanted.codec.type.name);
 }
 
+// So many finished instances of a topic stay: what somebody who joins late may want to see of the past.
+constexpr std::size_t kFinishedKept = 64;
+constexpr std::size_t kLargeFinishedKept = 16;
+constexpr std::uint64_t kTurnsOfRest = 2;
+
 }  // namespace
 
 std::string stream_topic(const TopicSpec& topic, const std::string& robot) {
@@ -26,11 +32,17 @@ std::string stream_topic(const TopicSpec& topic, const std::string& robot) {
 
 TopicWriter::TopicWriter(const NodeOptions& options, const RunIdentity& run, Now now, const TopicSpec& topic,
                          transport::Transport& transport, transport::WriterEvents events)
-    : options_(options), run_(run), now_(std::move(now)), topic_(topic) {
+    : options_(options),
+      run_(run),
+      now_(std::move(now)),
+      topic_(topic),
+      finished_(topic.limit < transport::PayloadLimit::batch ? kFinishedKept : kLargeFinishedKept,
+                barriered() ? kTurnsOfRest : 0) {
   const transport::EndpointDescription endpoint{
-      topic.name, topic.codec.type, transport::writer_qos(topic.qos, topic.clocking, options.clock),
+      topic.name, topic.codec.type, transport::writer_qos(topic.qos, topic.limit, topic.clocking, options.clock),
       transport::partitions_of(topic.scope, options.robot)};
   writer_ = transport.create_writer(endpoint, std::move(events));
+  forgets_ = dynamic_cast<transport::ForgetsInstances*>(writer_.get());
 }
 
 void TopicWriter::stamp(v1::SampleHeader& header) const {
@@ -42,12 +54,19 @@ void TopicWriter::stamp(v1::SampleHeader& header) const {
   header.stamp_us(now_().count());
 }
 
-bool TopicWriter::within_limit(const transport::Payload& payload) {
-  if (topic_.clocking == transport::Clocking::wall || !clock::is_simulated(options_.clock)) return true;
+bool TopicWriter::barriered() const {
+  return topic_.clocking == transport::Clocking::clocked && clock::is_simulated(options_.clock);
+}
+
+std::optional<TopicWriter::Key> TopicWriter::key_of(const transport::Payload& payload) const {
   transport::Payload key;
   const transport::TypeDescription& type = topic_.codec.type;
-  if (type.keyed && !type.serialized_key(payload, false, key)) return false;
-  return ++written_[std::string(key.begin(), key.end())] <= transport::kMicroStepLimit;
+  if (type.keyed && !type.serialized_key(payload, false, key)) return std::nullopt;
+  return Key(key.begin(), key.end());
+}
+
+bool TopicWriter::within_limit(const Key& key) {
+  return !barriered() || ++written_[key] <= transport::micro_step_limit(topic_.qos, topic_.limit);
 }
 
 bool TopicWriter::write(const transport::Payload& payload) {
@@ -57,18 +76,41 @@ bool TopicWriter::write(const transport::Payload& payload) {
                std::to_string(transport::bytes(topic_.limit)) + "; this one is refused");
     return false;
   }
-  if (!within_limit(payload)) {
-    log::error(options_.name + " wrote more than " + std::to_string(transport::kMicroStepLimit) +
+  const std::optional<Key> key = key_of(payload);
+  if (!key) return false;
+  if (!within_limit(*key)) {
+    if (quiet_) return false;
+    log::error(options_.name + " wrote more than " +
+               std::to_string(transport::micro_step_limit(topic_.qos, topic_.limit)) +
                " samples of one instance of " + topic_.name +
                " in one micro-step; this one is refused: spread them over mission time");
     return false;
   }
   if (!writer_->write(payload)) return false;
   ++total_;
+  finished_.written(*key);
+  if (topic_.codec.type.keyed && topic_.qos == transport::Qos::request) finish(payload);
   return true;
 }
 
-bool TopicWriter::dispose(const transport::Payload& payload) { return writer_->dispose(payload); }
+bool TopicWriter::finish(const transport::Payload& payload) {
+  if (forgets_ == nullptr) return true;
+  const std::optional<Key> key = key_of(payload);
+  if (!key || !topic_.codec.type.keyed) return false;
+  finished_.finished(*key, payload);
+  if (!barriered()) forget_finished();
+  return true;
+}
+
+void TopicWriter::forget_finished() {
+  for (const transport::Payload& last_word : finished_.take_due()) forgets_->forget(last_word);
+}
+
+void TopicWriter::begin_micro_step() {
+  written_.clear();
+  finished_.end_turn();
+  forget_finished();
+}
 
 Endpoints::Endpoints(const NodeOptions& options, const RunIdentity& run, TopicWriter::Now now,
                      transport::Transport& transport, Inbox& inbox, ContractCheck& contract,
@@ -103,7 +145,8 @@ TopicReader& Endpoints::in(const TopicSpec& topic) {
     input->topic = topic;
     input->contract = {topic.name, topic.codec.type.name};
     const transport::EndpointDescription endpoint{
-        topic.name, topic.codec.type, transport::reader_qos(topic.qos, topic.clocking, options_.clock),
+        topic.name, topic.codec.type,
+        transport::reader_qos(topic.qos, topic.limit, topic.clocking, options_.clock),
         transport::partitions_of(topic.scope, options_.robot)};
     transport::ReaderEvents events;
     events.on_sample = [this, target = input.get()](transport::Sample&& sample) {

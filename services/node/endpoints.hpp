@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -14,10 +15,12 @@
 #include "roci_idl/basic.h"
 #include "roci_idl/clock.h"
 #include "services/node/contract_check.hpp"
+#include "services/node/finished_instances.hpp"
 #include "services/node/inbox.hpp"
 #include "services/node/node_options.hpp"
 #include "services/node/refusals.hpp"
 #include "services/node/run_identity.hpp"
+#include "services/transport/forgets_instances.hpp"
 #include "services/transport/payload_limit.hpp"
 #include "services/transport/scope.hpp"
 #include "services/transport/transport.hpp"
@@ -66,25 +69,38 @@ class TopicWriter {
   /// Numbers the next sample; the number counts once write() has succeeded.
   void stamp(v1::SampleHeader&) const;
   bool write(const transport::Payload&);
-  bool dispose(const transport::Payload&);
+  /// Says that the instance has its last word. The newest of these stay for late joiners; older ones are forgotten if the vendor
+  /// can, and nobody is told. Of topics whose past nobody is given each word is the last. False: the key cannot be read.
+  bool finish(const transport::Payload&);
+
+  /// What a micro-step has no room for is written again in the next by whoever writes here, so nobody is told.
+  void refuse_quietly() { quiet_ = true; }
 
   const RunIdentity& run() const { return run_; }
   transport::Guid guid() const { return writer_->guid(); }
   int matched_readers() const { return writer_->matched_readers(); }
   const TopicSpec& topic() const { return topic_; }
   std::uint64_t total() const { return total_; }
-  void begin_micro_step() { written_.clear(); }
+  void begin_micro_step();
 
  private:
-  bool within_limit(const transport::Payload&);
+  using Key = FinishedInstances::Key;
+  /// Empty for types without a key; nothing if it cannot be read.
+  std::optional<Key> key_of(const transport::Payload&) const;
+  bool barriered() const;
+  bool within_limit(const Key&);
+  void forget_finished();
 
   const NodeOptions& options_;
   const RunIdentity& run_;
   Now now_;
   TopicSpec topic_;
   std::unique_ptr<transport::Writer> writer_;
+  transport::ForgetsInstances* forgets_ = nullptr;  // the writer, if it can
   std::uint64_t total_ = 0;
-  std::unordered_map<std::string, int> written_;  // samples of this micro-step by key
+  std::unordered_map<Key, int> written_;  // samples of this micro-step
+  FinishedInstances finished_;
+  bool quiet_ = false;
 };
 
 struct TopicReader {

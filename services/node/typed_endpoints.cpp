@@ -30,7 +30,7 @@ bool TypedEndpoints<T>::write(TopicWriter& stream, T&& value) {
 
 template <class T>
 bool TypedEndpoints<T>::dispose(TopicWriter& stream, const T& value) {
-  return stream.dispose(transport::serialize(value));
+  return stream.finish(transport::serialize(value));
 }
 
 // Every type of topics.hpp.

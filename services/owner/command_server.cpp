@@ -23,6 +23,10 @@ CommanderLeases::Moment moment() {
 // So many entries are appended to the file before it begins anew: some times those of the commands that are kept.
 constexpr std::size_t kAppended = 10 * Retention::kKept;
 
+bool is_last_word(v1::CommandStage stage) {
+  return stage != v1::STAGE_ACCEPTED && stage != v1::STAGE_CANCEL_FAILED;
+}
+
 }  // namespace
 
 CommandServer::CommandServer(Node& node, Driver& driver)
@@ -167,7 +171,11 @@ bool CommandServer::repair(const CommandKey& key, std::string reason) {
 
 bool CommandServer::send(const std::optional<Ack>& ack) {
   keep();
-  if (ack) acks_.write(to_wire(*ack, node_.options().name));
+  if (ack) {
+    const v1::CommandAck sample = to_wire(*ack, node_.options().name);
+    acks_.write(sample);
+    if (is_last_word(sample.stage())) acks_.dispose(sample);  // who still asks for it sends a query
+  }
   return ack.has_value();
 }
 

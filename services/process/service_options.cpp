@@ -21,7 +21,9 @@ void add_run(CLI::App& app, RunSettings& run) {
   app.add_option("--settings", run.settings,
                  "The mission file to read (default: mission.yaml of the folder)");
   app.add_option("--scenario", run.scenario, "scenarios/NAME.yaml of the mission")->capture_default_str();
-  app.add_option("--seed", run.seed, "Seed of everything random")->capture_default_str();
+  app.add_option("--seed", run.seed, "Seed of everything random")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_option("--run-folder", run.run_folder, "Folder for journal, logs and summary of this run");
   app.add_option("--pair", run.pair,
                  "exec_svc: which of two processes that stand in for each other this is (or ROCI_PAIR)")

@@ -12,6 +12,8 @@ namespace {
 constexpr temporal::Duration kFirstRepetition = std::chrono::milliseconds(250);
 constexpr temporal::Duration kLinkedRepetition = std::chrono::seconds(1);
 constexpr temporal::Duration kLongestRepetition = std::chrono::seconds(4);
+// All calls that may be under way at once have gone out by then (transport/micro_step.hpp).
+constexpr int kMostPostponed = 32;
 
 }  // namespace
 
@@ -81,8 +83,12 @@ void PendingCalls::cancel(CallId number) {
 
 void PendingCalls::send(CallId number, Pending& pending) {
   pending.sent = true;
+  if (!pending.call.send(identity(number)) && node_.simulated() && pending.postponed < kMostPostponed) {
+    ++pending.postponed;
+    pending.repetition = node_.after(temporal::Duration(0), [this, number] { repeat(number); });
+    return;
+  }
   ++statistics_.sent;
-  pending.call.send(identity(number));
   if (pending.cancelled) send_cancel_(identity(number), pending.call.owner);
   if (repeats(pending)) await_repetition(number, pending);
 }

@@ -48,6 +48,7 @@ class PendingCalls {
     Call call;
     bool sent = false;
     bool cancelled = false;
+    int postponed = 0;  // to the next micro-step, since this one has no room for a further call
     temporal::Duration next_wait{0};
     /// The light time to the owner and back, where a link joins it; else empty.
     std::optional<temporal::Duration> round_trip;

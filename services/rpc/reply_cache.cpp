@@ -58,10 +58,11 @@ void ReplyCache::on_cancel(const Id& id, std::function<void()> handler) {
 void PendingReply::answer(std::shared_ptr<const void> reply) {
   if (answered_) return;
   answered_ = true;
-  const std::size_t bytes = write_(reply.get());
+  const std::size_t bytes = write_(reply);
   server_->end();
+  if (!keeps_) return server_->answered(id(), [] {});
   server_->answered(
-      id(), [write = write_, reply] { write(reply.get()); }, bytes);
+      id(), [write = write_, reply] { write(reply); }, bytes);
 }
 
 PendingReply::~PendingReply() {

@@ -59,10 +59,12 @@ class ReplyCache {
 /// Is the duty to answer one request, with the writer that does it.
 class PendingReply {
  public:
-  using Write = std::function<std::size_t(const void* reply)>;  ///< Returns the size of the reply in bytes.
+  /// Returns the size of the reply in bytes.
+  using Write = std::function<std::size_t(const std::shared_ptr<const void>& reply)>;
 
-  PendingReply(std::shared_ptr<ReplyCache> server, const v1::SampleIdentity& request, Write write)
-      : server_(std::move(server)), request_(request), write_(std::move(write)) {
+  /// `keeps`: the answer is kept for a caller that asks again.
+  PendingReply(std::shared_ptr<ReplyCache> server, const v1::SampleIdentity& request, Write write, bool keeps = true)
+      : server_(std::move(server)), request_(request), write_(std::move(write)), keeps_(keeps) {
     server_->begin();
   }
   ~PendingReply();
@@ -80,6 +82,7 @@ class PendingReply {
   std::shared_ptr<ReplyCache> server_;
   v1::SampleIdentity request_;
   Write write_;
+  bool keeps_;
   bool answered_ = false;
 };
 

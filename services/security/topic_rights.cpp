@@ -76,12 +76,12 @@ std::vector<TopicRights> make_table() {
 
       row(topics::plan_delta,      {planner},                                {executive}),
       row(topics::plan_receipt,    {executive},                              {planner}),
-      row(topics::call_cancel,     {executive, planner, owner},              {planner, path_planner, arm_planner}),
+      row(topics::call_cancel,     {executive, planner, owner, console},     {planner, path_planner, arm_planner}),
   };
   //        procedure                callers       servers
   add(rows, topics::plan_request,  {executive},  {planner});
   add(rows, topics::function_call, {planner},    {path_planner, arm_planner});
-  add(rows, topics::path_request,  {owner},      {path_planner});
+  add(rows, topics::path_request,  {owner, console}, {path_planner});
   add(rows, topics::arm_motion,    {owner},      {arm_planner});
   // clang-format on
   return rows;

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "services/transport/micro_step.hpp"
+
 namespace roci::services::transport {
 namespace {
 
@@ -25,14 +27,14 @@ bool barriered(Clocking clocking, clock::ClockMode mode) {
 
 // No sample may be lost or overwritten before the barrier has seen it, and none waits for a slow reader
 // outside.
-QosSettings barrier_qos() {
-  return {.reliable = true, .transient_local = true, .history_depth = 2 * kMicroStepLimit};
+QosSettings barrier_qos(int micro_step_limit) {
+  return {.reliable = true, .transient_local = true, .history_depth = 2 * micro_step_limit};
 }
 
 }  // namespace
 
 QosSettings writer_qos(Qos qos, Clocking clocking, clock::ClockMode mode) {
-  if (barriered(clocking, mode)) return barrier_qos();
+  if (barriered(clocking, mode)) return barrier_qos(kMicroStepLimit);
   QosSettings settings = table(qos);
   if (mode == clock::ClockMode::observer && clocking == Clocking::clocked) {
     // An observer does not know the run's clock: it offers what readers of either kind ask for.
@@ -44,7 +46,15 @@ QosSettings writer_qos(Qos qos, Clocking clocking, clock::ClockMode mode) {
 }
 
 QosSettings reader_qos(Qos qos, Clocking clocking, clock::ClockMode mode) {
-  return barriered(clocking, mode) ? barrier_qos() : table(qos);
+  return barriered(clocking, mode) ? barrier_qos(kMicroStepLimit) : table(qos);
+}
+
+QosSettings writer_qos(Qos qos, PayloadLimit limit, Clocking clocking, clock::ClockMode mode) {
+  return barriered(clocking, mode) ? barrier_qos(micro_step_limit(qos, limit)) : writer_qos(qos, clocking, mode);
+}
+
+QosSettings reader_qos(Qos qos, PayloadLimit limit, Clocking clocking, clock::ClockMode mode) {
+  return barriered(clocking, mode) ? barrier_qos(micro_step_limit(qos, limit)) : reader_qos(qos, clocking, mode);
 }
 
 }  // namespace roci::services::transport

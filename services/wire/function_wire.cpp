@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <sstream>
+#include <utility>
 
 namespace roci::services::wire {
 namespace {
@@ -61,6 +63,27 @@ v1::FunctionReply answer_batches(const v1::FunctionRequest& request, std::uint64
     reply.results().push_back(values);
   }
   return reply;
+}
+
+void put_words(v1::FunctionReply& reply, const std::map<std::string, std::string>& words) {
+  std::string lines;
+  for (const auto& [object, why] : words) {
+    std::string line = object + ": " + why;
+    std::ranges::replace_if(
+        line, [](unsigned char c) { return c < 0x20; }, ' ');
+    lines += line + "\n";
+  }
+  reply.reply().remote_message(std::move(lines));
+}
+
+std::map<std::string, std::string> words_of(const v1::FunctionReply& reply) {
+  std::map<std::string, std::string> out;
+  std::istringstream lines(reply.reply().remote_message());
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t colon = line.find(": ");
+    if (colon != std::string::npos) out[line.substr(0, colon)] = line.substr(colon + 2);
+  }
+  return out;
 }
 
 const std::string* property(const v1::PlanObject& object, const std::string& name) {

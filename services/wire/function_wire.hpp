@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -36,6 +37,11 @@ v1::FunctionOffer function_offer(const std::string& module_name, const std::stri
 v1::FunctionReply answer_batches(const v1::FunctionRequest& request, std::uint64_t model_version,
                                  const std::vector<OwnedFunction>& functions, const Evaluator& evaluate,
                                  const std::stop_token& stop);
+
+/// Says by object, in the owner's words, why tuples with it have no value: "place-1" → "the rover cannot stand there". They
+/// travel in the reply's remote_message, a line "OBJECT: WORDS" each; control characters in them become blanks.
+void put_words(v1::FunctionReply& reply, const std::map<std::string, std::string>& words);
+std::map<std::string, std::string> words_of(const v1::FunctionReply& reply);
 
 /// Returns the value of the property, or null if the object has none of that name.
 const std::string* property(const v1::PlanObject& object, const std::string& name);

@@ -91,6 +91,24 @@ std::vector<world::NamedNumber> Arm::numbers() const {
   return out;
 }
 
+world::Memory Arm::memory() const {
+  world::Memory out{{"pose", State{"idle-pose", {trace_ ? settings_.stop_pose : pose_}}}};
+  for (const world::NamedNumber& joint : numbers()) out[joint.name] = joint.value;
+  return out;
+}
+
+void Arm::restore(const world::Memory& memory) {
+  const auto pose = memory.find("pose");
+  const auto* state = pose == memory.end() ? nullptr : std::get_if<State>(&pose->second);
+  if (!state || state->arguments.size() != 1) return;
+  pose_ = state->arguments.front();
+  for (const world::NamedNumber& joint : numbers()) {
+    const auto kept = memory.find(joint.name);
+    const auto* position = kept == memory.end() ? nullptr : std::get_if<double>(&kept->second);
+    if (position) joints_[std::stoul(joint.name.substr(1))] = *position;
+  }
+}
+
 void Arm::rest(std::string pose) {
   pose_ = std::move(pose);
   target_.reset();

@@ -26,6 +26,7 @@ class Arm final : public world::Component, public world::Manipulator, public wor
   Arm(ArmSettings, world::RandomStream noise);
 
   std::vector<world::CommandForm> commands() const override { return {{"move", {"from", "to"}}}; }
+  std::vector<world::StateForm> state_forms() const override { return {{"idle-pose", 1}, {"going-to", 1}}; }
   /// Returns idle-pose (pose) or going-to (pose).
   temporal::State state() const override;
   bool busy() const override { return target_.has_value(); }
@@ -45,6 +46,8 @@ class Arm final : public world::Component, public world::Manipulator, public wor
   bool moves() const override { return next_change().has_value(); }
   /// Returns the joints as q0, q1, …
   std::vector<world::NamedNumber> numbers() const override;
+  world::Memory memory() const override;
+  void restore(const world::Memory&) override;
 
  private:
   void rest(std::string pose);

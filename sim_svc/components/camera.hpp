@@ -27,6 +27,8 @@ class Camera final : public world::Component, public world::BodyInterlock {
   Camera(CameraSettings, world::RandomStream noise);
 
   std::vector<world::CommandForm> commands() const override { return {{"image", {"image"}}}; }
+  std::vector<world::StateForm> state_forms() const override { return {{"idle"}, {"imaging"}}; }
+  std::vector<world::ThingForm> thing_forms() const override { return {{"image", {{"stored"}, {"sent"}}}}; }
   /// Returns idle or imaging.
   temporal::State state() const override;
   bool busy() const override { return shot_.has_value(); }

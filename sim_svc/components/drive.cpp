@@ -35,6 +35,17 @@ std::optional<std::string> Drive::place() const {
   return place_;
 }
 
+world::Memory Drive::memory() const {
+  const bool moved = target_ && (trace_ || detours_ > 0);
+  return {{"place", State{"idle-at", {moved ? settings_.stop_place : place_}}}};
+}
+
+void Drive::restore(const world::Memory& memory) {
+  const auto kept = memory.find("place");
+  const auto* state = kept == memory.end() ? nullptr : std::get_if<State>(&kept->second);
+  if (state && state->arguments.size() == 1) place_ = state->arguments.front();
+}
+
 Ending Drive::begin(const world::Task& task, Time, Surroundings& around) {
   const auto x = number(task.arguments.at("x"));
   const auto y = number(task.arguments.at("y"));

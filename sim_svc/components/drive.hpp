@@ -30,6 +30,7 @@ class Drive final : public world::Component, public world::Mobility {
   Drive(DriveSettings, world::RandomStream noise);
 
   std::vector<world::CommandForm> commands() const override { return {{"drive", {"to", "x", "y"}}}; }
+  std::vector<world::StateForm> state_forms() const override { return {{"idle-at", 1}, {"going-to", 1}}; }
   /// Returns idle-at (place) or going-to (place).
   temporal::State state() const override;
   bool busy() const override { return target_.has_value(); }
@@ -50,6 +51,8 @@ class Drive final : public world::Component, public world::Mobility {
   bool moves() const override { return next_change().has_value(); }
   /// Returns as `detours` how many rocks the drive went around.
   std::map<std::string, temporal::Value> results() const override { return {{"detours", last_detours_}}; }
+  world::Memory memory() const override;
+  void restore(const world::Memory&) override;
 
  private:
   struct Target {

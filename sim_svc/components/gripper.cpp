@@ -97,6 +97,20 @@ double Gripper::energy_j(Time from, Time to) const {
   return busy() ? settings_.power_w * temporal::to_seconds(to - from) : 0;
 }
 
+// A sample that it holds is one that it has touched.
+world::Memory Gripper::memory() const {
+  return {samples_.begin(), samples_.end()};
+}
+
+void Gripper::restore(const world::Memory& memory) {
+  for (const auto& [sample, value] : memory) {
+    const auto* state = std::get_if<State>(&value);
+    if (!state) continue;
+    samples_[sample] = *state;
+    if (state->name == "held") held_ = sample;
+  }
+}
+
 std::vector<world::NamedState> Gripper::states() const {
   std::vector<world::NamedState> out;
   for (const auto& [sample, state] : samples_) out.push_back({"sample." + sample, state});

@@ -33,6 +33,12 @@ class Gripper final : public world::Component,
   std::vector<world::CommandForm> commands() const override {
     return {{"pick", {"sample", "place"}}, {"drop", {"sample", "place"}}};
   }
+  std::vector<world::StateForm> state_forms() const override {
+    return {{"empty"}, {"holding", 1}, {"working"}};
+  }
+  std::vector<world::ThingForm> thing_forms() const override {
+    return {{"sample", {{"in-place", 1}, {"held"}, {"dropped", 1}}}};
+  }
   /// Returns empty, holding (sample) or working.
   temporal::State state() const override;
   bool busy() const override { return work_.has_value(); }
@@ -50,6 +56,8 @@ class Gripper final : public world::Component,
   double peak_power_w() const override { return busy() ? settings_.power_w : 0; }
   /// Returns in-place (place), held or dropped (place) as sample.<name>, for each sample that it touched.
   std::vector<world::NamedState> states() const override;
+  world::Memory memory() const override;
+  void restore(const world::Memory&) override;
 
  private:
   struct Work {

@@ -24,6 +24,8 @@ class Radio final : public world::Component {
   Radio(RadioSettings, world::RandomStream noise);
 
   std::vector<world::CommandForm> commands() const override { return {{"send", {"image"}}}; }
+  std::vector<world::StateForm> state_forms() const override { return {{"idle"}, {"sending"}}; }
+  std::vector<std::string> awaited_windows() const override { return {settings_.window}; }
   /// Returns idle or sending.
   temporal::State state() const override;
   bool busy() const override { return transfer_.has_value(); }

@@ -129,7 +129,7 @@ setup::Registry standard_types() {
   out.add("camera", {read_camera, true});
   out.add("gripper", {read_gripper});
   out.add("radio", {read_radio});
-  out.add("task", {[](Settings& in) { return making<TaskComponent>(read_task_settings(in)); }});
+  out.add("task", {[](Settings& in) { return making<TaskComponent>(read_task_settings(in)); }, false, true});
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "sim_svc/components/task.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace roci::sim::components {
@@ -55,6 +56,28 @@ std::vector<world::CommandForm> TaskComponent::commands() const {
   return out;
 }
 
+std::vector<world::StateForm> TaskComponent::state_forms() const {
+  std::set<world::StateForm> out;
+  const auto add = [&](const StateTemplate& state) { out.insert({state.name, state.arguments.size()}); };
+  add(settings_.start);
+  for (const TaskCommand& command : settings_.commands) {
+    add(command.during.value_or(StateTemplate{command.name, {}}));
+    if (command.then) add(*command.then);
+    if (command.stopped) add(*command.stopped);
+  }
+  return {out.begin(), out.end()};
+}
+
+std::vector<world::ThingForm> TaskComponent::thing_forms() const {
+  std::map<std::string, std::set<world::StateForm>> families;
+  for (const TaskCommand& command : settings_.commands)
+    for (const auto& [thing, state] : command.leaves)
+      families[thing.substr(0, thing.find('.'))].insert({state.name, state.arguments.size()});
+  std::vector<world::ThingForm> out;
+  for (const auto& [family, states] : families) out.push_back({family, {states.begin(), states.end()}});
+  return out;
+}
+
 Ending TaskComponent::begin(const world::Task& task, Time now, Surroundings& around) {
   const auto found = std::find_if(settings_.commands.begin(), settings_.commands.end(),
                                   [&](const TaskCommand& one) { return one.name == task.command; });
@@ -66,11 +89,17 @@ Ending TaskComponent::begin(const world::Task& task, Time now, Surroundings& aro
     return state ? filled(*state, task.arguments) : state_;
   };
   run_ = Run{static_cast<std::size_t>(found - settings_.commands.begin()),
+             temporal::seconds(duration),
+             {},
              now,
-             now + temporal::seconds(duration),
+             {},
              form(command.then),
              form(command.stopped),
-             values_};
+             values_,
+             {}};
+  for (const auto& [thing, state] : command.leaves)
+    run_->leaves[filled(thing, task.arguments)] = filled(state, task.arguments);
+  run_->end = end_of(*run_);
   std::string object;
   for (const auto& [name, value] : task.arguments) object += (object.empty() ? "" : " ") + value;
   around.deeds.push_back({command.name, std::move(object)});
@@ -91,6 +120,7 @@ Ending TaskComponent::finish(Surroundings&) {
     if (change == changes.end()) continue;
     values_[i] = change->second.to.value_or(done.before[i] + change->second.by);
   }
+  for (const auto& [thing, state] : done.leaves) things_.insert_or_assign(thing, state);
   state_ = done.then;
   return std::nullopt;
 }
@@ -101,10 +131,34 @@ void TaskComponent::halt(Time now, Surroundings& around) {
   run_.reset();
 }
 
+void TaskComponent::slow_down(double pace, Time until, Time now, Surroundings&) {
+  if (run_) {
+    run_->done = done_by(*run_, now);
+    run_->since = now;
+  }
+  pace_ = pace;
+  slow_until_ = until;
+  if (run_) run_->end = end_of(*run_);
+}
+
+temporal::Duration TaskComponent::done_by(const Run& run, Time now) const {
+  const Time slow_end = std::clamp(slow_until_, run.since, std::max(run.since, now));
+  const temporal::Duration slow = temporal::seconds(pace_ * temporal::to_seconds(slow_end - run.since));
+  return std::min(run.work, run.done + slow + (std::max(now, slow_end) - slow_end));
+}
+
+Time TaskComponent::end_of(const Run& run) const {
+  const temporal::Duration left = run.work - run.done;
+  if (run.since >= slow_until_ || left.count() <= 0) return run.since + left;
+  const temporal::Duration slow = temporal::seconds(pace_ * temporal::to_seconds(slow_until_ - run.since));
+  if (slow < left) return slow_until_ + (left - slow);
+  return run.since + temporal::seconds(temporal::to_seconds(left) / pace_);
+}
+
 void TaskComponent::settle(Time now, world::Body&) {
-  if (!run_ || run_->end <= run_->start) return;
-  const double share = std::clamp(
-      temporal::to_seconds(now - run_->start) / temporal::to_seconds(run_->end - run_->start), 0.0, 1.0);
+  if (!run_ || run_->work.count() <= 0) return;
+  const double share =
+      std::clamp(temporal::to_seconds(done_by(*run_, now)) / temporal::to_seconds(run_->work), 0.0, 1.0);
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const auto& changes = settings_.commands[run_->command].changes;
     const auto change = changes.find(settings_.numbers[i].name);
@@ -127,10 +181,33 @@ std::vector<world::NamedNumber> TaskComponent::numbers() const {
   return out;
 }
 
+std::vector<world::NamedState> TaskComponent::states() const {
+  std::vector<world::NamedState> out;
+  for (const auto& [thing, state] : things_) out.push_back({thing, state});
+  return out;
+}
+
 std::map<std::string, temporal::Value> TaskComponent::results() const {
   std::map<std::string, temporal::Value> out;
   for (std::size_t i = 0; i < values_.size(); ++i) out[settings_.numbers[i].name] = values_[i];
   return out;
+}
+
+// A colon parts the names of numbers, which are the mission's, from the state's.
+world::Memory TaskComponent::memory() const {
+  world::Memory out{{"state", run_ ? run_->stopped : state_}};
+  for (std::size_t i = 0; i < values_.size(); ++i) out["number:" + settings_.numbers[i].name] = values_[i];
+  return out;
+}
+
+void TaskComponent::restore(const world::Memory& memory) {
+  const auto kept = memory.find("state");
+  if (const auto* state = kept == memory.end() ? nullptr : std::get_if<State>(&kept->second)) state_ = *state;
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const auto number = memory.find("number:" + settings_.numbers[i].name);
+    const auto* value = number == memory.end() ? nullptr : std::get_if<double>(&number->second);
+    if (value) values_[i] = *value;
+  }
 }
 
 }  // namespace roci::sim::components

@@ -36,6 +36,9 @@ struct TaskCommand {
   std::optional<StateTemplate> stopped{};      ///< holds when it is broken off; empty: the state before
   std::map<std::string, std::string> needs{};  ///< component → name of the state it must be in at the start
   std::map<std::string, NumberChange> changes{};  ///< go by the name of the number
+  /// Thing, as family.name with arguments in braces (hole.{hole}) → the state that it is left in when the command
+  /// is done.
+  std::map<std::string, StateTemplate> leaves{};
 };
 
 /// Is a numeric timeline of the component, `<robot>.<component>.<name>`.
@@ -59,12 +62,16 @@ class TaskComponent final : public world::Component {
   TaskComponent(TaskSettings, world::RandomStream noise);
 
   std::vector<world::CommandForm> commands() const override;
+  std::vector<world::StateForm> state_forms() const override;
+  std::vector<world::ThingForm> thing_forms() const override;
   temporal::State state() const override { return state_; }
   bool busy() const override { return run_.has_value(); }
 
   world::Ending begin(const world::Task&, temporal::Time now, world::Surroundings&) override;
   std::optional<temporal::Time> next_change() const override;
   world::Ending finish(world::Surroundings&) override;
+  /// A running task ends the later; what it has done stays done.
+  void slow_down(double pace, temporal::Time until, temporal::Time now, world::Surroundings&) override;
   void halt(temporal::Time now, world::Surroundings&) override;
   void settle(temporal::Time now, world::Body&) override;
 
@@ -72,23 +79,37 @@ class TaskComponent final : public world::Component {
   double peak_power_w() const override;
   bool moves() const override { return run_ && !settings_.commands[run_->command].changes.empty(); }
   std::vector<world::NamedNumber> numbers() const override;
+  /// Returns the states of all things that tasks have left in one.
+  std::vector<world::NamedState> states() const override;
   /// Returns the component's numbers, as the task left them.
   std::map<std::string, temporal::Value> results() const override;
+  world::Memory memory() const override;
+  void restore(const world::Memory&) override;
 
  private:
   struct Run {
-    std::size_t command = 0;  // index into the settings
-    temporal::Time start{};
+    std::size_t command = 0;    // index into the settings
+    temporal::Duration work{};  // what it takes at the usual pace
+    temporal::Duration done{};  // of that, at `since`
+    temporal::Time since{};
     temporal::Time end{};
     temporal::State then;
     temporal::State stopped;
     std::vector<double> before;  // the numbers at the start
+    std::map<std::string, temporal::State> leaves;
   };
+
+  // How much of its work a run has done by `now`.
+  temporal::Duration done_by(const Run&, temporal::Time now) const;
+  temporal::Time end_of(const Run&) const;
 
   TaskSettings settings_;
   temporal::State state_;
   std::vector<double> values_;  // one per number
+  std::map<std::string, temporal::State> things_;
   std::optional<Run> run_;
+  double pace_ = 1;
+  temporal::Time slow_until_{};
   world::RandomStream noise_;
 };
 

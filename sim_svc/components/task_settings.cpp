@@ -36,20 +36,22 @@ StateTemplate read_state(const Entry& entry) {
   return out;
 }
 
+// Braces in the word must name arguments of the command.
+void check_slots(const Entry& entry, std::string word, const TaskCommand& command) {
+  for (const std::string& argument : command.arguments) {
+    const auto at = word.find("{" + argument + "}");
+    if (at != std::string::npos) word.erase(at, argument.size() + 2);
+  }
+  if (word.find_first_of("{}") != std::string::npos) {
+    entry.fail("'" + word + "' names no argument of '" + command.name + "'; add it to its arguments");
+  }
+}
+
 // Reads a state in which braces name arguments of the command.
 StateTemplate read_state_of(const Entry& entry, const TaskCommand& command) {
   StateTemplate out = read_state(entry);
-  std::vector<std::string> words = out.arguments;
-  words.push_back(out.name);
-  for (std::string word : words) {
-    for (const std::string& argument : command.arguments) {
-      const auto at = word.find("{" + argument + "}");
-      if (at != std::string::npos) word.erase(at, argument.size() + 2);
-    }
-    if (word.find_first_of("{}") != std::string::npos) {
-      entry.fail("'" + word + "' names no argument of '" + command.name + "'; add it to its arguments");
-    }
-  }
+  check_slots(entry, out.name, command);
+  for (const std::string& argument : out.arguments) check_slots(entry, argument, command);
   return out;
 }
 
@@ -68,10 +70,24 @@ std::map<std::string, NumberChange> read_changes(const Entry& entry, const std::
   return out;
 }
 
+// Reads "hole.{hole}: bored".
+std::map<std::string, StateTemplate> read_leaves(const Entry& entry, const TaskCommand& command) {
+  std::map<std::string, StateTemplate> out;
+  for (const auto& [thing, state] : entry.fields()) {
+    const std::size_t dot = thing.find('.');
+    const std::size_t name = dot == std::string::npos ? thing.size() : dot + 1;
+    if (dot == 0 || name >= thing.size() || thing.find('{') < dot)
+      state.fail("'" + thing + "' is no thing; write family.name, e.g. hole.{hole}");
+    check_slots(state, thing, command);
+    out[thing] = read_state_of(state, command);
+  }
+  return out;
+}
+
 TaskCommand read_command(const std::string& name, const Entry& entry,
                          const std::vector<TaskNumber>& numbers) {
   entry.allow_only({"arguments", "duration_s", "duration_noise", "power_w", "during", "then", "stopped",
-                    "needs", "changes"});
+                    "needs", "changes", "leaves"});
   TaskCommand out;
   out.name = name;
   if (name == world::kStopCommand)
@@ -87,6 +103,7 @@ TaskCommand read_command(const std::string& name, const Entry& entry,
     for (const auto& [component, state] : needs->fields()) out.needs[component] = state.text();
   }
   if (const auto changes = entry.find("changes")) out.changes = read_changes(*changes, numbers);
+  if (const auto leaves = entry.find("leaves")) out.leaves = read_leaves(*leaves, out);
   return out;
 }
 

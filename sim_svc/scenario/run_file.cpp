@@ -42,8 +42,8 @@ std::vector<Window> true_windows(const Entry& mission, const std::vector<Window>
 void check_on_map(const Start& start, const std::string& robot, const world::Ground& ground) {
   if (!start.pose || !ground.site) return;
   if (ground.site->grid().contains(terrain::Point{start.pose->x, start.pose->y})) return;
-  start.pose_entry->fail("the " + robot +
-                         " would start outside the map; give x and y in metres of the map frame");
+  start.pose_entry->complain("the " + robot +
+                             " would start outside the map; give x and y in metres of the map frame");
 }
 
 // Reads the settings of a robot's components; adds the names of those that they know.
@@ -60,8 +60,10 @@ world::RobotSetup read_robot(const RobotEntry& robot, const Start& start, const 
     setup::Settings settings(mission, component.entry,
                              begin == start.components.end() ? std::nullopt : std::optional(begin->second),
                              scenario.conditions);
-    out.components.push_back({component.name, component.type, types.find(component.type)->read(settings)});
-    settings.refuse_unknown();
+    component.entry.attempt([&] {
+      out.components.push_back({component.name, component.type, types.find(component.type)->read(settings)});
+      settings.refuse_unknown();
+    });
     known.insert(settings.known().begin(), settings.known().end());
   }
   return out;
@@ -70,15 +72,17 @@ world::RobotSetup read_robot(const RobotEntry& robot, const Start& start, const 
 }  // namespace
 
 RunSetup load_run(const std::filesystem::path& mission_folder, const std::string& scenario_name,
-                  const setup::Registry& types) {
-  const Entry mission = mission::load_mission_file(mission_folder);
-  const Entry scenario_file = mission::load_scenario(mission_folder, scenario_name);
-  const Roster roster = setup::read_roster(mission.at("simulation"), types);
+                  const setup::Registry& types, mission::Findings* findings) {
+  const Entry mission = mission::load_mission_file(mission_folder, findings);
+  const Entry scenario_file = mission::load_scenario(mission_folder, scenario_name, findings);
   RunSetup run;
+  run.roster = setup::read_roster(mission.at("simulation"), types);
+  const Roster& roster = run.roster;
   run.scenario = read_scenario(scenario_file, roster);
   const bool on_ground =
       std::any_of(roster.begin(), roster.end(), [](const RobotEntry& r) { return r.on_ground; });
-  run.world.ground = {on_ground ? load_ground(mission.at("site")) : nullptr, run.scenario.rocks};
+  run.world.ground = {nullptr, run.scenario.rocks};
+  if (on_ground) mission.attempt([&] { run.world.ground.site = load_ground(mission.at("site")); });
   run.world.windows = true_windows(mission, run.scenario.windows);
   std::set<std::string, std::less<>> known{"rocks"};
   for (const RobotEntry& robot : roster) {

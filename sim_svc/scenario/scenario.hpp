@@ -30,6 +30,7 @@ struct GoalStimulus {
   temporal::Time opens{};   ///< 0: any time
   temporal::Time closes{};  ///< 0: none
   std::vector<std::pair<std::string, std::string>> arguments;
+  std::optional<mission::Entry> entry{};  ///< is where it stands in the file
 };
 
 /// The issuer takes a goal back.

@@ -1,6 +1,7 @@
 #include "sim_svc/scenario/scenario_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "sim_svc/scenario/file_values.hpp"
@@ -26,9 +27,18 @@ Start read_robot_start(const Entry& entry, const RobotEntry& robot) {
     out.pose = {entry.at("x").number(), entry.at("y").number(), entry.number_or("heading", 0)};
     out.pose_entry = entry;
   }
-  if (robot.power) out.battery_j = at_least(entry.at("battery"), 0);
+  if (robot.power) {
+    const Entry battery = entry.at("battery");
+    out.battery_j = at_least(battery, 0);
+    if (*out.battery_j > robot.power->capacity_j) {
+      battery.complain("the battery would begin with " + battery.text() + " J, and holds " +
+                       std::to_string(std::llround(robot.power->capacity_j)) +
+                       " J; lower it, or raise the robot's capacity_j");
+    }
+  }
   if (const auto battery = entry.find("battery"); battery && !robot.power) {
-    battery->fail("'" + robot.name + "' has no battery; drop it, or give the robot power in mission.yaml");
+    battery->complain("'" + robot.name +
+                      "' has no battery; drop it, or give the robot power in mission.yaml");
   }
   for (const auto& component : robot.components) {
     if (const auto start = entry.find(component.name)) out.components.emplace(component.name, *start);
@@ -61,7 +71,7 @@ void read_world(const Entry& entry, Scenario& out) {
     if (key != "rocks") out.conditions.emplace(key, value);
   }
   if (const auto rocks = entry.find("rocks")) {
-    for (const Entry& rock : rocks->items()) out.rocks.push_back(read_rock(rock));
+    rocks->each([&](const Entry& rock) { out.rocks.push_back(read_rock(rock)); });
   }
 }
 
@@ -90,22 +100,24 @@ Scenario read_scenario(const Entry& root, const Roster& roster) {
       {"description", "duration_s", "start", "world", "windows", "links", "science", "stimuli", "expect"});
   Scenario out;
   out.description = root.text_or("description", "");
-  out.duration = time_of(root.at("duration_s"));
-  read_starts(root, roster, out);
-  if (const auto world = root.find("world")) read_world(*world, out);
-  if (const auto windows = root.find("windows")) out.windows = read_windows(*windows);
-  if (const auto stimuli = root.find("stimuli")) out.stimuli = read_stimuli(*stimuli, out.duration, roster);
-  if (const auto expect = root.find("expect")) {
-    for (const Entry& item : expect->items()) out.expect.push_back(read_expected(item));
-  }
+  out.duration = temporal::seconds(1e9);
+  root.attempt([&] { out.duration = time_of(root.at("duration_s")); });
+  root.attempt([&] { read_starts(root, roster, out); });
+  if (const auto world = root.find("world")) world->attempt([&] { read_world(*world, out); });
+  if (const auto windows = root.find("windows"))
+    windows->attempt([&] { out.windows = read_windows(*windows); });
+  if (const auto stimuli = root.find("stimuli"))
+    stimuli->attempt([&] { out.stimuli = read_stimuli(*stimuli, out.duration, roster); });
+  if (const auto expect = root.find("expect"))
+    expect->each([&](const Entry& item) { out.expect.push_back(read_expected(item)); });
   return out;
 }
 
 std::vector<Window> read_windows(const Entry& list) {
   std::vector<Window> out;
-  for (const Entry& item : list.items()) {
+  list.each([&](const Entry& item) {
     Window window{item.at("timeline").text(), {}};
-    for (const Entry& pair : item.at("open").items()) {
+    item.at("open").each([&](const Entry& pair) {
       const auto ends = pair.items();
       if (ends.size() != 2) pair.fail("expected [opens, closes], in seconds");
       const Time opens = time_of(ends[0]);
@@ -115,9 +127,9 @@ std::vector<Window> read_windows(const Entry& list) {
         pair.fail("opens before the one above has closed; sort or join them");
       }
       window.open.emplace_back(opens, closes);
-    }
+    });
     out.push_back(std::move(window));
-  }
+  });
   return out;
 }
 

@@ -42,6 +42,7 @@ GoalStimulus read_goal(const Entry& entry) {
   entry.allow_only({"issuer", "id", "kind", "robot", "importance", "utility", "priority", "preferred_s",
                     "opens_s", "closes_s", "arguments"});
   GoalStimulus goal;
+  goal.entry = entry;
   goal.issuer = entry.text_or("issuer", "ground");
   goal.id = entry.at("id").text();
   goal.kind = entry.at("kind").text();
@@ -71,12 +72,23 @@ HazardStimulus read_hazard(const Entry& entry) {
 }
 
 ComponentFault read_fault(const Entry& entry, const RobotEntry& robot, Time at) {
-  entry.allow_only({"component", "for_s"});
-  const Entry component = entry.at("component");
-  if (!robot.has(component.text())) {
-    component.fail("unknown component '" + component.text() + "'; known: " + robot.component_names());
+  entry.allow_only({"component", "for_s", "slow", "stuck"});
+  const Entry name = entry.at("component");
+  const auto component = std::ranges::find(robot.components, name.text(), &setup::ComponentEntry::name);
+  if (component == robot.components.end()) {
+    name.fail("unknown component '" + name.text() +
+              "'; known: " + setup::known_names(name.text(), robot.component_names()));
   }
-  return {robot.name, component.text(), at + time_of(entry.at("for_s"))};
+  ComponentFault out{robot.name, name.text(), at + time_of(entry.at("for_s"))};
+  const auto slow = entry.find("slow");
+  const bool stuck = entry.truth_or("stuck", false);
+  if (slow && stuck) entry.fail("it is either slow or stuck; keep one");
+  if (slow) out.pace = 1 / at_least(*slow, 1);
+  if (stuck) out.pace = 0;
+  if (out.pace && !component->can_be_slowed)
+    entry.fail("a component of type " + component->type +
+               " can only fail; drop slow and stuck, or model it as a task");
+  return out;
 }
 
 EnergyLoss read_loss(const Entry& entry, const RobotEntry& robot) {
@@ -88,8 +100,12 @@ EnergyLoss read_loss(const Entry& entry, const RobotEntry& robot) {
 const RobotEntry& robot_of(const Entry& entry, const Roster& roster) {
   const auto name = entry.find("robot");
   if (const RobotEntry* robot = robot_named(roster, name ? name->text() : "")) return *robot;
-  if (name) name->fail("no robot '" + name->text() + "'; known: " + robot_names(roster));
-  entry.fail("there are several robots; say which with robot: one of " + robot_names(roster));
+  if (name) {
+    name->fail("no robot '" + name->text() +
+               "'; known: " + setup::known_names(name->text(), robot_names(roster)));
+  }
+  entry.fail("there are several robots; say which with robot: one of " +
+             setup::known_names("", robot_names(roster)));
 }
 
 Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
@@ -121,17 +137,17 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
 std::vector<Stimulus> read_stimuli(const Entry& list, temporal::Duration duration, const Roster& roster) {
   std::vector<Stimulus> out;
   std::set<std::pair<std::string, std::string>> uploaded;
-  for (const Entry& item : list.items()) {
+  list.each([&](const Entry& item) {
     const Stimulus& stimulus = out.emplace_back(read_stimulus(item, roster));
     if (stimulus.at > duration)
-      item.at("at_s").fail("lies after the end of the run; raise duration_s or drop it");
+      item.at("at_s").complain("lies after the end of the run; raise duration_s or drop it");
     if (const auto* goal = std::get_if<GoalStimulus>(&stimulus.what))
       uploaded.emplace(goal->issuer, goal->id);
     const auto* recall = std::get_if<RecallStimulus>(&stimulus.what);
     if (recall && !uploaded.contains({recall->issuer, recall->id})) {
       item.fail("recalls '" + recall->id + "', which no stimulus above uploads; correct the id or the order");
     }
-  }
+  });
   std::stable_sort(out.begin(), out.end(), [](const Stimulus& a, const Stimulus& b) { return a.at < b.at; });
   return out;
 }

@@ -16,9 +16,9 @@ const ComponentType* Registry::find(std::string_view type) const {
   return found == types_.end() ? nullptr : &found->second;
 }
 
-std::string Registry::types() const {
-  std::string out;
-  for (const auto& [type, kind] : types_) out += (out.empty() ? "" : ", ") + type;
+std::vector<std::string> Registry::types() const {
+  std::vector<std::string> out;
+  for (const auto& [type, kind] : types_) out.push_back(type);
   return out;
 }
 

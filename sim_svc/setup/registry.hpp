@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sim_svc/setup/settings.hpp"
 #include "sim_svc/world/robot.hpp"
@@ -15,7 +16,8 @@ using ReadComponent = std::function<world::MakeComponent(Settings&)>;
 /// Is one kind of component, as mission.yaml names it by `type`.
 struct ComponentType {
   ReadComponent read;
-  bool on_ground = false;  ///< its robot needs a place on the map at the start, and the mission a site
+  bool on_ground = false;      ///< its robot needs a place on the map at the start, and the mission a site
+  bool can_be_slowed = false;  ///< its tasks can be slowed by a fault (Component::slow_down)
 };
 
 /// Holds the types of components that a mission may name. components/standard_types.hpp has those that come
@@ -26,7 +28,7 @@ class Registry {
   void add(const std::string& type, ComponentType);
   /// Returns the type of that name, or null if there is none.
   const ComponentType* find(std::string_view type) const;
-  std::string types() const;  ///< "arm, camera, …"
+  std::vector<std::string> types() const;  ///< in alphabetical order
 
  private:
   std::map<std::string, ComponentType, std::less<>> types_;

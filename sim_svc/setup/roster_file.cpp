@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/mission/nearest_word.hpp"
+
 namespace roci::sim::setup {
 
 using mission::Entry;
@@ -55,27 +57,32 @@ constexpr std::array<std::string_view, 6> kTaken{"x", "y", "heading", "battery",
 ComponentEntry read_component(const Entry& entry, const Registry& registry) {
   const Entry type = entry.at("type");
   if (!registry.find(type.text())) {
-    type.fail("no component type '" + type.text() + "'; known: " + registry.types());
+    type.fail("no component type '" + type.text() +
+              "'; known: " + known_names(type.text(), registry.types()));
   }
   const Entry name = entry.at("name");
   if (std::find(kTaken.begin(), kTaken.end(), name.text()) != kTaken.end()) {
     name.fail("'" + name.text() + "' is taken by the robot itself; choose another name");
   }
-  return {read_name(name), type.text(), entry};
+  return {read_name(name), type.text(), entry, registry.find(type.text())->can_be_slowed};
 }
 
 RobotEntry read_robot(const Entry& entry, const Registry& registry) {
   entry.allow_only({"name", "components", "power", "telemetry"});
   RobotEntry out;
   out.name = read_name(entry.at("name"));
-  for (const Entry& item : entry.at("components").items()) {
+  entry.at("components").each([&](const Entry& item) {
     ComponentEntry component = read_component(item, registry);
     if (out.has(component.name)) item.fail("'" + component.name + "' stands above already; rename one");
     out.on_ground = out.on_ground || registry.find(component.type)->on_ground;
     out.components.push_back(std::move(component));
+  });
+  if (const auto power = entry.find("power")) {
+    out.power.emplace();
+    power->attempt([&] { out.power = read_power(*power); });
   }
-  if (const auto power = entry.find("power")) out.power = read_power(*power);
-  if (const auto telemetry = entry.find("telemetry")) out.telemetry = read_telemetry(*telemetry);
+  if (const auto telemetry = entry.find("telemetry"))
+    telemetry->attempt([&] { out.telemetry = read_telemetry(*telemetry); });
   return out;
 }
 
@@ -86,9 +93,9 @@ bool RobotEntry::has(std::string_view component) const {
                      [&](const ComponentEntry& one) { return one.name == component; });
 }
 
-std::string RobotEntry::component_names() const {
-  std::string out;
-  for (const ComponentEntry& one : components) out += (out.empty() ? "" : ", ") + one.name;
+std::vector<std::string> RobotEntry::component_names() const {
+  std::vector<std::string> out;
+  for (const ComponentEntry& one : components) out.push_back(one.name);
   return out;
 }
 
@@ -96,12 +103,12 @@ Roster read_roster(const Entry& simulation, const Registry& registry) {
   simulation.allow_only({"robots"});
   Roster out;
   const Entry robots = simulation.at("robots");
-  for (const Entry& item : robots.items()) {
+  robots.each([&](const Entry& item) {
     RobotEntry robot = read_robot(item, registry);
-    if (robot_named(out, robot.name))
-      item.fail("robot '" + robot.name + "' stands above already; rename one");
+    const bool taken = std::ranges::find(out, robot.name, &RobotEntry::name) != out.end();
+    if (taken) item.fail("robot '" + robot.name + "' stands above already; rename one");
     out.push_back(std::move(robot));
-  }
+  });
   if (out.empty()) robots.fail("a world needs a robot; list one with its components");
   return out;
 }
@@ -113,10 +120,16 @@ const RobotEntry* robot_named(const Roster& roster, std::string_view name) {
   return found == roster.end() ? nullptr : &*found;
 }
 
-std::string robot_names(const Roster& roster) {
-  std::string out;
-  for (const RobotEntry& one : roster) out += (out.empty() ? "" : ", ") + one.name;
+std::vector<std::string> robot_names(const Roster& roster) {
+  std::vector<std::string> out;
+  for (const RobotEntry& one : roster) out.push_back(one.name);
   return out;
+}
+
+std::string known_names(std::string_view word, const std::vector<std::string>& known) {
+  std::string out;
+  for (const std::string& one : known) out += (out.empty() ? "" : ", ") + one;
+  return (out.empty() ? "none" : out) + mission::did_you_mean(word, known);
 }
 
 }  // namespace roci::sim::setup

@@ -13,6 +13,7 @@ struct ComponentEntry {
   std::string name;
   std::string type;
   mission::Entry entry;
+  bool can_be_slowed = false;
 };
 
 /// Is a robot as `simulation.robots` of mission.yaml lists it.
@@ -24,7 +25,7 @@ struct RobotEntry {
   bool on_ground = false;  ///< one of its components is
 
   bool has(std::string_view component) const;
-  std::string component_names() const;  ///< "nav, arm, …"
+  std::vector<std::string> component_names() const;
 };
 
 /// Holds the robots of a mission, in the order of the file; it is never empty.
@@ -36,6 +37,8 @@ Roster read_roster(const mission::Entry& simulation, const Registry&);
 
 /// Returns the robot of that name, or the only one when the name is empty. Returns null if there is none.
 const RobotEntry* robot_named(const Roster&, std::string_view name);
-std::string robot_names(const Roster&);  ///< "rover, scout"
+std::vector<std::string> robot_names(const Roster&);
+/// "rover, scout; did you mean 'scout'?", to be put behind "known: ".
+std::string known_names(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace roci::sim::setup

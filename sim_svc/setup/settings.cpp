@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/mission/nearest_word.hpp"
+
 namespace roci::sim::setup {
 
 using mission::Entry;
@@ -51,7 +53,8 @@ void refuse_unknown_keys(const Entry& entry, const std::set<std::string, std::le
     if (known.contains(key)) continue;
     std::string list;
     for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
-    value.fail("unknown key '" + key + "'; known here: " + list);
+    value.complain("unknown key '" + key + "'; known here: " + list +
+                   mission::did_you_mean(key, {known.begin(), known.end()}));
   }
 }
 

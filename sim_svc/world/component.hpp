@@ -2,6 +2,8 @@
 // numbers and energy; what it knows of the others it learns from their capabilities.
 #pragma once
 
+#include <compare>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -37,12 +39,28 @@ struct NamedState {
   temporal::State state;
 };
 
+/// Is a state that a component may be in, with how many arguments it has then.
+struct StateForm {
+  std::string name;
+  std::size_t arguments{};
+  auto operator<=>(const StateForm&) const = default;
+};
+
+/// Is a family of state timelines of things that a component handles, `<robot>.<family>.<thing>`.
+struct ThingForm {
+  std::string family;
+  std::vector<StateForm> states;
+};
+
 /// Is a number timeline of the component, `<robot>.<component>.<name>`, reported in steps of `resolution`.
 struct NamedNumber {
   std::string name;
   double value = 0;
   double resolution = 1e-3;
 };
+
+/// Is what of a component outlives the process that speaks for it, by names of its own.
+using Memory = std::map<std::string, temporal::Value>;
 
 /// Says what the robot asks of each of its parts. begin() is called only while it is not busy; next_change()
 /// and finish() only matter while it is. Between calls everything is a function of time, so that results do
@@ -52,6 +70,12 @@ class Component {
   virtual ~Component() = default;
 
   virtual std::vector<CommandForm> commands() const = 0;
+  /// Returns every state that it can be in; none: it does not say. Who checks a mission reads it.
+  virtual std::vector<StateForm> state_forms() const { return {}; }
+  /// Returns the families of things whose states it reports.
+  virtual std::vector<ThingForm> thing_forms() const { return {}; }
+  /// Returns the timelines of the windows without which its tasks fail.
+  virtual std::vector<std::string> awaited_windows() const { return {}; }
   /// Returns the value of the timeline `<robot>.<component>`.
   virtual temporal::State state() const = 0;
   virtual bool busy() const = 0;
@@ -62,6 +86,9 @@ class Component {
   virtual std::optional<temporal::Time> next_change() const = 0;
   /// Says, at next_change(), how the task ended; if it goes on, the component is still busy().
   virtual Ending finish(Surroundings&) = 0;
+  /// Lets its tasks get on at this share of their usual speed until then; a component that cannot be slowed
+  /// (ComponentType::can_be_slowed) does not hear of it.
+  virtual void slow_down(double /*pace*/, temporal::Time /*until*/, temporal::Time /*now*/, Surroundings&) {}
   /// Breaks the running task off at once.
   virtual void halt(temporal::Time now, Surroundings&) = 0;
 
@@ -86,6 +113,12 @@ class Component {
   virtual bool moves() const { return false; }
   /// Returns named values of the task that finish() has just ended.
   virtual std::map<std::string, temporal::Value> results() const { return {}; }
+
+  /// Returns how the component would stand if its task were broken off now.
+  virtual Memory memory() const { return {}; }
+  /// Takes up what memory() returned in an earlier process, before the first task. Names that it does not know, and values
+  /// that it cannot use, change nothing.
+  virtual void restore(const Memory&) {}
 };
 
 }  // namespace roci::sim::world

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -6,11 +7,13 @@
 
 namespace roci::sim::world {
 
-/// Breaks a component: its task fails, and so does every new one until `until`.
+/// Breaks a component: its task fails, and so does every new one until `until`. With a pace its tasks get on until
+/// then at this share of their usual speed instead, at 0 not at all.
 struct ComponentFault {
   std::string robot;
   std::string component;
   temporal::Time until{};
+  std::optional<double> pace{};  ///< 0 … 1; only for a component that can be slowed
 };
 
 /// Puts a rock that no map shows there from now on.

@@ -36,6 +36,23 @@ Robot::Robot(RobotSetup setup, bool first, std::uint64_t seed)
   }
 }
 
+RobotMemory Robot::memory() const {
+  RobotMemory out{body_.pose, std::nullopt, body_.images, {}};
+  if (body_.battery) out.energy_j = body_.battery->energy_j();
+  for (const Part& one : parts_) out.components[one.name] = one.component->memory();
+  return out;
+}
+
+void Robot::restore(const RobotMemory& memory, Time at) {
+  next_report_ = at;
+  if (body_.pose && memory.pose) body_.pose = memory.pose;
+  if (body_.battery && memory.energy_j) body_.battery.emplace(*memory.energy_j, power_->capacity_j);
+  body_.images = memory.images;
+  for (Part& one : parts_)
+    if (const auto own = memory.components.find(one.name); own != memory.components.end())
+      one.component->restore(own->second);
+}
+
 std::string Robot::component_names() const {
   std::string out;
   for (const Part& one : parts_) out += (out.empty() ? "" : ", ") + one.name;
@@ -158,6 +175,14 @@ void Robot::break_component(const std::string& component, Time until, Time now, 
   if (!one) return;
   one->out_of_order_until = until;
   break_off(*one, TaskStage::failed, {"fault", "the component broke down"}, now, environment, out);
+}
+
+void Robot::slow_component(const std::string& component, double pace, Time until, Time now,
+                           Environment& environment, Outputs& out) {
+  Part* one = part(component);
+  if (!one) return;
+  Surroundings surroundings = around(environment, out);
+  one->component->slow_down(pace, until, now, surroundings);
 }
 
 void Robot::ground_changed(Time now, Environment& environment, Outputs& out) {

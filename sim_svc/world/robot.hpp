@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,6 +59,14 @@ struct Begun {
   Task task;
 };
 
+/// Is what of a robot outlives the process that speaks for it.
+struct RobotMemory {
+  std::optional<Pose> pose;
+  std::optional<double> energy_j;        ///< in its battery
+  std::map<std::string, Image> images;   ///< on board, by id
+  std::map<std::string, Memory> components;
+};
+
 /// Runs the tasks of one robot's components; the world calls it in order of time.
 class Robot {
  public:
@@ -69,6 +78,9 @@ class Robot {
   const std::string& name() const { return name_; }
   std::string component_names() const;  ///< "nav, arm, …"
   bool runs(const TaskKey&) const;
+  RobotMemory memory() const;
+  /// Before the first task; the memory is of `at`.
+  void restore(const RobotMemory&, temporal::Time at);
   /// Returns when a task ends or numbers are due.
   temporal::Time next_change() const;
   /// Returns when the battery will be empty if everything goes on at its peak power, or nothing if never.
@@ -87,6 +99,8 @@ class Robot {
   void finish_due(temporal::Time now, Environment&, Outputs& out);
   void break_component(const std::string& component, temporal::Time until, temporal::Time now, Environment&,
                        Outputs& out);
+  void slow_component(const std::string& component, double pace, temporal::Time until, temporal::Time now,
+                      Environment&, Outputs& out);
   void ground_changed(temporal::Time now, Environment&, Outputs& out);
   void lose_energy(double joules);
 

@@ -56,6 +56,19 @@ bool World::runs(const TaskKey& key) const {
   return std::any_of(robots_.begin(), robots_.end(), [&](const Robot& one) { return one.runs(key); });
 }
 
+WorldMemory World::memory() const {
+  WorldMemory out{now_, {}, environment_.samples};
+  for (const Robot& one : robots_) out.robots[one.name()] = one.memory();
+  return out;
+}
+
+void World::restore(const WorldMemory& memory) {
+  now_ = memory.at;
+  environment_.samples = memory.samples;
+  for (Robot& one : robots_)
+    if (const auto own = memory.robots.find(one.name()); own != memory.robots.end()) one.restore(own->second, memory.at);
+}
+
 Outputs World::advance(Time now) {
   advance_to(now);
   return std::exchange(out_, {});
@@ -95,7 +108,10 @@ Outputs World::disturb(Time now, const Disturbance& disturbance) {
   advance_to(now);
   settle(now);
   if (const auto* fault = std::get_if<ComponentFault>(&disturbance)) {
-    if (Robot* one = robot(fault->robot)) {
+    Robot* one = robot(fault->robot);
+    if (one && fault->pace) {
+      one->slow_component(fault->component, *fault->pace, fault->until, now, environment_, out_);
+    } else if (one) {
       one->break_component(fault->component, fault->until, now, environment_, out_);
     }
   } else if (const auto* fall = std::get_if<RockFall>(&disturbance)) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,6 +30,14 @@ struct Order {
   Task task;
 };
 
+/// Is what of a world outlives the process that simulates it, as a robot outlives the one that speaks for it. Disturbances
+/// of the ground are no part of it: whoever caused them causes them again.
+struct WorldMemory {
+  temporal::Time at{};
+  std::map<std::string, RobotMemory> robots;
+  std::map<std::string, std::string> samples;  ///< as in Environment
+};
+
 /// Holds the true state of all robots and of what they share.
 class World {
  public:
@@ -48,6 +57,10 @@ class World {
   Outputs answer(temporal::Time now, const TaskKey&, const Answer&);
   /// Applies a disturbance. One that names a robot or a component that is not there changes nothing.
   Outputs disturb(temporal::Time now, const Disturbance&);
+
+  WorldMemory memory() const;
+  /// Goes on from an earlier world's memory; robots that it does not know stay as they are. Before the first advance().
+  void restore(const WorldMemory&);
 
   bool runs(const TaskKey&) const;
   /// Returns a time before which nothing leaves the world by itself. It may turn out that nothing happens

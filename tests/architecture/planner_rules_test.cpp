@@ -87,6 +87,12 @@ TEST(PlannerRules, TheCheckerSeesTheValidatorAlone) {
               ElementsAre(HasSubstr("nothing of the engine")));
 }
 
+TEST(PlannerRules, TheCommandLineAsksTheCheckerAndNotTheValidator) {
+  EXPECT_THAT(broken_planner_rules({in_engine("cli/a.cpp", {engine("checker/refusal.hpp")})}), IsEmpty());
+  EXPECT_THAT(broken_planner_rules({in_engine("cli/a.cpp", {engine("validate/validator.hpp")})}),
+              ElementsAre(HasSubstr("engines never see the validator")));
+}
+
 // To add an engine touches the table and its own folder.
 TEST(PlannerRules, NobodyButTheTableKnowsAnEngine) {
   const auto broken = [](const std::string& path, const std::string& include) {

@@ -1,9 +1,13 @@
 // The life of keyed instances: many of them, disposed, and left by their writers.
 #include <gmock/gmock.h>
 
+#include <condition_variable>
+#include <fstream>
+#include <mutex>
 #include <set>
 
 #include "roci_idl/command.h"
+#include "services/transport/forgets_instances.hpp"
 #include "tests/contract/support/inbox.hpp"
 #include "tests/contract/support/pairing.hpp"
 #include "tests/contract/support/profiles.hpp"
@@ -101,6 +105,54 @@ TEST_P(Instances, OwnerLostForWhatTheLastWriterLeaves) {
   other.reset();
   ASSERT_TRUE(inbox.wait_for_samples(7));
   EXPECT_THAT(inbox.ended(transport::SampleKind::no_writers), ElementsAre("ground/mine", "ground/ours"));
+}
+
+// What this process itself has taken, in kB.
+std::size_t own_memory() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  std::size_t kilobytes = 0;
+  while (status >> word)
+    if (word == "RssAnon:") status >> kilobytes;
+  return kilobytes;
+}
+
+// A writer that makes things for months and forgets what is finished: neither it nor its readers keep what is gone.
+TEST_P(Instances, WhatIsForgottenTakesNoMemory) {
+  constexpr int kKeys = 2'400;
+  constexpr int kAlive = 16;
+  const auto sender = open_writing();
+  const auto receiver = open_reading();
+  std::mutex mutex;
+  std::condition_variable changed;
+  int ended = 0;
+  const auto reader = receiver->create_reader(goal_endpoint(latched(32)), {[&](transport::Sample&& sample) {
+                                                const std::lock_guard lock(mutex);
+                                                ended += sample.kind == transport::SampleKind::disposed;
+                                                changed.notify_all();
+                                              },
+                                              {}});
+  Inbox matches;
+  const auto writer = sender->create_writer(goal_endpoint(latched(32)), matches.writer_events());
+  ASSERT_TRUE(matches.wait_for_match());
+  auto* forgetting = dynamic_cast<transport::ForgetsInstances*>(writer.get());
+  if (forgetting == nullptr || GetParam().reader == "fastdds")
+    GTEST_SKIP() << "Fast DDS 2.9 keeps what is finished (docs/dds.md)";
+  const std::string large(8'000, 'x');
+  const auto make_and_forget = [&](int from, int to) {
+    for (int i = from; i < to; ++i) {
+      ASSERT_TRUE(writer->write(goal("goal-" + std::to_string(i), i, "ground", large)));
+      if (i < kAlive) continue;
+      ASSERT_TRUE(forgetting->forget(goal("goal-" + std::to_string(i - kAlive), 0)));
+      std::unique_lock lock(mutex);  // so that nothing is merely under way
+      ASSERT_TRUE(changed.wait_for(lock, kDeadline, [&] { return ended > i - kAlive - 64; }));
+    }
+  };
+  make_and_forget(0, kKeys / 6);
+  const std::size_t before = own_memory();
+  make_and_forget(kKeys / 6, kKeys);
+  const std::size_t after = own_memory();
+  EXPECT_LE(after, before + 5'000) << "kB, for " << kKeys * 5 / 6 << " samples of 8 kB each";
 }
 
 // Keys with a number beside the string: activity and attempt.

@@ -1,5 +1,5 @@
-// Two hosts: two network namespaces joined by a veth pair. Needs the right to make namespaces (root), which
-// is why it is a program of its own; CMake registers it only where `ip netns` works.
+// Two hosts: two network namespaces joined by a veth pair. Needs the right to make namespaces (root); without it these are
+// skipped.
 #include <gmock/gmock.h>
 
 #include "tests/contract/secure/key_ring.hpp"
@@ -14,6 +14,9 @@ constexpr int kDomain = 7;  // nobody else is in these namespaces
 
 class Namespaces : public testing::TestWithParam<Pairing> {
  protected:
+  void SetUp() override {
+    if (!hosts_.refused.empty()) GTEST_SKIP() << hosts_.refused;
+  }
   std::vector<std::string> peer(const Host& at, const Host& other, const std::string& vendor,
                                 const std::string& role) {
     auto command = peer_command(vendor, role, kDomain);
@@ -59,14 +62,11 @@ TEST_P(Namespaces, SecureParticipantsHearEachOtherAcrossAndOutsidersNobody) {
 TEST_P(Namespaces, CallsAreAnsweredAcross) {
   ChildProcess server(peer(hosts_.rover, hosts_.ground, GetParam().reader, "path-server"));
   ChildProcess client(peer(hosts_.ground, hosts_.rover, GetParam().writer, "path-client"));
+  // Both writers count their readers: what is sent from now on arrives, the first call and its answer.
   ASSERT_TRUE(client.wait_for("matched 1"));
-  bool answered = false;
-  for (int call = 1; call <= 100 && !answered; ++call) {
-    client.send("call " + std::to_string(call) + " 3 4");
-    answered = client.wait_for("answer " + std::to_string(call) + " 0 found 5 2 yes",
-                               std::chrono::milliseconds(200));
-  }
-  EXPECT_TRUE(answered);
+  ASSERT_TRUE(server.wait_for("matched 1"));
+  client.send("call 1 3 4");
+  EXPECT_TRUE(client.wait_for("answer 1 0 found 5 2 yes"));
 }
 
 TEST_P(Namespaces, ACutLinkIsNoticedAndItsReturnToo) {

@@ -35,6 +35,7 @@ void expect_nothing_lost(const Cut& cut) {
       run("timeout 280 " ROCI_SOURCE_DIR "/tests/scenario/cut_pair.sh " ROCI_BINARY_DIR
           "/bin " ROCI_SOURCE_DIR "/missions/planetary " +
           std::string(cut.dds) + " " + std::to_string(domain.id()) + " " + cut.where + " " + cut.clock);
+  if (ended.exit_code == 77) GTEST_SKIP() << "this user cannot make network namespaces (ip netns add)";
   auto steps = steps_of(ended.output);
   for (const char* name : {"flying", "cut", "healed"})
     ASSERT_TRUE(steps[name].printed.is_object()) << name << "\n" << ended.output;
@@ -42,7 +43,7 @@ void expect_nothing_lost(const Cut& cut) {
   EXPECT_EQ(steps["add"].exit_code, 0);
   EXPECT_NE(steps["add"].printed.value("state", ""), "rejected");
   const bool recalls = std::string(cut.where) == "leader";
-  if (std::string(cut.where) != "robot") {
+  if (std::string(cut.where) != "robot" && std::string(cut.where) != "handover") {
     EXPECT_EQ(steps["add"].printed.value("acknowledged", ""), "journaled") << "by one that is alone";
   }
   if (recalls) {

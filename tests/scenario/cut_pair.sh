@@ -2,7 +2,8 @@
 # Flies a mission on three hosts, the pair of executives on one each, and cuts them off in flight.
 #   cut_pair.sh BIN_FOLDER MISSION DDS DOMAIN CUT CLOCK SPEED
 # CUT: between (the two do not hear each other), first (its cable is out), leader (the switch of the first is silent), second (its),
-# robot (the first executive and the robot do not hear each other, which the second one does).
+# robot (the first executive and the robot do not hear each other, which the second one does), handover (the same, and the first one
+# is killed as soon as it begins to hand over).
 # The hosts are network namespaces of its own, on a bridge in a fourth; no packet leaves them. Needs root.
 # Prints steps as ground_and_kills.sh does: flying, cut (the pair as the robot's host sees it), add (a goal sent
 # meanwhile), recall (of goal depot, with CUT leader, from the host that is cut off), healed, ended (goals as they are in the
@@ -15,8 +16,8 @@ folder=$(mktemp -d)
 declare -A address=([robot]=10.79.0.1 [first]=10.79.0.2 [second]=10.79.0.3)
 trap 'kill $(jobs -p) 2>/dev/null; wait; for host in net robot first second; do ip netns del roci-$host-$$; done; rm -rf "$folder"' EXIT
 
+ip netns add $net 2>/dev/null || exit 77
 set -e
-ip netns add $net
 ip -n $net link add name switch type bridge
 ip -n $net link set switch up
 for host in robot first second; do
@@ -54,10 +55,13 @@ until_status() {  # name host pattern: asks there until the status shows it, or 
   done
   step "$1" 0 "$status"
 }
+until_log() {  # host text: waits until its executive says it, or the run is over
+  while kill -0 $robot 2>/dev/null && ! grep -qs "$2" "$folder/$1"/exec_svc*.log; do sleep 0.1; done
+}
 part() {  # CUT on|off
   case $1 in
     between) for port in first second; do bridge -n $net link set dev $port isolated $2; done ;;
-    robot) for port in first robot; do bridge -n $net link set dev $port isolated $2; done ;;
+    robot | handover) for port in first robot; do bridge -n $net link set dev $port isolated $2; done ;;
     first) ip -n $net link set first "$([[ $2 == on ]] && echo down || echo up)" ;;
     leader) bridge -n $net link set dev first state "$([[ $2 == on ]] && echo 0 || echo 3)" ;;
     second) bridge -n $net link set dev second state "$([[ $2 == on ]] && echo 0 || echo 3)" ;;
@@ -76,7 +80,12 @@ case $cut in
   between) until_status cut robot '"leader":"first".*"standby_ready":false' ;;
   second)
     until_status cut robot '"leader":"first".*"standby_ready":false'
-    sleep 25  # by then it would lead that hears nobody
+    until_log second 'would lead, since it heard nobody for'  # and does not: nobody grants it a lease
+    ;;
+  handover)
+    until_log first 'stands down: it lacks'
+    kill -KILL "$(pgrep -P "$(pgrep -P $first roci-launch || echo $first)" exec_svc)"
+    until_status cut robot '"leader":"second"'
     ;;
   *) until_status cut robot '"leader":"second"' ;;
 esac

@@ -95,6 +95,58 @@ TEST(Goals, AnOptionalOneThatCannotBeReachedIsDroppedAlone) {
   EXPECT_EQ(mission.mission().outcome(), "achieved");
 }
 
+// What the planner knows of the place is told in words of the mission, and the planner's own words come behind.
+TEST(Goals, OneThatIsGivenUpSaysTheTrueReason) {
+  MissionInProcess mission;
+  mission.send(600s, goal("steep", "photo", kCrater, v1::GOAL_OPTIONAL, 1));
+  mission.send(600s, goal("outside", "photo", kOutside, v1::GOAL_OPTIONAL, 1));
+  mission.run();
+  EXPECT_THAT(
+      mission.events(),
+      Contains(AllOf(
+          HasSubstr("goal.dropped goal ground/outside dropped: out of reach: place-outside (x=1000 y=60): "
+                    "the place lies outside the map"),
+          HasSubstr("(says pathplan_svc, model 1)"))));
+  EXPECT_THAT(mission.goal("steep").reason, HasSubstr("place-steep (x=190 y=60)"));
+  EXPECT_THAT(mission.goal("steep").reason, HasSubstr("\ndetails: "));
+  for (const std::string& event : mission.events()) EXPECT_THAT(event, Not(HasSubstr("not all goals fit")));
+}
+
+// The domain derives "archived" from "sent"; no observation stands for it by itself.
+TEST(Goals, OneOnADerivedPredicateIsSeenAsAchieved) {
+  std::string domain = planetary_file("domain.pddl", ":typing", ":typing :derived-predicates");
+  const std::string functions = "  (:functions (battery)";
+  domain.replace(domain.find("(comm-window))"), 14, "(comm-window) (archived ?i - image))");
+  domain.insert(domain.find(functions), "  (:derived (archived ?i - image) (sent ?i))\n\n");
+  MissionInProcess mission(
+      {{"domain.pddl", domain},
+       {"mission.yaml", planetary_file("mission.yaml", "(sent image-{id})", "(archived image-{id})")}});
+  mission.run();
+  expect_uploaded_goals_achieved(mission);
+  EXPECT_EQ(mission.mission().outcome(), "achieved");
+  EXPECT_EQ(mission.plans().size(), 1U);
+}
+
+TEST(Goals, OneThatIsAnAlternativeANegationAndANumberIsPlannedAndSeenAsAchieved) {
+  MissionInProcess mission(
+      {{"mission.yaml", planetary_file("mission.yaml", "goal: [\"(sent image-{id})\"]",
+                                       "goal: [\"(or (sent image-{id}) (have-image image-{id}))\", "
+                                       "\"(not (at here))\", \"(<= (battery) 890000)\"]")}});
+  mission.run();
+  expect_uploaded_goals_achieved(mission);
+  EXPECT_EQ(mission.plans().size(), 1U);
+}
+
+// An image may only be taken once the battery is below a bound, which the drive there brings about: legal, and one plan.
+TEST(Goals, AnUpperBoundThatARunningDriveWillSatisfyBreaksNothing) {
+  const std::string reserve = "(at start (>= (battery) (+ (reserve) 1160)))";
+  MissionInProcess mission({{"domain.pddl", planetary_file("domain.pddl", reserve,
+                                                           reserve + " (at start (<= (battery) 885000))")}});
+  mission.run();
+  expect_uploaded_goals_achieved(mission);
+  EXPECT_EQ(mission.plans().size(), 1U);
+}
+
 TEST(Goals, MalformedOnesAreRejectedWithTheRemedyAndChangeNothing) {
   MissionInProcess mission;
   v1::Goal twin = goal("ridge", "photo", kFreeGround);

@@ -41,6 +41,7 @@ TEST_F(Installed, FliesFromAFolderThatWasMoved) {
   std::ostringstream unit;
   unit << std::ifstream(folder / "first/lib/systemd/user/rocinante@.service").rdbuf();
   EXPECT_THAT(unit.str(), HasSubstr("ExecStart=" + (folder / "first/bin/roci-launch").string() + " "));
+  EXPECT_TRUE(fs::exists(folder / "first/bin/roci-check"));
   EXPECT_FALSE(fs::exists(folder / "first/bin/roci-bench-limited")) << "a tool of the benches";
 
   fs::rename(folder / "first", folder / "moved");

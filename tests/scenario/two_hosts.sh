@@ -14,8 +14,8 @@ host() {  # namespace interface address
   ip -n "$1" link set lo up
   ip -n "$1" link set "$2" up
 }
+ip netns add $robot 2>/dev/null || exit 77
 set -e
-ip netns add $robot
 ip netns add $ground
 ip link add roci-r-$$ netns $robot type veth peer name roci-g-$$ netns $ground
 host $robot roci-r-$$ 10.78.0.1
@@ -29,7 +29,7 @@ set +e
 
 network=(--domain "$domain" --peers 10.78.0.1,10.78.0.2)
 ip netns exec $robot timeout 60 "$bin/roci-launch" "$mission" --dds "$robot_dds" "${network[@]}" --address 10.78.0.1 \
-  --services arm_svc,exec_svc,pathplan_svc,science_svc,sim_svc --speed 300 --headless --json --run-folder "$folder/robot" &
+  --services arm_svc,exec_svc,pathplan_svc,science_svc,sim_svc --speed 600 --headless --json --run-folder "$folder/robot" &
 robot_launcher=$!
 ip netns exec $ground timeout 60 "$bin/roci-launch" "$mission" --dds "$ground_dds" "${network[@]}" --address 10.78.0.2 \
   --services planner_svc --headless --run-folder "$folder/ground" >/dev/null &

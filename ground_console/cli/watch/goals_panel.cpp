@@ -1,3 +1,4 @@
+#include "ground_console/cli/report.hpp"
 #include "ground_console/cli/watch/panels.hpp"
 
 namespace roci::console::cli::watch {
@@ -33,12 +34,27 @@ std::string window_of(const v1::Goal* goal) {
   return lib::clock_text(goal->opens_us()) + "–" + lib::clock_text(goal->closes_us());
 }
 
+// Where the columns of a goal begin. Of a narrow panel kind and class are left out.
+struct GoalColumns {
+  std::size_t name_width = 17;
+  std::size_t kind = 22;
+  std::size_t importance = 34;
+  std::size_t rest = 48;
+  bool narrow = false;
+};
+
+GoalColumns columns_for(std::size_t width) {
+  if (width >= 70) return {};
+  return {12, 0, 0, 17, true};
+}
+
 }  // namespace
 
 void draw_goals(const lib::MissionView& view, const Rectangle& area, Canvas& canvas) {
   std::size_t row = area.row;
   canvas.put(row++, area.column, "Goals", Style::title);
   std::size_t number = 0;
+  const GoalColumns columns = columns_for(area.width);
   for (const auto& [key, status] : view.goals()) {
     if (row + 1 >= area.row + area.height && number + 1 < view.goals().size()) {
       canvas.put(row, area.column + 2, "… " + std::to_string(view.goals().size() - number) + " more",
@@ -49,14 +65,17 @@ void draw_goals(const lib::MissionView& view, const Rectangle& area, Canvas& can
     const std::string name = status.issuer() == "ground" ? status.id() : status.issuer() + "/" + status.id();
     canvas.put(row, area.column, std::string(1, goal_letter(number++)), Style::title);
     canvas.put(row, area.column + 2, look.sign, look.style);
-    canvas.put(row, area.column + 4, name, look.style, 17);
-    canvas.put(row, area.column + 22, status.goal_kind(), Style::plain, 11);
-    canvas.put(row, area.column + 34, lib::name_of(status.importance()));
+    canvas.put(row, area.column + 4, name, look.style, columns.name_width);
+    if (!columns.narrow) {
+      canvas.put(row, area.column + columns.kind, status.goal_kind(), Style::plain, 11);
+      canvas.put(row, area.column + columns.importance, lib::name_of(status.importance()));
+    }
     std::string rest = lib::name_of(status.goal_state());
     if (view.leader() != nullptr) rest += std::string(" (") + lib::name_of(status.ack_stage()) + ")";
     if (const std::string window = window_of(view.goal(key)); !window.empty()) rest += ", " + window;
-    if (!status.reason().empty()) rest += ", " + status.reason();
-    canvas.put(row++, area.column + 48, rest, look.style, area.width > 48 ? area.width - 48 : 0);
+    if (!status.reason().empty()) rest += ", " + reason_of(status);
+    canvas.put(row++, area.column + columns.rest, rest, look.style,
+               area.width > columns.rest ? area.width - columns.rest : 0);
   }
 }
 

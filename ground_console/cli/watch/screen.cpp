@@ -7,7 +7,9 @@
 namespace roci::console::cli::watch {
 namespace {
 
-constexpr std::size_t kGoals = 96;  // columns; the map takes what is left beside them
+constexpr std::size_t kGoals = 96;      // columns; the map takes what is left beside them
+constexpr std::size_t kLeastMap = 24;   // columns
+constexpr std::size_t kNarrowest = 76;  // columns, for a map beside goals that are cut short
 constexpr std::size_t kMapRows = 12;
 constexpr std::size_t kEventRows = 9;
 constexpr std::size_t kLeastPlan = 8;  // rows; below that the plan takes those of the levels
@@ -55,12 +57,13 @@ void draw_robot(const lib::MissionView& view, std::size_t row, Canvas& canvas) {
 Canvas watch_screen(const lib::MissionView& view, std::size_t width, std::size_t height) {
   Canvas canvas(width, height);
   draw_head(view, canvas);
-  const bool map_fits = width >= kGoals + 24;
+  const bool map_fits = width >= kNarrowest;
+  const std::size_t goals_width = width >= kGoals + kLeastMap ? kGoals : map_fits ? width * 3 / 5 : width;
   const std::size_t wanted =
       std::max(view.goals().size() + 1, map_fits && !view.ways().empty() ? kMapRows : 0);
   const std::size_t top = std::min(wanted, height / 3);
-  draw_goals(view, {2, 0, std::min(width, kGoals), top}, canvas);
-  if (map_fits) draw_map(view, {2, kGoals + 1, width - kGoals - 1, top}, canvas);
+  draw_goals(view, {2, 0, std::min(goals_width, kGoals), top}, canvas);
+  if (map_fits) draw_map(view, {2, goals_width + 1, width - goals_width - 1, top}, canvas);
   draw_robot(view, top + 3, canvas);
   const std::size_t plan_row = top + 5;
   const std::size_t events_row = height > plan_row + kEventRows ? height - kEventRows : plan_row;
@@ -78,6 +81,8 @@ Canvas watch_screen(const lib::MissionView& view, std::size_t width, std::size_t
     after += levels_height;
   }
   draw_events(view, {after, 0, width, height > after ? height - after : 0}, canvas);
+  constexpr std::string_view kHelp = "q ends the view";
+  if (height > 2 && width > 100) canvas.put(0, width - kHelp.size(), kHelp, Style::dim);
   return canvas;
 }
 

@@ -1,6 +1,7 @@
 #include "ground_console/cli/watch/watch.hpp"
 
 #include <sys/ioctl.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -16,6 +17,36 @@ namespace roci::console::cli::watch {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
+
+// Single keys without Enter, where there is a keyboard.
+class Keys {
+ public:
+  Keys() : terminal_(isatty(STDIN_FILENO) == 1 && tcgetattr(STDIN_FILENO, &before_) == 0) {
+    if (!terminal_) return;
+    termios keys = before_;
+    keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // Ctrl-C still interrupts
+    keys.c_cc[VMIN] = 0;
+    keys.c_cc[VTIME] = 0;
+    tcsetattr(STDIN_FILENO, TCSANOW, &keys);
+  }
+  ~Keys() {
+    if (terminal_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+  }
+  Keys(const Keys&) = delete;
+  Keys& operator=(const Keys&) = delete;
+
+  bool quit() {
+    char key = 0;
+    while (terminal_ && read(STDIN_FILENO, &key, 1) == 1)
+      if (key == 'q' || key == 'Q') quit_ = true;
+    return quit_;
+  }
+
+ private:
+  termios before_{};
+  bool terminal_;
+  bool quit_ = false;
+};
 
 // The alternate screen, left again however the view ends.
 class Screen {
@@ -71,8 +102,10 @@ int watch(lib::Client& client, bool json) {
   std::string last;
   {
     Screen screen;
-    while (!client.view().ended() && interrupted == 0) {
-      client.wait([&] { return interrupted != 0 || client.view().ended(); }, std::chrono::milliseconds(250));
+    Keys keys;
+    const auto over = [&] { return interrupted != 0 || client.view().ended() || keys.quit(); };
+    while (!over()) {
+      client.wait(over, std::chrono::milliseconds(250));
       last = draw();
       Screen::draw(last);
     }

@@ -5,7 +5,7 @@
 
 namespace roci::console::cli::watch {
 
-/// Shows the live view on a terminal until the mission ends or Ctrl-C; with `json`, prints a line of status
+/// Shows the live view on a terminal until the mission ends, q or Ctrl-C; with `json`, prints a line of status
 /// each second instead. Returns an exit code (docs/exit-codes.md, "Ground tool").
 int watch(lib::Client& client, bool json);
 

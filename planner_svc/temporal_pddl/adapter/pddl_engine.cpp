@@ -8,9 +8,10 @@
 #include <variant>
 #include <vector>
 
+#include "core/pddl/check.hpp"
 #include "core/pddl/function_table.hpp"
-#include "core/pddl/parser.hpp"
 #include "core/pddl/plan_text.hpp"
+#include "planner_svc/temporal_pddl/adapter/owners_verdicts.hpp"
 #include "planner_svc/temporal_pddl/extraction/flexible_plan_export.hpp"
 #include "planner_svc/temporal_pddl/planner.hpp"
 
@@ -57,6 +58,7 @@ pddl::FunctionTable table_of(const std::vector<FunctionUse>& uses) {
 std::vector<std::string> facts_of(const engine::Goal& goal) {
   std::vector<std::string> facts;
   for (const temporal::ConditionNode& node : goal.achieved.nodes) {
+    if (node.op == temporal::ConditionOp::any_of || node.op == temporal::ConditionOp::negation) return {};
     const bool* holds = std::get_if<bool>(&node.operand);
     if (node.op != temporal::ConditionOp::eq || holds == nullptr) continue;
     facts.push_back(*holds ? node.timeline : "(not " + node.timeline + ")");
@@ -70,23 +72,25 @@ std::vector<NamedGoal> named_goals(const std::vector<engine::Goal>& goals) {
   return out;
 }
 
-// Each goal of which a fact is out of reach, once.
-std::vector<BlockingGoal> blocking_goals(const std::vector<BlockedFact>& blocked,
-                                         const std::vector<engine::Goal>& goals) {
+// Each goal of which a fact is out of reach, once; where an owner of functions said so, with its words.
+std::vector<BlockingGoal> blocking_goals(const std::vector<BlockedFact>& blocked, const Request& request,
+                                         const pddl::Problem& problem, const std::vector<FunctionUse>& uses) {
   std::vector<BlockingGoal> out;
-  for (const engine::Goal& goal : goals) {
+  for (const engine::Goal& goal : request.goals) {
     const std::vector<std::string> facts = facts_of(goal);
     const auto found = std::ranges::find_if(
         blocked, [&](const BlockedFact& one) { return std::ranges::count(facts, one.fact) > 0; });
-    if (found != blocked.end()) out.push_back({goal.issuer, goal.id, found->fact, found->reason});
+    if (found == blocked.end()) continue;
+    const std::string words = words_against(facts, problem, request.objects, uses);
+    out.push_back({goal.issuer, goal.id, found->fact, words.empty() ? found->reason : words});
   }
   return out;
 }
 
 Answer plan_for(const Request& request, const Limits& limits, FunctionSource& functions,
                 const std::vector<pddl::PlanStep>& remaining, std::vector<FunctionUse>& used) {
-  const pddl::Domain domain = pddl::parse_domain(request.model, "domain");
-  const pddl::Problem problem = pddl::parse_problem(request.problem_text, "problem");
+  const pddl::Domain domain = pddl::load_domain(request.model, "domain");
+  const pddl::Problem problem = pddl::load_problem(request.problem_text, "problem", domain);
   Budget budget;
   if (request.work != 0) budget.evaluations = request.work;
   if (request.memory_bytes != 0) budget.memory_bytes = request.memory_bytes;
@@ -98,13 +102,15 @@ Answer plan_for(const Request& request, const Limits& limits, FunctionSource& fu
   const std::vector<NamedGoal> goals = named_goals(request.goals);
   Result result = temporal_pddl::plan(domain, problem, functions, budget, monitor, options, remaining, goals);
   Answer out;
+  for (const auto* warnings : {&domain.warnings, &problem.warnings})
+    for (const pddl::Diagnostic& warning : *warnings) out.warnings.push_back(pddl::to_string(warning));
   out.verdict = result.verdict;
   out.reason = std::move(result.reason);
   out.statistics.expanded = result.statistics.expanded;
   out.statistics.evaluated = result.statistics.evaluated;
   out.statistics.bytes_per_state = result.statistics.bytes_per_state;
   out.statistics.from_remaining = result.statistics.from_remaining;
-  out.blocking = blocking_goals(result.blocked, request.goals);
+  out.blocking = blocking_goals(result.blocked, request, problem, result.functions);
   std::vector<std::string> names;
   for (const NamedGoal& goal : goals) names.push_back(goal.name);
   if (result.plan) out.plan = export_plan(*result.plan, result.functions, names);
@@ -121,7 +127,8 @@ Answer PddlEngine::answer(const Request& request, const Limits& limits, Function
   try {
     out = plan_for(request, limits, functions, remaining, used);
   } catch (const pddl::ParseError& error) {
-    out = engine::without_plan(Verdict::invalid_input, error.what());
+    out = engine::without_plan(error.unsupported() ? Verdict::unsupported : Verdict::invalid_input,
+                               error.what());
   } catch (const std::bad_alloc&) {
     out = engine::without_plan(Verdict::out_of_memory,
                                "memory ran out outside the search; give the call a larger budget");

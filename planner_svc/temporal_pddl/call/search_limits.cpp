@@ -8,7 +8,14 @@ namespace roci::planner::temporal_pddl::call {
 
 using temporal::Verdict;
 
+void SearchLimits::plan_found(double metric, temporal::Duration makespan) {
+  progress_.has_plan = true;
+  progress_.metric = metric;
+  progress_.makespan = makespan;
+}
+
 void SearchLimits::poll() const {
+  if (monitor_.watch) monitor_.watch(progress_);
   if (cancelled()) throw PlanningFailure(Verdict::cancelled, "cancelled by the caller");
   if (budget_.out_of_time && budget_.out_of_time())
     throw PlanningFailure(Verdict::timeout, "the time limit is reached");
@@ -30,7 +37,8 @@ void SearchLimits::require_room(std::size_t more) const {
     throw PlanningFailure(Verdict::out_of_memory, "the memory limit is reached");
 }
 
-void SearchLimits::evaluations(std::size_t count) const {
+void SearchLimits::evaluations(std::size_t count) {
+  progress_.evaluated = count;
   if (!has_plan_ && count > budget_.evaluations)
     throw PlanningFailure(Verdict::timeout, "the limit of heuristic evaluations is reached");
 }

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <string_view>
 
+#include "planner_svc/temporal_pddl/call/progress.hpp"
 #include "planner_svc/temporal_pddl/call/statistics.hpp"
 
 namespace roci::planner::temporal_pddl::call {
@@ -24,6 +26,8 @@ struct Monitor {
   std::function<void(const Statistics&)> progress;
   /// Is polled at least about every millisecond of work; so it must be cheap.
   std::function<bool()> cancelled;
+  /// Hears at each of these polls how far the call has come; so it must be cheap too.
+  std::function<void(const Progress&)> watch;
 };
 
 /// Holds a call to its budget: every loop of the engine reports here and is ended by a PlanningFailure.
@@ -32,6 +36,10 @@ class SearchLimits {
   /// Both must outlive the limits.
   SearchLimits(const Budget& budget, const Monitor& monitor) : budget_(budget), monitor_(monitor) {}
 
+  /// Says from now on what the call is doing; the text must stay.
+  void phase(std::string_view what) { progress_.phase = what; }
+  /// Says of the best plan so far what Progress tells of it.
+  void plan_found(double metric, temporal::Duration makespan);
   /// Throws PlanningFailure (cancelled, timeout) if the caller or the clock wants the call to end.
   void poll() const;
   /// Polls once in a few hundred calls only: for steps of about a microsecond.
@@ -49,7 +57,7 @@ class SearchLimits {
   void require_room(std::size_t more) const;
   /// Throws PlanningFailure (timeout) if that many heuristic evaluations exceed the budget for the first
   /// plan.
-  void evaluations(std::size_t count) const;
+  void evaluations(std::size_t count);
   /// Lets evaluations() pass everything from now on.
   void first_plan_found() { has_plan_ = true; }
 
@@ -68,6 +76,7 @@ class SearchLimits {
   bool has_plan_ = false;
   std::size_t bytes_ = 0;  // as last reported
   std::size_t peak_bytes_ = 0;
+  Progress progress_;
 };
 
 }  // namespace roci::planner::temporal_pddl::call

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "core/pddl/check.hpp"
 #include "core/pddl/function_table.hpp"
-#include "core/pddl/parser.hpp"
 #include "core/pddl/plan_text.hpp"
 #include "core/temporal/schedule.hpp"
 #include "planner_svc/temporal_pddl/validate/validator.hpp"
@@ -70,8 +70,8 @@ std::vector<std::string> PddlChecker::faults(const CheckedPlan& checked) const {
   if (std::vector<std::string> faults = unknown_goals(checked); !faults.empty()) return faults;
   const auto times = temporal::earliest_schedule(plan.point_count, temporal::all_constraints(plan));
   if (!times) return {"its network has no schedule"};
-  const pddl::Domain domain = pddl::parse_domain(checked.request.model, "domain");
-  const pddl::Problem problem = pddl::parse_problem(checked.request.problem_text, "problem");
+  const pddl::Domain domain = pddl::load_domain(checked.request.model, "domain");
+  const pddl::Problem problem = pddl::load_problem(checked.request.problem_text, "problem", domain);
   const std::vector<pddl::PlanStep> steps = steps_of(plan, domain, *times);
   const validate::Report report = validate::validate(domain, problem, steps, table_of(checked.values));
   if (report.valid) return {};

@@ -1,6 +1,7 @@
 // The grounder leads from a checked model to the ground task.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/pddl/ast.hpp"
@@ -20,11 +21,17 @@ struct Grounding {
   task::Task task;
 };
 
-/// Grounds the model. `used` gets every external value, whatever happens. Throws PlanningFailure
+/// Holds what grounding has to tell beside its result; it is filled in whatever happens.
+struct GroundingReport {
+  std::vector<engine::FunctionUse> functions;  ///< every external value that was asked for
+  /// "FILE:LINE:COLUMN: warning: …", one for each number that has no value though something reads it.
+  std::vector<std::string> warnings;
+};
+
+/// Grounds the model. Throws PlanningFailure
 /// (`unsupported` with the place in the model, `unsolvable` with the goal that nothing can reach,
 /// `function_unavailable`), and what SearchLimits throws.
 Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, engine::FunctionSource& functions,
-                 const call::Options& options, call::SearchLimits& limits,
-                 std::vector<engine::FunctionUse>& used);
+                 const call::Options& options, call::SearchLimits& limits, GroundingReport& report);
 
 }  // namespace roci::planner::temporal_pddl::grounding

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 namespace roci::planner::temporal_pddl::heuristics {
 
@@ -65,21 +66,39 @@ void FfHeuristic::plan_for(FactId fact, std::vector<SnapId>& plan) {
   if (times()) std::ranges::stable_sort(plan, {}, [&](SnapId op) { return earliest_.of(op); });
 }
 
-void FfHeuristic::list_deepest_first(SnapId op, std::vector<SnapId>& ordered) {
-  const auto place = std::ranges::lower_bound(listed_, op);
-  if (plan_.times(op) == 0 || (place != listed_.end() && *place == op)) return;
-  listed_.insert(place, op);
-  std::vector<PropositionId> needs(relaxed_.needs(op).begin(), relaxed_.needs(op).end());
-  for (const ComparisonId comparison : numbers_.needs(op))
-    needs.push_back(supporters_.proposition(comparison));
-  std::ranges::stable_sort(needs, std::greater{}, [&](PropositionId need) { return supporters_.cost(need); });
-  for (const PropositionId need : needs) {
-    const bool fact = need.index() < relaxed_.propositions();
-    const SnapId before = fact ? plan_.support(need) : supporters_.supporter(need);
-    if (!before.is_none()) list_deepest_first(before, ordered);
+// A relaxed plan may be one long chain: what is begun stands on a stack of its own.
+void FfHeuristic::list_deepest_first(SnapId last, std::vector<SnapId>& ordered) {
+  struct Begun {
+    SnapId op;
+    std::vector<PropositionId> needs;
+    std::size_t next = 0;
+  };
+  std::vector<Begun> begun;
+  const auto begin = [&](SnapId op) {
+    const auto place = std::ranges::lower_bound(listed_, op);
+    if (plan_.times(op) == 0 || (place != listed_.end() && *place == op)) return;
+    listed_.insert(place, op);
+    std::vector<PropositionId> needs(relaxed_.needs(op).begin(), relaxed_.needs(op).end());
+    for (const ComparisonId comparison : numbers_.needs(op))
+      needs.push_back(supporters_.proposition(comparison));
+    std::ranges::stable_sort(needs, std::greater{},
+                             [&](PropositionId need) { return supporters_.cost(need); });
+    begun.push_back({op, std::move(needs)});
+  };
+  begin(last);
+  while (!begun.empty()) {
+    if (begun.back().next < begun.back().needs.size()) {
+      const PropositionId need = begun.back().needs[begun.back().next++];
+      const bool fact = need.index() < relaxed_.propositions();
+      const SnapId before = fact ? plan_.support(need) : supporters_.supporter(need);
+      if (!before.is_none()) begin(before);
+      continue;
+    }
+    const SnapId op = begun.back().op;
+    begun.pop_back();
+    if (task_.snaps[op].kind != SnapKind::derivation)
+      ordered.insert(ordered.end(), static_cast<std::size_t>(plan_.times(op)), op);
   }
-  if (task_.snaps[op].kind != SnapKind::derivation)
-    ordered.insert(ordered.end(), static_cast<std::size_t>(plan_.times(op)), op);
 }
 
 std::optional<call::BlockedFact> FfHeuristic::lateness() {

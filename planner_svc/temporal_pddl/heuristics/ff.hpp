@@ -60,7 +60,7 @@ class FfHeuristic final : public Heuristic {
   const task::Goal* cheapest_goal();
   bool holds_now(task::SnapId op) const;
   void order_plan(std::vector<task::SnapId>& ordered) const;
-  void list_deepest_first(task::SnapId op, std::vector<task::SnapId>& ordered);
+  void list_deepest_first(task::SnapId last, std::vector<task::SnapId>& ordered);
   void collect(std::uint32_t timed_done, Estimate& estimate) const;
 
   const task::Task& task_;

@@ -41,7 +41,9 @@ class Improvement {
         neighbourhood_(context, guides) {}
 
   void run() {
+    context_.limits.phase("improving the plan");
     drop_useless();
+    tell();
     std::size_t left = context_.options.improvement_evaluations;
     std::size_t restarts = 1;
     for (std::size_t limit = kFirstLimit; left > 0; limit *= 2) {
@@ -56,6 +58,11 @@ class Improvement {
   }
 
  private:
+  void tell() {
+    const Duration makespan = quality_of(task_, plan_, replay_.check()).makespan;
+    context_.limits.plan_found(metric_of(task_, plan_, makespan), makespan);
+  }
+
   void drop_useless() { eliminate_useless_actions(task_, plan_, replay_, kStepsTakenAgain, context_.limits); }
 
   // Makes restarts. Returns whether one led to a better plan.
@@ -71,6 +78,7 @@ class Improvement {
       if (quality_of(task_, *outcome.plan, replay_.check()) >= known) continue;
       plan_ = std::move(*outcome.plan);
       better = true;
+      tell();
     }
     return better;
   }
@@ -96,6 +104,7 @@ class Improvement {
       best = tidy;
       starts = tidy_starts;
       plan_ = current;
+      tell();
     }
   }
 
@@ -110,6 +119,7 @@ class Improvement {
       if (!better.plan) return better.exhausted;
       plan_ = std::move(*better.plan);
       drop_useless();
+      tell();
     }
     return false;
   }

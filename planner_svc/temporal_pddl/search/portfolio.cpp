@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,24 @@ enum class MemberName {
   goal_serialization,
 };
 
+std::string_view phase_of(MemberName name) {
+  switch (name) {
+    case MemberName::lookahead_compressed:
+      return "searching: lookahead, whole actions";
+    case MemberName::lookahead:
+      return "searching: lookahead";
+    case MemberName::best_first_width:
+      return "searching: best-first width";
+    case MemberName::step_by_step_compressed:
+      return "searching: step by step, whole actions";
+    case MemberName::step_by_step:
+      return "searching: step by step";
+    case MemberName::goal_serialization:
+      break;
+  }
+  return "searching: goal by goal";
+}
+
 // Is a search that takes turns with others; it is set up when its first turn comes.
 struct Member {
   MemberName name;
@@ -102,6 +121,7 @@ class Portfolio {
  private:
   // Returns nothing while the search is not over. A member that has ended without a proof leaves.
   std::optional<SearchOutcome> run(std::vector<Member>::iterator member, std::size_t evaluations) {
+    context_.limits.phase(phase_of(member->name));
     if (!member->search) member->search = make(member->name);
     ResumableSearch& search = *member->search;
     auto outcome = search.run(evaluations, bytes() - search.bytes());

@@ -1,6 +1,8 @@
 #include "planner_svc/temporal_pddl/search/successor_generator.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <span>
 
 namespace roci::planner::temporal_pddl::search {
 
@@ -38,47 +40,65 @@ SuccessorGenerator::SuccessorGenerator(const Task& task) : task_(task), nodes_(1
   std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
     return std::ranges::lexicographical_compare(a.tests, b.tests);
   });
-  root_ = build(candidates, 0);
+  build(candidates);
 }
 
-// Builds the tree below a node; the candidates agree on their first `depth` tests, and are sorted.
-std::uint32_t SuccessorGenerator::build(std::span<Candidate> candidates, std::size_t depth) {
-  if (candidates.empty()) return 0;
-  const auto index = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.emplace_back();
-  const auto tested = std::ranges::find_if(
-      candidates, [&](const Candidate& candidate) { return candidate.tests.size() > depth; });
-  for (auto done = candidates.begin(); done != tested; ++done) nodes_[index].here.push_back(done->snap);
-  if (tested == candidates.end()) return index;
-  const std::uint32_t variable = tested->tests[depth].variable;
-  nodes_[index].variable = variable;
-  nodes_[index].by_value.assign(task_.layout.variables()[variable].facts.size() + 1, 0);
-  auto begin = tested;
-  while (begin != candidates.end() && begin->tests[depth].variable == variable) {
-    const std::uint32_t value = begin->tests[depth].value;
-    const auto end = std::find_if(begin, candidates.end(), [&](const Candidate& candidate) {
-      return candidate.tests[depth].variable != variable || candidate.tests[depth].value != value;
-    });
-    const std::uint32_t child = build({begin, end}, depth + 1);
-    nodes_[index].by_value[value] = child;
-    begin = end;
+// Builds the tree, whose depth is the number of variables: what is still to be built stands on a stack of its
+// own, the last one first, so that nodes lie in memory as collect() meets them.
+void SuccessorGenerator::build(std::span<Candidate> all) {
+  struct Subtree {
+    std::span<Candidate> candidates;  // they agree on their first `depth` tests, and are sorted
+    std::size_t depth = 0;
+    std::uint32_t parent = 0;
+    std::optional<std::uint32_t> value;  // whose child of the parent it is; none: of those that do not test
+  };
+  std::vector<Subtree> open{{all, 0, 0, std::nullopt}};
+  while (!open.empty()) {
+    const auto [candidates, depth, parent, of_value] = open.back();
+    open.pop_back();
+    if (candidates.empty()) continue;
+    const auto index = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.emplace_back();
+    (of_value ? nodes_[parent].by_value[*of_value] : nodes_[parent].otherwise) = index;
+    const auto tested = std::ranges::find_if(
+        candidates, [depth = depth](const Candidate& candidate) { return candidate.tests.size() > depth; });
+    for (auto done = candidates.begin(); done != tested; ++done) nodes_[index].here.push_back(done->snap);
+    if (tested == candidates.end()) continue;
+    const std::uint32_t variable = tested->tests[depth].variable;
+    nodes_[index].variable = variable;
+    nodes_[index].by_value.assign(task_.layout.variables()[variable].facts.size() + 1, 0);
+    const std::size_t first_child = open.size();
+    auto begin = tested;
+    while (begin != candidates.end() && begin->tests[depth].variable == variable) {
+      const std::uint32_t value = begin->tests[depth].value;
+      const auto end = std::find_if(begin, candidates.end(), [&, depth = depth](const Candidate& candidate) {
+        return candidate.tests[depth].variable != variable || candidate.tests[depth].value != value;
+      });
+      open.push_back({{begin, end}, depth + 1, index, value});
+      begin = end;
+    }
+    open.push_back({{begin, candidates.end()}, depth, index, std::nullopt});
+    std::reverse(open.begin() + static_cast<std::ptrdiff_t>(first_child), open.end());
   }
-  const std::uint32_t rest = build({begin, candidates.end()}, depth);
-  nodes_[index].otherwise = rest;
-  return index;
 }
 
 void SuccessorGenerator::collect(StateView state, std::vector<SnapId>& result) const {
-  if (root_ != 0) collect(root_, state, result);
-}
-
-void SuccessorGenerator::collect(std::uint32_t index, StateView state, std::vector<SnapId>& result) const {
-  const Node& node = nodes_[index];
-  result.insert(result.end(), node.here.begin(), node.here.end());
-  if (node.by_value.empty()) return;
-  const std::uint32_t child = node.by_value[task_.layout.value(state, node.variable)];
-  if (child != 0) collect(child, state, result);
-  if (node.otherwise != 0) collect(node.otherwise, state, result);
+  std::vector<std::uint32_t> later;  // subtrees whose turn comes when the one before them is done
+  std::uint32_t index = nodes_.front().otherwise;
+  while (index != 0) {
+    const Node& node = nodes_[index];
+    result.insert(result.end(), node.here.begin(), node.here.end());
+    index = node.otherwise;
+    if (!node.by_value.empty()) {
+      const std::uint32_t child = node.by_value[task_.layout.value(state, node.variable)];
+      if (child != 0 && index != 0) later.push_back(index);
+      if (child != 0) index = child;
+    }
+    if (index == 0 && !later.empty()) {
+      index = later.back();
+      later.pop_back();
+    }
+  }
 }
 
 }  // namespace roci::planner::temporal_pddl::search

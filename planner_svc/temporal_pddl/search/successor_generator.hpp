@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "planner_svc/temporal_pddl/task/task.hpp"
@@ -36,12 +37,10 @@ class SuccessorGenerator {
     std::uint32_t otherwise = 0;          // child of those that do not test the variable, 0: none
   };
 
-  std::uint32_t build(std::span<Candidate> candidates, std::size_t depth);
-  void collect(std::uint32_t node, task::StateView state, std::vector<task::SnapId>& result) const;
+  void build(std::span<Candidate> all);
 
   const task::Task& task_;
-  std::vector<Node> nodes_;  // [0] is unused
-  std::uint32_t root_ = 0;
+  std::vector<Node> nodes_;  // [0] is no node: the tree is its `otherwise`
 };
 
 }  // namespace roci::planner::temporal_pddl::search

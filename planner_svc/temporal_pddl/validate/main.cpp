@@ -1,4 +1,4 @@
-// roci-validate checks a plan: roci-validate DOMAIN PROBLEM PLAN [--functions FILE] [--json]
+// roci-validate checks a plan: roci-validate DOMAIN PROBLEM PLAN [--functions FILE] [--strict] [--json]
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
@@ -53,14 +53,23 @@ struct Arguments {
   std::string plan;
   std::string functions;
   Options options;
+  bool strict = false;
   bool json = false;
 };
 
+void tell(const std::vector<pddl::Diagnostic>& warnings) {
+  for (const pddl::Diagnostic& warning : warnings) std::cerr << pddl::to_string(warning) << '\n';
+}
+
 int run(const Arguments& arguments) {
-  const pddl::Domain domain = pddl::load_domain(read_file(arguments.domain), arguments.domain);
-  const pddl::Problem problem = pddl::load_problem(read_file(arguments.problem), arguments.problem, domain);
+  const auto strictness = arguments.strict ? pddl::Strictness::strict : pddl::Strictness::tolerant;
+  const pddl::Domain domain = pddl::load_domain(read_file(arguments.domain), arguments.domain, strictness);
+  tell(domain.warnings);
+  const pddl::Problem problem =
+      pddl::load_problem(read_file(arguments.problem), arguments.problem, domain, strictness);
+  tell(problem.warnings);
   if (auto forbidden = pddl::forbidden_effects(domain, problem); !forbidden.empty()) {
-    throw pddl::ParseError(std::move(forbidden.front()));
+    throw pddl::ParseError(std::move(forbidden));
   }
   const auto plan = pddl::parse_plan(read_file(arguments.plan), arguments.plan);
   pddl::FunctionTable functions;
@@ -89,6 +98,8 @@ int run_command_line(int argc, char** argv) {
   app.add_option("PLAN", arguments.plan, "steps as 0.001: (drive a b) [12.5]")->required();
   app.add_option("--functions", arguments.functions,
                  "values of external functions: (traverse_time a b) 12.5");
+  app.add_flag("--strict", arguments.strict,
+               "refuse what departs from PDDL instead of reading it with a warning");
   app.add_flag("--json", arguments.json, "the report as one JSON object");
   try {
     app.parse(argc, argv);

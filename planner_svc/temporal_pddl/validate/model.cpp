@@ -2,6 +2,7 @@
 
 #include "core/pddl/overloaded.hpp"
 #include "core/pddl/printer.hpp"
+#include "core/pddl/total_cost.hpp"
 
 namespace roci::planner::temporal_pddl::validate {
 
@@ -51,22 +52,36 @@ State Model::initial_state() const {
   for (const pddl::InitialValue& initial : problem_.values) {
     state.values[pddl::print(initial.fluent)] = initial.value;
   }
+  if (pddl::has_total_cost(domain_)) state.values.emplace("(" + std::string(pddl::kTotalCost) + ")", 0);
   return state;
 }
 
 bool Model::for_each_choice(const std::vector<pddl::TypedName>& variables, Bindings& bindings,
                             const std::function<bool()>& visit) const {
-  const std::function<bool(std::size_t)> choose = [&](std::size_t depth) {
-    if (depth == variables.size()) return visit();
-    for (const int object : objects_.of_types(variables[depth].types)) {
-      bindings.push(variables[depth].name, objects_[static_cast<std::size_t>(object)].name);
-      const bool go_on = choose(depth + 1);
-      bindings.pop();
-      if (!go_on) return false;
-    }
-    return true;
+  std::vector<std::vector<int>> domains;
+  for (const pddl::TypedName& variable : variables) {
+    domains.push_back(objects_.of_types(variable.types));
+    if (domains.back().empty()) return true;
+  }
+  std::vector<std::size_t> chosen;  // of the bound variables, the last one running fastest
+  const auto bind = [&](std::size_t variable, std::size_t choice) {
+    const int object = domains[variable][choice];
+    bindings.push(variables[variable].name, objects_[static_cast<std::size_t>(object)].name);
+    chosen.push_back(choice);
   };
-  return choose(0);
+  while (true) {
+    while (chosen.size() < variables.size()) bind(chosen.size(), 0);
+    const bool go_on = visit();
+    std::size_t next = 0;
+    while (!chosen.empty() && next == 0) {  // takes back all that have no further choice, and one more
+      bindings.pop();
+      next = chosen.back() + 1;
+      chosen.pop_back();
+      if (!go_on || next == domains[chosen.size()].size()) next = 0;
+    }
+    if (next == 0) return go_on;
+    bind(chosen.size(), next);
+  }
 }
 
 }  // namespace roci::planner::temporal_pddl::validate

@@ -32,10 +32,16 @@ bool CycloneWriter::write(std::span<const std::uint8_t> payload) {
   return data && dds_writecdr(writer_, data) == DDS_RETCODE_OK;
 }
 
-bool CycloneWriter::dispose(std::span<const std::uint8_t> payload) {
+bool CycloneWriter::dispose(std::span<const std::uint8_t> payload) { return end(payload, NN_STATUSINFO_DISPOSE); }
+
+bool CycloneWriter::forget(std::span<const std::uint8_t> payload) {
+  return end(payload, NN_STATUSINFO_DISPOSE | NN_STATUSINFO_UNREGISTER);
+}
+
+bool CycloneWriter::end(std::span<const std::uint8_t> payload, std::uint32_t how) {
   auto* data = type_.type.keyed ? make_serdata(type_, SDK_KEY, payload) : nullptr;
   if (!data) return false;
-  data->statusinfo = NN_STATUSINFO_DISPOSE;
+  data->statusinfo = how;
   data->timestamp.v = dds_time();
   return dds_forwardcdr(writer_, data) == DDS_RETCODE_OK;
 }

@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include "services/transport/forgets_instances.hpp"
 #include "services/transport/transport.hpp"
 #include "services/vendors/cyclonedds/qos.hpp"
 #include "services/vendors/cyclonedds/sertype.hpp"
@@ -13,7 +14,7 @@ struct TopicHandle {
   const Sertype* type = nullptr;  ///< owned by the vendor as long as the topic lives
 };
 
-class CycloneWriter : public transport::Writer {
+class CycloneWriter : public transport::Writer, public transport::ForgetsInstances {
  public:
   CycloneWriter(dds_entity_t publisher, const TopicHandle&, const transport::EndpointDescription&,
                 transport::WriterEvents);
@@ -22,10 +23,12 @@ class CycloneWriter : public transport::Writer {
 
   bool write(std::span<const std::uint8_t> payload) override;
   bool dispose(std::span<const std::uint8_t> payload) override;
+  bool forget(std::span<const std::uint8_t> payload) override;
   transport::Guid guid() const override { return guid_; }
   int matched_readers() const override { return matched_; }
 
  private:
+  bool end(std::span<const std::uint8_t> payload, std::uint32_t how);
   static void on_matched(dds_entity_t, dds_publication_matched_status_t, void* self);
 
   void meet(dds_entity_t writer, dds_instance_handle_t subscription) const;

@@ -1,4 +1,5 @@
 // The inproc transport: participants of one process, on any threads, that meet by domain id. No network.
+#include "services/transport/forgets_instances.hpp"
 #include "services/transport/transport.hpp"
 
 #include <map>
@@ -18,13 +19,14 @@ transport::Guid guid_of(int domain, std::uint64_t participant, std::uint64_t end
   return guid;
 }
 
-class InprocWriter : public transport::Writer {
+class InprocWriter : public transport::Writer, public transport::ForgetsInstances {
  public:
   InprocWriter(std::shared_ptr<Bus> bus, std::shared_ptr<WriterEnd> end)
       : bus_(std::move(bus)), end_(std::move(end)) {}
   ~InprocWriter() override { bus_->remove(end_); }
   bool write(std::span<const std::uint8_t> payload) override { return end_->write(payload); }
   bool dispose(std::span<const std::uint8_t> payload) override { return end_->dispose(payload); }
+  bool forget(std::span<const std::uint8_t> payload) override { return end_->dispose(payload); }
   transport::Guid guid() const override { return end_->guid(); }
   int matched_readers() const override { return end_->matched_readers(); }
 

@@ -32,6 +32,13 @@ std::vector<std::string> Host::inside(const std::vector<std::string>& command) c
 }
 
 TwoHosts::TwoHosts() {
+  try {
+    run_on_host({"ip", "netns", "add", rover.name + "-probe"});
+    run_on_host({"ip", "netns", "del", rover.name + "-probe"});
+  } catch (const std::exception& error) {
+    refused = error.what();
+    return;
+  }
   for (const auto& host : {rover, ground}) run_on_host({"ip", "netns", "add", host.name});
   run_on_host({"ip", "link", "add", rover.link, "netns", rover.name, "type", "veth", "peer", "name",
                ground.link, "netns", ground.name});
@@ -44,6 +51,7 @@ TwoHosts::TwoHosts() {
 }
 
 TwoHosts::~TwoHosts() {
+  if (!refused.empty()) return;
   for (const auto& host : {rover, ground}) ChildProcess({"ip", "netns", "del", host.name}).finish();
 }
 

@@ -20,7 +20,8 @@ struct Host {
   std::vector<std::string> inside(const std::vector<std::string>& command) const;
 };
 
-/// Both hosts and their link, until the test ends.
+/// Both hosts and their link, until the test ends. Without the right to make them there are none, and `refused` says so: such
+/// a test is skipped (GTEST_SKIP) with that reason.
 class TwoHosts {
  public:
   TwoHosts();
@@ -31,6 +32,7 @@ class TwoHosts {
   const std::string id = std::to_string(getpid());
   const Host rover{"roci-rover-" + id, "rr" + id, "10.77.0.1"};
   const Host ground{"roci-ground-" + id, "rg" + id, "10.77.0.2"};
+  std::string refused;
 };
 
 }  // namespace roci::services::contract

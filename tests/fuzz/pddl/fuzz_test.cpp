@@ -45,7 +45,7 @@ TEST(FuzzPddl, MutatedCorpusNeverCrashes) {
 template <typename Parse>
 bool parses(Parse parse, const std::string& text) {
   try {
-    parse(text, "fuzz");
+    parse(text);
     return true;
   } catch (const pddl::ParseError&) {
     return false;
@@ -59,7 +59,8 @@ TEST(FuzzPddl, ManyMutantsStillParse) {  // or the test above would only exercis
   for (int i = 0; i < 500; ++i) {
     for (const std::string& seed : corpus) {
       const std::string text = mutate(seed, corpus, random);
-      if (parses(pddl::parse_domain, text) || parses(pddl::parse_problem, text)) ++parsed;
+      const bool domain = parses([](const std::string& all) { pddl::parse_domain(all, "fuzz"); }, text);
+      if (domain || parses([](const std::string& all) { pddl::parse_problem(all, "fuzz"); }, text)) ++parsed;
     }
   }
   EXPECT_GT(parsed, 100);
@@ -106,6 +107,78 @@ TEST(FuzzPddl, LongInputsAreHandled) {
           ") (:goal (p)))");
   run_all(repeated("1: (act a1)\n", 300));
   run_all(std::string(2'000'000, 'x'));
+}
+
+// What is nested or chained deeper than it may be names the limit.
+template <typename Load>
+void expect_refused_by_limit(Load load, const std::string& words) {
+  try {
+    load();
+    ADD_FAILURE() << "accepted";
+  } catch (const pddl::ParseError& error) {
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos)
+        << std::string(error.what()).substr(0, 1000);
+    EXPECT_LT(std::string(error.what()).size(), 200'000U);
+  }
+}
+
+std::string numbered(const std::string& before, int from, int count, const std::string& after) {
+  std::string all;
+  for (int i = from; i < from + count; ++i) all += before + std::to_string(i) + after;
+  return all;
+}
+
+TEST(FuzzPddl, DeepFormulasAreRefusedByTheLimit) {
+  for (const std::string open : {"(not ", "(and ", "(when (p) ", "(forall (?x) ", "(or (p) ", "("}) {
+    const std::string deep = repeated(open, 100'000) + "(p)" + std::string(100'000, ')');
+    for (const std::string before : {"(:action a :precondition ", "(:action a :effect ", "(:derived (p) "}) {
+      const std::string text = "(define (domain d) (:predicates (p)) " + before + deep + "))";
+      expect_refused_by_limit([&] { pddl::load_domain(text, "fuzz"); }, "nested deeper than 200");
+    }
+  }
+  expect_refused_by_limit([] { pddl::load_domain(std::string(1'000'000, '('), "fuzz"); },
+                          "nested deeper than 200");
+  expect_refused_by_limit([] { pddl::load_domain(std::string(1'000'000, ')'), "fuzz"); }, "')' without '('");
+}
+
+TEST(FuzzPddl, LongChainsOfTypesAreRefusedByTheLimit) {
+  std::string chain;
+  for (int i = 0; i < 100'000; ++i) chain += "t" + std::to_string(i) + " - t" + std::to_string(i + 1) + "\n";
+  expect_refused_by_limit([&] { pddl::load_domain("(define (domain d) (:types " + chain + "))", "fuzz"); },
+                          "more than 200 types above it");
+  const std::string many = numbered(" t", 0, 20'000, "");
+  run_all("(define (domain d) (:types" + many + " - u) (:predicates (p ?x - t1)))");
+  expect_refused_by_limit(
+      [&] { pddl::load_domain("(define (domain d) (:predicates (p ?x - (either" + many + "))))", "fuzz"); },
+      "more than 200 types");
+}
+
+TEST(FuzzPddl, LongNamesAreRefusedByTheLimit) {
+  const std::string name(1'000'000, 'n');
+  expect_refused_by_limit(
+      [&] { pddl::load_domain("(define (domain " + name + ") (:predicates (" + name + ")))", "fuzz"); },
+      "more than 1000 characters");
+  expect_refused_by_limit([&] { pddl::load_domain(name, "fuzz"); }, "more than 1000 characters");
+}
+
+// Each of these would take hours if its cost grew faster than its size.
+TEST(FuzzPddl, WideInputsTakeTimeOfTheirSize) {
+  run_all("(define (domain d) (:predicates (p)) (:functions (f)) (:action a :effect (increase (f) " +
+          repeated("(/ 1 ", 180) + "(f)" + std::string(180, ')') + ")))");
+  std::string rules = "(:derived (d0) (not (p)))";
+  for (int i = 20'000; i > 0; --i)
+    rules += "(:derived (d" + std::to_string(i) + ") (d" + std::to_string(i - 1) + "))";
+  const std::string domain =
+      "(define (domain d) (:predicates (p)" + numbered("(d", 0, 20'001, ")") + ")" + rules + ")";
+  EXPECT_NO_THROW(pddl::load_domain(domain, "fuzz"));
+  run_all("(define (domain d) (:predicates (p)) (:action a :precondition (forall (" +
+          numbered("?x", 0, 10'000, " ") + ") (forall (" + numbered("?y", 0, 10'000, " ") + ") (p)))))");
+  std::string unknown;
+  for (int i = 0; i < 20'000; ++i) unknown += "(known" + std::to_string(i) + "x)";
+  run_all("(define (domain d) (:predicates " + numbered("(known", 0, 20'000, ")") +
+          ") (:action a :precondition (and " + unknown + ")))");
+  run_all(repeated(",", 200'000) + "(define (domain d))");
+  run_all("(define (problem x) (:domain d) (:init" + repeated(" ()", 50'000) + "))");
 }
 
 }  // namespace

@@ -68,10 +68,59 @@ TEST_F(ReactorTest, WhenNotAllFitTheNewestOpportunisticGoesFirst) {
   };
   run(1000, robot_and({photo("hard"), photo("first", GoalClass::opportunistic),
                        photo("second", GoalClass::opportunistic)}));
-  EXPECT_EQ(reasons["second"], "proved that not all goals fit: too much");
-  EXPECT_EQ(reasons["first"], "proved that not all goals fit: too much");
+  EXPECT_EQ(reasons["second"], "no plan achieves it together with hard, first\ndetails: too much");
+  EXPECT_EQ(reasons["first"], "no plan achieves it together with hard\ndetails: too much");
   EXPECT_EQ(reactor.outcome(), "achieved");
   EXPECT_EQ(reactor.counts().dropped, 2U);
+}
+
+// What one goal lacks is told of it alone; the planner's own words follow in a second line, and operators hear the first.
+TEST_F(ReactorTest, AGoalOutOfReachSaysWhatItLacks) {
+  planner = [this](const PlanRequest& call) {
+    return testing::asks_for(call, "walled") ? blocked({"walled"}) : image_every_goal(call);
+  };
+  run(1000, robot_and({photo("free"), photo("walled", GoalClass::optional, 1)}));
+  EXPECT_EQ(reasons["walled"], "out of reach: never reached\ndetails: never reached: (sent image-walled)");
+}
+
+TEST_F(ReactorTest, AGoalAloneIsNotSaidToBeOneOfMany) {
+  planner = [](const PlanRequest&) { return reply(Verdict::unsolvable, "too much"); };
+  run(1000, robot_and({photo("only", GoalClass::optional, 1)}));
+  EXPECT_EQ(reasons["only"], "no plan achieves it\ndetails: too much");
+}
+
+// The planner thinks that it is done, and no observation says so: not 50 plans, but two.
+TEST_F(ReactorTest, APlanWithoutActivitiesIsAdoptedOnceForAnOpenGoal) {
+  planner = [](const PlanRequest&) { return reply(Verdict::solved); };
+  run(1000, robot_and({photo("ghost"), photo("soft", GoalClass::optional, 1)}));
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), "plan.adopted"), 1);
+  EXPECT_EQ(reactor.goals().find({"ground", "ghost"})->state, GoalState::failed);
+  EXPECT_EQ(reactor.goals().find({"ground", "soft"})->state, GoalState::dropped);
+  EXPECT_THAT(reasons["ghost"], ::testing::HasSubstr("nothing that is observed says so"));
+  EXPECT_EQ(reactor.outcome(), "partial");
+}
+
+// Plans that break at the same place, with nothing done in between, wait longer and longer, and are given up in the end.
+TEST_F(ReactorTest, EqualBreaksInARowPauseLikeEqualFailures) {
+  std::vector<double> calls;
+  planner = [&](const PlanRequest& call) {
+    calls.push_back(temporal::to_seconds(now));
+    if (!testing::asks_for(call, "b")) return image_every_goal(call);
+    auto out = reply(Verdict::solved);
+    out.plan = testing::images({"a", "b"});
+    // The second image asks for more than there is as soon as the first one runs: the plan breaks at once.
+    out.plan.activities[0].impacts = {
+        {"(battery)", temporal::ImpactKind::delta, temporal::ImpactWhen::at_start, -1.0}};
+    out.plan.activities[1].pre = temporal::compare("(battery)", temporal::ConditionOp::ge, 1e7);
+    return out;
+  };
+  run(5000, robot_and({photo("a"), photo("b")}));
+  ASSERT_EQ(calls.size(), mission.executive.failure_limit + 1) << "the last one without b";
+  EXPECT_EQ(reactor.goals().find({"ground", "a"})->state, GoalState::achieved);
+  EXPECT_LT(calls[1] - calls[0], 6) << "the first break is followed by a plan at once";
+  EXPECT_NEAR(calls[2] - calls[1], 30, 6);
+  EXPECT_NEAR(calls[3] - calls[2], 60, 6);
+  EXPECT_THAT(reasons["b"], ::testing::HasSubstr("8 plans in a row broke at take-image"));
 }
 
 TEST_F(ReactorTest, ASpentBudgetDropsTooAndIsReportedAsWhatItIs) {
@@ -113,7 +162,8 @@ TEST_F(ReactorTest, AHardGoalThatFitsWithoutTheSoftOnesStays) {
   run(1000, robot_and({photo("hard"), photo("soft", GoalClass::optional, 9),
                        photo("late", GoalClass::opportunistic)}));
   EXPECT_EQ(std::count(trace.begin(), trace.end(), "call"), 3);
-  EXPECT_EQ(reasons["late"], "proved that not all goals fit: never reached: (sent image-hard)");
+  EXPECT_EQ(reasons["late"],
+            "no plan has the hard goals beside it\ndetails: never reached: (sent image-hard)");
   EXPECT_EQ(reactor.goals().find({"ground", "soft"})->state, GoalState::achieved);
   EXPECT_EQ(reactor.outcome(), "achieved");
 }

@@ -76,6 +76,33 @@ TEST(ResourceMonitor, ARetryIsChargedAgain) {
   EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 65}})), "");
 }
 
+// A drive under way will lower the battery under the bound of the activity after it: no alarm while it may, one as soon as
+// it has ended and its end is seen without that.
+TEST(ResourceMonitor, WhatARunningActivityWillStillTakeCountsForAnUpperBound) {
+  temporal::FlexiblePlan plan = plan_of({{0, 30}, {0, 0}});
+  plan.activities[1].pre = temporal::compare("(battery)", ConditionOp::le, 75.0);
+  ResourceMonitor monitor(plan);
+  monitor.remove("a1");
+  monitor.begin("a1");
+  EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 100}})), "");
+  EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 106}})), "a2 will lack (battery) <= 75 (is 76)");
+  monitor.end("a1", levels({{"(battery)", 90}}));
+  EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 90}})), "") << "its end is not seen yet";
+  EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 80}})), "a2 will lack (battery) <= 75 (is 80)");
+  EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 75}})), "");
+}
+
+TEST(ResourceMonitor, WhatARunningActivityWillStillGiveCountsForALowerBound) {
+  temporal::FlexiblePlan plan = plan_of({{0, -50}, {60, 0}});
+  ResourceMonitor monitor(plan);
+  monitor.remove("a1");
+  monitor.begin("a1");
+  EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 20}})), "");
+  EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 9}})), "a2 will lack (battery) >= 60 (is 59)");
+  monitor.settle("a1");
+  EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 20}})), "a2 will lack (battery) >= 60 (is 20)");
+}
+
 TEST(ResourceMonitor, AnUnseenLevelIsNoAlarm) {
   EXPECT_EQ(shortfall(ResourceMonitor(plan_of({{10, 5}})), levels({})), "");
 }

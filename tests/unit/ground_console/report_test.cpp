@@ -52,6 +52,15 @@ TEST(Json, ParsesWhateverBytesCameDown) {
   EXPECT_THAT(cli::json_text(cli::to_json(status)), Not(HasSubstr("\n")));
 }
 
+// The words of the mission come first, those of the planner are there for who asks why.
+TEST(Lines, OfAGoalThatWasGivenUpHaveTheMissionsWordsAlone) {
+  const v1::GoalStatus status =
+      goal_status("far", v1::GOAL_DROPPED, 1, "out of reach: steep\ndetails: no sequence of actions");
+  EXPECT_THAT(cli::goal_line(status), HasSubstr("out of reach: steep (journaled)"));
+  EXPECT_EQ(cli::to_json(status)["reason"], "out of reach: steep");
+  EXPECT_EQ(cli::to_json(status)["details"], "no sequence of actions");
+}
+
 TEST(Lines, NameWhatMatters) {
   EXPECT_THAT(cli::goal_line(goal_status("far", v1::GOAL_REJECTED, 1, "outside the map")),
               ::testing::ContainsRegex("ground/far +photo +hard +rejected +outside the map"));

@@ -14,6 +14,7 @@ namespace roci::console {
 namespace {
 
 using namespace testing;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -29,7 +30,8 @@ std::size_t columns_of(const std::string& line) {
       std::ranges::count_if(line, [](unsigned char c) { return (c & 0xC0U) != 0x80U; }));
 }
 
-const std::string kFrame = R"(planetary   00:05:00   executing   plan 2, 1 replans
+const std::string kFrame =
+    R"(planetary   00:05:00   executing   plan 2, 1 replans                                                               q ends the view
 
 Goals                                                                                            Way  ├──────────┤ 20 m   ▲ robot
 A ✘ far               photo       hard          rejected, until 00:15:00, outside the map                        ▲
@@ -86,7 +88,16 @@ TEST(WatchScreen, LeavesCurvesOutThatDoNotFit) {
 
 TEST(WatchScreen, LeavesTheMapOutWhereItDoesNotFit) {
   EXPECT_THAT(cli::watch::watch_screen(flying_mission(), 130, 32).plain(), HasSubstr("▲"));
-  EXPECT_THAT(cli::watch::watch_screen(flying_mission(), 80, 26).plain(), Not(HasSubstr("▲")));
+  EXPECT_THAT(cli::watch::watch_screen(flying_mission(), 70, 26).plain(), Not(HasSubstr("▲")));
+}
+
+// At 80 columns goals lose their kind and class, and the map stands beside them.
+TEST(WatchScreen, HasAMapAt80ColumnsToo) {
+  const auto lines = lines_of(cli::watch::watch_screen(flying_mission(), 80, 26).plain());
+  ASSERT_GE(lines.size(), 5U);
+  EXPECT_THAT(lines[2], AllOf(HasSubstr("Goals"), HasSubstr("Way")));
+  EXPECT_THAT(lines[3], HasSubstr("A ✘ far          rejected, until 00:15:00"));
+  EXPECT_THAT(cli::watch::watch_screen(flying_mission(), 80, 26).plain(), HasSubstr("▲"));
 }
 
 TEST(WatchScreen, WaitsForAMission) {

@@ -5,6 +5,7 @@
 
 #include "services/publisher.hpp"
 #include "services/rpc/reply_cache.hpp"
+#include "tests/unit/services/faulty_transport.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
 namespace roci::services {
@@ -111,6 +112,20 @@ TEST_F(SimCall, BringsTheRemoteError) {
   run_until(10ms);
   EXPECT_THAT(results, ElementsAre("5 remote_error "));
   EXPECT_EQ(message, "no such pose");
+}
+
+// The topic of the answers holds sixteen in a micro-step (transport/micro_step.hpp).
+TEST_F(SimCall, ManyAtOnceAreAllAnswered) {
+  constexpr int kCalls = 60;
+  serve(owner, topics::arm_motion, [](const v1::ArmMotionRequest& request, auto responder) {
+    responder.reply(because(request.to_pose()));
+  });
+  caller.at(5ms, [this] {
+    for (int i = 0; i < kCalls; ++i) call("owner", 1s, std::to_string(i));
+  });
+  run_until(2s);
+  ASSERT_EQ(results.size(), static_cast<std::size_t>(kCalls));
+  for (int i = 0; i < kCalls; ++i) EXPECT_EQ(results[static_cast<std::size_t>(i)], "5 ok " + std::to_string(i));
 }
 
 TEST_F(SimCall, RefusesMoreThanTheTableHolds) {
@@ -227,13 +242,22 @@ TEST(ReplyCache, TellsOfACancelOnceWhetherItCameBeforeTheRequestOrAfter) {
 // Live nodes turned by the test itself; mission time runs 100 times as fast as the wall.
 class LiveCall : public testing::Test {
  protected:
-  std::unique_ptr<Node> make(const std::string& name) {
+  std::unique_ptr<Node> make(const std::string& name, Deliveries deliveries = nullptr) {
     node::NodeOptions options;
     options.name = name;
     options.live_scale = 100;
     transport::TransportOptions transport;
     transport.domain = domain_;
-    return std::make_unique<Node>(options, transport::open_transport("inproc", transport));
+    auto network = transport::open_transport("inproc", transport);
+    if (deliveries) network = std::make_unique<FaultyTransport>(std::move(network), std::move(deliveries));
+    return std::make_unique<Node>(options, std::move(network));
+  }
+  // Serves the call, and counts what it handles.
+  void serve_and_count() {
+    serve(*owner, topics::arm_motion, [this](const v1::ArmMotionRequest&, auto responder) {
+      ++handled;
+      responder.reply(because("done"));
+    });
   }
   void turn_until(const std::function<bool()>& done) {
     while (!done()) {
@@ -255,7 +279,62 @@ class LiveCall : public testing::Test {
   std::unique_ptr<Node> owner;
   std::vector<std::string> results;
   std::string message;
+  int handled = 0;
 };
+
+// Drops the first `lost` samples of the topic.
+Deliveries losing(const std::string& topic, int lost) {
+  return [topic, lost](const std::string& on, int number) { return on == topic && number <= lost ? 0 : 1; };
+}
+
+// Each sample of the topic comes three times.
+Deliveries thrice(const std::string& topic) {
+  return [topic](const std::string& on, int) { return on == topic ? 3 : 1; };
+}
+
+TEST_F(LiveCall, WhoseFirstRepliesAreLostIsAskedAgainAndHandledOnce) {
+  caller = make("caller", losing(topics::arm_motion.reply.name, 2));
+  owner = make("owner");
+  serve_and_count();
+  const auto client = make_client(*caller, topics::arm_motion);
+  call("owner", 10'000s);
+  turn_until([this] { return !results.empty(); });
+  EXPECT_THAT(results, ElementsAre("ok"));
+  EXPECT_EQ(handled, 1);
+  EXPECT_EQ(client.statistics().sent, 3U) << "the request and two repetitions, each of which brought a reply";
+}
+
+TEST_F(LiveCall, WhoseReplyComesThriceEndsOnce) {
+  caller = make("caller", thrice(topics::arm_motion.reply.name));
+  owner = make("owner");
+  serve_and_count();
+  const auto client = make_client(*caller, topics::arm_motion);
+  call("owner", 10'000s);
+  turn_until([&] { return client.statistics().late == 2; });
+  EXPECT_THAT(results, ElementsAre("ok"));
+  EXPECT_EQ(handled, 1);
+}
+
+TEST_F(LiveCall, WhoseFirstRequestsAreLostIsSentAgain) {
+  owner = make("owner", losing(topics::arm_motion.request.name, 2));
+  serve_and_count();
+  const auto client = make_client(*caller, topics::arm_motion);
+  call("owner", 10'000s);
+  turn_until([this] { return !results.empty(); });
+  EXPECT_THAT(results, ElementsAre("ok"));
+  EXPECT_EQ(handled, 1);
+  EXPECT_EQ(client.statistics().sent, 3U);
+}
+
+TEST_F(LiveCall, WhoseRequestComesThriceIsHandledOnce) {
+  owner = make("owner", thrice(topics::arm_motion.request.name));
+  serve_and_count();
+  const auto client = make_client(*caller, topics::arm_motion);
+  call("owner", 10'000s);
+  turn_until([&] { return client.statistics().late == 2; });  // its answer goes out with each of them
+  EXPECT_THAT(results, ElementsAre("ok"));
+  EXPECT_EQ(handled, 1);
+}
 
 TEST_F(LiveCall, WaitsForAServerThatStartsLater) {
   call("owner", 1000s);
@@ -280,7 +359,6 @@ TEST_F(LiveCall, ThatNobodyHasHeardOfEndsAtItsCancel) {
 
 TEST_F(LiveCall, HandlesARepeatedRequestOnce) {
   owner = make("owner");
-  int handled = 0;
   std::vector<Responder<v1::ArmMotionReply>> waiting;
   serve(*owner, topics::arm_motion, [&](const v1::ArmMotionRequest&, auto responder) {
     ++handled;

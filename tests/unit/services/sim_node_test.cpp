@@ -7,6 +7,8 @@
 
 #include "services/publisher.hpp"
 #include "services/transport/qos.hpp"
+#include "services/transport/scope.hpp"
+#include "services/transport/type_support.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
 namespace roci::services {
@@ -244,6 +246,61 @@ TEST(SimNode, TooManySamplesOfOneInstanceAreRefused) {
   run.run();
   ASSERT_EQ(seen.size(), static_cast<std::size_t>(transport::kMicroStepLimit) + 1);
   EXPECT_EQ(seen.back(), "next micro-step");
+}
+
+v1::CommandAck last_word(int number) {
+  v1::CommandAck ack;
+  ack.activity("a" + std::to_string(number));
+  ack.stage(v1::STAGE_COMPLETED);
+  return ack;
+}
+
+// A writer that runs for a month keeps the newest of what is finished, and nothing of what nobody asks for again; and who
+// joins then still gets the newest sample, for which the clock makes it wait.
+TEST(SimNode, WhatIsFinishedIsKeptForTheNewestAlone) {
+  constexpr int kFinished = 200;
+  SimRun run({"a", "b"});
+  Node& a = run.add("a");
+  Node& first = run.add("b");
+  subscribe(first, topics::command_ack, [](const v1::CommandAck&) {});
+  subscribe(first, topics::command, [](const v1::Command&) {});
+  const auto acks = advertise(a, topics::command_ack);
+  const auto commands = advertise(a, topics::command);
+  for (int i = 1; i <= kFinished; ++i) {
+    a.at(i * 1ms, [&, i] {
+      acks.write(last_word(i));
+      acks.dispose(last_word(i));
+      v1::Command command;
+      command.activity("a" + std::to_string(i));
+      commands.write(command);
+    });
+  }
+  a.at(1000ms, [&] { first.stop(); });
+  std::vector<std::string> of_the_past;
+  std::atomic<int> commands_kept = 0;
+  std::unique_ptr<transport::Transport> outside;
+  std::unique_ptr<transport::Reader> looks;
+  a.on_peer_change([&](const health::PeerChange& change) {
+    if (change.alive && change.incarnation == 2) a.after(1ms, [&a] { a.stop(); });
+    if (change.alive) return;
+    Node& second = run.add("b", 2);
+    subscribe(second, topics::command_ack,
+              [&](const v1::CommandAck& ack) { of_the_past.push_back(ack.activity()); });
+    run.start();
+    outside = run.transport();
+    looks = outside->create_reader(
+        {topics::command.name, transport::describe_type<v1::Command>(topics::command.type_name),
+         transport::reader_qos(transport::Qos::request, transport::Clocking::clocked, clock::ClockMode::simulated),
+         transport::partitions_of(topics::command.scope, "")},
+        {[&](transport::Sample&& sample) { commands_kept += sample.kind == transport::SampleKind::data; }, {}});
+  });
+  run.run();
+  looks.reset();
+  ASSERT_FALSE(of_the_past.empty());
+  EXPECT_LE(of_the_past.size(), 70U) << "of " << kFinished;
+  EXPECT_EQ(of_the_past.back(), "a" + std::to_string(kFinished));
+  EXPECT_LE(commands_kept, 70) << "of " << kFinished;
+  EXPECT_GT(commands_kept, 0);
 }
 
 TEST(SimNode, LateSubscriptionsAreRefused) {

@@ -10,6 +10,7 @@
 #include "core/mission/entry.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
+#include "sim_svc/world_file.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
 namespace roci::sim {
@@ -293,6 +294,29 @@ TEST_F(SimService, BadFilesAreRefusedByPlaceAndRemedy) {
   EXPECT_THAT(error(), HasSubstr("rocks.pgm"));
   settings.scenario = "nominl";
   EXPECT_THAT(error(), HasSubstr("choose one of: nominal"));
+}
+
+TEST(WorldFile, ComesBackAsItWas) {
+  world::WorldMemory memory{temporal::seconds(7.5), {}, {{"soil", "there"}, {"rock", ""}}};
+  world::RobotMemory& rover = memory.robots["rover"];
+  rover.pose = world::Pose{1.25, -2, 0.5};
+  rover.energy_j = 1234.5;
+  rover.images["one"] = {"one", "rover", "p1.2-image", 1400000, true, temporal::seconds(3), {1, 2, 3}, {0, 128, 255}};
+  rover.components["drill"] = {{"state", temporal::state("in", {"hole"})}, {"number:depth", 20.5}};
+  memory.robots["lander"] = {};
+  const auto file = std::filesystem::path(testing::TempDir()) / "roci_world_file";
+  std::filesystem::remove(file);
+  EXPECT_FALSE(WorldFile(file).read().has_value());
+  WorldFile(file).keep(memory);
+  const auto back = WorldFile(file).read();
+  ASSERT_TRUE(back.has_value());
+  EXPECT_EQ(to_text(*back), to_text(memory));
+  EXPECT_EQ(back->robots.at("rover").images, rover.images);
+  EXPECT_EQ(back->robots.at("rover").components, rover.components);
+  EXPECT_FALSE(back->robots.at("lander").pose.has_value());
+  for (const char* damaged : {"", "{", "[]", "{\"at_us\":1}", "{\"at_us\":1,\"samples\":{},\"robots\":{\"rover\":{}}}"})
+    EXPECT_FALSE(world_memory_from(damaged).has_value()) << damaged;
+  std::filesystem::remove(file);
 }
 
 }  // namespace

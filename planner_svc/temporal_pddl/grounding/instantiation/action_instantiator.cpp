@@ -53,7 +53,8 @@ void ActionInstantiator::instantiate(SchemaId schema, const LiftedAction& action
   ground.durative = action.durative;
   if (!set_duration(action, binding, ground)) return;
   const Disjunction at_start = formulas_.ground(action.at_start, binding);
-  const Disjunction over_all = formulas_.ground(action.over_all, binding);
+  const bool has_inside = !action.durative || ground.max_duration > Duration{0};
+  const Disjunction over_all = has_inside ? formulas_.ground(action.over_all, binding) : always();
   const Disjunction at_end = formulas_.ground(action.at_end, binding);
   if (at_start.empty() || over_all.empty() || at_end.empty()) return;
   if (!collect_effects(action, binding)) return;

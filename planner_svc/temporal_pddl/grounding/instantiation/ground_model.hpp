@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -95,6 +96,15 @@ struct WindowMisfit {
   temporal::Duration window{0};     ///< the longest
 };
 
+/// Is an action instance that can never run; see grounding/impossible_actions.hpp.
+struct ImpossibleAction {
+  task::SchemaId schema;
+  std::vector<task::ObjectId> arguments;
+  std::vector<std::uint32_t> adds;      ///< atoms
+  std::optional<GroundLiteral> broken;  ///< of its `over all`, by its own start
+  temporal::Duration longest{0};        ///< without `broken`: the duration, which is less than ε
+};
+
 /// Holds the whole problem over atoms and numbers, which are named by their indices.
 struct GroundModel {
   lifted::TupleTable atoms;
@@ -106,9 +116,10 @@ struct GroundModel {
   std::vector<GroundAction> actions;
   /// Holds sorted lists, of which the first is empty. Neighbours with equal read sets share one.
   std::vector<std::vector<ReadVariable>> read_sets = std::vector<std::vector<ReadVariable>>(1);
-  std::vector<WindowMisfit> window_misfits;  ///< taken out of `actions`
-  std::vector<GroundRule> rules;             ///< stand in order of layers
-  std::vector<TimedChange> timed;            ///< stand in order of time, one per instant
+  std::vector<WindowMisfit> window_misfits;          ///< taken out of `actions`
+  std::vector<ImpossibleAction> impossible_actions;  ///< taken out of `actions`
+  std::vector<GroundRule> rules;                     ///< stand in order of layers
+  std::vector<TimedChange> timed;                    ///< stand in order of time, one per instant
   Disjunction goal;
   task::Metric metric;
   /// It is indexed by number: nothing else asks for it, and it is never assigned.

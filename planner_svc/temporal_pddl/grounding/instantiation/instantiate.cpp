@@ -173,6 +173,9 @@ void set_initial(const pddl::Problem& problem, const StaticModel& static_model,
         model.numbers.find(static_model.symbols().function(value.fluent.symbol).value, objects);
     if (number) model.initial_numbers[*number] = value.value;
   }
+  const auto total_cost = static_model.symbols().total_cost();
+  const auto counted = total_cost ? model.numbers.find(total_cost->value, {}) : std::nullopt;
+  if (counted && std::isnan(model.initial_numbers[*counted])) model.initial_numbers[*counted] = 0;
 }
 
 std::size_t bytes_of(const Conjunction& conjunction) {

@@ -84,7 +84,9 @@ void require_usable(const FunctionCall& call, const FunctionValue& answer, const
 
 ConstantFunctions::ConstantFunctions(const pddl::Problem& problem, const std::vector<LiftedAction>& actions,
                                      const Symbols& symbols)
-    : constant_(symbols.functions(), true) {
+    : constant_(symbols.functions(), true),
+      external_(symbols.functions(), false),
+      missed_(symbols.functions(), std::nullopt) {
   for (const auto& action : actions) {
     for (const auto* effects : {&action.start_effects, &action.end_effects}) {
       for (const auto& effect : *effects) {
@@ -100,6 +102,9 @@ ConstantFunctions::ConstantFunctions(const pddl::Problem& problem, const std::ve
     for (const auto& term : initial.fluent.arguments) objects.push_back(symbols.object(term.name));
     define(function, objects, initial.value);
   }
+  const auto total_cost = symbols.total_cost();
+  if (total_cost && constant_[*total_cost] && !tuples_.find(total_cost->value, {}))
+    define(*total_cost, {}, 0);
 }
 
 void ConstantFunctions::load_external(FunctionSource& source, const std::function<bool()>& cancelled,
@@ -108,6 +113,7 @@ void ConstantFunctions::load_external(FunctionSource& source, const std::functio
     const FunctionId function(i);
     const FunctionSymbol& symbol = symbols[function];
     if (symbol.module.empty()) continue;
+    external_[function] = true;
     const auto tuples = all_tuples(symbol.parameters);
     std::vector<FunctionCall> calls;
     for (const auto& tuple : tuples) {
@@ -133,7 +139,9 @@ void ConstantFunctions::load_external(FunctionSource& source, const std::functio
 
 std::optional<double> ConstantFunctions::value(FunctionId function, std::span<const ObjectId> objects) const {
   const auto tuple = tuples_.find(function.value, objects);
-  return tuple ? std::optional(values_[*tuple]) : std::nullopt;
+  if (tuple) return values_[*tuple];
+  if (!external_[function] && !missed_[function]) missed_[function].emplace(objects.begin(), objects.end());
+  return std::nullopt;
 }
 
 void ConstantFunctions::define(FunctionId function, std::span<const ObjectId> objects, double value) {

@@ -32,6 +32,10 @@ class ConstantFunctions {
   /// Returns nothing if the constant is undefined or unreachable there, so that no action instance can use
   /// it.
   std::optional<double> value(task::FunctionId function, std::span<const task::ObjectId> objects) const;
+  /// Returns a tuple without a value that was asked for, if there was one; never one of an external function.
+  const std::optional<std::vector<task::ObjectId>>& missed(task::FunctionId function) const {
+    return missed_[function];
+  }
 
  private:
   void define(task::FunctionId function, std::span<const task::ObjectId> objects, double value);
@@ -39,6 +43,8 @@ class ConstantFunctions {
   task::IdVector<task::FunctionId, bool> constant_;
   TupleTable tuples_;
   std::vector<double> values_;
+  task::IdVector<task::FunctionId, bool> external_;
+  mutable task::IdVector<task::FunctionId, std::optional<std::vector<task::ObjectId>>> missed_;
 };
 
 }  // namespace roci::planner::temporal_pddl::grounding::lifted

@@ -15,7 +15,8 @@ struct DerivedRule {
 };
 
 /// Returns the rules by layer. An alternative of a body becomes a rule of its own, and what exists is a
-/// parameter: joins find instances, and no disjunction grows.
+/// parameter: joins find instances, and no disjunction grows. Throws ModelFailure (unsupported) for a body
+/// with too many combinations of alternatives (rules of 250,000 conditions together).
 std::vector<DerivedRule> derived_rules(const pddl::Domain& domain);
 
 }  // namespace roci::planner::temporal_pddl::grounding::lifted

@@ -27,6 +27,9 @@ inline task::ObjectId resolve(Argument argument, const Binding& binding) {
   return argument.is_slot ? binding[argument.index] : task::ObjectId(argument.index);
 }
 
+/// An action or goal may have so many slots at most: whatever runs through their values may recurse that deep.
+inline constexpr std::uint32_t kMaxSlots = 256;
+
 /// Is a slot of a quantified variable with the objects that it may take.
 struct QuantifiedSlot {
   std::uint32_t slot = 0;

@@ -1,6 +1,7 @@
 #include "planner_svc/temporal_pddl/grounding/lifted/lowering.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "core/pddl/overloaded.hpp"
@@ -39,7 +40,11 @@ class Lowering {
     for (auto& slot : open(parameters)) action.parameters.push_back(std::move(slot.domain));
   }
 
-  std::uint32_t slots() const { return slots_; }
+  // Refuses what has too many of them.
+  std::uint32_t slots(pddl::SourceLocation where) const {
+    if (slots_ > kMaxSlots) fail(where, "over " + std::to_string(kMaxSlots) + " variables are not supported");
+    return slots_;
+  }
 
   LiftedAtom atom(PredicateId predicate, const std::vector<pddl::Term>& terms) const {
     LiftedAtom result{predicate, {}};
@@ -232,7 +237,7 @@ LiftedAction lower(const pddl::Action& source, const Symbols& symbols, const std
   lowering.bind_parameters(source.parameters, action);
   action.at_start = lowering.formula(source.precondition, true);
   lower_effects(source.effects, lowering, action.start_effects);
-  action.slots = lowering.slots();
+  action.slots = lowering.slots(source.where);
   return action;
 }
 
@@ -254,7 +259,7 @@ LiftedAction lower(const pddl::DurativeAction& source, const Symbols& symbols, c
     if (!effect.end_condition.is_true())
       lowering.fail(effect.where, "a start effect cannot depend on the end");
   }
-  action.slots = lowering.slots();
+  action.slots = lowering.slots(source.where);
   return action;
 }
 
@@ -280,7 +285,7 @@ LiftedFormula lower_goal(const pddl::Condition& goal, const std::string& file, c
                          std::uint32_t& slots) {
   Lowering lowering(symbols, file, 0);
   LiftedFormula result = lowering.formula(goal, true);
-  slots = lowering.slots();
+  slots = lowering.slots(goal.where);
   return result;
 }
 

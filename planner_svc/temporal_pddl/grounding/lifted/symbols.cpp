@@ -1,5 +1,7 @@
 #include "planner_svc/temporal_pddl/grounding/lifted/symbols.hpp"
 
+#include "core/pddl/total_cost.hpp"
+
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
 using task::ObjectId;
@@ -15,6 +17,7 @@ Symbols::Symbols(const pddl::Domain& domain, const pddl::Problem& problem)
     function_ids_.emplace(signature.name, functions_.push_back(std::move(symbol)));
   };
   for (const auto& signature : domain.functions) declare(signature, "");
+  if (pddl::has_total_cost(domain)) total_cost_ = function(pddl::kTotalCost);
   for (const auto& module : domain.modules) {
     for (const auto& signature : module.functions) declare(signature, module.name);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,9 @@ class Symbols {
   task::FunctionId function(const std::string& name) const { return function_ids_.at(name); }
   std::vector<task::ObjectId> of_types(const std::vector<std::string>& types) const;
 
+  /// Returns the fluent that begins at 0 without being told to, if the domain has it.
+  std::optional<task::FunctionId> total_cost() const { return total_cost_; }
+
   std::size_t objects() const { return objects_.size(); }
   std::size_t predicates() const { return predicate_names_.size(); }
   std::size_t functions() const { return functions_.size(); }
@@ -50,6 +54,7 @@ class Symbols {
   task::IdVector<task::PredicateId, std::string> predicate_names_;
   std::map<std::string, task::FunctionId> function_ids_;
   task::IdVector<task::FunctionId, FunctionSymbol> functions_;
+  std::optional<task::FunctionId> total_cost_;
 };
 
 }  // namespace roci::planner::temporal_pddl::grounding::lifted

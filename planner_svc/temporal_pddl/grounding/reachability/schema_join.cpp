@@ -66,6 +66,12 @@ struct SchemaJoin::Search {
   Binding binding;
   std::vector<const LiftedAtom*> open;
   std::vector<std::size_t> open_fluent;  // position among fluents_, or a large number for statics
+  struct Ticked {
+    std::size_t place;  // in `open` when it was taken out
+    const LiftedAtom* atom;
+    std::size_t position;
+  };
+  std::vector<Ticked> ticked = {};
 
   void add_open(const LiftedAtom& atom, std::size_t position) {
     open.push_back(&atom);
@@ -113,31 +119,67 @@ struct SchemaJoin::Search {
     for (const std::uint32_t slot : bound) binding[slot] = ObjectId();
   }
 
+  bool is_bound(const LiftedAtom& atom) const {
+    return std::ranges::none_of(atom.arguments,
+                                [&](Argument argument) { return resolve(argument, binding).is_none(); });
+  }
+
+  bool matches(const LiftedAtom& atom, std::size_t position, std::span<const std::uint32_t> list) const {
+    return std::ranges::any_of(list, [&](std::uint32_t candidate) {
+      if (candidate == newest && position < trigger) return false;
+      const auto objects = atoms.objects(candidate);
+      for (std::size_t i = 0; i < objects.size(); ++i)
+        if (resolve(atom.arguments[i], binding) != objects[i]) return false;
+      return true;
+    });
+  }
+
+  // Conditions without an open slot are ticked off in a loop, so that the depth of the recursion is the
+  // number of slots, however many conditions there are.
   void extend() {
-    limits.step();
-    if (open.empty()) return bind_rest(0);
-    std::size_t best = 0;
-    auto best_list = candidates(*open[0]);
-    for (std::size_t i = 1; i < open.size() && !best_list.empty(); ++i) {
-      const auto list = candidates(*open[i]);
-      if (list.size() < best_list.size()) {
-        best = i;
-        best_list = list;
+    const std::size_t ticked_before = ticked.size();
+    while (true) {
+      limits.step();
+      if (open.empty()) {
+        bind_rest(0);
+        break;
       }
+      std::size_t best = 0;
+      auto best_list = candidates(*open[0]);
+      for (std::size_t i = 1; i < open.size() && !best_list.empty(); ++i) {
+        const auto list = candidates(*open[i]);
+        if (list.size() < best_list.size()) {
+          best = i;
+          best_list = list;
+        }
+      }
+      const LiftedAtom* atom = open[best];
+      const std::size_t position = open_fluent[best];
+      const bool bound_already = is_bound(*atom);
+      if (bound_already && !matches(*atom, position, best_list)) break;
+      open.erase(open.begin() + static_cast<std::ptrdiff_t>(best));
+      open_fluent.erase(open_fluent.begin() + static_cast<std::ptrdiff_t>(best));
+      ticked.push_back({best, atom, position});
+      if (bound_already) continue;
+      branch(*atom, position, best_list);
+      break;
     }
-    const LiftedAtom* atom = open[best];
-    const std::size_t position = open_fluent[best];
-    open.erase(open.begin() + static_cast<std::ptrdiff_t>(best));
-    open_fluent.erase(open_fluent.begin() + static_cast<std::ptrdiff_t>(best));
+    while (ticked.size() > ticked_before) {
+      const auto [place, atom, position] = ticked.back();
+      ticked.pop_back();
+      open.insert(open.begin() + static_cast<std::ptrdiff_t>(place), atom);
+      open_fluent.insert(open_fluent.begin() + static_cast<std::ptrdiff_t>(place), position);
+    }
+  }
+
+  void branch(const LiftedAtom& atom, std::size_t position, std::span<const std::uint32_t> list) {
     std::vector<std::uint32_t> bound;
-    for (const std::uint32_t candidate : best_list) {
+    for (const std::uint32_t candidate : list) {
       if (candidate == newest && position < trigger) continue;
       bound.clear();
-      if (unify(*atom, atoms.objects(candidate), bound)) extend();
+      if (unify(atom, atoms.objects(candidate), bound)) extend();
       release(bound);
     }
-    open.insert(open.begin() + static_cast<std::ptrdiff_t>(best), atom);
-    open_fluent.insert(open_fluent.begin() + static_cast<std::ptrdiff_t>(best), position);
   }
 
   void bind_rest(std::size_t first) {

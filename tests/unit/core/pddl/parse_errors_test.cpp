@@ -1,4 +1,5 @@
-// Each text is refused at the right place with the right words, and with a remedy.
+// Each text is refused at the right place with the right words, and with a remedy. What tolerant reading takes with a
+// warning (departures_test.cpp) is refused so by strict reading.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,11 +12,21 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-template <typename Parse>
-void expect_refused(const std::string& text, SourceLocation where, const std::string& words, Parse parse) {
+enum class Kind { domain, problem };
+
+void parse(Kind kind, const std::string& text, Strictness strictness) {
+  if (kind == Kind::domain) {
+    parse_domain(text, "some.pddl", strictness);
+  } else {
+    parse_problem(text, "some.pddl", strictness);
+  }
+}
+
+void expect_refused(const std::string& text, SourceLocation where, const std::string& words, Kind kind,
+                    Strictness strictness) {
   SCOPED_TRACE(text);
   try {
-    parse(text, "some.pddl");
+    parse(kind, text, strictness);
     FAIL() << "accepted";
   } catch (const ParseError& error) {
     EXPECT_EQ(error.file(), "some.pddl");
@@ -31,7 +42,17 @@ struct Refused {
   std::string text;
   SourceLocation where;
   std::string words;
+  bool tolerated = false;
 };
+
+void expect_refused(const Refused& refused, Kind kind) {
+  expect_refused(refused.text, refused.where, refused.words, kind, Strictness::strict);
+  if (refused.tolerated) {
+    EXPECT_NO_THROW(parse(kind, refused.text, Strictness::tolerant)) << refused.text;
+  } else {
+    expect_refused(refused.text, refused.where, refused.words, kind, Strictness::tolerant);
+  }
+}
 
 TEST(ParseErrors, OfTheSkeleton) {
   const std::vector<Refused> cases = {
@@ -41,12 +62,12 @@ TEST(ParseErrors, OfTheSkeleton) {
       {")", {1, 1}, "')' without '('"},
       {"(define\n  (domain d)", {1, 1}, "never closed"},
       {"(define (domain d)\n (:types a", {2, 2}, "never closed"},
-      {"(define (domain d)) x", {1, 21}, "after the end"},
+      {"(define (domain d)) x", {1, 21}, "after the end", true},
       {"(define (domain d)\n \x01)", {2, 2}, "0x01"},
       {"(define (domain caf\xc3\xa9))", {1, 20}, "0xc3"},
       {std::string(kMaxNesting + 1, '('), {1, kMaxNesting + 1}, "nested deeper"},
   };
-  for (const Refused& c : cases) expect_refused(c.text, c.where, c.words, parse_domain);
+  for (const Refused& c : cases) expect_refused(c, Kind::domain);
 }
 
 TEST(ParseErrors, OfSections) {
@@ -60,9 +81,12 @@ TEST(ParseErrors, OfSections) {
       {"(define (domain d) (:constraints (p)))", {1, 20}, "trajectory constraints"},
       {"(define (domain d) (:process x))", {1, 20}, "PDDL+"},
       {"(define (domain d) (:event x))", {1, 20}, "PDDL+"},
-      {"(define (domain d) (:requirements :typing :foo))", {1, 43}, "unknown requirement :foo"},
-      {"(define (domain d) (:requirements :preferences))", {1, 35}, ":preferences is not supported"},
-      {"(define (domain d) (:requirements :object-fluents))", {1, 35}, ":object-fluents is not supported"},
+      {"(define (domain d) (:requirements :typing :foo))", {1, 43}, "unknown requirement :foo", true},
+      {"(define (domain d) (:requirements :preferences))", {1, 35}, ":preferences is not supported", true},
+      {"(define (domain d) (:requirements :object-fluents))",
+       {1, 35},
+       ":object-fluents is not supported",
+       true},
       {"(define (domain d) (:requirements (x)))", {1, 35}, "a list"},
       {"(define (domain d) (:types a -))", {1, 30}, "without a type"},
       {"(define (domain d) (:types - a))", {1, 28}, "without a name"},
@@ -79,12 +103,12 @@ TEST(ParseErrors, OfSections) {
       {"(define (domain d) (:modules (:module m (f))))", {1, 41}, "external function"},
       {"(define (domain d) (:derived (p)))", {1, 20}, "head and a body"},
   };
-  for (const Refused& c : cases) expect_refused(c.text, c.where, c.words, parse_domain);
+  for (const Refused& c : cases) expect_refused(c, Kind::domain);
 }
 
 // The text stands on line 7, from column 1.
 void expect_section_refused(const std::string& section, int column, const std::string& words) {
-  expect_refused(domain_text(section), {7, column}, words, parse_domain);
+  expect_refused({domain_text(section), {7, column}, words}, Kind::domain);
 }
 
 TEST(ParseErrors, OfActions) {
@@ -135,9 +159,9 @@ TEST(ParseErrors, OfProblems) {
   const std::vector<Refused> cases = {
       {"(define (problem x) (:init) (:goal ()))", {1, 1}, "no :domain"},
       {"(define (problem x) (:domain d) (:goal ()))", {1, 1}, "no :init"},
-      {"(define (problem x) (:domain d) (:init))", {1, 1}, "no :goal"},
+      {"(define (problem x) (:domain d) (:init))", {1, 1}, "no :goal", true},
       {"(define (problem x) (:domain d) (:domain d))", {1, 33}, "second :domain"},
-      {"(define (problem x) (:domain d)\n(:length (:serial 3)))", {2, 1}, "unknown section"},
+      {"(define (problem x) (:domain d) (:init)\n(:length (:serial 3)))", {2, 1}, "unknown section", true},
       {"(define (problem x) (:constraints (p)))", {1, 21}, "trajectory constraints"},
       {"(define (problem x) (:goal))", {1, 21}, "one condition"},
       {"(define (problem x) (:init (= (f) g)))", {1, 35}, "a number expected"},
@@ -151,7 +175,7 @@ TEST(ParseErrors, OfProblems) {
       {"(define (problem x) (:metric minimize (is-violated a)))", {1, 39}, "preferences"},
       {"(define (problem x) (:metric minimize 1) (:metric minimize 1))", {1, 42}, "second :metric"},
   };
-  for (const Refused& c : cases) expect_refused(c.text, c.where, c.words, parse_problem);
+  for (const Refused& c : cases) expect_refused(c, Kind::problem);
 }
 
 }  // namespace

@@ -449,7 +449,7 @@ TEST_P(PlantedBug, IsFound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Bugs, PlantedBug,
-                         ::testing::Values(testing::Bug::no_owner_leases, testing::Bug::goals_not_merged,
+                         ::testing::Values(testing::Bug::no_owner_leases, testing::Bug::silent_owner_not_held, testing::Bug::goals_not_merged,
                                            testing::Bug::recall_not_merged,
                                            testing::Bug::acknowledges_early));
 

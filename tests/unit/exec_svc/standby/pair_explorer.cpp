@@ -51,6 +51,11 @@ std::vector<std::pair<std::string, Link>> links() {
     out.emplace_back(name + " to all owners", [member](Network& net, bool cut) {
       net.owner_cut[member] = {cut, cut, cut};
     });
+    out.emplace_back(name + " with owner 0 from the other with the rest", [member](Network& net, bool cut) {
+      net.cut = cut;
+      net.owner_cut[member] = {false, cut, cut};
+      net.owner_cut[1 - member] = {cut, false, false};
+    });
     out.emplace_back("the host of " + name, [member](Network& net, bool cut) {
       net.cut = cut;
       net.owner_cut[member] = {cut, cut, cut};

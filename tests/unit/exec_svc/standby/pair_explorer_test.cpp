@@ -52,7 +52,7 @@ TEST_P(Planted, BugIsFound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Bugs, Planted,
-                         ::testing::Values(Bug::no_owner_leases, Bug::goals_not_merged,
+                         ::testing::Values(Bug::no_owner_leases, Bug::silent_owner_not_held, Bug::goals_not_merged,
                                            Bug::recall_not_merged, Bug::acknowledges_early));
 
 }  // namespace

@@ -72,6 +72,7 @@ void PairWorld::start(Member member, bool superseded) {
   process.unsent.clear();
   process.waiting.clear();
   process.late.reset();
+  process.owner_heard.clear();
   process.other.reset();
   process.told_alone.reset();
 }
@@ -165,6 +166,12 @@ void PairWorld::act(Member member) {
     return true;
   });
   for (const Message& message : mine) take(member, message);
+  if (bug_ == Bug::silent_owner_not_held) {
+    std::set<std::string> living;
+    for (const auto& [owner, heard] : process.owner_heard)
+      if (clock(member) - heard <= settings_.term) living.insert(owner);
+    process.lease->require(living.empty() ? owner_names() : living);
+  }
   const Lease::Turn turn = process.lease->turn(process.disk.newest(), clock(member));
   process.disk.persisted_term = process.lease->persisted_term();
   if (turn.change != Lease::Change::none) process.last_change = turn.change;
@@ -203,7 +210,10 @@ void PairWorld::speak(Member member) {
 
 void PairWorld::take(Member member, const Message& message) {
   Process& process = at(member);
-  if (message.word) return process.lease->hear(*message.word, clock(member));
+  if (message.word) {
+    process.owner_heard[message.word->owner] = clock(member);
+    return process.lease->hear(*message.word, clock(member));
+  }
   if (message.message) {
     process.lease->hear(*message.message, clock(member));
     process.other = message.message;

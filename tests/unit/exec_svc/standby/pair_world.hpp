@@ -48,7 +48,14 @@ struct Network {
 };
 
 // What the tests plant to see that they can fail.
-enum class Bug { none, no_owner_leases, goals_not_merged, recall_not_merged, acknowledges_early };
+enum class Bug {
+  none,
+  no_owner_leases,
+  silent_owner_not_held,  // an owner that a member has not heard for longer than its lease counts as dead to it
+  goals_not_merged,
+  recall_not_merged,
+  acknowledges_early
+};
 
 class PairWorld {
  public:
@@ -122,6 +129,7 @@ class PairWorld {
     std::deque<Line> waiting;  // commands without leases
     std::set<int> commanded;   // goals, as its plan knows
     std::optional<Line> late;
+    std::map<std::string, standby::Moment> owner_heard;
     std::optional<standby::LeaseMessage> other;  // newest word of the other, as far as the copy is concerned
     journal::Position fed;                       // up to which lines are under way
     standby::Moment fed_at{0};

@@ -108,6 +108,30 @@ TEST(PlannerService, AMalformedDomainIsToldWithItsPlace) {
   EXPECT_THAT(planning.events()[0].text(), HasSubstr("domain:4:"));
 }
 
+TEST(PlannerService, WhatDepartsFromPddlIsReadAndToldOnce) {
+  RoadPlanning planning;
+  std::string domain = kRoadDomain;
+  domain.replace(domain.find("(at ?p - place)"), 15, "(at ?p - place),");
+  planning.ask(1s, plan_request(domain, road_problem()));
+  planning.ask(20s, plan_request(domain, road_problem()));
+  planning.run_until(100s);
+  ASSERT_EQ(planning.replies().size(), 2U);
+  for (const TimedReply& timed : planning.replies())
+    EXPECT_EQ(timed.result.reply.verdict_code(), v1::VERDICT_SOLVED) << timed.result.reply.reason();
+  ASSERT_EQ(planning.events().size(), 1U);
+  EXPECT_EQ(planning.events()[0].code(), "planner.warning");
+  EXPECT_THAT(planning.events()[0].text(), AllOf(HasSubstr("domain:4:"), HasSubstr("[comma]")));
+}
+
+TEST(PlannerService, WhatIsNotSupportedIsNotCalledInvalid) {
+  RoadPlanning planning;
+  std::string domain = kRoadDomain;
+  domain.insert(domain.rfind(')'), "(:constraints (always (at a)))");
+  const v1::PlanReply reply = reply_to(planning, plan_request(domain, road_problem()));
+  EXPECT_EQ(reply.verdict_code(), v1::VERDICT_UNSUPPORTED);
+  EXPECT_THAT(reply.reason(), HasSubstr("trajectory constraints"));
+}
+
 TEST(PlannerService, AMalformedProblemIsToldWithItsPlace) {
   RoadPlanning planning;
   const v1::PlanReply reply = reply_to(planning, plan_request(kRoadDomain, road_problem("(at nowhere)")));

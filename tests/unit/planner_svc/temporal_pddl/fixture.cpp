@@ -6,8 +6,8 @@
 namespace roci::planner::temporal_pddl::testing {
 
 using call::Budget, call::Monitor, call::Options, call::SearchLimits;
-using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionSource, engine::FunctionUse,
-    engine::FunctionValue, engine::NoFunctions;
+using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionSource, engine::FunctionValue,
+    engine::NoFunctions;
 using grounding::ground;
 using grounding::Grounding;
 using task::ActionId, task::FactId, task::NumberId, task::Task;
@@ -48,8 +48,8 @@ Grounding grounded(const Model& model, const Options& options) {
   const Budget budget;
   const Monitor monitor;
   SearchLimits limits(budget, monitor);
-  std::vector<FunctionUse> used;
-  return ground(model.domain, model.problem, functions, options, limits, used);
+  grounding::GroundingReport report;
+  return ground(model.domain, model.problem, functions, options, limits, report);
 }
 
 Result solved(const Model& model, const Options& options, const Budget& budget) {

@@ -22,6 +22,7 @@ TaskSettings drill() {
   bore.stopped = StateTemplate{"jammed", {}};
   bore.needs = {{"clamp", "closed"}};
   bore.changes = {{"depth", {20, std::nullopt}}, {"bits", {0, 3}}};
+  bore.leaves = {{"hole.{hole}", {"bored", {"{hole}"}}}};
   out.commands = {bore, {"wait", {}, 10, 0.5, 0}};
   return out;
 }
@@ -66,6 +67,54 @@ TEST(TaskComponent, GoesFromStateToStateAndChangesItsNumbers) {
   EXPECT_NEAR(results.energy_j.value(), 5000, 1e-6);
   EXPECT_EQ(results.values.at("depth"), temporal::Value{21.0});
   EXPECT_NEAR(last_number(run.said, "station.battery"), 50000 - 102 * 10 - 5000, 1);
+}
+
+// The clamp is closed at 1 s, and the drill bores from 2 s on, for 100 s at its usual pace.
+Flight boring() {
+  Flight run(station());
+  run.command(seconds(1), execute("c", "clamp", "close"));
+  run.command(seconds(2), execute("b", "drill", "bore", {{"hole", "h1"}}));
+  return run;
+}
+
+TEST(TaskComponent, SlowedByAFaultItTakesLongerAndKeepsWhatItHasDone) {
+  Flight run = boring();
+  run.disturb(seconds(22), world::ComponentFault{"station", "drill", seconds(62), 0.5});
+  run.advance(seconds(62));
+  EXPECT_EQ(run.state("station.drill"), (State{"boring", {"h1"}}));
+  run.advance(seconds(200));
+  EXPECT_EQ(run.time_of("b"), seconds(122)) << "40 s at half the pace cost 20 s";
+  EXPECT_EQ(last_number(run.said, "station.drill.depth"), 21);
+  EXPECT_NEAR(run.last_ack("b")->word.results.energy_j.value(), 120 * 50, 1e-6)
+      << "it draws its power all the time";
+}
+
+TEST(TaskComponent, StuckItGoesOnWhenTheFaultIsOver) {
+  Flight run = boring();
+  run.disturb(seconds(52), world::ComponentFault{"station", "drill", seconds(352), 0});
+  run.advance(seconds(340));
+  EXPECT_NEAR(last_number(run.said, "station.drill.depth"), 11, 1e-9);
+  EXPECT_EQ(run.state("station.drill"), (State{"boring", {"h1"}}));
+  run.advance(seconds(500));
+  EXPECT_EQ(run.time_of("b"), seconds(402));
+  run.command(seconds(501), execute("w", "drill", "wait"));
+  run.advance(seconds(600));
+  EXPECT_LE(run.time_of("w"), seconds(501 + 30)) << "a later task has its usual pace";
+}
+
+TEST(TaskComponent, SlowedSoMuchThatItEndsWhileTheFaultLasts) {
+  Flight run = boring();
+  run.disturb(seconds(3), world::ComponentFault{"station", "drill", seconds(9000), 0.25});
+  run.advance(seconds(9000));
+  EXPECT_EQ(run.time_of("b"), seconds(2 + 1 + 4 * 99));
+}
+
+TEST(TaskComponent, LeavesThingsInAStateOnceItIsDone) {
+  Flight run = boring();
+  run.advance(seconds(101));
+  EXPECT_FALSE(last_value(run.said, "station.hole.h1").has_value());
+  run.advance(seconds(102));
+  EXPECT_EQ(last_value(run.said, "station.hole.h1"), temporal::state("bored", {"h1"}));
 }
 
 TEST(TaskComponent, NeedsOtherPartsInTheirStates) {

@@ -380,5 +380,36 @@ TEST(World, NumbersComeOftenWhileItMovesAndSeldomWhileItRests) {
   EXPECT_NEAR(count(), 71, 1);
 }
 
+// As a robot that outlives the process that speaks for it.
+TEST(World, GoesOnFromTheMemoryOfAnotherOne) {
+  Flight before(flat_setup());
+  before.drive(seconds(5), "d", "there", 40, 20);
+  before.advance(seconds(400));
+  before.command(seconds(401), execute("i", "camera", "image", {{"image", "rock"}}));
+  before.advance(seconds(500));
+  before.move_arm(seconds(501), "m", "stow", "sampling", {0, 1, 0, 0, 0.5}, 20);
+  before.advance(seconds(600));
+  before.command(seconds(601), execute("p", "gripper", "pick", {{"sample", "soil"}, {"place", "there"}}));
+  before.advance(seconds(700));
+  ASSERT_EQ(before.stage("p"), Stage::completed);
+  before.command(seconds(701), execute("p2", "camera", "image", {{"image", "cut off"}}));
+  before.advance(seconds(702));
+
+  World after(flat_setup().build(), 1);
+  after.restore(before.world.memory());
+  const Outputs said = after.advance(seconds(720));
+  EXPECT_EQ(last_value(said, "rover.image.rock"), Value(State{"stored", {}}));
+  EXPECT_EQ(last_value(said, "rover.image.cut off"), std::nullopt) << "it was being taken";
+  EXPECT_EQ(last_value(said, "rover.camera"), Value(State{"idle", {}}));
+  EXPECT_EQ(last_value(said, "rover.nav"), Value(State{"idle-at", {"there"}}));
+  EXPECT_EQ(last_value(said, "rover.arm"), Value(State{"idle-pose", {"sampling"}}));
+  EXPECT_EQ(last_value(said, "rover.gripper"), Value(State{"holding", {"soil"}}));
+  EXPECT_EQ(last_value(said, "rover.sample.soil"), Value(State{"held", {}}));
+  EXPECT_EQ(last_number(said, "rover.x"), 40);
+  EXPECT_NEAR(last_number(said, "rover.arm.q1"), 1, 0.02);
+  const double then = before.world.memory().robots.at("rover").energy_j.value();
+  EXPECT_NEAR(after.memory().robots.at("rover").energy_j.value(), then - 18 * 14, 2) << "the idle power of 18 s";
+}
+
 }  // namespace
 }  // namespace roci::sim::world

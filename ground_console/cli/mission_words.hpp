@@ -1,0 +1,38 @@
+// What a mission file says to people: its goal kinds with help and example, and the units of its timelines.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace roci::console::cli {
+
+struct GoalKindWords {
+  std::string name;
+  std::string help;
+  std::vector<std::pair<std::string, std::string>> arguments;  ///< name and kind: number, text, goal
+  std::map<std::string, std::string> example;  ///< a value for each argument, as far as the mission says
+};
+
+struct MissionWords {
+  std::string name;
+  std::vector<GoalKindWords> goal_kinds;
+  std::map<std::string, std::string> units;  ///< by timeline, "rover.battery" → "J"; a name may end in *
+
+  /// Empty for a timeline that has none.
+  std::string unit_of(const std::string& timeline) const;
+};
+
+/// Reads mission.yaml of that folder. Throws mission::FileError.
+MissionWords read_mission_words(const std::filesystem::path& folder_or_file);
+
+/// The command that asks for a goal of the kind, with the example's values or a placeholder for each argument.
+std::string example_of(const GoalKindWords& kind);
+
+std::string goal_kinds_text(const MissionWords& words);
+nlohmann::json goal_kinds_json(const MissionWords& words);
+
+}  // namespace roci::console::cli

@@ -1,0 +1,93 @@
+#include "ground_console/cli/plan_table.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "core/temporal/schedule.hpp"
+#include "ground_console/cli/table.hpp"
+#include "services/wire/plan_wire.hpp"
+
+namespace roci::console::cli {
+namespace {
+
+using Schedule = std::optional<std::vector<temporal::Duration>>;
+
+// Of a plan that no executive sends: none.
+Schedule schedule_of(const v1::Plan& plan) {
+  try {
+    const temporal::FlexiblePlan from = services::wire::from_wire(plan);
+    if (!temporal::check(from).empty()) return std::nullopt;
+    return temporal::earliest_schedule(from.point_count, temporal::all_constraints(from));
+  } catch (const services::wire::WireError&) {
+    return std::nullopt;
+  }
+}
+
+std::int64_t start_in(const Schedule& schedule, const v1::Plan& plan, const v1::PlanActivity& activity) {
+  if (!schedule || activity.start_point() >= schedule->size()) return -1;
+  return plan.origin_us() + (*schedule)[activity.start_point()].count();
+}
+
+std::string joined(const std::vector<std::string>& words, const char* between) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
+  return out;
+}
+
+std::string arguments_of(const v1::PlanActivity& activity) {
+  std::vector<std::string> words;
+  for (const v1::Property& argument : activity.arguments())
+    words.push_back(argument.name().empty() ||
+                            std::isdigit(static_cast<unsigned char>(argument.name()[0])) != 0
+                        ? argument.value()
+                        : argument.name() + "=" + argument.value());
+  return joined(words, " ");
+}
+
+std::string window_of(const v1::StepStatus* step) {
+  if (step == nullptr || step->state() != v1::ACTIVITY_WAITING) return "";
+  const std::string from = lib::clock_text(step->earliest_start_us());
+  const bool open = step->latest_start_us() < 0 || step->latest_start_us() >= std::int64_t{1} << 60;
+  return from + "–" + (open ? "" : lib::clock_text(step->latest_start_us()));
+}
+
+std::string executed_of(const v1::StepStatus* step) {
+  if (step == nullptr || step->started_us() < 0) return "";
+  return lib::clock_text(step->started_us()) + "–" +
+         (step->ended_us() < 0 ? "" : lib::clock_text(step->ended_us()));
+}
+
+std::string duration_of(const v1::PlanActivity& activity) {
+  return lib::value_text(static_cast<double>(activity.duration_lower_us() / 100'000) / 10) + " s";
+}
+
+}  // namespace
+
+std::int64_t planned_start_us(const v1::Plan& plan, const v1::PlanActivity& activity) {
+  return start_in(schedule_of(plan), plan, activity);
+}
+
+std::string plan_table(const lib::MissionView& view) {
+  if (!view.plan()) return "no plan yet\n";
+  const v1::Plan& plan = *view.plan();
+  const Schedule schedule = schedule_of(plan);
+  std::vector<const v1::PlanActivity*> order;
+  for (const v1::PlanActivity& activity : plan.activities()) order.push_back(&activity);
+  std::ranges::stable_sort(
+      order, {}, [&](const v1::PlanActivity* activity) { return start_in(schedule, plan, *activity); });
+  std::vector<std::vector<std::string>> rows{
+      {"ACTIVITY", "WHAT", "ARGUMENTS", "STATE", "PLANNED", "TAKES", "WINDOW", "EXECUTED", "GOALS"}};
+  for (const v1::PlanActivity* activity : order) {
+    const v1::StepStatus* step = view.step(activity->id());
+    const std::int64_t start = start_in(schedule, plan, *activity);
+    rows.push_back({activity->id(), activity->name(), arguments_of(*activity),
+                    step == nullptr ? "waiting" : lib::name_of(step->state()),
+                    start < 0 ? "" : lib::clock_text(start), duration_of(*activity), window_of(step),
+                    executed_of(step), joined(activity->goals_served(), ", ")});
+  }
+  return "plan " + std::to_string(plan.version()) + ", from " + lib::clock_text(plan.origin_us()) + ", now " +
+         lib::clock_text(view.now_us()) + "\n\n" + table_text(rows);
+}
+
+}  // namespace roci::console::cli

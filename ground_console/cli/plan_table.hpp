@@ -1,0 +1,18 @@
+// The running plan as a table: what, with which arguments, when, and for which goals.
+#pragma once
+
+#include <string>
+
+#include "ground_console/lib/mission_view.hpp"
+
+namespace roci::console::cli {
+
+/// A row for each activity, in the order of their starts. `planned` is its start in the schedule of earliest times that the
+/// plan came with and its least duration, `window` when it may start as things stand, `executed` when it did start and end.
+/// "no plan yet" without a plan.
+std::string plan_table(const lib::MissionView& view);
+
+/// Mission time in microseconds at which an activity starts in the plan's schedule of earliest times; -1 without one.
+std::int64_t planned_start_us(const v1::Plan& plan, const v1::PlanActivity& activity);
+
+}  // namespace roci::console::cli

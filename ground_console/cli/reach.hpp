@@ -1,0 +1,23 @@
+// The verb `roci reach`: whether a robot gets to a place, how long it takes, and how much energy.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "ground_console/lib/client.hpp"
+
+namespace roci::console::cli {
+
+struct ReachArguments {
+  double x_m = 0;
+  double y_m = 0;
+  std::optional<double> from_x_m;  ///< where the way begins; by default where the robot is
+  std::optional<double> from_y_m;
+  std::string robot;                     ///< empty: the only one that is observed
+  std::string service = "pathplan_svc";  ///< that is asked
+};
+
+/// Asks the mission's path planner, and changes nothing. Returns an exit code: there is a way, or there is none (kRefused).
+int show_reach(lib::Client& client, const ReachArguments& arguments, bool json);
+
+}  // namespace roci::console::cli

@@ -1,0 +1,80 @@
+#include "planner_svc/temporal_pddl/adapter/owners_verdicts.hpp"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+namespace roci::planner::temporal_pddl::adapter {
+
+using engine::FunctionOutcome, engine::FunctionUse, engine::Object;
+
+namespace {
+
+std::set<std::string> objects_in(const std::vector<std::string>& facts) {
+  std::set<std::string> out;
+  for (std::string fact : facts) {
+    std::ranges::replace_if(
+        fact, [](char c) { return c == '(' || c == ')'; }, ' ');
+    std::istringstream words(fact);
+    for (std::string word; words >> word;) out.insert(word);
+  }
+  return out;
+}
+
+// With the objects that stand beside one of them in a fact that holds at the beginning.
+std::set<std::string> with_neighbours(const std::set<std::string>& named, const pddl::Problem& problem) {
+  std::set<std::string> out = named;
+  for (const pddl::Atom& fact : problem.facts) {
+    const auto is_named = [&](const pddl::Term& term) { return named.contains(term.name); };
+    if (std::ranges::none_of(fact.arguments, is_named)) continue;
+    for (const pddl::Term& term : fact.arguments) out.insert(term.name);
+  }
+  return out;
+}
+
+std::string described(const std::string& name, const std::vector<Object>& objects) {
+  const auto object = std::ranges::find(objects, name, &Object::name);
+  if (object == objects.end() || object->properties.empty()) return name;
+  std::string properties;
+  for (const temporal::Property& property : object->properties) {
+    std::string value = property.value;
+    if (value.find('.') != std::string::npos) value.erase(value.find_last_not_of('0') + 1);
+    if (value.ends_with('.')) value.pop_back();
+    properties += (properties.empty() ? "" : " ") + property.name + "=" + value;
+  }
+  return name + " (" + properties + ")";
+}
+
+// The last use that speaks against the object as the goal of the way; null if some tuple with it has a value.
+const FunctionUse* use_against(const std::string& object, std::span<const FunctionUse> uses) {
+  const FunctionUse* out = nullptr;
+  for (const FunctionUse& use : uses) {
+    const auto& arguments = use.call.arguments;
+    const bool of_others =
+        std::ranges::any_of(arguments, [&](const std::string& one) { return one != object; });
+    if (arguments.empty() || arguments.back() != object || !of_others) continue;
+    if (use.answer.outcome != FunctionOutcome::unreachable) return nullptr;
+    out = &use;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string words_against(const std::vector<std::string>& facts, const pddl::Problem& problem,
+                          const std::vector<Object>& objects, std::span<const FunctionUse> uses) {
+  for (const std::string& object : with_neighbours(objects_in(facts), problem)) {
+    const FunctionUse* use = use_against(object, uses);
+    if (use == nullptr) continue;
+    const engine::Provenance& said = use->answer.provenance;
+    const std::string about = object + ": ";
+    if (use->answer.reason.starts_with(about))
+      return described(object, objects) + ": " + use->answer.reason.substr(about.size()) + " (says " +
+             said.owner + ", model " + said.model_version + ")";
+    return said.owner + " finds no " + use->call.function + " to " + described(object, objects) +
+           " on its model " + said.model_version;
+  }
+  return "";
+}
+
+}  // namespace roci::planner::temporal_pddl::adapter

@@ -1,0 +1,22 @@
+// What owners of external functions say against the objects of a goal that is out of reach, in the words of the mission.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/pddl/ast.hpp"
+#include "planner_svc/engine/function_source.hpp"
+#include "planner_svc/engine/request.hpp"
+
+namespace roci::planner::temporal_pddl::adapter {
+
+/// One sentence: an object that the facts name, or that a fact of the problem joins with one of these, and for which the
+/// owner of a function gave no value with any other object. Empty: there is no such object. E.g. "place-far (x=190 y=60):
+/// the rover cannot stand there (steep), says pathplan_svc of its model 1", or without words of the owner "pathplan_svc finds
+/// no traverse_time to place-far (x=190 y=60) on its model 1".
+std::string words_against(const std::vector<std::string>& facts, const pddl::Problem& problem,
+                          const std::vector<engine::Object>& objects,
+                          std::span<const engine::FunctionUse> uses);
+
+}  // namespace roci::planner::temporal_pddl::adapter

@@ -1,0 +1,84 @@
+#include "planner_svc/temporal_pddl/cli/read_model.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "core/pddl/check.hpp"
+#include "core/pddl/forbidden.hpp"
+#include "core/pddl/parser.hpp"
+
+namespace roci::planner::temporal_pddl::cli {
+
+using temporal::Verdict;
+
+namespace {
+
+// Collects what is wrong with the files, one after the other.
+class Refusal {
+ public:
+  template <typename Read>
+  void attempt(Read read) {
+    try {
+      read();
+    } catch (const pddl::ParseError& error) {
+      add(error);
+    }
+  }
+
+  void add(const pddl::ParseError& error) {
+    text_ += (text_.empty() ? "" : "\n") + std::string(error.what());
+    unsupported_ = unsupported_ || error.unsupported();
+    findings_.insert(findings_.end(), error.diagnostics().begin(), error.diagnostics().end());
+  }
+
+  void throw_findings() const {
+    if (findings_.empty()) return;
+    throw ModelRefused(text_, findings_, unsupported_ ? Verdict::unsupported : Verdict::invalid_input);
+  }
+
+ private:
+  std::string text_;
+  std::vector<pddl::Diagnostic> findings_;
+  bool unsupported_ = false;
+};
+
+}  // namespace
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file || std::filesystem::is_directory(path)) {
+    throw pddl::ParseError({path, {}, "cannot be read", "check the path and its permissions"});
+  }
+  return text;
+}
+
+Model read_model(const std::string& domain, const std::string& problem, pddl::Strictness strictness) {
+  Refusal refusal;
+  std::optional<pddl::Domain> read;
+  refusal.attempt([&] { read = pddl::load_domain(read_file(domain), domain, strictness); });
+  Model model;
+  refusal.attempt([&] {
+    const std::string text = read_file(problem);
+    // Without its domain, only its form can be told.
+    model.problem = read ? pddl::load_problem(text, problem, *read, strictness)
+                         : pddl::parse_problem(text, problem, strictness);
+  });
+  refusal.throw_findings();
+  model.domain = std::move(*read);
+  if (auto forbidden = pddl::forbidden_effects(model.domain, model.problem); !forbidden.empty())
+    refusal.add(pddl::ParseError(std::move(forbidden)));
+  refusal.throw_findings();
+  return model;
+}
+
+std::vector<pddl::Diagnostic> warnings_of(const Model& model) {
+  std::vector<pddl::Diagnostic> all = model.domain.warnings;
+  all.insert(all.end(), model.problem.warnings.begin(), model.problem.warnings.end());
+  return all;
+}
+
+}  // namespace roci::planner::temporal_pddl::cli

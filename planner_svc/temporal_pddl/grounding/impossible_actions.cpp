@@ -1,0 +1,70 @@
+#include "planner_svc/temporal_pddl/grounding/impossible_actions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "planner_svc/temporal_pddl/constraints/orderings.hpp"
+
+namespace roci::planner::temporal_pddl::grounding {
+
+using constraints::Orderings, constraints::StepConstraint;
+using instantiation::GroundAction, instantiation::GroundLiteral, instantiation::GroundModel,
+    instantiation::ImpossibleAction;
+using task::Action, task::ActionId, task::SnapId, task::Task;
+using temporal::Duration;
+
+namespace {
+
+std::optional<GroundLiteral> broken_by_own_start(const GroundModel& model, const GroundAction& action) {
+  if (!action.durative || action.min_duration <= Duration{0}) return std::nullopt;
+  for (const GroundLiteral literal : action.over_all.literals) {
+    const auto& against = literal.negated ? action.start_effects.adds : action.start_effects.deletes;
+    if (!model.derived[literal.atom] && std::ranges::binary_search(against, literal.atom)) return literal;
+  }
+  return std::nullopt;
+}
+
+ImpossibleAction note_of(const GroundAction& action) {
+  ImpossibleAction note{action.schema, action.arguments, action.start_effects.adds, {}, action.max_duration};
+  const auto& adds = action.end_effects.adds;
+  note.adds.insert(note.adds.end(), adds.begin(), adds.end());
+  return note;
+}
+
+}  // namespace
+
+void drop_self_defeating(GroundModel& model) {
+  std::erase_if(model.actions, [&](const GroundAction& action) {
+    const auto broken = broken_by_own_start(model, action);
+    if (!broken) return false;
+    model.impossible_actions.push_back(note_of(action));
+    model.impossible_actions.back().broken = broken;
+    return true;
+  });
+}
+
+bool drop_shorter_than_separation(GroundModel& model, const Task& task, Duration epsilon) {
+  std::optional<Orderings> orderings;
+  std::vector<bool> dropped;
+  for (std::size_t i = 0; i < task.actions.size(); ++i) {
+    const Action& action = task.actions[ActionId(i)];
+    if (action.instantaneous() || action.max_duration >= epsilon) continue;
+    if (!orderings) orderings.emplace(task, epsilon);
+    std::vector<StepConstraint> apart;
+    orderings->add(std::array{action.start}, action.end, {}, apart);
+    if (std::ranges::none_of(apart,
+                             [&](const StepConstraint& one) { return one.lower > action.max_duration; }))
+      continue;
+    dropped.resize(task.actions.size(), false);
+    dropped[i] = true;
+    model.impossible_actions.push_back(note_of(model.actions[i]));
+  }
+  if (dropped.empty()) return false;
+  std::size_t i = 0;
+  std::erase_if(model.actions, [&](const GroundAction&) { return dropped[i++]; });
+  return true;
+}
+
+}  // namespace roci::planner::temporal_pddl::grounding

@@ -1,0 +1,214 @@
+#include "rehearsal/check/dry_plan.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "core/pddl/ast.hpp"
+#include "exec_svc/beliefs/beliefs.hpp"
+#include "exec_svc/mission/template_text.hpp"
+#include "exec_svc/problem/problem_writer.hpp"
+#include "planner_svc/engine/checked_answer.hpp"
+#include "planner_svc/engines.hpp"
+#include "rehearsal/check/scenario_check.hpp"
+#include "services/clock/wall.hpp"
+#include "sim_svc/world/world.hpp"
+
+namespace roci::rehearsal::check {
+
+using exec::goals::GoalRequest, exec::goals::GoalSet, exec::goals::GoalState;
+using exec::mission::Component, exec::mission::GoalKind, exec::mission::MissionModel;
+using planner::engine::Answer, planner::engine::Request;
+using sim::scenario::GoalStimulus;
+using temporal::Verdict;
+
+namespace {
+
+constexpr std::size_t kTries = 3;                     // goals of a kind
+constexpr std::uint64_t kWork = 20000;                // evaluations, for a mission without a budget
+constexpr auto kPatience = std::chrono::seconds(20);  // of wall time, for one plan
+
+// A goal of a scenario, with those that its arguments name before it.
+struct Candidate {
+  const CheckedScenario* scenario;
+  std::vector<GoalRequest> goals;  // the last one is the goal itself
+};
+
+std::vector<GoalRequest> goals_of(const CheckedScenario& scenario, const MissionModel& model) {
+  std::vector<GoalRequest> out;
+  for (const auto& stimulus : scenario.run.scenario.stimuli) {
+    const auto* goal = std::get_if<GoalStimulus>(&stimulus.what);
+    if (goal == nullptr || addressee(model.role, goal->robot) != exec::mission::Addressee::this_one) continue;
+    GoalRequest request = request_of(*goal);
+    request.opens = request.closes = temporal::Time{};
+    out.push_back(std::move(request));
+  }
+  return out;
+}
+
+// Puts the goals that `goal` names before it, and it at the end.
+void add_with_named(const GoalRequest& goal, const std::vector<GoalRequest>& all, const MissionModel& model,
+                    std::vector<GoalRequest>& out) {
+  if (std::ranges::find(out, goal) != out.end()) return;
+  const auto kind = model.goal_kinds.find(goal.kind);
+  if (kind == model.goal_kinds.end()) return;
+  for (const auto& [name, type] : kind->second.arguments) {
+    const auto value = goal.arguments.find(name);
+    if (type != exec::mission::ArgumentKind::goal || value == goal.arguments.end()) continue;
+    for (const GoalRequest& other : all)
+      if (other.key.id == value->second && !(other == goal)) add_with_named(other, all, model, out);
+  }
+  out.push_back(goal);
+}
+
+std::vector<Candidate> candidates(const CheckedMission& mission, const MissionModel& model,
+                                  const GoalKind& kind) {
+  std::vector<Candidate> out;
+  const CheckedScenario* any = nullptr;
+  for (const CheckedScenario& scenario : mission.scenarios) {
+    if (any == nullptr) any = &scenario;
+    const auto all = goals_of(scenario, model);
+    for (const GoalRequest& goal : all) {
+      if (goal.kind != kind.name) continue;
+      Candidate& candidate = out.emplace_back(Candidate{&scenario, {}});
+      add_with_named(goal, all, model, candidate.goals);
+    }
+  }
+  if (out.empty() && any != nullptr && kind.arguments.empty()) {
+    GoalRequest goal;
+    goal.key = {"ground", "check"};
+    goal.robot = model.role.robot;
+    goal.kind = kind.name;
+    out.push_back({any, {std::move(goal)}});
+  }
+  return out;
+}
+
+exec::beliefs::Beliefs first_beliefs(const MissionModel& model, const CheckedScenario& scenario) {
+  exec::beliefs::Beliefs beliefs(model);
+  sim::world::World world(scenario.run.world, 1);
+  for (const auto& output : world.advance(temporal::Time{}))
+    if (const auto* observed = std::get_if<sim::world::Observed>(&output))
+      beliefs.observe(observed->timeline, observed->value);
+  for (const Component* component : beliefs.unobserved()) {
+    const auto rest = std::ranges::find(component->states, false, &exec::mission::StateModel::active);
+    if (rest != component->states.end()) beliefs.observe(component->timeline, temporal::state(rest->name));
+  }
+  return beliefs;
+}
+
+Request request_for(const MissionModel& model, const exec::problem::Problem& problem) {
+  Request out;
+  out.engine = model.planner.engine;
+  out.robot = model.role.robot;
+  out.origin = model.planner.allowance;
+  out.model = model.model_text;
+  out.problem_text = problem.text;
+  out.state = problem.state;
+  for (const auto& goal : problem.goals) {
+    planner::engine::Goal& wanted = out.goals.emplace_back();
+    wanted.issuer = goal.key.issuer;
+    wanted.id = goal.key.id;
+    wanted.achieved = goal.achieved;
+  }
+  for (const auto& object : problem.objects)
+    out.objects.push_back({object.name, object.type, object.properties});
+  out.work = model.planner.work != 0 ? model.planner.work : kWork;
+  out.memory_bytes = static_cast<std::size_t>(model.planner.memory_mb) << 20U;
+  return out;
+}
+
+Answer planned(const MissionModel& model, const Candidate& candidate, AskedOwners& owners) {
+  auto beliefs = first_beliefs(model, *candidate.scenario);
+  GoalSet goals(model);
+  for (const GoalRequest& goal : candidate.goals) {
+    const auto taken = goals.submit(goal, temporal::Time{});
+    if (taken.record->state == GoalState::rejected)
+      return planner::engine::without_plan(Verdict::invalid_input, taken.record->reason);
+    const auto values = template_values(goal);
+    for (const auto& [timeline, facts] : model.goal_kinds.at(goal.kind).unobserved) {
+      std::vector<std::string> filled;
+      for (const std::string& fact : facts) filled.push_back(exec::mission::fill_names(fact, values));
+      beliefs.assume(exec::mission::fill_names(timeline, values), std::move(filled));
+    }
+  }
+  const auto problem =
+      exec::problem::write_problem(model, beliefs, goals, "check", temporal::Time{}, model.planner.allowance);
+  if (!problem.left_out.empty())
+    return planner::engine::without_plan(
+        Verdict::invalid_input,
+        "the problem cannot hold " + problem.left_out.front().part + ": " + problem.left_out.front().why);
+  if (!problem.unusable_goals.empty())
+    return planner::engine::without_plan(Verdict::invalid_input, problem.unusable_goals.front().why);
+  const Request request = request_for(model, problem);
+  owners.begin(request);
+  const auto begun = services::clock::wall_now();
+  planner::engine::Limits limits;
+  limits.out_of_time = [begun] { return services::clock::wall_now() - begun > kPatience; };
+  return answer_checked(planner::engines(), request, limits, owners);
+}
+
+// What stands in the way, at the kind's entry.
+void tell(const mission::Entry& kind, const std::string& name, const Candidate& candidate,
+          const Answer& answer) {
+  std::string reason = answer.reason;
+  for (std::size_t at = reason.find("; "); at != std::string::npos; at = reason.find("; ", at))
+    reason.replace(at, 2, ", ");
+  kind.complain("no plan achieves a goal of kind '" + name + "' (goal '" + candidate.goals.back().key.id +
+                "' of scenario '" + candidate.scenario->name + "'): " + to_string(answer.verdict) + ", " +
+                reason + "; check its facts, the domain's actions, the place, and the scenario's start");
+}
+
+std::string why_not_tried(const CheckedMission& mission, const MissionModel& model) {
+  if (mission.world.empty()) return "the world is not sim_svc's";
+  if (!model.domain) return "engine '" + model.planner.engine + "' reads no PDDL";
+  if (!planner::engines().contains(model.planner.engine))
+    return "engine '" + model.planner.engine + "' is not linked here";
+  return "";
+}
+
+// Modules that only a program of the mission's owner can offer cannot be asked for here.
+std::string why_no_functions(const CheckedMission& mission, const MissionModel& model, const Answer& answer) {
+  const bool own =
+      answer.verdict == Verdict::function_unavailable && !mission.closed && !model.domain->modules.empty();
+  return own ? "a program of the mission's own answers: " + answer.reason : "";
+}
+
+}  // namespace
+
+DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners) {
+  DryPlans out;
+  const MissionModel& model = executive.model;
+  const auto kinds = executive.file.find("goal_kinds");
+  const std::string why = why_not_tried(mission, model);
+  for (const auto& [name, kind] : model.goal_kinds) {
+    if (!why.empty()) {
+      out.not_tried.push_back({name, why});
+      continue;
+    }
+    const auto tries = candidates(mission, model, kind);
+    if (tries.empty()) out.not_tried.push_back({name, "no scenario asks for one"});
+    std::optional<Answer> first;
+    for (std::size_t i = 0; i < std::min(kTries, tries.size()); ++i) {
+      Answer answer = planned(model, tries[i], owners);
+      if (answer.verdict == Verdict::solved) {
+        out.planned.push_back({name, tries[i].scenario->name, tries[i].goals.back().key.id,
+                               answer.plan ? answer.plan->activities.size() : 0});
+        first.reset();
+        break;
+      }
+      if (i == 0) first = std::move(answer);
+    }
+    if (!first) continue;
+    if (std::string unasked = why_no_functions(mission, model, *first); !unasked.empty()) {
+      out.not_tried.push_back({name, std::move(unasked)});
+    } else {
+      tell(kinds->at(name), name, tries.front(), *first);
+    }
+  }
+  return out;
+}
+
+}  // namespace roci::rehearsal::check

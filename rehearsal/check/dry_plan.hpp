@@ -1,0 +1,38 @@
+// Whether each goal kind of a mission can be planned at all, from where its scenarios begin.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rehearsal/check/asked_owners.hpp"
+#include "rehearsal/check/checked_mission.hpp"
+
+namespace roci::rehearsal::check {
+
+/// A goal kind for which a plan was made.
+struct PlannedKind {
+  std::string kind;
+  std::string scenario;
+  std::string goal;  ///< id
+  std::size_t activities = 0;
+};
+
+/// A goal kind that was not tried, and why.
+struct UnplannedKind {
+  std::string kind;
+  std::string why;
+};
+
+struct DryPlans {
+  std::vector<PlannedKind> planned;
+  std::vector<UnplannedKind> not_tried;
+};
+
+/// Plans one goal of each kind (those that it names with it), with the mission's engine and budget, from the first
+/// observations of the simulated world; of the scenarios' goals of a kind the first few, until one is planned. Their
+/// windows do not count. A component that is not simulated is taken to be in its first inactive state. A
+/// kind of which none can be planned is a finding at its entry in the mission file. Goal kinds of missions whose
+/// engine or world is not linked here are not tried.
+DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners);
+
+}  // namespace roci::rehearsal::check

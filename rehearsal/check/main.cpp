@@ -1,0 +1,112 @@
+// roci-check finds what is wrong with a mission without flying it; see README.md in this folder.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "core/mission/entry.hpp"
+#include "rehearsal/check/mission_check.hpp"
+#include "services/process/mission_folder.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace check = roci::rehearsal::check;
+using roci::mission::Finding, roci::mission::Severity;
+
+// docs/exit-codes.md lists these under "Checks".
+enum ExitCode { kNothingFound = 0, kFound = 1, kBadInput = 2, kDefect = 3 };
+
+const char* to_string(Severity severity) { return severity == Severity::error ? "error" : "warning"; }
+
+// As seen from the working folder, if it lies below.
+std::string short_name(const std::string& file) {
+  if (file.empty()) return file;
+  const fs::path near = fs::path(file).lexically_proximate(fs::current_path());
+  return near.empty() || *near.begin() == ".." ? file : near.string();
+}
+
+nlohmann::json as_json(const check::CheckReport& report, const fs::path& mission) {
+  nlohmann::json out{{"mission", mission.filename().string()},
+                     {"scenarios", report.scenarios},
+                     {"findings", nlohmann::json::array()},
+                     {"planned", nlohmann::json::array()},
+                     {"not_planned", nlohmann::json::array()}};
+  for (const Finding& one : report.findings.sorted())
+    out["findings"].push_back({{"file", one.file},
+                               {"line", one.line},
+                               {"column", one.column},
+                               {"severity", to_string(one.severity)},
+                               {"what", one.what},
+                               {"remedy", one.remedy}});
+  for (const check::PlannedKind& one : report.plans.planned)
+    out["planned"].push_back(
+        {{"kind", one.kind}, {"scenario", one.scenario}, {"goal", one.goal}, {"activities", one.activities}});
+  for (const check::UnplannedKind& one : report.plans.not_tried)
+    out["not_planned"].push_back({{"kind", one.kind}, {"why", one.why}});
+  return out;
+}
+
+std::string counted(std::size_t count, const std::string& one, const std::string& several) {
+  return std::to_string(count) + " " + (count == 1 ? one : several);
+}
+
+void print(const check::CheckReport& report, const fs::path& mission) {
+  for (Finding one : report.findings.sorted()) {
+    one.what = std::string(to_string(one.severity)) + ": " + one.what;
+    one.file = short_name(one.file);
+    std::cout << one.text() << "\n";
+    if (!one.remedy.empty()) std::cout << "    " << one.remedy << "\n";
+  }
+  for (const check::UnplannedKind& one : report.plans.not_tried)
+    std::cout << "goal kind '" << one.kind << "' was not planned: " << one.why << "\n";
+  const std::size_t count = report.findings.size();
+  std::cout << mission.filename().string() << ": "
+            << counted(report.scenarios.size(), "scenario", "scenarios") << " read, "
+            << counted(report.plans.planned.size(), "goal kind", "goal kinds") << " planned, "
+            << (count == 0 ? "nothing found" : counted(count, "finding", "findings"))
+            << (count == 0 ? "" : "; goals are planned when nothing else is wrong") << "\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string name;
+  std::string scenario;
+  bool json = false;
+  CLI::App app(
+      "Finds what is wrong with a mission without flying it: reads mission.yaml, the files that it names and "
+      "every "
+      "scenario, asks the owners of functions, and plans a goal of each kind",
+      "roci-check");
+  app.add_option("mission", name, "Mission folder, or the name of an installed mission")->required();
+  app.add_option("--scenario", scenario, "Read this scenario alone (default: all)");
+  app.add_flag("--json", json, "One JSON object instead of lines");
+  app.footer(
+      "Exit code: 0 nothing found, 1 findings, 2 wrong command line or no such mission, 3 a defect of this "
+      "program.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kNothingFound : kBadInput;
+  }
+  try {
+    const fs::path mission = roci::services::process::mission_folder(name);
+    const check::CheckReport report = check::check_mission(mission, scenario);
+    if (json) {
+      std::cout << as_json(report, mission).dump() << "\n";
+    } else {
+      print(report, mission);
+    }
+    return report.findings.size() == 0 ? kNothingFound : kFound;
+  } catch (const roci::mission::FileError& error) {
+    std::cerr << "roci-check: " << error.what() << "\n";
+    return kBadInput;
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "roci-check: " << error.what() << "\n";
+    return kBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << "roci-check: " << error.what() << "\n";
+    return kDefect;
+  }
+}

@@ -1,0 +1,136 @@
+#include "rehearsal/check/mission_check.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <functional>
+#include <optional>
+
+#include "core/mission/mission_file.hpp"
+#include "core/mission/nearest_word.hpp"
+#include "core/mission/scenario.hpp"
+#include "rehearsal/check/action_check.hpp"
+#include "rehearsal/check/component_check.hpp"
+#include "rehearsal/check/goal_kind_check.hpp"
+#include "rehearsal/check/scenario_check.hpp"
+#include "rehearsal/check/words.hpp"
+#include "rehearsal/flight.hpp"
+#include "science_svc/detector_file.hpp"
+#include "services/link/link_file.hpp"
+
+namespace roci::rehearsal::check {
+
+using mission::Entry, mission::Findings;
+
+namespace {
+
+constexpr char kSimulator[] = "sim_svc";
+
+// Runs a part of the reading; what it throws is a finding.
+void note(Findings& findings, const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const std::exception& error) {
+    findings.add(error.what());
+  }
+}
+
+std::string program_of(const mission::ServiceEntry& entry) {
+  return std::filesystem::path(entry.program).filename();
+}
+
+bool is_linked(const mission::ServiceEntry& entry) {
+  return entry.program.find('/') == std::string::npos &&
+         std::ranges::find(programs(), entry.program, &Program::name) != programs().end();
+}
+
+void read_executives(CheckedMission& out, Findings& findings) {
+  for (const mission::ServiceEntry* entry : out.services.of_program("exec_svc")) {
+    note(findings, [&] {
+      const auto role = exec::mission::role_of(out.services, entry->name, entry->robot);
+      Entry file = mission::load_mission_file(entry->settings, &findings);
+      out.executives.push_back(
+          {entry->name, std::move(file), read_mission(entry->settings, role, &findings)});
+    });
+  }
+}
+
+// Reads what stands in a scenario for services other than the simulator, too.
+void read_scenario(CheckedMission& mission, const std::string& name, bool simulated, Findings& findings) {
+  const std::size_t before = findings.size();
+  note(findings, [&] {
+    CheckedScenario scenario{name, mission::load_scenario(mission.folder, name, &findings), {}};
+    note(findings, [&] { services::link::read_links(scenario.file, mission.services, 1); });
+    note(findings, [&] { science::read_detector(mission.file, scenario.file); });
+    if (!simulated) return;
+    scenario.run =
+        sim::scenario::load_run(mission.folder, name, sim::components::standard_types(), &findings);
+    scenario.sound = findings.size() == before;
+    mission.scenarios.push_back(std::move(scenario));
+  });
+}
+
+void check_science(const CheckedMission& mission) {
+  if (mission.services.of_program("science_svc").empty()) return;
+  const auto section = mission.file.find("science");
+  const auto kind = section && section->is_mapping() ? section->find("goal_kind") : std::nullopt;
+  if (!kind) return;
+  std::vector<std::string> known;
+  for (const CheckedExecutive& executive : mission.executives)
+    for (const auto& [name, one] : executive.model.goal_kinds) known.push_back(name);
+  if (!contains(known, kind->text()))
+    kind->complain("the mission has no goal kind '" + kind->text() + "'; " + instead_of(kind->text(), known));
+}
+
+void check_names(const CheckedMission& mission, Findings& findings) {
+  for (const CheckedExecutive& executive : mission.executives) {
+    note(findings, [&] { check_components(mission, executive); });
+    note(findings, [&] { check_actions(mission, executive); });
+    note(findings, [&] { check_goal_kinds(mission, executive); });
+  }
+  note(findings, [&] { check_simulation(mission); });
+  note(findings, [&] { check_science(mission); });
+  for (const CheckedScenario& scenario : mission.scenarios)
+    note(findings, [&] { check_scenario(mission, scenario); });
+}
+
+void plan_goals(const CheckedMission& mission, const std::vector<std::string>& scenarios, CheckReport& out) {
+  AskedOwners owners(mission.folder, mission.services, scenarios.empty() ? "nominal" : scenarios.front(),
+                     out.findings);
+  if (out.findings.size() > 0) return;
+  for (const CheckedExecutive& executive : mission.executives) {
+    DryPlans plans = dry_plan(mission, executive, owners);
+    std::ranges::move(plans.planned, std::back_inserter(out.plans.planned));
+    std::ranges::move(plans.not_tried, std::back_inserter(out.plans.not_tried));
+  }
+}
+
+}  // namespace
+
+CheckReport check_mission(const std::filesystem::path& folder, const std::string& scenario) {
+  CheckReport out;
+  if (!scenario.empty()) mission::load_scenario(folder, scenario);
+  std::optional<Entry> file;
+  note(out.findings, [&] { file = mission::load_mission_file(folder, &out.findings); });
+  if (!file) return out;
+  CheckedMission mission{folder, *file, {}, {}, {}, {}};
+  note(out.findings, [&] { mission.services = mission::read_service_list(*file); });
+  if (mission.services.services.empty()) return out;
+  mission.closed = std::ranges::all_of(mission.services.services, is_linked);
+  const mission::ServiceEntry* master = mission.services.clock_master();
+  const bool simulated = master != nullptr && program_of(*master) == kSimulator;
+  out.scenarios = scenario.empty() ? mission::scenario_names(folder) : std::vector<std::string>{scenario};
+  // The usual one first: goals are planned from where it begins.
+  std::ranges::stable_partition(out.scenarios, [](const std::string& name) { return name == "nominal"; });
+  if (out.scenarios.empty() && simulated)
+    file->complain(
+        "the mission has no scenario, and a simulated flight needs one; add scenarios/nominal.yaml");
+  for (const std::string& name : out.scenarios) read_scenario(mission, name, simulated, out.findings);
+  if (simulated && !mission.scenarios.empty())
+    mission.world = simulated_world(mission.scenarios.front().run, master->name);
+  read_executives(mission, out.findings);
+  check_names(mission, out.findings);
+  if (out.findings.size() == 0) plan_goals(mission, out.scenarios, out);
+  return out;
+}
+
+}  // namespace roci::rehearsal::check

@@ -1,0 +1,129 @@
+#include "sim_svc/world_file.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <variant>
+
+#include "services/log/log.hpp"
+
+namespace roci::sim {
+
+using nlohmann::json;
+using temporal::Time;
+using world::Image;
+using world::Memory;
+using world::Pose;
+using world::RobotMemory;
+using world::WorldMemory;
+
+namespace {
+
+json to_json(const temporal::Value& value) {
+  if (const auto* truth = std::get_if<bool>(&value)) return *truth;
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* state = std::get_if<temporal::State>(&value))
+    return {{"state", state->name}, {"arguments", state->arguments}};
+  return nullptr;
+}
+
+temporal::Value value_in(const json& in) {
+  if (in.is_boolean()) return in.get<bool>();
+  if (in.is_number()) return in.get<double>();
+  if (in.is_object()) return temporal::state(in.at("state"), in.at("arguments"));
+  return {};
+}
+
+json to_json(const Pose& pose) { return {pose.x, pose.y, pose.heading}; }
+
+Pose pose_in(const json& in) { return {in.at(0).get<double>(), in.at(1).get<double>(), in.at(2).get<double>()}; }
+
+json to_json(const Image& image) {
+  return {{"robot", image.robot},
+          {"source", image.source},
+          {"bytes", image.bytes},
+          {"sent", image.sent},
+          {"taken_us", image.taken.count()},
+          {"taken_from", to_json(image.taken_from)},
+          {"preview", image.preview}};
+}
+
+Image image_in(const std::string& id, const json& in) {
+  return {id,
+          in.at("robot").get<std::string>(),
+          in.at("source").get<std::string>(),
+          in.at("bytes").get<std::uint64_t>(),
+          in.at("sent").get<bool>(),
+          Time(in.at("taken_us").get<std::int64_t>()),
+          pose_in(in.at("taken_from")),
+          in.at("preview").get<std::vector<std::uint8_t>>()};
+}
+
+json to_json(const RobotMemory& robot) {
+  json out{{"images", json::object()}, {"components", json::object()}};
+  if (robot.pose) out["pose"] = to_json(*robot.pose);
+  if (robot.energy_j) out["energy_j"] = *robot.energy_j;
+  for (const auto& [id, image] : robot.images) out["images"][id] = to_json(image);
+  for (const auto& [name, memory] : robot.components) {
+    json& component = out["components"][name] = json::object();
+    for (const auto& [key, value] : memory) component[key] = to_json(value);
+  }
+  return out;
+}
+
+RobotMemory robot_in(const json& in) {
+  RobotMemory out;
+  if (in.contains("pose")) out.pose = pose_in(in["pose"]);
+  if (in.contains("energy_j")) out.energy_j = in["energy_j"].get<double>();
+  for (const auto& [id, image] : in.at("images").items()) out.images.emplace(id, image_in(id, image));
+  for (const auto& [name, memory] : in.at("components").items())
+    for (const auto& [key, value] : memory.items()) out.components[name][key] = value_in(value);
+  return out;
+}
+
+}  // namespace
+
+std::string to_text(const WorldMemory& memory) {
+  json out{{"at_us", memory.at.count()}, {"robots", json::object()}, {"samples", memory.samples}};
+  for (const auto& [name, robot] : memory.robots) out["robots"][name] = to_json(robot);
+  return out.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+std::optional<WorldMemory> world_memory_from(const std::string& text) {
+  try {
+    const json in = json::parse(text);
+    WorldMemory out{Time(in.at("at_us").get<std::int64_t>()), {}, in.at("samples").get<std::map<std::string, std::string>>()};
+    for (const auto& [name, robot] : in.at("robots").items()) out.robots[name] = robot_in(robot);
+    return out;
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<WorldMemory> WorldFile::read() const {
+  std::ifstream in(file_);
+  if (!in) return std::nullopt;
+  auto memory = world_memory_from({std::istreambuf_iterator<char>(in), {}});
+  if (!memory) services::log::warning(file_.string() + " cannot be read; the robot's world begins anew");
+  return memory;
+}
+
+void WorldFile::keep(const WorldMemory& memory) {
+  std::string text = to_text(memory);
+  if (text == written_) return;
+  const std::filesystem::path next = std::filesystem::path(file_).concat(".new");
+  std::error_code error;
+  if (std::ofstream out(next, std::ios::trunc); out << text && out.flush()) {
+    std::filesystem::rename(next, file_, error);
+    if (!error) {
+      written_ = std::move(text);
+      told_ = false;
+      return;
+    }
+  }
+  if (!std::exchange(told_, true)) services::log::warning("cannot write " + next.string() + "; it is tried again");
+}
+
+}  // namespace roci::sim

@@ -1,0 +1,34 @@
+// The file in which a live robot's world outlives the process that simulates it, as its ledger of commands does: where it
+// stands, its energy, the images on board, what it holds.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "sim_svc/world/world.hpp"
+
+namespace roci::sim {
+
+/// As JSON; from_text() returns nothing if `text` is not such a text.
+std::string to_text(const world::WorldMemory&);
+std::optional<world::WorldMemory> world_memory_from(const std::string& text);
+
+/// Is always whole: it is written beside and renamed. It is not waited for, so the death of the process loses nothing of it
+/// and the death of the host may.
+class WorldFile {
+ public:
+  explicit WorldFile(std::filesystem::path file) : file_(std::move(file)) {}
+
+  /// Nothing if there is none; one that cannot be read is told in the log and left out.
+  std::optional<world::WorldMemory> read() const;
+  /// Writes it if it is another one than the last. What the disk does not take is told once, and written later.
+  void keep(const world::WorldMemory&);
+
+ private:
+  std::filesystem::path file_;
+  std::string written_;
+  bool told_ = false;
+};
+
+}  // namespace roci::sim

@@ -1,0 +1,113 @@
+// A reader that collects goes on to the end of the file; one that does not ends with the first fault.
+#include "core/mission/findings.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/mission/entry.hpp"
+#include "core/mission/nearest_word.hpp"
+
+namespace roci::mission {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(Finding, IsTheTextOfAFileErrorTakenApart) {
+  const Finding one = finding_of("/a/b.yaml:3:14: expected a number, not 'x'; write one; or two");
+  EXPECT_EQ(one.file, "/a/b.yaml");
+  EXPECT_EQ(one.line, 3);
+  EXPECT_EQ(one.column, 14);
+  EXPECT_EQ(one.what, "expected a number, not 'x'");
+  EXPECT_EQ(one.remedy, "write one; or two");
+  EXPECT_EQ(one.text(), "/a/b.yaml:3:14: expected a number, not 'x'");
+}
+
+TEST(Finding, MayHaveNoPlaceInItsFile) {
+  const Finding file = finding_of("/a/b.yaml: cannot be read; check that the file exists");
+  EXPECT_EQ(file.file, "/a/b.yaml");
+  EXPECT_EQ(file.line, 0);
+  EXPECT_EQ(file.what, "cannot be read");
+  const Finding line = finding_of("a.pgm:7: too short");
+  EXPECT_EQ(line.line, 7);
+  EXPECT_EQ(line.column, 0);
+  EXPECT_EQ(line.remedy, "");
+  EXPECT_EQ(finding_of("nothing works").what, "nothing works");
+}
+
+TEST(Findings, AreKeptOnceAndSortedByPlace) {
+  Findings all;
+  all.add("b.yaml:1:1: later");
+  all.add("a.yaml:10:1: second");
+  all.add("a.yaml:9:5: first");
+  all.add("a.yaml:9:5: first");
+  ASSERT_EQ(all.size(), 3U);
+  std::vector<std::string> texts;
+  for (const Finding& one : all.sorted()) texts.push_back(one.what);
+  EXPECT_THAT(texts, ElementsAre("first", "second", "later"));
+}
+
+class CollectedFile : public ::testing::Test {
+ protected:
+  CollectedFile() {
+    std::ofstream(file_) << "speeds: [1, fast, 3, slow]\n"
+                            "limits: {a: 1, b: none}\n"
+                            "naem: x\n";
+  }
+  ~CollectedFile() override { fs::remove(file_); }
+
+  std::vector<double> read(const Entry& root) {
+    std::vector<double> out;
+    root.allow_only({"name", "speeds", "limits"});
+    root.at("speeds").each([&](const Entry& item) { out.push_back(item.number()); });
+    root.at("limits").each_field(
+        [&](const std::string&, const Entry& value) { out.push_back(value.number()); });
+    root.attempt([&] { root.at("name"); });
+    return out;
+  }
+
+  fs::path file_ = fs::temp_directory_path() / ("roci_collected_" + std::to_string(::getpid()) + ".yaml");
+};
+
+TEST_F(CollectedFile, IsReadToItsEndWithAllFaultsNoted) {
+  Findings findings;
+  EXPECT_THAT(read(Entry::load(file_, &findings)), ElementsAre(1, 3, 1));
+  std::vector<std::string> told;
+  for (const Finding& one : findings.sorted())
+    told.push_back(std::to_string(one.line) + ":" + std::to_string(one.column) + " " + one.what);
+  EXPECT_THAT(told, ElementsAre("1:1 'name' is missing", "1:13 expected a finite number, not 'fast'",
+                                "1:22 expected a finite number, not 'slow'",
+                                "2:19 expected a finite number, not 'none'", "3:1 unknown key 'naem'"));
+  EXPECT_THAT(findings.all().front().remedy, HasSubstr("did you mean 'name'?"));
+}
+
+TEST_F(CollectedFile, EndsAtTheFirstFaultWithoutACollection) {
+  try {
+    read(Entry::load(file_));
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(":3:1: unknown key 'naem'"));
+  }
+}
+
+TEST(NearestWord, IsTheOneThatIsTheFewestSlipsAway) {
+  const std::vector<std::string> known{"drive", "rover.battery", "x", "y", "idle-at"};
+  EXPECT_EQ(nearest_word("drvie", known), "drive");
+  EXPECT_EQ(nearest_word("rover.batery", known), "rover.battery");
+  EXPECT_EQ(nearest_word("idle-ta", known), "idle-at");
+  EXPECT_EQ(nearest_word("xx", known), "x");
+  EXPECT_EQ(nearest_word("z", known), "") << "no letter of it is right";
+  EXPECT_EQ(nearest_word("camera", known), "");
+  EXPECT_EQ(did_you_mean("drvie", known), "; did you mean 'drive'?");
+  EXPECT_EQ(did_you_mean("camera", known), "");
+  EXPECT_EQ(nearest_word(std::string(100000, 'a'), known), "");
+}
+
+}  // namespace
+}  // namespace roci::mission

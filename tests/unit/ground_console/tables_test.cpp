@@ -1,0 +1,160 @@
+// The tables of roci: the plan, goal kinds, runs, one row for each timeline.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "ground_console/cli/mission_words.hpp"
+#include "ground_console/cli/plan_table.hpp"
+#include "ground_console/cli/runs.hpp"
+#include "ground_console/cli/table.hpp"
+#include "ground_console/cli/timelines.hpp"
+#include "tests/unit/ground_console/messages.hpp"
+
+namespace roci::console {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+TEST(Table, ColumnsAreAsWideAsTheirWidestCell) {
+  EXPECT_EQ(cli::table_text({{"A", "B"}, {"größe", "x"}, {"a\nb", ""}}),
+            "A      B\n"
+            "größe  x\n"
+            "a?b\n");
+}
+
+TEST(PlanTable, SaysWhatWhenAndForWhichGoals) {
+  lib::MissionView view = flying_mission();
+  v1::Plan plan;
+  plan.version(3);
+  plan.origin_us(100'000'000);
+  plan.point_count(5);
+  v1::PlanActivity image, drive;
+  v1::Property to, image_name;
+  to.name("to");
+  to.value("place-ridge");
+  image_name.name("1");
+  image_name.value("image-ridge");
+  drive.id("p3.1-drive");
+  drive.name("drive");
+  drive.arguments({to});
+  drive.start_point(1);
+  drive.end_point(2);
+  drive.duration_lower_us(190'000'000);
+  drive.duration_upper_us(190'000'000);
+  drive.goals_served({"ground/ridge"});
+  image.id("p3.2-take-image");
+  image.name("take-image");
+  image.arguments({image_name});
+  image.start_point(3);
+  image.end_point(4);
+  image.duration_lower_us(40'000'000);
+  image.duration_upper_us(40'000'000);
+  v1::TemporalConstraint order;
+  order.from_point(2);
+  order.to_point(3);
+  order.lower_us(1'000'000);
+  order.upper_us(-1);
+  plan.constraints({order});
+  plan.activities({image, drive});  // in no order
+  view.take(plan);
+  view.take(step("p3.1-drive", v1::ACTIVITY_SUCCEEDED, 3, 100, 100, 290));
+  v1::StepStatus waiting = step("p3.2-take-image", v1::ACTIVITY_WAITING, 4, 295, -1, -1);
+  waiting.started_us(-1);
+  waiting.ended_us(-1);
+  waiting.latest_start_us(400'000'000);
+  view.take(waiting);
+  EXPECT_EQ(cli::plan_table(view),
+            "plan 3, from 00:01:40, now 00:05:00\n"
+            "\n"
+            "ACTIVITY         WHAT        ARGUMENTS       STATE      PLANNED   TAKES  WINDOW             "
+            "EXECUTED           GOALS\n"
+            "p3.1-drive       drive       to=place-ridge  succeeded  00:01:40  190 s                     "
+            "00:01:40–00:04:50  "
+            "ground/ridge\n"
+            "p3.2-take-image  take-image  image-ridge     waiting    00:04:51  40 s   00:04:55–00:06:40\n");
+  EXPECT_EQ(cli::plan_table(lib::MissionView()), "no plan yet\n");
+}
+
+TEST(MissionWords, OfPlanetaryHaveHelpAndExampleForEachGoalKind) {
+  const cli::MissionWords words = cli::read_mission_words(ROCI_SOURCE_DIR "/missions/planetary");
+  ASSERT_THAT(words.goal_kinds, SizeIs(3));
+  for (const cli::GoalKindWords& kind : words.goal_kinds) {
+    EXPECT_THAT(kind.help, Not(IsEmpty()));
+    EXPECT_THAT(cli::example_of(kind), Not(HasSubstr("NUMBER")));
+  }
+  EXPECT_EQ(words.unit_of("rover.battery"), "J");
+  EXPECT_EQ(words.unit_of("rover.arm.q3"), "rad");
+  EXPECT_EQ(words.unit_of("rover.nav"), "");
+  EXPECT_THAT(cli::goal_kinds_text(words),
+              HasSubstr("photo: take an image at a place and send it in a communication window\n"
+                        "  x  number\n"
+                        "  y  number\n"
+                        "  e.g. roci goal add NAME photo x=110 y=60\n"));
+  EXPECT_EQ(cli::goal_kinds_json(words)[0]["arguments"]["x"], "number");
+}
+
+TEST(Timelines, StandInTheTableOnceEachWithTheirUnit) {
+  cli::MissionWords words;
+  words.units["rover.battery"] = "J";
+  using temporal::ProjectionKind;
+  const cli::Timelines timelines{
+      {"rover.battery",
+       {{temporal::seconds(10), 900.0, ProjectionKind::executed, ""},
+        {temporal::seconds(20), -100.0, ProjectionKind::planned, "a"},
+        {temporal::seconds(30), -150.0, ProjectionKind::planned, "b"},
+        {temporal::seconds(40), 750.0, ProjectionKind::projected, "b"}}},
+      {"rover.nav",
+       {{temporal::seconds(5), temporal::state("idle-at", {"here"}), ProjectionKind::executed, ""}}}};
+  EXPECT_EQ(cli::timelines_table(timelines, words),
+            "TIMELINE       NOW            SINCE     PLANNED LAST      PROJECTED LAST   UNIT\n"
+            "rover.battery  900            00:00:10  -150 at 00:00:30  750 at 00:00:40  J\n"
+            "rover.nav      idle-at(here)  00:00:05\n");
+}
+
+class Runs : public ::testing::Test {
+ protected:
+  Runs() { fs::create_directories(folder_); }
+  ~Runs() override { fs::remove_all(folder_); }
+  fs::path made(const std::string& name, const std::string& summary) {
+    fs::create_directories(folder_ / name);
+    if (!summary.empty()) std::ofstream(folder_ / name / "summary.json") << summary;
+    return folder_ / name;
+  }
+  fs::path folder_ = fs::temp_directory_path() / ("roci_runs_" + std::to_string(::getpid()));
+};
+
+TEST_F(Runs, AreListedNewestFirstAndPrunedButForThoseThatRun) {
+  const fs::path oldest = made("20260101T000000Z-planetary-nominal-1", "");
+  made(
+      "20260102T000000Z-planetary-nominal-2",
+      R"({"mission": "/m/planetary", "scenario": "nominal", "result": "achieved", "goals": {"achieved": 3, "dropped": 0}, "sim_s": 60})");
+  made("20260103T000000Z-planetary-nominal-3", "");
+  made("my-own-notes", "");
+  const auto runs = cli::past_runs(folder_, {oldest});
+  ASSERT_THAT(runs, SizeIs(3));
+  EXPECT_EQ(runs[0].result, "no summary");
+  EXPECT_EQ(runs[1].result, "achieved");
+  EXPECT_EQ(runs[1].goals, "3 achieved");
+  EXPECT_EQ(runs[2].result, "running");
+  EXPECT_THAT(cli::runs_text(runs),
+              HasSubstr("20260102T000000Z-planetary-nominal-2  planetary  nominal   achieved    3 "
+                        "achieved  00:01:00"));
+  EXPECT_EQ(cli::runs_json(runs)[1]["result"], "achieved");
+  EXPECT_THAT(cli::prune(runs, 1), SizeIs(1));
+  EXPECT_TRUE(fs::exists(oldest)) << "it runs";
+  EXPECT_FALSE(fs::exists(folder_ / "20260102T000000Z-planetary-nominal-2"));
+  EXPECT_TRUE(fs::exists(folder_ / "my-own-notes"));
+}
+
+}  // namespace
+}  // namespace roci::console

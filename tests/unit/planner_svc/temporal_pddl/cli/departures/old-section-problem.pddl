@@ -1,0 +1,8 @@
+; One car wants to get over.
+(define (problem one-car)
+  (:domain ferry)
+  (:length (:serial 5) (:parallel 5))
+  (:objects north south - quay van - car)
+  (:init (ferry-at south) (at-quay van north) (empty)
+         (= (crossing north south) 5) (= (crossing south north) 5))
+  (:goal (at-quay van south)))

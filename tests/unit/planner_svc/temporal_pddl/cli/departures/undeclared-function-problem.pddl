@@ -1,0 +1,7 @@
+; One car wants to get over.
+(define (problem one-car)
+  (:domain ferry)
+  (:objects north south - quay van - car)
+  (:init (ferry-at south) (at-quay van north) (empty) (= (total-cost) 0)
+         (= (crossing north south) 5) (= (crossing south north) 5))
+  (:goal (at-quay van south)))

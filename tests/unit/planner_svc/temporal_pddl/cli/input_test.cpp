@@ -1,0 +1,144 @@
+// The input side of roci-plan: each kind of file that departs from PDDL is planned for, with its warning on standard error
+// and nothing but the plan on standard output; what is refused ends with the code that says how.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+const std::string kFiles = ROCI_SOURCE_DIR "/tests/unit/planner_svc/temporal_pddl/cli/departures/";
+
+class RociPlanInput : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(::testing::TempDir()) / ("roci-plan-" + std::string(test->name()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
+
+  std::string read(const std::string& name) {
+    std::ifstream file(folder_ / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  int run(const std::string& arguments) {
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" ROCI_BINARY_DIR "/bin/roci-plan' " + arguments + " > out 2> err";
+    return WEXITSTATUS(std::system(command.c_str()));
+  }
+
+  // Runs with the file of a departure in the place of its counterpart.
+  int run_departure(const std::string& name, const std::string& options) {
+    const bool in_domain = std::filesystem::exists(kFiles + name + "-domain.pddl");
+    return run(kFiles + (in_domain ? name + "-domain.pddl " : "domain.pddl ") + kFiles +
+               (in_domain ? "problem.pddl " : name + "-problem.pddl ") + options);
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(RociPlanInput, SaysNothingOfWhatIsRight) {
+  EXPECT_EQ(run(kFiles + "domain.pddl " + kFiles + "problem.pddl --strict"), 0) << read("err");
+  EXPECT_THAT(read("err"), IsEmpty());
+  EXPECT_THAT(read("out"), HasSubstr("(land van south)"));
+  EXPECT_EQ(run_departure("crlf-and-capitals", "--strict"), 0) << read("err");
+  EXPECT_THAT(read("err"), IsEmpty());
+}
+
+TEST_F(RociPlanInput, ReadsEachDepartureWithAWarningAndRefusesItIfStrict) {
+  ASSERT_EQ(run(kFiles + "domain.pddl " + kFiles + "problem.pddl"), 0);
+  const std::string plan = read("out");
+  for (const std::string name :
+       {"byte-order-mark", "odd-character", "comma", "question-mark", "hyphen", "outside-text",
+        "requirement-flag", "missing-requirement", "old-section", "number-type", "type-twice",
+        "type-under-itself", "undeclared-type", "undeclared-function", "signature-twice", "object-twice",
+        "missing-goal", "domain-name"}) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(run_departure(name, ""), 0) << read("err");
+    EXPECT_THAT(read("err"),
+                AllOf(HasSubstr(".pddl:"), HasSubstr(": warning: "), HasSubstr("[" + name + "]\n")));
+    EXPECT_EQ(read("out"), name == "missing-goal" ? "" : plan);
+    EXPECT_EQ(run_departure(name, "--strict"), 2);
+    EXPECT_THAT(read("err"),
+                AllOf(HasSubstr("invalid_input"), HasSubstr(": error: "), HasSubstr("[" + name + "]")));
+    EXPECT_THAT(read("out"), IsEmpty());
+  }
+}
+
+TEST_F(RociPlanInput, WarningsStandInTheJson) {
+  EXPECT_EQ(run_departure("comma", "--json"), 0) << read("err");
+  const auto json = nlohmann::json::parse(read("out"));
+  ASSERT_EQ(json["warnings"].size(), 1U);
+  EXPECT_THAT(json["warnings"][0].get<std::string>(), HasSubstr("[comma]"));
+  EXPECT_EQ(json["verdict"], "solved");
+}
+
+TEST_F(RociPlanInput, TellsAllErrorsOfBothFiles) {
+  write("d",
+        "(define (domain d) (:predicates (p))\n(:action a :precondition (zap) :efect (p))\n(:action b "
+        ":effect (zip)))");
+  write("x", "(define (problem x) (:domain d)\n(:init (p) p) (:goal (and (q) (not)))\n)");
+  EXPECT_EQ(run("d x"), 2);
+  EXPECT_THAT(read("out"), IsEmpty());
+  EXPECT_THAT(
+      read("err"),
+      AllOf(HasSubstr("invalid_input: 5 findings\n"), HasSubstr("\nd:2:26: error: unknown predicate 'zap'"),
+            HasSubstr("\nd:2:32: error: ':efect'"), HasSubstr("\nd:3:20: error: unknown predicate 'zip'"),
+            HasSubstr("\nx:2:12: error: "), HasSubstr("\nx:2:31: error: 'not' with 0 parts")));
+  EXPECT_EQ(run("d x --json"), 2);
+  EXPECT_EQ(nlohmann::json::parse(read("out"))["errors"].size(), 5U);
+  EXPECT_EQ(run("d nowhere"), 2);
+  EXPECT_THAT(read("err"), HasSubstr("nowhere: error: cannot be read"));
+}
+
+TEST_F(RociPlanInput, WhatIsNotSupportedEndsWithCodeThree) {
+  const std::string head =
+      "(define (domain d) (:requirements :durative-actions :fluents) (:predicates (p)) (:functions (f))\n";
+  write("x", "(define (problem x) (:domain d) (:init (= (f) 0)) (:goal (p)))");
+  const std::pair<const char*, const char*> cases[] = {
+      {"(:durative-action a :duration (= ?duration 1)\n :effect (increase (f) (* #t 1)))", "d:3:10: error: "},
+      {"(:durative-action a :duration (= ?duration 1)\n :condition (preference n (at start (p))))",
+       "d:3:13: error: preferences"},
+      {"(:action a :precondition\n (always (p)))", "d:3:2: error: trajectory constraint 'always'"},
+      {"(:constraints (always (p)))", "d:2:1: error: trajectory constraints"},
+      {"(:process a :effect (p))", "d:2:1: error: processes and events"},
+      {"(:event a :effect (p))", "d:2:1: error: processes and events"},
+      {"(:functions (g) - thing)", "d:2:19: error: a function of another type than number"}};
+  for (const auto& [section, words] : cases) {
+    SCOPED_TRACE(section);
+    write("d", head + section + ")");
+    EXPECT_EQ(run("d x"), 3);
+    EXPECT_THAT(read("err"), AllOf(HasSubstr(words), HasSubstr("unsupported: "), Not(HasSubstr("invalid"))));
+    EXPECT_EQ(run("d x --parse-only"), 3);
+  }
+  write("d", head + ")");
+  write("x",
+        "(define (problem x) (:domain d) (:init)\n(:goal (preference n (p))) (:metric minimize (is-violated "
+        "n)))");
+  EXPECT_EQ(run("d x"), 3);
+  EXPECT_THAT(read("err"),
+              AllOf(HasSubstr("x:2:8: error: preferences"), HasSubstr("x:2:46: error: preferences")));
+}
+
+TEST_F(RociPlanInput, ParseOnlyEndsBeforePlanning) {
+  EXPECT_EQ(run_departure("comma", "--parse-only"), 0);
+  EXPECT_THAT(read("out"), IsEmpty());
+  EXPECT_THAT(read("err"), HasSubstr("[comma]"));
+  write("d", "(define (domain d))\n(:action a :effect (p))");
+  EXPECT_EQ(run("d d --parse-only"), 2);
+}
+
+}  // namespace

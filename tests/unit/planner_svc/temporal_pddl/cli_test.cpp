@@ -1,0 +1,146 @@
+// roci-plan: what it prints where, and that it prints no plan that the validator refuses.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "planner_svc/temporal_pddl/cli/checked_result.hpp"
+#include "planner_svc/temporal_pddl/cli/gantt.hpp"
+#include "planner_svc/temporal_pddl/cli/progress_line.hpp"
+#include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
+
+namespace roci::planner::temporal_pddl::cli {
+namespace {
+
+using temporal::Verdict;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+constexpr const char* kDomain =
+    R"((:requirements :typing :durative-actions :numeric-fluents) (:types robot site)
+    (:predicates (at ?r - robot ?s - site) (sent ?s - site)) (:functions (fuel))
+    (:durative-action drive :parameters (?r - robot ?a ?b - site) :duration (= ?duration 5)
+      :condition (and (at start (at ?r ?a)) (at start (>= (fuel) 1)))
+      :effect (and (at start (not (at ?r ?a))) (at end (at ?r ?b))))
+    (:durative-action send :parameters (?r - robot ?s - site) :duration (= ?duration 2)
+      :condition (over all (at ?r ?s)) :effect (at end (sent ?s))))";
+constexpr const char* kObjects = "(:objects r q - robot a b - site) (:init (at r a) (at q b)";
+constexpr const char* kGoal = ") (:goal (and (at r b) (sent b) (sent a)))";
+
+testing::Model model() { return testing::model(kDomain, std::string(kObjects) + "(= (fuel) 3)" + kGoal); }
+
+TEST(CheckedResult, ASoundPlanStays) {
+  const auto made = model();
+  Result result = testing::solved(made);
+  check(made.domain, made.problem, result);
+  EXPECT_EQ(result.verdict, Verdict::solved);
+  EXPECT_TRUE(result.plan);
+}
+
+TEST(CheckedResult, APlanThatTheValidatorRefusesIsNotGivenOut) {
+  const auto made = model();
+  Result result = testing::solved(made);
+  ASSERT_TRUE(result.plan);
+  result.plan->activities.back().end += temporal::Duration(1'000'000);
+  check(made.domain, made.problem, result);
+  EXPECT_EQ(result.verdict, Verdict::crashed);
+  EXPECT_FALSE(result.plan);
+  EXPECT_THAT(result.reason, HasSubstr("a plan was found that the validator refuses"));
+  EXPECT_THAT(result.reason, HasSubstr("against (= ?duration"));
+}
+
+TEST(Gantt, HasALaneForEachRobotAndABarForEachActivity) {
+  const Result result = testing::solved(model());
+  ASSERT_TRUE(result.plan);
+  const std::string picture = to_svg(*result.plan, "problem <1>");
+  EXPECT_THAT(picture, StartsWith("<svg xmlns"));
+  EXPECT_THAT(picture, HasSubstr("problem &lt;1>"));
+  for (const char* lane : {">r</text>", ">q</text>", "<title>drive r a b: "})
+    EXPECT_THAT(picture, HasSubstr(lane));
+}
+
+TEST(ProgressLine, TellsWhatItIsDoingAndFitsTheTerminal) {
+  call::Progress progress;
+  progress.phase = "searching: lookahead";
+  progress.evaluated = 1234;
+  EXPECT_EQ(progress_text(progress, 12.7, 87, 80), "12 s  searching: lookahead  1234 evaluated  87 MB");
+  progress.has_plan = true;
+  progress.makespan = temporal::Duration(45'000'000);
+  progress.metric = 7;
+  EXPECT_EQ(progress_text(progress, 1, 0, 200),
+            "1 s  searching: lookahead  1234 evaluated  best plan 45.000 s, metric 7");
+  EXPECT_EQ(progress_text(progress, 1, 0, 20).size(), 20u);
+}
+
+class Program : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(::testing::TempDir()) / ("roci-plan-" + std::string(test->name()));
+    std::filesystem::create_directories(folder_);
+    write("domain", std::string("(define (domain d) ") + kDomain + ")");
+    write("sound", std::string("(define (problem p) (:domain d) ") + kObjects + "(= (fuel) 3)" + kGoal + ")");
+    write("without", std::string("(define (problem p) (:domain d) ") + kObjects + kGoal + ")");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
+
+  std::string read(const std::string& name) {
+    std::ifstream file(folder_ / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  int run(const std::string& arguments) {
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" ROCI_BINARY_DIR "/bin/roci-plan' " + arguments + " > out 2> err";
+    return WEXITSTATUS(std::system(command.c_str()));
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(Program, ThePlanGoesToStandardOutputAndThePictureIntoItsFile) {
+  EXPECT_EQ(run("domain sound --gantt plan.svg"), 0);
+  EXPECT_THAT(read("out"), HasSubstr("(drive r a b) [5.000]"));
+  EXPECT_THAT(read("err"), IsEmpty());
+  EXPECT_THAT(read("plan.svg"), StartsWith("<svg"));
+}
+
+TEST_F(Program, WarningsGoToStandardErrorAndIntoTheJson) {
+  EXPECT_EQ(run("domain without"), 1);
+  EXPECT_THAT(read("out"), IsEmpty());
+  EXPECT_THAT(read("err"), StartsWith("without:1:1: warning: (fuel) has no initial value"));
+  EXPECT_THAT(read("err"), HasSubstr("\nunsolvable: (drive r ? b) reads (fuel), which has no value"));
+  EXPECT_EQ(run("domain without --json"), 1);
+  EXPECT_THAT(read("out"), HasSubstr("\"warnings\": [\n    \"without:1:1: warning: (fuel)"));
+}
+
+TEST_F(Program, AMemoryLimitIsSetWithoutAskingAndIsACleanVerdict) {
+  EXPECT_EQ(run("--help"), 0);
+  EXPECT_THAT(read("out"), HasSubstr("--memory"));
+  EXPECT_THAT(read("out"), HasSubstr("4096 or three quarters of the machine's memory"));
+  std::string objects, facts;
+  for (int i = 0; i < 200; ++i) {
+    objects += " o" + std::to_string(i);
+    facts += " (q o" + std::to_string(i) + ")";
+  }
+  write("wide",
+        "(define (domain w) (:predicates (p ?x ?y) (q ?x)) (:action a :parameters (?x ?y) :precondition "
+        "(and (q ?x) (q ?y)) :effect (p ?x ?y)))");
+  write("many",
+        "(define (problem p) (:domain w) (:objects" + objects + ") (:init" + facts + ") (:goal (p o1 o2)))");
+  EXPECT_EQ(run("domain sound --memory 4096"), 0);
+  EXPECT_EQ(run("wide many --memory 8"), 5) << read("err");
+  EXPECT_THAT(read("err"), StartsWith("out_of_memory: "));
+  EXPECT_THAT(read("err"), Not(HasSubstr("terminate")));
+}
+
+}  // namespace
+}  // namespace roci::planner::temporal_pddl::cli

@@ -1,0 +1,270 @@
+// A mission is copied and broken by one edit: the check finds it, at its place, with a remedy, and nothing else.
+#include "rehearsal/check/mission_check.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace roci::rehearsal::check {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const fs::path kPlanetary = ROCI_SOURCE_DIR "/missions/planetary";
+const fs::path kQuarry = ROCI_BINARY_DIR "/tests/missions/quarry";
+
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// The findings as they are printed, a line each.
+std::vector<std::string> printed(const CheckReport& report) {
+  std::vector<std::string> out;
+  for (const auto& one : report.findings.sorted()) out.push_back(one.text() + "; " + one.remedy);
+  return out;
+}
+
+// A copy of a mission; what is large in it is linked.
+class CopiedMission {
+ public:
+  explicit CopiedMission(const fs::path& mission)
+      : folder_(fs::temp_directory_path() / ("roci_check_" + std::to_string(::getpid())) /
+                mission.filename()) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    for (const auto& entry : fs::directory_iterator(mission)) {
+      const fs::path to = folder_ / entry.path().filename();
+      if (entry.path().filename() == "bin" || entry.path().filename() == "site") {
+        fs::create_directory_symlink(fs::absolute(entry.path()), to);
+      } else {
+        fs::copy(entry.path(), to, fs::copy_options::recursive);
+      }
+    }
+  }
+  ~CopiedMission() { fs::remove_all(folder_.parent_path()); }
+
+  const fs::path& folder() const { return folder_; }
+
+  // Replaces the first place of `right`; returns the line in which it stands.
+  int edit(const std::string& file, const std::string& right, const std::string& wrong) const {
+    std::string text = text_of(folder_ / file);
+    const std::size_t at = text.find(right);
+    EXPECT_NE(at, std::string::npos) << right << " does not stand in " << file;
+    if (at == std::string::npos) return 0;
+    text.replace(at, right.size(), wrong);
+    std::ofstream(folder_ / file, std::ios::binary) << text;
+    return 1 +
+           static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+  }
+
+ private:
+  fs::path folder_;
+};
+
+TEST(MissionCheck, PlanetaryIsSoundAndEachOfItsGoalKindsIsPlanned) {
+  const CheckReport report = check_mission(kPlanetary);
+  EXPECT_THAT(printed(report), IsEmpty());
+  EXPECT_EQ(report.scenarios.size(), 8U);
+  EXPECT_EQ(report.plans.planned.size(), 3U);
+  EXPECT_THAT(report.plans.not_tried, IsEmpty());
+}
+
+TEST(MissionCheck, QuarryAndItsBeaconAreSoundAndWhatCannotBePlannedHereIsSaid) {
+  const CheckReport report = check_mission(kQuarry);
+  EXPECT_THAT(printed(report), IsEmpty());
+  EXPECT_EQ(report.scenarios.size(), 2U);
+  ASSERT_EQ(report.plans.not_tried.size(), 3U);
+  EXPECT_EQ(report.plans.not_tried.front().why, "engine 'search' reads no PDDL");
+}
+
+struct Slip {
+  const char* file;
+  const char* right;
+  const char* wrong;
+  const char* what;
+  const char* remedy;
+  // Where it is told, if not where it was made: the line of this text in mission.yaml.
+  const char* told_at = "";
+};
+
+void PrintTo(const Slip& slip, std::ostream* out) { *out << slip.wrong; }
+
+void expect_found(const fs::path& mission, const Slip& slip) {
+  const CopiedMission copy(mission);
+  int line = copy.edit(slip.file, slip.right, slip.wrong);
+  std::string file = slip.file;
+  if (*slip.told_at != '\0') {
+    file = "mission.yaml";
+    line = copy.edit(file, slip.told_at, slip.told_at);
+  }
+  const CheckReport report = check_mission(copy.folder());
+  ASSERT_EQ(report.findings.size(), 1U) << ::testing::PrintToString(printed(report));
+  const mission::Finding& finding = report.findings.all().front();
+  EXPECT_EQ(fs::path(finding.file), copy.folder() / file) << finding.text();
+  EXPECT_EQ(finding.line, line) << finding.text();
+  EXPECT_GT(finding.column, 0) << finding.text();
+  EXPECT_THAT(finding.what, HasSubstr(slip.what));
+  EXPECT_THAT(finding.remedy, HasSubstr(slip.remedy));
+}
+
+class PlanetarySlip : public ::testing::TestWithParam<Slip> {};
+
+TEST_P(PlanetarySlip, IsTheOneFinding) { expect_found(kPlanetary, GetParam()); }
+
+constexpr char kMission[] = "mission.yaml";
+constexpr char kNominal[] = "scenarios/nominal.yaml";
+
+INSTANTIATE_TEST_SUITE_P(
+    Names, PlanetarySlip,
+    ::testing::Values(
+        Slip{kMission, "owner: sim_svc\n    fallback: stop\n    states:\n      idle-pose",
+             "owner: sim_scv\n    fallback: stop\n    states:\n      idle-pose", "no service 'sim_scv'",
+             "did you mean 'sim_svc'?"},
+        Slip{kMission, "drive: {owner: sim_svc", "drive: {owner: sim_scv", "no service 'sim_scv'",
+             "did you mean 'sim_svc'?"},
+        Slip{kMission, "{name: arm_svc, robot: rover}", "{name: arm_svc, robot: rovre}", "no robot 'rovre'",
+             "did you mean 'rover'?"},
+        Slip{kMission, "idle-at: {facts", "idle-ta: {facts", "component 'nav' is never in a state 'idle-ta'",
+             "did you mean 'idle-at'?"},
+        Slip{kMission, "      working: {active: true}\n", "", "can be in a state 'working'", "add it",
+             "empty: {facts: [\"(gripper-empty)\"]}"},
+        Slip{kMission, "held: {facts", "hled: {facts", "is never in a state 'hled'", "did you mean 'held'?"},
+        Slip{kMission, "idle-at: {facts: [\"(at ?1)\"]}", "idle-at: {facts: [\"(at ?2)\"]}",
+             "the state 'idle-at' has 1 arguments, and ?2", "name one"},
+        Slip{kMission, "timeline: rover.camera\n", "timeline: rover.camra\n",
+             "nobody tells of a timeline 'rover.camra'", "did you mean 'rover.camera'?"},
+        Slip{kMission, "timeline: rover.battery}", "timeline: rover.batery}", "timeline 'rover.batery'",
+             "did you mean 'rover.battery'?"},
+        Slip{kMission, "y: {timeline: rover.y}", "y: {timeline: rovre.y}", "timeline 'rovre.y'",
+             "did you mean 'rover.y'?"},
+        Slip{kMission, "rover.sample.sample-{id}", "rover.smaple.sample-{id}",
+             "timeline 'rover.smaple.sample-{id}'", "did you mean 'rover.sample.'?"},
+        Slip{kMission, "(camera-idle)", "(camera-idel)", "no predicate 'camera-idel'",
+             "did you mean 'camera-idle'?"},
+        Slip{kMission, "transmit: {owner", "transmitt: {owner", "no action 'transmitt'",
+             "did you mean 'transmit'?"},
+        Slip{kMission, "type: image}", "type: imgae}", "no type 'imgae'", "did you mean 'image'?"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Windows, PlanetarySlip,
+    ::testing::Values(Slip{kMission, "timeline: comm.window", "timeline: com.window",
+                           "'radio' waits for a window 'comm.window'", "did you mean 'com.window'?",
+                           "name: radio, type: radio"},
+                      Slip{"scenarios/comm_lost.yaml", "timeline: comm.window", "timeline: comm.windwo",
+                           "the mission has no window 'comm.windwo'", "did you mean 'comm.window'?"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Actions, PlanetarySlip,
+    ::testing::Values(Slip{kMission, "x: \"?2.x\"", "x: \"?2.xx\"",
+                           "no object of type location has a property 'xx'", "did you mean 'x'?"},
+                      Slip{kMission, "properties: {x: \"{x}\", y: \"{y}\"}", "properties: {x: \"{x}\"}",
+                           "object 'place-{id}' has no property 'y', which action 'drive'",
+                           "add it under properties"},
+                      Slip{kMission, "type: location, dynamic: true, properties: {x: {timeline: rover.x}, ",
+                           "type: location, dynamic: true, properties: {",
+                           "object 'here' has no property 'x'", "add it under properties"},
+                      Slip{kMission, "to: \"?2\"}, lateness", "to: \"?3\"}, lateness",
+                           "action 'move-arm' has 2 parameters, and ?3", "name one"},
+                      Slip{kMission, "command: send", "command: sned", "'radio' has no command 'sned'",
+                           "did you mean 'send'?"},
+                      Slip{kMission, "command: image, arguments: {image:",
+                           "command: image, arguments: {imgae:", "command 'image' needs an argument 'image'",
+                           ""}));
+
+INSTANTIATE_TEST_SUITE_P(
+    GoalKinds, PlanetarySlip,
+    ::testing::Values(Slip{kMission, "goal: [\"(sent image-{id})\"]", "goal: [\"(available image-{id})\"]",
+                           "no state of a component or family stands for (available ...)",
+                           "under 'achieved'"},
+                      Slip{kMission, "goal: [\"(sent image-{id})\"]", "goal: [\"(snet image-{id})\"]",
+                           "no predicate 'snet'", "did you mean 'sent'?"},
+                      Slip{kMission, "image-{id} place-{id})\"]", "image-{id} place-{di})\"]",
+                           "{di} stands here", "did you mean 'id'?"},
+                      Slip{kMission, "goal_kind: photo", "goal_kind: phtoo", "no goal kind 'phtoo'",
+                           "did you mean 'photo'?"},
+                      Slip{"domain.pddl", "(at end (sent ?i))", "(at end (have-image ?i))",
+                           "no plan achieves a goal of kind 'photo' (goal 'ridge' of scenario 'nominal')",
+                           "check", "    help: take an image"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenarios, PlanetarySlip,
+    ::testing::Values(Slip{kNominal, "battery: 900000", "battery: 1900000",
+                           "begin with 1900000 J, and holds 1000000 J", "lower it"},
+                      Slip{kNominal, "world:\n", "wrold:\n", "unknown key 'wrold'", "did you mean 'world'?"},
+                      Slip{kNominal, "goal.accepted: ridge", "goal.acepted: ridge", "an event 'goal.acepted'",
+                           "did you mean 'goal.accepted'?"},
+                      Slip{kNominal, "kind: photo", "kind: phtoo",
+                           "goal 'ridge' will be rejected: unknown goal kind 'phtoo'",
+                           "did you mean 'photo'?"},
+                      Slip{kNominal, "{x: 110, y: 60}", "{x: 110, z: 60}", "argument 'y' is missing",
+                           "a photo needs: x, y"},
+                      Slip{kNominal, "x: 40, y: 40", "x: 40, y: 4000",
+                           "the rover would start outside the map", "give x and y"},
+                      Slip{kNominal, "start: {x: 40, y: 40,", "start: {x: 40,", "'y' is missing", "add it"},
+                      Slip{"scenarios/arm_fault.yaml", "fault: {component: arm,", "fault: {component: amr,",
+                           "unknown component 'amr'", "did you mean 'arm'?"}));
+
+class QuarrySlip : public ::testing::TestWithParam<Slip> {};
+
+TEST_P(QuarrySlip, IsTheOneFinding) { expect_found(kQuarry, GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Data, QuarrySlip,
+    ::testing::Values(Slip{"digger.yaml", "timeline: \"{robot}.boom\"", "timeline: \"{robot}.bom\"",
+                           "nobody tells of a timeline 'digger.bom'", "did you mean 'digger.boom'?"},
+                      Slip{"digger.yaml", "is: dug}", "is: dgu}", "'digger.boom' is never in a state 'dgu'",
+                           "did you mean 'dug'?"},
+                      Slip{"digger.yaml", "owner: beacon", "owner: becaon", "no service 'becaon'",
+                           "did you mean 'beacon'?"},
+                      Slip{kMission, "needs: {wheels: at-pit}", "needs: {wheels: at-pti}",
+                           "'hauler.wheels' is never in a state 'at-pti'", "did you mean 'at-pit'?"},
+                      Slip{"scenarios/boom_fault.yaml", "kind: haul, robot: hauler, importance: optional",
+                           "kind: haul, robot: huler, importance: optional",
+                           "no executive commands robot 'huler'", "hauler"}));
+
+TEST(MissionCheck, AllFindingsAreListedInTheOrderOfTheFiles) {
+  const CopiedMission copy(kPlanetary);
+  copy.edit(kMission, "fallback: stop", "fallback: sotp");
+  copy.edit(kMission, "timeline: rover.battery}", "timeline: rover.batery}");
+  copy.edit(kMission, "idle-at: {facts", "idle-ta: {facts");
+  copy.edit(kNominal, "battery: 900000", "battery: 1900000");
+  copy.edit("scenarios/too_many.yaml", "goal.dropped: rim", "goal.droped: rim");
+  const CheckReport report = check_mission(copy.folder());
+  const auto lines = printed(report);
+  ASSERT_EQ(lines.size(), 5U) << ::testing::PrintToString(lines);
+  EXPECT_THAT(lines[0], HasSubstr("'sotp'"));
+  EXPECT_THAT(lines[1], HasSubstr("'idle-ta'"));
+  EXPECT_THAT(lines[2], HasSubstr("'rover.batery'"));
+  EXPECT_THAT(lines[3], HasSubstr("1900000"));
+  EXPECT_THAT(lines[4], HasSubstr("'goal.droped'"));
+  EXPECT_THAT(report.plans.planned, IsEmpty()) << "nothing is planned while something else is wrong";
+}
+
+// What the mission's files hold for other services is read by these services themselves.
+TEST(MissionCheck, AServiceOfTheMissionFindsAFaultInItsOwnFile) {
+  const CopiedMission copy(kPlanetary);
+  const int line = copy.edit("arm/poses.yaml", "tip: scoop_tip", "tip: scop_tip");
+  const CheckReport report = check_mission(copy.folder());
+  ASSERT_EQ(report.findings.size(), 1U) << ::testing::PrintToString(printed(report));
+  EXPECT_THAT(report.findings.all().front().text(), HasSubstr("poses.yaml:" + std::to_string(line)));
+}
+
+TEST(MissionCheck, ADomainThatCannotBeReadIsOneFindingAndNoDoubtOfTheRest) {
+  const CopiedMission copy(kPlanetary);
+  const int line = copy.edit("domain.pddl", "(over all (arm-at stow))", "(over all (arm-ta stow))");
+  const CheckReport report = check_mission(copy.folder());
+  ASSERT_EQ(report.findings.size(), 1U) << ::testing::PrintToString(printed(report));
+  EXPECT_EQ(report.findings.all().front().line, line);
+  EXPECT_THAT(report.findings.all().front().file, HasSubstr("domain.pddl"));
+}
+
+}  // namespace
+}  // namespace roci::rehearsal::check
