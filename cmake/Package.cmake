@@ -7,4 +7,6 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# For who builds services with the SDK (docs/sdk.md).
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, libfastcdr-dev, libfmt-dev, libyaml-cpp-dev, libssl-dev")
 include(CPack)

@@ -88,7 +88,7 @@ class Drill final : public services::Service, private owner::Driver {
       timer_ = node_.after(30s, [this] { bored(); });
       return;
     }
-    report("hole." + place_, "bored");
+    report("drill.hole." + place_, "bored");
     rest({owner::Stage::completed, "done", "", {.energy_j = 1200}});
   }
   void break_off(const owner::CommandKey&, const owner::Word& why) override {

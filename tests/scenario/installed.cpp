@@ -29,7 +29,7 @@ void Prefix::expect_to_fly_from(const fs::path& prefix) const {
 }
 
 void Prefix::expect_a_users_services_to_fly(const fs::path& prefix) const {
-  const std::string source = (prefix / "share/doc/rocinante/example_service").string();
+  const std::string source = (prefix / "share/rocinante/example_service").string();
   const std::string build = (folder / "example").string();
   const Ended built =
       run("cd / && cmake -S " + source + " -B " + build + " -DCMAKE_PREFIX_PATH=" + prefix.string() +

@@ -75,7 +75,7 @@ static void bored(void) {
     return;
   }
   char timeline[128];
-  snprintf(timeline, sizeof timeline, "hole.%s", place);
+  snprintf(timeline, sizeof timeline, "drill.hole.%s", place);
   report(timeline, "bored");
   rest(roci_v1_STAGE_COMPLETED, "done", "", 1200);
 }
@@ -104,16 +104,16 @@ static void answer_call(const void *sample) {
   roci_v1_FunctionValues *values = calloc(batches + 1, sizeof *values);
   for (uint32_t b = 0; b < batches; ++b) {
     const roci_v1_FunctionBatch *batch = &request->batches._buffer[b];
-    const uint32_t count = batch->tuples._length;
+    const uint32_t arity = batch->arity == 0 ? 1 : batch->arity, count = (batch->tuples._length + arity - 1) / arity;
     values[b].function = batch->function;
     values[b].numbers._buffer = calloc(count + 1, sizeof(double));
     values[b].outcomes._buffer = calloc(count + 1, sizeof(roci_v1_FunctionOutcome));
     values[b].numbers._length = values[b].outcomes._length = count;
     for (uint32_t t = 0; t < count; ++t) {
       roci_v1_FunctionOutcome *outcome = &values[b].outcomes._buffer[t];
-      const uint32_t object = batch->tuples._buffer[t];
+      const uint32_t object = batch->tuples._buffer[t * arity];
       *outcome = strcmp(batch->function, "bore_time") != 0 ? roci_v1_FUNCTION_UNKNOWN_FUNCTION
-                 : batch->arity != 1                       ? roci_v1_FUNCTION_WRONG_ARITY
+                 : arity != 1                              ? roci_v1_FUNCTION_WRONG_ARITY
                                                            : roci_v1_FUNCTION_UNKNOWN_OBJECT;
       if (*outcome != roci_v1_FUNCTION_UNKNOWN_OBJECT || object >= request->objects._length) continue;
       const roci_v1_PlanObject *described = &request->objects._buffer[object];

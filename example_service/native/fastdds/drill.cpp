@@ -1,5 +1,6 @@
 #include "drill.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -77,9 +78,11 @@ void Drill::answer(const v1::FunctionRequest& request) {
 v1::FunctionValues Drill::values(const v1::FunctionRequest& request, const v1::FunctionBatch& batch) const {
   v1::FunctionValues values;
   values.function(batch.function());
-  for (const std::uint32_t object : batch.tuples()) {
+  const std::size_t arity = std::max<std::size_t>(batch.arity(), 1);
+  for (std::size_t tuple = 0; tuple < batch.tuples().size(); tuple += arity) {
+    const std::uint32_t object = batch.tuples()[tuple];
     v1::FunctionOutcome outcome = batch.function() != "bore_time" ? v1::FUNCTION_UNKNOWN_FUNCTION
-                                  : batch.arity() != 1            ? v1::FUNCTION_WRONG_ARITY
+                                  : arity != 1                    ? v1::FUNCTION_WRONG_ARITY
                                                                   : v1::FUNCTION_UNKNOWN_OBJECT;
     double number = 0;
     if (outcome == v1::FUNCTION_UNKNOWN_OBJECT && object < request.objects().size()) {
@@ -114,7 +117,7 @@ void Drill::bored() {
     due_us_ = clock_.now_us() + us(kAgainS);
     return;
   }
-  report("hole." + place_, "bored");
+  report("drill.hole." + place_, "bored");
   rest({v1::STAGE_COMPLETED, "done", "", 1200});
 }
 
