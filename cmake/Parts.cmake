@@ -3,13 +3,15 @@
 #   roci_library(NAME core_pddl HELP "..." SOURCES a.cpp b.cpp DEPENDS core_x PRIVATE_DEPENDS yaml-cpp)
 #   roci_program(NAME roci-plan HELP "..." SOURCES main.cpp DEPENDS planner_temporal_pddl)      installed to bin/, unless NOT_INSTALLED
 #   roci_plugin (NAME roci_transport_inproc HELP "..." SOURCES ... DEPENDS ...)        installed to lib/rocinante/
-#   roci_test   (NAME unit_pddl SOURCES parser_test.cpp DEPENDS core_pddl [LABEL contract] [SERIAL | PROCESSORS 2])
+#   roci_test_library(NAME scenario_flight HELP "..." SOURCES flight.cpp DEPENDS ...)   what tests of one folder share
+#   roci_test   (NAME unit_pddl SOURCES parser_test.cpp DEPENDS core_pddl [LABEL contract] [SERIAL | PROCESSORS 2] [OPTIMIZED])
 #     SERIAL: alone, since it is about who is late; PROCESSORS 2: beside one other, since it flies every process of a mission
+#     OPTIMIZED: its own code is a long search (an oracle, an explorer, a fuzzer); others are compiled without, which takes a quarter less time
 #
 # Release builds compile many sources of a part at once (CMake's unity build, CMakePresets.json), which takes a third of the time. Two sources
 # that give one name to two private things cannot be compiled so: give them two names, or list one of them under ALONE.
 #
-# googletest and what of the standard library nearly every test includes is compiled once, ahead of the others; builds without that (preset dev,
+# googletest, JSON and what of the standard library nearly every test includes is compiled once, ahead of the others; builds without that (preset dev,
 # and those of ./check --full) show that each source includes what it uses.
 #
 # A part that is COLD does little but start, tell and end: its compile time counts for more than its speed.
@@ -22,16 +24,21 @@ set_property(GLOBAL PROPERTY ROCI_PARTS "")
 add_custom_target(programs)
 
 find_package(GTest REQUIRED)
+find_package(nlohmann_json REQUIRED)
 include(GoogleTest)
 
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/test_headers.cpp" CONTENT "int main() {}\n")
-add_executable(roci_test_headers "${PROJECT_BINARY_DIR}/test_headers.cpp")
-set_target_properties(roci_test_headers PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
-target_link_libraries(roci_test_headers PRIVATE GTest::gtest GTest::gmock roci_warnings)
-target_precompile_headers(
-  roci_test_headers PRIVATE <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <set> <span>
-                            <sstream> <string> <unordered_map> <vector> <gmock/gmock.h> <gtest/gtest.h>)
-target_compile_options(roci_test_headers PRIVATE $<$<CONFIG:Release>:-O1>)
+function(_roci_test_headers target optimization)
+  add_executable(${target} "${PROJECT_BINARY_DIR}/test_headers.cpp")
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
+  target_link_libraries(${target} PRIVATE GTest::gtest GTest::gmock nlohmann_json::nlohmann_json roci_warnings)
+  target_precompile_headers(
+    ${target} PRIVATE <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <set> <span>
+                      <sstream> <string> <unordered_map> <vector> <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${optimization}>)
+endfunction()
+_roci_test_headers(roci_test_headers -O0)
+_roci_test_headers(roci_optimized_test_headers -O1)
 
 function(_roci_part target)
   cmake_parse_arguments(PART "COLD;NOT_INSTALLED" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;ALONE" ${ARGN})
@@ -79,16 +86,33 @@ function(roci_plugin)
   install(TARGETS ${PART_NAME} LIBRARY DESTINATION lib/rocinante)
 endfunction()
 
+# What tests of one folder share, compiled once and as they are.
+function(roci_test_library)
+  cmake_parse_arguments(PART "" "NAME;HELP" "SOURCES;DEPENDS;ALONE" ${ARGN})
+  add_library(${PART_NAME} STATIC ${PART_SOURCES})
+  _roci_part(${PART_NAME} ${ARGN})
+  _roci_test_part(${PART_NAME} FALSE)
+endfunction()
+
+function(_roci_test_part target optimized)
+  if(optimized)
+    target_precompile_headers(${target} REUSE_FROM roci_optimized_test_headers)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  else()
+    target_precompile_headers(${target} REUSE_FROM roci_test_headers)
+  endif()
+  target_compile_definitions(${target} PRIVATE ROCI_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ROCI_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  target_link_libraries(${target} PRIVATE GTest::gtest GTest::gmock nlohmann_json::nlohmann_json roci_warnings)
+endfunction()
+
 function(roci_test)
-  cmake_parse_arguments(PART "SERIAL" "NAME;HELP;LABEL;PROCESSORS" "SOURCES;DEPENDS;ALONE" ${ARGN})
+  cmake_parse_arguments(PART "SERIAL;OPTIMIZED" "NAME;HELP;LABEL;PROCESSORS" "SOURCES;DEPENDS;ALONE" ${ARGN})
   set_source_files_properties(${PART_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   add_executable(${PART_NAME} ${PART_SOURCES})
-  target_precompile_headers(${PART_NAME} REUSE_FROM roci_test_headers)
   set_target_properties(${PART_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
   target_include_directories(${PART_NAME} PRIVATE "${PROJECT_SOURCE_DIR}")
-  target_compile_definitions(${PART_NAME} PRIVATE ROCI_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                                                  ROCI_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  target_link_libraries(${PART_NAME} PRIVATE ${PART_DEPENDS} GTest::gtest_main GTest::gmock roci_warnings)
+  target_link_libraries(${PART_NAME} PRIVATE ${PART_DEPENDS} GTest::gtest_main)
+  _roci_test_part(${PART_NAME} ${PART_OPTIMIZED})
   if(NOT PART_LABEL)
     set(PART_LABEL unit)
   endif()
