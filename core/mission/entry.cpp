@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/mission/findings.hpp"
-#include "core/mission/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 
 namespace roci::mission {
 namespace {
@@ -151,7 +151,7 @@ void Entry::allow_only(std::initializer_list<std::string_view> known) const {
     const Entry key(document_, child.first);
     if (std::find(known.begin(), known.end(), key.text()) != known.end()) continue;
     key.complain("unknown key '" + key.text() + "'; known here: " + listed(known) +
-                 did_you_mean(key.text(), {known.begin(), known.end()}));
+                 words::did_you_mean(key.text(), {known.begin(), known.end()}));
   }
 }
 

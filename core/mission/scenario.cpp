@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/mission/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 
 namespace roci::mission {
 namespace {
@@ -32,7 +32,7 @@ Entry load_scenario(const std::filesystem::path& folder_or_file, const std::stri
   std::string all;
   for (const std::string& one : names) all += (all.empty() ? "" : ", ") + one;
   throw FileError(file.string() + ": there is no such scenario; choose one of: " +
-                  (all.empty() ? "none" : all) + did_you_mean(name, names));
+                  (all.empty() ? "none" : all) + words::did_you_mean(name, names));
 }
 
 }  // namespace roci::mission

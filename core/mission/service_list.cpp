@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "core/mission/mission_file.hpp"
-#include "core/mission/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 
 namespace roci::mission {
 namespace {
@@ -47,13 +47,14 @@ void read_robot(const Entry& entry, const std::vector<std::string>& robots, Serv
   out.robot = robot->text();
   if (std::ranges::find(robots, out.robot) == robots.end())
     robot->complain("no robot '" + out.robot + "' stands in robots:; known: " + joined(robots) +
-                    did_you_mean(out.robot, robots));
+                    words::did_you_mean(out.robot, robots));
 }
 
 void require_file(const Entry& entry, const std::filesystem::path& file, const char* what) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
-    entry.complain(std::string("there is no ") + what + " " + file.string() + "; correct the name, or put it there");
+    entry.complain(std::string("there is no ") + what + " " + file.string() +
+                   "; correct the name, or put it there");
 }
 
 ServiceEntry read_service(const Entry& entry, const std::vector<std::string>& robots) {

@@ -1,9 +1,9 @@
 #include <algorithm>
 
 #include "core/pddl/check_parts.hpp"
-#include "core/pddl/nearest_word.hpp"
 #include "core/pddl/overloaded.hpp"
 #include "core/pddl/printer.hpp"
+#include "core/words/nearest_word.hpp"
 
 namespace roci::pddl {
 
@@ -43,7 +43,7 @@ const TypedName* FormulaChecker::find_variable(const std::string& name) const {
 }
 
 std::string FormulaChecker::remedy_for_variable(const std::string& name) const {
-  NearestWord near(name);
+  words::NearestWord near(name);
   for (const auto& [bound, ignored] : bound_) near.offer(bound);
   return near.remedy("add it to :parameters or a quantifier");
 }

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "core/pddl/check_parts.hpp"
-#include "core/pddl/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 
 namespace roci::pddl {
 
@@ -14,7 +14,7 @@ typename Map::mapped_type find_in(const Map& map, const std::string& name) {
 }
 
 template <typename Map>
-void offer_keys(const Map& map, NearestWord& near) {
+void offer_keys(const Map& map, words::NearestWord& near) {
   for (const auto& [name, ignored] : map) near.offer(name);
 }
 
@@ -39,13 +39,13 @@ void Symbols::add_objects(const std::vector<TypedName>& objects) {
 }
 
 std::string Symbols::remedy_for_type(std::string_view name, std::string_view otherwise) const {
-  NearestWord near(name);
+  words::NearestWord near(name);
   if (may_compare()) types_.offer(near);
   return near.remedy(otherwise);
 }
 
 std::string Symbols::remedy_for_predicate(std::string_view name, std::string_view otherwise) const {
-  NearestWord near(name);
+  words::NearestWord near(name);
   if (may_compare()) offer_keys(predicates_, near);
   if (near.found().empty() && find_fluent(std::string(name)))
     return "it is a function: compare its value with a number; else " + std::string(otherwise);
@@ -53,7 +53,7 @@ std::string Symbols::remedy_for_predicate(std::string_view name, std::string_vie
 }
 
 std::string Symbols::remedy_for_function(std::string_view name, std::string_view otherwise) const {
-  NearestWord near(name);
+  words::NearestWord near(name);
   if (may_compare()) {
     offer_keys(fluents_, near);
     offer_keys(externals_, near);
@@ -64,7 +64,7 @@ std::string Symbols::remedy_for_function(std::string_view name, std::string_view
 }
 
 std::string Symbols::remedy_for_object(std::string_view name, std::string_view otherwise) const {
-  NearestWord near(name);
+  words::NearestWord near(name);
   if (may_compare()) offer_keys(objects_, near);
   return near.remedy(otherwise);
 }

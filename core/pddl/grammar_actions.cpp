@@ -2,7 +2,7 @@
 #include <map>
 
 #include "core/pddl/grammar.hpp"
-#include "core/pddl/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 
 namespace roci::pddl::grammar {
 
@@ -49,7 +49,7 @@ class Fields {
     std::string all;
     for (const std::string_view name : known) all += (all.empty() ? "" : " ") + std::string(name);
     source_.report(key.where, what + " where a keyword of the action is expected",
-                   nearest(key.word, known).remedy("known: " + all));
+                   words::nearest(key.word, known).remedy("known: " + all));
   }
 
   const Source& source_;

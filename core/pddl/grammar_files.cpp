@@ -2,7 +2,7 @@
 #include <array>
 
 #include "core/pddl/grammar.hpp"
-#include "core/pddl/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 
 namespace roci::pddl::grammar {
 
@@ -65,9 +65,9 @@ std::vector<Requirement> read_requirements(const Sexpr& s, const Source& source)
                   "requirement " + item.word + " is not supported, and passed over until something needs it",
                   "take it away if nothing does");
     } else {
-      source.warn(Departure::requirement_flag, item.where,
-                  "unknown requirement " + item.word + " is passed over",
-                  nearest(item.word, kKnown).remedy("known are those of PDDL 2.1 and 2.2, and :modules"));
+      source.warn(
+          Departure::requirement_flag, item.where, "unknown requirement " + item.word + " is passed over",
+          words::nearest(item.word, kKnown).remedy("known are those of PDDL 2.1 and 2.2, and :modules"));
     }
   }
   return requirements;
@@ -81,7 +81,7 @@ std::string unknown_section(const Sexpr& s, std::string_view kind) {
 std::string remedy_for_section(const Sexpr& s, std::span<const std::string_view> known) {
   std::string all;
   for (const std::string_view name : known) all += (all.empty() ? "" : " ") + std::string(name);
-  return nearest(s.is_list ? s.head() : std::string_view(s.word), known).remedy("known: " + all);
+  return words::nearest(s.is_list ? s.head() : std::string_view(s.word), known).remedy("known: " + all);
 }
 
 }  // namespace roci::pddl::grammar

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/pddl/grammar.hpp"
-#include "core/pddl/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 
 namespace roci::pddl::grammar {
 
@@ -103,7 +103,7 @@ std::vector<std::string> read_type(const Sexpr& s, const Source& source) {
                     "' is a list where a fact is wanted, and object fluents are not supported",
                 "a fact is a predicate and its objects: (NAME OBJECT …)");
   }
-  const NearestWord near = nearest(owner.symbol, kConnectives);
+  const words::NearestWord near = words::nearest(owner.symbol, kConnectives);
   if (!near.found().empty()) {
     source.fail(owner.where, "unknown '" + owner.symbol + "' around other lists",
                 near.remedy("a predicate takes objects and variables, no lists"));

@@ -29,7 +29,7 @@ TypeTree::TypeTree(const Domain& domain) {
   for (auto& [type, closure] : ancestors_) closure = {type, "object"};
 }
 
-void TypeTree::offer(NearestWord& word) const {
+void TypeTree::offer(words::NearestWord& word) const {
   for (const auto& [type, ignored] : ancestors_) word.offer(type);
 }
 

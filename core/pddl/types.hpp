@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/pddl/ast.hpp"
-#include "core/pddl/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 
 namespace roci::pddl {
 
@@ -25,7 +25,7 @@ class TypeTree {
   /// Names a type with more than kMostAbove types above it; it is empty if there is none.
   const std::string& too_deep() const { return too_deep_; }
   /// Offers the names of all types.
-  void offer(NearestWord& word) const;
+  void offer(words::NearestWord& word) const;
 
   bool knows(std::string_view type) const;
   /// Returns the type itself, all above it, and "object"; there are none for unknown types.

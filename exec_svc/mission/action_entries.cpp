@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/mission/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 
 namespace roci::exec::mission {
 
@@ -30,7 +30,7 @@ Meaning read_word(const Entry& entry, const char* what,
   std::vector<std::string> all;
   for (const auto& [word, meaning] : words) all.emplace_back(word);
   entry.fail("unknown " + std::string(what) + " '" + text + "'; one of: " + known +
-             roci::mission::did_you_mean(text, all));
+             words::did_you_mean(text, all));
 }
 
 const Component& read_component(const Entry& entry, const std::vector<Component>& components) {
@@ -40,7 +40,7 @@ const Component& read_component(const Entry& entry, const std::vector<Component>
     std::vector<std::string> known;
     for (const Component& component : components) known.push_back(component.name);
     entry.fail("no component '" + name + "' in this mission; declare it under 'components'" +
-               roci::mission::did_you_mean(name, known));
+               words::did_you_mean(name, known));
   }
   return *found;
 }

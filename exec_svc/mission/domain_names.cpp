@@ -4,10 +4,10 @@
 #include <set>
 #include <vector>
 
-#include "core/mission/nearest_word.hpp"
 #include "core/pddl/check.hpp"
 #include "core/pddl/overloaded.hpp"
 #include "core/pddl/types.hpp"
+#include "core/words/nearest_word.hpp"
 #include "exec_svc/mission/goal_kind_entries.hpp"
 #include "exec_svc/mission/template_text.hpp"
 
@@ -20,7 +20,7 @@ using roci::mission::Entry;
 std::string known_names(const std::string& word, const std::vector<std::string>& all) {
   std::string out;
   for (const std::string& one : all) out += (out.empty() ? "" : ", ") + one;
-  return (out.empty() ? "none" : out) + roci::mission::did_you_mean(word, all);
+  return (out.empty() ? "none" : out) + words::did_you_mean(word, all);
 }
 
 template <class Named>
@@ -120,9 +120,9 @@ class NameCheck {
     std::set<std::string> meant;  // by misspelt names: not missing, too
     entry.each_field([&](const std::string& name, const Entry& binding) {
       if (std::ranges::find(known, name) != known.end()) return;
-      meant.insert(roci::mission::nearest_word(name, known));
+      meant.insert(words::nearest_word(name, known));
       binding.fail("the domain has no action '" + name + "'; name one of its actions" +
-                   roci::mission::did_you_mean(name, known));
+                   words::did_you_mean(name, known));
     });
     for (const std::string& name : known) {
       if (!entry.find(name) && !meant.contains(name))

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/mission/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 #include "exec_svc/mission/template_text.hpp"
 #include "rehearsal/check/words.hpp"
 
@@ -53,7 +53,7 @@ void KnownTimelines::require(const Entry& entry, const std::string& text) const 
   const bool is_template = name.find_first_of("{*") != std::string::npos;
   const std::string word = is_template ? family_part(name) : name;
   const std::vector<std::string>& known = is_template ? prefixes_ : names_;
-  if (!mission_.closed && mission::nearest_word(word, known).empty()) return;
+  if (!mission_.closed && words::nearest_word(word, known).empty()) return;
   entry.complain("nobody tells of a timeline '" + name + "'; " + instead_of(word, known));
 }
 

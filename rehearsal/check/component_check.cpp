@@ -4,7 +4,7 @@
 #include <cctype>
 #include <set>
 
-#include "core/mission/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 #include "exec_svc/mission/template_text.hpp"
 #include "rehearsal/check/words.hpp"
 
@@ -47,7 +47,7 @@ void check_states(const Entry& states, const std::string& whose,
   states.each_field([&](const std::string& name, const Entry& state) {
     const auto form = std::ranges::find(forms, name, &sim::world::StateForm::name);
     if (form != forms.end()) return check_facts(state, *form);
-    meant.insert(mission::nearest_word(name, left));
+    meant.insert(words::nearest_word(name, left));
     state.fail(whose + " is never in a state '" + name + "'; " + instead_of(name, known));
   });
   if (!all_are_needed) return;

@@ -6,8 +6,8 @@
 #include <utility>
 #include <variant>
 
-#include "core/mission/nearest_word.hpp"
 #include "core/pddl/ast.hpp"
+#include "core/words/nearest_word.hpp"
 #include "exec_svc/beliefs/beliefs.hpp"
 #include "exec_svc/mission/template_text.hpp"
 #include "exec_svc/problem/problem_writer.hpp"
@@ -238,7 +238,7 @@ void check_functions(const CheckedMission& mission, const CheckedExecutive& exec
   for (const auto& [name, functions] : offered) known.push_back(name);
   const auto add = [&](const pddl::SourceLocation& where, const std::string& what, const std::string& word,
                        const std::vector<std::string>& words) {
-    if (!mission.closed && mission::nearest_word(word, words).empty()) return;
+    if (!mission.closed && words::nearest_word(word, words).empty()) return;
     findings.add(
         {domain.file, where.line, where.column, mission::Severity::error, what, instead_of(word, words)});
   };

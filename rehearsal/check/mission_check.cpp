@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "core/mission/mission_file.hpp"
-#include "core/mission/nearest_word.hpp"
 #include "core/mission/scenario.hpp"
 #include "core/pddl/ast.hpp"
+#include "core/words/nearest_word.hpp"
 #include "rehearsal/check/action_check.hpp"
 #include "rehearsal/check/component_check.hpp"
 #include "rehearsal/check/goal_kind_check.hpp"

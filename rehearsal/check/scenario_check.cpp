@@ -4,7 +4,7 @@
 #include <map>
 #include <variant>
 
-#include "core/mission/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 #include "rehearsal/check/event_codes.hpp"
 #include "rehearsal/check/words.hpp"
 
@@ -53,7 +53,7 @@ class GoalCheck {
   static std::string nearest_kind(const GoalStimulus& goal, const CheckedExecutive& executive) {
     std::vector<std::string> kinds;
     for (const auto& [name, kind] : executive.model.goal_kinds) kinds.push_back(name);
-    return contains(kinds, goal.kind) ? "" : mission::did_you_mean(goal.kind, kinds);
+    return contains(kinds, goal.kind) ? "" : words::did_you_mean(goal.kind, kinds);
   }
   static std::string remedy(const std::string& reason) {
     return reason.find("; ") == std::string::npos
@@ -94,7 +94,7 @@ void check_expected(const CheckedMission& mission, const CheckedScenario& scenar
     std::string code = item.is_mapping() ? item.fields().front().first : item.text();
     if (code.ends_with('+')) code.pop_back();
     if (code.empty() || contains(event_codes(), code)) return;
-    if (!mission.closed && mission::nearest_word(code, event_codes()).empty())
+    if (!mission.closed && words::nearest_word(code, event_codes()).empty())
       return;  // of a program of its owner
     item.fail("no service tells of an event '" + code + "'; " + instead_of(code, event_codes()));
   });

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "core/mission/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 
 namespace roci::rehearsal::check {
 
 std::string instead_of(std::string_view word, const std::vector<std::string>& known) {
   constexpr std::size_t kShown = 12;
-  if (const std::string nearest = mission::nearest_word(word, known); !nearest.empty())
+  if (const std::string nearest = words::nearest_word(word, known); !nearest.empty())
     return "did you mean '" + nearest + "'?";
   std::string out = "known: ";
   for (std::size_t i = 0; i < std::min(known.size(), kShown); ++i) out += (i > 0 ? ", " : "") + known[i];

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/mission/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 
 namespace roci::sim::setup {
 
@@ -129,7 +129,7 @@ std::vector<std::string> robot_names(const Roster& roster) {
 std::string known_names(std::string_view word, const std::vector<std::string>& known) {
   std::string out;
   for (const std::string& one : known) out += (out.empty() ? "" : ", ") + one;
-  return (out.empty() ? "none" : out) + mission::did_you_mean(word, known);
+  return (out.empty() ? "none" : out) + words::did_you_mean(word, known);
 }
 
 }  // namespace roci::sim::setup

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/mission/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 
 namespace roci::sim::setup {
 
@@ -54,7 +54,7 @@ void refuse_unknown_keys(const Entry& entry, const std::set<std::string, std::le
     std::string list;
     for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
     value.complain("unknown key '" + key + "'; known here: " + list +
-                   mission::did_you_mean(key, {known.begin(), known.end()}));
+                   words::did_you_mean(key, {known.begin(), known.end()}));
   }
 }
 

@@ -16,7 +16,8 @@ struct House {
 };
 
 const std::vector<House> kHouses = {
-    {"core/", {"core/temporal/", "core/mission/", "core/pddl/", "core/kinematics/", "core/terrain/"}},
+    {"core/",
+     {"core/temporal/", "core/words/", "core/mission/", "core/pddl/", "core/kinematics/", "core/terrain/"}},
     {"services/",
      {"services/bounds/", "services/clock/", "services/link/", "services/log/", "services/wire/",
       "services/transport/", "services/certificate/", "services/vendors/", "services/topics.hpp",

@@ -9,7 +9,6 @@
 #include <fstream>
 
 #include "core/mission/entry.hpp"
-#include "core/mission/nearest_word.hpp"
 
 namespace roci::mission {
 namespace {
@@ -112,19 +111,6 @@ TEST_F(CollectedFile, EndsAtTheFirstFaultWithoutACollection) {
   } catch (const FileError& error) {
     EXPECT_THAT(error.what(), HasSubstr(":3:1: unknown key 'naem'"));
   }
-}
-
-TEST(NearestWord, IsTheOneThatIsTheFewestSlipsAway) {
-  const std::vector<std::string> known{"drive", "rover.battery", "x", "y", "idle-at"};
-  EXPECT_EQ(nearest_word("drvie", known), "drive");
-  EXPECT_EQ(nearest_word("rover.batery", known), "rover.battery");
-  EXPECT_EQ(nearest_word("idle-ta", known), "idle-at");
-  EXPECT_EQ(nearest_word("xx", known), "x");
-  EXPECT_EQ(nearest_word("z", known), "") << "no letter of it is right";
-  EXPECT_EQ(nearest_word("camera", known), "");
-  EXPECT_EQ(did_you_mean("drvie", known), "; did you mean 'drive'?");
-  EXPECT_EQ(did_you_mean("camera", known), "");
-  EXPECT_EQ(nearest_word(std::string(100000, 'a'), known), "");
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "core/pddl/check.hpp"
-#include "core/pddl/nearest_word.hpp"
 #include "tests/unit/core/pddl/texts.hpp"
 
 namespace roci::pddl {
@@ -115,15 +114,6 @@ TEST(AllErrors, NearestWordOfEachKind) {
   EXPECT_THAT(section_findings("(:action a :precondition (f))"), ElementsAre(HasSubstr("it is a function")));
   EXPECT_THAT(section_findings("(:action a :precondition (xylophone))"),
               ElementsAre(AllOf(HasSubstr("(declare it in :predicates)"), Not(HasSubstr("did you mean")))));
-}
-
-TEST(AllErrors, NearestWordCountsEdits) {
-  const std::vector<std::string> known = {"at", "robot", "location"};
-  EXPECT_EQ(nearest("robto", known).found(), "robot") << "two exchanged are one edit";
-  EXPECT_EQ(nearest("rbt", known).found(), "") << "two edits of three";
-  EXPECT_EQ(nearest("locatoin_", known).found(), "location");
-  EXPECT_EQ(nearest("on", known).found(), "");
-  EXPECT_EQ(nearest(std::string(100'000, 'x'), known).found(), "");
 }
 
 // ---- Parentheses

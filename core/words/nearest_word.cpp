@@ -1,19 +1,16 @@
-#include "core/pddl/nearest_word.hpp"
+#include "core/words/nearest_word.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
-#include <vector>
 
-namespace roci::pddl {
+namespace roci::words {
 
 namespace {
 
-constexpr std::size_t kLongest = 64;  // characters; longer words are not compared
+constexpr std::size_t kLongest = 200;  // characters
 
-std::size_t edits_allowed(std::size_t length) {
-  if (length < 3 || length > kLongest) return 0;
-  return length < 5 ? 1 : length < 9 ? 2 : 3;
-}
+std::size_t edits_allowed(std::size_t length) { return std::min(std::max<std::size_t>(1, length / 3), length - 1); }
 
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
@@ -34,16 +31,17 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 NearestWord::NearestWord(std::string_view word)
-    : word_(word.substr(0, kLongest + 1)), limit_(edits_allowed(word.size())) {}
+    : word_(word.substr(0, kLongest + 1)), fewest_(std::numeric_limits<std::size_t>::max()) {}
 
 void NearestWord::offer(std::string_view known) {
-  if (limit_ == 0 || known.empty() || known.size() > word_.size() + limit_ ||
-      word_.size() > known.size() + limit_)
-    return;
+  if (known.empty() || word_.empty() || std::max(known.size(), word_.size()) > kLongest) return;
+  const auto [shorter, longer] = std::minmax(known.size(), word_.size());
+  const std::size_t allowed = edits_allowed(longer);
+  if (longer - shorter > allowed) return;
   const std::size_t edits = distance(word_, known);
-  if (edits > limit_ || edits == 0) return;
+  if (edits == 0 || edits > allowed || edits >= fewest_) return;
   found_ = known;
-  limit_ = edits - 1;
+  fewest_ = edits;
 }
 
 std::string NearestWord::remedy(std::string_view otherwise) const {
@@ -51,4 +49,13 @@ std::string NearestWord::remedy(std::string_view otherwise) const {
   return "did you mean '" + found_ + "'? else " + std::string(otherwise);
 }
 
-}  // namespace roci::pddl
+std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
+  return nearest(word, known).found();
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
+  const std::string found = nearest_word(word, known);
+  return found.empty() ? "" : "; did you mean '" + found + "'?";
+}
+
+}  // namespace roci::words

@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
-namespace roci::pddl {
+namespace roci::words {
 
 /// Is offered the known words one by one and keeps the nearest, by the optimal string alignment distance (Damerau's edits:
-/// a character too many, missing, wrong, or two exchanged). A word counts as near with one edit from 3 characters on, with
-/// two from 5, with three from 9; of equally near ones the first counts.
+/// a character too many, missing, wrong, or two exchanged). A word counts as near with one edit for each three characters of
+/// the longer one, at least one, but not if all its characters are edited; of equally near ones the first counts. Words
+/// of over 200 characters are not compared.
 class NearestWord {
  public:
   explicit NearestWord(std::string_view word);
@@ -22,7 +24,7 @@ class NearestWord {
 
  private:
   std::string word_;
-  std::size_t limit_;  // edits that are still near
+  std::size_t fewest_;  // edits of the word that was found
   std::string found_;
 };
 
@@ -34,4 +36,10 @@ NearestWord nearest(std::string_view word, const Words& known) {
   return found;
 }
 
-}  // namespace roci::pddl
+/// Returns the nearest of the known words, or nothing.
+std::string nearest_word(std::string_view word, const std::vector<std::string>& known);
+
+/// Returns "; did you mean 'drive'?", to be put behind the list of what is known, or nothing where no word is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
+
+}  // namespace roci::words
