@@ -166,16 +166,16 @@ TEST(FuzzPddl, WideInputsTakeTimeOfTheirSize) {
   run_all("(define (domain d) (:predicates (p)) (:functions (f)) (:action a :effect (increase (f) " +
           repeated("(/ 1 ", 180) + "(f)" + std::string(180, ')') + ")))");
   std::string rules = "(:derived (d0) (not (p)))";
-  for (int i = 20'000; i > 0; --i)
+  for (int i = 10'000; i > 0; --i)
     rules += "(:derived (d" + std::to_string(i) + ") (d" + std::to_string(i - 1) + "))";
   const std::string domain =
-      "(define (domain d) (:predicates (p)" + numbered("(d", 0, 20'001, ")") + ")" + rules + ")";
+      "(define (domain d) (:predicates (p)" + numbered("(d", 0, 10'001, ")") + ")" + rules + ")";
   EXPECT_NO_THROW(pddl::load_domain(domain, "fuzz"));
   run_all("(define (domain d) (:predicates (p)) (:action a :precondition (forall (" +
-          numbered("?x", 0, 10'000, " ") + ") (forall (" + numbered("?y", 0, 10'000, " ") + ") (p)))))");
+          numbered("?x", 0, 5'000, " ") + ") (forall (" + numbered("?y", 0, 5'000, " ") + ") (p)))))");
   std::string unknown;
-  for (int i = 0; i < 20'000; ++i) unknown += "(known" + std::to_string(i) + "x)";
-  run_all("(define (domain d) (:predicates " + numbered("(known", 0, 20'000, ")") +
+  for (int i = 0; i < 5'000; ++i) unknown += "(known" + std::to_string(i) + "x)";
+  run_all("(define (domain d) (:predicates " + numbered("(known", 0, 5'000, ")") +
           ") (:action a :precondition (and " + unknown + ")))");
   run_all(repeated(",", 200'000) + "(define (domain d))");
   run_all("(define (problem x) (:domain d) (:init" + repeated(" ()", 50'000) + "))");
