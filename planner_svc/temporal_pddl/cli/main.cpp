@@ -240,7 +240,8 @@ Result plan(const Arguments& arguments, const Model& model, const std::function<
   std::vector<pddl::PlanStep> remaining;
   if (!arguments.remaining.empty())
     remaining = pddl::parse_plan(read_file(arguments.remaining), arguments.remaining);
-  Result result = temporal_pddl::plan(model.domain, model.problem, *functions, budget, monitor, options, remaining);
+  Result result =
+      temporal_pddl::plan(model.domain, model.problem, *functions, budget, monitor, options, remaining);
   check(model.domain, model.problem, result);
   return result;
 }
