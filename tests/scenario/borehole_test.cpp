@@ -68,6 +68,14 @@ TEST_F(BoreholeFlight, ARehearsalSaysWhatAProgramLacks) {
                 mission / "bin/drill_svc.so", fs::copy_options::overwrite_existing);
   EXPECT_THAT(run("roci-rehearse " + mission.string() + " 2>&1").output,
               HasSubstr("drill_svc.so: holds no service; name it with ROCI_SERVICE_PROGRAM"));
+  const Ended other =
+      run("echo 'const char* roci_service_program[] = {\"roci;build=0.0.0\", \"0\", 0};' | gcc -shared -fPIC "
+          "-x c - -o " +
+          (mission / "bin/drill_svc.so").string());
+  ASSERT_EQ(other.exit_code, 0) << other.output;
+  EXPECT_THAT(
+      run("roci-rehearse " + mission.string() + " 2>&1").output,
+      HasSubstr("drill_svc.so: was built with another Rocinante or another compiler than this program"));
 }
 
 // What users copy stands on nothing of ours.
