@@ -15,8 +15,8 @@ namespace v1 = roci::v1;
 
 class Logbook final : public services::Service {
  public:
-  Logbook(services::Node& node, const services::RunSettings& settings)
-      : node_(node), file_(settings.run_folder / "logbook.txt", std::ios::app) {
+  Logbook(services::Node& node, const services::RunSettings& settings) : node_(node) {
+    if (!settings.run_folder.empty()) file_.open(settings.run_folder / "logbook.txt", std::ios::app);
     services::subscribe(node, topics::event,
                         [this](const v1::Event& event) { write(event.code() + ": " + event.text()); });
     services::subscribe(node, topics::command_ack, [this](const v1::CommandAck& ack) {

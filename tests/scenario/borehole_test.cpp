@@ -24,12 +24,12 @@ TEST_P(Borehole, HasOneTraceFromTheSdkAndFromNativeParticipants) {
   const json reference = last_line_as_json(rehearsal.output);
   EXPECT_EQ(reference.value("result", ""), "achieved") << rehearsal.output;
   for (const char* drill : {"sdk", "native_c", "native_cpp"}) {
-    const fs::path folder = run_folder(drill);
-    const Flight flight = fly(mission_of(drill), GetParam(), 1, "--run-folder " + folder.string());
+    const fs::path flown = run_folder(drill);
+    const Flight flight = fly(mission_of(drill), GetParam(), 1, "--run-folder " + flown.string());
     EXPECT_EQ(flight.exit_code, 0) << drill << flight.summary.dump();
     EXPECT_EQ(flight.summary["expected"].value("fault", "no report"), "") << drill;
     EXPECT_EQ(flight.summary.value("trace_sha256", ""), reference.value("trace_sha256", "none")) << drill;
-    const std::string logbook = text_of(folder / "logbook.txt");
+    const std::string logbook = text_of(flown / "logbook.txt");
     for (const char* word : {"cancelled cancelled to p1.1-bore", "accepted repairing to p2.2-bore",
                              "completed done to p2.2-bore"})
       EXPECT_THAT(logbook, HasSubstr(word)) << drill;
@@ -68,6 +68,14 @@ TEST_F(BoreholeFlight, ARehearsalSaysWhatAProgramLacks) {
                 mission / "bin/drill_svc.so", fs::copy_options::overwrite_existing);
   EXPECT_THAT(run("roci-rehearse " + mission.string() + " 2>&1").output,
               HasSubstr("drill_svc.so: holds no service; name it with ROCI_SERVICE_PROGRAM"));
+  const Ended other =
+      run("echo 'const char* roci_service_program[] = {\"roci;build=0.0.0\", \"0\", 0};' | gcc -shared -fPIC "
+          "-x c - -o " +
+          (mission / "bin/drill_svc.so").string());
+  ASSERT_EQ(other.exit_code, 0) << other.output;
+  EXPECT_THAT(
+      run("roci-rehearse " + mission.string() + " 2>&1").output,
+      HasSubstr("drill_svc.so: was built with another Rocinante or another compiler than this program"));
 }
 
 // What users copy stands on nothing of ours.

@@ -1,3 +1,5 @@
+#include "clock.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,15 +8,14 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "clock.h"
 #include "clock_service.h"
 #include "health.h"
 
 // A clocked sample that is held back until a step announces it.
 struct Held {
-  const struct Input *input;
-  void *sample;
-  const roci_v1_SampleHeader *header;
+  const struct Input* input;
+  void* sample;
+  const roci_v1_SampleHeader* header;
 };
 struct Stream {
   char topic[128], sender[64];
@@ -22,10 +23,10 @@ struct Stream {
   uint64_t delivered;
 };
 
-static const struct Service *service;
+static const struct Service* service;
 static struct Output ready, done, heartbeat;
 static struct Input steps;
-static roci_v1_ClockStep *step;  // the newest of this run
+static roci_v1_ClockStep* step;  // the newest of this run
 static roci_v1_ClockDone answered;
 static struct Held held[4096];
 static int held_count;
@@ -44,7 +45,8 @@ int64_t now_us(void) {
   if (options.simulated) return simulated_us;
   struct timespec time;
   clock_gettime(CLOCK_REALTIME, &time);
-  return (int64_t)(((double)time.tv_sec - options.epoch_s + (double)time.tv_nsec / 1e9) * options.scale * 1e6);
+  return (int64_t)(((double)time.tv_sec - options.epoch_s + (double)time.tv_nsec / 1e9) * options.scale *
+                   1e6);
 }
 
 // A sign of life for everybody, and one for the launcher, from the loop itself.
@@ -56,10 +58,10 @@ static void beat(roci_v1_ServiceState state) {
   if (state == roci_v1_SERVICE_RUNNING && wall_s() < next) return;
   next = wall_s() + 0.25;
   gethostname(host, sizeof host - 1);
-  beat.run = (char *)options.run;
-  beat.service = (char *)options.name;
-  beat.mission = (char *)options.mission;
-  beat.robot = (char *)options.robot;
+  beat.run = (char*)options.run;
+  beat.service = (char*)options.name;
+  beat.mission = (char*)options.mission;
+  beat.robot = (char*)options.robot;
   beat.incarnation = options.incarnation;
   beat.state = state;
   beat.dds = "cyclonedds";
@@ -67,32 +69,36 @@ static void beat(roci_v1_ServiceState state) {
   beat.process_id = getpid();
   dds_write(heartbeat.writer, &beat);
 
-  const char *address = getenv("NOTIFY_SOCKET");
+  const char* address = getenv("NOTIFY_SOCKET");
   struct sockaddr_un name = {.sun_family = AF_UNIX};
   if (address == NULL || strlen(address) >= sizeof name.sun_path) return;
   memcpy(name.sun_path, address, strlen(address));
   if (address[0] == '@') name.sun_path[0] = '\0';
   const int notify = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const char alive[] = "READY=1\nWATCHDOG=1";
-  sendto(notify, alive, strlen(alive), MSG_NOSIGNAL, (struct sockaddr *)&name,
+  sendto(notify, alive, strlen(alive), MSG_NOSIGNAL, (struct sockaddr*)&name,
          (socklen_t)(offsetof(struct sockaddr_un, sun_path) + strlen(address)));
   close(notify);
 }
 
-static bool listed(const char *name, uint32_t incarnation) {
+static bool listed(const char* name, uint32_t incarnation) {
   for (uint32_t i = 0; i < step->roster._length; ++i)
-    if (strcmp(step->roster._buffer[i].service, name) == 0 && step->roster._buffer[i].incarnation == incarnation) return true;
+    if (strcmp(step->roster._buffer[i].service, name) == 0 &&
+        step->roster._buffer[i].incarnation == incarnation)
+      return true;
   return false;
 }
 
 static bool asks_me(void) {
-  if (has_answered && answered.time_us == step->time_us && answered.micro_step == step->micro_step) return false;
+  if (has_answered && answered.time_us == step->time_us && answered.micro_step == step->micro_step)
+    return false;
   for (uint32_t i = 0; i < step->participants._length; ++i)
-    if (strcmp(step->participants._buffer[i], options.name) == 0) return listed(options.name, options.incarnation);
+    if (strcmp(step->participants._buffer[i], options.name) == 0)
+      return listed(options.name, options.incarnation);
   return false;
 }
 
-static bool newer(const roci_v1_ClockStep *a, const roci_v1_ClockStep *b) {
+static bool newer(const roci_v1_ClockStep* a, const roci_v1_ClockStep* b) {
   if (a->time_us != b->time_us) return a->time_us > b->time_us;
   if (a->micro_step != b->micro_step) return a->micro_step > b->micro_step;
   return a->revision > b->revision;
@@ -100,7 +106,7 @@ static bool newer(const roci_v1_ClockStep *a, const roci_v1_ClockStep *b) {
 
 static void take_steps(void) {
   dds_sample_info_t info;
-  for (roci_v1_ClockStep *next; (next = take_sample(&steps, &info)) != NULL;) {
+  for (roci_v1_ClockStep* next; (next = take_sample(&steps, &info)) != NULL;) {
     const bool own_run = strcmp(next->run, options.run) == 0;
     if (own_run && step != NULL && info.instance_state != DDS_IST_ALIVE) master_gone = true;
     if (own_run && info.valid_data && (step == NULL || newer(next, step))) {
@@ -113,42 +119,45 @@ static void take_steps(void) {
 }
 
 // The streams of a topic: "roci/command" of senders without a robot, "roci/command@miner" of our robot's.
-static bool is_stream(const char *stream, const char *topic, const char *robot) {
+static bool is_stream(const char* stream, const char* topic, const char* robot) {
   const size_t length = strlen(topic);
   if (strncmp(stream, topic, length) != 0) return false;
-  return robot[0] == '\0' ? stream[length] == '\0' : stream[length] == '@' && strcmp(stream + length + 1, robot) == 0;
+  return robot[0] == '\0' ? stream[length] == '\0'
+                          : stream[length] == '@' && strcmp(stream + length + 1, robot) == 0;
 }
 
-static bool hears(const roci_v1_StreamCount *count) {
+static bool hears(const roci_v1_StreamCount* count) {
   for (int i = 0; i < service->input_count; ++i)
-    if (is_stream(count->topic, service->inputs[i].topic, "") || is_stream(count->topic, service->inputs[i].topic, options.robot))
+    if (is_stream(count->topic, service->inputs[i].topic, "") ||
+        is_stream(count->topic, service->inputs[i].topic, options.robot))
       return true;
   return false;
 }
 
-static uint64_t *delivered(const roci_v1_StreamCount *count) {
+static uint64_t* delivered(const roci_v1_StreamCount* count) {
   for (int i = 0; i < stream_count; ++i)
     if (strcmp(streams[i].topic, count->topic) == 0 && strcmp(streams[i].sender, count->sender) == 0 &&
         streams[i].incarnation == count->incarnation)
       return &streams[i].delivered;
   if (stream_count == sizeof streams / sizeof *streams) fail("more streams than it can count");
-  struct Stream *stream = &streams[stream_count++];
+  struct Stream* stream = &streams[stream_count++];
   snprintf(stream->topic, sizeof stream->topic, "%s", count->topic);
   snprintf(stream->sender, sizeof stream->sender, "%s", count->sender);
   stream->incarnation = count->incarnation;
   return &stream->delivered;
 }
 
-static bool announced(const struct Held *one, const roci_v1_StreamCount *count) {
+static bool announced(const struct Held* one, const roci_v1_StreamCount* count) {
   return one->header->incarnation == count->incarnation && one->header->seq <= count->total &&
-         strcmp(one->header->sender, count->sender) == 0 && is_stream(count->topic, one->input->topic, one->header->robot);
+         strcmp(one->header->sender, count->sender) == 0 &&
+         is_stream(count->topic, one->input->topic, one->header->robot);
 }
 
 // Everything that the step announces is here. In its first step a service waits for the past of STATE topics alone, and gets the
 // newest of each key; a drill reads none.
 static bool complete(void) {
   for (uint32_t i = 0; joined && i < step->totals._length; ++i) {
-    const roci_v1_StreamCount *count = &step->totals._buffer[i];
+    const roci_v1_StreamCount* count = &step->totals._buffer[i];
     if (!hears(count) || !listed(count->sender, count->incarnation)) continue;
     uint64_t here = *delivered(count);
     for (int h = 0; h < held_count; ++h)
@@ -159,14 +168,15 @@ static bool complete(void) {
 }
 
 // (topic, sender, incarnation, number); what observers said comes last, as it came.
-static int in_order(const void *left, const void *right) {
+static int in_order(const void* left, const void* right) {
   const struct Held *a = left, *b = right;
   const bool outside_a = a->header->incarnation == 0, outside_b = b->header->incarnation == 0;
   if (outside_a || outside_b) return outside_a - outside_b;
   int order = strcmp(a->input->topic, b->input->topic);
   if (order == 0) order = strcmp(a->header->sender, b->header->sender);
   if (order != 0) return order;
-  if (a->header->incarnation != b->header->incarnation) return a->header->incarnation < b->header->incarnation ? -1 : 1;
+  if (a->header->incarnation != b->header->incarnation)
+    return a->header->incarnation < b->header->incarnation ? -1 : 1;
   return a->header->seq < b->header->seq ? -1 : a->header->seq > b->header->seq;
 }
 
@@ -201,18 +211,19 @@ static void deliver(void) {
 static void answer(void) {
   static roci_v1_StreamCount sent[16];
   static char topics[16][160];
-  answered.run = (char *)options.run;
-  answered.service = (char *)options.name;
+  answered.run = (char*)options.run;
+  answered.service = (char*)options.name;
   answered.incarnation = options.incarnation;
   answered.time_us = step->time_us;
   answered.micro_step = step->micro_step;
   uint32_t grown = 0;
   for (int i = 0; i < service->output_count; ++i) {
-    struct Output *output = &service->outputs[i];
+    struct Output* output = &service->outputs[i];
     if (output->total == output->reported) continue;
     output->reported = output->total;
     snprintf(topics[grown], sizeof topics[grown], "%s@%s", output->topic, options.robot);
-    sent[grown] = (roci_v1_StreamCount){topics[grown], (char *)options.name, options.incarnation, output->total};
+    sent[grown] =
+        (roci_v1_StreamCount){topics[grown], (char*)options.name, options.incarnation, output->total};
     ++grown;
   }
   answered.sent._length = answered.sent._maximum = grown;
@@ -247,18 +258,19 @@ static void follow(void) {
 
 static void say_ready(void) {
   static char names[16][160];
-  static char *subscriptions[16];
+  static char* subscriptions[16];
   static double next;
   if (admitted || wall_s() < next) return;
   next = wall_s() + 1;
   uint32_t count = 0;
   for (int i = 0; i < service->input_count; ++i)
     for (int own = 0; own < 2; ++own, ++count) {
-      snprintf(names[count], sizeof names[count], own ? "%s@%s" : "%s", service->inputs[i].topic, options.robot);
+      snprintf(names[count], sizeof names[count], own ? "%s@%s" : "%s", service->inputs[i].topic,
+               options.robot);
       subscriptions[count] = names[count];
     }
   const roci_v1_ClockReady says = {
-      (char *)options.run, (char *)options.name, options.incarnation, {count, count, subscriptions, false}};
+      (char*)options.run, (char*)options.name, options.incarnation, {count, count, subscriptions, false}};
   dds_write(ready.writer, &says);
 }
 
@@ -266,9 +278,9 @@ static void say_ready(void) {
 static void take_inputs(void) {
   dds_sample_info_t info;
   for (int i = 0; i < service->input_count; ++i) {
-    const struct Input *input = &service->inputs[i];
-    for (void *sample; (sample = take_sample(input, &info)) != NULL;) {
-      const roci_v1_SampleHeader *header = (const void *)((const char *)sample + input->header);
+    const struct Input* input = &service->inputs[i];
+    for (void* sample; (sample = take_sample(input, &info)) != NULL;) {
+      const roci_v1_SampleHeader* header = (const void*)((const char*)sample + input->header);
       const bool obeyed = info.valid_data && strcmp(header->run, options.run) == 0;
       if (obeyed && options.simulated) {
         if (held_count == sizeof held / sizeof *held) fail("more samples than it can hold back");
@@ -281,7 +293,7 @@ static void take_inputs(void) {
   }
 }
 
-int run_service(const struct Service *its, volatile int *stop) {
+int run_service(const struct Service* its, volatile int* stop) {
   service = its;
   heartbeat = open_output(&roci_v1_Heartbeat_desc, "roci/heartbeat", STATE, false);
   const dds_entity_t waits = dds_create_waitset(DDS_CYCLONEDDS_HANDLE);

@@ -15,12 +15,12 @@ static void on_signal(int number) {
 }
 
 // The name of the mission is that of its folder.
-static const char *folder_name(const char *path) {
-  const char *slash = strrchr(path, '/');
+static const char* folder_name(const char* path) {
+  const char* slash = strrchr(path, '/');
   return slash == NULL ? path : slash + 1;
 }
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; ++i) {
     const char *key = argv[i], *value = argv[i + 1];
     if (strcmp(key, "--name") == 0) options.name = value;

@@ -23,32 +23,32 @@ enum Durability { STATE, REQUEST };  // the two QoS of the table that a drill us
 // A topic that we write. Clocked samples are numbered.
 struct Output {
   dds_entity_t writer;
-  const char *topic;
+  const char* topic;
   uint64_t total, reported;
 };
 
 // A topic that we read. A clocked one is handled in the order of the clock; `header` is where its SampleHeader stands.
 struct Input {
   dds_entity_t reader;
-  const dds_topic_descriptor_t *type;
-  const char *topic;
+  const dds_topic_descriptor_t* type;
+  const char* topic;
   size_t header;
-  void (*handle)(const void *sample);
+  void (*handle)(const void* sample);
 };
 
 void open_participant(void);
 // Wall topics belong to everyone and have no partition; clocked ones are inner topics of the robot.
-struct Output open_output(const dds_topic_descriptor_t *, const char *topic, enum Durability, bool clocked);
-struct Input open_input(const dds_topic_descriptor_t *, const char *topic, enum Durability, size_t header,
-                        void (*handle)(const void *));
+struct Output open_output(const dds_topic_descriptor_t*, const char* topic, enum Durability, bool clocked);
+struct Input open_input(const dds_topic_descriptor_t*, const char* topic, enum Durability, size_t header,
+                        void (*handle)(const void*));
 
 // Numbers and writes a clocked sample, whose header is a member of it.
-void write_clocked(struct Output *, const void *sample, roci_v1_SampleHeader *header);
+void write_clocked(struct Output*, const void* sample, roci_v1_SampleHeader* header);
 
 // Takes one sample into memory of its own; NULL: there is none. free_sample() gives it back.
-void *take_sample(const struct Input *, dds_sample_info_t *);
-void free_sample(const struct Input *, void *sample);
+void* take_sample(const struct Input*, dds_sample_info_t*);
+void free_sample(const struct Input*, void* sample);
 
-_Noreturn void fail(const char *what);
+_Noreturn void fail(const char* what);
 
 #endif
