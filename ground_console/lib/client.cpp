@@ -55,7 +55,7 @@ services::process::Connection choose_run(const services::process::ConnectionFlag
   if (!flags.domain && !flags.network && !environment("ROCI_DOMAIN") && !environment("ROCI_NETWORK")) {
     auto runs = services::process::find_runs(services::process::runtime_folder());
     if (launcher != 0)
-      std::erase_if(runs, [&](const services::process::RunRecord& run) { return run.pid != launcher; });
+      std::erase_if(runs, [&](const services::process::RunRecord& one) { return one.pid != launcher; });
     const auto refused = services::process::refused_runs(services::process::runtime_folder());
     if (runs.empty() && !refused.empty()) throw std::runtime_error("a mission runs, but " + refused.front());
     if (runs.empty())
