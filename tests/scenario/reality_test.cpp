@@ -3,9 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <map>
-
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -134,7 +133,8 @@ double value_of(const v1::Plan& plan, const std::string& function,
 }
 
 // How long the plan's activity of this name takes whose command has these arguments, in s; of several alike the first.
-double duration_of(const v1::Plan& plan, const std::string& name, const std::map<std::string, std::string>& arguments) {
+double duration_of(const v1::Plan& plan, const std::string& name,
+                   const std::map<std::string, std::string>& arguments) {
   std::string all;
   for (const v1::PlanActivity& activity : plan.activities()) {
     std::map<std::string, std::string> own;
@@ -179,7 +179,8 @@ TEST(Reality, AnObstacleChangesTheOfferedValuesAndThePlan) {
   const std::vector<std::string> way{"place-grain", "place-near"};
   for (const v1::Plan* plan : {&open, &walled})
     EXPECT_NEAR(duration_of(*plan, "drive", {{"to", way[1]}}), value_of(*plan, "traverse_time", way), 0.01);
-  EXPECT_GT(duration_of(walled, "drive", {{"to", way[1]}}), 1.02 * duration_of(open, "drive", {{"to", way[1]}}));
+  EXPECT_GT(duration_of(walled, "drive", {{"to", way[1]}}),
+            1.02 * duration_of(open, "drive", {{"to", way[1]}}));
 }
 
 TEST(Reality, ALowerJointLimitChangesTheOfferedValuesAndThePlan) {
@@ -190,8 +191,10 @@ TEST(Reality, ALowerJointLimitChangesTheOfferedValuesAndThePlan) {
        {"arm/arm.urdf", planetary_file("arm/arm.urdf", "velocity=\"0.25\"", "velocity=\"0.10\"")}});
   EXPECT_GT(value_of(slow, "arm_move_time", motion), 1.2 * value_of(as_is, "arm_move_time", motion));
   for (const v1::Plan* plan : {&as_is, &slow})
-    EXPECT_NEAR(duration_of(*plan, "move-arm", {{"from", motion[0]}, {"to", motion[1]}}), value_of(*plan, "arm_move_time", motion), 0.01);
-  EXPECT_GT(duration_of(slow, "move-arm", {{"from", motion[0]}, {"to", motion[1]}}), 1.2 * duration_of(as_is, "move-arm", {{"from", motion[0]}, {"to", motion[1]}}));
+    EXPECT_NEAR(duration_of(*plan, "move-arm", {{"from", motion[0]}, {"to", motion[1]}}),
+                value_of(*plan, "arm_move_time", motion), 0.01);
+  EXPECT_GT(duration_of(slow, "move-arm", {{"from", motion[0]}, {"to", motion[1]}}),
+            1.2 * duration_of(as_is, "move-arm", {{"from", motion[0]}, {"to", motion[1]}}));
 }
 
 // R8, R42: over a mission with replans and dropped goals each problem is another one, the domain never is.
