@@ -38,7 +38,8 @@ constexpr int kMostPostponed = 32;
 
 // What a micro-step has no room for goes out in the next.
 template <class Reply>
-void send(Node& node, const Publisher<Reply>& replies, const std::shared_ptr<const void>& reply, int postponed = 0) {
+void send(Node& node, const Publisher<Reply>& replies, const std::shared_ptr<const void>& reply,
+          int postponed = 0) {
   if (replies.write(*static_cast<const Reply*>(reply.get()))) return;
   if (!node.impl().simulated() || postponed == kMostPostponed) return;
   node.after(temporal::Duration(0),
@@ -107,11 +108,11 @@ void Calls<Request, Reply>::serve(Node& node, const topics::Procedure<Request, R
   if (server) throw std::logic_error(node.options().name + " serves " + procedure.request.name + " twice");
   server = std::make_shared<rpc::ReplyCache>();
   node.impl().endpoints.out(node::spec_of(procedure.reply)).refuse_quietly();
-  const rpc::PendingReply::Write write = [&node, publisher = advertise(node, procedure.reply)](
-                                             const std::shared_ptr<const void>& reply) {
-    send<Reply>(node, publisher, reply);
-    return Reply::getCdrSerializedSize(*static_cast<const Reply*>(reply.get()));
-  };
+  const rpc::PendingReply::Write write =
+      [&node, publisher = advertise(node, procedure.reply)](const std::shared_ptr<const void>& reply) {
+        send<Reply>(node, publisher, reply);
+        return Reply::getCdrSerializedSize(*static_cast<const Reply*>(reply.get()));
+      };
   subscribe(node, procedure.request,
             [&node, server, write, handler = std::move(handler),
              name = std::string(procedure.request.name)](const Request& request) {

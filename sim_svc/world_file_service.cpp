@@ -38,16 +38,15 @@ temporal::Value value_in(const json& in) {
 
 json to_json(const Pose& pose) { return {pose.x, pose.y, pose.heading}; }
 
-Pose pose_in(const json& in) { return {in.at(0).get<double>(), in.at(1).get<double>(), in.at(2).get<double>()}; }
+Pose pose_in(const json& in) {
+  return {in.at(0).get<double>(), in.at(1).get<double>(), in.at(2).get<double>()};
+}
 
 json to_json(const Image& image) {
-  return {{"robot", image.robot},
-          {"source", image.source},
-          {"bytes", image.bytes},
-          {"sent", image.sent},
-          {"taken_us", image.taken.count()},
-          {"taken_from", to_json(image.taken_from)},
-          {"preview", image.preview}};
+  return {
+      {"robot", image.robot},    {"source", image.source},          {"bytes", image.bytes},
+      {"sent", image.sent},      {"taken_us", image.taken.count()}, {"taken_from", to_json(image.taken_from)},
+      {"preview", image.preview}};
 }
 
 Image image_in(const std::string& id, const json& in) {
@@ -94,7 +93,9 @@ std::string to_text(const WorldMemory& memory) {
 std::optional<WorldMemory> world_memory_from(const std::string& text) {
   try {
     const json in = json::parse(text);
-    WorldMemory out{Time(in.at("at_us").get<std::int64_t>()), {}, in.at("samples").get<std::map<std::string, std::string>>()};
+    WorldMemory out{Time(in.at("at_us").get<std::int64_t>()),
+                    {},
+                    in.at("samples").get<std::map<std::string, std::string>>()};
     for (const auto& [name, robot] : in.at("robots").items()) out.robots[name] = robot_in(robot);
     return out;
   } catch (const std::exception&) {
@@ -123,7 +124,8 @@ void WorldFile::keep(const WorldMemory& memory) {
       return;
     }
   }
-  if (!std::exchange(told_, true)) services::log::warning("cannot write " + next.string() + "; it is tried again");
+  if (!std::exchange(told_, true))
+    services::log::warning("cannot write " + next.string() + "; it is tried again");
 }
 
 }  // namespace roci::sim

@@ -91,7 +91,8 @@ void FollowerService::tell_what_it_lacks(const Lease::Turn& turn) {
   const std::string lacks = turn.lacks + (turn.doubtful ? " in doubt" : "");
   if (turn.lacks.empty() || lacks == told_to_lack_) return;
   told_to_lack_ = lacks;
-  services::log::info(executive_ + " would lead, since " + turn.reason + ", and does not: it lacks the leases of " + turn.lacks);
+  services::log::info(executive_ + " would lead, since " + turn.reason +
+                      ", and does not: it lacks the leases of " + turn.lacks);
 }
 
 void FollowerService::say() {

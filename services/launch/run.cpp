@@ -162,8 +162,8 @@ std::unique_ptr<transport::Transport> connect_on(const process::Connection& own,
     } catch (const transport::TransportError& error) {
       if (!options.continued || stop_asked() > 0) throw;
       if (!std::exchange(told, true))
-        std::cerr << "roci-launch: waits for its network, and looks every second (Ctrl-C ends it): " << error.what()
-                  << "\n"
+        std::cerr << "roci-launch: waits for its network, and looks every second (Ctrl-C ends it): "
+                  << error.what() << "\n"
                   << std::flush;
     }
     const clock::WallTime again = clock::wall_now() + kLookAtNetwork;

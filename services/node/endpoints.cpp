@@ -39,7 +39,8 @@ TopicWriter::TopicWriter(const NodeOptions& options, const RunIdentity& run, Now
       finished_(topic.limit < transport::PayloadLimit::batch ? kFinishedKept : kLargeFinishedKept,
                 barriered() ? kTurnsOfRest : 0) {
   const transport::EndpointDescription endpoint{
-      topic.name, topic.codec.type, transport::writer_qos(topic.qos, topic.limit, topic.clocking, options.clock),
+      topic.name, topic.codec.type,
+      transport::writer_qos(topic.qos, topic.limit, topic.clocking, options.clock),
       transport::partitions_of(topic.scope, options.robot)};
   writer_ = transport.create_writer(endpoint, std::move(events));
   forgets_ = dynamic_cast<transport::ForgetsInstances*>(writer_.get());

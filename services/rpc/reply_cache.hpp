@@ -63,7 +63,8 @@ class PendingReply {
   using Write = std::function<std::size_t(const std::shared_ptr<const void>& reply)>;
 
   /// `keeps`: the answer is kept for a caller that asks again.
-  PendingReply(std::shared_ptr<ReplyCache> server, const v1::SampleIdentity& request, Write write, bool keeps = true)
+  PendingReply(std::shared_ptr<ReplyCache> server, const v1::SampleIdentity& request, Write write,
+               bool keeps = true)
       : server_(std::move(server)), request_(request), write_(std::move(write)), keeps_(keeps) {
     server_->begin();
   }

@@ -50,11 +50,13 @@ QosSettings reader_qos(Qos qos, Clocking clocking, clock::ClockMode mode) {
 }
 
 QosSettings writer_qos(Qos qos, PayloadLimit limit, Clocking clocking, clock::ClockMode mode) {
-  return barriered(clocking, mode) ? barrier_qos(micro_step_limit(qos, limit)) : writer_qos(qos, clocking, mode);
+  return barriered(clocking, mode) ? barrier_qos(micro_step_limit(qos, limit))
+                                   : writer_qos(qos, clocking, mode);
 }
 
 QosSettings reader_qos(Qos qos, PayloadLimit limit, Clocking clocking, clock::ClockMode mode) {
-  return barriered(clocking, mode) ? barrier_qos(micro_step_limit(qos, limit)) : reader_qos(qos, clocking, mode);
+  return barriered(clocking, mode) ? barrier_qos(micro_step_limit(qos, limit))
+                                   : reader_qos(qos, clocking, mode);
 }
 
 }  // namespace roci::services::transport

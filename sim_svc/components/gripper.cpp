@@ -98,9 +98,7 @@ double Gripper::energy_j(Time from, Time to) const {
 }
 
 // A sample that it holds is one that it has touched.
-world::Memory Gripper::memory() const {
-  return {samples_.begin(), samples_.end()};
-}
+world::Memory Gripper::memory() const { return {samples_.begin(), samples_.end()}; }
 
 void Gripper::restore(const world::Memory& memory) {
   for (const auto& [sample, value] : memory) {

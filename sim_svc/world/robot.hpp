@@ -62,8 +62,8 @@ struct Begun {
 /// Is what of a robot outlives the process that speaks for it.
 struct RobotMemory {
   std::optional<Pose> pose;
-  std::optional<double> energy_j;        ///< in its battery
-  std::map<std::string, Image> images;   ///< on board, by id
+  std::optional<double> energy_j;       ///< in its battery
+  std::map<std::string, Image> images;  ///< on board, by id
   std::map<std::string, Memory> components;
 };
 

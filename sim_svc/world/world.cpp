@@ -66,7 +66,8 @@ void World::restore(const WorldMemory& memory) {
   now_ = memory.at;
   environment_.samples = memory.samples;
   for (Robot& one : robots_)
-    if (const auto own = memory.robots.find(one.name()); own != memory.robots.end()) one.restore(own->second, memory.at);
+    if (const auto own = memory.robots.find(one.name()); own != memory.robots.end())
+      one.restore(own->second, memory.at);
 }
 
 Outputs World::advance(Time now) {

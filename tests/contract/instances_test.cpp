@@ -126,12 +126,13 @@ TEST_P(Instances, WhatIsForgottenTakesNoMemory) {
   std::mutex mutex;
   std::condition_variable changed;
   int ended = 0;
-  const auto reader = receiver->create_reader(goal_endpoint(latched(32)), {[&](transport::Sample&& sample) {
-                                                const std::lock_guard lock(mutex);
-                                                ended += sample.kind == transport::SampleKind::disposed;
-                                                changed.notify_all();
-                                              },
-                                              {}});
+  const auto reader = receiver->create_reader(goal_endpoint(latched(32)),
+                                              {[&](transport::Sample&& sample) {
+                                                 const std::lock_guard lock(mutex);
+                                                 ended += sample.kind == transport::SampleKind::disposed;
+                                                 changed.notify_all();
+                                               },
+                                               {}});
   Inbox matches;
   const auto writer = sender->create_writer(goal_endpoint(latched(32)), matches.writer_events());
   ASSERT_TRUE(matches.wait_for_match());

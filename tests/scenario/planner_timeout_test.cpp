@@ -34,10 +34,13 @@ class PlannerTimeout : public ::testing::TestWithParam<const char*> {
     mission.replace(mission.find(time), time.size(), "wall_s: 0.000001}");
     std::ofstream(folder / "mission/mission.yaml") << mission;
     std::ofstream(folder / "mission/scenarios/one.yaml")
-        << "description: Two photos.\nduration_s: 3600\nstart: {x: 40, y: 40, heading: 0, arm: stow, battery: 900000}\n"
+        << "description: Two photos.\nduration_s: 3600\nstart: {x: 40, y: 40, heading: 0, arm: stow, "
+           "battery: 900000}\n"
            "science: {enabled: false}\nstimuli:\n"
-           "  - {at_s: 5, goal: {issuer: ground, id: near, kind: photo, importance: hard, arguments: {x: 46, y: 42}}}\n"
-           "  - {at_s: 5, goal: {issuer: ground, id: nice, kind: photo, importance: optional, utility: 1, arguments: {x: 44, y: 44}}}\n";
+           "  - {at_s: 5, goal: {issuer: ground, id: near, kind: photo, importance: hard, arguments: {x: 46, "
+           "y: 42}}}\n"
+           "  - {at_s: 5, goal: {issuer: ground, id: nice, kind: photo, importance: optional, utility: 1, "
+           "arguments: {x: 44, y: 44}}}\n";
   }
   ~PlannerTimeout() override { fs::remove_all(folder); }
 
@@ -56,8 +59,9 @@ class PlannerTimeout : public ::testing::TestWithParam<const char*> {
 // The least of the goals goes first, then the hard one fails; the mission ends by itself, with the reason, and long before
 // its time is up.
 TEST_P(PlannerTimeout, InFlightCostsGoalsWithTheirReasonAndNothingElse) {
-  const Ended ended = run("timeout 100 roci-launch " + (folder / "mission").string() + " --scenario one --dds " + GetParam() +
-                          " --clock live --speed 20 --headless --json --run-folder " + (folder / "run").string());
+  const Ended ended =
+      run("timeout 100 roci-launch " + (folder / "mission").string() + " --scenario one --dds " + GetParam() +
+          " --clock live --speed 20 --headless --json --run-folder " + (folder / "run").string());
   EXPECT_EQ(ended.exit_code, 1) << ended.output;
   const nlohmann::json summary = last_line_as_json(ended.output);
   EXPECT_EQ(summary.value("result", ""), "partial") << ended.output;

@@ -13,7 +13,8 @@ namespace {
 constexpr char kPlanetary[] = ROCI_SOURCE_DIR "/missions/planetary";
 
 long deeds(const nlohmann::json& effects, const std::string& kind) {
-  return std::ranges::count_if(effects, [&](const nlohmann::json& one) { return one.value("kind", "") == kind; });
+  return std::ranges::count_if(effects,
+                               [&](const nlohmann::json& one) { return one.value("kind", "") == kind; });
 }
 
 class RobotOutlives : public ::testing::TestWithParam<const char*> {};
@@ -21,8 +22,9 @@ class RobotOutlives : public ::testing::TestWithParam<const char*> {};
 // The executive knows from before that the picture is on board, and so it is: it is sent, and not taken again.
 TEST_P(RobotOutlives, ItsServiceWithItsPicture) {
   const services::process::DomainClaim domain;
-  const Ended ended = run("timeout 150 " ROCI_SOURCE_DIR "/tests/scenario/kill_after_picture.sh " ROCI_BINARY_DIR "/bin " +
-                          std::string(kPlanetary) + " " + GetParam() + " " + std::to_string(domain.id()));
+  const Ended ended =
+      run("timeout 150 " ROCI_SOURCE_DIR "/tests/scenario/kill_after_picture.sh " ROCI_BINARY_DIR "/bin " +
+          std::string(kPlanetary) + " " + GetParam() + " " + std::to_string(domain.id()));
   auto steps = steps_of(ended.output);
   ASSERT_TRUE(steps["killed"].printed.is_array()) << ended.output;
   EXPECT_EQ(deeds(steps["killed"].printed, "image"), 1) << ended.output;
@@ -43,7 +45,8 @@ TEST_P(Resume, WaitsForANetworkThatIsOut) {
                           "/tests/scenario/resume_without_network.sh " ROCI_BINARY_DIR "/bin " +
                           std::string(kPlanetary) + " " + GetParam() + " || exit 77");
   auto steps = steps_of(ended.output);
-  if (ended.exit_code == 77 && steps.empty()) GTEST_SKIP() << "this user cannot make a network of its own (unshare -rn)";
+  if (ended.exit_code == 77 && steps.empty())
+    GTEST_SKIP() << "this user cannot make a network of its own (unshare -rn)";
   EXPECT_EQ(steps["waits"].exit_code, 0) << ended.output;
   EXPECT_EQ(steps["waits"].printed, "1") << "it says so once";
   EXPECT_EQ(steps["back"].exit_code, 0) << ended.output;

@@ -28,7 +28,8 @@ class FaultyTransport : public transport::Transport {
   std::unique_ptr<transport::Reader> create_reader(const transport::EndpointDescription& endpoint,
                                                    transport::ReaderEvents events) override {
     const auto deliver = events.on_sample;
-    events.on_sample = [this, deliver, topic = endpoint.topic, number = 0](transport::Sample&& sample) mutable {
+    events.on_sample = [this, deliver, topic = endpoint.topic,
+                        number = 0](transport::Sample&& sample) mutable {
       if (sample.kind != transport::SampleKind::data) return deliver(std::move(sample));
       const int times = deliveries_(topic, ++number);
       for (int i = 0; i < times; ++i) deliver(transport::Sample(sample));

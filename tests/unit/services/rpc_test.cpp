@@ -125,7 +125,8 @@ TEST_F(SimCall, ManyAtOnceAreAllAnswered) {
   });
   run_until(2s);
   ASSERT_EQ(results.size(), static_cast<std::size_t>(kCalls));
-  for (int i = 0; i < kCalls; ++i) EXPECT_EQ(results[static_cast<std::size_t>(i)], "5 ok " + std::to_string(i));
+  for (int i = 0; i < kCalls; ++i)
+    EXPECT_EQ(results[static_cast<std::size_t>(i)], "5 ok " + std::to_string(i));
 }
 
 TEST_F(SimCall, RefusesMoreThanTheTableHolds) {

@@ -290,9 +290,11 @@ TEST(SimNode, WhatIsFinishedIsKeptForTheNewestAlone) {
     outside = run.transport();
     looks = outside->create_reader(
         {topics::command.name, transport::describe_type<v1::Command>(topics::command.type_name),
-         transport::reader_qos(transport::Qos::request, transport::Clocking::clocked, clock::ClockMode::simulated),
+         transport::reader_qos(transport::Qos::request, transport::Clocking::clocked,
+                               clock::ClockMode::simulated),
          transport::partitions_of(topics::command.scope, "")},
-        {[&](transport::Sample&& sample) { commands_kept += sample.kind == transport::SampleKind::data; }, {}});
+        {[&](transport::Sample&& sample) { commands_kept += sample.kind == transport::SampleKind::data; },
+         {}});
   });
   run.run();
   looks.reset();

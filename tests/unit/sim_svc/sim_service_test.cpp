@@ -301,7 +301,8 @@ TEST(WorldFile, ComesBackAsItWas) {
   world::RobotMemory& rover = memory.robots["rover"];
   rover.pose = world::Pose{1.25, -2, 0.5};
   rover.energy_j = 1234.5;
-  rover.images["one"] = {"one", "rover", "p1.2-image", 1400000, true, temporal::seconds(3), {1, 2, 3}, {0, 128, 255}};
+  rover.images["one"] = {"one",     "rover",      "p1.2-image", 1400000, true, temporal::seconds(3),
+                         {1, 2, 3}, {0, 128, 255}};
   rover.components["drill"] = {{"state", temporal::state("in", {"hole"})}, {"number:depth", 20.5}};
   memory.robots["lander"] = {};
   const auto file = std::filesystem::path(testing::TempDir()) / "roci_world_file";
@@ -314,7 +315,8 @@ TEST(WorldFile, ComesBackAsItWas) {
   EXPECT_EQ(back->robots.at("rover").images, rover.images);
   EXPECT_EQ(back->robots.at("rover").components, rover.components);
   EXPECT_FALSE(back->robots.at("lander").pose.has_value());
-  for (const char* damaged : {"", "{", "[]", "{\"at_us\":1}", "{\"at_us\":1,\"samples\":{},\"robots\":{\"rover\":{}}}"})
+  for (const char* damaged :
+       {"", "{", "[]", "{\"at_us\":1}", "{\"at_us\":1,\"samples\":{},\"robots\":{\"rover\":{}}}"})
     EXPECT_FALSE(world_memory_from(damaged).has_value()) << damaged;
   std::filesystem::remove(file);
 }

@@ -408,7 +408,8 @@ TEST(World, GoesOnFromTheMemoryOfAnotherOne) {
   EXPECT_EQ(last_number(said, "rover.x"), 40);
   EXPECT_NEAR(last_number(said, "rover.arm.q1"), 1, 0.02);
   const double then = before.world.memory().robots.at("rover").energy_j.value();
-  EXPECT_NEAR(after.memory().robots.at("rover").energy_j.value(), then - 18 * 14, 2) << "the idle power of 18 s";
+  EXPECT_NEAR(after.memory().robots.at("rover").energy_j.value(), then - 18 * 14, 2)
+      << "the idle power of 18 s";
 }
 
 }  // namespace
