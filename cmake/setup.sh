@@ -59,12 +59,18 @@ cd "$root"
 if [[ ! -f build/$preset/build.ninja ]]; then
   cmake --preset "$preset" >&2
 fi
-# A build that has nothing to do, or next to nothing, says nothing.
-steps=$(ninja -C "build/$preset" -n "$@" 2>/dev/null | grep -c '^\[' || true)
-if ((steps > 3)); then
-  ninja -C "build/$preset" "$@" >&2
-else
-  log=$(mktemp)
-  ninja -C "build/$preset" "$@" >"$log" 2>&1 || { cat "$log" >&2; rm -f "$log"; exit 1; }
-  rm -f "$log"
-fi
+# One line that changes on a terminal, and nothing at all where there is nothing, or next to nothing, to do.
+tty=0
+[[ -t 2 ]] && tty=1
+ninja -C "build/$preset" "$@" 2>&1 | awk -v tty="$tty" '
+  /^ninja: (no work to do|Entering directory)/ || /^-- / { next }
+  /^\[[0-9]+\/[0-9]+\]/ {
+    split($1, count, /[\[\/\]]/)
+    if (count[3] <= 3) next
+    if (tty) printf "\r\033[K%.78s", $0; else print
+    fflush()
+    drawn = 1
+    next
+  }
+  { if (drawn && tty) print ""; drawn = 0; print; fflush() }
+  END { if (drawn && tty) print "" }' >&2
