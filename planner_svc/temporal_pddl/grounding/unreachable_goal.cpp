@@ -368,7 +368,7 @@ void refuse(const UnreachableGoal& known) {
   const std::string misfit = window_too_short(known);
   std::vector<BlockedFact> blocked;
   for (std::string& fact : facts)
-    blocked.push_back({std::move(fact), causes + "no sequence of actions reaches it" + misfit});
+    blocked.push_back({std::move(fact), "no sequence of actions reaches it" + misfit});
   throw PlanningFailure(
       Verdict::unsolvable,
       causes +
