@@ -41,7 +41,7 @@ lib::Place start_of(lib::Client& client, const ReachArguments& arguments) {
   return (arguments.robot.empty() ? ways.begin()->second : ways.at(arguments.robot)).back();
 }
 
-json to_json(const v1::PathReply& reply, lib::Place from, const ReachArguments& to) {
+json way_json(const v1::PathReply& reply, lib::Place from, const ReachArguments& to) {
   json out{{"outcome", outcome_name(reply.outcome())},
            {"reason", reply.reason()},
            {"map_version", reply.map_version()},
@@ -75,7 +75,7 @@ int show_reach(lib::Client& client, const ReachArguments& arguments, bool as_jso
   const bool found = reply->outcome() == v1::MOTION_FOUND;
   const std::string ends = place_text(from.x_m, from.y_m) + " to " + place_text(arguments.x_m, arguments.y_m);
   if (as_json) {
-    std::cout << json_text(to_json(*reply, from, arguments)) << "\n";
+    std::cout << json_text(way_json(*reply, from, arguments)) << "\n";
   } else if (found) {
     std::cout << "from " << ends << ": " << lib::value_text(reply->length_m()) << " m, "
               << lib::value_text(reply->expected_s()) << " s, " << lib::value_text(reply->expected_j())

@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto kPatience = 2s;  // of wall time, until a service that is there has offered its functions
+constexpr auto kOfferWait = 2s;  // of wall time, until a service that is there has offered its functions
 constexpr auto kTurn = 20ms;    // of the asking node's loop
 constexpr double kBatchTimeoutS = 20;  // as planner_svc waits for a batch
 
@@ -94,7 +94,7 @@ void AskedOwners::seat(const std::filesystem::path& mission, const mission::Serv
 void AskedOwners::await_offer(const std::string& module_name) {
   if (!awaited_.insert(module_name).second) return;
   const auto begun = services::clock::wall_now();
-  while (!offered_.contains(module_name) && services::clock::wall_now() - begun < kPatience)
+  while (!offered_.contains(module_name) && services::clock::wall_now() - begun < kOfferWait)
     node_->spin_once(kTurn);
 }
 

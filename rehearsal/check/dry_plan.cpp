@@ -21,16 +21,16 @@
 namespace roci::rehearsal::check {
 
 using exec::goals::GoalRequest, exec::goals::GoalSet, exec::goals::GoalState;
-using exec::mission::Component, exec::mission::GoalKind, exec::mission::MissionModel;
+using exec::mission::GoalKind, exec::mission::MissionModel;
 using planner::engine::Answer, planner::engine::Request;
 using sim::scenario::GoalStimulus;
 using temporal::Verdict;
 
 namespace {
 
-constexpr std::size_t kTries = 3;                     // goals of a kind
-constexpr std::uint64_t kWork = 20000;                // evaluations, for a mission without a budget
-constexpr auto kPatience = std::chrono::seconds(20);  // of wall time, for one plan
+constexpr std::size_t kTries = 3;                         // goals of a kind
+constexpr std::uint64_t kWork = 20000;                    // evaluations, for a mission without a budget
+constexpr auto kPlanningTime = std::chrono::seconds(20);  // of wall time, for one plan
 
 // A goal of a scenario, with those that its arguments name before it.
 struct Candidate {
@@ -103,7 +103,7 @@ exec::beliefs::Beliefs first_beliefs(const MissionModel& model, const CheckedSce
   for (const auto& output : world.advance(temporal::Time{}))
     if (const auto* observed = std::get_if<sim::world::Observed>(&output))
       beliefs.observe(observed->timeline, observed->value);
-  for (const Component* component : beliefs.unobserved()) {
+  for (const exec::mission::Component* component : beliefs.unobserved()) {
     const auto rest = std::ranges::find(component->states, false, &exec::mission::StateModel::active);
     if (rest != component->states.end()) beliefs.observe(component->timeline, temporal::state(rest->name));
   }
@@ -157,7 +157,7 @@ Answer planned(const MissionModel& model, const Candidate& candidate, AskedOwner
   owners.begin(request);
   const auto begun = services::clock::wall_now();
   planner::engine::Limits limits;
-  limits.out_of_time = [begun] { return services::clock::wall_now() - begun > kPatience; };
+  limits.out_of_time = [begun] { return services::clock::wall_now() - begun > kPlanningTime; };
   return answer_checked(planner::engines(), request, limits, owners);
 }
 
