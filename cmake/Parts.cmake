@@ -92,6 +92,7 @@ function(roci_test_library)
   add_library(${PART_NAME} STATIC ${PART_SOURCES})
   _roci_part(${PART_NAME} ${ARGN})
   _roci_test_part(${PART_NAME} FALSE)
+  target_compile_options(${PART_NAME} PRIVATE -fPIE)  # as programs are, for which the headers were compiled
 endfunction()
 
 function(_roci_test_part target optimized)
