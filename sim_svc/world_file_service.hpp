@@ -10,7 +10,7 @@
 
 namespace roci::sim {
 
-/// As JSON; from_text() returns nothing if `text` is not such a text.
+/// As JSON; world_memory_from() returns nothing if `text` is not such a text.
 std::string to_text(const world::WorldMemory&);
 std::optional<world::WorldMemory> world_memory_from(const std::string& text);
 

@@ -10,7 +10,9 @@ namespace {
 
 constexpr std::size_t kLongest = 200;  // characters
 
-std::size_t edits_allowed(std::size_t length) { return std::min(std::max<std::size_t>(1, length / 3), length - 1); }
+std::size_t edits_allowed(std::size_t length) {
+  return std::min(std::max<std::size_t>(1, length / 3), length - 1);
+}
 
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
@@ -35,7 +37,8 @@ NearestWord::NearestWord(std::string_view word)
 
 void NearestWord::offer(std::string_view known) {
   if (known.empty() || word_.empty() || std::max(known.size(), word_.size()) > kLongest) return;
-  const auto [shorter, longer] = std::minmax(known.size(), word_.size());
+  const std::size_t shorter = std::min(known.size(), word_.size()),
+                    longer = std::max(known.size(), word_.size());
   const std::size_t allowed = edits_allowed(longer);
   if (longer - shorter > allowed) return;
   const std::size_t edits = distance(word_, known);

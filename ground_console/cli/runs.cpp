@@ -42,13 +42,17 @@ PastRun read_run(const fs::path& folder, bool running) {
   out.result = running ? "running" : "no summary";
   out.bytes = size_of(folder);
   std::ifstream in(folder / "summary.json");
-  const json summary = json::parse(in, nullptr, false);
-  if (!summary.is_object()) return out;
-  out.mission = fs::path(summary.value("mission", "")).filename().string();
-  out.scenario = summary.value("scenario", "");
-  if (!running) out.result = summary.value("result", "no summary");
-  out.goals = goals_of(summary);
-  out.mission_s = summary.value("sim_s", 0.0);
+  if (!in) return out;
+  try {
+    const json summary = json::parse(in);
+    out.mission = fs::path(summary.at("mission").get<std::string>()).filename().string();
+    out.scenario = summary.at("scenario").get<std::string>();
+    out.goals = goals_of(summary);
+    out.mission_s = summary.at("sim_s").get<double>();
+    if (!running) out.result = summary.at("result").get<std::string>();
+  } catch (const json::exception&) {
+    if (!running) out.result = "damaged summary";
+  }
   return out;
 }
 

@@ -15,7 +15,7 @@ struct PastRun {
   std::filesystem::path folder;
   std::string mission;  ///< empty where the run left no summary; then it was cut short, or runs
   std::string scenario;
-  std::string result;    ///< achieved, partial, failed; "running"; else "no summary"
+  std::string result;    ///< achieved, partial, failed; "running"; else "no summary" or "damaged summary"
   std::string goals;     ///< "3 achieved, 1 dropped"
   double mission_s = 0;  ///< mission time that it flew
   std::uintmax_t bytes = 0;

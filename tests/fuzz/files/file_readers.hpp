@@ -22,8 +22,12 @@ inline const std::map<std::string, std::string> kFileReaders{
     {"exec_svc/trace/journal_reader.cpp", "FuzzRunFiles.ARecordedRunIsReadOrRefused"},
     {"exec_svc/trace/run_reader.cpp", "FuzzRunFiles.ARecordedRunIsReadOrRefused"},
     {"ground_console/cli/orders.cpp", "- bytes that the user uploads, sent as they are"},
+    {"ground_console/cli/runs.cpp", "FuzzRunFiles.AreReadOrRefused"},
+    {"ground_console/lib/client.cpp", "- /proc, which the kernel writes"},
     {"planner_svc/settings.cpp", "FuzzPddl.MutatedCorpusNeverCrashes"},
     {"planner_svc/temporal_pddl/cli/main.cpp", "FuzzPddl.MutatedCorpusNeverCrashes"},
+    {"planner_svc/temporal_pddl/cli/progress_line.cpp", "- /proc/self, which the kernel writes"},
+    {"planner_svc/temporal_pddl/cli/read_model.cpp", "FuzzPddl.MutatedCorpusNeverCrashes"},
     {"planner_svc/temporal_pddl/validate/main.cpp", "FuzzPddl.MutatedCorpusNeverCrashes"},
     {"rehearsal/main.cpp", "- a file that this very process wrote"},
     {"services/clock/host_anchor.cpp", "- /proc, which the kernel writes"},
@@ -38,6 +42,7 @@ inline const std::map<std::string, std::string> kFileReaders{
     {"services/process/run_summary.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"services/security/issued.cpp", "FuzzKeys.ADamagedFileIsReadOrRefused"},
     {"services/security/key_folder.cpp", "FuzzKeys.ADamagedFileIsReadOrRefused"},
+    {"sim_svc/world_file_service.cpp", "FuzzRunFiles.AreReadOrRefused"},
 };
 
 }  // namespace roci::fuzz

@@ -16,12 +16,14 @@
 #include "exec_svc/standby/persisted_term_file.hpp"
 #include "exec_svc/trace/recorded_trace.hpp"
 #include "exec_svc/trace/run_reader.hpp"
+#include "ground_console/cli/runs.hpp"
 #include "services/launch/summary.hpp"
 #include "services/process/incarnation.hpp"
 #include "services/process/link_report.hpp"
 #include "services/process/run_record.hpp"
 #include "services/process/run_summary.hpp"
 #include "services/service.hpp"
+#include "sim_svc/world_file_service.hpp"
 #include "tests/fuzz/files/damage.hpp"
 #include "tests/fuzz/rounds.hpp"
 
@@ -46,6 +48,7 @@ class FuzzRunFiles : public testing::Test {
   FuzzRunFiles() : folder_(fs::temp_directory_path() / ("roci-fuzz-run-" + std::to_string(getpid()))) {
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "links");
+    fs::create_directories(folder_ / "20260101T000000Z-a");
   }
   ~FuzzRunFiles() override { fs::remove_all(folder_); }
 
@@ -72,6 +75,12 @@ class FuzzRunFiles : public testing::Test {
          }},
         {"journal.sqlite-mark", "                   3                   17  4831190261231\n",
          [](const fs::path& folder) { exec::journal::HighWaterMark(folder / "journal.sqlite").read(); }},
+        {"20260101T000000Z-a/summary.json", kSummary,
+         [](const fs::path& folder) { console::cli::runs_text(console::cli::past_runs(folder, {})); }},
+        {"sim_svc.world",
+         R"({"at_us":5,"robots":{"rover":{"pose":[1,2,0],"energy_j":3e5,"images":{"a":{"robot":"rover","source":"b","bytes":9,)"
+         R"("sent":false,"taken_us":4,"taken_from":[1,2,0],"preview":[1,2]}},"components":{"arm":{"held":true}}}},"samples":{"s":"a"}})",
+         [](const fs::path& folder) { sim::WorldFile(folder / "sim_svc.world").read(); }},
         {"expected.json", R"({"events":3,"met":true,"fault":""})",
          [](const fs::path& folder) {
            services::launch::Options options;
