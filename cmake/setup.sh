@@ -60,17 +60,22 @@ if [[ ! -f build/$preset/build.ninja ]]; then
   cmake --preset "$preset" >&2
 fi
 # One line that changes on a terminal, and nothing at all where there is nothing, or next to nothing, to do.
-tty=0
-[[ -t 2 ]] && tty=1
-ninja -C "build/$preset" "$@" 2>&1 | awk -v tty="$tty" '
-  /^ninja: (no work to do|Entering directory)/ || /^-- / { next }
-  /^\[[0-9]+\/[0-9]+\]/ {
-    split($1, count, /[\[\/\]]/)
-    if (count[3] <= 3) next
-    if (tty) printf "\r\033[K%.78s", $0; else print
-    fflush()
-    drawn = 1
-    next
-  }
-  { if (drawn && tty) print ""; drawn = 0; print; fflush() }
-  END { if (drawn && tty) print "" }' >&2
+show_build() {
+  local line drawn=""
+  while IFS= read -r line; do
+    if [[ $line =~ ^\[[0-9]+/([0-9]+)\] ]]; then
+      ((BASH_REMATCH[1] > 3)) || continue
+      if [[ -t 2 ]]; then
+        printf '\r\033[K%.78s' "$line" >&2
+        drawn=1
+      else
+        printf '%s\n' "$line" >&2
+      fi
+    elif [[ ! $line =~ ^(ninja: (no work to do|Entering directory)|-- ) ]]; then
+      printf '%s%s\n' "${drawn:+$'\n'}" "$line" >&2
+      drawn=""
+    fi
+  done
+  [[ -z $drawn ]] || echo >&2
+}
+ninja -C "build/$preset" "$@" 2>&1 | show_build

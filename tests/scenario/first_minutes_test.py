@@ -146,6 +146,30 @@ class SetUp(unittest.TestCase):
     def test_yes_is_the_answer(self) -> None:
         self.assertTrue(self.set_up("--yes")[2])
 
+    def test_the_build_is_told_while_it_goes_on(self) -> None:
+        """The stand-in for ninja builds on only when its first line was read."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            builder = f"echo '[1/9] begun'\nuntil [ -e {folder}/seen ]; do sleep 0.01; done\necho 'FAILED: of itself'\nexit 1"
+            for program, does in {"dpkg-query": "echo ok installed", "ninja": builder}.items():
+                (folder / program).write_text(f"#!/bin/sh\n{does}\n")
+                (folder / program).chmod(0o755)
+            script = folder / "cmake/setup.sh"
+            script.parent.mkdir()
+            shutil.copy(SOURCE / "cmake/setup.sh", script)
+            (folder / "build/release").mkdir(parents=True)
+            (folder / "build/release/build.ninja").touch()
+            with subprocess.Popen(
+                ["bash", script, "release"], stderr=subprocess.PIPE, text=True,
+                env={**os.environ, "PATH": f"{folder}:/usr/bin:/bin"},
+            ) as build:  # fmt: skip
+                assert build.stderr is not None
+                first = build.stderr.readline() if select.select([build.stderr], [], [], LIMIT_S)[0] else ""
+                (folder / "seen").touch()
+                self.assertEqual(first, "[1/9] begun\n")
+                self.assertIn("FAILED: of itself", build.stderr.read())
+                self.assertEqual(build.wait(), 1)
+
 
 if __name__ == "__main__":
     signal.alarm(8 * LIMIT_S)
