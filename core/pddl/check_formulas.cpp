@@ -76,6 +76,9 @@ void FormulaChecker::check_argument(const Term& term, const TypedName& parameter
                        [&](const std::string& type) { return types.accepts(parameter.types, {type}); });
   }
   if (fits || symbols_.unread().types) return;
+  const auto known = [&](const std::string& type) { return types.knows(type); };
+  if (!std::ranges::all_of(*given, known) || !std::ranges::all_of(parameter.types, known))
+    return;  // told where it is declared
   findings_.add(term.where,
                 "'" + term.name + "' is of type " + join(*given) + ", but " + owner + " takes " +
                     join(parameter.types) + " here",

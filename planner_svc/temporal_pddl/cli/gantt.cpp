@@ -30,6 +30,12 @@ struct Lane {
   std::size_t rows = 1;
 };
 
+struct LegendEntry {
+  std::string action;
+  const char* colour;
+  double x, y;  // of its upper left corner
+};
+
 double seconds(temporal::Duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 std::string escaped(std::string_view text) {
@@ -101,7 +107,8 @@ class Picture {
       longest = std::max(longest, std::min(lane.name.size(), kName));
     }
     left_ = static_cast<double>(longest) * kLetter + 16;
-    height_ = kTop + static_cast<double>(rows_) * kRow + 8;
+    chart_end_ = kTop + static_cast<double>(rows_) * kRow;
+    lay_out_legend(plan);
   }
 
   std::string draw() {
@@ -117,6 +124,7 @@ class Picture {
       y += static_cast<double>(lane.rows) * kRow;
       shaded = !shaded;
     }
+    for (const LegendEntry& entry : legend_) draw(entry);
     out_ << "</svg>\n";
     return out_.str();
   }
@@ -124,11 +132,34 @@ class Picture {
  private:
   double x(double time) const { return left_ + time / whole_ * kChart; }
 
+  // Below the chart, an entry for each action in the order of their first starts.
+  void lay_out_legend(const Plan& plan) {
+    double at = 8, y = chart_end_ + 8;
+    for (const Activity& activity : plan.activities) {
+      if (colours_.contains(activity.name)) continue;
+      const double width = static_cast<double>(activity.name.size()) * kLetter + 32;
+      if (at > 8 && at + width > left_ + kChart) {
+        at = 8;
+        y += kRow;
+      }
+      legend_.push_back({activity.name, colour(activity.name), at, y});
+      at += width;
+    }
+    height_ = y + kRow + 4;
+  }
+
+  void draw(const LegendEntry& entry) {
+    out_ << "<rect x=\"" << entry.x << "\" y=\"" << entry.y + 3
+         << "\" width=\"12\" height=\"12\" rx=\"2\" fill=\"" << entry.colour
+         << "\" stroke=\"#555\" stroke-width=\"0.5\"/>\n<text x=\"" << entry.x + 18 << "\" y=\""
+         << entry.y + 13 << "\">" << escaped(entry.action) << "</text>\n";
+  }
+
   void draw_scale() {
     const double step = scale_step(whole_);
     for (double time = 0; time <= whole_ * (1 + 1e-9); time += step) {
       out_ << "<line x1=\"" << x(time) << "\" y1=\"" << kTop - 6 << "\" x2=\"" << x(time) << "\" y2=\""
-           << height_ - 8 << "\" stroke=\"#ccc\"/>\n<text x=\"" << x(time) << "\" y=\"" << kTop - 10
+           << chart_end_ << "\" stroke=\"#ccc\"/>\n<text x=\"" << x(time) << "\" y=\"" << kTop - 10
            << "\" text-anchor=\"middle\" fill=\"#555\">" << time << (time == 0 ? " s" : "") << "</text>\n";
     }
   }
@@ -165,8 +196,10 @@ class Picture {
   std::vector<Lane> lanes_;
   std::map<std::string, std::size_t> colours_;
   std::size_t rows_ = 0;
-  double whole_ = 0;  // seconds
-  double left_ = 0;   // where the chart begins
+  double whole_ = 0;      // seconds
+  double chart_end_ = 0;  // its lower edge
+  std::vector<LegendEntry> legend_;
+  double left_ = 0;  // where the chart begins
   double height_ = 0;
   std::ostringstream out_;
 };

@@ -90,6 +90,14 @@ TEST(AllErrors, AreBounded) {
   EXPECT_THAT(alike[4], HasSubstr("and so in 295 more places"));
 }
 
+TEST(AllErrors, AnUnknownTypeIsToldWhereItIsDeclaredAndNotWhereItIsUsed) {
+  EXPECT_THAT(section_findings("(:action a :parameters (?t - tol) :precondition (and (q ?t) (s ?t)))"),
+              ElementsAre(HasSubstr("unknown type 'tol' of '?t'")));
+  EXPECT_THAT(section_findings(
+                  "(:predicates (held ?t - tol))(:action a :parameters (?t - tool) :precondition (held ?t))"),
+              ElementsAre(HasSubstr("unknown type 'tol' of '?t'")));
+}
+
 TEST(AllErrors, NearestWordOfEachKind) {
   EXPECT_THAT(section_findings("(:action a :parameters (?t - tol) :precondition (p))"),
               ElementsAre(HasSubstr("unknown type 'tol' of '?t' (did you mean 'tool'?")));
