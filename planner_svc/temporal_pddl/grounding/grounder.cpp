@@ -100,6 +100,7 @@ Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, Funct
   GroundModel model =
       instantiate(domain, problem, actions, static_model, explore(actions, static_model, limits), limits);
   drop_self_defeating(model);
+  report.shorter_than_separation += drop_undoing_too_soon(model, options.epsilon);
   warn_of_undefined(problem, symbols, model, require_values(model, symbols), report.warnings);
   extract_timed_windows(model, options.windows, options.epsilon);
   split_envelopes_by_duration(model, symbols);

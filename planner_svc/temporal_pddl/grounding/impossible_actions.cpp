@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,13 @@ std::optional<GroundLiteral> broken_by_own_start(const GroundModel& model, const
   return std::nullopt;
 }
 
+// Of ascending atoms.
+bool intersect(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+  for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end(); *i < *j ? ++i : ++j)
+    if (*i == *j) return true;
+  return false;
+}
+
 ImpossibleAction note_of(const GroundAction& action) {
   ImpossibleAction note{action.schema, action.arguments, action.start_effects.adds, {}, action.max_duration};
   const auto& adds = action.end_effects.adds;
@@ -41,6 +49,16 @@ void drop_self_defeating(GroundModel& model) {
     if (!broken) return false;
     model.impossible_actions.push_back(note_of(action));
     model.impossible_actions.back().broken = broken;
+    return true;
+  });
+}
+
+std::size_t drop_undoing_too_soon(GroundModel& model, Duration epsilon) {
+  return std::erase_if(model.actions, [&](const GroundAction& action) {
+    if (!action.durative || action.max_duration >= epsilon) return false;
+    const auto &start = action.start_effects, &end = action.end_effects;
+    if (!intersect(start.deletes, end.adds) && !intersect(start.adds, end.deletes)) return false;
+    model.impossible_actions.push_back(note_of(action));
     return true;
   });
 }
