@@ -7,6 +7,7 @@
 #include "arm_svc/setup_file.hpp"
 #include "arm_svc/wire_service.hpp"
 #include "core/mission/mission_file.hpp"
+#include "services/node/make_event.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "services/worker.hpp"
@@ -52,7 +53,8 @@ class ArmService : public services::Service {
         [this, responder](FunctionAnswer answer) {
           for (const std::string& refusal : answer.refusals) {
             // Each refusal is told once, although every replanning asks again.
-            if (reported_.size() < kReportedRefusals && reported_.insert(refusal).second) report("motion.refused", refusal);
+            if (reported_.size() < kReportedRefusals && reported_.insert(refusal).second)
+              report("motion.refused", refusal);
           }
           answer.reply.owner(node_.options().name);
           answer.reply.computed_us(node_.now().count());
@@ -61,11 +63,7 @@ class ArmService : public services::Service {
   }
 
   void report(const std::string& code, const std::string& text) {
-    v1::Event event;
-    event.severity_level(v1::SEVERITY_WARNING);
-    event.code(code);
-    event.text(text);
-    events_.write(event);
+    events_.write(services::node::make_event(v1::SEVERITY_WARNING, code, text));
   }
 
   services::Node& node_;

@@ -13,6 +13,7 @@
 #include "pathplan_svc/rover_file.hpp"
 #include "pathplan_svc/wire_service.hpp"
 #include "services/bounds/tally.hpp"
+#include "services/node/make_event.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "services/worker.hpp"
@@ -125,17 +126,7 @@ class PathplanService : public services::Service {
 
   void report(v1::Severity severity, const std::string& code, const std::string& text,
               const std::vector<std::pair<std::string, std::string>>& properties) {
-    v1::Event event;
-    event.severity_level(severity);
-    event.code(code);
-    event.text(text);
-    for (const auto& [name, value] : properties) {
-      v1::Property property;
-      property.name(name);
-      property.value(value);
-      event.properties().push_back(property);
-    }
-    events_.write(event);
+    events_.write(services::node::make_event(severity, code, text, properties));
   }
 
   services::Node& node_;

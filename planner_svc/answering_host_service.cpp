@@ -9,6 +9,7 @@
 #include "planner_svc/engine/checked_answer.hpp"
 #include "planner_svc/wire_service.hpp"
 #include "services/clock/wall.hpp"
+#include "services/node/make_event.hpp"
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::planner {
@@ -187,11 +188,7 @@ void AnsweringHost::answer_job(const v1::PlanReply& reply) {
 }
 
 void AnsweringHost::report(const std::string& code, const std::string& text) {
-  v1::Event event;
-  event.severity_level(v1::SEVERITY_WARNING);
-  event.code(code);
-  event.text(text);
-  events_.write(std::move(event));
+  events_.write(services::node::make_event(v1::SEVERITY_WARNING, code, text));
 }
 
 }  // namespace roci::planner

@@ -6,6 +6,7 @@
 #include "planner_svc/engine/checked_answer.hpp"
 #include "planner_svc/limits.hpp"
 #include "planner_svc/wire_service.hpp"
+#include "services/node/make_event.hpp"
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::planner {
@@ -258,11 +259,7 @@ void SteppedHost::tell_blocking(std::vector<BlockingGoal> blocking) {
 }
 
 void SteppedHost::report(v1::Severity severity, const std::string& code, const std::string& text) {
-  v1::Event event;
-  event.severity_level(severity);
-  event.code(code);
-  event.text(text);
-  events_.write(std::move(event));
+  events_.write(services::node::make_event(severity, code, text));
 }
 
 }  // namespace roci::planner

@@ -10,6 +10,7 @@
 #include "core/terrain/site_file.hpp"
 #include "science_svc/detector_file.hpp"
 #include "science_svc/limits.hpp"
+#include "services/node/make_event.hpp"
 #include "services/publisher.hpp"
 
 namespace roci::science {
@@ -52,22 +53,18 @@ class ScienceService final : public services::Service {
     goal.utility({find->score});
     goal.preferred_us(-1);
     goals_.write(goal);
-    v1::Event event;
-    event.severity_level(v1::SEVERITY_INFO);
-    event.code("science.find");
-    event.text(fmt::format("{} shows something of interest (score {:.2f}) at ({}, {})", product.id(),
-                           find->score, find->place.x, find->place.y));
-    events_.write(event);
+    events_.write(
+        services::node::make_event(v1::SEVERITY_INFO, "science.find",
+                                   fmt::format("{} shows something of interest (score {:.2f}) at ({}, {})",
+                                               product.id(), find->score, find->place.x, find->place.y)));
   }
 
   // Told once.
   void tell_full() {
     if (std::exchange(full_told_, true)) return;
-    v1::Event event;
-    event.severity_level(v1::SEVERITY_WARNING);
-    event.code("science.no_room");
-    event.text(fmt::format("{} images were looked at, those to come are not", kPhotos));
-    events_.write(event);
+    events_.write(
+        services::node::make_event(v1::SEVERITY_WARNING, "science.no_room",
+                                   fmt::format("{} images were looked at, those to come are not", kPhotos)));
   }
 
   services::Node& node_;

@@ -5,9 +5,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <system_error>
-#include <variant>
 
 #include "services/log/log.hpp"
+#include "services/owner/value_json.hpp"
 
 namespace roci::sim {
 
@@ -20,21 +20,6 @@ using world::RobotMemory;
 using world::WorldMemory;
 
 namespace {
-
-json to_json(const temporal::Value& value) {
-  if (const auto* truth = std::get_if<bool>(&value)) return *truth;
-  if (const auto* number = std::get_if<double>(&value)) return *number;
-  if (const auto* state = std::get_if<temporal::State>(&value))
-    return {{"state", state->name}, {"arguments", state->arguments}};
-  return nullptr;
-}
-
-temporal::Value value_in(const json& in) {
-  if (in.is_boolean()) return in.get<bool>();
-  if (in.is_number()) return in.get<double>();
-  if (in.is_object()) return temporal::state(in.at("state"), in.at("arguments"));
-  return {};
-}
 
 json to_json(const Pose& pose) { return {pose.x, pose.y, pose.heading}; }
 
@@ -67,7 +52,7 @@ json to_json(const RobotMemory& robot) {
   for (const auto& [id, image] : robot.images) out["images"][id] = to_json(image);
   for (const auto& [name, memory] : robot.components) {
     json& component = out["components"][name] = json::object();
-    for (const auto& [key, value] : memory) component[key] = to_json(value);
+    for (const auto& [key, value] : memory) component[key] = services::owner::to_json(value);
   }
   return out;
 }
@@ -78,7 +63,8 @@ RobotMemory robot_in(const json& in) {
   if (in.contains("energy_j")) out.energy_j = in["energy_j"].get<double>();
   for (const auto& [id, image] : in.at("images").items()) out.images.emplace(id, image_in(id, image));
   for (const auto& [name, memory] : in.at("components").items())
-    for (const auto& [key, value] : memory.items()) out.components[name][key] = value_in(value);
+    for (const auto& [key, value] : memory.items())
+      out.components[name][key] = services::owner::value_in(value);
   return out;
 }
 

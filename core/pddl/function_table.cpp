@@ -29,6 +29,13 @@ void read_entry(LineScanner& scanner, FunctionTable& table) {
 
 }  // namespace
 
+void put(FunctionTable& table, const std::string& function, const std::vector<std::string>& arguments,
+         std::optional<double> value) {
+  std::string application = "(" + function;
+  for (const std::string& argument : arguments) application += " " + argument;
+  table[application + ")"] = value;
+}
+
 FunctionTable parse_function_table(std::string_view text, std::string_view file) {
   FunctionTable table;
   for_each_line(text, file, [&](LineScanner& scanner) { read_entry(scanner, table); });

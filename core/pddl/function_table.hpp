@@ -8,12 +8,17 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace roci::pddl {
 
 /// Maps the printed application, "(traverse_time a b)", to its value. An empty value says unreachable: no
 /// action that needs it exists. What is not in the table is unknown.
 using FunctionTable = std::map<std::string, std::optional<double>, std::less<>>;
+
+/// Adds a tuple of a function, whose value is empty where it is unreachable.
+void put(FunctionTable& table, const std::string& function, const std::vector<std::string>& arguments,
+         std::optional<double> value);
 
 /// Reads a table. Throws ParseError for another form, or a tuple that stands twice with different values.
 FunctionTable parse_function_table(std::string_view text, std::string_view file);

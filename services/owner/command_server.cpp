@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/clock/wall.hpp"
+#include "services/node/make_event.hpp"
 #include "services/owner/command_wire.hpp"
 
 namespace roci::services::owner {
@@ -91,11 +92,7 @@ void CommandServer::announce(const Notice& notice) {
     if (announced_.size() >= kAnnounced) return;
   }
   announced_[words] = node_.now();
-  v1::Event event;
-  event.severity_level(v1::SEVERITY_WARNING);
-  event.code(notice.code);
-  event.text(notice.text);
-  events_.write(event);
+  events_.write(node::make_event(v1::SEVERITY_WARNING, notice.code, notice.text));
 }
 
 void CommandServer::receive(const v1::LeaseRequest& request) {

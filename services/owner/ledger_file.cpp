@@ -13,32 +13,18 @@
 #include <utility>
 
 #include "services/log/log.hpp"
+#include "services/owner/value_json.hpp"
 
 namespace roci::services::owner {
 namespace {
 
 using nlohmann::json;
 
-json to_json(const temporal::Value& value) {
-  if (const auto* truth = std::get_if<bool>(&value)) return *truth;
-  if (const auto* number = std::get_if<double>(&value)) return *number;  // no finite one: null
-  if (const auto* state = std::get_if<temporal::State>(&value))
-    return {{"state", state->name}, {"arguments", state->arguments}};
-  return nullptr;
-}
-
-temporal::Value value_in(const json& in) {
-  if (in.is_boolean()) return in.get<bool>();
-  if (in.is_number()) return in.get<double>();
-  if (in.is_object()) return temporal::state(in.at("state"), in.at("arguments"));
-  return {};
-}
-
 json to_json(const Word& word) {
   json out{{"stage", static_cast<int>(word.stage)}, {"code", word.code}, {"reason", word.reason}};
   if (word.results.duration) out["duration_us"] = word.results.duration->count();
   if (word.results.energy_j) out["energy_j"] = *word.results.energy_j;
-  for (const auto& [name, value] : word.results.values) out["values"][name] = to_json(value);
+  for (const auto& [name, value] : word.results.values) out["values"][name] = owner::to_json(value);
   return out;
 }
 
@@ -53,7 +39,7 @@ Word word_in(const json& in) {
   if (in.contains("energy_j") && in["energy_j"].is_number())
     out.results.energy_j = in["energy_j"].get<double>();
   const json values = in.value("values", json::object());
-  for (const auto& [name, value] : values.items()) out.results.values[name] = value_in(value);
+  for (const auto& [name, value] : values.items()) out.results.values[name] = owner::value_in(value);
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "services/log/log.hpp"
+#include "services/node/make_event.hpp"
 
 namespace roci::services::process {
 namespace {
@@ -57,11 +58,7 @@ void ClockWatch::turn() {
     untold_ = std::move(set);
   }
   if (!untold_ || events_.matched_readers() == 0) return;
-  v1::Event event;
-  event.severity_level(v1::SEVERITY_WARNING);
-  event.code("clock.set");
-  event.text(*std::exchange(untold_, std::nullopt));
-  events_.write(std::move(event));
+  events_.write(node::make_event(v1::SEVERITY_WARNING, "clock.set", *std::exchange(untold_, std::nullopt)));
 }
 
 }  // namespace roci::services::process

@@ -45,10 +45,9 @@ std::vector<pddl::PlanStep> steps_of(const std::vector<RemainingAction>& remaini
 pddl::FunctionTable table_of(const std::vector<FunctionUse>& uses) {
   pddl::FunctionTable table;
   for (const FunctionUse& use : uses) {
-    std::string application = "(" + use.call.function;
-    for (const std::string& argument : use.call.arguments) application += " " + argument;
     const bool has_value = use.answer.outcome == FunctionOutcome::value;
-    table[application + ")"] = has_value ? std::optional(use.answer.value) : std::nullopt;
+    pddl::put(table, use.call.function, use.call.arguments,
+              has_value ? std::optional(use.answer.value) : std::nullopt);
   }
   return table;
 }

@@ -10,25 +10,15 @@
 #include "core/pddl/function_table.hpp"
 #include "core/pddl/plan_text.hpp"
 #include "core/temporal/schedule.hpp"
+#include "planner_svc/temporal_pddl/checker/refusal.hpp"
 #include "planner_svc/temporal_pddl/validate/validator.hpp"
 
 namespace roci::planner::temporal_pddl::checker {
 
-using engine::CheckedPlan, engine::FunctionOutcome, engine::FunctionUse;
+using engine::CheckedPlan;
 using temporal::Duration, temporal::FlexiblePlan, temporal::PlanActivity;
 
 namespace {
-
-pddl::FunctionTable table_of(std::span<const FunctionUse> uses) {
-  pddl::FunctionTable table;
-  for (const FunctionUse& use : uses) {
-    std::string application = "(" + use.call.function;
-    for (const std::string& argument : use.call.arguments) application += " " + argument;
-    const bool has_value = use.answer.outcome == FunctionOutcome::value;
-    table[application + ")"] = has_value ? std::optional(use.answer.value) : std::nullopt;
-  }
-  return table;
-}
 
 bool is_durative(const pddl::Domain& domain, const std::string& name) {
   return std::ranges::find(domain.durative_actions, name, &pddl::DurativeAction::name) !=

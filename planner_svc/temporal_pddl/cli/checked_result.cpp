@@ -2,7 +2,6 @@
 
 #include <malloc.h>
 
-#include <optional>
 #include <string>
 
 #include "planner_svc/temporal_pddl/checker/refusal.hpp"
@@ -10,30 +9,14 @@
 
 namespace roci::planner::temporal_pddl::cli {
 
-using engine::FunctionOutcome, engine::FunctionUse;
 using temporal::Verdict;
-
-namespace {
-
-pddl::FunctionTable table_of(const std::vector<FunctionUse>& uses) {
-  pddl::FunctionTable table;
-  for (const FunctionUse& use : uses) {
-    std::string application = "(" + use.call.function;
-    for (const std::string& argument : use.call.arguments) application += " " + argument;
-    const bool has_value = use.answer.outcome == FunctionOutcome::value;
-    table[application + ")"] = has_value ? std::optional(use.answer.value) : std::nullopt;
-  }
-  return table;
-}
-
-}  // namespace
 
 void check(const pddl::Domain& domain, const pddl::Problem& problem, Result& result) {
   if (!result.plan) return;
   malloc_trim(0);  // what the search has freed goes first, so that the check does not raise the peak
   const std::string printed = to_ipc(*result.plan);
   const std::string refusal =
-      checker::refusal(domain, problem, pddl::parse_plan(printed, "plan"), table_of(result.functions));
+      checker::refusal(domain, problem, pddl::parse_plan(printed, "plan"), result.functions);
   if (refusal.empty()) return;
   result.plan.reset();
   result.verdict = Verdict::crashed;
