@@ -91,6 +91,7 @@ v1::DataProduct to_wire(const world::Image& image) {
   out.created_us(image.taken.count());
   out.x_m(image.taken_from.x);
   out.y_m(image.taken_from.y);
+  out.heading_rad(image.taken_from.heading);
   out.preview(image.preview);
   return out;
 }
