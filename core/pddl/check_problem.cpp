@@ -8,11 +8,10 @@ namespace roci::pddl {
 namespace {
 
 void check_init(const Problem& problem, FormulaChecker& formulas, Findings& findings) {
-  std::set<std::string> facts;
-  for (const Atom& fact : problem.facts) {
-    formulas.check_basic_fact(fact);
-    facts.insert(print(fact));
-  }
+  for (const Atom& fact : problem.facts) formulas.check_basic_fact(fact);
+  std::set<std::string> facts;  // only if there is something to compare them with
+  if (!problem.false_facts.empty())
+    for (const Atom& fact : problem.facts) facts.insert(print(fact));
   for (const Atom& fact : problem.false_facts) {
     formulas.check_basic_fact(fact);
     if (facts.contains(print(fact))) {

@@ -18,27 +18,27 @@ void append(std::vector<T> from, std::vector<T>& to) {
 }
 
 Module read_module(const Sexpr& s, const Source& source) {
-  if (s.head() != ":module" || s.items.size() < 2) {
+  if (s.head() != ":module" || s.items().size() < 2) {
     source.fail(s.where, "a module expected", "write (:module NAME (:function (f ?x - TYPE …)) …)");
   }
   Module module;
   module.where = s.where;
-  module.name = read_name(s.items[1], "the name of a module", source);
+  module.name = read_name(s.items()[1], "the name of a module", source);
   for (const Sexpr& item : rest(s, 2)) {
     source.attempt([&] {
-      if (item.head() != ":function" || item.items.size() != 2)
+      if (item.head() != ":function" || item.items().size() != 2)
         source.fail(item.where, "an external function expected", "write (:function (f ?x - TYPE …))");
-      module.functions.push_back(read_signature(item.items[1], "an external function", source));
+      module.functions.push_back(read_signature(item.items()[1], "an external function", source));
     });
   }
   return module;
 }
 
 DerivedPredicate read_derived(const Sexpr& s, const Source& source) {
-  if (s.items.size() != 3) {
+  if (s.items().size() != 3) {
     source.fail(s.where, "':derived' needs a head and a body", "write (:derived (p ?x - TYPE …) CONDITION)");
   }
-  return {read_signature(s.items[1], "a derived predicate", source), read_condition(s.items[2], source)};
+  return {read_signature(s.items()[1], "a derived predicate", source), read_condition(s.items()[2], source)};
 }
 
 // Sections of other languages than this one: nothing here plans by them.
@@ -91,7 +91,8 @@ void read_section(const Sexpr& s, Domain& domain, const Source& source, Unread& 
 
 Domain read_domain(std::string_view text, DiagnosticLog& log, Unread& unread) {
   const Source source(log);
-  const Sexpr s = read_sexpr(text, "domain", log);
+  const SexprTree tree = read_sexpr(text, "domain", log);
+  const Sexpr& s = tree.root();
   Domain domain;
   domain.file = source.file();
   domain.where = s.where;
