@@ -12,6 +12,7 @@ pddl::FunctionTable table_of(std::span<const FunctionUse> uses) {
   pddl::FunctionTable table;
   for (const FunctionUse& use : uses) {
     const bool has_value = use.answer.outcome == FunctionOutcome::value;
+    if (has_value && !use.answer.is_exact()) continue;  // no plan may stand on it
     pddl::put(table, use.call.function, use.call.arguments,
               has_value ? std::optional(use.answer.value) : std::nullopt);
   }

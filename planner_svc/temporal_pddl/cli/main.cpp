@@ -1,5 +1,5 @@
 // roci-plan DOMAIN PROBLEM [--time S | --cpu-time S] [--evaluations N] [--memory MB] [--functions FILE]
-//           [--remaining PLAN] [--stats FILE] [--json] [--seed N] [--progress] [--gantt FILE]
+//           [--functions-mode MODE] [--remaining PLAN] [--stats FILE] [--json] [--seed N] [--progress] [--gantt FILE]
 // roci-plan DOMAIN PROBLEM --parse-only [--strict]
 //
 // The plan goes to standard output, what is wrong to standard error, the verdict into the exit code
@@ -66,6 +66,7 @@ std::size_t default_megabytes() {
 
 struct Arguments {
   std::string domain, problem, functions, stats, remaining, gantt;
+  std::string functions_mode = "eager";
   double seconds = 0;                           // 0: no limit
   double processor_seconds = 0;                 // 0: no limit
   std::size_t megabytes = default_megabytes();  // 0: no limit
@@ -138,6 +139,11 @@ nlohmann::json statistics_json(const Result& result, double wall_s) {
           {"temporally_inconsistent", statistics.temporally_inconsistent},
           {"dominated", statistics.dominated},
           {"hopeless", statistics.dead_ends},
+          {"function_requests", statistics.function_requests},
+          {"exact_values", statistics.exact_values},
+          {"cheap_values", statistics.cheap_values},
+          {"rounds", statistics.rounds},
+          {"exhausted", statistics.exhausted},
           {"bytes_per_state", statistics.bytes_per_state},
           {"from_remaining", statistics.from_remaining},
           {"engine_peak_bytes", statistics.peak_bytes},
@@ -217,7 +223,8 @@ Result plan(const Arguments& arguments, const Model& model, const std::function<
   std::unique_ptr<FunctionSource> functions = std::make_unique<NoFunctions>();
   if (!arguments.functions.empty()) {
     functions = std::make_unique<TableFunctions>(
-        pddl::parse_function_table(read_file(arguments.functions), arguments.functions), arguments.functions);
+        pddl::parse_function_tables(read_file(arguments.functions), arguments.functions),
+        arguments.functions);
   }
   Budget budget;
   budget.out_of_time = out_of_time;
@@ -233,6 +240,7 @@ Result plan(const Arguments& arguments, const Model& model, const std::function<
     options.dominance = false;
     options.windows = WindowExtraction::none;
   }
+  options.functions = *engine::functions_mode_named(arguments.functions_mode);
   options.describe_activities = false;
   options.improvement_evaluations = arguments.improve;
   if (arguments.seconds + arguments.processor_seconds > 0 && arguments.improve == 0)
@@ -321,6 +329,12 @@ int run_command_line(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--functions", arguments.functions,
                  "values of external functions: (traverse_time a b) 12.5");
+  app.add_option(
+         "--functions-mode", arguments.functions_mode,
+         "which of these are asked for: eager (all), lazy (what searches touch) or two-accuracy (exact "
+         "ones for candidate plans, else lower bounds: (traverse_time a b) >= 10)")
+      ->check(CLI::IsMember({"eager", "lazy", "two-accuracy"}))
+      ->capture_default_str();
   app.add_option("--remaining", arguments.remaining, "what is left of an earlier plan, to begin with");
   app.add_option("--stats", arguments.stats, "write statistics as JSON to this file");
   app.add_flag("--strict", arguments.strict,
