@@ -24,6 +24,7 @@
 #include "planner_svc/temporal_pddl/refining.hpp"
 #include "planner_svc/temporal_pddl/search/portfolio.hpp"
 #include "planner_svc/temporal_pddl/values/counted_functions.hpp"
+#include "planner_svc/temporal_pddl/values/level_functions.hpp"
 
 namespace roci::planner::temporal_pddl {
 
@@ -40,7 +41,7 @@ using search::Guide, search::PlanPrefix, search::SearchContext, search::SearchOu
     search::search_portfolio;
 using task::Task;
 using temporal::Verdict;
-using values::CountedFunctions;
+using values::CountedFunctions, values::LevelFunctions;
 
 namespace {
 
@@ -213,13 +214,14 @@ Result plan(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSo
             const Budget& budget, const Monitor& monitor, const Options& options,
             std::span<const pddl::PlanStep> remaining, std::span<const NamedGoal> goals) {
   CountedFunctions owners(functions);
+  LevelFunctions at_levels(owners, domain.level_parameters);
   const auto attempt = [&](const Attempt& one) { return plan_once(domain, problem, one, monitor, goals); };
   Result result;
   guarded(result, [&] {
     require_model(domain, problem);
     result = options.functions == FunctionsMode::eager || domain.modules.empty()
-                 ? attempt({owners, budget, options, remaining})
-                 : plan_refining({domain, problem, owners, budget, monitor, options, remaining}, attempt);
+                 ? attempt({at_levels, budget, options, remaining})
+                 : plan_refining({domain, problem, at_levels, budget, monitor, options, remaining}, attempt);
   });
   doubt_unknown_values(result);
   result.statistics.function_requests = owners.requests();
