@@ -78,7 +78,8 @@ FunctionAnswer evaluate(EstimateCache& cache, const MotionModel& model, const v1
   FunctionAnswer answer;
   const std::size_t joints = model.setup().arm.joints.size();
   const auto estimate = [&](const wire::OwnedFunction& function,
-                            std::span<const v1::PlanObject* const> objects) -> wire::FunctionResult {
+                            std::span<const v1::PlanObject* const> objects,
+                            v1::FunctionAccuracy) -> wire::FunctionResult {
     const auto from = place_of(*objects[0], joints), to = place_of(*objects[1], joints);
     if (!from || !to) {
       answer.refusals.insert("a place gives joint values that are not " + std::to_string(joints) +
