@@ -39,12 +39,18 @@ struct DriveModel {
   /// goes from 0 for smooth to 1 for the roughest allowed.
   Pace pace(double grade, double roughness) const;
 
+  /// Returns the time of the pace alone.
+  double seconds_per_metre(double grade, double roughness) const;
+
   /// These return seconds and joules of a turn on the spot by `angle` radians, of either sign.
   double turn_time(double angle) const;
   double turn_energy(double angle) const;
 
   /// Returns the seconds per metre that no ground is driven faster than.
   double fastest() const { return 1 / speed; }
+  /// Returns joules per metre that ground of this slope and roughness takes at least, whatever the direction: all
+  /// of the slope helps, and nothing slips.
+  double least_energy(double slope, double roughness) const;
 };
 
 }  // namespace roci::pathplan
