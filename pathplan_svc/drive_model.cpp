@@ -12,12 +12,6 @@ Pace DriveModel::pace(double grade, double roughness) const {
   return {seconds, work / drive_efficiency + idle_power * seconds};
 }
 
-double DriveModel::seconds_per_metre(double grade, double roughness) const {
-  const double slip = std::min(max_slip, slip_per_grade * std::max(0.0, grade));
-  const double ground_speed = speed * (1 - slip) * (1 - rough_slowdown * roughness);
-  return std::sqrt(1 + grade * grade) / ground_speed;
-}
-
 double DriveModel::least_energy(double slope, double roughness) const {
   const double seconds = 1 / (speed * (1 - rough_slowdown * roughness));
   return mass * gravity * std::max(0.0, rolling_resistance - slope) / drive_efficiency + idle_power * seconds;
