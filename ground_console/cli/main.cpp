@@ -29,6 +29,7 @@ struct Line {
   cli::GoalArguments goal;
   cli::OrderArguments order;
   std::size_t count = 0;
+  std::string activity;  // whose values are asked for
   std::vector<std::string> timelines;
   std::string mission;  // folder or name, for what its file says
   std::int64_t launcher = 0;
@@ -214,7 +215,10 @@ int main(int argc, char** argv) {
   add_verb(app, line, "status", "Mission, goals, services, newest values",
            [](lib::Client& client, const Line& l) { return cli::show_status(client, l.json); });
   add_verb(app, line, "plan", "The running plan and the state of each activity",
-           [](lib::Client& client, const Line& l) { return cli::show_plan(client, l.json); });
+           [](lib::Client& client, const Line& l) { return cli::show_plan(client, l.activity, l.json); })
+      ->add_option("--why", line.activity,
+                   "Instead: the function values that this activity stands on (its id, or its name for all "
+                   "of that name)");
   CLI::App* timelines =
       add_verb(app, line, "timelines", "Planned, executed and projected values of every timeline",
                [](lib::Client& client, const Line& l) {

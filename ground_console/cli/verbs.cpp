@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "ground_console/cli/plan_table.hpp"
+#include "ground_console/cli/plan_values.hpp"
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/timelines.hpp"
 
@@ -154,11 +155,37 @@ void tell_whose(const lib::MissionView& view) {
 
 }  // namespace
 
-int show_plan(lib::Client& client, bool as_json) {
+namespace {
+
+// What activities of this id or name stand on.
+int show_values(const lib::MissionView& view, const std::string& name, bool as_json) {
+  const auto activities = activities_named(view, name);
+  if (activities.empty()) {
+    std::cerr << "roci: the running plan has no activity '" << printable(name)
+              << "'; roci plan lists them, by id and by what they do\n";
+    return kRefused;
+  }
+  if (!as_json) {
+    std::cout << values_text(view, activities);
+    return kDone;
+  }
+  json list = json::array();
+  for (const v1::PlanActivity* activity : activities)
+    list.push_back({{"id", activity->id()},
+                    {"name", activity->name()},
+                    {"function_values", values_json(view, *activity)}});
+  std::cout << json_text(list) << "\n";
+  return kDone;
+}
+
+}  // namespace
+
+int show_plan(lib::Client& client, const std::string& why, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
   client.wait([&] { return client.view().plan() != nullptr; }, std::chrono::milliseconds(1000));
   client.wait([] { return false; }, std::chrono::milliseconds(300));
   tell_whose(client.view());
+  if (!why.empty()) return show_values(client.view(), why, as_json);
   if (as_json) {
     std::cout << json_text(plan_json(client.view())) << "\n";
     return kDone;
