@@ -12,6 +12,7 @@
 #include "ground_console/cli/reach.hpp"
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/runs.hpp"
+#include "ground_console/cli/unknown_verb.hpp"
 #include "ground_console/cli/verbs.hpp"
 #include "ground_console/cli/watch/watch.hpp"
 #include "services/process/mission_folder.hpp"
@@ -261,7 +262,12 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? cli::kDone : cli::kBadUsage;
+    const std::string verb =
+        cli::words_on_verb(app, {argv + 1, argv + argc},
+                           {"--domain", "--dds", "--address", "--peers", "--network", "--executive"});
+    if (error.get_exit_code() == 0 || verb.empty()) return app.exit(error) == 0 ? cli::kDone : cli::kBadUsage;
+    std::cerr << "roci: " << verb << "\n";
+    return cli::kBadUsage;
   }
   try {
     if (line.own != nullptr) return line.own(line);
