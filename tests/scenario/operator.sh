@@ -9,7 +9,8 @@ mkdir -p "$out"
 roci-launch "$mission" --scenario "$scenario" --dds "$dds" --domain "$domain" --speed 20 --headless --json \
   --run-folder "$out/run" >"$out/summary" 2>&1 &
 launcher=$!
-trap 'kill -INT $launcher 2>/dev/null; wait' EXIT
+listener=
+trap 'kill $listener 2>/dev/null; kill -INT $launcher 2>/dev/null; wait' EXIT
 ask() {
   local file=$out/$1
   shift
@@ -27,11 +28,17 @@ ask_until() {
   done
   return 1
 }
-ask_until planetary status status
-timeout 60 roci events --json "${joins[@]}" >"$out/events" 2>/dev/null &
-ask_until running plan plan
 case $7 in
   asked)
+    ask_until planetary status status
+    roci events --json "${joins[@]}" >"$out/events" 2>/dev/null &
+    listener=$!
+    for _ in $(seq 60); do  # until it hears something
+      [[ -s $out/events ]] && break
+      ask order order release
+    done
+    ask first goal add ridge photo x=110 y=60 --class hard
+    ask_until running plan plan
     asking=()
     in_parallel() { ask "$@" & asking+=($!); }
     in_parallel plan.json plan --json
