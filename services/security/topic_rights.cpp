@@ -60,7 +60,7 @@ std::vector<TopicRights> make_table() {
       row(topics::goal_status,     {executive},                              {planner, console}),
       row(topics::command,         {executive},                              {owner}),
       row(topics::command_ack,     {owner},                                  {executive}),
-      row(topics::observation,     {owner, executive},                       {executive, planner, console}),
+      row(topics::observation,     {owner, executive},                       {executive, planner, analyst, console}),
       row(topics::data_product,    {owner},                                  {analyst, console}),
       row(topics::hazard,          {owner},                                  {path_planner, console}),
       row(topics::plan,            {executive},                              {planner, console}),

@@ -63,6 +63,7 @@ class Evaluator {
   Truth combine(Truth decisive, const std::vector<pddl::Condition>& parts, Bindings& bindings);
   Truth fact(const pddl::Atom& atom, const Bindings& bindings);
   Truth compare(const pddl::Comparison& comparison, const Bindings& bindings);
+  bool constant(const pddl::Atom& atom, const std::string& ground, const Bindings& bindings);
   bool derived(const pddl::Atom& atom, const std::string& ground, const Bindings& bindings);
   void settle(Layer& layer);
   bool derive(const Instance& instance);
@@ -77,6 +78,10 @@ class Evaluator {
   Reads* reads_;
   Layer* open_ = nullptr;
   std::map<std::string, bool> settled_;
+  bool settles_constants_ = false;
+  // Rules that rest on each other's heads are followed so deep; deeper ones are settled as a layer, which does not recurse.
+  static constexpr int kMostBelow = 20;
+  int depth_ = 0;
   std::string reason_;
 };
 
