@@ -76,7 +76,8 @@ FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request
                         const std::stop_token& stop) {
   FunctionAnswer answer;
   const auto estimate = [&](const wire::OwnedFunction& function,
-                            std::span<const v1::PlanObject* const> objects) -> wire::FunctionResult {
+                            std::span<const v1::PlanObject* const> objects,
+                            v1::FunctionAccuracy) -> wire::FunctionResult {
     const auto from = place_of(*objects[0]), to = place_of(*objects[1]);
     if (!from || !to) return {v1::FUNCTION_UNKNOWN_OBJECT};
     const PathOutcome path = planner.path(*from, *to);
