@@ -31,7 +31,7 @@ def reconfiguration(modules, moved, seed, free=2):
     init += [f"(at-slot m{m} s{s}) (installed m{m} s{s}) (lay-first m{m} s{s}) (seat m{m} s{s}) (works m{m}) "
              f"(serves m{m} {ROLES[m % len(ROLES)]})" for m, s in start.items()]
     init += [f"(free s{s}) (free-first s{s})" for s in slots if s not in taken]
-    init += [f"(wanted m{m} s{s})" for m, s in goal.items()]
+    init += [f"(wanted m{m} s{s}) (allowed m{m} s{s})" for m, s in goal.items()]
     init += ["(sunlit)"] + [f"(at {orbit * ORBIT_S + LIGHT_S} (not (sunlit))) (at {(orbit + 1) * ORBIT_S} (sunlit))"
                             for orbit in range(1 + 4 * moved * 150 // LIGHT_S)]
     wanted = [f"(installed m{m} s{s})" for m, s in goal.items()]

@@ -38,6 +38,7 @@
 
     ; What goals ask for.
     (wanted ?m - module ?s - slot)
+    (allowed ?m - module ?s - slot)  ; the window in which it is wanted there, if it has one, is open
     (to-replace ?m - module)
     (to-configure ?c - mode)
 
@@ -47,6 +48,7 @@
     (lay-first ?m - module ?s - slot)
     (free-first ?s - slot)
     (asked ?r - role ?s - slot)
+    (fits ?m - module ?s - slot)
     (aim ?m - module ?s - slot)
     (target ?s - slot)
     (mover ?m - module)
@@ -62,8 +64,8 @@
   (:derived (asked ?r - role ?s - slot)
     (or (exists (?d - module) (and (to-replace ?d) (seat ?d ?s) (serves ?d ?r)))
         (exists (?c - mode) (and (to-configure ?c) (needs ?c ?r ?s)))))
-  (:derived (aim ?m - module ?s - slot)
-    (or (wanted ?m ?s) (exists (?r - role) (and (asked ?r ?s) (serves ?m ?r)))))
+  (:derived (fits ?m - module ?s - slot) (exists (?r - role) (and (asked ?r ?s) (serves ?m ?r))))
+  (:derived (aim ?m - module ?s - slot) (or (wanted ?m ?s) (fits ?m ?s)))
   (:derived (target ?s - slot) (or (exists (?m - module) (wanted ?m ?s)) (exists (?r - role) (asked ?r ?s))))
   ; These alone are moved: what has an aim, what lies in another's way, and what the tool holds.
   (:derived (mover ?m - module)
@@ -161,6 +163,7 @@
       (at start (tool-ready))
       (at start (localized ?s))
       (over all (arm-at ?s))
+      (over all (or (not (wanted ?m ?s)) (fits ?m ?s) (allowed ?m ?s)))
       (at start (>= (battery) (+ (reserve) 6000))))
     :effect (and
       (at start (not (tool-ready)))
