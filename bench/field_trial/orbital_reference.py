@@ -28,7 +28,7 @@ class State(NamedTuple):
 
 
 def read(text: str):
-    """A formula as nested lists."""
+    """The first formula of a text, as nested lists."""
     stack: list[list] = [[]]
     for token in re.findall(r"[()]|[^\s()]+", text):
         if token == "(":
@@ -36,6 +36,8 @@ def read(text: str):
         elif token == ")":
             done = stack.pop()
             stack[-1].append(done)
+            if len(stack) == 1:
+                break
         else:
             stack[-1].append(token)
     return stack[0][0]
@@ -46,7 +48,7 @@ class Scheduler:
         self.problem, self.values, self.energy_j = problem, values, energy_j
         self.facts = problem.facts
         text = problem.text
-        self.goal = read(text[text.index("(:goal") + 6 : text.index("(:metric")])
+        self.goal = read(text[text.index("(:goal") + 6 :])
         words = read("(" + text[text.index("(:objects") + 9 : text.index("(:init")].strip().removesuffix(")") + ")")
         self.objects: dict[str, list[str]] = {}
         names: list[str] = []
