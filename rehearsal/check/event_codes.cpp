@@ -21,6 +21,7 @@ const std::vector<std::string>& event_codes() {
       "science.no_room", "service.died", "service.doubled", "service.found", "service.lost",
       "service.missed", "standby.gone", "standby.ready", "timeline.contested", "timeline.no_room",
       "values.outdated",
+      "watch.goal", "watch.no_room",
   };
   // clang-format on
   return codes;

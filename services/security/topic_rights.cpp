@@ -62,7 +62,7 @@ std::vector<TopicRights> make_table() {
       row(topics::goal_status,     {executive},                              {planner, listener, console}),
       row(topics::command,         {executive},                              {listener, owner}),
       row(topics::command_ack,     {owner},                                  {executive, listener}),
-      row(topics::observation,     {owner, executive},                       {executive, planner, listener, console}),
+      row(topics::observation,     {owner, executive},                       {executive, planner, analyst, listener, console}),
       row(topics::data_product,    {owner},                                  {analyst, listener, console}),
       row(topics::hazard,          {owner},                                  {path_planner, listener, console}),
       row(topics::plan,            {executive},                              {planner, listener, console}),
