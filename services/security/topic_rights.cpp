@@ -57,11 +57,11 @@ std::vector<TopicRights> make_table() {
 
       row(topics::event,           all,                                      all),
       row(topics::goal,            {executive, analyst, world, console},     {executive, planner, console}),
-      row(topics::goal_status,     {executive},                              {planner, console}),
+      row(topics::goal_status,     {executive},                              {planner, analyst, console}),
       row(topics::command,         {executive},                              {owner}),
       row(topics::command_ack,     {owner},                                  {executive}),
       row(topics::observation,     {owner, executive},                       {executive, planner, console}),
-      row(topics::data_product,    {owner},                                  {analyst, console}),
+      row(topics::data_product,    {owner, analyst},                         {analyst, console}),
       row(topics::hazard,          {owner},                                  {path_planner, console}),
       row(topics::plan,            {executive},                              {planner, console}),
       row(topics::step_status,     {executive},                              {planner, console}),
