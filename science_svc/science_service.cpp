@@ -14,6 +14,7 @@
 #include "science_svc/detector_file.hpp"
 #include "science_svc/limits.hpp"
 #include "science_svc/picture.hpp"
+#include "science_svc/watch/watch_service.hpp"
 #include "services/log/log.hpp"
 #include "services/node/make_event.hpp"
 #include "services/publisher.hpp"
@@ -130,6 +131,11 @@ class ScienceService final : public services::Service {
   services::Publisher<v1::DataProduct> crops_;
 };
 
+// Either may be missing.
+struct DetectorAndWatch final : services::Service {
+  std::unique_ptr<services::Service> detector, watch;
+};
+
 // Returns the ground as the mission maps it, or nothing for a mission without a map.
 std::shared_ptr<const terrain::Site> site_of(const mission::Entry& mission) {
   const auto site = mission.find("site");
@@ -146,9 +152,14 @@ std::shared_ptr<const terrain::Site> site_of(const mission::Entry& mission) {
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
   const mission::Entry mission = mission::load_mission_file(settings.mission_file());
   const mission::Entry scenario = mission::load_scenario(settings.mission, settings.scenario);
-  DetectorSettings detector = read_detector(mission, scenario);
-  for (const std::string& warning : detector.warnings) services::log::warning(warning);
-  return std::make_unique<ScienceService>(node, std::move(detector), site_of(mission));
+  auto out = std::make_unique<DetectorAndWatch>();
+  if (mission.find("science")) {  // without its section there is no detector, and no map is needed
+    DetectorSettings detector = read_detector(mission, scenario);
+    for (const std::string& warning : detector.warnings) services::log::warning(warning);
+    out->detector = std::make_unique<ScienceService>(node, std::move(detector), site_of(mission));
+  }
+  out->watch = watch::make_watch(node, mission);
+  return out;
 }
 
 }  // namespace roci::science
