@@ -13,13 +13,13 @@ using Covariance = Eigen::Matrix<double, kFeatures, kFeatures>;
 namespace {
 
 constexpr int kBands = 8;
-constexpr double kNearestBand = 3;      // m
+constexpr double kNearestBand = 3;  // m
 constexpr double kBandsPerOctave = 3;
-constexpr double kWeightOfAll = 250;    // patches, with which what all bands show counts in each
-constexpr double kRidge = 1e-3;         // keeps a covariance of flat images invertible
+constexpr double kWeightOfAll = 250;  // patches, with which what all bands show counts in each
+constexpr double kRidge = 1e-3;       // keeps a covariance of flat images invertible
 constexpr std::size_t kLeastPatches = 100;
 constexpr double kQuantile = 0.95;
-constexpr double kKept = 0.9;           // share that takes part in the second round
+constexpr double kKept = 0.9;  // share that takes part in the second round
 
 struct Moments {
   double count = 0;
@@ -34,7 +34,8 @@ struct Moments {
 };
 
 double quantile(std::vector<double> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -42,7 +43,8 @@ double quantile(std::vector<double> values, double share) {
 }  // namespace
 
 int Background::band_of(double range) {
-  return std::clamp(static_cast<int>(kBandsPerOctave * std::log2(std::max(range, 0.1) / kNearestBand)) + 1, 0, kBands - 1);
+  return std::clamp(static_cast<int>(kBandsPerOctave * std::log2(std::max(range, 0.1) / kNearestBand)) + 1, 0,
+                    kBands - 1);
 }
 
 void Background::learn(const std::vector<Patch>& patches) {

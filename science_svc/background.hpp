@@ -31,7 +31,8 @@ class Background {
  private:
   struct Band {
     Features mean = Features::Zero();
-    Eigen::Matrix<double, kFeatures, kFeatures> inverse = Eigen::Matrix<double, kFeatures, kFeatures>::Identity();
+    Eigen::Matrix<double, kFeatures, kFeatures> inverse =
+        Eigen::Matrix<double, kFeatures, kFeatures>::Identity();
   };
   struct Sample {
     int band = 0;

@@ -33,7 +33,7 @@ struct MappedGround {
 
 /// Returns where the ray through a pixel (fractions count from the upper left corner of the image) meets the ground, or nothing
 /// if that is above the horizon, beyond `reach` metres, or off the map.
-std::optional<terrain::Point> ground_at(const MappedGround&, const CameraModel&, const Viewpoint&, int width, int height,
-                                        double column, double row, double reach);
+std::optional<terrain::Point> ground_at(const MappedGround&, const CameraModel&, const Viewpoint&, int width,
+                                        int height, double column, double row, double reach);
 
 }  // namespace roci::science

@@ -20,7 +20,8 @@ constexpr std::size_t kTeachers = 3;
 constexpr double kEdge = 0.8;  // share of the threshold down to which a region goes on
 
 bool touch(const Window& a, const Window& b) {
-  return a.left <= b.left + b.width && b.left <= a.left + a.width && a.top <= b.top + b.height && b.top <= a.top + a.height;
+  return a.left <= b.left + b.width && b.left <= a.left + a.width && a.top <= b.top + b.height &&
+         b.top <= a.top + a.height;
 }
 
 // Grows from the first open patch over all that touch, and takes them out of `open`.
@@ -55,15 +56,16 @@ Window around(const std::vector<std::size_t>& region, const std::vector<Patch>& 
 std::string find_id(Point p) {
   const auto metres = [](double v) { return std::llround(std::clamp(v, -kFarthestId, kFarthestId)); };
   const long long east = metres(p.x), north = metres(p.y);
-  return "find-" + std::string(east < 0 ? "w" : "e") + std::to_string(std::llabs(east)) + (north < 0 ? "s" : "n") +
-         std::to_string(std::llabs(north));
+  return "find-" + std::string(east < 0 ? "w" : "e") + std::to_string(std::llabs(east)) +
+         (north < 0 ? "s" : "n") + std::to_string(std::llabs(north));
 }
 
 std::optional<Point> place_of(const std::string& id) {
   char east = 0, north = 0;
   long x = 0, y = 0;
   int used = 0;
-  if (id.size() > 32 || std::sscanf(id.c_str(), "find-%c%7ld%c%7ld%n", &east, &x, &north, &y, &used) != 4) return std::nullopt;
+  if (id.size() > 32 || std::sscanf(id.c_str(), "find-%c%7ld%c%7ld%n", &east, &x, &north, &y, &used) != 4)
+    return std::nullopt;
   if (static_cast<std::size_t>(used) != id.size()) return std::nullopt;
   const Point out{static_cast<double>(east == 'w' ? -x : x), static_cast<double>(north == 's' ? -y : y)};
   return find_id(out) == id ? std::optional(out) : std::nullopt;
@@ -82,8 +84,10 @@ std::vector<Patch> Detector::patches(const Photo& photo) const {
 bool Detector::is_new(const Photo& photo) {
   const Viewpoint& from = photo.from;
   const bool placed = std::isfinite(from.heading) && std::isfinite(from.at.x) && std::isfinite(from.at.y) &&
-                      std::hypot(from.at.x, from.at.y) < kFarthestId && MappedGround{site_.get()}.contains(from.at);
-  return settings_.enabled && placed && !full() && photo.id.size() <= kNameBytes && seen_.insert(photo.id).second;
+                      std::hypot(from.at.x, from.at.y) < kFarthestId &&
+                      MappedGround{site_.get()}.contains(from.at);
+  return settings_.enabled && placed && !full() && photo.id.size() <= kNameBytes &&
+         seen_.insert(photo.id).second;
 }
 
 void Detector::learn(const Photo& photo) {
@@ -105,14 +109,16 @@ std::vector<Candidate> Detector::candidates(const Photo& photo, double threshold
   while (!odd.empty()) {
     const std::vector<std::size_t> region = take_region(odd, patches);
     const auto oddest = *std::ranges::max_element(region, {}, [&](std::size_t i) { return scores[i]; });
-    if (scores[oddest] >= threshold) out.push_back({patches[oddest].ground, scores[oddest], around(region, patches)});
+    if (scores[oddest] >= threshold)
+      out.push_back({patches[oddest].ground, scores[oddest], around(region, patches)});
   }
   std::ranges::stable_sort(out, std::ranges::greater{}, &Candidate::score);
   return out;
 }
 
 bool Detector::known(Point place) const {
-  return std::ranges::any_of(finds_, [&](Point earlier) { return terrain::distance(earlier, place) <= settings_.merge_m; }) ||
+  return std::ranges::any_of(
+             finds_, [&](Point earlier) { return terrain::distance(earlier, place) <= settings_.merge_m; }) ||
          find_ids_.contains(find_id(place));
 }
 

@@ -30,12 +30,15 @@ DetectorSettings read_detector(const Entry& mission, const Entry& scenario) {
   const auto section = mission.find("science");
   out.enabled = section.has_value();
   if (section) {
-    section->allow_only({"threshold", "goal_kind", "offset_m", "reach_m", "min_interval_s", "merge_m", "limit", "camera"});
+    section->allow_only(
+        {"threshold", "goal_kind", "offset_m", "reach_m", "min_interval_s", "merge_m", "limit", "camera"});
     out.threshold = within(*section, "threshold", out.threshold, 0, 1);
     out.goal_kind = section->text_or("goal_kind", out.goal_kind);
     if (const auto offset = section->find("offset_m")) {
-      out.warnings.push_back(offset->place() + ": warning: 'offset_m' has no effect any more, since a find lies where the image " +
-                             "shows it (drop it)");
+      out.warnings.push_back(
+          offset->place() +
+          ": warning: 'offset_m' has no effect any more, since a find lies where the image " +
+          "shows it (drop it)");
     }
     out.reach_m = within(*section, "reach_m", out.reach_m, 1, 100);
     if (const auto camera = section->find("camera")) read_camera(*camera, out.camera);

@@ -19,7 +19,8 @@ constexpr int kLeastHeight = 4;
 constexpr double kMargin = 0.06;  // of light, below which a neighbour is as light as the middle
 constexpr double kFaint = 0.01;   // of light, added before a logarithm
 
-constexpr std::array<std::array<int, 2>, 8> kRing{{{-1, -1}, {0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}}};
+constexpr std::array<std::array<int, 2>, 8> kRing{
+    {{-1, -1}, {0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}}};
 
 // Is an image in shares of the median light of its ground.
 class Light {
@@ -42,7 +43,8 @@ class Light {
 
  private:
   std::uint16_t pixel(int column, int row) const {
-    return image_.pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(image_.width) + static_cast<std::size_t>(column)];
+    return image_.pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(image_.width) +
+                         static_cast<std::size_t>(column)];
   }
 
   const GreyImage& image_;
@@ -86,8 +88,9 @@ Features describe(const Light& light, const Window& w) {
   Features out;
   out << std::log(mean + kFaint), std::log(std::sqrt(std::max(0.0, squares / count - mean * mean)) + kFaint),
       std::log(along / count + kFaint), std::log(across / count + kFaint), std::log(most - mean + kFaint),
-      std::log(mean - least + kFaint), static_cast<double>(light_ones) / count, static_cast<double>(dark_ones) / count,
-      static_cast<double>(patterns[0]) / count, static_cast<double>(patterns[2]) / count;
+      std::log(mean - least + kFaint), static_cast<double>(light_ones) / count,
+      static_cast<double>(dark_ones) / count, static_cast<double>(patterns[0]) / count,
+      static_cast<double>(patterns[2]) / count;
   return out;
 }
 
@@ -99,8 +102,11 @@ std::optional<Window> patch_in_row(const GreyImage& image, const CameraModel& ca
   if (!seen) return std::nullopt;
   const double range = std::max(0.5, terrain::distance(*seen, from.at));
   const double width = focal_px(camera, image.width) * kGroundSide / range;
-  const auto even = [](double v, int least, int most) { return std::clamp(static_cast<int>(std::lround(v / 2)) * 2, least, most); };
-  return Window{0, row, even(width, kLeastWidth, image.width / 4), even(width * camera.mast_m / range, kLeastHeight, image.height / 4)};
+  const auto even = [](double v, int least, int most) {
+    return std::clamp(static_cast<int>(std::lround(v / 2)) * 2, least, most);
+  };
+  return Window{0, row, even(width, kLeastWidth, image.width / 4),
+                even(width * camera.mast_m / range, kLeastHeight, image.height / 4)};
 }
 
 }  // namespace
@@ -109,7 +115,8 @@ std::vector<Patch> patches_of(const GreyImage& image, const CameraModel& camera,
                               const MappedGround& ground, double reach) {
   std::vector<Patch> out;
   for (int top = 0; top < image.height;) {
-    const Window size = patch_in_row(image, camera, from, ground, reach, top).value_or(Window{0, top, kLeastWidth, kLeastHeight});
+    const Window size = patch_in_row(image, camera, from, ground, reach, top)
+                            .value_or(Window{0, top, kLeastWidth, kLeastHeight});
     const int width = size.width, height = size.height;
     if (top + height > image.height) break;
     for (int left = 0; left + width <= image.width && out.size() < kPatches; left += width / 2) {
@@ -117,7 +124,8 @@ std::vector<Patch> patches_of(const GreyImage& image, const CameraModel& camera,
       const double middle = left + width / 2.0;
       // The upper edge is the farthest part of it.
       if (!ground_at(ground, camera, from, image.width, image.height, middle, top, reach)) continue;
-      const auto place = ground_at(ground, camera, from, image.width, image.height, middle, top + height / 2.0, reach);
+      const auto place =
+          ground_at(ground, camera, from, image.width, image.height, middle, top + height / 2.0, reach);
       if (!place) continue;
       patch.ground = *place;
       patch.range = terrain::distance(*place, from.at);

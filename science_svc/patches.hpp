@@ -25,6 +25,7 @@ struct Patch {
 
 /// Cuts what lies within `reach` metres into patches that show about as much ground, whether near or far, and overlap by half;
 /// from the top down, at most kPatches.
-std::vector<Patch> patches_of(const terrain::GreyImage&, const CameraModel&, const Viewpoint&, const MappedGround&, double reach);
+std::vector<Patch> patches_of(const terrain::GreyImage&, const CameraModel&, const Viewpoint&,
+                              const MappedGround&, double reach);
 
 }  // namespace roci::science

@@ -13,7 +13,8 @@ GreyImage read_picture(std::string_view file, const std::string& id) {
   const auto fail = [&](const std::string& what) { throw terrain::MapError(id + ": " + what); };
   if (file.empty()) fail("the image has no pixels");
   if (file.size() > kFileBytes) {
-    fail(std::to_string(file.size()) + " bytes are more than an image may have (" + std::to_string(kFileBytes) + ")");
+    fail(std::to_string(file.size()) + " bytes are more than an image may have (" +
+         std::to_string(kFileBytes) + ")");
   }
   if (!file.starts_with("P5")) fail("not a binary PGM image (it must begin with P5)");
   GreyImage out = terrain::parse_pgm(file, id);
@@ -27,7 +28,8 @@ GreyImage read_picture(std::string_view file, const std::string& id) {
 
 std::string cut(const GreyImage& image, const Window& window) {
   GreyImage out;
-  const int left = std::clamp(window.left, 0, image.width - 1), top = std::clamp(window.top, 0, image.height - 1);
+  const int left = std::clamp(window.left, 0, image.width - 1),
+            top = std::clamp(window.top, 0, image.height - 1);
   out.width = std::clamp(window.width, 1, image.width - left);
   out.height = std::clamp(window.height, 1, image.height - top);
   out.max_value = image.max_value;

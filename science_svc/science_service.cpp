@@ -68,7 +68,8 @@ class ScienceService final : public services::Service {
     const std::string name = product.id().substr(0, kNameBytesTold);
     try {
       const std::string_view file{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-      return Photo{product.id(), {{product.x_m(), product.y_m()}, product.heading_rad()}, read_picture(file, name)};
+      return Photo{
+          product.id(), {{product.x_m(), product.y_m()}, product.heading_rad()}, read_picture(file, name)};
     } catch (const terrain::MapError& error) {
       if (unreadable_told_ >= kUnreadableTold) return std::nullopt;
       ++unreadable_told_;

@@ -22,9 +22,9 @@ using terrain::Point;
 namespace {
 
 constexpr double kOddPerHectare = 35;
-constexpr double kSide = 160;     // m, of a site
-constexpr double kMargin = 20;    // m, that images keep from its border
-constexpr double kAtTarget = 1.5; // m, beyond the edge of a target, within which a goal is at it
+constexpr double kSide = 160;      // m, of a site
+constexpr double kMargin = 20;     // m, that images keep from its border
+constexpr double kAtTarget = 1.5;  // m, beyond the edge of a target, within which a goal is at it
 
 std::shared_ptr<const terrain::Site> site_of(std::uint64_t seed) {
   terrain::SiteRecipe recipe;
@@ -35,7 +35,9 @@ std::shared_ptr<const terrain::Site> site_of(std::uint64_t seed) {
   const terrain::GeneratedSite generated = terrain::generate_site(recipe);
   const fs::path folder = fs::temp_directory_path() / ("roci_bench_science_" + std::to_string(seed));
   fs::create_directories(folder);
-  const auto write = [&](const char* name, const std::string& bytes) { std::ofstream(folder / name, std::ios::binary) << bytes; };
+  const auto write = [&](const char* name, const std::string& bytes) {
+    std::ofstream(folder / name, std::ios::binary) << bytes;
+  };
   write("site.yaml", generated.description);
   write("rocks.pgm", terrain::to_pgm(generated.rocks, ""));
   write("elevation.pgm", terrain::to_pgm(generated.elevation, ""));
@@ -44,14 +46,15 @@ std::shared_ptr<const terrain::Site> site_of(std::uint64_t seed) {
   return out;
 }
 
-void note_what_is_shown(const std::vector<Oddity>& near, const terrain::Site& site, double reach, Trial& trial) {
+void note_what_is_shown(const std::vector<Oddity>& near, const terrain::Site& site, double reach,
+                        Trial& trial) {
   std::vector<int> pixels(near.size(), 0);
   const roci::science::MappedGround ground{&site};
   const auto& image = trial.photo.pixels;
   for (int row = 0; row < image.height; ++row) {
     for (int column = 0; column < image.width; ++column) {
-      const auto p = roci::science::ground_at(ground, CameraModel{}, trial.photo.from, image.width, image.height, column + 0.5,
-                                              row + 0.5, 2 * reach);
+      const auto p = roci::science::ground_at(ground, CameraModel{}, trial.photo.from, image.width,
+                                              image.height, column + 0.5, row + 0.5, 2 * reach);
       if (!p) continue;
       if (terrain::distance(*p, trial.photo.from.at) <= reach) trial.ground.push_back(*p);
       for (std::size_t i = 0; i < near.size(); ++i)
@@ -73,21 +76,26 @@ World make_world(std::uint64_t seed, int images, double reach) {
   ground.surface.seed = seed;
   ground.surface.odd_per_hectare = kOddPerHectare;
   std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> anywhere(kMargin, kSide - kMargin), turn(-std::numbers::pi, std::numbers::pi), share(0, 1);
+  std::uniform_real_distribution<double> anywhere(kMargin, kSide - kMargin),
+      turn(-std::numbers::pi, std::numbers::pi), share(0, 1);
   for (int i = 0; i < images; ++i) {
     sim::world::Pose pose{anywhere(random), anywhere(random), turn(random)};
     const auto odd = sim::world::oddities_near(ground.surface, {pose.x, pose.y}, 15);
     if (i % 2 == 0 && !odd.empty()) {
       const Oddity& one = odd.front();
       const double range = 3 + 8 * share(random), bearing = turn(random);
-      pose = {one.x - range * std::cos(bearing), one.y - range * std::sin(bearing), bearing + 0.7 * (share(random) - 0.5)};
+      pose = {one.x - range * std::cos(bearing), one.y - range * std::sin(bearing),
+              bearing + 0.7 * (share(random) - 0.5)};
     }
-    const auto file = sim::components::render_preview(ground, pose, {}, {}, sim::world::RandomStream(seed, std::to_string(i)));
+    const auto file = sim::components::render_preview(ground, pose, {}, {},
+                                                      sim::world::RandomStream(seed, std::to_string(i)));
     Trial trial;
     trial.photo.id = std::to_string(seed) + "-" + std::to_string(i);
     trial.photo.from = {{pose.x, pose.y}, pose.heading};
-    trial.photo.pixels = roci::science::read_picture({reinterpret_cast<const char*>(file.data()), file.size()}, trial.photo.id);
-    note_what_is_shown(sim::world::oddities_near(ground.surface, {pose.x, pose.y}, 2 * reach), *out.site, reach, trial);
+    trial.photo.pixels = roci::science::read_picture(
+        {reinterpret_cast<const char*>(file.data()), file.size()}, trial.photo.id);
+    note_what_is_shown(sim::world::oddities_near(ground.surface, {pose.x, pose.y}, 2 * reach), *out.site,
+                       reach, trial);
     out.trials.push_back(std::move(trial));
   }
   return out;
@@ -101,10 +109,14 @@ void Score::add(const Score& other) {
 }
 
 Score score_of(const Trial& trial, const std::vector<Point>& places) {
-  const auto at = [](const Oddity& one, Point p) { return terrain::distance(p, {one.x, one.y}) <= one.radius + kAtTarget; };
+  const auto at = [](const Oddity& one, Point p) {
+    return terrain::distance(p, {one.x, one.y}) <= one.radius + kAtTarget;
+  };
   Score out{static_cast<int>(places.size()), 0, static_cast<int>(trial.to_see.size()), 0};
-  for (const Point p : places) out.right += std::ranges::any_of(trial.odd, [&](const Oddity& one) { return at(one, p); });
-  for (const Oddity& one : trial.to_see) out.found += std::ranges::any_of(places, [&](Point p) { return at(one, p); });
+  for (const Point p : places)
+    out.right += std::ranges::any_of(trial.odd, [&](const Oddity& one) { return at(one, p); });
+  for (const Oddity& one : trial.to_see)
+    out.found += std::ranges::any_of(places, [&](Point p) { return at(one, p); });
   return out;
 }
 

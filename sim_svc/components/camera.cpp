@@ -67,7 +67,8 @@ Ending Camera::finish(Surroundings& around) {
 }
 
 // The pixels' noise belongs to the image, whatever was taken before.
-Image Camera::picture(const std::string& id, const world::Pose& pose, Time at, const Surroundings& around) const {
+Image Camera::picture(const std::string& id, const world::Pose& pose, Time at,
+                      const Surroundings& around) const {
   Image image;
   image.id = id;
   image.robot = around.robot;
@@ -96,7 +97,8 @@ void Camera::take_panorama(Time now, Surroundings& around) {
   const std::string name = around.robot + "-panorama-" + std::to_string(now.count() / 1'000'000) + "-";
   for (int i = 0; i < settings_.panorama_views; ++i) {
     world::Pose pose = *around.body.pose;
-    pose.heading = std::remainder(pose.heading + 2 * std::numbers::pi * i / settings_.panorama_views, 2 * std::numbers::pi);
+    pose.heading = std::remainder(pose.heading + 2 * std::numbers::pi * i / settings_.panorama_views,
+                                  2 * std::numbers::pi);
     Image view = picture(name + std::to_string(i + 1), pose, now, around);
     view.kind = "panorama";
     view.bytes = view.preview.size();

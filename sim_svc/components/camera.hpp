@@ -63,7 +63,8 @@ class Camera final : public world::Component, public world::BodyInterlock {
 
   CameraSettings settings_;
   std::optional<Shot> shot_;
-  world::Image picture(const std::string& id, const world::Pose&, temporal::Time, const world::Surroundings&) const;
+  world::Image picture(const std::string& id, const world::Pose&, temporal::Time,
+                       const world::Surroundings&) const;
   void take_panorama(temporal::Time, world::Surroundings&);
 
   double last_bytes_ = 0;

@@ -19,22 +19,25 @@ using world::RandomStream;
 
 namespace {
 
-constexpr double kFarthest = 60;       // m, beyond which all is sky
-constexpr double kNearest = 0.3;       // m
-constexpr double kStride = 0.016;      // of a ray, as a share of how far it has come
-constexpr double kSkyLight = 0.16;     // of the sky, as a share of the sun's
+constexpr double kFarthest = 60;    // m, beyond which all is sky
+constexpr double kNearest = 0.3;    // m
+constexpr double kStride = 0.016;   // of a ray, as a share of how far it has come
+constexpr double kSkyLight = 0.16;  // of the sky, as a share of the sun's
 constexpr double kStarLight = 0.002;
-constexpr double kMiddleGrey = 0.46;   // of flat soil
+constexpr double kMiddleGrey = 0.46;  // of flat soil
 constexpr double kMostGain = 40;
-constexpr double kHaze = 220;          // m, after which a third of the contrast is left
-constexpr double kShadowReach = 3;     // m
+constexpr double kHaze = 220;       // m, after which a third of the contrast is left
+constexpr double kShadowReach = 3;  // m
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 class Renderer {
  public:
   Renderer(const Ground& ground, const Pose& from, const View& view, temporal::Time at)
-      : relief_(ground, {from.x, from.y}, kFarthest), from_(from), view_(view), sun_(world::toward(ground.surface.sun, at)) {
+      : relief_(ground, {from.x, from.y}, kFarthest),
+        from_(from),
+        view_(view),
+        sun_(world::toward(ground.surface.sun, at)) {
     eye_ = relief_.floor({from.x, from.y}) + view.mast_m;
     focal_ = view.width_px / 2.0 / std::tan(radians(view.view_deg) / 2);
     direct_ = sun_.up > 0 ? 1 : 0;
@@ -123,7 +126,8 @@ class Renderer {
     const double slant = std::max(0.08, -ray.up / std::hypot(ray.up, level));
     const double footprint = range / focal_ / std::sqrt(slant);
     const Relief::Spot spot = relief_.spot(p, footprint);
-    const double length = std::sqrt(1 + spot.slope.east * spot.slope.east + spot.slope.north * spot.slope.north);
+    const double length =
+        std::sqrt(1 + spot.slope.east * spot.slope.east + spot.slope.north * spot.slope.north);
     double facing = (sun_.up - spot.slope.east * sun_.east - spot.slope.north * sun_.north) / length;
     if (direct_ <= 0 || facing <= 0 || in_shadow(p, relief_.height(p))) facing = 0;
     const double light = gain_ * spot.albedo * (ambient_ + direct_ * facing);
@@ -144,8 +148,8 @@ class Renderer {
 
 }  // namespace
 
-std::vector<std::uint8_t> render_preview(const Ground& ground, const Pose& from, const View& view, temporal::Time at,
-                                         RandomStream noise) {
+std::vector<std::uint8_t> render_preview(const Ground& ground, const Pose& from, const View& view,
+                                         temporal::Time at, RandomStream noise) {
   const Renderer renderer(ground, from, view, at);
   terrain::GreyImage image{view.width_px, view.height_px, 255, {}};
   image.pixels.resize(static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px));
@@ -153,8 +157,9 @@ std::vector<std::uint8_t> render_preview(const Ground& ground, const Pose& from,
     const std::vector<double> light = renderer.column(column);
     for (int up = 0; up < view.height_px; ++up) {
       const double grey = light[static_cast<std::size_t>(up)] + view.noise * noise.normal();
-      const auto index = static_cast<std::size_t>(view.height_px - 1 - up) * static_cast<std::size_t>(view.width_px) +
-                         static_cast<std::size_t>(column);
+      const auto index =
+          static_cast<std::size_t>(view.height_px - 1 - up) * static_cast<std::size_t>(view.width_px) +
+          static_cast<std::size_t>(column);
       image.pixels[index] = static_cast<std::uint16_t>(std::lround(255 * std::clamp(grey, 0.0, 1.0)));
     }
   }

@@ -14,10 +14,10 @@ using world::Look;
 
 namespace {
 
-constexpr double kPebbleTile = 0.6;   // m, holds one pebble at most
+constexpr double kPebbleTile = 0.6;  // m, holds one pebble at most
 constexpr double kPebbleReach = 9;   // m, beyond which they are too small to be seen
 constexpr double kPebbleShare = 0.45;
-constexpr double kLeastRock = 0.03;   // m, lower ones are pebbles
+constexpr double kLeastRock = 0.03;  // m, lower ones are pebbles
 
 // The layers of the soil's texture: length and height of its waves, in m.
 struct Ripple {
@@ -29,7 +29,8 @@ constexpr std::array<Ripple, 3> kRipples{{{0.9, 0.030}, {0.28, 0.011}, {0.09, 0.
 double uniform(terrain::SplitMix64& random) { return static_cast<double>(random.next() >> 11) * 0x1p-53; }
 
 terrain::SplitMix64 random_at(std::uint64_t seed, std::int64_t column, std::int64_t row) {
-  const std::uint64_t place = (static_cast<std::uint64_t>(column) << 32) ^ (static_cast<std::uint64_t>(row) & 0xffffffff);
+  const std::uint64_t place =
+      (static_cast<std::uint64_t>(column) << 32) ^ (static_cast<std::uint64_t>(row) & 0xffffffff);
   return terrain::SplitMix64(terrain::SplitMix64(seed).next() ^ place);
 }
 
@@ -58,8 +59,11 @@ void Relief::add(const Stone& stone) {
   };
   const auto index = static_cast<std::uint32_t>(stones_.size());
   for (int row = bin(stone.at.y - wide, centre_.y); row <= bin(stone.at.y + wide, centre_.y); ++row) {
-    for (int column = bin(stone.at.x - wide, centre_.x); column <= bin(stone.at.x + wide, centre_.x); ++column)
-      bins_[static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(column)].push_back(index);
+    for (int column = bin(stone.at.x - wide, centre_.x); column <= bin(stone.at.x + wide, centre_.x);
+         ++column)
+      bins_[static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) +
+            static_cast<std::size_t>(column)]
+          .push_back(index);
   }
   stones_.push_back(stone);
   tallest_ = std::max(tallest_, stone.height);
@@ -69,7 +73,9 @@ void Relief::add_rocks() {
   const terrain::Site& site = *ground_.site;
   const terrain::Grid& grid = site.grid();
   const auto within = [](double v, int count) { return static_cast<int>(std::clamp(v, 0.0, count - 1.0)); };
-  const auto column_of = [&](double x) { return within((x - grid.origin.x) / grid.resolution, grid.columns); };
+  const auto column_of = [&](double x) {
+    return within((x - grid.origin.x) / grid.resolution, grid.columns);
+  };
   const auto row_of = [&](double y) { return within((y - grid.origin.y) / grid.resolution, grid.rows); };
   for (int row = row_of(centre_.y - reach_); row <= row_of(centre_.y + reach_); ++row) {
     for (int column = column_of(centre_.x - reach_); column <= column_of(centre_.x + reach_); ++column) {
@@ -91,9 +97,10 @@ void Relief::add_rocks() {
 
 void Relief::add_pebbles() {
   const double reach = std::min(reach_, kPebbleReach);
-  for (std::int64_t row = floored((centre_.y - reach) / kPebbleTile); row <= floored((centre_.y + reach) / kPebbleTile); ++row) {
-    for (std::int64_t column = floored((centre_.x - reach) / kPebbleTile); column <= floored((centre_.x + reach) / kPebbleTile);
-         ++column) {
+  for (std::int64_t row = floored((centre_.y - reach) / kPebbleTile);
+       row <= floored((centre_.y + reach) / kPebbleTile); ++row) {
+    for (std::int64_t column = floored((centre_.x - reach) / kPebbleTile);
+         column <= floored((centre_.x + reach) / kPebbleTile); ++column) {
       terrain::SplitMix64 random = random_at(ground_.surface.seed + 2, column, row);
       if (uniform(random) >= kPebbleShare) continue;
       // Few are large: the size falls with the power of the draw.
@@ -116,14 +123,17 @@ const std::vector<std::uint32_t>* Relief::stones_at(Point p) const {
   const int column = static_cast<int>(std::floor(p.x - centre_.x + side_ / 2.0));
   const int row = static_cast<int>(std::floor(p.y - centre_.y + side_ / 2.0));
   if (column < 0 || row < 0 || column >= side_ || row >= side_) return nullptr;
-  return &bins_[static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(column)];
+  return &bins_[static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) +
+                static_cast<std::size_t>(column)];
 }
 
 double Relief::noise(std::uint64_t salt, Point p, double wavelength) const {
   constexpr std::int64_t kOne = 1 << 16;
   const auto fine = [](double v) { return static_cast<std::int64_t>(std::llround(v * 1000)); };
   const auto length = std::max<std::int64_t>(fine(wavelength), 2);
-  return static_cast<double>(terrain::lattice_noise(ground_.surface.seed + salt, fine(p.x), fine(p.y), length, kOne)) / kOne;
+  return static_cast<double>(
+             terrain::lattice_noise(ground_.surface.seed + salt, fine(p.x), fine(p.y), length, kOne)) /
+         kOne;
 }
 
 // Returns how high the stone stands above the ground at a point, in m.
@@ -197,7 +207,8 @@ Relief::Spot Relief::spot(Point p, double footprint) const {
   const auto surface = [&](Point q) { return height(q) + (smooth ? 0 : soil(q, footprint)); };
   const double here = surface(p);
   // Forward differences: a pixel on an edge belongs to either side.
-  const terrain::Gradient slope{(surface({p.x + step, p.y}) - here) / step, (surface({p.x, p.y + step}) - here) / step};
+  const terrain::Gradient slope{(surface({p.x + step, p.y}) - here) / step,
+                                (surface({p.x, p.y + step}) - here) / step};
   return {slope, albedo(p, footprint, top)};
 }
 

@@ -21,8 +21,8 @@ void take(const Entry& section, std::string_view key, double least, double most,
   if (!entry) return;
   const double value = entry->number();
   if (value < least || value > most) {
-    entry->fail("'" + std::string(key) + "' must lie between " + std::to_string(least) + " and " + std::to_string(most) +
-                "; correct the number");
+    entry->fail("'" + std::string(key) + "' must lie between " + std::to_string(least) + " and " +
+                std::to_string(most) + "; correct the number");
   }
   out = value;
 }

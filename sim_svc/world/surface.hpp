@@ -43,9 +43,9 @@ struct Oddity {
 /// Says how the ground looks.
 struct Surface {
   Sun sun;
-  double odd_per_hectare = 0;   ///< targets that the seed scatters, 0 … 100
-  std::vector<Oddity> placed;   ///< targets beside them
-  std::uint64_t seed = 1;       ///< of textures and scattered targets; a world sets it to its own
+  double odd_per_hectare = 0;  ///< targets that the seed scatters, 0 … 100
+  std::vector<Oddity> placed;  ///< targets beside them
+  std::uint64_t seed = 1;      ///< of textures and scattered targets; a world sets it to its own
 };
 
 /// Returns the targets whose centres lie within `reach` metres of a point, the placed ones first: the same for the same

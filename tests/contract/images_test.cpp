@@ -43,10 +43,10 @@ class Images : public testing::TestWithParam<std::string> {
       if (beat.service() == "science_svc") ++beats_;
     });
     products_.emplace(advertise(*node_, topics::data_product));
-    service_.emplace(std::vector<std::string>{ROCI_BINARY_DIR "/bin/science_svc", "--mission",
-                                              ROCI_SOURCE_DIR "/missions/planetary", "--scenario", "opportunistic", "--clock",
-                                              "live", "--epoch", std::to_string(epoch_ / 1'000'000), "--run", "test", "--robot",
-                                              "rover", "--dds", GetParam(), "--domain", std::to_string(domain_.id())});
+    service_.emplace(std::vector<std::string>{
+        ROCI_BINARY_DIR "/bin/science_svc", "--mission", ROCI_SOURCE_DIR "/missions/planetary", "--scenario",
+        "opportunistic", "--clock", "live", "--epoch", std::to_string(epoch_ / 1'000'000), "--run", "test",
+        "--robot", "rover", "--dds", GetParam(), "--domain", std::to_string(domain_.id())});
   }
 
   bool until(const std::function<bool()>& so) {
@@ -73,7 +73,8 @@ class Images : public testing::TestWithParam<std::string> {
     std::string out = "P5\n96 64\n255\n";
     for (int y = 0; y < 64; ++y)
       for (int x = 0; x < 96; ++x)
-        out += static_cast<char>((odd && x >= 42 && x < 54 && y >= 32 && y < 44 ? 235 : 110) + static_cast<int>(random() % 15));
+        out += static_cast<char>((odd && x >= 42 && x < 54 && y >= 32 && y < 44 ? 235 : 110) +
+                                 static_cast<int>(random() % 15));
     return out;
   }
 

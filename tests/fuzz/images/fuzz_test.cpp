@@ -16,15 +16,25 @@ namespace {
 
 using terrain::GreyImage;
 
-constexpr const char* kHeaders[] = {"P5\n32 24\n255\n",     "P5\n# made\n32 24\n255\n", "P5 32 24 15 ",     "P5\n32 24\n65535\n",
-                                    "P5\n99999 1\n255\n",   "P5\n10000 10000\n255\n",   "P5\n0 0\n255\n",   "P5\n-3 24\n255\n",
-                                    "P5\n32 24\n0\n",       "P2\n32 24\n255\n",         "P5\n1024 1024\n1\n", "P5",
+constexpr const char* kHeaders[] = {"P5\n32 24\n255\n",
+                                    "P5\n# made\n32 24\n255\n",
+                                    "P5 32 24 15 ",
+                                    "P5\n32 24\n65535\n",
+                                    "P5\n99999 1\n255\n",
+                                    "P5\n10000 10000\n255\n",
+                                    "P5\n0 0\n255\n",
+                                    "P5\n-3 24\n255\n",
+                                    "P5\n32 24\n0\n",
+                                    "P2\n32 24\n255\n",
+                                    "P5\n1024 1024\n1\n",
+                                    "P5",
                                     "P5\n18446744073709551616 2\n255\n"};
 
 std::string made(std::mt19937_64& random) {
   std::string out = kHeaders[random() % std::size(kHeaders)];
   const std::size_t pixels = random() % 4 == 0 ? random() % 2000 : 32 * 24;
-  for (std::size_t i = 0; i < pixels; ++i) out += static_cast<char>(random() % (random() % 2 == 0 ? 256 : 16));
+  for (std::size_t i = 0; i < pixels; ++i)
+    out += static_cast<char>(random() % (random() % 2 == 0 ? 256 : 16));
   for (std::uint64_t i = random() % 4; i > 0; --i) {
     const std::size_t at = random() % std::min<std::size_t>(out.size(), random() % 2 == 0 ? 16 : out.size());
     switch (random() % 3) {
@@ -58,7 +68,8 @@ TEST(FuzzImages, EachIsReadOrRefusedWithAReason) {
       continue;
     }
     ++read;
-    EXPECT_EQ(image.pixels.size(), static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    EXPECT_EQ(image.pixels.size(),
+              static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     EXPECT_LE(image.pixels.size(), file.size());
     EXPECT_LE(std::max(image.width, image.height), science::kSidePixels);
     for (const auto& one : detector.candidates({std::to_string(i), {{0, 0}, 0}, image}, 0.5)) {

@@ -44,7 +44,8 @@ TEST_F(DetectorFile, TheScenarioOverridesTheMission) {
 }
 
 TEST_F(DetectorFile, ReadsTheCamera) {
-  const DetectorSettings plain = read("science: {reach_m: 9, camera: {mast_m: 1.5, tilt_deg: 20, view_deg: 70}}\n", "x: 1\n");
+  const DetectorSettings plain =
+      read("science: {reach_m: 9, camera: {mast_m: 1.5, tilt_deg: 20, view_deg: 70}}\n", "x: 1\n");
   EXPECT_EQ(plain.reach_m, 9);
   EXPECT_EQ(plain.camera.mast_m, 1.5);
   EXPECT_EQ(plain.camera.tilt_deg, 20);

@@ -24,7 +24,8 @@ DetectorSettings eager() {
 // A detector on flat ground without an end that has seen some of it.
 Detector taught(const DetectorSettings& settings) {
   Detector out(settings, nullptr);
-  for (std::uint64_t i = 0; i < 4; ++i) EXPECT_TRUE(out.look(photo("plain-" + std::to_string(i), {0, 0}, made_ground(i)), seconds(0)).empty());
+  for (std::uint64_t i = 0; i < 4; ++i)
+    EXPECT_TRUE(out.look(photo("plain-" + std::to_string(i), {0, 0}, made_ground(i)), seconds(0)).empty());
   return out;
 }
 
@@ -37,7 +38,8 @@ TEST(Detector, FindsExactlyWhatScoresAboveTheThreshold) {
     DetectorSettings settings = eager();
     settings.threshold = threshold;
     Detector detector(settings, nullptr);
-    for (std::uint64_t i = 0; i < 4; ++i) detector.learn(photo("plain-" + std::to_string(i), {0, 0}, made_ground(i)));
+    for (std::uint64_t i = 0; i < 4; ++i)
+      detector.learn(photo("plain-" + std::to_string(i), {0, 0}, made_ground(i)));
     const Photo odd = photo("odd", {0, 0}, made_ground(77, 12));
     Detector other = detector;
     const auto all = other.candidates(odd, 0.01);
@@ -81,7 +83,8 @@ TEST(Detector, ACropShowsTheFind) {
 
 TEST(Detector, WhatIsEverywhereIsNoFind) {
   Detector detector(eager(), nullptr);
-  for (std::uint64_t i = 0; i < 8; ++i) detector.look(photo(std::to_string(i), {0, 0}, made_ground(i, 12)), seconds(0));
+  for (std::uint64_t i = 0; i < 8; ++i)
+    detector.look(photo(std::to_string(i), {0, 0}, made_ground(i, 12)), seconds(0));
   EXPECT_TRUE(show(detector, "again", {500, 0}, seconds(1)).empty());
 }
 
@@ -136,7 +139,8 @@ TEST(Detector, RemembersWhatAnEarlierProcessRaised) {
 TEST(Detector, AnIdSaysThePlace) {
   EXPECT_EQ(find_id({74.4, -51.6}), "find-e74s52");
   EXPECT_EQ(place_of("find-w3n0"), (terrain::Point{-3, 0}));
-  for (const char* word : {"find-1", "ridge", "find-e1", "find-e1n2x", "find-e-1n2", "find-e01n2", "find-x1n2", "find-e99999999n1", ""})
+  for (const char* word : {"find-1", "ridge", "find-e1", "find-e1n2x", "find-e-1n2", "find-e01n2",
+                           "find-x1n2", "find-e99999999n1", ""})
     EXPECT_FALSE(place_of(word)) << word;
 }
 
@@ -145,9 +149,11 @@ TEST(Detector, FindsNothingWhenSwitchedOffOffTheMapOrNowhere) {
   off.threshold = 0;
   const Photo any = photo("a", {50, 50}, made_ground(1, 12));
   EXPECT_EQ(Detector(off, nullptr).look(any, seconds(1)).size(), 1u) << "a threshold of 0 takes every image";
-  EXPECT_TRUE(Detector(off, nullptr).look(photo("a", {std::nan(""), 0}, made_ground(1, 12)), seconds(1)).empty());
+  EXPECT_TRUE(
+      Detector(off, nullptr).look(photo("a", {std::nan(""), 0}, made_ground(1, 12)), seconds(1)).empty());
   EXPECT_TRUE(Detector(off, nullptr).look(photo("a", {1e300, 0}, made_ground(1, 12)), seconds(1)).empty());
-  EXPECT_TRUE(Detector(off, nullptr).look(photo("a", {0, 0}, made_ground(1, 12), 1 / 0.0), seconds(1)).empty());
+  EXPECT_TRUE(
+      Detector(off, nullptr).look(photo("a", {0, 0}, made_ground(1, 12), 1 / 0.0), seconds(1)).empty());
   off.enabled = false;
   EXPECT_TRUE(Detector(off, nullptr).look(any, seconds(1)).empty());
 }
@@ -156,7 +162,8 @@ TEST(Detector, LooksAtABoundedNumberOfPhotos) {
   DetectorSettings settings = eager();
   settings.reach_m = 1;  // nothing to see, so that many are quick
   Detector detector(settings, nullptr);
-  EXPECT_TRUE(detector.look(photo(std::string(kNameBytes + 1, 'x'), {10, 10}, made_ground(1)), seconds(0)).empty());
+  EXPECT_TRUE(
+      detector.look(photo(std::string(kNameBytes + 1, 'x'), {10, 10}, made_ground(1)), seconds(0)).empty());
   terrain::GreyImage tiny{16, 16, 255, std::vector<std::uint16_t>(256, 9)};
   for (std::size_t i = 0; i < kPhotos; ++i) {
     ASSERT_FALSE(detector.full()) << i;

@@ -28,7 +28,8 @@ inline terrain::GreyImage made_ground(std::uint64_t seed, int side = 0, int grey
   return out;
 }
 
-inline Photo photo(const std::string& id, terrain::Point at, const terrain::GreyImage& pixels, double heading = 0) {
+inline Photo photo(const std::string& id, terrain::Point at, const terrain::GreyImage& pixels,
+                   double heading = 0) {
   return {id, {at, heading}, pixels};
 }
 

@@ -33,9 +33,11 @@ TEST(Picture, WhatIsWrongIsNamed) {
   EXPECT_THAT(error_of("P2\n16 16\n255\n1"), HasSubstr("not a binary PGM image"));
   EXPECT_THAT(error_of("P5\n16 16\n255\nabc"), HasSubstr("256 bytes of pixels are announced, 3 are there"));
   EXPECT_THAT(error_of("P5\n0 0\n255\n"), HasSubstr("the width is out of range"));
-  EXPECT_THAT(error_of("P5\n10000 10000\n255\nabc"), HasSubstr("100000000 bytes of pixels are announced, 3 are there"));
+  EXPECT_THAT(error_of("P5\n10000 10000\n255\nabc"),
+              HasSubstr("100000000 bytes of pixels are announced, 3 are there"));
   EXPECT_THAT(error_of("P5\n16 16\n65535\n" + std::string(512, '\1')), HasSubstr("16 bits a pixel"));
-  EXPECT_THAT(error_of("P5\n8 40\n255\n" + std::string(320, 'a')), HasSubstr("8 x 40 pixels; an image has 16 to 1024 a side"));
+  EXPECT_THAT(error_of("P5\n8 40\n255\n" + std::string(320, 'a')),
+              HasSubstr("8 x 40 pixels; an image has 16 to 1024 a side"));
   EXPECT_THAT(error_of("P5\n2000 20\n255\n" + std::string(40000, 'a')), HasSubstr("2000 x 20 pixels"));
   EXPECT_THAT(error_of("P5\n" + std::string(kFileBytes, ' ')), HasSubstr("more than an image may have"));
 }

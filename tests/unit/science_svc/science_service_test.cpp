@@ -40,7 +40,9 @@ class ScienceService : public testing::Test {
     std::vector<v1::DataProduct> crops;
     std::vector<v1::Event> events;
   };
-  std::vector<v1::Goal> goals_of(const std::vector<v1::DataProduct>& products) { return said_to(products).goals; }
+  std::vector<v1::Goal> goals_of(const std::vector<v1::DataProduct>& products) {
+    return said_to(products).goals;
+  }
 
   // Publishes the products at 1 s, 2 s, ... , what became of goals before, and returns what the service says.
   Said said_to(const std::vector<v1::DataProduct>& products, const std::vector<v1::GoalStatus>& before = {}) {
@@ -72,7 +74,8 @@ class ScienceService : public testing::Test {
   // Plain ground that was seen before anything else.
   static std::vector<v1::DataProduct> plain() {
     std::vector<v1::DataProduct> out;
-    for (std::uint64_t i = 0; i < 4; ++i) out.push_back(image("plain-" + std::to_string(i), 150, 150, made_ground(i)));
+    for (std::uint64_t i = 0; i < 4; ++i)
+      out.push_back(image("plain-" + std::to_string(i), 150, 150, made_ground(i)));
     return out;
   }
   static std::vector<v1::DataProduct> plain_and(std::vector<v1::DataProduct> more) {
@@ -81,7 +84,8 @@ class ScienceService : public testing::Test {
     return out;
   }
 
-  static v1::DataProduct image(const std::string& id, double x, double y, const terrain::GreyImage& pixels = made_ground(77, 12)) {
+  static v1::DataProduct image(const std::string& id, double x, double y,
+                               const terrain::GreyImage& pixels = made_ground(77, 12)) {
     v1::DataProduct out;
     const std::string file = terrain::to_pgm(pixels, "");
     out.preview({file.begin(), file.end()});
@@ -120,8 +124,8 @@ TEST_F(ScienceService, PublishesACropOfWhatItFound) {
   EXPECT_EQ(crop.source(), "one");
   EXPECT_EQ(crop.id(), "crop-" + said.goals.at(0).id());
   EXPECT_EQ(crop.bytes(), crop.preview().size());
-  const terrain::GreyImage pixels =
-      terrain::parse_pgm({reinterpret_cast<const char*>(crop.preview().data()), crop.preview().size()}, "crop");
+  const terrain::GreyImage pixels = terrain::parse_pgm(
+      {reinterpret_cast<const char*>(crop.preview().data()), crop.preview().size()}, "crop");
   EXPECT_LT(pixels.width, kWidth);
 }
 
@@ -169,7 +173,8 @@ TEST_F(ScienceService, RaisesNothingAgainAfterARestart) {
   status.id(first[0].id());
   EXPECT_TRUE(said_to(plain_and({image("another", 50.5, 60)}), {status}).goals.empty());
   status.issuer("ground");
-  EXPECT_EQ(said_to(plain_and({image("another", 50.5, 60)}), {status}).goals.size(), 1u) << "that goal is not its own";
+  EXPECT_EQ(said_to(plain_and({image("another", 50.5, 60)}), {status}).goals.size(), 1u)
+      << "that goal is not its own";
 }
 
 TEST_F(ScienceService, LearnsFromImagesThatAreOlderThanItselfAndRaisesNothing) {

@@ -27,7 +27,8 @@ FlatSetup with_panoramas(double every_s, int views) {
 std::vector<Image> panorama_of(const Flight& run) {
   std::vector<Image> out;
   for (const Output& output : run.said)
-    if (const auto* image = std::get_if<Image>(&output); image && image->kind == "panorama") out.push_back(*image);
+    if (const auto* image = std::get_if<Image>(&output); image && image->kind == "panorama")
+      out.push_back(*image);
   return out;
 }
 
@@ -40,8 +41,9 @@ TEST(Panorama, LooksAllAroundAtIntervals) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     ids.insert(views[i].id);
     EXPECT_EQ(views[i].taken, seconds(600) * static_cast<int>(i / 4 + 1));
-    const double turned = std::remainder(views[i].taken_from.heading - static_cast<double>(i % 4) * std::numbers::pi / 2,
-                                         2 * std::numbers::pi);
+    const double turned =
+        std::remainder(views[i].taken_from.heading - static_cast<double>(i % 4) * std::numbers::pi / 2,
+                       2 * std::numbers::pi);
     EXPECT_NEAR(turned, 0, 1e-9) << i;
     EXPECT_EQ(views[i].taken_from.x, 20);
   }

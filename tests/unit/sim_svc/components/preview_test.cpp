@@ -27,7 +27,8 @@ View calm() {
   return view;
 }
 
-GreyImage render(const Ground& ground, const Pose& pose = kHere, const View& view = calm(), temporal::Time at = {}) {
+GreyImage render(const Ground& ground, const Pose& pose = kHere, const View& view = calm(),
+                 temporal::Time at = {}) {
   const auto file = render_preview(ground, pose, view, at, RandomStream(1, "test"));
   return terrain::parse_pgm({reinterpret_cast<const char*>(file.data()), file.size()}, "image");
 }

@@ -21,10 +21,13 @@ std::string error_of(const std::string& text) {
 
 TEST(SurfaceFile, WhatItSaysStandsInPlaceOfWhatWasThere) {
   world::Surface surface;
-  read_surface(mission::Entry::parse("sun: {elevation_deg: 40}\nodd_per_hectare: 5\nodd: [{x: 1, y: 2, radius: 0.5, look: dark}]\n",
-                                     "mission.yaml"),
+  read_surface(
+      mission::Entry::parse(
+          "sun: {elevation_deg: 40}\nodd_per_hectare: 5\nodd: [{x: 1, y: 2, radius: 0.5, look: dark}]\n",
+          "mission.yaml"),
+      surface);
+  read_surface(mission::Entry::parse("sun: {azimuth_deg: 10}\nodd: [{x: 3, y: 4}]\n", "scenario.yaml"),
                surface);
-  read_surface(mission::Entry::parse("sun: {azimuth_deg: 10}\nodd: [{x: 3, y: 4}]\n", "scenario.yaml"), surface);
   EXPECT_EQ(surface.sun.elevation_deg, 40);
   EXPECT_EQ(surface.sun.azimuth_deg, 10);
   EXPECT_EQ(surface.odd_per_hectare, 5);
@@ -34,8 +37,9 @@ TEST(SurfaceFile, WhatItSaysStandsInPlaceOfWhatWasThere) {
 }
 
 TEST(SurfaceFile, FaultsNameTheirPlaceAndTheRemedy) {
-  EXPECT_THAT(error_of("odd: [{x: 1, y: 2, look: brite}]\n"), HasSubstr("scenario.yaml:1:26: an odd target is no 'brite'; known: "
-                                                                        "bright, dark, layered, spotted"));
+  EXPECT_THAT(error_of("odd: [{x: 1, y: 2, look: brite}]\n"),
+              HasSubstr("scenario.yaml:1:26: an odd target is no 'brite'; known: "
+                        "bright, dark, layered, spotted"));
   EXPECT_THAT(error_of("sun: {elevation: 3}\n"), HasSubstr("unknown key 'elevation'"));
   EXPECT_THAT(error_of("odd_per_hectare: 101\n"), HasSubstr("must lie between"));
 }
