@@ -13,6 +13,7 @@
 #include "ground_console/cli/reach.hpp"
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/runs.hpp"
+#include "ground_console/cli/unknown_verb.hpp"
 #include "ground_console/cli/verbs.hpp"
 #include "ground_console/cli/watch/watch.hpp"
 #include "services/process/mission_folder.hpp"
@@ -30,6 +31,7 @@ struct Line {
   cli::GoalArguments goal;
   cli::OrderArguments order;
   std::size_t count = 0;
+  std::string activity;  // whose values are asked for
   std::vector<std::string> timelines;
   std::string mission;  // folder or name, for what its file says
   std::int64_t launcher = 0;
@@ -216,7 +218,10 @@ int main(int argc, char** argv) {
   add_verb(app, line, "status", "Mission, goals, services, newest values",
            [](lib::Client& client, const Line& l) { return cli::show_status(client, l.json); });
   add_verb(app, line, "plan", "The running plan and the state of each activity",
-           [](lib::Client& client, const Line& l) { return cli::show_plan(client, l.json); });
+           [](lib::Client& client, const Line& l) { return cli::show_plan(client, l.activity, l.json); })
+      ->add_option("--why", line.activity,
+                   "Instead: the function values that this activity stands on (its id, or its name for all "
+                   "of that name)");
   CLI::App* timelines =
       add_verb(app, line, "timelines", "Planned, executed and projected values of every timeline",
                [](lib::Client& client, const Line& l) {
@@ -268,7 +273,12 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? cli::kDone : cli::kBadUsage;
+    const std::string verb =
+        cli::words_on_verb(app, {argv + 1, argv + argc},
+                           {"--domain", "--dds", "--address", "--peers", "--network", "--executive"});
+    if (error.get_exit_code() == 0 || verb.empty()) return app.exit(error) == 0 ? cli::kDone : cli::kBadUsage;
+    std::cerr << "roci: " << verb << "\n";
+    return cli::kBadUsage;
   }
   try {
     if (line.own != nullptr) return line.own(line);
