@@ -10,6 +10,7 @@
 #include "core/terrain/site_file.hpp"
 #include "science_svc/detector_file.hpp"
 #include "science_svc/limits.hpp"
+#include "science_svc/watch/watch_service.hpp"
 #include "services/node/make_event.hpp"
 #include "services/publisher.hpp"
 
@@ -75,6 +76,11 @@ class ScienceService final : public services::Service {
   services::Publisher<v1::Event> events_;
 };
 
+// Either may be missing.
+struct DetectorAndWatch final : services::Service {
+  std::unique_ptr<services::Service> detector, watch;
+};
+
 terrain::Grid map_of(const mission::Entry& site) {
   try {
     return terrain::load_site(site.resolve(site.text())).grid();
@@ -88,8 +94,13 @@ terrain::Grid map_of(const mission::Entry& site) {
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
   const mission::Entry mission = mission::load_mission_file(settings.mission_file());
   const mission::Entry scenario = mission::load_scenario(settings.mission, settings.scenario);
-  return std::make_unique<ScienceService>(node, read_detector(mission, scenario), map_of(mission.at("site")),
-                                          settings.seed);
+  auto out = std::make_unique<DetectorAndWatch>();
+  // Without its section there is no detector, and no map is needed.
+  if (mission.find("science"))
+    out->detector = std::make_unique<ScienceService>(node, read_detector(mission, scenario),
+                                                     map_of(mission.at("site")), settings.seed);
+  out->watch = watch::make_watch(node, mission);
+  return out;
 }
 
 }  // namespace roci::science

@@ -20,6 +20,8 @@ const std::vector<std::string>& event_codes() {
       "scenario.as_expected", "scenario.over", "scenario.time-up", "scenario.unexpected", "science.find",
       "science.no_room", "service.died", "service.doubled", "service.found", "service.lost",
       "service.missed", "standby.gone", "standby.ready", "timeline.contested", "timeline.no_room",
+      "values.outdated",
+      "watch.goal", "watch.no_room",
   };
   // clang-format on
   return codes;

@@ -1,0 +1,21 @@
+// The verb `roci map`: a picture of the ground of a mission, with what is planned and driven on it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "ground_console/lib/client.hpp"
+
+namespace roci::console::cli::map {
+
+struct MapArguments {
+  std::string png;      ///< the file to write
+  std::string mission;  ///< folder or name; empty: that of the run
+  std::string run;      ///< folder of a run; empty: the one that flies here, or with `mission` none
+};
+
+/// Writes the picture and says so. Without a run and a mission it joins the mission that `connection` leads to. Returns an exit code.
+int show_map(const MapArguments& arguments, const services::process::ConnectionFlags& connection, bool json);
+
+}  // namespace roci::console::cli::map
