@@ -23,6 +23,8 @@ using kinematics::Sphere;
 
 constexpr double kMostSteps = 1e8;  // a line of more is not worth its testing, nor would it fit an int
 
+constexpr double kApart = 1e-5;  // m, more than the shape tests' own tolerance
+
 std::shared_ptr<fcl::CollisionGeometryd> geometry_of(const Sphere& s) {
   return std::make_shared<fcl::Sphered>(s.radius);
 }
@@ -33,14 +35,15 @@ std::shared_ptr<fcl::CollisionGeometryd> geometry_of(const Box& b) {
   return std::make_shared<fcl::Boxd>(b.size);
 }
 
-// These return how far the shape reaches below its own origin when its z axis and sides are turned by `pose`,
-// in m.
-double depth_below(const Sphere& s, const Eigen::Isometry3d&) { return s.radius; }
-double depth_below(const Capsule& c, const Eigen::Isometry3d& pose) {
-  return c.radius + 0.5 * c.length * std::abs(pose.linear()(2, 2));
+// These return how far the shape reaches from its own origin along x, y and z of the base, when it is turned by `pose`, in m.
+Eigen::Vector3d extent(const Sphere& s, const Eigen::Isometry3d&) {
+  return Eigen::Vector3d::Constant(s.radius);
 }
-double depth_below(const Box& b, const Eigen::Isometry3d& pose) {
-  return 0.5 * pose.linear().row(2).cwiseAbs().dot(b.size);
+Eigen::Vector3d extent(const Capsule& c, const Eigen::Isometry3d& pose) {
+  return (c.radius + 0.5 * c.length * pose.linear().col(2).cwiseAbs().array()).matrix();
+}
+Eigen::Vector3d extent(const Box& b, const Eigen::Isometry3d& pose) {
+  return 0.5 * (pose.linear().cwiseAbs() * b.size);
 }
 
 struct Part {
@@ -58,9 +61,24 @@ Part part_of(std::size_t body, const CollisionShape& shape, double margin) {
   return {body, grown, kinematics::bounding_radius(grown), std::move(geometry)};
 }
 
-bool overlap(const Part& a, const Eigen::Isometry3d& pose_a, const Part& b, const Eigen::Isometry3d& pose_b) {
+// Is a part where it stands, with the box along the base axes that contains it.
+struct Placed {
+  const Part* part;
+  Eigen::Isometry3d pose;
+  Eigen::Vector3d extent;
+};
+
+Placed placed(const Part& part, const Eigen::Isometry3d& pose) {
+  return {&part, pose, std::visit([&](const auto& form) { return extent(form, pose); }, part.shape.form)};
+}
+
+bool overlap(const Placed& placed_a, const Placed& placed_b) {
+  const Part &a = *placed_a.part, &b = *placed_b.part;
+  const Eigen::Isometry3d &pose_a = placed_a.pose, &pose_b = placed_b.pose;
   const double reach = a.radius + b.radius;
-  if ((pose_a.translation() - pose_b.translation()).squaredNorm() > reach * reach) return false;
+  const Eigen::Vector3d between = pose_a.translation() - pose_b.translation();
+  if (between.squaredNorm() > reach * reach) return false;
+  if ((between.cwiseAbs() - placed_a.extent - placed_b.extent).maxCoeff() > kApart) return false;
   const fcl::CollisionRequestd request;
   fcl::CollisionResultd result;
   return fcl::collide(a.geometry.get(), pose_a, b.geometry.get(), pose_b, request, result) > 0;
@@ -80,6 +98,7 @@ struct CollisionChecker::Scene {
   CollisionRules rules;
   std::vector<Part> parts;
   std::vector<Part> obstacles;
+  std::vector<Placed> standing;                            // the obstacles
   std::vector<std::pair<std::size_t, std::size_t>> pairs;  // indices of parts, outermost bodies first
   JointVector displacement;
 
@@ -91,6 +110,7 @@ struct CollisionChecker::Scene {
         parts.push_back(part_of(body, shape, rules.margin));
     }
     for (const CollisionShape& shape : still) obstacles.push_back(part_of(0, shape, rules.margin));
+    for (const Part& obstacle : obstacles) standing.push_back(placed(obstacle, obstacle.shape.pose));
     for (std::size_t i = parts.size(); i-- > 0;) {
       for (std::size_t j = 0; j < i; ++j) {
         const bool apart = parts[i].body > parts[j].body + 1;
@@ -100,16 +120,23 @@ struct CollisionChecker::Scene {
     }
   }
 
-  bool touches(const Part& part, const Eigen::Isometry3d& pose, const Part& obstacle) const {
-    return part.body > 0 && overlap(part, pose, obstacle, obstacle.shape.pose) &&
-           !listed(rules.may_touch, part.shape.link, obstacle.shape.link);
+  bool touches(const Placed& part, const Placed& obstacle) const {
+    return part.part->body > 0 && overlap(part, obstacle) &&
+           !listed(rules.may_touch, part.part->shape.link, obstacle.part->shape.link);
   }
 
-  bool on_ground(const Part& part, const Eigen::Isometry3d& pose) const {
+  bool on_ground(const Placed& placed) const {
+    const Part& part = *placed.part;
     if (!rules.ground_z || part.body == 0 || listed(rules.may_touch, part.shape.link, "ground")) return false;
-    const double depth =
-        std::visit([&](const auto& form) { return depth_below(form, pose); }, part.shape.form);
-    return pose.translation().z() - depth < *rules.ground_z;
+    return placed.pose.translation().z() - placed.extent.z() < *rules.ground_z;
+  }
+
+  std::vector<Placed> parts_at(const JointVector& q) const {
+    const auto bodies = kinematics::body_poses(arm, q);
+    std::vector<Placed> where;
+    where.reserve(parts.size());
+    for (const Part& part : parts) where.push_back(placed(part, bodies[part.body] * part.shape.pose));
+    return where;
   }
 };
 
@@ -120,33 +147,28 @@ CollisionChecker::CollisionChecker(CollisionChecker&&) noexcept = default;
 CollisionChecker& CollisionChecker::operator=(CollisionChecker&&) noexcept = default;
 
 std::optional<Contact> CollisionChecker::contact(const JointVector& q) const {
-  const auto bodies = kinematics::body_poses(scene_->arm, q);
-  std::vector<Eigen::Isometry3d> poses;
-  poses.reserve(scene_->parts.size());
-  for (const Part& part : scene_->parts) {
-    poses.push_back(bodies[part.body] * part.shape.pose);
-    if (scene_->on_ground(part, poses.back())) return Contact{part.shape.link, "ground"};
+  const std::vector<Placed> parts = scene_->parts_at(q);
+  const auto link = [](const Placed& placed) { return placed.part->shape.link; };
+  for (const Placed& part : parts) {
+    if (scene_->on_ground(part)) return Contact{link(part), "ground"};
   }
   for (const auto& [i, j] : scene_->pairs) {
-    const Part &a = scene_->parts[i], &b = scene_->parts[j];
-    if (overlap(a, poses[i], b, poses[j])) return Contact{a.shape.link, b.shape.link};
+    if (overlap(parts[i], parts[j])) return Contact{link(parts[i]), link(parts[j])};
   }
-  for (std::size_t i = scene_->parts.size(); i-- > 0 && !scene_->obstacles.empty();) {
-    const Part& part = scene_->parts[i];
-    for (const Part& obstacle : scene_->obstacles) {
-      if (scene_->touches(part, poses[i], obstacle)) return Contact{part.shape.link, obstacle.shape.link};
+  for (std::size_t i = parts.size(); i-- > 0 && !scene_->standing.empty();) {
+    for (const Placed& obstacle : scene_->standing) {
+      if (scene_->touches(parts[i], obstacle)) return Contact{link(parts[i]), link(obstacle)};
     }
   }
   return std::nullopt;
 }
 
 std::vector<std::size_t> CollisionChecker::obstacles_touched(const JointVector& q) const {
-  const auto bodies = kinematics::body_poses(scene_->arm, q);
+  const std::vector<Placed> parts = scene_->parts_at(q);
   std::vector<std::size_t> touched;
-  for (std::size_t i = 0; i < scene_->obstacles.size(); ++i) {
-    const bool hit = std::ranges::any_of(scene_->parts, [&](const Part& part) {
-      return scene_->touches(part, bodies[part.body] * part.shape.pose, scene_->obstacles[i]);
-    });
+  for (std::size_t i = 0; i < scene_->standing.size(); ++i) {
+    const bool hit = std::ranges::any_of(
+        parts, [&](const Placed& part) { return scene_->touches(part, scene_->standing[i]); });
     if (hit) touched.push_back(i);
   }
   return touched;

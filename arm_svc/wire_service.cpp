@@ -22,13 +22,16 @@ JointVector joints_of(const std::vector<double>& values) {
 struct Misread {
   std::string object;
   std::string why;
+  std::string told = {};  // by the event; empty: object and why
 };
 
 std::variant<Place, Misread> place_of(const v1::PlanObject& object, std::size_t joints) {
   Place place{object.name()};
   if (wire::property(object, "q0") != nullptr) {
-    const Misread misread{object.name(), "gives joint values that are not " + std::to_string(joints) +
-                                             " finite numbers q0, q1, …"};
+    const std::string why =
+        "gives joint values that are not " + std::to_string(joints) + " finite numbers q0, q1, …";
+    // Where the arm stands has another name at each request: one event for all of them.
+    const Misread misread{object.name(), why, "a place " + why};
     std::vector<double> values;
     for (std::size_t i = 0; i < joints; ++i) {
       const auto value = wire::finite_property(object, "q" + std::to_string(i));
@@ -132,7 +135,7 @@ class Answering {
     const ArmFunction& function = *std::ranges::find(module_.functions, owned.name, &ArmFunction::name);
     const auto asked = motion_of(function, objects, model_.setup().arm.joints.size());
     if (const auto* misread = std::get_if<Misread>(&asked)) {
-      refusals.insert("'" + misread->object + "' " + misread->why);
+      refusals.insert(misread->told.empty() ? "'" + misread->object + "' " + misread->why : misread->told);
       words[misread->object] = "it " + misread->why;
       return {v1::FUNCTION_UNKNOWN_OBJECT};
     }

@@ -56,16 +56,16 @@ void check_inertial(const XMLElement& inertial) {
   if (xml::required_number(mass, "value") < 0) xml::fail(mass, "a mass cannot be below 0");
   const XMLElement& inertia = child(inertial, "inertia", "needs an <inertia ixx=\"…\" …/>");
   const auto entry = [&inertia](const char* name) { return xml::required_number(inertia, name); };
-  Eigen::Matrix3d matrix;
-  matrix << entry("ixx"), entry("ixy"), entry("ixz"),  //
-      entry("ixy"), entry("iyy"), entry("iyz"),        //
-      entry("ixz"), entry("iyz"), entry("izz");
+  const double ixx = entry("ixx"), ixy = entry("ixy"), ixz = entry("ixz"), iyy = entry("iyy"),
+               iyz = entry("iyz"), izz = entry("izz");
+  const Eigen::Matrix3d matrix{{ixx, ixy, ixz}, {ixy, iyy, iyz}, {ixz, iyz, izz}};
   const Eigen::Vector3d moments =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
   if (!(moments[0] >= -kRoundedMoment * std::max(1.0, moments[2]))) {
-    xml::fail(inertia, "the moments of inertia must not be negative, about no axis (the least is " +
-                           std::to_string(moments[0]) +
-                           " kg·m²); check the signs of ixx … izz, or give those of a box of the link's size");
+    xml::fail(inertia,
+              "the moments of inertia must not be negative, about no axis (the least is " +
+                  std::to_string(moments[0]) +
+                  " kg·m²); check the signs of ixx … izz, or give those of a box of the link's size");
   }
 }
 

@@ -245,10 +245,11 @@ class DeclaredFunctions : public ArmMission {
     services::Client<v1::FunctionRequest, v1::FunctionReply> functions{master, topics::function_call};
     services::Client<v1::ArmMotionRequest, v1::ArmMotionReply> client{master, topics::arm_motion};
     master.after(1s, [&] {
-      functions.call(request, "arm_svc", 1s, [&](const CallResult<v1::FunctionReply>& result) {
-        ASSERT_EQ(result.status, CallStatus::ok) << result.reason;
-        reply = result.reply;
-      });
+      if (motions.empty())
+        functions.call(request, "arm_svc", 1s, [&](const CallResult<v1::FunctionReply>& result) {
+          ASSERT_EQ(result.status, CallStatus::ok) << result.reason;
+          reply = result.reply;
+        });
       for (const v1::ArmMotionRequest& asked : motions) {
         client.call(asked, "arm_svc", 1s, [&](const CallResult<v1::ArmMotionReply>& result) {
           ASSERT_EQ(result.status, CallStatus::ok) << result.reason;
