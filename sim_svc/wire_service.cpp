@@ -83,11 +83,11 @@ v1::Observation to_wire(const world::Observed& observed) {
 v1::DataProduct to_wire(const world::Image& image) {
   v1::DataProduct out;
   out.id(image.id);
-  out.product_kind("image");
+  out.product_kind(image.kind);
   out.source(image.source);
   out.bytes(image.bytes);
   out.fate(image.sent ? v1::PRODUCT_SENT : v1::PRODUCT_STORED);
-  out.tier(v1::TIER_MANDATORY);
+  out.tier(image.kind == "image" ? v1::TIER_MANDATORY : v1::TIER_RESIDUAL);
   out.created_us(image.taken.count());
   out.x_m(image.taken_from.x);
   out.y_m(image.taken_from.y);

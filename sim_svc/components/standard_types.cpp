@@ -59,6 +59,17 @@ world::MakeComponent read_drive(Settings& in) {
 
 world::MakeComponent read_arm(Settings& in) { return making<Arm>(read_arm_settings(in)); }
 
+double between(Settings& in, std::string_view key, double fallback, double least, double most) {
+  const auto entry = in.find(key);
+  if (!entry) return fallback;
+  const double value = entry->number();
+  if (value < least || value > most) {
+    entry->fail("'" + std::string(key) + "' must lie between " + std::to_string(least) + " and " + std::to_string(most) +
+                "; correct the number");
+  }
+  return value;
+}
+
 world::MakeComponent read_camera(Settings& in) {
   CameraSettings out;
   out.duration_s = in.number("duration_s", out.duration_s);
@@ -66,7 +77,19 @@ world::MakeComponent read_camera(Settings& in) {
   out.power_w = in.number("power_w", out.power_w);
   out.image_bytes = in.number("image_bytes", out.image_bytes);
   out.bytes_noise = in.number("bytes_noise", out.bytes_noise);
-  out.image_noise = in.number("image_noise", out.image_noise);
+  View& view = out.view;
+  view.noise = in.number("image_noise", view.noise);
+  view.mast_m = between(in, "mast_m", view.mast_m, 0.1, 20);
+  view.tilt_deg = between(in, "tilt_deg", view.tilt_deg, -30, 80);
+  view.view_deg = between(in, "view_deg", view.view_deg, 5, 150);
+  view.width_px = static_cast<int>(between(in, "width_px", view.width_px, 8, 1024));
+  view.height_px = static_cast<int>(between(in, "height_px", view.height_px, 8, 1024));
+  if (const auto every = in.find("panorama_every_s")) {
+    out.panorama_every_s = every->number();
+    if (out.panorama_every_s != 0 && (out.panorama_every_s < 1 || out.panorama_every_s > 1e9))
+      every->fail("'panorama_every_s' must be at least 1, or 0 for none; correct the number");
+  }
+  out.panorama_views = static_cast<int>(between(in, "panorama_views", out.panorama_views, 1, kMostViews));
   return making<Camera>(out);
 }
 

@@ -9,6 +9,7 @@
 #include "core/terrain/map_error.hpp"
 #include "core/terrain/site_file.hpp"
 #include "sim_svc/scenario/scenario_file.hpp"
+#include "sim_svc/scenario/surface_file.hpp"
 
 namespace roci::sim::scenario {
 
@@ -123,16 +124,21 @@ RunSetup load_run(const std::filesystem::path& mission_folder, const std::string
   const bool on_ground =
       std::any_of(roster.begin(), roster.end(), [](const RobotEntry& r) { return r.on_ground; });
   run.world.ground = {nullptr, run.scenario.rocks};
+  if (const auto surface = mission.at("simulation").find("surface"))
+    surface->attempt([&] { read_surface(*surface, run.world.ground.surface); });
+  const auto conditions = scenario_file.find("world");
+  if (const auto surface = conditions ? conditions->find("surface") : std::nullopt)
+    surface->attempt([&] { read_surface(*surface, run.world.ground.surface); });
   if (on_ground) mission.attempt([&] { run.world.ground.site = load_ground(mission.at("site")); });
   run.world.windows = true_windows(mission, run.scenario.windows);
   add_sunlight(roster, run.scenario, scenario_file.find("windows"), run.world.windows);
-  std::set<std::string, std::less<>> known{"rocks"};
+  std::set<std::string, std::less<>> known{"rocks", "surface"};
   for (const RobotEntry& robot : roster) {
     const Start& start = run.scenario.starts[robot.name];
     check_on_map(start, robot.name, run.world.ground);
     run.world.robots.push_back(read_robot(robot, start, mission, types, run.scenario, known));
   }
-  if (const auto world = scenario_file.find("world")) setup::refuse_unknown_keys(*world, known);
+  if (conditions) setup::refuse_unknown_keys(*conditions, known);
   for (const Stimulus& stimulus : run.scenario.stimuli) {
     const auto* disturbance = std::get_if<world::Disturbance>(&stimulus.what);
     const auto* mishap = disturbance ? std::get_if<world::ComponentMishap>(disturbance) : nullptr;

@@ -123,7 +123,7 @@ std::vector<std::string> RobotEntry::component_names() const {
 }
 
 Roster read_roster(const Entry& simulation, const Registry& registry) {
-  simulation.allow_only({"robots"});
+  simulation.allow_only({"robots", "surface"});  // the surface is read with the ground
   Roster out;
   const Entry robots = simulation.at("robots");
   robots.each([&](const Entry& item) {

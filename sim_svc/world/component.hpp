@@ -99,6 +99,11 @@ class Component {
   virtual std::optional<temporal::Time> next_change() const = 0;
   /// Says, at next_change(), how the task ended; if it goes on, the component is still busy().
   virtual Ending finish(Surroundings&) = 0;
+  /// Returns when it next does something of its own accord, beside any task; nothing while it does not know.
+  virtual std::optional<temporal::Time> next_routine() const { return std::nullopt; }
+  /// Does of its own accord what is due. It is called after the tasks at every event of the world, and passes a turn over
+  /// while it is not `able` (out of order, battery empty); afterwards next_routine() lies after `now`.
+  virtual void run_routine(temporal::Time /*now*/, bool /*able*/, Surroundings&) {}
   /// Lets its tasks get on at this share of their usual speed until then; a component that cannot be slowed
   /// (ComponentType::can_be_slowed) does not hear of it.
   virtual void slow_down(double /*pace*/, temporal::Time /*until*/, temporal::Time /*now*/, Surroundings&) {}

@@ -170,6 +170,13 @@ void Robot::finish_due(Time now, Environment& environment, Outputs& out) {
   }
 }
 
+void Robot::run_routines(Time now, Environment& environment, Outputs& out) {
+  for (Part& one : parts_) {
+    Surroundings surroundings = around(environment, out);
+    one.component->run_routine(now, now >= one.out_of_order_until && !flat(), surroundings);
+  }
+}
+
 void Robot::break_component(const std::string& component, Time until, Time now, Environment& environment,
                             Outputs& out) {
   Part* one = part(component);

@@ -97,6 +97,8 @@ class Robot {
   void answer(const TaskKey&, const Answer&, temporal::Time now, Environment&, Outputs& out);
   /// Lets every task end or change whose time it is.
   void finish_due(temporal::Time now, Environment&, Outputs& out);
+  /// Lets every component do what it does of its own accord.
+  void run_routines(temporal::Time now, Environment&, Outputs& out);
   void break_component(const std::string& component, temporal::Time until, temporal::Time now, Environment&,
                        Outputs& out);
   void slow_component(const std::string& component, double pace, temporal::Time until, temporal::Time now,

@@ -22,6 +22,7 @@ Time Robot::next_change() const {
   Time best = next_report_;
   for (const Part& one : parts_) {
     if (const auto change = one.component->next_change()) best = std::min(best, *change);
+    if (const auto routine = one.component->next_routine()) best = std::min(best, *routine);
   }
   return best;
 }

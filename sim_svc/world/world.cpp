@@ -32,6 +32,7 @@ void check_unique(const std::vector<Named>& all, const std::string& what) {
 
 World::World(WorldSetup setup, std::uint64_t seed)
     : environment_{std::move(setup.ground), std::move(setup.windows), {}, {}, {}} {
+  environment_.ground.surface.seed = seed;
   check_unique(setup.robots, "robots");
   for (RobotSetup& robot : setup.robots) {
     check_unique(robot.components, "components of '" + robot.name + "'");
@@ -144,7 +145,7 @@ Time World::next_event() const {
   std::optional<Time> best = next_tick();
   for (const Robot& one : robots_) keep_earlier(best, one.next_change());
   for (const Window& window : environment_.windows) keep_earlier(best, window.next_change(now_));
-  return *best;
+  return std::max(*best, now_);  // what fell due while nobody simulated the world is due now
 }
 
 Time World::next_tick() const { return (now_ / kTick + 1) * kTick; }
@@ -153,6 +154,7 @@ void World::advance_to(Time now) {
   for (Time t = next_event(); t <= now; t = next_event()) {
     settle(t);
     for (Robot& one : robots_) one.finish_due(t, environment_, out_);
+    for (Robot& one : robots_) one.run_routines(t, environment_, out_);
     publish(t);
   }
 }
