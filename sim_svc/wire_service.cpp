@@ -121,6 +121,8 @@ v1::ArmMotionRequest to_wire(const world::MotionWanted& motion) {
   out.from_pose(motion.from);
   out.from_positions(motion.joints);
   out.to_pose(motion.to);
+  out.payload_kg(motion.payload_kg);
+  out.payload_size_m(motion.payload_size_m);
   return out;
 }
 

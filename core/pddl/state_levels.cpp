@@ -127,7 +127,7 @@ class Checker {
   std::vector<Diagnostic> run() {
     for (const Module& module : domain_.modules)
       for (const StateDependence& dependence : module.dependences) check(dependence, module);
-    if (dependent_.empty()) return {};
+    if (dependent_.empty()) return std::move(findings_);
     Walk outside([&](const Atom& atom, const std::vector<std::string>&) {
       if (dependent_.contains(atom.symbol))
         add(atom.where,

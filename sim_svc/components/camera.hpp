@@ -1,4 +1,6 @@
+// A camera that takes images of the ground ahead; the images are data products on board until a radio sends them.
 #pragma once
+
 #include <map>
 #include <optional>
 #include <string>

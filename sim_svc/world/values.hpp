@@ -144,9 +144,11 @@ struct MotionWanted {
   TaskKey key;
   std::string service;  ///< who is asked
   std::string robot;
-  std::string from;            ///< pose by name
-  std::vector<double> joints;  ///< say where the arm stands, rad or m
-  std::string to;              ///< pose by name
+  std::string from;                      ///< pose by name
+  std::vector<double> joints;            ///< say where the arm stands, rad or m
+  std::string to;                        ///< pose by name
+  double payload_kg = 0;                 ///< that the tool holds, as the robot believes it to be
+  std::vector<double> payload_size_m{};  ///< edges of its box along x, y and z of the tool; empty: a point
   bool operator==(const MotionWanted&) const = default;
 };
 

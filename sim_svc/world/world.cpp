@@ -119,10 +119,14 @@ Outputs World::disturb(Time now, const Disturbance& disturbance) {
   } else if (const auto* fall = std::get_if<RockFall>(&disturbance)) {
     environment_.ground.hidden_rocks.push_back(fall->rock);
     for (Robot& one : robots_) one.ground_changed(now, environment_, out_);
-  } else {
-    const auto& loss = std::get<EnergyLoss>(disturbance);
-    if (Robot* one = robot(loss.robot)) one->lose_energy(loss.joules);
+  } else if (const auto* loss = std::get_if<EnergyLoss>(&disturbance)) {
+    if (Robot* one = robot(loss->robot)) one->lose_energy(loss->joules);
     settle(now);
+  } else if (const auto* dim = std::get_if<GenerationLoss>(&disturbance)) {
+    if (Robot* one = robot(dim->robot)) one->lose_generation(dim->share, dim->until);
+  } else {
+    const auto& mishap = std::get<ComponentMishap>(disturbance);
+    if (Robot* one = robot(mishap.robot)) one->suffer(mishap.what, now, environment_, out_);
   }
   return done(now);
 }
@@ -171,7 +175,7 @@ void World::publish(Time t) {
   for (const Robot& one : robots_) one.report_components(t, reporter_, out_);
   for (const Window& window : environment_.windows)
     reporter_.report(window.timeline, window.is_open(t), t, out_);
-  for (const Robot& one : robots_) one.report_things(t, reporter_, out_);
+  for (Robot& one : robots_) one.report_things(t, reporter_, out_);
   for (Robot& one : robots_) one.report_numbers_if_due(t, reporter_, out_);
 }
 

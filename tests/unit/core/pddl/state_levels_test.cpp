@@ -74,7 +74,7 @@ TEST(StateLevels, WhatIsWrongIsNamed) {
       {"(:function (time ?r - rover ?a ?b - place) :depends-on ((battery) 0))", "'battery' has 1 arguments"},
       {"(:function (time ?r - rover ?a ?b - place) :depends-on ((battery ?x) 0))",
        "must be parameters of the function"},
-      {"(:function (time ?r - rover ?a ?b - place) :depends-on ((battery ?r)))", "levels must ascend"},
+      {"(:function (time ?r - rover ?a ?b - place) :depends-on ((battery ?r)))", "a fluent with its levels expected"},
       {"(:function (time ?r - rover ?a ?b - place) :depends-on ((battery ?r) 5 5))", "levels must ascend"},
       {"(:function (time ?r - rover ?a ?b - place) :depends-on)", "an external function expected"},
       {"(:function (time ?r - rover ?a ?b - place) :depends ((heat) 0))", "':depends-on' expected"},
