@@ -102,8 +102,9 @@ std::optional<Window> patch_in_row(const GreyImage& image, const CameraModel& ca
   if (!seen) return std::nullopt;
   const double range = std::max(0.5, terrain::distance(*seen, from.at));
   const double width = focal_px(camera, image.width) * kGroundSide / range;
+  // Of a small image a patch may be more than a quarter.
   const auto even = [](double v, int least, int most) {
-    return std::clamp(static_cast<int>(std::lround(v / 2)) * 2, least, most);
+    return std::clamp(static_cast<int>(std::lround(v / 2)) * 2, least, std::max(least, most));
   };
   return Window{0, row, even(width, kLeastWidth, image.width / 4),
                 even(width * camera.mast_m / range, kLeastHeight, image.height / 4)};

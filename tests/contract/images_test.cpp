@@ -60,7 +60,8 @@ class Images : public testing::TestWithParam<std::string> {
     out.id(id);
     out.product_kind("image");
     out.fate(v1::PRODUCT_STORED);
-    out.created_us(node_->now().count() + 3'600'000'000);
+    // The plain ones are older than the service: they teach it, and raise nothing.
+    out.created_us(id.starts_with("plain") ? 0 : node_->now().count() + 3'600'000'000);
     out.x_m(100);
     out.y_m(100);
     out.preview({file.begin(), file.end()});

@@ -76,6 +76,7 @@ class ScienceService : public testing::Test {
     std::vector<v1::DataProduct> out;
     for (std::uint64_t i = 0; i < 4; ++i)
       out.push_back(image("plain-" + std::to_string(i), 150, 150, made_ground(i)));
+    for (v1::DataProduct& one : out) one.created_us(-1);  // older than the service: they teach it, and raise nothing
     return out;
   }
   static std::vector<v1::DataProduct> plain_and(std::vector<v1::DataProduct> more) {
