@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/mission/entry.hpp"
+#include "ground_console/cli/map/map.hpp"
 #include "ground_console/cli/mission_words.hpp"
 #include "ground_console/cli/orders.hpp"
 #include "ground_console/cli/reach.hpp"
@@ -35,6 +36,7 @@ struct Line {
   std::string mission;  // folder or name, for what its file says
   std::int64_t launcher = 0;
   cli::ReachArguments reach;
+  cli::map::MapArguments map;
   std::vector<double> from;
   bool prunes = false;
   std::size_t kept = 20;
@@ -243,6 +245,15 @@ int main(int argc, char** argv) {
       ->expected(2);
   reach->add_option("--robot", line.reach.robot, "From where this robot is (default: the only one)");
   reach->add_option("--service", line.reach.service, "The path planner that is asked")->capture_default_str();
+  CLI::App* map =
+      add_verb(app, line, "map", "Draw the ground with hazards, zones, planned and driven ways", nullptr);
+  map->add_option("--png", line.map.png, "The file to write")->required();
+  map->add_option("--mission", line.map.mission,
+                  "Mission folder or name: it alone is drawn, unless a run is named, too");
+  map->add_option("--run", line.map.run,
+                  "Run folder, as roci runs lists them (default: the run on this machine, if any)");
+  map->callback(
+      [&line] { line.own = [](const Line& l) { return cli::map::show_map(l.map, l.connection, l.json); }; });
   CLI::App* runs = add_verb(app, line, "runs", "The runs of this machine: when, what, result, size", nullptr);
   runs->add_flag("--prune", line.prunes, "Remove the folders of all but the newest runs");
   runs->add_option("--keep", line.kept, "With --prune: so many stay")->capture_default_str();

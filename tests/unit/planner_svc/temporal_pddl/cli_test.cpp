@@ -99,6 +99,28 @@ TEST_F(Program, WarningsGoToStandardErrorAndIntoTheJson) {
   EXPECT_THAT(read("out"), HasSubstr("\"warnings\": [\n    \"without:1:1: warning: (fuel)"));
 }
 
+TEST_F(Program, AsksForExactValuesAsItsModeSays) {
+  write("ways",
+        "(define (domain w) (:requirements :typing :durative-actions) (:types place) (:predicates (at ?p - place))"
+        " (:modules (:module roads (:function (time ?a ?b - place)))) (:durative-action go :parameters (?a ?b - "
+        "place) :duration (= ?duration (time ?a ?b)) :condition (at start (at ?a)) :effect (and (at start (not (at "
+        "?a))) (at end (at ?b)))))");
+  write("trip", "(define (problem p) (:domain w) (:objects a b c - place) (:init (at a)) (:goal (at c)))");
+  std::string values;
+  for (const std::string from : {"a", "b", "c"})
+    for (const std::string to : {"a", "b", "c"})
+      values += "(time " + from + " " + to + ") 10\n(time " + from + " " + to + ") >= 6\n";
+  write("values", values);
+  EXPECT_EQ(run("ways trip --functions values --json"), 0);
+  EXPECT_THAT(read("out"), HasSubstr("\"exact_values\": 9"));
+  EXPECT_EQ(run("ways trip --functions values --functions-mode two-accuracy --json"), 0) << read("err");
+  EXPECT_THAT(read("out"), HasSubstr("\"cheap_values\": 9"));
+  EXPECT_THAT(read("out"), HasSubstr("\"exact_values\": 1,"));
+  EXPECT_THAT(read("out"), HasSubstr("\"duration\": 10.0"));
+  EXPECT_EQ(run("ways trip --functions values --functions-mode none"), 64);
+  EXPECT_THAT(read("err"), HasSubstr("two-accuracy"));
+}
+
 TEST_F(Program, AMemoryLimitIsSetWithoutAskingAndIsACleanVerdict) {
   EXPECT_EQ(run("--help"), 0);
   EXPECT_THAT(read("out"), HasSubstr("--memory"));
