@@ -199,7 +199,8 @@ void RunningPlan::note_newer(const ModelVersion& model) {
     before += (before.empty() ? "" : ", ") + std::to_string(version);
   state_->report(Severity::info, "values.outdated",
                  name() + " stands on values of an older model: " + model.owner + " has version " +
-                     std::to_string(model.version) + " now, " + names + " have values of version " + before);
+                     std::to_string(model.version) + " now, the values of " + names + " are of version " +
+                     before);
 }
 
 std::vector<PlannedAction> RunningPlan::remaining() const {

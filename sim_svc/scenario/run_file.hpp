@@ -1,4 +1,6 @@
+// What a run of the simulator is made of, read from the files of a mission.
 #pragma once
+
 #include <filesystem>
 #include <string>
 

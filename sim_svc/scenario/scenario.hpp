@@ -1,4 +1,6 @@
+// A scenario as values: how a run starts, what is done to it at which time, and which events are expected of it.
 #pragma once
+
 #include <cstdint>
 #include <map>
 #include <optional>

@@ -1,3 +1,4 @@
+// A writer of Cyclone DDS: serialized samples go out, and finished instances are forgotten.
 #pragma once
 
 #include <atomic>

@@ -34,7 +34,7 @@ TEST(OwnersVerdicts, NameThePlaceTheOwnerAndItsMap) {
 TEST(OwnersVerdicts, DoNotCallUnreachableWhatNobodyProved) {
   for (const bool first : {true, false}) {
     std::vector<FunctionUse> uses{use("here", "cliff", FunctionOutcome::unreachable),
-                                  use("b", "cliff", FunctionOutcome::unavailable)};
+                                  use("b", "cliff", FunctionOutcome::unknown)};
     if (first) std::swap(uses[0], uses[1]);
     EXPECT_THAT(words(uses),
                 AllOf(HasSubstr("no way to cliff (x=190 y=60) is known: pathplan_svc found none with the "
