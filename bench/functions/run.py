@@ -23,7 +23,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 MODES = ("eager", "lazy", "two-accuracy")
 FAMILIES = {
     "rover": (HERE / "rover.pddl", "way-points", instances.rover, (10, 25, 50, 100, 200, 400)),
-    "orbital": (HERE.parent / "growth" / "orbital.pddl", "modules", instances.satellite, (10, 20, 40, 80, 120)),
+    "orbital": (HERE.parents[1] / "missions" / "orbital" / "domain.pddl", "modules", instances.satellite, (10, 20, 40, 80, 120)),
 }
 
 
