@@ -14,9 +14,11 @@ bool in_order(const std::vector<std::string>& some, const std::vector<std::strin
   });
 }
 
+// Each as often as it stands there.
 bool among(const std::vector<std::string>& some, const std::vector<std::string>& all) {
-  return std::ranges::all_of(
-      some, [&](const std::string& one) { return std::ranges::find(all, one) != all.end(); });
+  return std::ranges::all_of(some, [&](const std::string& one) {
+    return std::ranges::count(some, one) <= std::ranges::count(all, one);
+  });
 }
 
 }  // namespace

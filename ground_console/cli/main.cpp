@@ -248,7 +248,8 @@ int main(int argc, char** argv) {
   CLI::App* map =
       add_verb(app, line, "map", "Draw the ground with hazards, zones, planned and driven ways", nullptr);
   map->add_option("--png", line.map.png, "The file to write")->required();
-  map->add_option("--mission", line.map.mission, "Mission folder or name (default: that of the run)");
+  map->add_option("--mission", line.map.mission,
+                  "Mission folder or name: it alone is drawn, unless a run is named, too");
   map->add_option("--run", line.map.run,
                   "Run folder, as roci runs lists them (default: the run on this machine, if any)");
   map->callback(

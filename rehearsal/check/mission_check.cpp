@@ -80,7 +80,10 @@ void read_scenario(CheckedMission& mission, const std::string& name, bool simula
   note(findings, [&] {
     CheckedScenario scenario{name, mission::load_scenario(mission.folder, name, &findings), {}};
     note(findings, [&] { services::link::read_links(scenario.file, mission.services, 1); });
-    note(findings, [&] { science::read_detector(mission.file, scenario.file); });
+    note(findings, [&] {
+      for (const std::string& warning : science::read_detector(mission.file, scenario.file).warnings)
+        findings.add(warning, mission::Severity::warning);
+    });
     if (!simulated) return;
     scenario.run =
         sim::scenario::load_run(mission.folder, name, sim::components::standard_types(), &findings);

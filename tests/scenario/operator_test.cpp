@@ -143,6 +143,8 @@ TEST_F(Operator, SeesTheValuesThatAnActivityStandsOn) {
 // The obstacle is seen, the map gets its next version, and what was planned on the one before is marked until it is planned anew.
 TEST_F(Operator, SeesWhichActivitiesStandOnAnOlderMap) {
   EXPECT_THAT(text_of(folder_ / "obstacle/older"), ContainsRegex("drive .* waiting \\*"));
+  EXPECT_THAT(text_of(folder_ / "obstacle/older"), Not(ContainsRegex("take-image.* waiting \\*")))
+      << "asks no path planner";
   EXPECT_THAT(text_of(folder_ / "obstacle/older"),
               ContainsRegex("\n\\* stands on values of version 1 of pathplan_svc's model, which has "
                             "version 2 now; roci plan --why p[0-9.]+-drive shows them\n"));

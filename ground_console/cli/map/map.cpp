@@ -17,6 +17,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/mission/entry.hpp"
+#include "core/terrain/map_error.hpp"
 #include "ground_console/cli/map/draw_map.hpp"
 #include "ground_console/cli/map/png_file.hpp"
 #include "ground_console/cli/report.hpp"
@@ -108,7 +110,7 @@ Way places_ahead(const lib::MissionView& view) {
   if (view.plan() == nullptr) return out;
   for (const v1::PlanActivity& activity : view.plan()->activities()) {
     const v1::StepStatus* step = view.step(activity.id());
-    const bool over = step != nullptr && step->activity_state() > v1::ACTIVITY_RUNNING;
+    const bool over = step != nullptr && step->state() > v1::ACTIVITY_RUNNING;
     if (over) continue;
     for (const v1::PlanCommand& command : activity.commands()) {
       if (const auto at = point_of(command.arguments())) out.push_back(*at);
@@ -195,7 +197,9 @@ MissionMap map_of(const MapArguments& arguments, const services::process::Connec
     map.subtitle = words_of_summary(run);
     return map;
   }
-  if (!arguments.mission.empty() && !lib::local_run(flags)) {
+  const bool says_where_to_join =
+      flags.domain || flags.dds || flags.address || flags.peers || flags.network || flags.secure;
+  if (!arguments.mission.empty() && !says_where_to_join) {
     MissionMap map = read_mission_map(services::process::mission_folder(arguments.mission));
     map.subtitle = "the mission, no run";
     return map;
@@ -203,28 +207,46 @@ MissionMap map_of(const MapArguments& arguments, const services::process::Connec
   return map_of_live_run(flags, arguments.mission);
 }
 
+void print(const std::string& file, const MissionMap& map, const Picture& picture, bool as_json) {
+  if (!as_json) {
+    std::cout << file << ": " << picture.width() << " x " << picture.height() << " pixels, "
+              << map.places.size() << " places, " << map.hazards.size() << " hazards\n";
+    return;
+  }
+  json driven = json::object();
+  for (const auto& [robot, way] : map.driven) driven[robot] = way.size();
+  std::cout << json_text({{"file", file},
+                          {"width", picture.width()},
+                          {"height", picture.height()},
+                          {"places", map.places.size()},
+                          {"hazards", map.hazards.size()},
+                          {"planned", map.planned.size() + map.planned_legs.size()},
+                          {"driven", driven}})
+            << "\n";
+}
+
 }  // namespace
 
 int show_map(const MapArguments& arguments, const services::process::ConnectionFlags& connection,
              bool as_json) {
-  const MissionMap map = map_of(arguments, connection);
-  const Picture picture = draw_map(map);
-  write_png(picture, arguments.png);
-  if (as_json) {
-    json driven = json::object();
-    for (const auto& [robot, way] : map.driven) driven[robot] = way.size();
-    std::cout << json_text({{"file", arguments.png},
-                            {"width", picture.width()},
-                            {"height", picture.height()},
-                            {"places", map.places.size()},
-                            {"hazards", map.hazards.size()},
-                            {"planned", map.planned.size() + map.planned_legs.size()},
-                            {"driven", driven}})
-              << "\n";
-  } else {
-    std::cout << arguments.png << ": " << picture.width() << " x " << picture.height() << " pixels, "
-              << map.places.size() << " places, " << map.hazards.size() << " hazards\n";
+  std::optional<MissionMap> map;
+  try {
+    map = map_of(arguments, connection);
+  } catch (const mission::FileError& error) {
+    std::cerr << "roci: " << error.what() << "\n";
+    return kBadUsage;
+  } catch (const terrain::MapError& error) {
+    std::cerr << "roci: " << error.what() << "\n";
+    return kBadUsage;
   }
+  const Picture picture = draw_map(*map);
+  try {
+    write_png(picture, arguments.png);
+  } catch (const std::runtime_error& error) {
+    std::cerr << "roci: " << error.what() << "\n";
+    return kRefused;
+  }
+  print(arguments.png, *map, picture, as_json);
   return kDone;
 }
 

@@ -29,6 +29,8 @@ TEST(FunctionValues, CountAnArgumentOnceForEachOfTheirs) {
   const std::vector<FunctionValueUse> twice{{"f", {"a", "a"}, 1}, {"f", {"a"}, 2}};
   EXPECT_THAT(function_values_of({"a"}, twice), ElementsAre(1));
   EXPECT_THAT(function_values_of({"a", "a"}, twice), ElementsAre(0, 1));
+  const std::vector<FunctionValueUse> to_itself{{"time", {"b", "b"}, 0}};
+  EXPECT_THAT(function_values_of({"image", "b"}, to_itself), IsEmpty());
 }
 
 }  // namespace
