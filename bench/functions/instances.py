@@ -39,8 +39,8 @@ def rover(sites, seed):
 
 
 def satellite(modules, seed):
-    """The satellite of bench/growth, four of whose modules change places; an arm that goes round things takes longer than the
-    straight way of its joints, which is its lower bound."""
+    """The satellite of bench/growth in the domain of missions/orbital, four of whose modules change places. An arm that goes
+    round things takes longer than the straight way of its joints, which is its lower bound."""
     problem, exact = orbital.reconfiguration(modules, GOALS, seed)
     rng = random.Random(seed * 1_000_003 + modules)
     lines = []

@@ -3,13 +3,14 @@
 
   run.py --planner build/release/bin/roci-plan
 
-Each instance is planned in each mode with the same effort for better plans (--improve). Values come from a table, so that the
-wall time is the planner's own; what its owner takes for a value comes on top, for each exact one."""
+Each instance is planned in each mode with the same effort for better plans in each search (--improve). Values come from a table, so
+that the time is the planner's own, on one core, as CPU time; what an owner takes for a value comes on top, for each exact one."""
 
 import argparse
 import collections
 import json
 import pathlib
+import resource
 import shutil
 import statistics
 import subprocess
@@ -22,17 +23,20 @@ HERE = pathlib.Path(__file__).resolve().parent
 MODES = ("eager", "lazy", "two-accuracy")
 FAMILIES = {
     "rover": (HERE / "rover.pddl", "way-points", instances.rover, (10, 25, 50, 100, 200, 400)),
-    "orbital": (HERE.parent / "growth" / "orbital.pddl", "modules", instances.satellite, (10, 20, 40, 80, 120)),
+    "orbital": (HERE.parents[1] / "missions" / "orbital" / "domain.pddl", "modules", instances.satellite, (10, 20, 40, 80, 120)),
 }
 
 
 def planned(planner, domain, problem, values, mode, improve, seconds):
     command = [planner, domain, problem, "--functions", values, "--functions-mode", mode, "--improve", str(improve), "--json"]
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False)
     except subprocess.TimeoutExpired:
         return None
     record = json.loads(done.stdout) if done.stdout else {}
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    record["cpu_s"] = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     return record if record.get("verdict") == "solved" else None
 
 
@@ -51,7 +55,7 @@ def measured(arguments, family):
                     record = planned(arguments.planner, root / "domain.pddl", root / "problem.pddl", root / "values", mode,
                                      arguments.improve, arguments.seconds)
                     print(family, size, seed, mode, json.dumps({key: record[key] for key in (
-                        "metric", "exact_values", "cheap_values", "function_requests", "rounds", "wall_s")} if record else None),
+                        "metric", "exact_values", "cheap_values", "function_requests", "rounds", "cpu_s")} if record else None),
                         file=sys.stderr, flush=True)
                     if record:
                         records[size, seed][mode] = record
@@ -68,7 +72,7 @@ def ratios(records, mode):
 
 def table(family, records, seeds):
     _, what, _, _ = FAMILIES[family]
-    print(f"\n| {what} | solved in all modes | mode | exact values | of eager's | bounds | requests | rounds | wall s | cost to eager's: median | least | most |")
+    print(f"\n| {what} | solved in all modes | mode | exact values | of eager's | bounds | requests | rounds | CPU s | cost to eager's: median | least | most |")
     print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     for size in sorted({size for size, _ in records}):
         solved = [by_mode for (one, _), by_mode in records.items() if one == size and len(by_mode) == len(MODES)]
@@ -80,7 +84,7 @@ def table(family, records, seeds):
             cost = ratios(solved, mode)
             print(f"| {size} | {len(solved)} of {seeds} | {mode} | {median(solved, mode, 'exact_values'):.0f} | {100 * share:.1f} % | "
                   f"{median(solved, mode, 'cheap_values'):.0f} | {median(solved, mode, 'function_requests'):.0f} | "
-                  f"{median(solved, mode, 'rounds'):.0f} | {median(solved, mode, 'wall_s'):.2f} | "
+                  f"{median(solved, mode, 'rounds'):.0f} | {median(solved, mode, 'cpu_s'):.2f} | "
                   f"{statistics.median(cost):.3f} | {cost[0]:.3f} | {cost[-1]:.3f} |")
 
 

@@ -246,8 +246,8 @@ struct StateDependence {
 struct Module {
   std::string name;
   std::vector<Signature> functions;
-  std::vector<StateDependence>
-      dependences;  ///< there are none in a tree from load_domain(): see state_levels.hpp
+  /// There are none in a tree from load_domain(), see state_levels.hpp.
+  std::vector<StateDependence> dependences;
   SourceLocation where;
 };
 

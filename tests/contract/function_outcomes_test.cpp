@@ -87,6 +87,26 @@ TEST_P(FunctionOutcomes, AnUnreachableTupleIsGoneAround) {
   EXPECT_EQ(steps_of(reply.solution()), "go a b, go b c");
 }
 
+TEST_P(FunctionOutcomes, ATupleOfWhichNoValueWasFoundIsGoneAround) {
+  fly(true, [](RoadPlanning& planning) { owner_says(planning, v1::FUNCTION_UNKNOWN, 0); });
+  ASSERT_EQ(reply.verdict_code(), v1::VERDICT_SOLVED) << reply.reason();
+  EXPECT_EQ(steps_of(reply.solution()), "go a b, go b c");
+}
+
+TEST_P(FunctionOutcomes, WhereNoValueWasFoundNothingIsProved) {
+  fly(true, [](RoadPlanning& planning) {
+    planning.owner_answers([&planning](const v1::FunctionRequest& request, auto responder) {
+      v1::FunctionReply answer = ten_seconds(request, planning.owner().now());
+      for (auto& outcome : answer.results()[0].outcomes()) outcome = v1::FUNCTION_UNKNOWN;
+      responder.reply(answer);
+    });
+  });
+  EXPECT_EQ(reply.verdict_code(), v1::VERDICT_TIMEOUT);
+  EXPECT_THAT(reply.reason(), HasSubstr("not known: roads_svc found no way for (travel_time a a) and 8 more "
+                                        "with the effort spent; ask again or give it more"));
+  EXPECT_TRUE(reply.blocking().empty());
+}
+
 TEST_P(FunctionOutcomes, NobodyOwnsTheFunction) {
   fly(false);
   expect_refusal("unavailable, no service offers module 'roads'; offered are: none", 1500ms, "a a");

@@ -39,8 +39,8 @@ struct Options {
   /// actions are taken out.
   std::size_t improvement_evaluations = 0;
   std::uint64_t seed = 0;  ///< breaks ties among equally good successors; 0 keeps the order of generation
-  engine::FunctionsMode functions =
-      engine::FunctionsMode::eager;  ///< see planner_svc/temporal_pddl/refining.hpp
+  /// See planner_svc/temporal_pddl/refining.hpp.
+  engine::FunctionsMode functions = engine::FunctionsMode::eager;
   bool describe_activities = true;   ///< whether activities carry conditions and effects, for an executive
 };
 
