@@ -24,6 +24,13 @@ Settings read_settings(const std::filesystem::path& mission) {
   if (!planner) return out;
   out.engine = planner->text_or("engine", "");
   out.function_timeout = temporal::seconds(planner->number_or("function_timeout_s", 20));
+  if (const auto functions = planner->find("functions")) {
+    const auto mode = engine::functions_mode_named(functions->text());
+    if (!mode)
+      functions->fail("'" + functions->text() +
+                      "' is no way to ask for function values; write eager, lazy or two_accuracy");
+    out.functions = *mode;
+  }
   if (const auto simulated = planner->find("simulated")) {
     simulated->allow_only({"base_s", "per_evaluation_s"});
     out.simulated_base_s = simulated->number_or("base_s", out.simulated_base_s);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/temporal/duration.hpp"
+#include "planner_svc/engine/function_source.hpp"
 
 namespace roci::planner {
 
@@ -12,6 +13,8 @@ struct Settings {
   std::string engine;  ///< that the mission names; empty: none
   std::string model;   ///< text of the mission's model in that engine's language; empty: the mission has none
   temporal::Duration function_timeout = temporal::seconds(20);  ///< for one batch of values
+  /// Which values of external functions are asked for: `functions: eager`, `lazy` or `two_accuracy`.
+  engine::FunctionsMode functions = engine::FunctionsMode::eager;
   /// Mission time that a call takes under the simulated clock.
   double simulated_base_s = 0.5;
   double simulated_per_evaluation_s = 0.0005;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include "core/pddl/check_parts.hpp"
 #include "core/pddl/overloaded.hpp"
@@ -15,6 +16,11 @@ std::string join(const std::vector<std::string>& types) {
   return text;
 }
 
+// Names the predicate or function of an atom in messages.
+std::string owner(const Atom& atom, std::string_view what) {
+  return std::string(what) + " '" + atom.symbol + "'";
+}
+
 }  // namespace
 
 void FormulaChecker::bind(const std::vector<TypedName>& variables) {
@@ -23,33 +29,34 @@ void FormulaChecker::bind(const std::vector<TypedName>& variables) {
     if (variable.name == "?duration") {
       findings_.add(variable.where, "?duration as the name of a variable", "it is reserved: rename it");
     }
-    if (bound_.contains(variable.name))
+    if (is_bound(variable.name))
       findings_.add(variable.where, "variable '" + variable.name + "' hides an outer one", "rename it");
   }
-  for (const TypedName& variable : variables) bound_[variable.name].push_back(&variable);
+  for (const TypedName& variable : variables) bound_.push_back(&variable);
 }
 
 void FormulaChecker::unbind(const std::vector<TypedName>& variables) {
-  for (const TypedName& variable : variables) {
-    const auto it = bound_.find(variable.name);
-    it->second.pop_back();
-    if (it->second.empty()) bound_.erase(it);
-  }
+  bound_.resize(bound_.size() - variables.size());
 }
 
-const TypedName* FormulaChecker::find_variable(const std::string& name) const {
-  const auto it = bound_.find(name);
-  return it == bound_.end() ? nullptr : it->second.front();
+bool FormulaChecker::is_bound(std::string_view name) const { return find_variable(name) != nullptr; }
+
+const TypedName* FormulaChecker::find_variable(std::string_view name) const {
+  const auto outermost = std::ranges::find(bound_, name, &TypedName::name);
+  return outermost == bound_.end() ? nullptr : *outermost;
 }
 
 std::string FormulaChecker::remedy_for_variable(const std::string& name) const {
   words::NearestWord near(name);
-  for (const auto& [bound, ignored] : bound_) near.offer(bound);
+  std::set<std::string_view> names;
+  for (const TypedName* bound : bound_) names.insert(bound->name);
+  for (const std::string_view bound : names) near.offer(bound);
   return near.remedy("add it to :parameters or a quantifier");
 }
 
 // A variable must fit whichever object it takes; an object fits if one of its types does.
-void FormulaChecker::check_argument(const Term& term, const TypedName& parameter, const std::string& owner) {
+void FormulaChecker::check_argument(const Term& term, const TypedName& parameter, const Atom& atom,
+                                    std::string_view what) {
   const TypeTree& types = symbols_.types();
   bool fits = false;
   const std::vector<std::string>* given = nullptr;
@@ -60,42 +67,42 @@ void FormulaChecker::check_argument(const Term& term, const TypedName& parameter
       return;
     }
     given = &variable->types;
-    fits = types.accepts(parameter.types, *given);
+    fits = *given == parameter.types || types.accepts(parameter.types, *given);
   } else {
     given = symbols_.find_object_types(term.name);
     if (!given) {
       if (symbols_.unread().objects) return;
-      const bool has_variable = find_variable("?" + term.name);
+      const bool has_variable = is_bound("?" + term.name);
       findings_.add(term.where, "unknown object '" + term.name + "'",
                     has_variable
                         ? "did you mean the variable '?" + term.name + "'?"
                         : symbols_.remedy_for_object(term.name, "declare it in :objects or :constants"));
       return;
     }
-    fits = std::any_of(given->begin(), given->end(),
-                       [&](const std::string& type) { return types.accepts(parameter.types, {type}); });
+    fits = *given == parameter.types || std::ranges::any_of(*given, [&](const std::string& type) {
+      return types.is_any(type, parameter.types);
+    });
   }
   if (fits || symbols_.unread().types) return;
   const auto known = [&](const std::string& type) { return types.knows(type); };
   if (!std::ranges::all_of(*given, known) || !std::ranges::all_of(parameter.types, known))
     return;  // told where it is declared
   findings_.add(term.where,
-                "'" + term.name + "' is of type " + join(*given) + ", but " + owner + " takes " +
+                "'" + term.name + "' is of type " + join(*given) + ", but " + owner(atom, what) + " takes " +
                     join(parameter.types) + " here",
                 "use a term of that type");
 }
 
 void FormulaChecker::check_arguments(const Atom& atom, const Signature& signature, std::string_view what) {
-  const std::string owner = std::string(what) + " '" + atom.symbol + "'";
   if (atom.arguments.size() != signature.parameters.size()) {
     findings_.add(atom.where,
-                  owner + " has " + std::to_string(atom.arguments.size()) + " arguments, declared with " +
-                      std::to_string(signature.parameters.size()),
+                  owner(atom, what) + " has " + std::to_string(atom.arguments.size()) +
+                      " arguments, declared with " + std::to_string(signature.parameters.size()),
                   "write it as " + signature.name + " is declared");
     return;
   }
   for (std::size_t i = 0; i < atom.arguments.size(); ++i) {
-    check_argument(atom.arguments[i], signature.parameters[i], owner);
+    check_argument(atom.arguments[i], signature.parameters[i], atom, what);
   }
 }
 

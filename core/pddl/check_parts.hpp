@@ -1,10 +1,10 @@
 // This file is internal to core/pddl: it has the checks that domain and problem share.
 #pragma once
 
-#include <map>
-#include <set>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "core/pddl/ast.hpp"
@@ -36,7 +36,7 @@ struct ExpressionContext {
   bool continuous_time = false;  ///< #t
 };
 
-/// Knows everything declared, by name. It points into the domain, which must outlive it.
+/// Knows everything declared, by name. It points into the domain and the objects that are added, which must outlive it.
 class Symbols {
  public:
   /// Bounds the types of one object, all its declarations together.
@@ -54,20 +54,22 @@ class Symbols {
   std::string remedy_for_function(std::string_view name, std::string_view otherwise) const;
   std::string remedy_for_object(std::string_view name, std::string_view otherwise) const;
 
-  const Signature* find_predicate(const std::string& name) const;
-  const Signature* find_fluent(const std::string& name) const;
-  const Signature* find_external(const std::string& name) const;
+  const Signature* find_predicate(std::string_view name) const;
+  const Signature* find_fluent(std::string_view name) const;
+  const Signature* find_external(std::string_view name) const;
   /// Returns all types that an object was declared with, in one or several declarations, or null.
-  const std::vector<std::string>* find_object_types(const std::string& name) const;
-  bool is_derived(const std::string& name) const { return derived_.contains(name); }
+  const std::vector<std::string>* find_object_types(std::string_view name) const;
+  bool is_derived(std::string_view name) const { return derived_.contains(name); }
   const TypeTree& types() const { return types_; }
 
  private:
-  std::map<std::string, const Signature*> predicates_;
-  std::map<std::string, const Signature*> fluents_;
-  std::map<std::string, const Signature*> externals_;
-  std::map<std::string, std::vector<std::string>> objects_;
-  std::set<std::string> derived_;
+  using Signatures = std::unordered_map<std::string_view, const Signature*>;
+
+  Signatures predicates_;
+  Signatures fluents_;
+  Signatures externals_;
+  std::unordered_map<std::string_view, std::vector<std::string>> objects_;
+  std::unordered_set<std::string_view> derived_;
   TypeTree types_;
   Unread unread_;
 
@@ -96,13 +98,14 @@ class FormulaChecker {
 
  private:
   void check_arguments(const Atom& atom, const Signature& signature, std::string_view what);
-  void check_argument(const Term& term, const TypedName& parameter, const std::string& owner);
-  const TypedName* find_variable(const std::string& name) const;
+  void check_argument(const Term& term, const TypedName& parameter, const Atom& atom, std::string_view what);
+  bool is_bound(std::string_view name) const;
+  const TypedName* find_variable(std::string_view name) const;
   std::string remedy_for_variable(const std::string& name) const;
 
   const Symbols& symbols_;
   Findings& findings_;
-  std::map<std::string_view, std::vector<const TypedName*>> bound_;  // the innermost one last
+  std::vector<const TypedName*> bound_;  // the innermost one last
 };
 
 /// Reports every type of the names that nobody declared.

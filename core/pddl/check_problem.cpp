@@ -2,17 +2,17 @@
 #include "core/pddl/check_parts.hpp"
 #include "core/pddl/printer.hpp"
 #include "core/pddl/settle.hpp"
+#include "core/pddl/state_levels.hpp"
 
 namespace roci::pddl {
 
 namespace {
 
 void check_init(const Problem& problem, FormulaChecker& formulas, Findings& findings) {
-  std::set<std::string> facts;
-  for (const Atom& fact : problem.facts) {
-    formulas.check_basic_fact(fact);
-    facts.insert(print(fact));
-  }
+  for (const Atom& fact : problem.facts) formulas.check_basic_fact(fact);
+  std::set<std::string> facts;  // only if there is something to compare them with
+  if (!problem.false_facts.empty())
+    for (const Atom& fact : problem.facts) facts.insert(print(fact));
   for (const Atom& fact : problem.false_facts) {
     formulas.check_basic_fact(fact);
     if (facts.contains(print(fact))) {
@@ -27,6 +27,7 @@ void check_init(const Problem& problem, FormulaChecker& formulas, Findings& find
 }  // namespace
 
 std::vector<Diagnostic> check(const Problem& problem, const Domain& domain, const Unread& unread) {
+  if (auto findings = check_state_dependence(problem, domain); !findings.empty()) return findings;
   Findings findings(problem.file);
   if (problem.domain_name != domain.name) {
     findings.add(problem.where,

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include "core/pddl/check_parts.hpp"
 #include "core/words/nearest_word.hpp"
@@ -8,14 +9,17 @@ namespace roci::pddl {
 namespace {
 
 template <typename Map>
-typename Map::mapped_type find_in(const Map& map, const std::string& name) {
+typename Map::mapped_type find_in(const Map& map, std::string_view name) {
   const auto it = map.find(name);
   return it == map.end() ? nullptr : it->second;
 }
 
 template <typename Map>
 void offer_keys(const Map& map, words::NearestWord& near) {
-  for (const auto& [name, ignored] : map) near.offer(name);
+  std::vector<std::string_view> names;
+  for (const auto& [name, ignored] : map) names.push_back(name);
+  std::ranges::sort(names);  // the first of equally near ones is told
+  for (const std::string_view name : names) near.offer(name);
 }
 
 }  // namespace
@@ -47,7 +51,7 @@ std::string Symbols::remedy_for_type(std::string_view name, std::string_view oth
 std::string Symbols::remedy_for_predicate(std::string_view name, std::string_view otherwise) const {
   words::NearestWord near(name);
   if (may_compare()) offer_keys(predicates_, near);
-  if (near.found().empty() && find_fluent(std::string(name)))
+  if (near.found().empty() && find_fluent(name))
     return "it is a function: compare its value with a number; else " + std::string(otherwise);
   return near.remedy(otherwise);
 }
@@ -58,7 +62,7 @@ std::string Symbols::remedy_for_function(std::string_view name, std::string_view
     offer_keys(fluents_, near);
     offer_keys(externals_, near);
   }
-  if (near.found().empty() && find_predicate(std::string(name)))
+  if (near.found().empty() && find_predicate(name))
     return "it is a predicate and has no value; else " + std::string(otherwise);
   return near.remedy(otherwise);
 }
@@ -69,10 +73,10 @@ std::string Symbols::remedy_for_object(std::string_view name, std::string_view o
   return near.remedy(otherwise);
 }
 
-const Signature* Symbols::find_predicate(const std::string& name) const { return find_in(predicates_, name); }
-const Signature* Symbols::find_fluent(const std::string& name) const { return find_in(fluents_, name); }
-const Signature* Symbols::find_external(const std::string& name) const { return find_in(externals_, name); }
-const std::vector<std::string>* Symbols::find_object_types(const std::string& name) const {
+const Signature* Symbols::find_predicate(std::string_view name) const { return find_in(predicates_, name); }
+const Signature* Symbols::find_fluent(std::string_view name) const { return find_in(fluents_, name); }
+const Signature* Symbols::find_external(std::string_view name) const { return find_in(externals_, name); }
+const std::vector<std::string>* Symbols::find_object_types(std::string_view name) const {
   const auto it = objects_.find(name);
   return it == objects_.end() ? nullptr : &it->second;
 }
@@ -95,7 +99,7 @@ void check_types(const std::vector<TypedName>& names, const Symbols& symbols, Fi
 
 void check_variables(const std::vector<TypedName>& variables, const Symbols& symbols, Findings& findings) {
   check_types(variables, symbols, findings);
-  std::set<std::string> seen;
+  std::set<std::string_view> seen;
   for (const TypedName& variable : variables) {
     if (seen.insert(variable.name).second) continue;
     findings.add(variable.where, "variable '" + variable.name + "' is declared twice", "rename one");

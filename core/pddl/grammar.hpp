@@ -48,6 +48,9 @@ class Source {
   DiagnosticLog& log_;
 };
 
+/// Returns the word as a string of its own, for names and messages.
+inline std::string text(const Sexpr& s) { return std::string(s.word()); }
+
 /// Returns what follows the head of a list.
 std::span<const Sexpr> rest(const Sexpr& list, std::size_t skip = 1);
 

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <map>
+#include <utility>
 
 #include "core/pddl/grammar.hpp"
 #include "core/words/nearest_word.hpp"
@@ -18,68 +18,82 @@ class Fields {
       const Sexpr& key = items[i];
       if (std::ranges::count_if(known, [&](std::string_view name) { return key.is_word(name); }) == 0) {
         report_unknown(key, known);
-        if (!key.is_list && i + 1 < items.size() && items[i + 1].is_list) ++i;
+        if (!key.is_list() && i + 1 < items.size() && items[i + 1].is_list()) ++i;
         continue;
       }
       const bool has_value = i + 1 < items.size() && !is_keyword(items[i + 1]);
       if (!has_value) {
-        source.report(key.where, key.word + " without a value", "write a list after it");
+        source.report(key.where, text(key) + " without a value", "write a list after it");
         continue;
       }
-      if (!fields_.emplace(key.word, &items[++i]).second)
-        source.report(key.where, key.word + " stands twice", "keep one");
+      const Sexpr& value = items[++i];
+      if (find(key.word())) {
+        source.report(key.where, text(key) + " stands twice", "keep one");
+      } else {
+        fields_.emplace_back(key.word(), &value);
+      }
     }
   }
 
   // Reads the field, if there is one. Returns whether nothing is wrong with it.
   template <typename Read>
-  bool read(const std::string& key, Read read) const {
-    const auto it = fields_.find(key);
-    if (it == fields_.end()) return true;
-    return source_.attempt([&] { read(require_list(*it->second, "a list after " + key, source_)); });
+  bool read(std::string_view key, Read read) const {
+    const Sexpr* const value = find(key);
+    if (!value) return true;
+    return source_.attempt([&] {
+      if (!value->is_list()) require_list(*value, "a list after " + std::string(key), source_);
+      read(*value);
+    });
   }
 
-  bool has(const std::string& key) const { return fields_.contains(key); }
+  bool has(std::string_view key) const { return find(key) != nullptr; }
 
  private:
-  static bool is_keyword(const Sexpr& s) { return !s.is_list && s.word.front() == ':'; }
+  const Sexpr* find(std::string_view key) const {
+    for (const auto& [name, value] : fields_)
+      if (name == key) return value;
+    return nullptr;
+  }
+
+  static bool is_keyword(const Sexpr& s) { return !s.is_list() && s.word().front() == ':'; }
 
   void report_unknown(const Sexpr& key, std::initializer_list<std::string_view> known) const {
-    const std::string what = key.is_list ? "a list" : "'" + key.word + "'";
+    const std::string what = key.is_list() ? "a list" : "'" + text(key) + "'";
     std::string all;
     for (const std::string_view name : known) all += (all.empty() ? "" : " ") + std::string(name);
     source_.report(key.where, what + " where a keyword of the action is expected",
-                   words::nearest(key.word, known).remedy("known: " + all));
+                   words::nearest(key.word(), known).remedy("known: " + all));
   }
 
   const Source& source_;
-  std::map<std::string, const Sexpr*> fields_;
+  std::vector<std::pair<std::string_view, const Sexpr*>> fields_;
 };
 
 std::string read_action_name(const Sexpr& s, const Source& source) {
-  if (s.items.size() < 2) source.fail(s.where, "an action without a name", "write (:action NAME …)");
-  return read_name(s.items[1], "the name of an action", source);
+  if (s.items().size() < 2) source.fail(s.where, "an action without a name", "write (:action NAME …)");
+  return read_name(s.items()[1], "the name of an action", source);
 }
 
 void add_duration(const Sexpr& s, TimePoint at, std::vector<DurationConstraint>& out, const Source& source) {
   require_list(s, "a duration constraint", source);
   const std::string_view head = s.head();
-  if (s.items.empty()) return;
+  if (s.items().empty()) return;
   if (head == "and") {
     for (const Sexpr& item : rest(s)) source.attempt([&] { add_duration(item, at, out, source); });
     return;
   }
-  if (head == "at" && s.items.size() == 3 && (s.items[1].is_word("start") || s.items[1].is_word("end"))) {
-    return add_duration(s.items[2], s.items[1].is_word("start") ? TimePoint::start : TimePoint::end, out,
+  if (head == "at" && s.items().size() == 3 &&
+      (s.items()[1].is_word("start") || s.items()[1].is_word("end"))) {
+    return add_duration(s.items()[2], s.items()[1].is_word("start") ? TimePoint::start : TimePoint::end, out,
                         source);
   }
   const auto op = as_comparison(head);
   const bool allowed = op && *op != ComparisonOperator::less && *op != ComparisonOperator::greater;
-  if (!allowed || s.items.size() != 3 || !s.items[1].is_word("?duration")) {
+  if (!allowed || s.items().size() != 3 || !s.items()[1].is_word("?duration")) {
     source.fail(s.where, "not a duration constraint",
                 "write (= ?duration E), (<= ?duration E), (>= ?duration E) or their 'and'");
   }
-  out.push_back({*op, read_expression(s.items[2], source), at, s.where});
+  out.push_back({*op, read_expression(s.items()[2], source), at, s.where});
 }
 
 // What is left of an action whose parameters are not known: nothing in it could be checked.

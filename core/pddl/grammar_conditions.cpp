@@ -5,10 +5,10 @@ namespace roci::pddl::grammar {
 namespace {
 
 void require_parts(const Sexpr& s, std::size_t count, std::string_view form, const Source& source) {
-  if (s.items.size() == count + 1) return;
+  if (s.items().size() == count + 1) return;
   source.fail(s.where,
-              "'" + std::string(s.head()) + "' with " + std::to_string(s.items.size() - 1) + " parts, not " +
-                  std::to_string(count),
+              "'" + std::string(s.head()) + "' with " + std::to_string(s.items().size() - 1) +
+                  " parts, not " + std::to_string(count),
               "write " + std::string(form));
 }
 
@@ -21,13 +21,13 @@ std::vector<Condition> read_parts(const Sexpr& s, const Source& source) {
 // `=` between two plain names is about objects; with a list, a number or ?duration on a side it is about
 // numbers.
 bool is_numeric(const Sexpr& s) {
-  return s.is_list || as_number(s.word) || s.word == "?duration" || s.word == "#t";
+  return s.is_list() || as_number(s.word()) || s.word() == "?duration" || s.word() == "#t";
 }
 
 Condition read_comparison(const Sexpr& s, ComparisonOperator op, const Source& source) {
   require_parts(s, 2, "(" + std::string(s.head()) + " a b)", source);
-  const Sexpr& left = s.items[1];
-  const Sexpr& right = s.items[2];
+  const Sexpr& left = s.items()[1];
+  const Sexpr& right = s.items()[2];
   if (op == ComparisonOperator::equal && !is_numeric(left) && !is_numeric(right)) {
     Atom both = read_atom(s, "an equality", source);
     return {TermEquality{std::move(both.arguments[0]), std::move(both.arguments[1])}, s.where};
@@ -40,21 +40,21 @@ Condition read_comparison(const Sexpr& s, ComparisonOperator op, const Source& s
 Condition read_condition(const Sexpr& s, const Source& source) {
   require_list(s, "a condition", source);
   const std::string_view head = s.head();
-  if (s.items.empty()) return {And{}, s.where};
+  if (s.items().empty()) return {And{}, s.where};
   if (head == "and") return {And{read_parts(s, source)}, s.where};
   if (head == "or") return {Or{read_parts(s, source)}, s.where};
   if (head == "not") {
     require_parts(s, 1, "(not CONDITION)", source);
-    return {Not{read_condition(s.items[1], source)}, s.where};
+    return {Not{read_condition(s.items()[1], source)}, s.where};
   }
   if (head == "imply") {
     require_parts(s, 2, "(imply PREMISE CONCLUSION)", source);
-    return {Imply{read_condition(s.items[1], source), read_condition(s.items[2], source)}, s.where};
+    return {Imply{read_condition(s.items()[1], source), read_condition(s.items()[2], source)}, s.where};
   }
   if (head == "forall" || head == "exists") {
     require_parts(s, 2, "(" + std::string(head) + " (?x - TYPE …) CONDITION)", source);
-    auto variables = read_variables(s.items[1], source);
-    Box<Condition> body = read_condition(s.items[2], source);
+    auto variables = read_variables(s.items()[1], source);
+    Box<Condition> body = read_condition(s.items()[2], source);
     if (head == "forall") return {Forall{std::move(variables), std::move(body)}, s.where};
     return {Exists{std::move(variables), std::move(body)}, s.where};
   }
@@ -82,9 +82,9 @@ void add_timed(const Sexpr& s, PartsByTime& out, const Source& source);
 // Distributes the quantifier over the times: forall x (at start p) and (at end q) make two foralls.
 void add_forall(const Sexpr& s, PartsByTime& out, const Source& source) {
   require_parts(s, 2, "(forall (?x - TYPE …) CONDITION)", source);
-  const auto variables = read_variables(s.items[1], source);
+  const auto variables = read_variables(s.items()[1], source);
   PartsByTime inner;
-  add_timed(s.items[2], inner, source);
+  add_timed(s.items()[2], inner, source);
   const auto wrap = [&](std::vector<Condition> from, std::vector<Condition>& to) {
     if (!from.empty()) to.push_back({Forall{variables, conjunction(std::move(from), s.where)}, s.where});
   };
@@ -96,19 +96,19 @@ void add_forall(const Sexpr& s, PartsByTime& out, const Source& source) {
 void add_timed(const Sexpr& s, PartsByTime& out, const Source& source) {
   require_list(s, "a condition", source);
   const std::string_view head = s.head();
-  if (s.items.empty()) return;
+  if (s.items().empty()) return;
   if (head == "and") {
     for (const Sexpr& item : rest(s)) source.attempt([&] { add_timed(item, out, source); });
   } else if (head == "forall") {
     add_forall(s, out, source);
   } else if (head == "preference") {
     source.refuse(s.where, "preferences are not supported", "state it as a condition or a goal");
-  } else if (s.items.size() == 3 && head == "at" && s.items[1].is_word("start")) {
-    out.at_start.push_back(read_condition(s.items[2], source));
-  } else if (s.items.size() == 3 && head == "at" && s.items[1].is_word("end")) {
-    out.at_end.push_back(read_condition(s.items[2], source));
-  } else if (s.items.size() == 3 && head == "over" && s.items[1].is_word("all")) {
-    out.over_all.push_back(read_condition(s.items[2], source));
+  } else if (s.items().size() == 3 && head == "at" && s.items()[1].is_word("start")) {
+    out.at_start.push_back(read_condition(s.items()[2], source));
+  } else if (s.items().size() == 3 && head == "at" && s.items()[1].is_word("end")) {
+    out.at_end.push_back(read_condition(s.items()[2], source));
+  } else if (s.items().size() == 3 && head == "over" && s.items()[1].is_word("all")) {
+    out.over_all.push_back(read_condition(s.items()[2], source));
   } else {
     source.fail(s.where, "a condition of a durative action without a time",
                 "write (at start …), (over all …) or (at end …) around it");

@@ -17,40 +17,41 @@ std::optional<AssignmentOperator> as_assignment(std::string_view word) {
 }
 
 Effect read_assignment(const Sexpr& s, AssignmentOperator op, const Source& source) {
-  if (s.items.size() != 3) {
+  if (s.items().size() != 3) {
     source.fail(s.where, "'" + std::string(s.head()) + "' needs a function and a value",
                 "write (" + std::string(s.head()) + " (f …) VALUE)");
   }
-  return {Assignment{op, read_function(s.items[1], source), read_expression(s.items[2], source)}, s.where};
+  return {Assignment{op, read_function(s.items()[1], source), read_expression(s.items()[2], source)},
+          s.where};
 }
 
 void require_body(const Sexpr& s, std::string_view form, const Source& source) {
-  if (s.items.size() == 3) return;
+  if (s.items().size() == 3) return;
   source.fail(
       s.where,
-      "'" + std::string(s.head()) + "' effect with " + std::to_string(s.items.size() - 1) + " parts, not 2",
+      "'" + std::string(s.head()) + "' effect with " + std::to_string(s.items().size() - 1) + " parts, not 2",
       "write " + std::string(form));
 }
 
 void add_effects(const Sexpr& s, TimePoint moment, std::vector<Effect>& out, const Source& source) {
   require_list(s, "an effect", source);
   const std::string_view head = s.head();
-  if (s.items.empty()) return;
+  if (s.items().empty()) return;
   if (head == "and") {
     for (const Sexpr& item : rest(s)) source.attempt([&] { add_effects(item, moment, out, source); });
   } else if (head == "not") {
-    if (s.items.size() != 2) source.fail(s.where, "'not' needs one atom", "write (not (p …))");
-    out.push_back({Literal{read_atom(s.items[1], "an atom", source), true}, s.where});
+    if (s.items().size() != 2) source.fail(s.where, "'not' needs one atom", "write (not (p …))");
+    out.push_back({Literal{read_atom(s.items()[1], "an atom", source), true}, s.where});
   } else if (head == "forall") {
     require_body(s, "(forall (?x - TYPE …) EFFECT)", source);
-    auto variables = read_variables(s.items[1], source);
-    out.push_back({ForallEffect{std::move(variables), read_effects(s.items[2], moment, source)}, s.where});
+    auto variables = read_variables(s.items()[1], source);
+    out.push_back({ForallEffect{std::move(variables), read_effects(s.items()[2], moment, source)}, s.where});
   } else if (head == "when") {
     require_body(s, "(when CONDITION EFFECT)", source);
     When when;
     (moment == TimePoint::start ? when.condition.at_start : when.condition.at_end) =
-        read_condition(s.items[1], source);
-    when.effects = read_effects(s.items[2], moment, source);
+        read_condition(s.items()[1], source);
+    when.effects = read_effects(s.items()[2], moment, source);
     out.push_back({std::move(when), s.where});
   } else if (const auto op = as_assignment(head)) {
     out.push_back(read_assignment(s, *op, source));
@@ -77,31 +78,31 @@ void add_wrapped(DurativeEffects inner, DurativeEffects& out, Wrap wrap) {
 }
 
 bool mentions_continuous_time(const Sexpr& s) {
-  return s.is_word("#t") || std::any_of(s.items.begin(), s.items.end(), mentions_continuous_time);
+  return s.is_word("#t") || std::any_of(s.items().begin(), s.items().end(), mentions_continuous_time);
 }
 
 void add_durative(const Sexpr& s, DurativeEffects& out, const Source& source) {
   require_list(s, "an effect", source);
   const std::string_view head = s.head();
-  if (s.items.empty()) return;
+  if (s.items().empty()) return;
   if (head == "and") {
     for (const Sexpr& item : rest(s)) source.attempt([&] { add_durative(item, out, source); });
   } else if (head == "forall") {
     require_body(s, "(forall (?x - TYPE …) EFFECT)", source);
-    const auto variables = read_variables(s.items[1], source);
-    add_wrapped(read_durative_effects(s.items[2], source), out, [&](std::vector<Effect> effects) {
+    const auto variables = read_variables(s.items()[1], source);
+    add_wrapped(read_durative_effects(s.items()[2], source), out, [&](std::vector<Effect> effects) {
       return Effect{ForallEffect{variables, std::move(effects)}, s.where};
     });
   } else if (head == "when") {
     require_body(s, "(when CONDITION EFFECT)", source);
-    const TimedCondition condition = read_timed_condition(s.items[1], source);
-    add_wrapped(read_durative_effects(s.items[2], source), out, [&](std::vector<Effect> effects) {
+    const TimedCondition condition = read_timed_condition(s.items()[1], source);
+    add_wrapped(read_durative_effects(s.items()[2], source), out, [&](std::vector<Effect> effects) {
       return Effect{When{condition, std::move(effects)}, s.where};
     });
-  } else if (s.items.size() == 3 && head == "at" && s.items[1].is_word("start")) {
-    append(read_effects(s.items[2], TimePoint::start, source), out.at_start);
-  } else if (s.items.size() == 3 && head == "at" && s.items[1].is_word("end")) {
-    append(read_effects(s.items[2], TimePoint::end, source), out.at_end);
+  } else if (s.items().size() == 3 && head == "at" && s.items()[1].is_word("start")) {
+    append(read_effects(s.items()[2], TimePoint::start, source), out.at_start);
+  } else if (s.items().size() == 3 && head == "at" && s.items()[1].is_word("end")) {
+    append(read_effects(s.items()[2], TimePoint::end, source), out.at_end);
   } else if (const auto op = as_assignment(head); op && mentions_continuous_time(s)) {
     out.continuous.push_back(read_assignment(s, *op, source));
   } else {

@@ -22,7 +22,7 @@ std::optional<ArithmeticOperator> as_arithmetic(std::string_view word) {
 }
 
 Arithmetic read_arithmetic(const Sexpr& s, ArithmeticOperator op, const Source& source) {
-  const std::size_t count = s.items.size() - 1;
+  const std::size_t count = s.items().size() - 1;
   const bool many = op == ArithmeticOperator::add || op == ArithmeticOperator::multiply;
   const bool negation = op == ArithmeticOperator::subtract && count == 1;
   if (count < 2 && !negation) {
@@ -40,17 +40,17 @@ Arithmetic read_arithmetic(const Sexpr& s, ArithmeticOperator op, const Source& 
 }  // namespace
 
 Expression read_expression(const Sexpr& s, const Source& source) {
-  if (!s.is_list) {
-    if (const auto number = as_number(s.word)) return {Number{*number}, s.where};
-    if (s.word == "?duration") return {DurationVariable{}, s.where};
-    if (s.word == "total-time") return {TotalTime{}, s.where};
-    if (s.word == "#t") return {ContinuousTime{}, s.where};
+  if (!s.is_list()) {
+    if (const auto number = as_number(s.word())) return {Number{*number}, s.where};
+    if (s.word() == "?duration") return {DurationVariable{}, s.where};
+    if (s.word() == "total-time") return {TotalTime{}, s.where};
+    if (s.word() == "#t") return {ContinuousTime{}, s.where};
     return {read_function(s, source), s.where};
   }
   if (as_arithmetic(s.head())) {
     return {read_arithmetic(s, *as_arithmetic(s.head()), source), s.where};
   }
-  if (s.head() == "total-time" && s.items.size() == 1) return {TotalTime{}, s.where};
+  if (s.head() == "total-time" && s.items().size() == 1) return {TotalTime{}, s.where};
   if (s.head() == "is-violated") {
     source.refuse(s.where, "preferences are not supported", "remove 'is-violated' from the metric");
   }

@@ -24,30 +24,32 @@ void Source::warn(Departure departure, SourceLocation where, std::string message
 }
 
 std::span<const Sexpr> rest(const Sexpr& list, std::size_t skip) {
-  return std::span(list.items).subspan(std::min(skip, list.items.size()));
+  return list.items().subspan(std::min(skip, list.items().size()));
 }
 
 std::string read_name(const Sexpr& s, std::string_view what, const Source& source) {
-  const std::string wanted(what);
-  if (s.is_list) source.fail(s.where, wanted + " expected, found a list", "write a name");
-  const char first = s.word.front();
-  if (first == '?') source.fail(s.where, wanted + " expected, found the variable " + s.word, "write a name");
-  if (first == ':') source.fail(s.where, wanted + " expected, found the keyword " + s.word, "write a name");
-  if (s.word == "-") source.fail(s.where, wanted + " expected, found '-'", "write a name");
-  return s.word;
+  const auto fail = [&](const std::string& found) {
+    source.fail(s.where, std::string(what) + " expected, found " + found, "write a name");
+  };
+  if (s.is_list()) fail("a list");
+  const char first = s.word().front();
+  if (first == '?') fail("the variable " + text(s));
+  if (first == ':') fail("the keyword " + text(s));
+  if (s.word() == "-") fail("'-'");
+  return text(s);
 }
 
 double read_number(const Sexpr& s, std::string_view what, const Source& source) {
-  if (!s.is_list) {
-    if (const auto number = as_number(s.word)) return *number;
+  if (!s.is_list()) {
+    if (const auto number = as_number(s.word())) return *number;
   }
-  const std::string found = s.is_list ? "a list" : "'" + s.word + "'";
+  const std::string found = s.is_list() ? "a list" : "'" + text(s) + "'";
   source.fail(s.where, std::string(what) + " expected, found " + found, "write a finite decimal number");
 }
 
 const Sexpr& require_list(const Sexpr& s, std::string_view what, const Source& source) {
-  if (!s.is_list) {
-    source.fail(s.where, std::string(what) + " expected, found '" + s.word + "'", "write it in parentheses");
+  if (!s.is_list()) {
+    source.fail(s.where, std::string(what) + " expected, found '" + text(s) + "'", "write it in parentheses");
   }
   return s;
 }
@@ -59,11 +61,11 @@ constexpr std::size_t kMostAlternatives = 200;
 
 // Reads `t` or `(either t u …)`.
 std::vector<std::string> read_type(const Sexpr& s, const Source& source) {
-  if (!s.is_list) return {read_name(s, "a type", source)};
-  if (s.head() != "either" || s.items.size() < 2) {
+  if (!s.is_list()) return {read_name(s, "a type", source)};
+  if (s.head() != "either" || s.items().size() < 2) {
     source.fail(s.where, "a type expected, found a list", "write a name or (either a b)");
   }
-  if (s.items.size() > kMostAlternatives + 1) {
+  if (s.items().size() > kMostAlternatives + 1) {
     source.fail(s.where, "'either' with more than " + std::to_string(kMostAlternatives) + " types",
                 "declare a type above them");
   }
@@ -114,19 +116,19 @@ std::vector<std::string> read_type(const Sexpr& s, const Source& source) {
 }
 
 Term read_term(const Sexpr& s, const Atom& owner, const Source& source) {
-  if (s.is_list) fail_for_list(s, owner, source);
-  if (s.word.front() == '?') {
-    if (s.word.size() == 1) source.fail(s.where, "a variable without a name", "write ?x");
-    return {s.word, s.where};
+  if (s.is_list()) fail_for_list(s, owner, source);
+  if (s.word().front() == '?') {
+    if (s.word().size() == 1) source.fail(s.where, "a variable without a name", "write ?x");
+    return {text(s), s.where};
   }
   return {read_name(s, "an object or variable", source), s.where};
 }
 
 // Whether items[i] is "a-" with a type behind it, as it stands in typed lists.
 bool has_glued_hyphen(std::span<const Sexpr> items, std::size_t i) {
-  return !items[i].is_list && items[i].word.size() > 1 && items[i].word.back() == '-' &&
+  return !items[i].is_list() && items[i].word().size() > 1 && items[i].word().back() == '-' &&
          i + 1 < items.size() && !items[i + 1].is_word("-") &&
-         (items[i + 1].is_list || items[i + 1].word.front() != '?');
+         (items[i + 1].is_list() || items[i + 1].word().front() != '?');
 }
 
 // Takes "a- t" apart into a, - and t.
@@ -136,14 +138,13 @@ std::vector<Sexpr> with_hyphens_apart(std::span<const Sexpr> items, const Source
   for (std::size_t i = 0; i < items.size(); ++i) {
     apart.push_back(items[i]);
     if (!has_glued_hyphen(items, i)) continue;
-    Sexpr hyphen;
-    hyphen.word = "-";
-    hyphen.where = items[i].where;
-    hyphen.where.column += static_cast<int>(items[i].word.size()) - 1;
-    source.warn(Departure::hyphen, hyphen.where, "'-' without a blank before it is read as if there were one",
+    const std::string_view name = items[i].word().substr(0, items[i].word().size() - 1);
+    SourceLocation where = items[i].where;
+    where.column += static_cast<int>(name.size());
+    source.warn(Departure::hyphen, where, "'-' without a blank before it is read as if there were one",
                 "write NAME - TYPE");
-    apart.back().word.pop_back();
-    apart.push_back(std::move(hyphen));
+    apart.back() = Sexpr::word_at(name, items[i].where);
+    apart.push_back(Sexpr::word_at("-", where));
   }
   return apart;
 }
@@ -154,10 +155,7 @@ std::vector<TypedName> read_names(std::span<const Sexpr> items, std::string_view
   for (std::size_t i = 0; i < items.size(); ++i) {
     source.attempt([&] {
       if (!items[i].is_word("-")) {
-        TypedName name;
-        name.name = read_name(items[i], what, source);
-        name.where = items[i].where;
-        names.push_back(std::move(name));
+        names.push_back({read_name(items[i], what, source), {}, items[i].where});
         return;
       }
       if (i + 1 == items.size())
@@ -170,6 +168,7 @@ std::vector<TypedName> read_names(std::span<const Sexpr> items, std::string_view
       for (std::size_t name = first; name < names.size(); ++name) names[name].types = types;
     });
   }
+  for (; untyped < names.size(); ++untyped) names[untyped].types = {"object"};
   return names;
 }
 
@@ -186,13 +185,13 @@ std::vector<TypedName> read_variables(std::span<const Sexpr> items, const Source
   std::vector<Sexpr> bare = with_hyphens_apart(items, source);  // without question marks, to be read as names
   bool type_next = false;
   for (Sexpr& item : bare) {
-    if (!item.is_list && item.word != "-" && !type_next) {
-      if (item.word.front() == '?' && item.word.size() > 1) {
-        item.word.erase(0, 1);
+    if (!item.is_list() && item.word() != "-" && !type_next) {
+      if (item.word().front() == '?' && item.word().size() > 1) {
+        item = Sexpr::word_at(item.word().substr(1), item.where);
       } else {
-        source.report(item.where, "a variable expected, found '" + item.word + "'",
-                      item.word == "?" ? "write ?x" : "variables begin with '?': write ?" + item.word);
-        if (item.word == "?") item.word = "x";  // is not used: there is an error
+        source.report(item.where, "a variable expected, found '" + text(item) + "'",
+                      item.word() == "?" ? "write ?x" : "variables begin with '?': write ?" + text(item));
+        if (item.word() == "?") item = Sexpr::word_at("x", item.where);  // is not used: there is an error
       }
     }
     type_next = item.is_word("-");
@@ -203,32 +202,33 @@ std::vector<TypedName> read_variables(std::span<const Sexpr> items, const Source
 }
 
 std::vector<TypedName> read_variables(const Sexpr& list, const Source& source) {
-  return read_variables(require_list(list, "a list of variables", source).items, source);
+  return read_variables(require_list(list, "a list of variables", source).items(), source);
 }
 
 Atom read_atom(const Sexpr& s, std::string_view what, const Source& source) {
   require_list(s, what, source);
-  if (s.items.empty())
+  if (s.items().empty())
     source.fail(s.where, std::string(what) + " expected, found ()", "write (NAME ARGUMENT …)");
   Atom atom;
   atom.where = s.where;
-  atom.symbol = read_name(s.items.front(), what, source);
+  atom.symbol = read_name(s.items().front(), what, source);
+  atom.arguments.reserve(rest(s).size());
   for (const Sexpr& item : rest(s)) atom.arguments.push_back(read_term(item, atom, source));
   return atom;
 }
 
 Atom read_function(const Sexpr& s, const Source& source) {
-  if (s.is_list) return read_atom(s, "a number or a function", source);
+  if (s.is_list()) return read_atom(s, "a number or a function", source);
   return {read_name(s, "a number or a function", source), {}, s.where};
 }
 
 Signature read_signature(const Sexpr& s, std::string_view what, const Source& source) {
   require_list(s, what, source);
-  if (s.items.empty())
+  if (s.items().empty())
     source.fail(s.where, std::string(what) + " expected, found ()", "write (NAME ?x - TYPE …)");
   Signature signature;
   signature.where = s.where;
-  signature.name = read_name(s.items.front(), what, source);
+  signature.name = read_name(s.items().front(), what, source);
   signature.parameters = read_variables(rest(s), source);
   return signature;
 }
@@ -245,8 +245,8 @@ std::vector<Signature> read_functions(std::span<const Sexpr> items, const Source
       if (i + 1 == items.size()) source.fail(items[i].where, "'-' without a type after it", "write - number");
       const Sexpr& type = items[++i];
       if (type.is_word("number")) return;
-      if (!type.is_list && std::ranges::count(kNumbers, type.word) > 0) {
-        source.warn(Departure::number_type, type.where, "'" + type.word + "' is read as 'number'",
+      if (!type.is_list() && std::ranges::count(kNumbers, type.word()) > 0) {
+        source.warn(Departure::number_type, type.where, "'" + text(type) + "' is read as 'number'",
                     "write - number, or nothing");
         return;
       }

@@ -15,15 +15,36 @@ constexpr std::array<std::string_view, 6> kOddBlanks = {"\xc2\xa0",     "\xe2\x8
 constexpr std::array<std::string_view, 4> kOddDashes = {"\xe2\x80\x90", "\xe2\x80\x93", "\xe2\x80\x94",
                                                         "\xe2\x88\x92"};
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v'; }
+enum class Class : unsigned char {
+  other,
+  word,
+  blank,
+  line_feed,
+  carriage_return,
+  parenthesis,
+  comment,
+  comma
+};
 
-bool is_word_character(char c) {
-  return c > ' ' && c < '\x7f' && c != '(' && c != ')' && c != ';' && c != ',';
+constexpr std::array<Class, 256> classes() {
+  std::array<Class, 256> all{};
+  for (std::size_t c = ' ' + 1; c < 0x7f; ++c) all[c] = Class::word;
+  for (const char c : {' ', '\t', '\f', '\v'}) all[static_cast<unsigned char>(c)] = Class::blank;
+  all['\n'] = Class::line_feed;
+  all['\r'] = Class::carriage_return;
+  all['('] = all[')'] = Class::parenthesis;
+  all[';'] = Class::comment;
+  all[','] = Class::comma;
+  return all;
 }
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+constexpr std::array<Class, 256> kClasses = classes();
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+Class class_of(char c) { return kClasses[static_cast<unsigned char>(c)]; }
+
+bool is_word_character(char c) { return class_of(c) == Class::word; }
+
+bool is_letter(char c) { return c >= 'a' && c <= 'z'; }
 
 std::string describe_byte(char c) {
   static constexpr char kHex[] = "0123456789abcdef";
@@ -33,27 +54,29 @@ std::string describe_byte(char c) {
 
 }  // namespace
 
-Lexer::Lexer(std::string_view text, DiagnosticLog& log)
-    : text_(text), log_(log), cr_ends_lines_(text.find('\n') == std::string_view::npos) {
+Lexer::Lexer(std::span<char> text, DiagnosticLog& log)
+    : text_(text),
+      log_(log),
+      cr_ends_lines_(std::string_view(text.data(), text.size()).find('\n') == std::string_view::npos) {
   if (starts_with("\xff\xfe") || starts_with("\xfe\xff")) {
-    log_.error(here_, "the text is UTF-16", "save the file as UTF-8 or ASCII");
+    log_.error(here(), "the text is UTF-16", "save the file as UTF-8 or ASCII");
     log_.throw_errors();
   }
   if (!starts_with(kByteOrderMark)) return;
-  log_.warn(Departure::byte_order_mark, here_, "a byte order mark before the text is passed over",
+  log_.warn(Departure::byte_order_mark, here(), "a byte order mark before the text is passed over",
             "save the file without it");
-  next_ += kByteOrderMark.size();
+  line_begin_ = next_ = kByteOrderMark.size();
 }
 
 Token Lexer::next() {
   Token token;
   skip_blank();
-  token.where = here_;
+  token.where = here();
   if (at_end()) return token;
   check_place(token);
-  if (peek() == '(' || peek() == ')') {
-    token.kind = peek() == '(' ? Token::Kind::open : Token::Kind::close;
-    advance();
+  if (class_of(text_[next_]) == Class::parenthesis) {
+    token.kind = text_[next_] == '(' ? Token::Kind::open : Token::Kind::close;
+    ++next_;
   } else {
     token.kind = Token::Kind::word;
     read_word(token);
@@ -62,27 +85,49 @@ Token Lexer::next() {
 }
 
 void Lexer::check_place(Token& token) {
-  token.first_in_line = here_.line != line_of_last_token_;
-  if (token.first_in_line) indentation_ = here_.column;
-  line_of_last_token_ = here_.line;
+  token.first_in_line = line_ != line_of_last_token_;
+  if (token.first_in_line) indentation_ = token.where.column;
+  line_of_last_token_ = line_;
   token.indentation = indentation_;
+}
+
+void Lexer::end_line() {
+  ++next_;
+  ++line_;
+  line_begin_ = next_;
 }
 
 void Lexer::skip_blank() {
   while (!at_end()) {
-    if (peek() == ';') {
-      while (!at_end() && !at_line_end()) advance();
-    } else if (is_blank(peek())) {
-      advance();
-    } else if (peek() == ',') {
-      log_.warn(Departure::comma, here_, "a comma is read as a blank",
-                "PDDL separates by blanks: take it away");
-      advance();
-    } else if (is_word_character(peek()) || peek() == '(' || peek() == ')') {
-      return;
-    } else if (!skip_odd_blank()) {
-      if (odd_dash() > 0) return;
-      report_bytes();
+    switch (class_of(text_[next_])) {
+      case Class::blank:
+        ++next_;
+        break;
+      case Class::line_feed:
+        end_line();
+        break;
+      case Class::carriage_return:
+        if (cr_ends_lines_) {
+          end_line();
+        } else {
+          ++next_;
+        }
+        break;
+      case Class::comment:
+        next_ = std::min(rest().find(cr_ends_lines_ ? '\r' : '\n'), length() - next_) + next_;
+        break;
+      case Class::comma:
+        log_.warn(Departure::comma, here(), "a comma is read as a blank",
+                  "PDDL separates by blanks: take it away");
+        ++next_;
+        break;
+      case Class::word:
+      case Class::parenthesis:
+        return;
+      case Class::other:
+        if (skip_odd_blank()) break;
+        if (odd_dash() > 0) return;
+        report_bytes();
     }
   }
 }
@@ -90,9 +135,9 @@ void Lexer::skip_blank() {
 bool Lexer::skip_odd_blank() {
   for (const std::string_view blank : kOddBlanks) {
     if (!starts_with(blank)) continue;
-    log_.warn(Departure::odd_character, here_, "a blank beyond ASCII is read as a blank",
+    log_.warn(Departure::odd_character, here(), "a blank beyond ASCII is read as a blank",
               "write plain blanks");
-    advance(blank.size());
+    next_ += blank.size();
     return true;
   }
   return false;
@@ -107,38 +152,39 @@ std::size_t Lexer::odd_dash() const {
 
 // Passes over a run of bytes that no word is made of.
 void Lexer::report_bytes() {
-  log_.error(here_, describe_byte(peek()) + " outside of a comment", "PDDL names are plain ASCII");
-  while (!at_end() && !is_blank(peek()) && !is_word_character(peek()) && peek() != '(' && peek() != ')' &&
-         peek() != ';' && peek() != ',' && odd_dash() == 0)
-    advance();
+  log_.error(here(), describe_byte(peek()) + " outside of a comment", "PDDL names are plain ASCII");
+  while (!at_end() && class_of(text_[next_]) == Class::other && odd_dash() == 0) ++next_;
 }
 
 void Lexer::read_word(Token& token) {
   if (const std::size_t dash = odd_dash(); dash > 0) {
-    log_.warn(Departure::odd_character, here_, "a dash beyond ASCII is read as '-'", "write a plain '-'");
-    advance(dash);
+    log_.warn(Departure::odd_character, here(), "a dash beyond ASCII is read as '-'", "write a plain '-'");
+    next_ += dash;
     token.word = "-";
     return;
   }
-  if (peek() == '-' && is_letter(peek(1))) {
-    log_.warn(Departure::hyphen, here_, "'-' without a blank behind it is read as if there were one",
+  const char* const begin = text_.data() + next_;
+  if (*begin == '-' && is_letter(begin[1])) {
+    log_.warn(Departure::hyphen, here(), "'-' without a blank behind it is read as if there were one",
               "write NAME - TYPE");
     token.word = "-";
-    return advance();
-  }
-  const std::size_t begin = next_;
-  std::size_t end = begin + 1;  // a '?' in front is part of the word
-  while (end < text_.size() && is_word_character(text_[end]) && text_[end] != '?') ++end;
-  const bool too_long = end - begin > kMaxWord;
-  token.word.assign(text_, begin, std::min(end - begin, kMaxWord));
-  for (char& c : token.word) c = lower(c);
-  next_ = end;  // a word has no end of line in it
-  here_.column += static_cast<int>(end - begin);
-  if (peek() == '?') {
-    log_.warn(Departure::question_mark, here_, "a blank is missing before '?'", "write the blank");
+    ++next_;
     return;
   }
-  if (too_long) {
+  const char* end = begin + 1;  // a '?' in front is part of the word
+  while (is_word_character(*end) && *end != '?')
+    ++end;  // the text ends with a '\0', which is no such character
+  const auto size = static_cast<std::size_t>(end - begin);
+  token.word = {begin, std::min(size, kMaxWord)};
+  next_ += size;  // a word has no end of line in it
+  if (class_of(*end) == Class::blank || class_of(*end) == Class::parenthesis) {
+    if (size <= kMaxWord && token.word != "?") return;
+  }
+  if (peek() == '?') {
+    log_.warn(Departure::question_mark, here(), "a blank is missing before '?'", "write the blank");
+    return;
+  }
+  if (size > kMaxWord) {
     log_.error(token.where, "a name of more than " + std::to_string(kMaxWord) + " characters",
                "shorten it; it was read up to there");
   }
@@ -153,26 +199,15 @@ void Lexer::join_question_mark(Token& token) {
   if (ahead == 0 || !is_letter(peek(ahead))) return;
   log_.warn(Departure::question_mark, token.where, "a blank behind '?' is passed over",
             "write the name of a variable together with its '?'");
-  advance(ahead);
-  while (!at_end() && is_word_character(peek()) && peek() != '?' && token.word.size() < kMaxWord) {
-    token.word += lower(peek());
-    advance();
+  next_ += ahead;
+  char* const begin = text_.data() + next_ - 1;  // the last of the blanks
+  *begin = '?';
+  std::size_t size = 1;
+  while (is_word_character(peek()) && peek() != '?' && size < kMaxWord) {
+    ++size;
+    ++next_;
   }
-}
-
-void Lexer::advance() {
-  const bool line_ends = at_line_end();
-  ++next_;
-  if (line_ends) {
-    ++here_.line;
-    here_.column = 1;
-  } else {
-    ++here_.column;
-  }
-}
-
-void Lexer::advance(std::size_t bytes) {
-  for (; bytes > 0; --bytes) advance();
+  token.word = {begin, size};
 }
 
 }  // namespace roci::pddl

@@ -17,32 +17,32 @@ struct Value {
 };
 
 Value read_value(const Sexpr& s, const Source& source) {
-  if (s.items.size() != 3)
+  if (s.items().size() != 3)
     source.fail(s.where, "'=' needs a function and a number", "write (= (f …) NUMBER)");
-  return {read_function(s.items[1], source), read_number(s.items[2], "a number", source)};
+  return {read_function(s.items()[1], source), read_number(s.items()[2], "a number", source)};
 }
 
 Literal read_literal(const Sexpr& s, const Source& source) {
   if (s.head() != "not") return {read_atom(s, "a fact", source), false};
-  if (s.items.size() != 2) source.fail(s.where, "'not' needs one fact", "write (not (p …))");
-  return {read_atom(s.items[1], "a fact", source), true};
+  if (s.items().size() != 2) source.fail(s.where, "'not' needs one fact", "write (not (p …))");
+  return {read_atom(s.items()[1], "a fact", source), true};
 }
 
 // Tells a timed fact, (at NUMBER FACT), from the atom of a predicate named `at`.
 bool is_timed(const Sexpr& s) {
-  return s.head() == "at" && s.items.size() == 3 && s.items[2].is_list && !s.items[1].is_list &&
-         as_number(s.items[1].word);
+  return s.head() == "at" && s.items().size() == 3 && s.items()[2].is_list() && !s.items()[1].is_list() &&
+         as_number(s.items()[1].word());
 }
 
 void read_timed(const Sexpr& s, Problem& problem, const Source& source) {
-  const double time = read_number(s.items[1], "a time", source);
+  const double time = read_number(s.items()[1], "a time", source);
   if (time < 0)
-    source.fail(s.items[1].where, "a fact at a time before 0", "times count from the problem's start");
-  if (s.items[2].head() == "=") {
-    Value value = read_value(s.items[2], source);
+    source.fail(s.items()[1].where, "a fact at a time before 0", "times count from the problem's start");
+  if (s.items()[2].head() == "=") {
+    Value value = read_value(s.items()[2], source);
     problem.timed_values.push_back({time, std::move(value.fluent), value.value, s.where});
   } else {
-    problem.timed_literals.push_back({time, read_literal(s.items[2], source), s.where});
+    problem.timed_literals.push_back({time, read_literal(s.items()[2], source), s.where});
   }
 }
 
@@ -60,20 +60,20 @@ void read_fact(const Sexpr& s, Problem& problem, const Source& source) {
 }
 
 Metric read_metric(const Sexpr& s, const Source& source) {
-  if (s.items.size() != 3 || !(s.items[1].is_word("minimize") || s.items[1].is_word("maximize"))) {
+  if (s.items().size() != 3 || !(s.items()[1].is_word("minimize") || s.items()[1].is_word("maximize"))) {
     source.fail(s.where, "not a metric",
                 "write (:metric minimize EXPRESSION) or (:metric maximize EXPRESSION)");
   }
-  const auto sense = s.items[1].is_word("minimize") ? Metric::Sense::minimize : Metric::Sense::maximize;
-  return {sense, read_expression(s.items[2], source), s.where};
+  const auto sense = s.items()[1].is_word("minimize") ? Metric::Sense::minimize : Metric::Sense::maximize;
+  return {sense, read_expression(s.items()[2], source), s.where};
 }
 
 const Sexpr& only_part(const Sexpr& s, std::string_view what, const Source& source) {
-  if (s.items.size() != 2) {
+  if (s.items().size() != 2) {
     source.fail(s.where, std::string(s.head()) + " needs one " + std::string(what),
                 "write (" + std::string(s.head()) + " …)");
   }
-  return s.items[1];
+  return s.items()[1];
 }
 
 struct Seen {
@@ -140,7 +140,8 @@ void require_sections(const Seen& seen, SourceLocation where, const Source& sour
 
 Problem read_problem(std::string_view text, DiagnosticLog& log, Unread& unread) {
   const Source source(log);
-  const Sexpr s = read_sexpr(text, "problem", log);
+  const SexprTree tree = read_sexpr(text, "problem", log);
+  const Sexpr& s = tree.root();
   Problem problem;
   problem.file = source.file();
   problem.where = s.where;

@@ -15,9 +15,16 @@ std::string print_number(double value) {
 }
 
 std::string print(const Atom& atom) {
-  std::string text = "(" + atom.symbol;
-  for (const Term& term : atom.arguments) text += " " + term.name;
-  return text + ")";
+  std::string text;
+  text.reserve(64);  // of most atoms
+  text += '(';
+  text += atom.symbol;
+  for (const Term& term : atom.arguments) {
+    text += ' ';
+    text += term.name;
+  }
+  text += ')';
+  return text;
 }
 
 std::string print(const Literal& literal) {

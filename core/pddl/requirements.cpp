@@ -40,7 +40,7 @@ const std::vector<Flag>& flags() {
 // Walks a tree and keeps the first place at which each flag is needed.
 class Needs {
  public:
-  void need(std::string_view flag, SourceLocation where) { first_.emplace(flag, where); }
+  void need(std::string_view flag, SourceLocation where) { first_.try_emplace(flag, where); }
 
   void types_of(const std::vector<TypedName>& names) {
     for (const TypedName& name : names)

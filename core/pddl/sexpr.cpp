@@ -31,22 +31,27 @@ std::string describe(SourceLocation where) {
   return "line " + std::to_string(where.line) + ", column " + std::to_string(where.column);
 }
 
+std::string_view head_of(std::span<const Sexpr> items) {
+  return items.empty() ? std::string_view() : items.front().word();
+}
+
 // "(:action go" as it begins.
-std::string beginning(const Sexpr& list) {
-  std::string text = "(" + std::string(list.head());
-  if (list.items.size() > 1 && !list.items[1].is_list && list.head().starts_with(':'))
-    text += " " + list.items[1].word;
+std::string beginning(std::span<const Sexpr> items) {
+  const std::string_view head = head_of(items);
+  std::string text = "(" + std::string(head);
+  if (items.size() > 1 && !items[1].is_list() && head.starts_with(':'))
+    text += " " + std::string(items[1].word());
   return text;
 }
 
 class Reader {
  public:
   Reader(std::string_view text, std::string_view kind, DiagnosticLog& log)
-      : lexer_(text, log), kind_(kind), log_(log) {}
+      : tree_(text), lexer_(tree_.text(), log), kind_(kind), log_(log) {}
 
   // Keeps the open lists on a stack of its own, so that hostile nesting meets the limit and not the machine's
   // stack.
-  Sexpr read() {
+  SexprTree read() {
     Token token = lexer_.next();
     for (; token.kind != Token::Kind::end; token = lexer_.next()) {
       if (token.kind == Token::Kind::open) {
@@ -54,7 +59,7 @@ class Reader {
       } else if (token.kind == Token::Kind::close) {
         close(token);
       } else {
-        add_word(std::move(token));
+        add_word(token);
       }
     }
     if (!open_.empty()) report_unclosed();
@@ -62,12 +67,14 @@ class Reader {
     if (lists_.empty() && log_.errors() == 0)
       log_.error(token.where, "empty input", "the file is one list: (define …)");
     if (lists_.empty()) log_.throw_errors();
-    return definition();
+    tree_.set_root(definition());
+    return std::move(tree_);
   }
 
  private:
   struct Open {
-    Sexpr list;
+    SourceLocation where;
+    std::size_t first = 0;  // of its parts in parts_
     bool first_in_line = false;
     int indentation = 0;
   };
@@ -77,107 +84,116 @@ class Reader {
     SourceLocation unclosed;
   };
 
+  // The parts that an open list has so far, without those that are open themselves.
+  std::span<const Sexpr> parts(std::size_t open) const {
+    const std::size_t end = open + 1 < open_.size() ? open_[open + 1].first : parts_.size();
+    return std::span(parts_).subspan(open_[open].first, end - open_[open].first);
+  }
+  std::span<const Sexpr> innermost_parts() const { return std::span(parts_).subspan(open_.back().first); }
+
   void open(const Token& token) {
     if (open_.size() >= kMaxNesting) {
       log_.error(token.where, "parentheses are nested deeper than " + std::to_string(kMaxNesting),
                  "flatten the formula");
       log_.throw_errors();
     }
-    if (open_.size() > 1 && !misfit_ && token.first_in_line && stands_before(token, open_.back()))
-      misfit_ = Misfit{token.where, open_.back().list.where};
-    Open list;
-    list.list.is_list = true;
-    list.list.where = token.where;
-    list.first_in_line = token.first_in_line;
-    list.indentation = token.indentation;
-    open_.push_back(std::move(list));
+    if (open_.size() > 1 && !misfit_ && token.first_in_line && stands_before_innermost(token))
+      misfit_ = Misfit{token.where, open_.back().where};
+    open_.push_back({token.where, parts_.size(), token.first_in_line, token.indentation});
   }
 
   // Whether a list at the beginning of its line stands further left than one that it is part of, or right below one that
   // has parts in its own line. Sections are often not indented at all.
-  static bool stands_before(const Token& token, const Open& outer) {
-    const Sexpr& list = outer.list;
-    if (!outer.first_in_line || token.where.column > list.where.column) return false;
-    if (token.where.column < list.where.column) return true;
-    return list.items.size() > 1 && list.items[1].where.line == list.where.line &&
-           !list.head().starts_with(':');
+  bool stands_before_innermost(const Token& token) const {
+    const Open& outer = open_.back();
+    if (!outer.first_in_line || token.where.column > outer.where.column) return false;
+    if (token.where.column < outer.where.column) return true;
+    const std::span<const Sexpr> items = innermost_parts();
+    return items.size() > 1 && items[1].where.line == outer.where.line && !head_of(items).starts_with(':');
   }
 
   void close(const Token& token) {
     if (open_.empty()) return lists_.empty() ? report_early_close(token) : report_outside(token.where);
     if (open_.size() > 1 && !misfit_ && token.first_in_line && token.where.column < open_.back().indentation)
-      misfit_ = Misfit{token.where, open_.back().list.where};
+      misfit_ = Misfit{token.where, open_.back().where};
     close_innermost(token.where);
   }
 
   void close_innermost(SourceLocation where) {
-    Sexpr done = std::move(open_.back().list);
+    const Open done = open_.back();
     open_.pop_back();
-    done.closed = where;
-    (open_.empty() ? lists_ : open_.back().list.items).push_back(std::move(done));
+    const Sexpr list = Sexpr::list_at(tree_.keep(std::span(parts_).subspan(done.first)), done.where, where);
+    parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(done.first), parts_.end());
+    (open_.empty() ? lists_ : parts_).push_back(list);
   }
 
-  void add_word(Token token) {
+  void add_word(const Token& token) {
     if (open_.empty()) return report_outside(token.where);
-    const bool is_head = open_.back().list.items.empty();
     if (token.word.front() == ':') {
+      const bool is_head = open_.back().first == parts_.size();
       if (is_head && is_one_of(kSections, token.word)) begin_section(token.word);
       if (open_.size() == 1 && is_one_of(kFields, token.word)) reopen_action(token);
     }
-    Sexpr word;
-    word.word = std::move(token.word);
-    word.where = token.where;
-    open_.back().list.items.push_back(std::move(word));
+    parts_.push_back(Sexpr::word_at(token.word, token.where));
   }
 
-  // The innermost list turns out to be a section. Brings it to its place, right in (define …).
-  void begin_section(const std::string& keyword) {
+  // The innermost list turns out to be a section, and has no parts yet. Brings it to its place, right in (define …).
+  void begin_section(std::string_view keyword) {
     if (open_.size() == 1) {
       reopen_definition(keyword);
-    } else if (open_.size() > 2 && open_.front().list.head() == "define") {
-      Open section = std::move(open_.back());
+    } else if (open_.size() > 2 && head_of(parts(0)) == "define") {
+      Open section = open_.back();
       open_.pop_back();
-      const SourceLocation unclosed = misfit_ ? misfit_->unclosed : open_.back().list.where;
+      const SourceLocation unclosed = misfit_ ? misfit_->unclosed : open_.back().where;
       const std::size_t missing = open_.size() - 1;
-      log_.error(section.list.where,
-                 "'(" + keyword + "' begins inside of '" + beginning(open_[1].list) + "' of line " +
-                     std::to_string(open_[1].list.where.line) + ": " + std::to_string(missing) +
+      log_.error(section.where,
+                 "'(" + std::string(keyword) + "' begins inside of '" + beginning(parts(1)) + "' of line " +
+                     std::to_string(open_[1].where.line) + ": " + std::to_string(missing) +
                      (missing == 1 ? " ')' is" : " ')' are") + " missing before it",
                  "look at the '(' in " + describe(unclosed));
-      while (open_.size() > 1) close_innermost(section.list.where);
-      open_.push_back(std::move(section));
+      while (open_.size() > 1) close_innermost(section.where);
+      section.first = parts_.size();
+      open_.push_back(section);
     }
     misfit_.reset();
   }
 
   // A section behind the end of (define …): that was closed too early.
-  void reopen_definition(const std::string& keyword) {
+  void reopen_definition(std::string_view keyword) {
     if (lists_.empty() || lists_.back().head() != "define") return;
-    const Sexpr& section = open_.front().list;
-    log_.error(lists_.back().closed,
-               "this ')' closes (define …), but '(" + keyword + "' follows in " + describe(section.where) +
-                   ": one ')' too many before it",
+    const Open section = open_.front();
+    const Sexpr definition = lists_.back();
+    log_.error(definition.closed,
+               "this ')' closes (define …), but '(" + std::string(keyword) + "' follows in " +
+                   describe(section.where) + ": one ')' too many before it",
                "take a ')' away");
-    Open definition;
-    definition.list = std::move(lists_.back());
     lists_.pop_back();
-    open_.insert(open_.begin(), std::move(definition));
+    open_.clear();
+    reopen(definition);
+    open_.push_back(section);
+    open_.back().first = parts_.size();
     outside_.reset();
   }
 
   // A field behind the end of its action: that was closed too early.
   void reopen_action(const Token& token) {
-    auto& items = open_.back().list.items;
-    if (items.empty() || !(items.back().head() == ":action" || items.back().head() == ":durative-action"))
-      return;
-    log_.error(items.back().closed,
-               "this ')' closes '" + beginning(items.back()) + "', but its " + token.word + " follows in " +
-                   describe(token.where) + ": one ')' too many before it",
+    if (innermost_parts().empty()) return;
+    const Sexpr action = parts_.back();
+    if (action.head() != ":action" && action.head() != ":durative-action") return;
+    log_.error(action.closed,
+               "this ')' closes '" + beginning(action.items()) + "', but its " + std::string(token.word) +
+                   " follows in " + describe(token.where) + ": one ')' too many before it",
                "take a ')' away");
-    Open action;
-    action.list = std::move(items.back());
-    items.pop_back();
-    open_.push_back(std::move(action));
+    parts_.pop_back();
+    reopen(action);
+  }
+
+  void reopen(const Sexpr& list) {
+    Open again;
+    again.where = list.where;
+    again.first = parts_.size();
+    open_.push_back(again);
+    parts_.insert(parts_.end(), list.items().begin(), list.items().end());
   }
 
   void report_early_close(const Token& token) {
@@ -194,25 +210,26 @@ class Reader {
   }
 
   void report_unclosed() {
-    const Sexpr& innermost = open_.back().list;
+    const std::span<const Sexpr> items = innermost_parts();
+    const SourceLocation where = open_.back().where;
     if (misfit_) {
       log_.error(misfit_->where,
                  "by the indentation, the '(' in " + describe(misfit_->unclosed) +
                      " should be closed before this, and is not: a ')' is missing",
                  "close the '(' in line " + std::to_string(misfit_->unclosed.line));
-    } else if (open_.size() == 1 && innermost.items.size() > 2 && innermost.items.back().is_list) {
-      log_.error(innermost.items.back().closed,
-                 "'" + beginning(innermost) + "' of line " + std::to_string(innermost.where.line) +
+    } else if (open_.size() == 1 && items.size() > 2 && items.back().is_list()) {
+      log_.error(items.back().closed,
+                 "'" + beginning(items) + "' of line " + std::to_string(where.line) +
                      " is never closed: a ')' is missing at the end, or in its last section",
                  "add the missing ')'");
     } else {
-      log_.error(innermost.where, "'(' is never closed", "add the missing ')'");
+      log_.error(where, "'(' is never closed", "add the missing ')'");
     }
   }
 
-  Sexpr definition() {
+  const Sexpr& definition() {
     const auto wanted = std::ranges::find_if(lists_, [&](const Sexpr& list) {
-      return list.head() == "define" && list.items.size() > 1 && list.items[1].head() == kind_;
+      return list.head() == "define" && list.items().size() > 1 && list.items()[1].head() == kind_;
     });
     const std::size_t chosen = wanted == lists_.end() ? 0 : static_cast<std::size_t>(wanted - lists_.begin());
     if (chosen > 0) {
@@ -221,7 +238,7 @@ class Reader {
       outside_ = lists_[1].where;
     }
     if (outside_) warn_outside(*outside_, "after the end of the definition");
-    return std::move(lists_[chosen]);
+    return lists_[chosen];
   }
 
   void warn_outside(SourceLocation where, const std::string& place) {
@@ -229,10 +246,12 @@ class Reader {
               "one file holds one (define …)");
   }
 
+  SexprTree tree_;
   Lexer lexer_;
   std::string_view kind_;
   DiagnosticLog& log_;
   std::vector<Open> open_;
+  std::vector<Sexpr> parts_;  // of the open lists, one list behind the other
   std::vector<Sexpr> lists_;  // that are closed, beside one another
   std::optional<Misfit> misfit_;
   std::optional<SourceLocation> outside_;  // text behind the first list
@@ -242,12 +261,23 @@ class Reader {
 
 }  // namespace
 
-std::string_view Sexpr::head() const {
-  return is_list && !items.empty() && !items.front().is_list ? std::string_view(items.front().word)
-                                                             : std::string_view();
+SexprTree::SexprTree(std::string_view text) : text_(text.size() + 1) {
+  std::ranges::transform(text, text_.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
 }
 
-Sexpr read_sexpr(std::string_view text, std::string_view kind, DiagnosticLog& log) {
+std::span<const Sexpr> SexprTree::keep(std::span<const Sexpr> items) {
+  static constexpr std::size_t kBlock = 1024;
+  if (blocks_.empty() || blocks_.back().capacity() - blocks_.back().size() < items.size()) {
+    blocks_.emplace_back().reserve(std::max(kBlock, items.size()));
+  }
+  std::vector<Sexpr>& block = blocks_.back();
+  const std::size_t first = block.size();
+  block.insert(block.end(), items.begin(), items.end());
+  return std::span(block).subspan(first);
+}
+
+SexprTree read_sexpr(std::string_view text, std::string_view kind, DiagnosticLog& log) {
   return Reader(text, kind, log).read();
 }
 

@@ -46,11 +46,15 @@ std::set<std::string> TypeTree::ancestors(std::string_view type) const {
                                 : std::set<std::string>(it->second.begin(), it->second.end());
 }
 
+bool TypeTree::is_any(std::string_view type, const std::vector<std::string>& ancestors) const {
+  const auto it = ancestors_.find(type);
+  return it != ancestors_.end() && std::ranges::any_of(ancestors, [&](const std::string& ancestor) {
+           return it->second.contains(ancestor);
+         });
+}
+
 bool TypeTree::accepts(const std::vector<std::string>& wanted, const std::vector<std::string>& given) const {
-  return std::all_of(given.begin(), given.end(), [&](const std::string& type) {
-    return std::any_of(wanted.begin(), wanted.end(),
-                       [&](const std::string& ancestor) { return is_a(type, ancestor); });
-  });
+  return std::ranges::all_of(given, [&](const std::string& type) { return is_any(type, wanted); });
 }
 
 ObjectTable::ObjectTable(const Domain& domain, const Problem& problem) : types_(domain) {
@@ -79,10 +83,8 @@ int ObjectTable::find(std::string_view name) const {
 
 bool ObjectTable::has_type(std::size_t object, const std::vector<std::string>& types) const {
   const auto& own = objects_[object].types;
-  return std::any_of(own.begin(), own.end(), [&](const std::string& type) {
-    return std::any_of(types.begin(), types.end(),
-                       [&](const std::string& ancestor) { return types_.is_a(type, ancestor); });
-  });
+  return std::any_of(own.begin(), own.end(),
+                     [&](const std::string& type) { return types_.is_any(type, types); });
 }
 
 std::vector<int> ObjectTable::of_types(const std::vector<std::string>& types) const {

@@ -33,6 +33,8 @@ class TypeTree {
   /// Returns whether every `type` is an `ancestor`. Every known type is one of itself; unknown types are
   /// none.
   bool is_a(std::string_view type, std::string_view ancestor) const;
+  /// Returns whether the type is one of the `ancestors`, or under one of them.
+  bool is_any(std::string_view type, const std::vector<std::string>& ancestors) const;
   /// Returns whether a thing of one of the types `given` may stand where one of the types `wanted` is asked
   /// for, whichever of `given` it has.
   bool accepts(const std::vector<std::string>& wanted, const std::vector<std::string>& given) const;

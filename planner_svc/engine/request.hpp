@@ -13,6 +13,7 @@
 #include "core/temporal/flexible_plan.hpp"
 #include "core/temporal/rank_vector.hpp"
 #include "core/temporal/value.hpp"
+#include "planner_svc/engine/function_source.hpp"
 
 namespace roci::planner::engine {
 
@@ -79,8 +80,9 @@ struct Request {
   std::vector<Object> objects;
   /// Stands in order of time; what is unknown or impossible by now is to be passed over.
   std::vector<RemainingAction> remaining;
-  std::uint64_t work = 0;        ///< budget in evaluations; 0: no bound
-  std::size_t memory_bytes = 0;  ///< budget; 0: no bound
+  std::uint64_t work = 0;                          ///< budget in evaluations; 0: no bound
+  std::size_t memory_bytes = 0;                    ///< budget; 0: no bound
+  FunctionsMode functions = FunctionsMode::eager;  ///< which values owners are asked for
 };
 
 /// What may end a call early. Both functions may be called from any thread, and as often as every

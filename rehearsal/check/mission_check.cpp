@@ -13,6 +13,7 @@
 #include "rehearsal/check/action_check.hpp"
 #include "rehearsal/check/component_check.hpp"
 #include "rehearsal/check/goal_kind_check.hpp"
+#include "rehearsal/check/map_check.hpp"
 #include "rehearsal/check/scenario_check.hpp"
 #include "rehearsal/check/words.hpp"
 #include "rehearsal/flight.hpp"
@@ -79,7 +80,10 @@ void read_scenario(CheckedMission& mission, const std::string& name, bool simula
   note(findings, [&] {
     CheckedScenario scenario{name, mission::load_scenario(mission.folder, name, &findings), {}};
     note(findings, [&] { services::link::read_links(scenario.file, mission.services, 1); });
-    note(findings, [&] { science::read_detector(mission.file, scenario.file); });
+    note(findings, [&] {
+      for (const std::string& warning : science::read_detector(mission.file, scenario.file).warnings)
+        findings.add(warning, mission::Severity::warning);
+    });
     if (!simulated) return;
     scenario.run =
         sim::scenario::load_run(mission.folder, name, sim::components::standard_types(), &findings);
@@ -147,12 +151,15 @@ void check_names(const CheckedMission& mission, Findings& findings) {
     note(findings, [&] { check_components(mission, executive); });
     note(findings, [&] { check_actions(mission, executive); });
     note(findings, [&] { check_goal_kinds(mission, executive); });
+    note(findings, [&] { check_objects_on_map(mission, executive); });
   }
   note(findings, [&] { check_simulation(mission); });
   note(findings, [&] { check_science(mission); });
   note(findings, [&] { check_watch(mission); });
-  for (const CheckedScenario& scenario : mission.scenarios)
+  for (const CheckedScenario& scenario : mission.scenarios) {
     note(findings, [&] { check_scenario(mission, scenario); });
+    note(findings, [&] { check_scenario_on_map(mission, scenario, findings); });
+  }
 }
 
 void plan_goals(const CheckedMission& mission, const std::vector<std::string>& scenarios, CheckReport& out) {
@@ -166,6 +173,7 @@ void plan_goals(const CheckedMission& mission, const std::vector<std::string>& s
     DryPlans plans = dry_plan(mission, executive, owners, out.findings);
     std::ranges::move(plans.planned, std::back_inserter(out.plans.planned));
     std::ranges::move(plans.not_tried, std::back_inserter(out.plans.not_tried));
+    std::ranges::move(plans.unachieved, std::back_inserter(out.plans.unachieved));
   }
 }
 

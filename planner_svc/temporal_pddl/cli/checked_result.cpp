@@ -2,8 +2,6 @@
 
 #include <malloc.h>
 
-#include <string>
-
 #include "planner_svc/temporal_pddl/checker/refusal.hpp"
 #include "planner_svc/temporal_pddl/extraction/plan_text.hpp"
 
@@ -11,13 +9,13 @@ namespace roci::planner::temporal_pddl::cli {
 
 using temporal::Verdict;
 
-void check(const pddl::Domain& domain, const pddl::Problem& problem, Result& result) {
-  if (!result.plan) return;
+std::string check(const pddl::Domain& domain, const pddl::Problem& problem, Result& result) {
+  if (!result.plan) return {};
   malloc_trim(0);  // what the search has freed goes first, so that the check does not raise the peak
-  const std::string printed = to_ipc(*result.plan);
+  std::string printed = extraction::to_ipc(*result.plan);
   const std::string refusal =
       checker::refusal(domain, problem, pddl::parse_plan(printed, "plan"), result.functions);
-  if (refusal.empty()) return;
+  if (refusal.empty()) return printed;
   result.plan.reset();
   result.verdict = Verdict::crashed;
   result.reason =
@@ -25,6 +23,7 @@ void check(const pddl::Domain& domain, const pddl::Problem& problem, Result& res
       "please "
       "report it with both files:\n" +
       refusal + printed;
+  return {};
 }
 
 }  // namespace roci::planner::temporal_pddl::cli

@@ -1,8 +1,8 @@
 #include "planner_svc/temporal_pddl/cli/read_model.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -15,6 +15,8 @@ namespace roci::planner::temporal_pddl::cli {
 using temporal::Verdict;
 
 namespace {
+
+constexpr std::size_t kAtOnce = 16384;  // bytes
 
 // Collects what is wrong with the files, one after the other.
 class Refusal {
@@ -49,9 +51,15 @@ class Refusal {
 
 std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file || std::filesystem::is_directory(path)) {
     throw pddl::ParseError({path, {}, "cannot be read", "check the path and its permissions"});
+  }
+  std::string text;
+  for (std::size_t size = 0; file;) {  // a pipe does not tell how much it has
+    text.resize(std::max<std::size_t>(size + kAtOnce, size * 3 / 2));
+    file.read(text.data() + size, static_cast<std::streamsize>(text.size() - size));
+    size += static_cast<std::size_t>(file.gcount());
+    if (!file) text.resize(size);
   }
   return text;
 }

@@ -14,7 +14,10 @@ std::string_view Bindings::object_of(const pddl::Term& term) const {
 }
 
 std::string Bindings::ground(const pddl::Atom& atom) const {
-  std::string text = "(" + atom.symbol;
+  std::string text;
+  text.reserve(64);  // of most atoms
+  text += '(';
+  text += atom.symbol;
   for (const pddl::Term& term : atom.arguments) {
     text += ' ';
     text += object_of(term);

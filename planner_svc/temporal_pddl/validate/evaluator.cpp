@@ -33,47 +33,63 @@ bool compare_numbers(pddl::ComparisonOperator op, double left, double right) {
   return left > right + slack;
 }
 
+// Joins the parts of a conjunction (decisive no) or disjunction (decisive yes).
+class Junction {
+ public:
+  Junction(Truth decisive, bool ask_all)
+      : decisive_(decisive), ask_all_(ask_all), result_(negation(decisive)) {}
+
+  // Returns false when no further part can matter.
+  bool take(Truth part) {
+    if (part == Truth::unknown && result_ != decisive_) result_ = part;
+    if (part != decisive_) return true;
+    result_ = decisive_;
+    return ask_all_;
+  }
+
+  Truth result() const { return result_; }
+
+ private:
+  Truth decisive_;
+  bool ask_all_;  // what is read is wanted of each part
+  Truth result_;
+};
+
 }  // namespace
 
-Truth Evaluator::combine(Truth decisive, Bindings& bindings,
-                         const std::function<void(const Part&)>& visit_parts) {
-  Truth result = negation(decisive);
-  visit_parts([&](const pddl::Condition& part, bool negated) {
-    const Truth plain = evaluate(part, bindings);
-    const Truth truth = negated ? negation(plain) : plain;
-    if (truth == Truth::unknown && result != decisive) result = truth;
-    if (truth != decisive) return true;
-    result = decisive;
-    return reads_ != nullptr;  // the other parts are mentioned too
-  });
-  return result;
+Truth Evaluator::combine(Truth decisive, const std::vector<pddl::Condition>& parts, Bindings& bindings) {
+  Junction junction(decisive, reads_ != nullptr);
+  for (const pddl::Condition& part : parts)
+    if (!junction.take(evaluate(part, bindings))) break;
+  return junction.result();
 }
 
-Truth Evaluator::combine(Truth decisive, const std::vector<pddl::Condition>& parts, Bindings& bindings) {
-  return combine(decisive, bindings, [&](const Part& visit) {
-    for (const pddl::Condition& part : parts) {
-      if (!visit(part, false)) return;
-    }
-  });
+Truth Evaluator::combine(Truth decisive, const std::vector<pddl::TypedName>& variables,
+                         const pddl::Condition& body, Bindings& bindings) {
+  Junction junction(decisive, reads_ != nullptr);
+  model_.for_each_choice(variables, bindings, [&] { return junction.take(evaluate(body, bindings)); });
+  return junction.result();
+}
+
+Truth Evaluator::imply(const pddl::Imply& imply, Bindings& bindings) {
+  Junction junction(Truth::yes, reads_ != nullptr);
+  if (junction.take(negation(evaluate(*imply.premise, bindings))))
+    junction.take(evaluate(*imply.conclusion, bindings));
+  return junction.result();
 }
 
 Truth Evaluator::evaluate(const pddl::Condition& condition, Bindings& bindings) {
-  const auto quantified = [&](Truth decisive, const auto& quantifier) {
-    return combine(decisive, bindings, [&](const Part& visit) {
-      model_.for_each_choice(quantifier.variables, bindings, [&] { return visit(*quantifier.body, false); });
-    });
-  };
   return std::visit(
       pddl::Overloaded{[&](const pddl::And& all) { return combine(Truth::no, all.parts, bindings); },
                        [&](const pddl::Or& any) { return combine(Truth::yes, any.parts, bindings); },
                        [&](const pddl::Not& negated) { return negation(evaluate(*negated.body, bindings)); },
-                       [&](const pddl::Imply& imply) {
-                         return combine(Truth::yes, bindings, [&](const Part& visit) {
-                           if (visit(*imply.premise, true)) visit(*imply.conclusion, false);
-                         });
+                       [&](const pddl::Imply& implication) { return imply(implication, bindings); },
+                       [&](const pddl::Forall& forall) {
+                         return combine(Truth::no, forall.variables, *forall.body, bindings);
                        },
-                       [&](const pddl::Forall& forall) { return quantified(Truth::no, forall); },
-                       [&](const pddl::Exists& exists) { return quantified(Truth::yes, exists); },
+                       [&](const pddl::Exists& exists) {
+                         return combine(Truth::yes, exists.variables, *exists.body, bindings);
+                       },
                        [&](const pddl::Atom& atom) { return fact(atom, bindings); },
                        [&](const pddl::TermEquality& equality) {
                          return as_truth(bindings.object_of(equality.left) ==

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <deque>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -55,12 +54,12 @@ class Evaluator {
     std::map<std::string, std::size_t> index;
   };
 
-  // Returns the conjunction (decisive no) or disjunction (decisive yes) of the parts that `visit_parts`
-  // hands, one by one, to the function it is given; that function returns false when no further part can
-  // matter.
-  using Part = std::function<bool(const pddl::Condition& part, bool negated)>;
-  Truth combine(Truth decisive, Bindings& bindings, const std::function<void(const Part&)>& visit_parts);
+  // Returns the conjunction (decisive no) or disjunction (decisive yes) of the parts.
   Truth combine(Truth decisive, const std::vector<pddl::Condition>& parts, Bindings& bindings);
+  // Returns that of the body for every choice of objects.
+  Truth combine(Truth decisive, const std::vector<pddl::TypedName>& variables, const pddl::Condition& body,
+                Bindings& bindings);
+  Truth imply(const pddl::Imply& imply, Bindings& bindings);
   Truth fact(const pddl::Atom& atom, const Bindings& bindings);
   Truth compare(const pddl::Comparison& comparison, const Bindings& bindings);
   bool constant(const pddl::Atom& atom, const std::string& ground, const Bindings& bindings);

@@ -78,7 +78,7 @@ Execution::Occurrence Execution::execute(const Event& event, bool crowded) {
 void Execution::execute_instant(const Event& event, Evaluator& evaluator, Changes& changes) {
   const Step& step = steps_[event.index];
   require(step.instantaneous->precondition, step.bindings, evaluator,
-          violation(ViolationKind::condition, event.index, event.time), "precondition");
+          {ViolationKind::condition, event.index, event.time, "precondition"});
   auto effects = unfold(step.instantaneous->effects, step.bindings, model_);
   check_conditions(effects, &pddl::TimedCondition::at_start, evaluator);
   collect_effects(event, effects, {}, evaluator, changes);
@@ -92,7 +92,7 @@ void Execution::execute_start(const Event& event, Evaluator& evaluator, Changes&
                   unfold(action.end_effects, step.bindings, model_), false};
   if (!running.duration) running.duration = in_seconds(duration);
   require(action.condition.at_start, step.bindings, evaluator,
-          violation(ViolationKind::condition, event.index, event.time), "condition at start");
+          {ViolationKind::condition, event.index, event.time, "condition at start"});
   auto effects = unfold(action.start_effects, step.bindings, model_);
   check_conditions(effects, &pddl::TimedCondition::at_start, evaluator);
   check_conditions(running.end_effects, &pddl::TimedCondition::at_start, evaluator);
@@ -106,7 +106,7 @@ void Execution::execute_end(const Event& event, Evaluator& evaluator, Changes& c
                                     [&](const Running& one) { return one.step == event.index; });
   check_duration(event, pddl::TimePoint::end, evaluator);
   require(step.durative->condition.at_end, step.bindings, evaluator,
-          violation(ViolationKind::condition, event.index, event.time), "condition at end");
+          {ViolationKind::condition, event.index, event.time, "condition at end"});
   check_conditions(running->end_effects, &pddl::TimedCondition::at_end, evaluator);
   collect_effects(event, running->end_effects, {running->duration, {}}, evaluator, changes);
   running_.erase(running);
@@ -174,41 +174,48 @@ void Execution::check_invariants(pddl::Microseconds now) {
     check_conditions(running.end_effects, &pddl::TimedCondition::over_all, evaluator);
     if (running.broken) continue;
     running.broken = !require(step.durative->condition.over_all, step.bindings, evaluator,
-                              violation(ViolationKind::invariant, running.step, now), "condition over all");
+                              {ViolationKind::invariant, running.step, now, "condition over all"});
   }
 }
 
 void Execution::check_goal(pddl::Microseconds now) {
   Evaluator evaluator(model_, state_);
-  require(model_.problem().goal, {}, evaluator, {ViolationKind::goal, {}, now, "", "", ""}, "goal");
+  require(model_.problem().goal, {}, evaluator, {ViolationKind::goal, {}, now, "goal"});
 }
 
 bool Execution::require(const pddl::Condition& condition, const Bindings& bindings, Evaluator& evaluator,
-                        Violation violation, const std::string& when) {
+                        const Occasion& occasion) {
+  Bindings scratch = bindings;
+  return require_part(condition, scratch, evaluator, occasion);
+}
+
+bool Execution::require_part(const pddl::Condition& condition, Bindings& bindings, Evaluator& evaluator,
+                             const Occasion& occasion) {
   if (const auto* all = std::get_if<pddl::And>(&condition.node)) {
     bool holds = true;
     for (const pddl::Condition& part : all->parts) {
-      holds = require(part, bindings, evaluator, violation, when) && holds;
+      holds = require_part(part, bindings, evaluator, occasion) && holds;
     }
     return holds;
   }
-  Bindings scratch = bindings;
-  const Truth truth = evaluator.evaluate(condition, scratch);
+  const Truth truth = evaluator.evaluate(condition, bindings);
   if (truth == Truth::yes) return true;
-  violation.condition = bindings.instantiate(pddl::print(condition));
-  violation.message = when + " " + violation.condition + " does not hold";
-  if (truth == Truth::unknown) violation.message += ": " + evaluator.reason();
+  Violation found = violation(occasion.kind, occasion.step, occasion.time);
+  found.condition = bindings.instantiate(pddl::print(condition));
+  found.message = std::string(occasion.when) + " " + found.condition + " does not hold";
+  if (truth == Truth::unknown) found.message += ": " + evaluator.reason();
   const auto* comparison = std::get_if<pddl::Comparison>(&condition.node);
   if (comparison && truth == Truth::no) {
-    violation.message += ": " + pddl::print_number(*evaluator.value(comparison->left, bindings)) +
-                         " against " + pddl::print_number(*evaluator.value(comparison->right, bindings));
+    found.message += ": " + pddl::print_number(*evaluator.value(comparison->left, bindings)) + " against " +
+                     pddl::print_number(*evaluator.value(comparison->right, bindings));
   }
-  violations_.push_back(std::move(violation));
+  violations_.push_back(std::move(found));
   return false;
 }
 
-Violation Execution::violation(ViolationKind kind, std::size_t step, pddl::Microseconds time) const {
-  return {kind, step, time, pddl::print(plan_[step].action), "", ""};
+Violation Execution::violation(ViolationKind kind, std::optional<std::size_t> step,
+                               pddl::Microseconds time) const {
+  return {kind, step, time, step ? pddl::print(plan_[*step].action) : "", "", ""};
 }
 
 std::string Execution::name(const Event& event) const {

@@ -52,11 +52,20 @@ class Execution {
   std::optional<double> check_duration(const Event& event, pddl::TimePoint at, Evaluator& evaluator);
   void check_interference(const Occurrence& occurrence);
   void check_invariants(pddl::Microseconds now);
+  // Says what a violation is one of, should a condition not hold.
+  struct Occasion {
+    ViolationKind kind;
+    std::optional<std::size_t> step;
+    pddl::Microseconds time;
+    const char* when;  // "condition at start"
+  };
   // Reports each part of a conjunction that does not hold. Returns whether all hold.
   bool require(const pddl::Condition& condition, const Bindings& bindings, Evaluator& evaluator,
-               Violation violation, const std::string& when);
+               const Occasion& occasion);
+  bool require_part(const pddl::Condition& condition, Bindings& bindings, Evaluator& evaluator,
+                    const Occasion& occasion);
 
-  Violation violation(ViolationKind kind, std::size_t step, pddl::Microseconds time) const;
+  Violation violation(ViolationKind kind, std::optional<std::size_t> step, pddl::Microseconds time) const;
   std::string name(const Event& event) const;
 
   const Model& model_;
