@@ -7,13 +7,13 @@ using setup::Settings;
 
 namespace {
 
-constexpr double kPositive = 1e-3;  // for what is divided by
+constexpr double kLeastLag = 1e-3;  // for what is divided by
 
 // A start pose has no inverse kinematics yet: it must be given by joint coordinates.
 std::vector<double> joints_of(const Entry& pose, const Entry& poses_file) {
   const Entry poses = Entry::load(poses_file.resolve(poses_file.text())).at("poses");
   const auto entry = poses.find(pose.text());
-  if (entry) entry->allow_only({"joints", "position", "approach", "rpy"});
+  if (entry) entry->allow_only({"joints", "position", "approach", "rpy", "module"});
   const auto joints = entry ? entry->find("joints") : std::nullopt;
   if (!joints) {
     pose.fail("no pose '" + pose.text() + "' with joints stands in " + poses.file().string() +
@@ -47,7 +47,7 @@ ArmSettings read_common_arm_settings(Settings& in) {
 
 ArmSettings read_arm_settings(Settings& in) {
   ArmParameters motion;
-  motion.joint_lag_s = in.number("joint_lag_s", motion.joint_lag_s, kPositive);
+  motion.joint_lag_s = in.number("joint_lag_s", motion.joint_lag_s, kLeastLag);
   motion.speed_noise = in.number("speed_noise", motion.speed_noise);
   motion.settled_rad = in.number("settled_rad", motion.settled_rad, 1e-6);
   motion.base_power_w = in.number("base_power_w", motion.base_power_w);

@@ -15,9 +15,9 @@ using kinematics::JointVector;
 
 namespace {
 
-constexpr int kSteps = 5;                // of the integration in each kArmStep
+constexpr int kInnerSteps = 5;           // of the integration in each kArmStep
 constexpr double kMomentSeconds = 0.05;  // is kArmStep
-constexpr double kStepSeconds = kMomentSeconds / kSteps;
+constexpr double kInnerStep = kMomentSeconds / kInnerSteps;
 constexpr int kFrictionSweeps = 6;
 constexpr double kPaceLag = 0.5;      // s, in which the controller changes its pace
 constexpr double kLoadLag = 1;        // s, over which a motor's load counts
@@ -105,8 +105,8 @@ void DrivenMotion::step(DrivenMoment& now, const Control& control, double& peak_
   const Eigen::Index count = true_.joints();
   const std::vector<kinematics::Joint>& joints = parameters_.arm->joints;
   const double lambda = parameters_.bandwidth;
-  now.pace += (control.pace_goal - now.pace) * (kStepSeconds / kPaceLag);
-  now.course_s = std::min(course_.duration_s(), now.course_s + now.pace * kStepSeconds);
+  now.pace += (control.pace_goal - now.pace) * (kInnerStep / kPaceLag);
+  now.course_s = std::min(course_.duration_s(), now.course_s + now.pace * kInnerStep);
   const CoursePoint wanted = course_.at(now.course_s);
   JointVector effort(count), drag(count), bound(count);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -120,19 +120,19 @@ void DrivenMotion::step(DrivenMoment& now, const Control& control, double& peak_
     const bool saturated = asked * error > 0 && std::abs(asked) > limit;
     const bool there = wanted.rate[i] == 0 && std::abs(error) < 0.5 * parameters_.settled_rad;
     if (!saturated && !there) {
-      const double more = control.inertia[i] * 0.5 * lambda * lambda * lambda * error * kStepSeconds;
+      const double more = control.inertia[i] * 0.5 * lambda * lambda * lambda * error * kInnerStep;
       now.held[i] = std::clamp(now.held[i] + more, -limit, limit);
     }
     drag[i] = joint.damping * friction_;
-    bound[i] = (joint.friction * friction_ + now.wear.friction[i]) * kStepSeconds;
+    bound[i] = (joint.friction * friction_ + now.wear.friction[i]) * kInnerStep;
   }
   const MotionEquation motion = true_.equation(now.position, now.rate);
   JointMatrix implicit = motion.inertia;
-  implicit.diagonal() += kStepSeconds * drag;
+  implicit.diagonal() += kInnerStep * drag;
   const JointMatrix response = implicit.llt().solve(JointMatrix::Identity(count, count));
   const JointVector push = effort - motion.bias - drag.cwiseProduct(now.rate);
   now.pressed = now.pressed.cwiseMax(-bound).cwiseMin(bound);
-  JointVector rate = now.rate + response * (kStepSeconds * push + now.pressed);
+  JointVector rate = now.rate + response * (kInnerStep * push + now.pressed);
   for (int sweep = 0; sweep < kFrictionSweeps; ++sweep) {
     for (Eigen::Index i = 0; i < count; ++i) {
       const double pressed = std::clamp(now.pressed[i] - rate[i] / response(i, i), -bound[i], bound[i]);
@@ -140,7 +140,7 @@ void DrivenMotion::step(DrivenMoment& now, const Control& control, double& peak_
       now.pressed[i] = pressed;
     }
   }
-  now.position += kStepSeconds * rate;
+  now.position += kInnerStep * rate;
   double power = parameters_.electronics_w;
   for (Eigen::Index i = 0; i < count; ++i) {
     const double limit = joints[static_cast<std::size_t>(i)].limits.effort;
@@ -148,11 +148,11 @@ void DrivenMotion::step(DrivenMoment& now, const Control& control, double& peak_
     const double work = effort[i] * 0.5 * (now.rate[i] + rate[i]);
     const double gear = std::abs(work) * (1 / parameters_.gear_efficiency - 1);
     power += std::max(0.0, work + gear + parameters_.copper_loss_w * load * load);
-    now.load[i] += (load / parameters_.motor_strength - now.load[i]) * (kStepSeconds / kLoadLag);
-    now.wear.friction[i] += now.wear.growth[i] * std::abs(rate[i]) * kStepSeconds;
+    now.load[i] += (load / parameters_.motor_strength - now.load[i]) * (kInnerStep / kLoadLag);
+    now.wear.friction[i] += now.wear.growth[i] * std::abs(rate[i]) * kInnerStep;
   }
   now.rate = rate;
-  now.energy_j += power * kStepSeconds;
+  now.energy_j += power * kInnerStep;
   peak_power_w = std::max(peak_power_w, power);
 }
 
@@ -168,7 +168,7 @@ void DrivenMotion::run() {
   while (stalled_.empty()) {
     DrivenMoment next = moments_.back();
     plan(next, control);
-    for (int i = 0; i < kSteps; ++i) step(next, control, peak_power_w_);
+    for (int i = 0; i < kInnerSteps; ++i) step(next, control, peak_power_w_);
     const bool arrived = next.course_s >= course_.duration_s();
     const double away = (course_.end() - next.position).cwiseAbs().maxCoeff();
     const double speed = next.rate.cwiseAbs().maxCoeff();

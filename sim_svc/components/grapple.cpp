@@ -15,7 +15,7 @@ using world::Surroundings;
 
 namespace {
 
-constexpr double kShortest = 0.5;  // share of a duration that noise leaves at least
+constexpr double kShortestWork = 0.5;  // share of a duration that noise leaves at least
 
 template <class Things>
 std::string unknown(const std::string& what, const std::string& name, const Things& things) {
@@ -23,7 +23,8 @@ std::string unknown(const std::string& what, const std::string& name, const Thin
   for (const auto& [one, thing] : things) known.push_back(one);
   return "no " + what + " '" + name + "'; " +
          words::nearest(name, known)
-             .remedy("name one of the " + std::to_string(known.size()) + " that the grapple has in mission.yaml");
+             .remedy("name one of the " + std::to_string(known.size()) +
+                     " that the grapple has in mission.yaml");
 }
 
 // Returns the value if the memory has one of that kind, else null.
@@ -129,8 +130,8 @@ Ending Grapple::begin(const world::Task& task, Time now, Surroundings& around) {
     nominal = grasp ? settings_.grasp_s : settings_.place_s;
   }
   if (Ending refused = refusal(work)) return refused;
-  work.end =
-      now + temporal::seconds(nominal * std::max(kShortest, 1 + settings_.duration_noise * noise_.normal()));
+  work.end = now + temporal::seconds(nominal *
+                                     std::max(kShortestWork, 1 + settings_.duration_noise * noise_.normal()));
   if (work.kind == Kind::localize && !settings_.light.empty()) {
     const auto& windows = around.environment.windows;
     const auto light = std::ranges::find(windows, settings_.light, &world::Window::timeline);
