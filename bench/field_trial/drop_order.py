@@ -4,15 +4,14 @@ utility (of equals the newest); a hard one fails only if neither is there. In qu
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 from flights import Flight, GoalEnd
 
 ENDS = {"goal.achieved", "goal.dropped", "goal.failed", "goal.recalled"}
 
 
-def names(why: str, goal: GoalEnd) -> bool:
-    name = re.escape(goal.id)
-    return bool(re.search(rf"\((sent image-{name}|picked sample-{name}|dropped sample-\S+ place-{name})\)", why))
+Pattern = Callable[[GoalEnd], str]  # of what a proof says of a goal
 
 
 def to_go(candidates: list[GoalEnd]) -> GoalEnd | None:
@@ -24,7 +23,7 @@ def to_go(candidates: list[GoalEnd]) -> GoalEnd | None:
     return min(reversed(optional), key=lambda goal: goal.utility) if optional else None
 
 
-def broken_drop_order(flight: Flight) -> list[str]:
+def broken_drop_order(flight: Flight, pattern: Pattern) -> list[str]:
     by_key = {goal.key: goal for goal in flight.goals}
     faults = []
     open_goals: list[GoalEnd] = []
@@ -37,7 +36,7 @@ def broken_drop_order(flight: Flight) -> list[str]:
             open_goals = [*(one for one in open_goals if one is not goal), goal]
         if code in ("goal.dropped", "goal.failed") and "in a row" not in words:
             proved = "\ndetails: " in goal.reason
-            candidates = [one for one in open_goals if proved and names(goal.reason, one)] or open_goals
+            candidates = [one for one in open_goals if proved and re.search(pattern(one), goal.reason)] or open_goals
             right = to_go(candidates)
             if right is not None and right is not goal:
                 faults.append(f"goal {goal.key} went at {time_s:.1f} s, but it was the turn of {right.key}")

@@ -7,6 +7,7 @@ import re
 import shutil
 import sqlite3
 import subprocess
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -23,6 +24,7 @@ class Programs:
 
     bin: Path
     mission: Path
+    schedule: Callable  # the reference scheduler of the mission: problem, values → Schedule
 
     @property
     def rehearse(self) -> Path:
@@ -45,10 +47,15 @@ class GoalEnd:
     utility: float
     state: str
     reason: str
-    place: tuple[str, str] = ("", "")  # x, y
+    arguments: dict[str, str] = field(default_factory=dict)
     arrived_s: float = 0
     ended_s: float = 0
     cause: str = ""  # of one given up: why planning was under way when it left
+
+    @property
+    def place(self) -> tuple[str, str]:
+        """x and y, of one that has them."""
+        return self.arguments.get("x", ""), self.arguments.get("y", "")
 
 
 @dataclass
@@ -145,9 +152,10 @@ def read_journal(flight: Flight) -> None:
             flight.events.append((time_s, code, words))
     for issuer, name, request, state, reason in goals:
         wish = json.loads(request)
-        place = wish["arguments"].get("x", ""), wish["arguments"].get("y", "")
         flight.goals.append(
-            GoalEnd(f"{issuer}/{name}", name, CLASSES[wish["class"]], wish["utility"], STATES[state], reason, place)
+            GoalEnd(
+                f"{issuer}/{name}", name, CLASSES[wish["class"]], wish["utility"], STATES[state], reason, dict(wish["arguments"])
+            )
         )
     trace_ends(flight)
     # Of kind call are also the cancels, without a problem.

@@ -21,7 +21,8 @@ EXPLANATIONS = {
     "window, which the domain cannot say.",
     "lost window": "A communication window that was predicted did not come, and with it went the last plan that had "
     "all goals.",
-    "too late": "The world was slower than the model (slip, rocks on the way, faults): a latest start passed, and no plan "
+    "blocked slot": "A slot that was counted on was found blocked, and with it went the last plan that had all goals.",
+    "too late": "The world was slower than the model (slip, rocks on the way, joints that stick, latches, faults): a latest start passed, and no plan "
     "had all goals any more.",
     "does not fit": "With the goals that were there before, no plan had this one; it was given up as it came, newest first "
     "(R53), whatever its utility.",
@@ -32,6 +33,8 @@ CAUSES = [
     ("no-path", "no way"),
     ("battery", "energy"),
     ("(comm-window) = true (is false)", "lost window"),
+    ("slot-blocked", "blocked slot"),
+    ("latch-failed", "too late"),
     ("latest start", "too late"),
     ("[blocked]", "too late"),
     ("[stuck]", "too late"),

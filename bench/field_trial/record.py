@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 from flights import Flight
 from hindsight import Hindsight
 from losses import Loss
-from scenarios import Scenario
 from second_look import SecondLook
 
 
 @dataclass
 class Record:
-    scenario: Scenario
+    scenario: Any  # of the mission that is flown
     flight: Flight
     looks: list[SecondLook] = field(default_factory=list)
     back: Hindsight | None = None

@@ -11,6 +11,7 @@ from flights import MISSION_WORK, Call
 from long_calls import LONG_S, LongCall
 from losses import EXPLANATIONS, Loss
 from record import Record
+from trials import Trial
 
 CLASSES = ["hard", "optional", "opportunistic"]
 EXAMPLES = 6
@@ -229,7 +230,7 @@ def makespan_section(records: list[Record]) -> str:
     )
 
 
-def write(records: list[Record], long: list[LongCall], work: int, target: Path) -> None:
+def write(records: list[Record], long: list[LongCall], work: int, target: Path, trial: Trial) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     pictures = target.parent / "pictures"
     pictures.mkdir(exist_ok=True)
@@ -237,14 +238,14 @@ def write(records: list[Record], long: list[LongCall], work: int, target: Path) 
     picture = pictures / f"{target.stem}.svg"
     picture.write_text(bars(kinds.most_common()))
     first, last = records[0].scenario.seed, records[-1].scenario.seed
+    named = "" if trial.mission == "planetary" else f"--mission {trial.mission} "
     head = f"""# Field trial
 
-{len(records)} missions of `missions/planetary`, seeds {first} to {last}, each drawn at random: goals of all kinds and classes, some in
-flight, narrow windows, hard terrain, rocks that no map shows, slip, faults of components, lost communication windows,
-little energy. Written by `bench/field_trial/run.py --runs {len(records)} --seed {first} --work {work} --out FOLDER --report docs/field-trial.md`
+{len(records)} missions of `missions/{trial.mission}`, seeds {first} to {last}, each drawn at random: {trial.drawn}.
+Written by `bench/field_trial/run.py {named}--runs {len(records)} --seed {first} --work {work} --out FOLDER --report {trial.target}`
 ([how it works](../bench/field_trial/README.md)). One flight again, alone, with all processes:
 
-    bench/field_trial/run.py --runs 1 --seed 17 --work {work} --out FOLDER && ./run FOLDER/planetary --scenario seed-0017 --seed 17
+    bench/field_trial/run.py {named}--runs 1 --seed 17 --work {work} --out FOLDER && ./run FOLDER/{trial.mission} --scenario seed-0017 --seed 17
 
 """
     sections = [losses_section(records, f"pictures/{picture.name}"), hard_section(records), calls_section(records, work)]

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""The field trial (R61): flies seeded missions of missions/planetary, looks at what was lost, writes a report.
+"""The field trial (R61): flies seeded missions of missions/planetary or missions/orbital, looks at what was lost, writes a report.
 
     ninja -C build/release roci-rehearse roci-plan roci-validate roci_transport_inproc
     bench/field_trial/run.py --runs 400 --out FOLDER --report docs/field-trial.md
+    bench/field_trial/run.py --mission orbital --runs 200 --out FOLDER --report docs/field-trial-orbital.md
 
 Exit code 0: every invariant holds; 1: one does not; 2: wrong use. See README.md.
 """
@@ -11,18 +12,18 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import report
 from drop_order import broken_drop_order
-from flights import MISSION_WORK, Flight, Programs, fly, lay_out_mission
-from hindsight import look_back
+from flights import MISSION_WORK, Programs, fly, lay_out_mission
 from long_calls import repeat_longest
 from losses import losses_of
 from record import Record
-from scenarios import Site, draw
 from second_look import decide, look_again
+from trials import TRIALS, Trial
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -39,7 +40,7 @@ def first_plan(programs: Programs, record: Record) -> None:
         record.reference_s = best.makespan_s
 
 
-def examine(programs: Programs, record: Record, folder: Path, longer_s: float) -> None:
+def examine(programs: Programs, trial: Trial, record: Record, folder: Path, longer_s: float) -> None:
     seed = record.scenario.seed
     # Who cancels a call wants no plan of it.
     failed = [call for call in record.flight.calls if call.verdict not in ("solved", "cancelled")]
@@ -49,19 +50,21 @@ def examine(programs: Programs, record: Record, folder: Path, longer_s: float) -
             record.flight.faults.append(f"call {look.call.number}: the planner finds a plan, the reference none")
         if look.solvable and look.call.verdict == "unsolvable":
             record.flight.faults.append(f"call {look.call.number}: called unsolvable, and is not")
-    record.back = look_back(programs, record.scenario, record.flight, folder / "hindsight" / record.scenario.name)
+    record.back = trial.look_back(programs, record.scenario, record.flight, folder / "hindsight" / record.scenario.name)
     record.losses = losses_of(record.flight, record.looks, record.back)
     first_plan(programs, record)
 
 
-def try_seed(programs: Programs, mission: Path, site: Site, seed: int, arguments: argparse.Namespace) -> Record:
-    scenario = draw(seed, site)
+def try_seed(
+    programs: Programs, trial: Trial, draw: Callable, mission: Path, seed: int, arguments: argparse.Namespace
+) -> Record:
+    scenario = draw(seed)
     (mission / "scenarios" / f"{scenario.name}.yaml").write_text(scenario.yaml())
     flight = fly(programs, mission, scenario.name, seed, arguments.out / "flights" / scenario.name)
-    flight.faults += broken_drop_order(flight)
+    flight.faults += broken_drop_order(flight, trial.goal_fact)
     record = Record(scenario, flight)
     if flight.result != "crashed":
-        examine(programs, record, arguments.out, arguments.longer)
+        examine(programs, trial, record, arguments.out, arguments.longer)
     tell(record)
     return record
 
@@ -76,7 +79,8 @@ def tell(record: Record) -> None:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description="Flies seeded planetary missions and reports what was lost.")
+    parser = argparse.ArgumentParser(description="Flies seeded missions and reports what was lost.")
+    parser.add_argument("--mission", choices=TRIALS, default="planetary", help="which one (planetary)")
     parser.add_argument("--runs", type=int, default=400, help="number of flights (400)")
     parser.add_argument("--seed", type=int, default=1, help="of the first; the others count up (1)")
     parser.add_argument("--seeds", type=int, nargs="+", help="these instead, e.g. to look at some losses again")
@@ -87,21 +91,22 @@ def main() -> int:
     parser.add_argument("--longer", type=float, default=30, help="seconds for a planner call's second try (30)")
     parser.add_argument("--work", type=int, default=MISSION_WORK, help="evaluations of a planner call (the mission's)")
     arguments = parser.parse_args()
-    programs = Programs(arguments.bin, ROOT / "missions/planetary")
+    trial = TRIALS[arguments.mission]
+    programs = Programs(arguments.bin, ROOT / "missions" / trial.mission, trial.schedule)
     for program in (programs.rehearse, programs.plan, programs.validate):
         if not program.exists():
             parser.error(f"{program} is missing; build it: ninja -C build/release {program.name}")
     arguments.out = arguments.out.resolve()
     changes = {f"work: {MISSION_WORK}": f"work: {arguments.work}"} if arguments.work != MISSION_WORK else {}
-    mission = lay_out_mission(programs.mission, arguments.out / "planetary", changes)
-    site = Site(programs.mission / "site")
+    mission = lay_out_mission(programs.mission, arguments.out / trial.mission, changes)
+    draw = trial.drawer(programs.mission)
     seeds = arguments.seeds or range(arguments.seed, arguments.seed + arguments.runs)
     with ThreadPoolExecutor(arguments.jobs) as workers:
-        records = list(workers.map(lambda seed: try_seed(programs, mission, site, seed, arguments), seeds))
+        records = list(workers.map(lambda seed: try_seed(programs, trial, draw, mission, seed, arguments), seeds))
     calls = [(record.scenario.seed, call) for record in records for call in record.flight.calls]
     long = repeat_longest(programs, calls, arguments.work)
     target = arguments.report or arguments.out / "field-trial.md"
-    report.write(records, long, arguments.work, target)
+    report.write(records, long, arguments.work, target, trial)
     print(f"report: {target}")
     return 1 if any(record.flight.faults for record in records) else 0
 

@@ -44,7 +44,7 @@ def plan_again(programs: Programs, call: Call, limit_s: float, plain: bool) -> d
 
 def decide(programs: Programs, call: Call) -> reference.Schedule:
     """A schedule counts only if the validator accepts it."""
-    out = reference.schedule(problem.parse(call.problem.read_text()), problem.read_values(call.values))
+    out = programs.schedule(problem.parse(call.problem.read_text()), problem.read_values(call.values))
     if out.solvable:
         plan = call.problem.with_suffix(".reference")
         plan.write_text(out.plan)

@@ -97,7 +97,7 @@ def poses(slots):
              "# A slot's pose is that of the tool on the upper face of a module that stands there. Written by bench/growth/lattice.py.",
              "tip: grapple_face", "tool_axis: [1, 0, 0]", "margin: 0.01",
              "motor: {gravity: [0, 0, 0], idle: 40.0, efficiency: 0.6, full_effort_loss: 120.0}",
-             "search: {iterations: 3000, shortcuts: 40}", "poses:",
+             "search: {iterations: 2000, shortcuts: 12}", "poses:",
              f"  home: {{joints: [{rail / 2:g}, 0.0, -1.6, 1.6, 0.0, 1.5, 0.0]}}"]
     for slot in range(slots):
         x, y, z = place(slot)

@@ -26,7 +26,7 @@ def reconfiguration(modules, moved, seed, free=2):
         for module, successor in zip(group, group[1:] + group[:1]):
             goal[module] = start[successor]
     at = rng.choice(slots)
-    init = ["(gripper-empty) (tool-ready)", f"(arm-at s{at}) (arm-first s{at})", f"(= (battery) {60_000 + 60_000 * modules})",
+    init = ["(tool-ready)", f"(arm-at s{at}) (arm-first s{at})", f"(= (battery) {60_000 + 60_000 * modules})",
             "(= (reserve) 20000)", f"(= (capacity) {60_000 + 60_000 * modules})"]
     init += [f"(at-slot m{m} s{s}) (installed m{m} s{s}) (lay-first m{m} s{s}) (seat m{m} s{s}) (works m{m}) "
              f"(serves m{m} {ROLES[m % len(ROLES)]})" for m, s in start.items()]

@@ -55,7 +55,8 @@ ArgumentKind read_argument_kind(const Entry& entry, const pddl::Domain* domain) 
   std::vector<std::string> known{"number", "text", "goal"};
   for (const pddl::TypedName& type : domain->types) known.push_back(type.name);
   entry.fail("unknown kind of argument '" + text +
-             "'; one of number, text, goal, or a type of the domain's objects" + words::did_you_mean(text, known));
+             "'; one of number, text, goal, or a type of the domain's objects" +
+             words::did_you_mean(text, known));
 }
 
 // The facts that a state of a component or of a family stands for; nothing if it is none of theirs.
@@ -160,7 +161,8 @@ GoalKind read_goal_kind(const std::string& name, const Entry& entry, const Missi
     out.goal = entry.at("goal").texts();
     if (out.goal.empty()) entry.at("goal").fail("a goal kind needs at least one goal fact");
     for (const Entry& item : entry.at("goal").items())
-      if (mission.domain && !is_observed_fact(read_goal(item, entry, mission.domain.get()), *mission.domain)) out.formula = true;
+      if (mission.domain && !is_observed_fact(read_goal(item, entry, mission.domain.get()), *mission.domain))
+        out.formula = true;
   } else {
     out.goal = facts_of(entry.at("achieved"), out.achieved, mission);
   }

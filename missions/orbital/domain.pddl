@@ -20,7 +20,6 @@
     (arm-at ?s - slot)
     (localized ?s - slot)            ; the arm knows where it is to the millimetre
     (tool-ready)
-    (gripper-empty)
     (holding ?m - module)
     (loaded)                         ; it holds some module
     (at-slot ?m - module ?s - slot)  ; it lies there, latched or not
@@ -106,7 +105,7 @@
       (at start (not (= ?from ?to)))
       (at start (arm-at ?from))
       (at start (tool-ready))
-      (over all (gripper-empty))
+      (over all (not (loaded)))
       (at start (>= (battery) (+ (reserve) (ra_move_energy ?to)))))
     :effect (and
       (at start (not (arm-at ?from)))
@@ -120,13 +119,12 @@
     :condition (and
       (at start (mover ?m))
       (at start (at-slot ?m ?s))
-      (at start (gripper-empty))
+      (at start (not (loaded)))
       (at start (tool-ready))
       (at start (localized ?s))
       (over all (arm-at ?s))
       (at start (>= (battery) (+ (reserve) 4500))))
     :effect (and
-      (at start (not (gripper-empty)))
       (at start (not (tool-ready)))
       (at start (not (installed ?m ?s)))
       (at start (decrease (battery) 4500))
@@ -173,7 +171,6 @@
       (at end (not (loaded)))
       (at end (at-slot ?m ?s))
       (at end (installed ?m ?s))
-      (at end (gripper-empty))
       (at end (tool-ready))))
 
   ; The arm rests while the arrays fill the battery.

@@ -136,13 +136,15 @@ void check_watch(const CheckedMission& mission) {
     const auto arguments = rule.find("arguments");
     for (const auto& [argument, type] : kind->second->arguments)
       if (!arguments || !arguments->find(argument))
-        rule.complain("argument '" + argument + "' of goal kind " + name.text() + " is missing; add it to 'arguments'");
+        rule.complain("argument '" + argument + "' of goal kind " + name.text() +
+                      " is missing; add it to 'arguments'");
     if (!arguments) return;
     std::vector<std::string> taken;
     for (const auto& [argument, type] : kind->second->arguments) taken.push_back(argument);
     for (const auto& [argument, value] : arguments->fields())
       if (!contains(taken, argument))
-        value.complain("a " + name.text() + " has no argument '" + argument + "'; " + instead_of(argument, taken));
+        value.complain("a " + name.text() + " has no argument '" + argument + "'; " +
+                       instead_of(argument, taken));
   });
 }
 

@@ -18,9 +18,9 @@ enum class GoalClass { hard, optional, opportunistic };
 
 /// Says what is to be asked for when a timeline enters a state.
 struct Rule {
-  std::string timeline;   ///< a name, or a pattern with one *
-  std::string state;      ///< the state's name
-  std::string goal_kind;  ///< a kind of mission.yaml
+  std::string timeline;                          ///< a name, or a pattern with one *
+  std::string state;                             ///< the state's name
+  std::string goal_kind;                         ///< a kind of mission.yaml
   std::map<std::string, std::string> arguments;  ///< of the goal; * in a value is what stood for the *
   GoalClass importance = GoalClass::opportunistic;
   double utility = 1;

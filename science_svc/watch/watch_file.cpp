@@ -24,7 +24,8 @@ Rule read_rule(const Entry& entry) {
   Rule out;
   out.timeline = entry.at("timeline").text();
   if (std::ranges::count(out.timeline, '*') > 1)
-    entry.at("timeline").fail("'" + out.timeline + "' has more than one *; keep the one that stands for the object");
+    entry.at("timeline")
+        .fail("'" + out.timeline + "' has more than one *; keep the one that stands for the object");
   out.state = entry.at("state").text();
   out.goal_kind = entry.at("goal_kind").text();
   if (const auto arguments = entry.find("arguments"))
@@ -42,7 +43,8 @@ Rule read_rule(const Entry& entry) {
 
 std::vector<Rule> read_rules(const Entry& mission) {
   std::vector<Rule> out;
-  if (const auto list = mission.find("watch")) list->each([&](const Entry& item) { out.push_back(read_rule(item)); });
+  if (const auto list = mission.find("watch"))
+    list->each([&](const Entry& item) { out.push_back(read_rule(item)); });
   return out;
 }
 

@@ -55,7 +55,7 @@ class Model {
   pddl::Strata strata_;
   std::map<std::string, std::vector<const pddl::DerivedPredicate*>> rules_;
   std::set<std::string> externals_;
-  std::set<std::string> changing_;  // predicates and fluents
+  std::set<std::string> changing_;   // predicates and fluents
   std::set<std::string> recursive_;  // derived predicates
   mutable std::map<std::string, bool> constants_;
 };

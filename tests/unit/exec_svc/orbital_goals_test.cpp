@@ -45,7 +45,7 @@ TEST_F(OrbitalGoals, NameWhatTheMissionHas) {
               HasSubstr("argument 'slot' is 's33'; the mission has no such socket, it has: s0, s1, "));
   EXPECT_THAT(fault(install("radar-1", "s33")), HasSubstr("did you mean 's3'?"));
   EXPECT_THAT(fault(install("radar-2", "s3")), HasSubstr("no such module, it has: power-1"));
-  EXPECT_THAT(fault(install("s3", "s3")), HasSubstr("no such module"));       // of another type
+  EXPECT_THAT(fault(install("s3", "s3")), HasSubstr("no such module"));         // of another type
   EXPECT_THAT(fault(install("radar-1", "home")), HasSubstr("no such socket"));  // a slot without a socket
 }
 
@@ -91,9 +91,11 @@ std::string fault_with(const std::string& right, const std::string& wrong) {
 TEST(OrbitalSlip, IsToldWithPlaceAndRemedy) {
   EXPECT_EQ(fault_with("(seat power-1 s0)", "(seat power-1 s0)"), "");
   EXPECT_THAT(fault_with("(seat power-1 s0)", "(saet power-1 s0)"), HasSubstr("no predicate 'saet'"));
-  EXPECT_THAT(fault_with("(seat power-1 s0)", "(seat power-1)"), HasSubstr("'seat' has 2 arguments in the domain, not 1"));
+  EXPECT_THAT(fault_with("(seat power-1 s0)", "(seat power-1)"),
+              HasSubstr("'seat' has 2 arguments in the domain, not 1"));
   EXPECT_THAT(fault_with("slot: socket}", "slot: sokcet}"),
-              HasSubstr("unknown kind of argument 'sokcet'; one of number, text, goal, or a type of the domain's objects; did "
+              HasSubstr("unknown kind of argument 'sokcet'; one of number, text, goal, or a type of the "
+                        "domain's objects; did "
                         "you mean 'socket'?"));
 }
 

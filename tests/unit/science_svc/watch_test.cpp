@@ -67,7 +67,8 @@ TEST(Watch, AFurtherOneThatBeginsAnewAsksUnderTheSameIds) {
 
 TEST(Watch, RemembersABoundedNumberOfTimelines) {
   Watch watch({pump_rule()});
-  for (std::size_t i = 0; i < kTimelines; ++i) watch.observe("digger.pump.p" + std::to_string(i) + ".state", "tight");
+  for (std::size_t i = 0; i < kTimelines; ++i)
+    watch.observe("digger.pump.p" + std::to_string(i) + ".state", "tight");
   EXPECT_TRUE(watch.full());
   EXPECT_TRUE(watch.observe("digger.pump.new.state", "leaks").empty());
   EXPECT_EQ(watch.observe("digger.pump.p1.state", "leaks").size(), 1U);
@@ -97,9 +98,10 @@ class WatchFile : public testing::Test {
 };
 
 TEST_F(WatchFile, HoldsRules) {
-  const auto rules = read_rules(mission(
-      "watch:\n  - {timeline: 'a.*', state: hot, goal_kind: cool, arguments: {what: '*'}, class: hard, utility: 3}\n"
-      "  - {timeline: b, state: off, goal_kind: start}\n"));
+  const auto rules =
+      read_rules(mission("watch:\n  - {timeline: 'a.*', state: hot, goal_kind: cool, arguments: {what: '*'}, "
+                         "class: hard, utility: 3}\n"
+                         "  - {timeline: b, state: off, goal_kind: start}\n"));
   ASSERT_EQ(rules.size(), 2U);
   EXPECT_EQ(rules[0].arguments.at("what"), "*");
   EXPECT_EQ(rules[0].importance, GoalClass::hard);
@@ -112,7 +114,8 @@ TEST_F(WatchFile, FaultsNameTheirPlaceAndRemedy) {
   const std::string head = "watch:\n  - {timeline: 'a.*', state: hot, goal_kind: cool, ";
   EXPECT_THAT(fault_of(head + "clas: hard}\n"), HasSubstr("mission.yaml:2:"));
   EXPECT_THAT(fault_of(head + "class: hrd}\n"), HasSubstr("did you mean 'hard'?"));
-  EXPECT_THAT(fault_of("watch:\n  - {timeline: 'a.*.*', state: hot, goal_kind: cool}\n"), HasSubstr("more than one *"));
+  EXPECT_THAT(fault_of("watch:\n  - {timeline: 'a.*.*', state: hot, goal_kind: cool}\n"),
+              HasSubstr("more than one *"));
   EXPECT_THAT(fault_of("watch:\n  - {timeline: a, state: hot, goal_kind: cool, arguments: {what: '*'}}\n"),
               HasSubstr("nothing stands for the *"));
   EXPECT_THAT(fault_of("watch:\n  - {state: hot, goal_kind: cool}\n"), HasSubstr("timeline"));
@@ -120,7 +123,9 @@ TEST_F(WatchFile, FaultsNameTheirPlaceAndRemedy) {
 
 // The service as it runs: no detector, no map; an observation becomes a goal and an event.
 TEST_F(WatchFile, TheServiceRaisesTheGoal) {
-  mission("watch:\n  - {timeline: 'digger.pump.*', state: leaks, goal_kind: mend, arguments: {pump: '*'}, class: optional}\n");
+  mission(
+      "watch:\n  - {timeline: 'digger.pump.*', state: leaks, goal_kind: mend, arguments: {pump: '*'}, class: "
+      "optional}\n");
   services::RunSettings settings;
   settings.mission = folder_;
   services::SimRun run({"master", "science_svc"});
@@ -130,7 +135,8 @@ TEST_F(WatchFile, TheServiceRaisesTheGoal) {
   std::vector<v1::Goal> goals;
   std::vector<std::string> events;
   services::subscribe(master, services::topics::goal, [&](const v1::Goal& goal) { goals.push_back(goal); });
-  services::subscribe(master, services::topics::event, [&](const v1::Event& event) { events.push_back(event.code()); });
+  services::subscribe(master, services::topics::event,
+                      [&](const v1::Event& event) { events.push_back(event.code()); });
   const auto tell = [&](const std::string& state) {
     v1::Observation out;
     out.timeline("digger.pump.p7");
