@@ -30,12 +30,6 @@ std::int64_t start_in(const Schedule& schedule, const v1::Plan& plan, const v1::
   return plan.origin_us() + (*schedule)[activity.start_point()].count();
 }
 
-std::string joined(const std::vector<std::string>& words, const char* between) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
-  return out;
-}
-
 std::string arguments_text(const v1::PlanActivity& activity) {
   std::vector<std::string> words;
   for (const v1::Property& argument : arguments_of(activity))

@@ -51,12 +51,6 @@ std::string unit_of(const lib::MissionView& view, const v1::FunctionValueUse& us
   return "";
 }
 
-std::string joined(const std::vector<std::string>& words, const char* between) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
-  return out;
-}
-
 bool has_begun(const lib::MissionView& view, const v1::PlanActivity& activity) {
   const v1::StepStatus* step = view.step(activity.id());
   return step != nullptr && step->state() != v1::ACTIVITY_WAITING;

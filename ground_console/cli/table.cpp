@@ -30,4 +30,10 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows) {
   return out;
 }
 
+std::string joined(const std::vector<std::string>& words, const char* between) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
+  return out;
+}
+
 }  // namespace roci::console::cli

@@ -1,5 +1,6 @@
 #include "tests/unit/arm_svc/arms.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <numbers>
 #include <sstream>
@@ -74,6 +75,12 @@ std::vector<NamedArm> all_arms() {
           {"rover_five", rover_setup().arm},
           {"six_offset_wrist", six},
           {"seven", seven}};
+}
+
+kinematics::JointVector coordinates(std::initializer_list<double> values) {
+  kinematics::JointVector q(static_cast<Eigen::Index>(values.size()));
+  std::copy(values.begin(), values.end(), q.data());
+  return q;
 }
 
 }  // namespace roci::arm::test

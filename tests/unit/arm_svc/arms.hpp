@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ std::string rover_file(const std::string& name);
 ArmSetup rover_setup();
 // Six turning joints on a rail, slots with modules on both sides, no gravity, jerk limits.
 ArmSetup rail_setup();
+
+kinematics::JointVector coordinates(std::initializer_list<double> values);
 
 struct NamedArm {
   std::string name;

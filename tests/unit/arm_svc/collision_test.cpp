@@ -15,12 +15,7 @@ namespace {
 using kinematics::Arm;
 using kinematics::Capsule;
 using kinematics::JointVector;
-
-JointVector coordinates(std::initializer_list<double> values) {
-  JointVector q(static_cast<Eigen::Index>(values.size()));
-  std::copy(values.begin(), values.end(), q.data());
-  return q;
-}
+using test::coordinates;
 
 struct Segment {
   Eigen::Vector3d a, b;

@@ -15,13 +15,8 @@ namespace roci::arm {
 namespace {
 
 using kinematics::JointVector;
+using test::coordinates;
 using testing::HasSubstr;
-
-JointVector coordinates(std::initializer_list<double> values) {
-  JointVector q(static_cast<Eigen::Index>(values.size()));
-  std::copy(values.begin(), values.end(), q.data());
-  return q;
-}
 
 // The rover arm with `count` random free poses beside its own: many pairs have deck, mast or ground between
 // them.

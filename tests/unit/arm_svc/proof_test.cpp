@@ -14,13 +14,8 @@ namespace roci::arm {
 namespace {
 
 using kinematics::JointVector;
+using test::coordinates;
 using testing::HasSubstr;
-
-JointVector coordinates(std::initializer_list<double> values) {
-  JointVector q(static_cast<Eigen::Index>(values.size()));
-  std::copy(values.begin(), values.end(), q.data());
-  return q;
-}
 
 // A fin along the shoulder's axis and a post in the way of its sweep: before and after lie on either side.
 ArmSetup shut_setup() {

@@ -121,7 +121,7 @@ Domain RandomTree::domain() {
   d.constants = names("");
   d.predicates = several(4, [&] { return signature(); });
   d.functions = several(4, [&] { return signature(); });
-  d.modules = several(2, [&] { return Module{name(), several(3, [&] { return signature(); }), {}}; });
+  d.modules = several(2, [&] { return Module{name(), several(3, [&] { return signature(); }), {}, {}}; });
   d.derived = several(2, [&] { return DerivedPredicate{signature(), condition(3)}; });
   d.actions = several(3, [&] { return action(); });
   d.durative_actions = several(3, [&] { return durative_action(); });
