@@ -22,18 +22,19 @@ constexpr std::size_t kReportedRefusals = 1'000;
 
 class ArmService : public services::Service {
  public:
-  ArmService(services::Node& node, ArmSetup setup)
+  ArmService(services::Node& node, ArmSetup setup, ArmModule module)
       : node_(node),
+        module_(std::move(module)),
         model_(std::move(setup)),
         offers_(services::advertise(node, topics::function_offer)),
         events_(services::advertise(node, topics::event)),
         worker_(node) {
-    offers_.write(function_offer(node.options().name, model_.version()));
+    offers_.write(function_offer(module_, node.options().name, model_.version()));
     for (const ResolvedPlace& pose : model_.poses()) {
       if (pose.status != MotionStatus::found) report("pose.unusable", pose.detail);
     }
     services::serve(node, topics::function_call, [this](const v1::FunctionRequest& request, auto responder) {
-      if (request.module_name() == kModule) on_function_call(request, responder);
+      if (request.module_name() == module_.name) on_function_call(request, responder);
     });
     services::serve(node, topics::arm_motion, [this](const v1::ArmMotionRequest& request, auto responder) {
       worker_.compute(
@@ -49,7 +50,9 @@ class ArmService : public services::Service {
   void on_function_call(const v1::FunctionRequest& request,
                         services::Responder<v1::FunctionReply> responder) {
     worker_.compute(
-        [this, request](const std::stop_token& stop) { return evaluate(cache_, model_, request, stop); },
+        [this, request](const std::stop_token& stop) {
+          return evaluate(cache_, model_, module_, request, stop);
+        },
         [this, responder](FunctionAnswer answer) {
           for (const std::string& refusal : answer.refusals) {
             // Each refusal is told once, although every replanning asks again.
@@ -67,6 +70,7 @@ class ArmService : public services::Service {
   }
 
   services::Node& node_;
+  const ArmModule module_;
   const MotionModel model_;
   EstimateCache cache_;  // the worker's alone
   std::set<std::string> reported_;
@@ -80,10 +84,11 @@ class ArmService : public services::Service {
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
   const mission::Entry mission = mission::load_mission_file(settings.mission_file());
   const mission::Entry arm = mission.at("arm");
-  arm.allow_only({"model", "poses"});
+  arm.allow_only({"model", "poses", "module", "functions"});
   const mission::Entry model = arm.at("model"), poses = arm.at("poses");
-  return std::make_unique<ArmService>(node,
-                                      load_setup(model.resolve(model.text()), poses.resolve(poses.text())));
+  ArmSetup setup = load_setup(model.resolve(model.text()), poses.resolve(poses.text()));
+  ArmModule module = read_module(arm, setup);
+  return std::make_unique<ArmService>(node, std::move(setup), std::move(module));
 }
 
 }  // namespace roci::arm

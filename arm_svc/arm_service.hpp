@@ -5,7 +5,7 @@
 
 namespace roci::arm {
 
-/// Makes the owner of module `arm` and of arm motions (README.md). Throws mission::FileError when the
+/// Makes the owner of the mission's arm functions and of arm motions (README.md). Throws mission::FileError when the
 /// mission's arm cannot be read.
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings);
 

@@ -21,6 +21,8 @@ using kinematics::CollisionShape;
 using kinematics::JointVector;
 using kinematics::Sphere;
 
+constexpr double kMostSteps = 1e8;  // a line of more is not worth its testing, nor would it fit an int
+
 std::shared_ptr<fcl::CollisionGeometryd> geometry_of(const Sphere& s) {
   return std::make_shared<fcl::Sphered>(s.radius);
 }
@@ -48,6 +50,14 @@ struct Part {
   std::shared_ptr<fcl::CollisionGeometryd> geometry;
 };
 
+Part part_of(std::size_t body, const CollisionShape& shape, double margin) {
+  const CollisionShape grown = kinematics::inflated(shape, margin);
+  auto geometry = std::visit(
+      [](const auto& form) -> std::shared_ptr<fcl::CollisionGeometryd> { return geometry_of(form); },
+      grown.form);
+  return {body, grown, kinematics::bounding_radius(grown), std::move(geometry)};
+}
+
 bool overlap(const Part& a, const Eigen::Isometry3d& pose_a, const Part& b, const Eigen::Isometry3d& pose_b) {
   const double reach = a.radius + b.radius;
   if ((pose_a.translation() - pose_b.translation()).squaredNorm() > reach * reach) return false;
@@ -69,20 +79,18 @@ struct CollisionChecker::Scene {
   Arm arm;
   CollisionRules rules;
   std::vector<Part> parts;
+  std::vector<Part> obstacles;
   std::vector<std::pair<std::size_t, std::size_t>> pairs;  // indices of parts, outermost bodies first
   JointVector displacement;
 
-  Scene(Arm a, CollisionRules r) : arm(std::move(a)), rules(std::move(r)) {
+  Scene(Arm a, CollisionRules r, const std::vector<CollisionShape>& still)
+      : arm(std::move(a)), rules(std::move(r)) {
     displacement = kinematics::displacement_bounds(arm);
     for (std::size_t body = 0; body < arm.bodies.size(); ++body) {
-      for (const CollisionShape& shape : arm.bodies[body].shapes) {
-        const CollisionShape grown = kinematics::inflated(shape, rules.margin);
-        auto geometry = std::visit(
-            [](const auto& form) -> std::shared_ptr<fcl::CollisionGeometryd> { return geometry_of(form); },
-            grown.form);
-        parts.push_back({body, grown, kinematics::bounding_radius(grown), std::move(geometry)});
-      }
+      for (const CollisionShape& shape : arm.bodies[body].shapes)
+        parts.push_back(part_of(body, shape, rules.margin));
     }
+    for (const CollisionShape& shape : still) obstacles.push_back(part_of(0, shape, rules.margin));
     for (std::size_t i = parts.size(); i-- > 0;) {
       for (std::size_t j = 0; j < i; ++j) {
         const bool apart = parts[i].body > parts[j].body + 1;
@@ -90,6 +98,11 @@ struct CollisionChecker::Scene {
           pairs.emplace_back(i, j);
       }
     }
+  }
+
+  bool touches(const Part& part, const Eigen::Isometry3d& pose, const Part& obstacle) const {
+    return part.body > 0 && overlap(part, pose, obstacle, obstacle.shape.pose) &&
+           !listed(rules.may_touch, part.shape.link, obstacle.shape.link);
   }
 
   bool on_ground(const Part& part, const Eigen::Isometry3d& pose) const {
@@ -100,8 +113,8 @@ struct CollisionChecker::Scene {
   }
 };
 
-CollisionChecker::CollisionChecker(Arm arm, CollisionRules rules)
-    : scene_(std::make_unique<const Scene>(std::move(arm), std::move(rules))) {}
+CollisionChecker::CollisionChecker(Arm arm, CollisionRules rules, std::vector<CollisionShape> obstacles)
+    : scene_(std::make_unique<const Scene>(std::move(arm), std::move(rules), obstacles)) {}
 CollisionChecker::~CollisionChecker() = default;
 CollisionChecker::CollisionChecker(CollisionChecker&&) noexcept = default;
 CollisionChecker& CollisionChecker::operator=(CollisionChecker&&) noexcept = default;
@@ -118,12 +131,32 @@ std::optional<Contact> CollisionChecker::contact(const JointVector& q) const {
     const Part &a = scene_->parts[i], &b = scene_->parts[j];
     if (overlap(a, poses[i], b, poses[j])) return Contact{a.shape.link, b.shape.link};
   }
+  for (std::size_t i = scene_->parts.size(); i-- > 0 && !scene_->obstacles.empty();) {
+    const Part& part = scene_->parts[i];
+    for (const Part& obstacle : scene_->obstacles) {
+      if (scene_->touches(part, poses[i], obstacle)) return Contact{part.shape.link, obstacle.shape.link};
+    }
+  }
   return std::nullopt;
+}
+
+std::vector<std::size_t> CollisionChecker::obstacles_touched(const JointVector& q) const {
+  const auto bodies = kinematics::body_poses(scene_->arm, q);
+  std::vector<std::size_t> touched;
+  for (std::size_t i = 0; i < scene_->obstacles.size(); ++i) {
+    const bool hit = std::ranges::any_of(scene_->parts, [&](const Part& part) {
+      return scene_->touches(part, bodies[part.body] * part.shape.pose, scene_->obstacles[i]);
+    });
+    if (hit) touched.push_back(i);
+  }
+  return touched;
 }
 
 bool CollisionChecker::line_is_free(const JointVector& from, const JointVector& to) const {
   const double travel = scene_->displacement.dot((to - from).cwiseAbs());
-  const int steps = std::max(1, static_cast<int>(std::ceil(travel / (2.0 * scene_->rules.margin))));
+  const double needed = std::ceil(travel / (2.0 * scene_->rules.margin));
+  if (!(needed < kMostSteps)) return false;
+  const int steps = std::max(1, static_cast<int>(needed));
   // The middle comes first: on a blocked line it is the likeliest to show it.
   for (int stride = 1 << 30; stride > 0; stride /= 2) {
     if (stride > steps) continue;

@@ -26,13 +26,18 @@ struct Contact {
 };
 
 /// Tests bodies that are not joined by a joint (those that are may touch at it), and moving bodies against
-/// the ground. It is safe to use from several threads.
+/// the ground and against obstacles. It is safe to use from several threads.
 class CollisionChecker {
  public:
-  CollisionChecker(kinematics::Arm arm, CollisionRules rules);
+  /// `obstacles` stand still in the base frame; other than the base they are tested against every moving body.
+  CollisionChecker(kinematics::Arm arm, CollisionRules rules,
+                   std::vector<kinematics::CollisionShape> obstacles = {});
   ~CollisionChecker();
   CollisionChecker(CollisionChecker&&) noexcept;
   CollisionChecker& operator=(CollisionChecker&&) noexcept;
+
+  /// Returns the obstacles that the arm touches at `q`, as indices into those that the checker was made with.
+  std::vector<std::size_t> obstacles_touched(const kinematics::JointVector& q) const;
 
   /// Returns the first contact in a fixed order of pairs, with surfaces moved out by the margin.
   std::optional<Contact> contact(const kinematics::JointVector& q) const;

@@ -31,4 +31,21 @@ struct EnergyUse {
 EnergyUse energy_of(const kinematics::Arm& arm, const Trajectory& trajectory, const MotorModel& motor,
                     double period_s = 0.05);
 
+/// Holds the joint that is nearest to its effort limit, and its share of it.
+struct HoldingLoad {
+  double load = 0;  ///< |τ| / effort limit
+  std::size_t joint = 0;
+};
+
+/// Returns the load of the motors when the arm stands at `q` and creeps along `way` (zeros: it stands still):
+/// what no slowing down takes away.
+HoldingLoad holding_load(const kinematics::Arm& arm, const kinematics::JointVector& q,
+                         const kinematics::JointVector& way, const MotorModel& motor);
+
+/// Returns an energy in J that no motion between the two stays below, whatever way it goes: idle power over
+/// duration_bound_s(), and through the gears at least the gain of potential energy and what Coulomb friction
+/// takes on the shortest way of each joint (from rest to rest, kinetic energy is given back at best).
+double energy_bound_j(const kinematics::Arm& arm, const kinematics::JointVector& from,
+                      const kinematics::JointVector& to, const MotorModel& motor);
+
 }  // namespace roci::arm

@@ -1,21 +1,23 @@
-// Estimates give duration and energy of motions in batches, each computed once per model version.
+// Estimates give duration and energy of motions in batches, each computed once per model version; what was not
+// found is searched again, harder, when it is asked again.
 #pragma once
 
 #include <functional>
 #include <map>
 #include <span>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "arm_svc/motion.hpp"
 
 namespace roci::arm {
 
-/// Names a motion by its two ends.
+/// Names a motion by its two ends, and by what the tool carries.
 struct PlacePair {
   Place from;
   Place to;
+  Payload payload = {};
 };
 
 /// Holds duration (s) and energy (J) of a motion, or why it has none.
@@ -24,23 +26,50 @@ struct Estimate {
   std::string detail;
   double duration_s = 0;
   double energy_j = 0;
+  bool proved = false;  ///< as in Motion
 };
 
 /// Keeps what was computed for one model version, by the joint values at both ends; a model of another
-/// version empties it.
+/// version empties it. A motion that was not found, and not proved to be none, is searched with twice the effort
+/// by each later request that asks for it, up to kMostEffort: nothing but the count of requests decides.
 class EstimateCache {
  public:
+  /// Tells that what is asked from now on belongs to another request.
+  void begin_request() { ++request_; }
+
   /// Returns one estimate per pair, in their order. A cancelled one is not kept, so that it is computed when
   /// asked again.
   std::vector<Estimate> estimate(const MotionModel& model, std::span<const PlacePair> pairs,
                                  const std::function<bool()>& cancelled = {});
+  /// Returns the lower bound of a motion's duration and energy, without a search.
+  Estimate bound(const MotionModel& model, const PlacePair& pair);
+  /// Returns the place as this cache's questions resolve it, with an effort of 1.
+  ResolvedPlace resolve(const MotionModel& model, const Place& place);
 
   std::size_t size() const { return known_.size(); }
 
  private:
-  using Key = std::pair<std::vector<double>, std::vector<double>>;
+  // Joint values; where there are none, or names count, the name and position.
+  struct PlaceKey {
+    std::vector<double> values;
+    std::string name;
+    auto operator<=>(const PlaceKey&) const = default;
+  };
+  using Key = std::tuple<PlaceKey, PlaceKey, std::vector<double>>;
+  struct Known {
+    Estimate estimate;
+    unsigned effort = 1;
+    std::uint64_t request = 0;
+  };
+
+  void forget_other_versions(const MotionModel& model);
+  static PlaceKey key_of(const MotionModel& model, const Place& place, const ResolvedPlace& resolved);
+  Estimate one(const MotionModel& model, const PlacePair& pair, const std::function<bool()>& cancelled);
+
   std::uint64_t version_ = 0;
-  std::map<Key, Estimate> known_;
+  std::uint64_t request_ = 0;
+  std::map<Key, Known> known_;
+  std::map<PlaceKey, ResolvedPlace> positions_;
 };
 
 }  // namespace roci::arm

@@ -2,7 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -23,6 +25,9 @@ constexpr double kDampingBias = 1e-9;   // keeps the step solvable at the soluti
 constexpr double kAngleWeight = 0.1;    // m² per rad²: an error of 1 rad counts like one of 0.3 m
 constexpr double kSameSolution = 1e-3;  // rad or m
 constexpr double kStalledStep = 1e-9;   // rad or m
+constexpr int kPatience = 10;           // iterations, in which
+constexpr double kProgress = 0.9;       // the error must fall to this share, or the start leads nowhere
+constexpr int kMoreStarts = 3;          // times as many, where those asked for led nowhere
 
 // Returns the rotation vector that turns `from` onto `to` (unit vectors); opposite vectors turn about any
 // normal.
@@ -92,12 +97,18 @@ JointVector damped_step(const Arm& arm, const JointVector& q, const Jacobian& ja
 std::optional<JointVector> descend(const Arm& arm, const ToolTarget& target, JointVector q,
                                    const IkOptions& options) {
   const Twist weights = weights_for(target);
+  double earlier = std::numeric_limits<double>::infinity();
   for (int i = 0; i < options.iterations; ++i) {
     const auto bodies = kinematics::body_poses(arm, q);
     const Eigen::Isometry3d tool = kinematics::tool_pose(arm, bodies);
     const Twist error = error_twist(tool, target);
     const ToolError size = size_of(error);
     if (size.position < options.position_tolerance && size.angle < options.angle_tolerance) return q;
+    if (i % kPatience == 0) {
+      const double now = error.dot(weights.cwiseProduct(error));
+      if (!(now < kProgress * earlier)) return std::nullopt;
+      earlier = now;
+    }
     Jacobian jacobian = kinematics::tool_jacobian(arm, bodies);
     free_the_turn(jacobian, tool, target);
     const JointVector next =
@@ -117,6 +128,25 @@ JointVector middle_of_limits(const Arm& arm) {
   return q;
 }
 
+// Returns the part of `index`, written with digits of `base`, that its digits have when they are mirrored at the point.
+double radical_inverse(int index, int base) {
+  double value = 0, digit = 1.0 / base;
+  for (; index > 0; index /= base, digit /= base) value += digit * (index % base);
+  return value;
+}
+
+// Spreads starts evenly over the limits (J. H. Halton, Numerische Mathematik 2, 1960).
+JointVector spread_coordinates(const Arm& arm, int index) {
+  constexpr std::array<int, kinematics::kMaxJoints> kPrimes{2, 3, 5, 7, 11, 13, 17};
+  JointVector q(static_cast<Eigen::Index>(arm.joints.size()));
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const auto& limits = arm.joints[static_cast<std::size_t>(i)].limits;
+    q[i] = limits.lower +
+           (limits.upper - limits.lower) * radical_inverse(index, kPrimes[static_cast<std::size_t>(i)]);
+  }
+  return q;
+}
+
 }  // namespace
 
 ToolError tool_error(const Arm& arm, const JointVector& q, const ToolTarget& target) {
@@ -127,10 +157,15 @@ std::vector<JointVector> solve_ik(const Arm& arm, const ToolTarget& target, cons
                                   const IkOptions& options) {
   std::vector<JointVector> found;
   std::mt19937_64 rng(options.seed);
-  for (int start = 0; start < options.starts && found.size() < options.solutions; ++start) {
-    const JointVector q = start == 0   ? kinematics::clamp_to_limits(arm, first_start)
-                          : start == 1 ? middle_of_limits(arm)
-                                       : sample_coordinates(arm, rng);
+  const auto more = [&](int start) {
+    return start < options.starts ? found.size() < options.solutions
+                                  : found.empty() && start < kMoreStarts * options.starts;
+  };
+  for (int start = 0; more(start); ++start) {
+    const JointVector q = start == 0               ? kinematics::clamp_to_limits(arm, first_start)
+                          : start == 1             ? middle_of_limits(arm)
+                          : start < options.starts ? sample_coordinates(arm, rng)
+                                                   : spread_coordinates(arm, start);
     const auto solution = descend(arm, target, q, options);
     if (!solution) continue;
     const bool known = std::any_of(found.begin(), found.end(), [&](const JointVector& other) {

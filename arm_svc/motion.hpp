@@ -1,32 +1,16 @@
-// A motion between named poses has a trajectory, a duration and an energy, or the reason why there is none.
+// A motion between places has a trajectory, a duration and an energy, or the reason why there is none.
 #pragma once
 
 #include <functional>
-#include <optional>
+#include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "arm_svc/collision.hpp"
-#include "arm_svc/path_search.hpp"
-#include "arm_svc/setup.hpp"
+#include "arm_svc/payload.hpp"
+#include "arm_svc/places.hpp"
 #include "arm_svc/trajectory.hpp"
 
 namespace roci::arm {
-
-/// Says whether there is a motion, or why not.
-enum class MotionStatus {
-  found,
-  unknown_pose,  ///< The mission's data have no pose of that name.
-  unreachable,   ///< The joint values lie beyond the limits, or none put the tool there.
-  in_collision,  ///< The pose itself touches something.
-  no_path,       ///< The search budget shows no way between the two.
-  overloaded,    ///< The motors would have to exert more than their effort limits.
-  cancelled,
-};
-
-/// Returns the name above.
-std::string_view name_of(MotionStatus status);
 
 /// Is a motion with its duration (s) and energy (J), or the reason why there is none.
 struct Motion {
@@ -35,49 +19,67 @@ struct Motion {
   Trajectory trajectory;  ///< It has no segments when both ends are the same place.
   double duration_s = 0;
   double energy_j = 0;
+  /// Says that there is no such motion at all. Where it is false and nothing was found, more effort may find one.
+  bool proved = false;
 };
 
-/// A motion starts or ends at a place: a pose of the mission by name or, if joints are given, wherever they
-/// put the arm.
-struct Place {
-  std::string name;
-  std::optional<kinematics::JointVector> joints = std::nullopt;
+/// Asks for a motion with a payload. An effort of n spends n times the setup's budgets; it finds the motion that
+/// a smaller effort finds, if that finds one.
+struct MotionQuery {
+  Place from;
+  Place to;
+  Payload payload = {};
+  unsigned effort = 1;
 };
 
-/// Is a place as joint values, or the reason why it has none.
-struct ResolvedPlace {
-  std::string name;
-  MotionStatus status = MotionStatus::found;  ///< Is found, unknown_pose, unreachable or in_collision.
+/// Holds what a motion takes at least, worked out without a search; or a proof that there is none, or why nothing
+/// can be said.
+struct MotionBound {
+  MotionStatus status = MotionStatus::found;
   std::string detail;
-  kinematics::JointVector joints;
+  bool proved = false;
+  double duration_s = 0;
+  double energy_j = 0;
 };
 
 /// An arm model is immutable: the same call gives the same answer, whatever was asked before.
 class MotionModel {
  public:
-  /// Resolves all poses. A pose given by tool position becomes the free solution that is quickest to reach
-  /// from the first pose given by joint values (the middle of the limits if there is none).
   explicit MotionModel(ArmSetup setup);
 
-  /// Joints off a limit by no more than sensor noise (0.01 rad or m) are clamped to it.
-  ResolvedPlace resolve(const Place& place) const;
+  ResolvedPlace resolve(const Place& place, unsigned effort = 1) const {
+    return places_.resolve(place, effort);
+  }
 
   /// Plans the motion. `cancelled` is asked often; it may be empty.
   Motion motion(const Place& from, const Place& to, const std::function<bool()>& cancelled = {}) const;
+  Motion plan(const MotionQuery& query, const std::function<bool()>& cancelled = {}) const;
+  /// Plans between two places that this model has resolved. No module stands in the way where the motion starts
+  /// and ends.
+  Motion plan(const ResolvedPlace& from, const ResolvedPlace& to, const Payload& payload, unsigned effort,
+              const std::function<bool()>& cancelled) const;
 
-  const ArmSetup& setup() const { return setup_; }
+  /// Bounds the motion from below by the limits of the joints: never above what plan() finds, whatever the
+  /// effort.
+  MotionBound bound(const ResolvedPlace& from, const ResolvedPlace& to, const Payload& payload) const;
+
+  const ArmSetup& setup() const { return *setup_; }
   /// Returns the poses in the order of the setup.
-  const std::vector<ResolvedPlace>& poses() const { return poses_; }
+  const std::vector<ResolvedPlace>& poses() const { return places_.poses(); }
   std::uint64_t version() const { return version_; }
+  /// Says whether modules stand about, so that it counts by which names the ends of a motion go.
+  bool has_modules() const { return !places_.modules().empty(); }
 
  private:
-  ResolvedPlace resolve(const NamedPose& pose, const kinematics::JointVector& reference) const;
+  Motion between(const kinematics::Arm& arm, const CollisionChecker& full, const CollisionChecker& close,
+                 const ResolvedPlace& from, const ResolvedPlace& to, unsigned effort,
+                 const std::function<bool()>& cancelled) const;
 
-  ArmSetup setup_;
+  std::shared_ptr<const ArmSetup> setup_;
   CollisionChecker checker_;
   CollisionChecker close_checker_;  // for ends that an imprecise arm left within the margin
   std::uint64_t version_;
-  std::vector<ResolvedPlace> poses_;
+  Places places_;
 };
 
 }  // namespace roci::arm

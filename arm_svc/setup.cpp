@@ -24,6 +24,7 @@ void add(Fingerprint& print, const Joint& joint) {
   print.add(joint.name).add(count(joint.type == kinematics::JointType::prismatic));
   print.add(joint.origin.matrix()).add(joint.axis).add(joint.friction).add(joint.damping);
   print.add(limits.lower).add(limits.upper).add(limits.velocity).add(limits.acceleration).add(limits.effort);
+  if (limits.jerk > 0) print.add("jerk").add(limits.jerk);
 }
 
 void add(Fingerprint& print, const Body& body) {
@@ -63,11 +64,14 @@ std::uint64_t model_version(const ArmSetup& setup) {
   for (const NamedPose& pose : setup.poses) {
     print.add(pose.name).add(count(pose.where.index()));
     std::visit([&](const auto& where) { add(print, where); }, pose.where);
+    if (pose.module_size) print.add("module").add(*pose.module_size);
   }
   add(print, setup.collision);
   const MotorModel& motor = setup.motor;
   print.add(motor.gravity).add(motor.idle_w).add(motor.efficiency).add(motor.full_effort_loss_w);
   print.add(count(setup.search_iterations)).add(count(static_cast<std::size_t>(setup.shortcut_trials)));
+  // The default is left out, as jerk and modules are where there are none: versions from before they were known stay.
+  if (setup.tool_axis != Eigen::Vector3d::UnitX()) print.add("axis").add(setup.tool_axis);
   return print.value();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -17,6 +18,10 @@ namespace roci::arm {
 struct NamedPose {
   std::string name;
   std::variant<kinematics::JointVector, ToolTarget> where;
+  /// Holds the edges (m, along the base axes) of the module that the tool grasps here: a box beyond the tool
+  /// along its axis. It is taken as standing there in every motion but those that start or end at this pose.
+  std::optional<Eigen::Vector3d> module_size = std::nullopt;
+  std::string source = {};  ///< Says where it was read ("file:line:column").
 };
 
 /// Holds all that motions depend on.
@@ -25,6 +30,7 @@ struct ArmSetup {
   std::vector<NamedPose> poses;  ///< Their names are unique.
   CollisionRules collision;
   MotorModel motor;
+  Eigen::Vector3d tool_axis = Eigen::Vector3d::UnitX();  ///< A load is held along it, in the tool frame.
   unsigned search_iterations = 2000;
   int shortcut_trials = 60;
 };

@@ -1,6 +1,7 @@
 #include "arm_svc/setup_file.hpp"
 
 #include <fstream>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -12,6 +13,8 @@ namespace {
 
 using kinematics::JointVector;
 using mission::Entry;
+
+constexpr double kLongestEdge = 100;  // m
 
 double bounded(const Entry& entry, double low, double high) {
   const double value = entry.number();
@@ -68,12 +71,24 @@ ToolTarget target(const Entry& place, const Eigen::Vector3d& tool_axis) {
   return target;
 }
 
+std::optional<Eigen::Vector3d> module_size(const Entry& pose) {
+  const auto entry = pose.find("module");
+  if (!entry) return std::nullopt;
+  if (!pose.find("approach") && !pose.find("rpy"))
+    entry->fail(
+        "a module needs a pose with a position and an approach or rpy, from where the tool grasps it");
+  const Eigen::Vector3d size = vector3(*entry);
+  if (!(size.array() > 0).all() || !(size.array() < kLongestEdge).all())
+    entry->fail("the edges of a module must be above 0 and below 100 m");
+  return size;
+}
+
 std::vector<NamedPose> poses(const Entry& entry, std::size_t joint_count, const Eigen::Vector3d& tool_axis) {
   std::vector<NamedPose> poses;
   std::set<std::string> names;
   for (const auto& [name, place] : entry.fields()) {
     if (!names.insert(name).second) place.fail("pose '" + name + "' stands twice; give it another name");
-    place.allow_only({"joints", "position", "approach", "rpy"});
+    place.allow_only({"joints", "position", "approach", "rpy", "module"});
     const auto values = place.find("joints");
     if (values.has_value() == place.find("position").has_value()) {
       place.fail("pose '" + name + "' needs either joints or a position");
@@ -83,6 +98,9 @@ std::vector<NamedPose> poses(const Entry& entry, std::size_t joint_count, const 
     } else {
       poses.push_back({name, target(place, tool_axis)});
     }
+    poses.back().module_size = module_size(place);
+    const std::string where = place.place();
+    poses.back().source = where.substr(where.rfind('/') + 1);
   }
   return poses;
 }
@@ -120,6 +138,8 @@ kinematics::Arm arm(const std::filesystem::path& urdf, const Entry& root) {
   if (!file) throw mission::FileError(urdf.string() + ": cannot be read; check that the file exists");
   kinematics::UrdfOptions options{root.at("tip").text()};
   options.time_to_speed_s = bounded_or(root, "time_to_speed", 0.001, 1000, options.time_to_speed_s);
+  if (const auto time = root.find("time_to_acceleration"))
+    options.time_to_acceleration_s = bounded(*time, 0.001, 1000);
   auto result = kinematics::parse_urdf(text.str(), urdf.string(), options);
   if (const auto* error = std::get_if<kinematics::UrdfError>(&result))
     throw mission::FileError(to_string(*error));
@@ -130,13 +150,12 @@ kinematics::Arm arm(const std::filesystem::path& urdf, const Entry& root) {
 
 ArmSetup load_setup(const std::filesystem::path& urdf, const std::filesystem::path& poses_file) {
   const Entry root = Entry::load(poses_file);
-  root.allow_only(
-      {"tip", "tool_axis", "time_to_speed", "ground", "margin", "may_touch", "motor", "search", "poses"});
+  root.allow_only({"tip", "tool_axis", "time_to_speed", "time_to_acceleration", "ground", "margin",
+                   "may_touch", "motor", "search", "poses"});
   ArmSetup setup;
   setup.arm = arm(urdf, root);
-  const auto axis = root.find("tool_axis");
-  setup.poses =
-      poses(root.at("poses"), setup.arm.joints.size(), axis ? direction(*axis) : Eigen::Vector3d::UnitX());
+  if (const auto axis = root.find("tool_axis")) setup.tool_axis = direction(*axis);
+  setup.poses = poses(root.at("poses"), setup.arm.joints.size(), setup.tool_axis);
   setup.collision = collision(root);
   setup.motor = motor(root);
   if (const auto search = root.find("search")) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing (Debian 12 packages) and builds. Called by ./run and ./check:
 #   cmake/setup.sh [--yes] PRESET [TARGET ...]
-# Asks before it uses sudo, unless --yes is given or ROCI_YES is set. Exits 0 when build/PRESET is up to date, 3 when a package
+# Asks before it uses sudo, unless --yes is given or ROCI_YES is set. With ROCI_GEOTIFF=1 sites may be GeoTIFFs (GDAL). Exits 0 when build/PRESET is up to date, 3 when a package
 # is missing and cannot be installed.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -19,12 +19,18 @@ packages=(
   cyclonedds-dev cyclonedds-tools                                  # Cyclone DDS and its IDL compiler
   libeigen3-dev libompl-dev libfcl-dev liburdfdom-dev              # motion
   libyaml-cpp-dev libsqlite3-dev libssl-dev                        # missions, journal, trace digest
+  libpng-dev                                                       # pictures of the ground tool
   nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   python3                                                          # the field trial
   iproute2                                                         # network namespaces in the tests
   faketime                                                         # hosts whose clocks are wrong, in the tests
 )
+settings=()
+if [[ ${ROCI_GEOTIFF:-0} != 0 ]]; then
+  packages+=(libgdal-dev)
+  settings+=(-DROCI_GEOTIFF=ON)
+fi
 
 missing=()
 for package in "${packages[@]}"; do
@@ -57,7 +63,9 @@ fi
 
 cd "$root"
 if [[ ! -f build/$preset/build.ninja ]]; then
-  cmake --preset "$preset" >&2
+  cmake --preset "$preset" "${settings[@]}" >&2
+elif ((${#settings[@]})) && ! grep -q '^ROCI_GEOTIFF:BOOL=ON$' "build/$preset/CMakeCache.txt"; then
+  cmake "${settings[@]}" "build/$preset" >&2
 fi
 # One line that changes on a terminal, and nothing at all where there is nothing, or next to nothing, to do.
 show_build() {

@@ -48,6 +48,7 @@ using mission::read_mission;
 using reactor::DecisionRecord;
 using reactor::Event;
 using reactor::GivenAnswer;
+using reactor::PlannedAction;
 using reactor::PlanReply;
 using reactor::PlanRequest;
 using reactor::Reactor;
@@ -411,10 +412,11 @@ class ExecService final : public services::Service {
     if (apart_) std::exchange(apart_, std::nullopt)->remove();  // all of it stands in the journal now
     const Reactor& reactor = reactor_.reactor();
     if (leader_ != nullptr && out.adopted) lead_owners();
-    auto send_all = [this, out, version = reactor.plan_version(), status = mission_status(reactor, mission_),
-                     hash = reactor_.trace_sha256()] {
+    auto send_all = [this, out, version = reactor.plan_version(),
+                     actions = out.adopted ? reactor.planned_actions() : std::vector<PlannedAction>{},
+                     status = mission_status(reactor, mission_), hash = reactor_.trace_sha256()] {
       if (leader_ != nullptr) crash_.pass("after-copy");
-      send(out, version);
+      send(out, version, actions);
       crash_.pass("after-send");
       if (publisher_.publish(status, hash) && !status.outcome().empty()) write_summary();
     };
@@ -430,12 +432,12 @@ class ExecService final : public services::Service {
     });
   }
 
-  void send(const ReactorOutputs& out, std::uint32_t version) {
+  void send(const ReactorOutputs& out, std::uint32_t version, const std::vector<PlannedAction>& actions) {
     if (leader_ != nullptr) {
       publisher_.acknowledge_as(leader_->ack_stage());
       orders_.acknowledge_as(leader_->ack_stage());
     }
-    publisher_.send(out, version);
+    publisher_.send(out, version, actions);
     decisions_.send(out);
     orders_.send(out);
     const auto is_open = [](const DecisionRecord& decision) {

@@ -1,6 +1,7 @@
 #include "exec_svc/output_publisher_service.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "exec_svc/mission/observed_names.hpp"
 #include "exec_svc/wire_service.hpp"
@@ -17,6 +18,7 @@ using journal::CrashPoints;
 using mission::Component;
 using mission::MissionModel;
 using reactor::Event;
+using reactor::PlannedAction;
 using reactor::Reactor;
 using reactor::ReactorOutputs;
 
@@ -53,15 +55,16 @@ void OutputPublisher::send_goals(const Reactor& reactor) const {
 }
 
 void OutputPublisher::send_plan(const Reactor& reactor) const {
-  if (reactor.plan().version != 0) plans_.write(plan_sample(reactor.plan()));
+  if (reactor.plan().version != 0) plans_.write(plan_sample(reactor.plan(), reactor.planned_actions()));
   for (const StepStatus& step : reactor.steps())
     steps_.write(to_wire(step, executive_, reactor.plan_version()));
 }
 
-void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version) {
+void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version,
+                           const std::vector<PlannedAction>& actions) {
   for (const GoalRecord& goal : out.goal_changes)
     sent(goal_statuses_.write(to_wire(goal, executive_, ack_stage_)));
-  if (out.adopted) sent(plans_.write(plan_sample(*out.adopted)));
+  if (out.adopted) sent(plans_.write(plan_sample(*out.adopted, actions)));
   for (const Command& command : out.commands) {
     v1::Command sample = to_wire(command, executive_, version, epoch_);
     sent_keys_.emplace_back(sample.epoch(), sample.activity(), sample.attempt());
@@ -104,8 +107,20 @@ void OutputPublisher::lose_owner(const std::string& owner) {
   std::erase_if(waiting_, [&](const v1::Command& command) { return command.owner() == owner; });
 }
 
-v1::Plan OutputPublisher::plan_sample(const temporal::FlexiblePlan& plan) const {
+// The commands of an activity have arguments of their own; those of the action are told beside them.
+v1::Plan OutputPublisher::plan_sample(const temporal::FlexiblePlan& plan,
+                                      const std::vector<PlannedAction>& actions) const {
   v1::Plan out = services::wire::to_wire(mission::with_observed_names(plan, *mission_));
+  std::map<std::string, const PlannedAction*> by_activity;
+  for (const PlannedAction& action : actions) by_activity[action.activity] = &action;
+  for (v1::PlanActivity& activity : out.activities()) {
+    const auto planned = by_activity.find(activity.id());
+    if (planned == by_activity.end() || activity.commands().empty()) continue;
+    activity.arguments().clear();
+    for (const std::string& object : planned->second->arguments)
+      activity.arguments().push_back(services::wire::to_wire(
+          temporal::Property{std::to_string(activity.arguments().size() + 1), object}));
+  }
   out.executive(executive_);
   return out;
 }

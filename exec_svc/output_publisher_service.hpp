@@ -36,7 +36,9 @@ class OutputPublisher {
   void send_goals(const reactor::Reactor&) const;
   void send_plan(const reactor::Reactor&) const;
   /// What a step decided, but for its planner call.
-  void send(const reactor::ReactorOutputs&, std::uint32_t plan_version);
+  /// `actions`: what the planner wrote for the plan that it adopts.
+  void send(const reactor::ReactorOutputs&, std::uint32_t plan_version,
+            const std::vector<reactor::PlannedAction>& actions);
   void report(const reactor::Event&) const;
   /// True if it is news: a status that equals the last one is not sent again.
   bool publish(v1::MissionStatus, const std::string& trace_sha256);
@@ -63,7 +65,7 @@ class OutputPublisher {
 
   void send(v1::Command);
   void lead(const std::string& owner, std::uint64_t epoch) const;
-  v1::Plan plan_sample(const temporal::FlexiblePlan&) const;
+  v1::Plan plan_sample(const temporal::FlexiblePlan&, const std::vector<reactor::PlannedAction>&) const;
 
   const mission::MissionModel* mission_;
   std::string executive_;  // logical name

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <random>
 #include <utility>
@@ -94,7 +95,7 @@ class DriveTime : public ob::OptimizationObjective {
       : OptimizationObjective(si), map_(map), drive_(drive) {}
   ob::Cost stateCost(const ob::State*) const override { return ob::Cost(0); }
   ob::Cost motionCost(const ob::State* a, const ob::State* b) const override {
-    return ob::Cost(measure(map_, drive_, point_of(a), point_of(b)).time);
+    return ob::Cost(drive_time(map_, drive_, point_of(a), point_of(b)));
   }
 
  private:
@@ -102,12 +103,35 @@ class DriveTime : public ob::OptimizationObjective {
   const DriveModel& drive_;
 };
 
-// Is FMT* with neighbours by distance from a plain list: OMPL's default tree draws its pivots from the
+// Gives the neighbours that OMPL's plain list gives, in the same order, but works each distance out once, not
+// with each comparison.
+template <typename T>
+class RankedList : public ompl::NearestNeighborsLinear<T> {
+ public:
+  void nearestK(const T& data, std::size_t k, std::vector<T>& neighbours) const override {
+    ranked_.clear();
+    for (const T& other : this->data_) ranked_.emplace_back(this->distFun_(other, data), other);
+    const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
+    const auto end = ranked_.begin() + static_cast<std::ptrdiff_t>(std::min(k, ranked_.size()));
+    if (ranked_.size() > k) {
+      std::partial_sort(ranked_.begin(), end, ranked_.end(), nearer);
+    } else {
+      std::sort(ranked_.begin(), ranked_.end(), nearer);
+    }
+    neighbours.clear();
+    for (auto it = ranked_.begin(); it != end; ++it) neighbours.push_back(it->second);
+  }
+
+ private:
+  mutable std::vector<std::pair<double, T>> ranked_;
+};
+
+// Is FMT* with neighbours by distance from a list: OMPL's default tree draws its pivots from the
 // process-wide seed, and driving time, which it would use as distance, is no metric.
 class ListFmt : public ompl::geometric::FMT {
  public:
   explicit ListFmt(const ob::SpaceInformationPtr& si) : FMT(si) {
-    nn_ = std::make_shared<ompl::NearestNeighborsLinear<Motion*>>();
+    nn_ = std::make_shared<RankedList<Motion*>>();
     setExtendedFMT(false);
   }
   void setup() override {

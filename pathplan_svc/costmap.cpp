@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -11,6 +12,11 @@ namespace {
 bool positive(double v) { return std::isfinite(v) && v > 0; }
 
 double square(double v) { return v * v; }
+
+// Returns how many cells to each side of a cell its plane is fitted to.
+int window(double radius, double resolution) {
+  return std::max(1, static_cast<int>(std::lround(radius / resolution)));
+}
 
 // Holds the least-squares plane through the elevations of a square window around a cell, and the largest
 // distance from it.
@@ -64,31 +70,42 @@ const char* to_string(CellState state) {
       return "steep";
     case CellState::rough:
       return "rough";
+    case CellState::step:
+      return "step";
     case CellState::rock:
       return "rock";
     case CellState::unknown:
       return "unknown";
     case CellState::disc:
       return "disc";
+    case CellState::keep_out:
+      return "keep_out";
   }
   return "invalid";
 }
 
-Costmap::Costmap(const terrain::Site& site, const RoverLimits& limits) : grid_(site.grid()), limits_(limits) {
+Costmap::Costmap(const terrain::Site& site, const RoverLimits& limits,
+                 const std::vector<terrain::Polygon>& keep_out)
+    : grid_(site.grid()), limits_(limits) {
   if (!positive(limits.radius) || !positive(limits.max_slope) || !positive(limits.rock_clearance) ||
-      !positive(limits.max_roughness)) {
+      !positive(limits.max_roughness) || !(limits.max_step == 0 || positive(limits.max_step))) {
     throw std::invalid_argument(
         "the rover's radius, slope, clearance and roughness limits must be above zero");
   }
   state_.assign(grid_.cell_count(), CellState::free);
   fit_planes(site);
+  if (limits.max_step > 0) mark_steps(site);
   mark_rocks(site);
   mark_edge();
+  for (const terrain::Polygon& polygon : site.keep_out()) mark_polygon(polygon);
+  for (const terrain::Polygon& polygon : keep_out) mark_polygon(polygon);
+  mark_unknown(site);
   terrain_state_ = state_;
+  if_known_ = terrain_if_known_;
 }
 
 void Costmap::fit_planes(const terrain::Site& site) {
-  const int half = std::max(1, static_cast<int>(std::lround(limits_.radius / grid_.resolution)));
+  const int half = window(limits_.radius, grid_.resolution);
   const double steepest = square(std::tan(limits_.max_slope));
   for (std::size_t i = 0; i < grid_.cell_count(); ++i) {
     const terrain::Cell c = grid_.cell_at(i);
@@ -106,15 +123,57 @@ void Costmap::fit_planes(const terrain::Site& site) {
   }
 }
 
+void Costmap::mark_steps(const terrain::Site& site) {
+  for (std::size_t i = 0; i < grid_.cell_count(); ++i) {
+    const terrain::Cell c = grid_.cell_at(i);
+    for (const terrain::Cell next :
+         {terrain::Cell{c.column + 1, c.row}, terrain::Cell{c.column, c.row + 1}}) {
+      if (!grid_.contains(next)) continue;
+      if (std::abs(site.elevation(next) - site.elevation(c)) <= limits_.max_step) continue;
+      raise(c, CellState::step);
+      raise(next, CellState::step);
+    }
+  }
+}
+
 void Costmap::mark_rocks(const terrain::Site& site) {
   for (std::size_t i = 0; i < grid_.cell_count(); ++i) {
     const terrain::Cell c = grid_.cell_at(i);
     const terrain::Occupancy occupancy = site.occupancy(c);
     const bool rock =
         occupancy == terrain::Occupancy::occupied || site.rock_height(c) > limits_.rock_clearance;
-    if (!rock && occupancy == terrain::Occupancy::free) continue;
-    raise(c, rock ? CellState::rock : CellState::unknown);
+    if (!rock) continue;
+    raise(c, CellState::rock);
     mark_margin_of(c);
+  }
+}
+
+void Costmap::mark_unknown(const terrain::Site& site) {
+  const std::vector<CellState> known = state_;
+  for (std::size_t i = 0; i < grid_.cell_count(); ++i) {
+    const terrain::Cell c = grid_.cell_at(i);
+    if (site.occupancy(c) != terrain::Occupancy::unknown || site.rock_height(c) > limits_.rock_clearance) {
+      continue;
+    }
+    raise(c, CellState::unknown);
+    mark_margin_of(c);
+    ++unknown_cells_;
+  }
+  if (unknown_cells_ == 0) return;
+  // Slope, roughness and steps beside a hole come from made-up ground; they must not prove that there is no way.
+  terrain_if_known_ = known;
+  const int half = window(limits_.radius, grid_.resolution);
+  for (std::size_t i = 0; i < grid_.cell_count(); ++i) {
+    if (state_[i] != CellState::unknown) continue;
+    const terrain::Cell c = grid_.cell_at(i);
+    for (int dy = -half; dy <= half; ++dy) {
+      for (int dx = -half; dx <= half; ++dx) {
+        const terrain::Cell near{c.column + dx, c.row + dy};
+        if (!grid_.contains(near)) continue;
+        CellState& state = terrain_if_known_[grid_.index(near)];
+        if (state >= CellState::steep && state <= CellState::step) state = CellState::free;
+      }
+    }
   }
 }
 
@@ -154,6 +213,17 @@ bool Costmap::set_discs(const std::vector<Disc>& discs) {
   const std::vector<CellState> before = std::exchange(state_, terrain_state_);
   for (const Disc& disc : discs) mark_disc(disc);
   if (state_ == before) return false;
+  changed_.clear();
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    if (state_[i] != before[i]) changed_.push_back(i);
+  }
+  if (unknown_cells_ > 0) {
+    // The discs once more, over the ground as it may be.
+    std::swap(state_, if_known_);
+    state_ = terrain_if_known_;
+    for (const Disc& disc : discs) mark_disc(disc);
+    std::swap(state_, if_known_);
+  }
   ++version_;
   return true;
 }
@@ -177,6 +247,25 @@ void Costmap::mark_disc(const Disc& disc) {
       } else if (square(gap_x) + square(gap_y) < square(reach)) {
         raise({column, row}, CellState::margin);
       }
+    }
+  }
+}
+
+void Costmap::mark_polygon(const terrain::Polygon& polygon) {
+  const auto [west, east] = std::ranges::minmax(polygon.corners, {}, &terrain::Point::x);
+  const auto [south, north] = std::ranges::minmax(polygon.corners, {}, &terrain::Point::y);
+  // A cell whose centre is farther from the outline than this keeps the rover's radius with each of its points.
+  const double reach = limits_.radius + grid_.resolution * std::numbers::sqrt2 / 2;
+  for (std::size_t i = 0; i < grid_.cell_count(); ++i) {
+    const terrain::Cell c = grid_.cell_at(i);
+    const terrain::Point p = grid_.centre(c);
+    if (p.x < west.x - reach || p.x > east.x + reach || p.y < south.y - reach || p.y > north.y + reach) {
+      continue;
+    }
+    if (terrain::contains(polygon, p)) {
+      raise(c, CellState::keep_out);
+    } else if (terrain::distance_to_outline(polygon, p) < reach) {
+      raise(c, CellState::margin);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/terrain/site.hpp"
+#include "pathplan_svc/read_set.hpp"
 
 namespace roci::pathplan {
 
@@ -14,6 +15,9 @@ struct RoverLimits {
   double max_slope = 0.35;       ///< radians, of the plane under the rover
   double rock_clearance = 0.25;  ///< rocks above this height are obstacles
   double max_roughness = 0.30;   ///< largest distance of the ground from the plane under the rover
+  /// Is the largest difference of elevation between a cell and one that shares a side with it; 0: no limit. On a slope that
+  /// is allowed the difference is up to tan(max_slope) times the side of a cell.
+  double max_step = 0;
 };
 
 /// Is an obstacle known at run time or a keep-out zone of the mission, in metres.
@@ -23,9 +27,9 @@ struct Disc {
   bool operator==(const Disc&) const = default;
 };
 
-/// Says why a cell may not be entered. A `margin` cell is nearer than the rover's radius to a rock, a disc or
-/// the edge of the map; the centre of a `disc` cell lies in a disc.
-enum class CellState : std::uint8_t { free, margin, steep, rough, rock, unknown, disc };
+/// Says why a cell may not be entered. A `margin` cell is nearer than the rover's radius to a rock, a disc, a
+/// keep-out zone, unknown ground or the edge of the map; the centre of a `disc` cell lies in a disc, that of a `keep_out` cell in a polygon.
+enum class CellState : std::uint8_t { free, margin, steep, rough, step, rock, unknown, disc, keep_out };
 
 /// Returns the name above.
 const char* to_string(CellState state);
@@ -35,12 +39,14 @@ const char* to_string(CellState state);
 /// navigation software for planetary exploration", IEEE Aerospace 2002.
 ///
 /// A verdict is sound for the whole cell, not for its centre alone: each point of a free cell keeps the
-/// rover's radius from every occupied cell and disc. A cell blocked for its slope blocks the rover's centre
-/// only.
+/// rover's radius from every occupied cell, unknown cell, disc and keep-out zone. A cell blocked for its slope, roughness or
+/// step blocks the rover's centre only. Unknown ground is never free.
 class Costmap {
  public:
-  /// Fits the map to the site. Throws std::invalid_argument for limits that are not positive and finite.
-  Costmap(const terrain::Site& site, const RoverLimits& limits);
+  /// Fits the map to the site, with its keep-out zones and those given. Throws std::invalid_argument for limits that
+  /// are not positive and finite (the step's may be zero).
+  Costmap(const terrain::Site& site, const RoverLimits& limits,
+          const std::vector<terrain::Polygon>& keep_out = {});
 
   const terrain::Grid& grid() const { return grid_; }
   const RoverLimits& limits() const { return limits_; }
@@ -49,11 +55,34 @@ class Costmap {
   std::uint64_t version() const { return version_; }
 
   CellState state(std::size_t index) const { return state_[index]; }
-  CellState state(terrain::Cell c) const { return state_[grid_.index(c)]; }
+  CellState state(terrain::Cell c) const {
+    if (reads_ != nullptr) reads_->add(c);
+    return state_[grid_.index(c)];
+  }
   bool is_free(terrain::Cell c) const { return grid_.contains(c) && state(c) == CellState::free; }
   bool is_free(terrain::Point p) const {
     return grid_.contains(p) && state(grid_.cell_of(p)) == CellState::free;
   }
+
+  /// Returns the number of cells whose ground the site does not know.
+  std::size_t unknown_cells() const { return unknown_cells_; }
+  /// Tells whether the cell would be free if all unknown ground were good ground; a free cell would.
+  bool may_be_free(std::size_t index) const {
+    return state_[index] == CellState::free || (unknown_cells_ > 0 && if_known_[index] == CellState::free);
+  }
+
+  /// Notes in a set which cells are asked about one by one (state(Cell) and is_free()), for as long as it lives. One at
+  /// a time; the map must outlive it and stay where it is.
+  class Recording {
+   public:
+    Recording(const Costmap& map, ReadSet& reads) : map_(map) { map_.reads_ = &reads; }
+    ~Recording() { map_.reads_ = nullptr; }
+    Recording(const Recording&) = delete;
+    Recording& operator=(const Recording&) = delete;
+
+   private:
+    const Costmap& map_;
+  };
 
   /// Returns the gradient of the fitted plane.
   terrain::Gradient gradient(std::size_t index) const { return {east_[index], north_[index]}; }
@@ -64,13 +93,18 @@ class Costmap {
   /// version. Throws std::invalid_argument for a centre that is not finite or a radius that is negative or
   /// not finite; the map is then as before.
   bool set_discs(const std::vector<Disc>& discs);
+  /// Returns the cells that the newest version changed, by index.
+  const std::vector<std::size_t>& changed_cells() const { return changed_; }
 
  private:
   void fit_planes(const terrain::Site& site);
+  void mark_steps(const terrain::Site& site);
   void mark_rocks(const terrain::Site& site);
+  void mark_unknown(const terrain::Site& site);
   void mark_margin_of(terrain::Cell blocked);
   void mark_edge();
   void mark_disc(const Disc& disc);
+  void mark_polygon(const terrain::Polygon& polygon);
   void raise(terrain::Cell c, CellState state);
 
   terrain::Grid grid_;
@@ -78,6 +112,12 @@ class Costmap {
   std::uint64_t version_ = 1;
   std::vector<CellState> terrain_state_;  // without discs
   std::vector<CellState> state_;
+  // The same as if all unknown ground were good; empty where there is none.
+  std::vector<CellState> terrain_if_known_;
+  std::vector<CellState> if_known_;
+  std::size_t unknown_cells_ = 0;
+  std::vector<std::size_t> changed_;
+  mutable ReadSet* reads_ = nullptr;
   std::vector<float> east_;
   std::vector<float> north_;
   std::vector<float> roughness_;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 namespace roci::pathplan {
 
 /// Says what a metre of map (measured horizontally) costs.
@@ -39,12 +42,22 @@ struct DriveModel {
   /// goes from 0 for smooth to 1 for the roughest allowed.
   Pace pace(double grade, double roughness) const;
 
+  /// Returns the time of the pace alone.
+  double seconds_per_metre(double grade, double roughness) const {
+    const double slip = std::min(max_slip, slip_per_grade * std::max(0.0, grade));
+    const double ground_speed = speed * (1 - slip) * (1 - rough_slowdown * roughness);
+    return std::sqrt(1 + grade * grade) / ground_speed;
+  }
+
   /// These return seconds and joules of a turn on the spot by `angle` radians, of either sign.
   double turn_time(double angle) const;
   double turn_energy(double angle) const;
 
   /// Returns the seconds per metre that no ground is driven faster than.
   double fastest() const { return 1 / speed; }
+  /// Returns joules per metre that ground of this slope and roughness takes at least, whatever the direction: all
+  /// of the slope helps, and nothing slips.
+  double least_energy(double slope, double roughness) const;
 };
 
 }  // namespace roci::pathplan

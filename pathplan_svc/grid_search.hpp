@@ -11,7 +11,10 @@ namespace roci::pathplan {
 /// the eight neighbours, diagonally only where both cells beside the move are free, too.
 class Regions {
  public:
-  explicit Regions(const Costmap& map);
+  /// Says which ground counts: what is free, or what would be if all unknown ground were good.
+  enum class Ground : std::uint8_t { known, hoped_for };
+
+  explicit Regions(const Costmap& map, Ground ground = Ground::known);
 
   /// Returns the number of the region of a free cell, from 1; 0 for a blocked one.
   std::uint32_t region(std::size_t index) const { return region_[index]; }
@@ -29,6 +32,10 @@ class SearchTree {
   /// Returns the centres from the source to `target`, both included; none if there is no way.
   Polyline path_to(terrain::Cell target) const;
   bool reaches(terrain::Cell target) const { return move_[grid_.index(target)] != kNone; }
+  /// Tells whether the way to `target` is still open on the map, which may have been given obstacles since the search. Then
+  /// the way is the one that a new search would find: costs have only risen, and those on the way have not, so that nothing
+  /// else became better or, where costs are equal, earlier.
+  bool holds(const Costmap& map, terrain::Cell target) const;
 
  private:
   friend class GridSearch;

@@ -1,16 +1,20 @@
 #include "pathplan_svc/path_planner.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include "pathplan_svc/shortcut.hpp"
 
 namespace roci::pathplan {
 namespace {
 
-constexpr std::size_t kMaxTrees = 256;
-constexpr std::size_t kMaxAnswers = 16384;
+constexpr std::size_t kTreeBytes = 64'000'000;  // a tree has a byte for each cell
+constexpr double kRounding = 1e-9;              // by which a sum of pieces may fall below the whole
 
 // Returns a seed from the coordinates of the ends (FNV-1a over their bytes).
 std::uint64_t seed_of(terrain::Point from, terrain::Point to) {
@@ -22,11 +26,9 @@ std::uint64_t seed_of(terrain::Point from, terrain::Point to) {
   return hash;
 }
 
-PathOutcome refusal(PathStatus status, CellState blocked_by = CellState::free) {
-  PathOutcome outcome;
-  outcome.status = status;
-  outcome.blocked_by = blocked_by;
-  return outcome;
+// Returns how many cells around a start may be the first on the way out of a margin.
+int exit_reach(const Costmap& map) {
+  return static_cast<int>(map.limits().radius / map.grid().resolution) + 2;
 }
 
 // Returns the nearest centre of a free cell that a straight line through margin reaches, or the point itself
@@ -36,7 +38,7 @@ std::optional<terrain::Point> leave_margin(const Costmap& map, terrain::Point fr
   const terrain::Grid& grid = map.grid();
   const terrain::Cell here = grid.cell_of(from);
   if (map.state(here) != CellState::margin) return std::nullopt;
-  const int reach = static_cast<int>(map.limits().radius / grid.resolution) + 2;
+  const int reach = exit_reach(map);
   std::optional<terrain::Point> best;
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
@@ -58,6 +60,8 @@ const char* to_string(PathStatus status) {
       return "found";
     case PathStatus::unreachable:
       return "unreachable";
+    case PathStatus::unknown:
+      return "unknown";
     case PathStatus::start_outside:
       return "start_outside";
     case PathStatus::goal_outside:
@@ -71,59 +75,151 @@ const char* to_string(PathStatus status) {
 }
 
 PathPlanner::PathPlanner(const terrain::Site& site, const RoverLimits& limits, const DriveModel& drive,
-                         const PlannerSettings& settings)
-    : map_(site, limits), drive_(drive), settings_(settings), search_(map_, drive_), regions_(map_) {}
+                         const PlannerSettings& settings, const std::vector<terrain::Polygon>& keep_out)
+    : map_(site, limits, keep_out),
+      drive_(drive),
+      settings_(settings),
+      search_(map_, drive_),
+      regions_(map_) {
+  if (map_.unknown_cells() > 0) hoped_for_.emplace(map_, Regions::Ground::hoped_for);
+  // A path leads over free ground, and out of margin.
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < map_.grid().cell_count(); ++i) {
+    if (map_.state(i) > CellState::margin) continue;
+    const terrain::Gradient g = map_.gradient(i);
+    least = std::min(least, drive_.least_energy(std::hypot(g.east, g.north), map_.roughness(i)));
+  }
+  if (std::isfinite(least)) least_energy_ = least;
+}
 
 bool PathPlanner::set_discs(const std::vector<Disc>& discs) {
   if (!map_.set_discs(discs)) return false;
   regions_ = Regions(map_);
-  trees_.clear();
-  answers_.clear();
+  if (hoped_for_) hoped_for_.emplace(map_, Regions::Ground::hoped_for);
+  ReadSet changed(map_.grid());
+  bool cleared = false;
+  for (const std::size_t i : map_.changed_cells()) {
+    changed.add(map_.grid().cell_at(i));
+    cleared = cleared || map_.state(i) == CellState::free;
+  }
+  if (cleared) {
+    trees_.clear();
+    answers_.clear();
+  } else {
+    answers_.keep_unread(changed);
+  }
   return true;
 }
 
 PathOutcome PathPlanner::path(terrain::Point from, terrain::Point to) {
-  if (!map_.grid().contains(from)) return refusal(PathStatus::start_outside);
-  if (!map_.grid().contains(to)) return refusal(PathStatus::goal_outside);
-  const auto key = std::pair{std::pair{from.x, from.y}, std::pair{to.x, to.y}};
-  const auto known = answers_.find(key);
-  if (known != answers_.end()) return known->second;
-  if (answers_.size() >= kMaxAnswers) answers_.clear();
-  return answers_.emplace(key, plan(from, to)).first->second;
+  const KeptAnswer& known = answer(from, to);
+  PathOutcome outcome = known.outcome;
+  outcome.waypoints = densify(known.corners, settings_.waypoint_spacing);
+  return outcome;
 }
 
-const SearchTree& PathPlanner::tree_from(terrain::Cell source) {
+PathOutcome PathPlanner::cost(terrain::Point from, terrain::Point to) { return answer(from, to).outcome; }
+
+PathOutcome PathPlanner::lower_bound(terrain::Point from, terrain::Point to) {
+  PathOutcome outcome = ends(from, to).outcome;
+  if (outcome.status != PathStatus::found || from == to) return outcome;
+  outcome.length = terrain::distance(from, to) * (1 - kRounding);
+  outcome.time = (outcome.length * drive_.fastest() + drive_.turn_time(kFirstTurn)) * (1 - kRounding);
+  outcome.energy = (outcome.length * least_energy_ + drive_.turn_energy(kFirstTurn)) * (1 - kRounding);
+  return outcome;
+}
+
+const KeptAnswer& PathPlanner::answer(terrain::Point from, terrain::Point to) {
+  if (const KeptAnswer* known = answers_.find(from, to)) return *known;
+  return answers_.put(from, to, plan(from, to));
+}
+
+PathPlanner::Ends PathPlanner::ends(terrain::Point from, terrain::Point to) const {
+  Ends ends;
+  const auto refuse = [&](PathStatus status, CellState blocked_by = CellState::free) {
+    ends.outcome.status = status;
+    ends.outcome.blocked_by = blocked_by;
+    ends.start.reset();
+    return ends;
+  };
+  const terrain::Grid& grid = map_.grid();
+  if (!grid.contains(from)) return refuse(PathStatus::start_outside);
+  if (!grid.contains(to)) return refuse(PathStatus::goal_outside);
+  const terrain::Cell here = grid.cell_of(from);
+  const terrain::Cell there = grid.cell_of(to);
+  const auto not_found = [&](PathStatus status, CellState blocked_by = CellState::free) {
+    return refuse(may_be_reached(here, there) ? PathStatus::unknown : status, blocked_by);
+  };
+  ends.start = leave_margin(map_, from);
+  if (!ends.start) return not_found(PathStatus::start_blocked, map_.state(here));
+  if (from == to) return ends;
+  if (!map_.is_free(to)) return not_found(PathStatus::goal_blocked, map_.state(there));
+  const std::size_t source = grid.index(grid.cell_of(*ends.start));
+  if (regions_.region(source) != regions_.region(grid.index(there))) {
+    return not_found(PathStatus::unreachable);
+  }
+  return ends;
+}
+
+// Errs on the side of hope: what it denies is denied by known ground.
+bool PathPlanner::may_be_reached(terrain::Cell from, terrain::Cell to) const {
+  if (!hoped_for_) return false;
+  const terrain::Grid& grid = map_.grid();
+  const std::uint32_t wanted = hoped_for_->region(grid.index(to));
+  if (wanted == 0) return false;
+  const int reach = exit_reach(map_);
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const terrain::Cell c{from.column + dx, from.row + dy};
+      if (grid.contains(c) && hoped_for_->region(grid.index(c)) == wanted) return true;
+    }
+  }
+  return false;
+}
+
+const SearchTree& PathPlanner::tree_between(terrain::Cell source, terrain::Cell target) {
   const std::size_t index = map_.grid().index(source);
   const auto known = trees_.find(index);
-  if (known != trees_.end()) return known->second;
-  if (trees_.size() >= kMaxTrees) trees_.clear();
-  return trees_.emplace(index, search_.from(map_, source)).first->second;
+  if (known != trees_.end() && known->second.holds(map_, target)) return known->second;
+  if (trees_.size() * map_.grid().cell_count() >= kTreeBytes) trees_.clear();
+  ++work_.searches;
+  return trees_.insert_or_assign(index, search_.from(map_, source)).first->second;
 }
 
-PathOutcome PathPlanner::plan(terrain::Point from, terrain::Point to) {
-  const terrain::Grid& grid = map_.grid();
-  const std::optional<terrain::Point> start = leave_margin(map_, from);
-  if (!start) return refusal(PathStatus::start_blocked, map_.state(grid.cell_of(from)));
-  if (from == to) return finish({from});
-  if (!map_.is_free(to)) return refusal(PathStatus::goal_blocked, map_.state(grid.cell_of(to)));
-  const terrain::Cell source = grid.cell_of(*start);
-  const terrain::Cell target = grid.cell_of(to);
-  if (regions_.region(grid.index(source)) != regions_.region(grid.index(target))) {
-    return refusal(PathStatus::unreachable);
+KeptAnswer PathPlanner::plan(terrain::Point from, terrain::Point to) {
+  KeptAnswer answer;
+  answer.reads = ReadSet(map_.grid());
+  std::optional<terrain::Point> start;
+  {
+    const Costmap::Recording recording(map_, answer.reads);
+    Ends found = ends(from, to);
+    answer.outcome = std::move(found.outcome);
+    start = found.start;
   }
-
-  Polyline corners = *start == to ? Polyline{to} : fastest(*start, to);
-  if (*start != from) corners.insert(corners.begin(), from);
-  return finish(corners);
+  if (!start) return answer;
+  ++work_.paths;
+  Polyline& corners = answer.corners;
+  if (from == to) {
+    corners = {from};
+  } else {
+    corners = *start == to ? Polyline{to} : fastest(*start, to, answer.reads);
+    if (*start != from) corners.insert(corners.begin(), from);
+  }
+  fill_costs(corners, answer.outcome);
+  return answer;
 }
 
-Polyline PathPlanner::fastest(terrain::Point from, terrain::Point to) {
+Polyline PathPlanner::fastest(terrain::Point from, terrain::Point to, ReadSet& reads) {
   const auto straighten = [&](const Polyline& path) {
     return shortcut(map_, drive_, thin(map_, path, settings_.max_corners), settings_.max_piece);
   };
   const auto time = [&](const Polyline& path) { return measure(map_, drive_, path).time; };
 
-  Polyline exact = tree_from(map_.grid().cell_of(from)).path_to(map_.grid().cell_of(to));
+  const terrain::Cell target = map_.grid().cell_of(to);
+  const SearchTree& tree = tree_between(map_.grid().cell_of(from), target);
+  const Costmap::Recording recording(map_, reads);
+  tree.holds(map_, target);  // The way stands on the cells that this looks at.
+  Polyline exact = tree.path_to(target);
   if (exact.size() == 1) return {from, to};
   exact.front() = from;
   exact.back() = to;
@@ -136,14 +232,11 @@ Polyline PathPlanner::fastest(terrain::Point from, terrain::Point to) {
   return best;
 }
 
-PathOutcome PathPlanner::finish(const Polyline& corners) const {
+void PathPlanner::fill_costs(const Polyline& corners, PathOutcome& outcome) const {
   const SegmentCost cost = measure(map_, drive_, corners);
-  PathOutcome outcome;
-  outcome.waypoints = densify(corners, settings_.waypoint_spacing);
   outcome.length = cost.length;
   outcome.time = cost.time;
   outcome.energy = cost.energy;
-  return outcome;
 }
 
 }  // namespace roci::pathplan

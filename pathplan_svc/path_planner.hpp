@@ -1,38 +1,17 @@
 #pragma once
 #include <cstdint>
 #include <map>
-#include <utility>
+#include <optional>
+#include <vector>
 
+#include "pathplan_svc/answer_table.hpp"
 #include "pathplan_svc/corridor_planner.hpp"
 #include "pathplan_svc/costmap.hpp"
 #include "pathplan_svc/drive_model.hpp"
 #include "pathplan_svc/grid_search.hpp"
+#include "pathplan_svc/path_outcome.hpp"
 
 namespace roci::pathplan {
-
-/// Says whether there is a path, or why not.
-enum class PathStatus : std::uint8_t {
-  found,
-  unreachable,    ///< It is proved: the ends lie in regions of free cells that do not meet.
-  start_outside,  ///< The start lies outside the map.
-  goal_outside,
-  start_blocked,  ///< PathOutcome::blocked_by says by what.
-  goal_blocked,
-};
-
-/// Returns the name above.
-const char* to_string(PathStatus status);
-
-/// Holds way-points from start to goal (both included), at most PlannerSettings::waypoint_spacing apart, and
-/// what the drive costs (segment.hpp). It is empty and zero unless found.
-struct PathOutcome {
-  PathStatus status = PathStatus::found;
-  CellState blocked_by = CellState::free;
-  Polyline waypoints;
-  double length = 0;  ///< m
-  double time = 0;    ///< s
-  double energy = 0;  ///< J
-};
 
 /// Bounds the work of a planner and shapes its way-points.
 struct PlannerSettings {
@@ -42,40 +21,66 @@ struct PlannerSettings {
   std::size_t max_corners = 60;   ///< Bounds a path before shortcuts.
 };
 
+/// Says what a planner did, for tests and measurements.
+struct PlannerWork {
+  std::uint64_t searches = 0;  ///< over the whole grid
+  std::uint64_t paths = 0;     ///< that were worked out
+};
+
 /// Finds fast drives over a map that may gain obstacles. An answer depends on the map and the two ends alone,
-/// never on earlier questions; answers and search trees are kept until the map changes. One thread may use it
-/// at a time.
+/// never on earlier questions. Answers and search trees are kept; when obstacles are added, those stay that would come out the same
+/// again, and when one goes, none. One thread may use it at a time.
 ///
 /// A goal must be free. A start in the margin of an obstacle (one that was seen while the rover stood there)
 /// is left by the shortest straight line to a free cell.
 class PathPlanner {
  public:
+  /// `keep_out` comes on top of the site's own zones.
   PathPlanner(const terrain::Site& site, const RoverLimits& limits, const DriveModel& drive,
-              const PlannerSettings& settings = {});
+              const PlannerSettings& settings = {}, const std::vector<terrain::Polygon>& keep_out = {});
 
   const Costmap& map() const { return map_; }
   const DriveModel& drive() const { return drive_; }
+  const PlannerWork& work() const { return work_; }
 
   /// Does what Costmap::set_discs does.
   bool set_discs(const std::vector<Disc>& discs);
 
   PathOutcome path(terrain::Point from, terrain::Point to);
+  /// Returns the same without way-points, which is what a table of costs needs.
+  PathOutcome cost(terrain::Point from, terrain::Point to);
+  /// Returns the same status, and if found a length, time and energy that those of the path are never below: of the
+  /// straight line on the best ground of the map, and of the turn at the start. It searches nothing.
+  PathOutcome lower_bound(terrain::Point from, terrain::Point to);
 
  private:
-  PathOutcome plan(terrain::Point from, terrain::Point to);
+  // The ends of a path on the grid; without `start` there is none, and the outcome says why.
+  struct Ends {
+    PathOutcome outcome;
+    std::optional<terrain::Point> start;  // from which the grid is entered
+  };
+
+  Ends ends(terrain::Point from, terrain::Point to) const;
+  bool may_be_reached(terrain::Cell from, terrain::Cell to) const;
+  const KeptAnswer& answer(terrain::Point from, terrain::Point to);
+  KeptAnswer plan(terrain::Point from, terrain::Point to);
   // Takes ends that are both free and in one region. The result is never slower than the exact way over the
   // grid, turns included.
-  Polyline fastest(terrain::Point from, terrain::Point to);
-  const SearchTree& tree_from(terrain::Cell source);
-  PathOutcome finish(const Polyline& corners) const;
+  Polyline fastest(terrain::Point from, terrain::Point to, ReadSet& reads);
+  // A tree whose way to the target is the best one on the map as it is.
+  const SearchTree& tree_between(terrain::Cell source, terrain::Cell target);
+  void fill_costs(const Polyline& corners, PathOutcome& outcome) const;
 
   Costmap map_;
   DriveModel drive_;
   PlannerSettings settings_;
   GridSearch search_;
   Regions regions_;
+  std::optional<Regions> hoped_for_;  // where the map knows all ground, there is no need of it
+  double least_energy_ = 0;           // J/m, on the ground of the map
   std::map<std::size_t, SearchTree> trees_;
-  std::map<std::pair<std::pair<double, double>, std::pair<double, double>>, PathOutcome> answers_;
+  AnswerTable answers_;
+  PlannerWork work_;
 };
 
 }  // namespace roci::pathplan

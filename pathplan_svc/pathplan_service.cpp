@@ -30,11 +30,12 @@ class PathplanService : public services::Service {
   PathplanService(services::Node& node, const terrain::Site& site, const Rover& rover)
       : node_(node),
         keep_out_(rover.keep_out),
-        planner_(site, rover.limits, rover.drive),
+        planner_(site, rover.limits, rover.drive, {}, rover.keep_out_polygons),
         offers_(services::advertise(node, topics::function_offer)),
         events_(services::advertise(node, topics::event)),
         worker_(node) {
     planner_.set_discs(keep_out_);
+    report_holes();
     offers_.write(function_offer(node.options().name, planner_.map().version()));
     services::subscribe(node, topics::hazard, [this](const v1::Hazard& hazard) { on_hazard(hazard); });
     services::serve(node, topics::function_call, [this](const v1::FunctionRequest& request, auto responder) {
@@ -57,6 +58,17 @@ class PathplanService : public services::Service {
           answer.reply.computed_us(node_.now().count());
           responder.reply(std::move(answer.reply));
         });
+  }
+
+  void report_holes() {
+    const std::size_t unknown = planner_.map().unknown_cells();
+    if (unknown == 0) return;
+    const std::string cells = std::to_string(unknown);
+    report(v1::SEVERITY_WARNING, "map.unknown",
+           "the map does not know " + cells + " of its " +
+               std::to_string(planner_.map().grid().cell_count()) +
+               " cells; no path leads over them, and what lies behind them is not known to be unreachable",
+           {{"cells", cells}});
   }
 
   // Each place is told once per map, although every replanning asks again.

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/terrain/polygon_file.hpp"
+
 namespace roci::pathplan {
 namespace {
 
@@ -22,11 +24,15 @@ constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kZeroToo = -1e-300;  // as `above`: zero is allowed, negative is not
 
-Disc read_disc(const mission::Entry& entry) {
+void read_zone(const mission::Entry& entry, Rover& rover) {
+  if (entry.is_mapping() && entry.find("polygon")) {
+    rover.keep_out_polygons.push_back(terrain::read_polygon(entry));
+    return;
+  }
   entry.allow_only({"x", "y", "radius_m"});
   const Disc disc{{entry.at("x").number(), entry.at("y").number()}, entry.at("radius_m").number()};
   if (disc.radius < 0) entry.at("radius_m").fail("'radius_m' must not be negative");
-  return disc;
+  rover.keep_out.push_back(disc);
 }
 
 }  // namespace
@@ -39,6 +45,7 @@ Rover read_rover(const mission::Entry& section) {
       Key{"max_slope_deg", &max_slope_deg, 0, 60},
       Key{"rock_clearance_m", &rover.limits.rock_clearance, 0, kAny},
       Key{"max_roughness_m", &rover.limits.max_roughness, 0, kAny},
+      Key{"max_step_m", &rover.limits.max_step, kZeroToo, kAny},
       Key{"speed_m_s", &rover.drive.speed, 0, kAny},
       Key{"slip_per_grade", &rover.drive.slip_per_grade, kZeroToo, kAny},
       Key{"max_slip", &rover.drive.max_slip, kZeroToo, 0.95},
@@ -53,7 +60,7 @@ Rover read_rover(const mission::Entry& section) {
   };
   for (const auto& [name, value] : section.fields()) {
     if (name == "keep_out") {
-      for (const mission::Entry& zone : value.items()) rover.keep_out.push_back(read_disc(zone));
+      for (const mission::Entry& zone : value.items()) read_zone(zone, rover);
       continue;
     }
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == name; });

@@ -11,7 +11,8 @@ namespace roci::pathplan {
 struct Rover {
   RoverLimits limits;
   DriveModel drive;
-  std::vector<Disc> keep_out;
+  std::vector<Disc> keep_out{};
+  std::vector<terrain::Polygon> keep_out_polygons{};
 };
 
 /// Reads the section `rover` of mission.yaml (README.md lists its keys; each is optional). Throws

@@ -66,12 +66,27 @@ SegmentCost measure(const Costmap& map, const DriveModel& drive, terrain::Point 
     const std::size_t i = map.grid().index(cell);
     const terrain::Gradient g = map.gradient(i);
     const Pace pace = drive.pace(g.east * east + g.north * north, map.roughness(i));
-    cost.free = cost.free && map.state(i) == CellState::free;
+    cost.free = cost.free && map.state(cell) == CellState::free;
     cost.time += pace.time * share * cost.length;
     cost.energy += pace.energy * share * cost.length;
     return true;
   });
   return cost;
+}
+
+double drive_time(const Costmap& map, const DriveModel& drive, terrain::Point from, terrain::Point to) {
+  const double length = terrain::distance(from, to);
+  const double unit = length > 0 ? 1 / length : 0;
+  const double east = (to.x - from.x) * unit;
+  const double north = (to.y - from.y) * unit;
+  double time = 0;
+  walk(map.grid(), from, to, [&](terrain::Cell cell, double share) {
+    const std::size_t i = map.grid().index(cell);
+    const terrain::Gradient g = map.gradient(i);
+    time += drive.seconds_per_metre(g.east * east + g.north * north, map.roughness(i)) * share * length;
+    return true;
+  });
+  return time;
 }
 
 bool is_free(const Costmap& map, terrain::Point from, terrain::Point to) {

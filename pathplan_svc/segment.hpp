@@ -20,6 +20,9 @@ struct SegmentCost {
 /// Measures the drive. Both ends must lie on the map.
 SegmentCost measure(const Costmap& map, const DriveModel& drive, terrain::Point from, terrain::Point to);
 
+/// Returns SegmentCost::time of the drive alone, to the last bit, which is cheaper.
+double drive_time(const Costmap& map, const DriveModel& drive, terrain::Point from, terrain::Point to);
+
 /// Makes the test alone, which is cheaper: it stops at the first blocked cell.
 bool is_free(const Costmap& map, terrain::Point from, terrain::Point to);
 

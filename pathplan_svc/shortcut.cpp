@@ -38,7 +38,7 @@ Polyline shortcut(const Costmap& map, const DriveModel& drive, const Polyline& p
       if (!neighbours && (terrain::distance(path[i], path[j]) > max_piece || !is_free(map, path[i], path[j])))
         continue;
       Piece& piece = pieces.at(i, j);
-      piece.time = measure(map, drive, path[i], path[j]).time;
+      piece.time = drive_time(map, drive, path[i], path[j]);
       piece.heading = heading(path[i], path[j]);
       if (i == 0) piece.arrival = drive.turn_time(kFirstTurn) + piece.time;
     }

@@ -15,8 +15,9 @@ namespace wire = services::wire;
 constexpr const char* kTime = "traverse_time";
 constexpr const char* kEnergy = "traverse_energy";
 
-const std::vector<wire::OwnedFunction> kFunctions{{kTime, {"location", "location"}, "s"},
-                                                  {kEnergy, {"location", "location"}, "J"}};
+const std::vector<v1::FunctionAccuracy> kAccuracies{v1::ACCURACY_EXACT, v1::ACCURACY_LOWER_BOUND};
+const std::vector<wire::OwnedFunction> kFunctions{{kTime, {"location", "location"}, "s", kAccuracies},
+                                                  {kEnergy, {"location", "location"}, "J", kAccuracies}};
 
 std::optional<Point> place_of(const v1::PlanObject& object) {
   const auto x = wire::finite_property(object, "x");
@@ -31,6 +32,10 @@ std::string explain(const PathOutcome& outcome) {
       return "";
     case PathStatus::unreachable:
       return "no free ground joins start and goal on this map";
+    case PathStatus::unknown:
+      return "no known ground joins start and goal, and unknown ground is not driven over; complete the map "
+             "or choose "
+             "another place";
     case PathStatus::start_outside:
     case PathStatus::goal_outside:
       return "the place lies outside the map; give x and y in metres of the map frame";
@@ -62,8 +67,24 @@ std::vector<v1::Pose2> poses(const Polyline& points, double heading_at_rest) {
 }
 
 v1::MotionOutcome motion_outcome(PathStatus status) {
-  if (status == PathStatus::found) return v1::MOTION_FOUND;
-  return status == PathStatus::unreachable ? v1::MOTION_UNREACHABLE : v1::MOTION_INVALID;
+  switch (status) {
+    case PathStatus::found:
+      return v1::MOTION_FOUND;
+    case PathStatus::unreachable:
+      return v1::MOTION_UNREACHABLE;
+    case PathStatus::unknown:
+      return v1::MOTION_UNKNOWN;
+    case PathStatus::start_outside:
+    case PathStatus::goal_outside:
+    case PathStatus::start_blocked:
+    case PathStatus::goal_blocked:
+      break;
+  }
+  return v1::MOTION_INVALID;
+}
+
+bool at_start(PathStatus status) {
+  return status == PathStatus::start_outside || status == PathStatus::start_blocked;
 }
 
 }  // namespace
@@ -76,18 +97,17 @@ FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request
                         const std::stop_token& stop) {
   FunctionAnswer answer;
   const auto estimate = [&](const wire::OwnedFunction& function,
-                            std::span<const v1::PlanObject* const> objects) -> wire::FunctionResult {
+                            std::span<const v1::PlanObject* const> objects,
+                            v1::FunctionAccuracy accuracy) -> wire::FunctionResult {
     const auto from = place_of(*objects[0]), to = place_of(*objects[1]);
     if (!from || !to) return {v1::FUNCTION_UNKNOWN_OBJECT};
-    const PathOutcome path = planner.path(*from, *to);
+    const PathOutcome path =
+        accuracy == v1::ACCURACY_LOWER_BOUND ? planner.lower_bound(*from, *to) : planner.cost(*from, *to);
     if (path.status == PathStatus::found)
       return {v1::FUNCTION_VALUE, function.name == kTime ? path.time : path.energy};
-    if (path.status != PathStatus::unreachable) {
-      const bool at_start =
-          path.status == PathStatus::start_outside || path.status == PathStatus::start_blocked;
-      answer.unusable_places[objects[at_start ? 0 : 1]->name()] = explain(path);
-    }
-    return {v1::FUNCTION_UNREACHABLE};
+    if (path.status == PathStatus::unreachable) return {v1::FUNCTION_UNREACHABLE};
+    answer.unusable_places[objects[at_start(path.status) ? 0 : 1]->name()] = explain(path);
+    return {path.status == PathStatus::unknown ? v1::FUNCTION_UNKNOWN : v1::FUNCTION_UNREACHABLE};
   };
   answer.reply = wire::answer_batches(request, planner.map().version(), kFunctions, estimate, stop);
   wire::put_words(answer.reply, answer.unusable_places);

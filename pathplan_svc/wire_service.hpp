@@ -14,7 +14,7 @@ namespace roci::pathplan {
 inline constexpr const char* kModule = "pathplan";
 
 /// Tells what module `pathplan` offers on this version of the map: traverse_time [s] and traverse_energy [J]
-/// of (from, to).
+/// of (from, to), exact and as a lower bound.
 v1::FunctionOffer function_offer(const std::string& owner, std::uint64_t map_version);
 
 /// Holds the reply, and what is worth an event.
@@ -24,7 +24,8 @@ struct FunctionAnswer {
 };
 
 /// Gives every tuple an outcome. An object is a place if it has properties x and y, finite numbers in metres.
-/// A place off the map or inside an obstacle is unreachable, and the reply says why in words. Once stopped, the rest is FUNCTION_FAILED.
+/// A place off the map or inside an obstacle is unreachable, and the reply says why in words; so is what known ground proves
+/// to be cut off. Where unknown ground may hold a way the outcome is FUNCTION_UNKNOWN. Once stopped, the rest is FUNCTION_FAILED.
 FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request,
                         const std::stop_token& stop);
 

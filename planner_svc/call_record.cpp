@@ -23,6 +23,9 @@ void CallRecords::keep(const engine::Answer& answer, double wall_s) {
                                {"wall_s", wall_s},
                                {"evaluated", answer.statistics.evaluated},
                                {"expanded", answer.statistics.expanded},
+                               {"function_requests", answer.statistics.function_requests},
+                               {"function_tuples", answer.statistics.function_tuples},
+                               {"exact_values", answer.statistics.exact_values},
                                {"from_remaining", answer.statistics.from_remaining},
                                {"actions", answer.plan ? answer.plan->activities.size() : 0}};
   for (const engine::RecordFile& part : answer.record) std::ofstream(file(part.ending)) << part.text;

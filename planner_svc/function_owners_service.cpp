@@ -11,6 +11,7 @@
 namespace roci::planner {
 
 using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionValue, engine::Provenance;
+using temporal::FunctionAccuracy;
 
 namespace {
 
@@ -34,6 +35,15 @@ std::string names_of(const Offers& offers) {
     text += (text.empty() ? "" : ", ") + offer->owner() + (robot.empty() ? "" : " of " + robot);
   }
   return text;
+}
+
+// An owner that has no such values for the function is asked for exact ones.
+FunctionAccuracy accuracy_asked(const v1::FunctionOffer& offer, const FunctionCall& call) {
+  const auto wanted = static_cast<v1::FunctionAccuracy>(call.accuracy);
+  for (const v1::FunctionSignature& function : offer.functions())
+    if (function.name() == call.function && std::ranges::count(function.accuracies(), wanted) > 0)
+      return call.accuracy;
+  return FunctionAccuracy::exact;
 }
 
 }  // namespace
@@ -73,7 +83,7 @@ FunctionOwners::FunctionOwners(services::Node& node, temporal::Duration timeout)
   });
 }
 
-void FunctionOwners::ask(const std::vector<FunctionCall>& calls, const engine::Request& request, Done done) {
+void FunctionOwners::ask(std::vector<FunctionCall> calls, const engine::Request& request, Done done) {
   const OwnerChoice choice =
       choose_owner(offers_, calls.front().module, request.robot,
                    [this](const std::string& owner) { return node_.peer_alive(owner); });
@@ -81,6 +91,8 @@ void FunctionOwners::ask(const std::vector<FunctionCall>& calls, const engine::R
     return done({calls.size(), FunctionValue{FunctionOutcome::unavailable, 0, {}, choice.reason}});
   const v1::FunctionOffer& offer = *choice.offer;
   const Provenance asked{offer.owner(), std::to_string(offer.model_version()), node_.now()};
+  const FunctionAccuracy accuracy = accuracy_asked(offer, calls.front());
+  for (FunctionCall& call : calls) call.accuracy = accuracy;
   const std::uint64_t number = ++asked_;
   asking_ = number;
   client_.call(to_wire(calls, request.objects), offer.owner(), timeout_,

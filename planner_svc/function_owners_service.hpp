@@ -41,10 +41,11 @@ class FunctionOwners {
   FunctionOwners(const FunctionOwners&) = delete;
   FunctionOwners& operator=(const FunctionOwners&) = delete;
 
-  /// `calls`: at least one, of one function. Asks the owner that answers for the request's robot, else the
-  /// one that answers for all. `done` gets one value for each, perhaps before this returns; all are
+  /// `calls`: at least one, of one function, with one accuracy and one state. Asks the owner that answers for
+  /// the request's robot, else the one that answers for all; exactly, if it does not offer the accuracy for
+  /// this function. `done` gets one value for each, perhaps before this returns; all are
   /// unavailable, with the reason, if nobody or more than one owner fits.
-  void ask(const std::vector<engine::FunctionCall>& calls, const engine::Request& request, Done done);
+  void ask(std::vector<engine::FunctionCall> calls, const engine::Request& request, Done done);
 
   /// The batch under way is wanted no more, its `done` will not run. False: none was under way.
   bool forget();

@@ -34,6 +34,13 @@ Settings read_settings(const std::filesystem::path& mission) {
       out.improvement = static_cast<std::uint64_t>(evaluations);
     }
   }
+  if (const auto functions = planner->find("functions")) {
+    const auto mode = engine::functions_mode_named(functions->text());
+    if (!mode)
+      functions->fail("'" + functions->text() +
+                      "' is no way to ask for function values; write eager, lazy or two_accuracy");
+    out.functions = *mode;
+  }
   if (const auto simulated = planner->find("simulated")) {
     simulated->allow_only({"base_s", "per_evaluation_s"});
     out.simulated_base_s = simulated->number_or("base_s", out.simulated_base_s);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/temporal/duration.hpp"
+#include "planner_svc/engine/function_source.hpp"
 #include "planner_svc/engine/request.hpp"
 
 namespace roci::planner {
@@ -16,6 +17,8 @@ struct Settings {
   temporal::Duration function_timeout = temporal::seconds(20);  ///< for one batch of values
   /// Evaluations that a call may spend on better plans once it has one; see engine::Request.
   std::uint64_t improvement = engine::kImprovement;
+  /// Which values of external functions are asked for: `functions: eager`, `lazy` or `two_accuracy`.
+  engine::FunctionsMode functions = engine::FunctionsMode::eager;
   /// Mission time that a call takes under the simulated clock.
   double simulated_base_s = 0.5;
   double simulated_per_evaluation_s = 0.0005;

@@ -12,6 +12,7 @@ namespace roci::planner {
 
 using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionValue, engine::Provenance,
     engine::RemainingAction;
+using temporal::FunctionAccuracy;
 
 namespace {
 
@@ -83,6 +84,7 @@ FunctionOutcome from_wire(v1::FunctionOutcome outcome, double number) {
     case v1::FUNCTION_WRONG_ARITY:
       return FunctionOutcome::wrong_arity;
     case v1::FUNCTION_UNKNOWN:
+      return FunctionOutcome::unknown;
     case v1::FUNCTION_UNKNOWN_FUNCTION:
     case v1::FUNCTION_FAILED:
       return FunctionOutcome::unavailable;
@@ -92,7 +94,7 @@ FunctionOutcome from_wire(v1::FunctionOutcome outcome, double number) {
 
 // What the owner means by an outcome that has no name of its own here.
 std::string reason_of(v1::FunctionOutcome outcome) {
-  if (outcome == v1::FUNCTION_UNKNOWN) return "it found no value with the effort that it spends";
+  if (outcome == v1::FUNCTION_UNKNOWN) return "it found no value with the effort spent";
   if (outcome == v1::FUNCTION_UNKNOWN_FUNCTION) return "it does not know this function";
   if (outcome == v1::FUNCTION_FAILED) return "it failed to compute the value";
   return "";
@@ -176,8 +178,15 @@ v1::FunctionRequest to_wire(const std::vector<FunctionCall>& calls,
   v1::FunctionBatch batch;
   batch.function(calls.front().function);
   batch.arity(static_cast<std::uint32_t>(calls.front().arguments.size()));
+  batch.accuracy(static_cast<v1::FunctionAccuracy>(calls.front().accuracy));
   for (const FunctionCall& call : calls)
     for (const std::string& argument : call.arguments) batch.tuples().push_back(add(argument));
+  for (const engine::AssumedValue& assumed : calls.front().state) {
+    v1::NamedValue named;
+    named.name(assumed.timeline);
+    named.held(services::wire::to_wire(temporal::Value(assumed.number)));
+    out.state().push_back(std::move(named));
+  }
   out.module_name(calls.front().module);
   out.batches({std::move(batch)});
   return out;
@@ -194,6 +203,12 @@ std::vector<FunctionValue> values_of(const std::vector<FunctionCall>& calls, con
     return {calls.size(), FunctionValue{FunctionOutcome::unavailable, 0, asked,
                                         "it answered with another number of values than asked for"}};
   }
+  const auto accuracy = static_cast<FunctionAccuracy>(
+      std::min<std::uint32_t>(reply.results()[0].accuracy(), v1::ACCURACY_ESTIMATE));
+  if (accuracy != FunctionAccuracy::exact && accuracy != calls.front().accuracy) {
+    return {calls.size(), FunctionValue{FunctionOutcome::unavailable, 0, asked,
+                                        "it answered with another accuracy than asked for"}};
+  }
   const Provenance provenance{reply.owner(), std::to_string(reply.model_version()),
                               temporal::Time(reply.computed_us())};
   const std::map<std::string, std::string> words = services::wire::words_of(reply);
@@ -205,7 +220,7 @@ std::vector<FunctionValue> values_of(const std::vector<FunctionCall>& calls, con
     if (outcome == v1::FUNCTION_UNREACHABLE)
       for (const std::string& object : calls[i].arguments)
         if (const auto why = words.find(object); why != words.end()) reason = object + ": " + why->second;
-    values.push_back({from_wire(outcome, number), number, provenance, std::move(reason)});
+    values.push_back({from_wire(outcome, number), number, provenance, std::move(reason), accuracy});
   }
   return values;
 }

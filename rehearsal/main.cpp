@@ -11,6 +11,7 @@
 #include "services/clock/wall.hpp"
 #include "services/process/link_report.hpp"
 #include "services/process/mission_folder.hpp"
+#include "services/process/number_checks.hpp"
 #include "services/process/run_summary.hpp"
 
 namespace {
@@ -102,12 +103,12 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("--scenario", arguments.scenario, "Scenario of the mission")->capture_default_str();
   app.add_option("--runs", arguments.runs, "Number of flights, with seeds counted up")
-      ->check(CLI::PositiveNumber);
+      ->check(roci::services::process::above_zero());
   app.add_option("--seed", arguments.seed, "Seed of the first flight")
-      ->check(CLI::NonNegativeNumber)
+      ->check(roci::services::process::from_zero())
       ->capture_default_str();
   app.add_option("--speed", arguments.speed, "Simulated seconds per second, or max")
-      ->check(CLI::PositiveNumber | CLI::IsMember({"max"}));
+      ->check(roci::services::process::above_zero() | CLI::IsMember({"max"}));
   app.add_option("--run-folder", arguments.folder,
                  "Where journals and summaries are kept (default: nowhere)");
   app.add_flag("--json", arguments.json,

@@ -4,7 +4,7 @@
 
 namespace roci::science {
 
-/// Reads the section `science` of mission.yaml and, over it, that of the scenario (`enabled`, `threshold`). A
+/// Reads the section `science` of mission.yaml and, over it, that of the scenario (`enabled`, `threshold`, `limit`). A
 /// mission without the section has no detector. Throws mission::FileError with place and remedy.
 DetectorSettings read_detector(const mission::Entry& mission, const mission::Entry& scenario);
 

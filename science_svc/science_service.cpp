@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "core/mission/mission_file.hpp"
@@ -10,6 +13,9 @@
 #include "core/terrain/site_file.hpp"
 #include "science_svc/detector_file.hpp"
 #include "science_svc/limits.hpp"
+#include "science_svc/picture.hpp"
+#include "science_svc/watch/watch_service.hpp"
+#include "services/log/log.hpp"
 #include "services/node/make_event.hpp"
 #include "services/publisher.hpp"
 
@@ -27,36 +33,83 @@ v1::Property property(const std::string& name, double value) {
 
 class ScienceService final : public services::Service {
  public:
-  ScienceService(services::Node& node, DetectorSettings settings, const terrain::Grid& map,
-                 std::uint64_t seed)
+  ScienceService(services::Node& node, DetectorSettings settings, std::shared_ptr<const terrain::Site> site)
       : node_(node),
+        started_(node.now()),
+        enabled_(settings.enabled),
         goal_kind_(settings.goal_kind),
-        detector_(std::move(settings), map, seed),
+        detector_(std::move(settings), std::move(site)),
         goals_(services::advertise(node, topics::goal)),
-        events_(services::advertise(node, topics::event)) {
+        events_(services::advertise(node, topics::event)),
+        crops_(services::advertise(node, topics::data_product)) {
     services::subscribe(node, topics::data_product,
                         [this](const v1::DataProduct& product) { look(product); });
+    // What an earlier process raised stands in the executive's journal; the ids say the places.
+    services::subscribe(node, topics::goal_status, [this](const v1::GoalStatus& status) {
+      if (status.issuer() == node_.options().name) detector_.remember(status.id(), started_);
+    });
   }
 
  private:
   void look(const v1::DataProduct& product) {
-    if (product.product_kind() != "image" || product.fate() != v1::PRODUCT_STORED) return;
+    const bool image = product.product_kind() == "image" || product.product_kind() == "panorama";
+    if (!enabled_ || !image || product.fate() != v1::PRODUCT_STORED) return;
     if (detector_.full()) return tell_full();
-    const auto find = detector_.look({product.id(), {product.x_m(), product.y_m()}}, node_.now());
-    if (!find) return;
+    const auto photo = read(product);
+    if (!photo) return;
+    // An earlier process has looked at these already: they only show what ground looks like.
+    if (product.created_us() < started_.count()) return detector_.learn(*photo);
+    for (const Find& find : detector_.look(*photo, node_.now())) raise(find, product);
+  }
+
+  // Says so where there is nothing to look at.
+  std::optional<Photo> read(const v1::DataProduct& product) {
+    const auto& bytes = product.preview();
+    const std::string name = product.id().substr(0, kNameBytesTold);
+    try {
+      const std::string_view file{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+      return Photo{
+          product.id(), {{product.x_m(), product.y_m()}, product.heading_rad()}, read_picture(file, name)};
+    } catch (const terrain::MapError& error) {
+      if (unreadable_told_ >= kUnreadableTold) return std::nullopt;
+      ++unreadable_told_;
+      events_.write(services::node::make_event(v1::SEVERITY_WARNING, "image.unreadable", error.what()));
+    }
+    return std::nullopt;
+  }
+
+  void raise(const Find& find, const v1::DataProduct& image) {
     v1::Goal goal;
     goal.issuer(node_.options().name);
-    goal.id(find->id);
+    goal.id(find.id);
     goal.goal_kind(goal_kind_);
-    goal.arguments({property("x", find->place.x), property("y", find->place.y)});
+    goal.arguments({property("x", find.place.x), property("y", find.place.y)});
     goal.importance(v1::GOAL_OPPORTUNISTIC);
-    goal.utility({find->score});
+    goal.utility({find.score});
     goal.preferred_us(-1);
     goals_.write(goal);
+    crops_.write(crop_of(find, image));
     events_.write(
         services::node::make_event(v1::SEVERITY_INFO, "science.find",
                                    fmt::format("{} shows something of interest (score {:.2f}) at ({}, {})",
-                                               product.id(), find->score, find->place.x, find->place.y)));
+                                               image.id(), find.score, find.place.x, find.place.y)));
+  }
+
+  v1::DataProduct crop_of(const Find& find, const v1::DataProduct& image) const {
+    v1::DataProduct out;
+    out.id("crop-" + find.id);
+    out.product_kind("crop");
+    out.source(image.id());
+    out.bytes(find.crop.size());
+    out.fate(v1::PRODUCT_STORED);
+    out.tier(v1::TIER_DECISIONAL);
+    out.created_us(node_.now().count());
+    out.utility({find.score});
+    out.x_m(find.place.x);
+    out.y_m(find.place.y);
+    out.heading_rad(image.heading_rad());
+    out.preview({find.crop.begin(), find.crop.end()});
+    return out;
   }
 
   // Told once.
@@ -68,16 +121,28 @@ class ScienceService final : public services::Service {
   }
 
   services::Node& node_;
+  const temporal::Time started_;
+  const bool enabled_;
   bool full_told_ = false;
+  std::size_t unreadable_told_ = 0;
   std::string goal_kind_;
   Detector detector_;
   services::Publisher<v1::Goal> goals_;
   services::Publisher<v1::Event> events_;
+  services::Publisher<v1::DataProduct> crops_;
 };
 
-terrain::Grid map_of(const mission::Entry& site) {
+// Either may be missing.
+struct DetectorAndWatch final : services::Service {
+  std::unique_ptr<services::Service> detector, watch;
+};
+
+// Returns the ground as the mission maps it, or nothing for a mission without a map.
+std::shared_ptr<const terrain::Site> site_of(const mission::Entry& mission) {
+  const auto site = mission.find("site");
+  if (!site) return nullptr;
   try {
-    return terrain::load_site(site.resolve(site.text())).grid();
+    return std::make_shared<terrain::Site>(terrain::load_site(site->resolve(site->text())));
   } catch (const terrain::MapError& error) {
     throw mission::FileError(error.what());
   }
@@ -88,8 +153,14 @@ terrain::Grid map_of(const mission::Entry& site) {
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
   const mission::Entry mission = mission::load_mission_file(settings.mission_file());
   const mission::Entry scenario = mission::load_scenario(settings.mission, settings.scenario);
-  return std::make_unique<ScienceService>(node, read_detector(mission, scenario), map_of(mission.at("site")),
-                                          settings.seed);
+  auto out = std::make_unique<DetectorAndWatch>();
+  if (mission.find("science")) {  // without its section there is no detector, and no map is needed
+    DetectorSettings detector = read_detector(mission, scenario);
+    for (const std::string& warning : detector.warnings) services::log::warning(warning);
+    out->detector = std::make_unique<ScienceService>(node, std::move(detector), site_of(mission));
+  }
+  out->watch = watch::make_watch(node, mission);
+  return out;
 }
 
 }  // namespace roci::science

@@ -137,7 +137,8 @@ class SimService final : public services::Service, private owner::Driver {
   void publish(const Image& image) {
     const v1::DataProduct product = wire::to_wire(image);
     products_.write(product);
-    if (image.sent) products_.dispose(product);
+    // Nothing more will be said of what is sent, and of what is not kept.
+    if (image.sent || image.kind != "image") products_.dispose(product);
   }
 
   void report(const TaskReport& task) {

@@ -83,11 +83,11 @@ v1::Observation to_wire(const world::Observed& observed) {
 v1::DataProduct to_wire(const world::Image& image) {
   v1::DataProduct out;
   out.id(image.id);
-  out.product_kind("image");
+  out.product_kind(image.kind);
   out.source(image.source);
   out.bytes(image.bytes);
   out.fate(image.sent ? v1::PRODUCT_SENT : v1::PRODUCT_STORED);
-  out.tier(v1::TIER_MANDATORY);
+  out.tier(image.kind == "image" ? v1::TIER_MANDATORY : v1::TIER_RESIDUAL);
   out.created_us(image.taken.count());
   out.x_m(image.taken_from.x);
   out.y_m(image.taken_from.y);
@@ -121,6 +121,8 @@ v1::ArmMotionRequest to_wire(const world::MotionWanted& motion) {
   out.from_pose(motion.from);
   out.from_positions(motion.joints);
   out.to_pose(motion.to);
+  out.payload_kg(motion.payload_kg);
+  out.payload_size_m(motion.payload_size_m);
   return out;
 }
 

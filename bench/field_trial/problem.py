@@ -53,12 +53,12 @@ def parse(text: str) -> Problem:
     return problem
 
 
-def read_values(path: Path) -> dict[str, dict[tuple[str, str], float]]:
-    """Function → (from, to) → value; what is unreachable is left out."""
-    out: dict[str, dict[tuple[str, str], float]] = {}
+def read_values(path: Path) -> dict[str, dict[tuple[str, ...], float]]:
+    """Function → arguments → value; what is unreachable, or not known, is left out."""
+    out: dict[str, dict[tuple[str, ...], float]] = {}
     for line in path.read_text().splitlines():
         application, value = line[1:].split(") ")
-        function, origin, target = application.split(" ")
-        if value != "unreachable":
-            out.setdefault(function, {})[origin, target] = float(value)
+        function, *arguments = application.split(" ")
+        if value not in ("unreachable", "unknown"):
+            out.setdefault(function, {})[tuple(arguments)] = float(value)
     return out

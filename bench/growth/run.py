@@ -24,6 +24,9 @@ import rover
 HERE = pathlib.Path(__file__).resolve().parent
 SEEDS = 3
 DOUBLING = (2, 4, 8, 16, 32)
+MODULES = (4, 6, 10, 20, 40, 80, 140, 200)
+DOMAINS = {"rover": HERE / "rover.pddl", "envelopes": HERE / "envelopes.pddl",
+           "orbital": HERE.parents[1] / "missions" / "orbital" / "domain.pddl"}
 # name: domain, what grows, its sizes, the problem of a size and perhaps the values of its external functions
 FAMILIES = {
     "goals": ("rover", "goals among 64 sites", DOUBLING, lambda n, seed: rover.problem(64, n, 0, seed)),
@@ -33,9 +36,9 @@ FAMILIES = {
     "envelopes": ("envelopes", "furnaces of 4 jobs", DOUBLING + (64, 128), lambda n, seed: envelopes.problem(n, 4, seed)),
     "contents": ("envelopes", "jobs of each of 4 furnaces", DOUBLING + (64, 128),
                  lambda n, seed: envelopes.problem(4, n, seed)),
-    "modules": ("orbital", "modules of a satellite, 4 of them to be elsewhere", (4, 6, 10, 20, 30, 40),
+    "modules": ("orbital", "modules of a satellite, 4 of them to be elsewhere", MODULES,
                 lambda n, seed: orbital.reconfiguration(n, 4, seed)),
-    "moved": ("orbital", "modules of a satellite, all to be elsewhere", (4, 6, 10, 20, 30, 40),
+    "moved": ("orbital", "modules of a satellite, all to be elsewhere", MODULES,
               lambda n, seed: orbital.reconfiguration(n, n, seed)),
 }
 
@@ -45,7 +48,7 @@ def write_tree(root, names):
         domain, _, sizes, made = FAMILIES[name]
         folder = root / "growth" / name
         (folder / "instances").mkdir(parents=True)
-        shutil.copy(HERE / f"{domain}.pddl", folder / "domain.pddl")
+        shutil.copy(DOMAINS[domain], folder / "domain.pddl")
         for size in sizes:
             for seed in range(SEEDS):
                 file = folder / "instances" / f"instance-{10 * size + seed}.pddl"

@@ -20,13 +20,14 @@ using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kM
 
 enum class JointType { revolute, prismatic };
 
-/// Bounds position, speed, acceleration and effort of one joint.
+/// Bounds position, speed, acceleration, effort and jerk of one joint.
 struct JointLimits {
   double lower = 0;         ///< rad or m
   double upper = 0;         ///< rad or m
   double velocity = 0;      ///< rad/s or m/s, > 0
   double acceleration = 0;  ///< rad/s² or m/s², > 0
   double effort = 0;        ///< N·m or N, > 0
+  double jerk = 0;          ///< rad/s³ or m/s³; 0 stands for none
 };
 
 /// Is one movable joint with its place on the previous body.

@@ -80,10 +80,25 @@ class ArmBuilder {
                        "the chain to '" + options_.tip + "' has " + std::to_string(count) +
                            " movable joints; an arm has 4 to 7"};
     }
+    if (const auto error = massless_end()) return *error;
     return std::move(arm_);
   }
 
  private:
+  // A joint that moves no mass would be told to cost nothing.
+  std::optional<UrdfError> massless_end() const {
+    if (arm_.bodies.back().mass.mass > 0) return std::nullopt;
+    const std::string& name = arm_.joints.back().name;
+    return UrdfError{file_, line_of(name), "joint '" + name + "'",
+                     "moves no mass; give link '" + arm_.bodies.back().name +
+                         "' or one that is fixed to it an <inertial> with a <mass>"};
+  }
+
+  int line_of(const std::string& joint) const {
+    const auto line = notes_.joint_line.find(joint);
+    return line == notes_.joint_line.end() ? 0 : line->second;
+  }
+
   // Goes over the joint above `link`. Returns the link's pose in the body that it belongs to.
   Eigen::Isometry3d step(const urdf::Link& link, const Eigen::Isometry3d& parent_in_body) {
     const urdf::Joint& joint = *link.parent_joint;
@@ -109,6 +124,11 @@ class ArmBuilder {
     joint.limits.acceleration = given != notes_.acceleration.end()
                                     ? given->second
                                     : source.limits->velocity / options_.time_to_speed_s;
+    if (const auto jerk = notes_.jerk.find(source.name); jerk != notes_.jerk.end()) {
+      joint.limits.jerk = jerk->second;
+    } else if (options_.time_to_acceleration_s > 0) {
+      joint.limits.jerk = joint.limits.acceleration / options_.time_to_acceleration_s;
+    }
     if (source.dynamics) {
       joint.friction = source.dynamics->friction;
       joint.damping = source.dynamics->damping;
@@ -128,9 +148,8 @@ class ArmBuilder {
       if (below.get() == next) continue;
       const urdf::Joint& joint = *below->parent_joint;
       if (moves(joint)) {
-        const auto line = notes_.joint_line.find(joint.name);
         return UrdfError{
-            file_, line == notes_.joint_line.end() ? 0 : line->second, "joint '" + joint.name + "'",
+            file_, line_of(joint.name), "joint '" + joint.name + "'",
             "branches off the chain to '" + options_.tip + "'; make it fixed or choose another tip"};
       }
       const Eigen::Isometry3d pose = in_body * pose_of(joint.parent_to_joint_origin_transform);

@@ -2,7 +2,7 @@
 //
 // Fixed joints, also of side branches (a camera bracket, the chassis), fold into the bodies they hold; a
 // movable joint off the chain is an error. `continuous` becomes revolute within ±2π. Beyond plain URDF,
-// <limit> may carry `acceleration` (as in URDF 1.2). A box or sphere of collision geometry stays as it is; a
+// <limit> may carry `acceleration` and `jerk` (as in URDF 1.2). A box or sphere of collision geometry stays as it is; a
 // cylinder longer than wide becomes the capsule around the same axis segment, a flatter one the box around
 // it: both contain it. Meshes are refused.
 #pragma once
@@ -19,6 +19,8 @@ struct UrdfOptions {
   std::string tip;  ///< Names the link that is the tool frame.
   /// Joints without an acceleration limit reach their speed limit in this time.
   double time_to_speed_s = 0.5;
+  /// Joints without a jerk limit reach their acceleration limit in this time; 0: at once, they have none.
+  double time_to_acceleration_s = 0;
 };
 
 /// Says why a document is no arm, and where.

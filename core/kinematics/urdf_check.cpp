@@ -1,11 +1,16 @@
 #include "core/kinematics/urdf_check.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
 #include "core/kinematics/urdf_xml.hpp"
 
 namespace roci::kinematics {
 namespace {
 
 using tinyxml2::XMLElement;
+
+constexpr double kRoundedMoment = 1e-9;  // kg·m²; files round what they write
 
 const XMLElement& child(const XMLElement& parent, const char* name, const std::string& remedy) {
   const XMLElement* found = parent.FirstChildElement(name);
@@ -50,7 +55,18 @@ void check_inertial(const XMLElement& inertial) {
   const XMLElement& mass = child(inertial, "mass", "needs a <mass value=\"…\"/>");
   if (xml::required_number(mass, "value") < 0) xml::fail(mass, "a mass cannot be below 0");
   const XMLElement& inertia = child(inertial, "inertia", "needs an <inertia ixx=\"…\" …/>");
-  for (const char* entry : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}) xml::required_number(inertia, entry);
+  const auto entry = [&inertia](const char* name) { return xml::required_number(inertia, name); };
+  Eigen::Matrix3d matrix;
+  matrix << entry("ixx"), entry("ixy"), entry("ixz"),  //
+      entry("ixy"), entry("iyy"), entry("iyz"),        //
+      entry("ixz"), entry("iyz"), entry("izz");
+  const Eigen::Vector3d moments =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+  if (!(moments[0] >= -kRoundedMoment * std::max(1.0, moments[2]))) {
+    xml::fail(inertia, "the moments of inertia must not be negative, about no axis (the least is " +
+                           std::to_string(moments[0]) +
+                           " kg·m²); check the signs of ixx … izz, or give those of a box of the link's size");
+  }
 }
 
 void check_link(const XMLElement& link) {
@@ -86,6 +102,10 @@ void check_limits(const XMLElement& joint, bool bounded, UrdfNotes& notes) {
   if (limit.Attribute("acceleration") != nullptr) {
     require_positive(limit, "acceleration");
     notes.acceleration[joint.Attribute("name")] = xml::required_number(limit, "acceleration");
+  }
+  if (limit.Attribute("jerk") != nullptr) {
+    require_positive(limit, "jerk");
+    notes.jerk[joint.Attribute("name")] = xml::required_number(limit, "jerk");
   }
 }
 

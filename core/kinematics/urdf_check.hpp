@@ -16,11 +16,12 @@ struct UrdfNotes {
   std::map<std::string, int> link_line;
   std::map<std::string, int> joint_line;
   std::map<std::string, double> acceleration;  ///< Has the joints whose <limit> gives one.
+  std::map<std::string, double> jerk;          ///< Has the joints whose <limit> gives one.
 };
 
 /// Checks a document. One that passes has unique names, known joint types, finite numbers, limits with lower
 /// < upper and positive velocity and effort on every movable joint, no zero axis, no mesh in <collision>,
-/// positive sizes, and links that form one tree. Returns the first error otherwise, under the name `file`.
+/// positive sizes, no negative mass or moment of inertia, and links that form one tree. Returns the first error otherwise, under the name `file`.
 std::variant<UrdfNotes, UrdfError> check_urdf(const std::string& text, const std::string& file);
 
 }  // namespace roci::kinematics

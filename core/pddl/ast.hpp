@@ -6,6 +6,8 @@
 // stand.
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -230,12 +232,31 @@ struct Requirement {
   SourceLocation where;
 };
 
+/// Says that an external function takes a fluent into account, by levels of it: a value from one level up to
+/// the next counts as that level.
+struct StateDependence {
+  std::string function;        ///< of the same module
+  Atom fluent;                 ///< its arguments are parameters of the function
+  std::vector<double> levels;  ///< ascending
+  SourceLocation where;
+};
+
 /// Declares the external functions of one owner: they lead from objects to numbers and are constant for a
-/// whole planning call.
+/// whole planning call, but for what they depend on.
 struct Module {
   std::string name;
   std::vector<Signature> functions;
+  std::vector<StateDependence>
+      dependences;  ///< there are none in a tree from load_domain(): see state_levels.hpp
   SourceLocation where;
+};
+
+/// Says what the parameters of an external function stand for that loading has added behind its own.
+struct LevelParameter {
+  std::string function;
+  std::string fluent;                    ///< its symbol
+  std::vector<std::size_t> arguments;    ///< of the fluent: positions among the function's parameters
+  std::map<std::string, double> levels;  ///< by the object that stands for it
 };
 
 /// Is a whole domain file; its lists keep the order of the text.
@@ -253,6 +274,7 @@ struct Domain {
   std::vector<DurativeAction> durative_actions;
   SourceLocation where;
   std::vector<Diagnostic> warnings;  ///< what departs from PDDL, and how it was read; no part of equality
+  std::vector<LevelParameter> level_parameters;  ///< in the order of each function's; no part of equality
 };
 
 // ---- Problem

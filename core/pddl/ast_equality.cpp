@@ -90,8 +90,12 @@ bool operator==(const DurativeAction& a, const DurativeAction& b) {
 
 static bool operator==(const Requirement& a, const Requirement& b) { return a.keyword == b.keyword; }
 
+static bool operator==(const StateDependence& a, const StateDependence& b) {
+  return a.function == b.function && a.fluent == b.fluent && a.levels == b.levels;
+}
+
 static bool operator==(const Module& a, const Module& b) {
-  return a.name == b.name && a.functions == b.functions;
+  return a.name == b.name && a.functions == b.functions && a.dependences == b.dependences;
 }
 
 static bool operator==(const DerivedPredicate& a, const DerivedPredicate& b) {

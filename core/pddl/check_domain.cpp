@@ -1,6 +1,7 @@
 #include "core/pddl/check.hpp"
 #include "core/pddl/check_parts.hpp"
 #include "core/pddl/settle.hpp"
+#include "core/pddl/state_levels.hpp"
 #include "core/pddl/stratify.hpp"
 
 namespace roci::pddl {
@@ -154,6 +155,9 @@ Domain load_domain(std::string_view text, std::string_view file, Strictness stri
   settle(domain, log);
   for (Diagnostic& finding : check(domain, unread)) log.add(std::move(finding));
   log.throw_errors();
+  for (Diagnostic& finding : check_state_dependence(domain)) log.add(std::move(finding));
+  log.throw_errors();
+  lower_state_dependence(domain);
   domain.warnings = log.warnings();
   return domain;
 }

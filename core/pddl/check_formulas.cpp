@@ -79,8 +79,9 @@ void FormulaChecker::check_argument(const Term& term, const TypedName& parameter
                         : symbols_.remedy_for_object(term.name, "declare it in :objects or :constants"));
       return;
     }
-    fits = *given == parameter.types ||
-           std::ranges::any_of(*given, [&](const std::string& type) { return types.is_any(type, parameter.types); });
+    fits = *given == parameter.types || std::ranges::any_of(*given, [&](const std::string& type) {
+      return types.is_any(type, parameter.types);
+    });
   }
   if (fits || symbols_.unread().types) return;
   const auto known = [&](const std::string& type) { return types.knows(type); };
@@ -95,8 +96,8 @@ void FormulaChecker::check_argument(const Term& term, const TypedName& parameter
 void FormulaChecker::check_arguments(const Atom& atom, const Signature& signature, std::string_view what) {
   if (atom.arguments.size() != signature.parameters.size()) {
     findings_.add(atom.where,
-                  owner(atom, what) + " has " + std::to_string(atom.arguments.size()) + " arguments, declared with " +
-                      std::to_string(signature.parameters.size()),
+                  owner(atom, what) + " has " + std::to_string(atom.arguments.size()) +
+                      " arguments, declared with " + std::to_string(signature.parameters.size()),
                   "write it as " + signature.name + " is declared");
     return;
   }

@@ -2,6 +2,7 @@
 #include "core/pddl/check_parts.hpp"
 #include "core/pddl/printer.hpp"
 #include "core/pddl/settle.hpp"
+#include "core/pddl/state_levels.hpp"
 
 namespace roci::pddl {
 
@@ -26,6 +27,7 @@ void check_init(const Problem& problem, FormulaChecker& formulas, Findings& find
 }  // namespace
 
 std::vector<Diagnostic> check(const Problem& problem, const Domain& domain, const Unread& unread) {
+  if (auto findings = check_state_dependence(problem, domain); !findings.empty()) return findings;
   Findings findings(problem.file);
   if (problem.domain_name != domain.name) {
     findings.add(problem.where,

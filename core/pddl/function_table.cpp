@@ -11,20 +11,49 @@ namespace roci::pddl {
 
 namespace {
 
-void read_entry(LineScanner& scanner, FunctionTable& table) {
-  static constexpr std::string_view kForm =
-      "write (FUNCTION OBJECT …) NUMBER, or 'unreachable' for the number";
+constexpr std::string_view kForm =
+    "write (FUNCTION OBJECT …) NUMBER, 'unreachable' or 'unknown' for the number, or >= NUMBER for a lower "
+    "bound";
+
+double read_bound(LineScanner& scanner, std::string_view word) {
+  const SourceLocation where = scanner.here();
+  const std::optional<double> bound =
+      as_number(word.size() > 2 ? std::string(word.substr(2)) : scanner.take_word());
+  if (!bound) scanner.fail(where, "a number expected after >=", kForm);
+  return *bound;
+}
+
+// Adds an entry; whether it says the same as one that stands there.
+template <typename Map, typename Value>
+bool add(Map& map, const std::string& application, const Value& value) {
+  const auto [it, first] = map.emplace(application, value);
+  return first || it->second == value;
+}
+
+void read_entry(LineScanner& scanner, FunctionTables& tables) {
   const Atom function = scanner.expect_ground_atom("a function");
   scanner.at_end();
   const SourceLocation where = scanner.here();
   const std::string word = scanner.take_word();
-  const std::optional<double> value = as_number(word);
-  if (!value && word != "unreachable") scanner.fail(where, "a value expected", kForm);
-  scanner.expect_end(kForm);
-  const auto [it, first] = table.emplace(print(function), value);
-  if (!first && it->second != value) {
-    scanner.fail(function.where, print(function) + " has two values", "keep one");
+  const std::string application = print(function);
+  bool alone = true;
+  if (word.starts_with(">=")) {
+    alone = add(tables.lower_bounds, application, read_bound(scanner, word));
+  } else if (word == "unknown") {
+    tables.unknown.insert(application);
+  } else {
+    const std::optional<double> value = as_number(word);
+    if (!value && word != "unreachable") scanner.fail(where, "a value expected", kForm);
+    alone = add(tables.exact, application, value);
   }
+  scanner.expect_end(kForm);
+  if (!alone || (tables.unknown.contains(application) && tables.exact.contains(application)))
+    scanner.fail(function.where, application + " has two values", "keep one");
+}
+
+std::string digits(double value) {
+  std::array<char, 32> buffer{};
+  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
 }
 
 }  // namespace
@@ -36,20 +65,28 @@ void put(FunctionTable& table, const std::string& function, const std::vector<st
   table[application + ")"] = value;
 }
 
+FunctionTables parse_function_tables(std::string_view text, std::string_view file) {
+  FunctionTables tables;
+  for_each_line(text, file, [&](LineScanner& scanner) { read_entry(scanner, tables); });
+  return tables;
+}
+
 FunctionTable parse_function_table(std::string_view text, std::string_view file) {
-  FunctionTable table;
-  for_each_line(text, file, [&](LineScanner& scanner) { read_entry(scanner, table); });
-  return table;
+  return parse_function_tables(text, file).exact;
 }
 
 std::string print(const FunctionTable& table) {
   std::string out;
-  for (const auto& [application, value] : table) {
-    std::array<char, 32> digits{};
-    char* end = digits.data();
-    if (value) end = std::to_chars(digits.data(), digits.data() + digits.size(), *value).ptr;
-    out += application + " " + (value ? std::string(digits.data(), end) : "unreachable") + "\n";
-  }
+  for (const auto& [application, value] : table)
+    out += application + " " + (value ? digits(*value) : "unreachable") + "\n";
+  return out;
+}
+
+std::string print(const FunctionTables& tables) {
+  std::string out = print(tables.exact);
+  for (const auto& [application, bound] : tables.lower_bounds)
+    out += application + " >= " + digits(bound) + "\n";
+  for (const std::string& application : tables.unknown) out += application + " unknown\n";
   return out;
 }
 

@@ -82,7 +82,8 @@ void add_duration(const Sexpr& s, TimePoint at, std::vector<DurationConstraint>&
     for (const Sexpr& item : rest(s)) source.attempt([&] { add_duration(item, at, out, source); });
     return;
   }
-  if (head == "at" && s.items().size() == 3 && (s.items()[1].is_word("start") || s.items()[1].is_word("end"))) {
+  if (head == "at" && s.items().size() == 3 &&
+      (s.items()[1].is_word("start") || s.items()[1].is_word("end"))) {
     return add_duration(s.items()[2], s.items()[1].is_word("start") ? TimePoint::start : TimePoint::end, out,
                         source);
   }

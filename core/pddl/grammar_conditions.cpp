@@ -7,8 +7,8 @@ namespace {
 void require_parts(const Sexpr& s, std::size_t count, std::string_view form, const Source& source) {
   if (s.items().size() == count + 1) return;
   source.fail(s.where,
-              "'" + std::string(s.head()) + "' with " + std::to_string(s.items().size() - 1) + " parts, not " +
-                  std::to_string(count),
+              "'" + std::string(s.head()) + "' with " + std::to_string(s.items().size() - 1) +
+                  " parts, not " + std::to_string(count),
               "write " + std::string(form));
 }
 

@@ -21,7 +21,8 @@ Effect read_assignment(const Sexpr& s, AssignmentOperator op, const Source& sour
     source.fail(s.where, "'" + std::string(s.head()) + "' needs a function and a value",
                 "write (" + std::string(s.head()) + " (f …) VALUE)");
   }
-  return {Assignment{op, read_function(s.items()[1], source), read_expression(s.items()[2], source)}, s.where};
+  return {Assignment{op, read_function(s.items()[1], source), read_expression(s.items()[2], source)},
+          s.where};
 }
 
 void require_body(const Sexpr& s, std::string_view form, const Source& source) {

@@ -15,7 +15,16 @@ constexpr std::array<std::string_view, 6> kOddBlanks = {"\xc2\xa0",     "\xe2\x8
 constexpr std::array<std::string_view, 4> kOddDashes = {"\xe2\x80\x90", "\xe2\x80\x93", "\xe2\x80\x94",
                                                         "\xe2\x88\x92"};
 
-enum class Class : unsigned char { other, word, blank, line_feed, carriage_return, parenthesis, comment, comma };
+enum class Class : unsigned char {
+  other,
+  word,
+  blank,
+  line_feed,
+  carriage_return,
+  parenthesis,
+  comment,
+  comma
+};
 
 constexpr std::array<Class, 256> classes() {
   std::array<Class, 256> all{};
@@ -163,7 +172,8 @@ void Lexer::read_word(Token& token) {
     return;
   }
   const char* end = begin + 1;  // a '?' in front is part of the word
-  while (is_word_character(*end) && *end != '?') ++end;  // the text ends with a '\0', which is no such character
+  while (is_word_character(*end) && *end != '?')
+    ++end;  // the text ends with a '\0', which is no such character
   const auto size = static_cast<std::size_t>(end - begin);
   token.word = {begin, std::min(size, kMaxWord)};
   next_ += size;  // a word has no end of line in it

@@ -46,9 +46,7 @@ class Lexer {
 
   std::size_t length() const { return text_.size(); }
   bool at_end() const { return next_ >= length(); }
-  char peek(std::size_t ahead = 0) const {
-    return next_ + ahead < length() ? text_[next_ + ahead] : '\0';
-  }
+  char peek(std::size_t ahead = 0) const { return next_ + ahead < length() ? text_[next_ + ahead] : '\0'; }
   bool starts_with(std::string_view bytes) const { return rest().starts_with(bytes); }
   std::string_view rest() const { return {text_.data() + next_, length() - next_}; }
   SourceLocation here() const { return {line_, static_cast<int>(next_ - line_begin_) + 1}; }

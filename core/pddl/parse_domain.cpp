@@ -17,6 +17,29 @@ void append(std::vector<T> from, std::vector<T>& to) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
+constexpr const char* kFunctionForm =
+    "write (:function (f ?x - TYPE …)), and :depends-on ((g ?x) LEVEL …) if its values depend on a fluent";
+
+// Reads `((g ?x) 0 20 50)`.
+StateDependence read_dependence(const Sexpr& s, const std::string& function, const Source& source) {
+  if (s.items().size() < 2) source.fail(s.where, "a fluent with its levels expected", kFunctionForm);
+  StateDependence dependence{function, read_function(s.items()[0], source), {}, s.where};
+  for (const Sexpr& level : rest(s)) dependence.levels.push_back(read_number(level, "a level", source));
+  return dependence;
+}
+
+void read_external_function(const Sexpr& s, Module& module, const Source& source) {
+  const auto items = s.items();
+  if (s.head() != ":function" || items.size() < 2 || items.size() % 2 != 0)
+    source.fail(s.where, "an external function expected", kFunctionForm);
+  module.functions.push_back(read_signature(items[1], "an external function", source));
+  for (std::size_t i = 2; i < items.size(); i += 2) {
+    if (!items[i].is_word(":depends-on"))
+      source.fail(items[i].where, "':depends-on' expected", kFunctionForm);
+    module.dependences.push_back(read_dependence(items[i + 1], module.functions.back().name, source));
+  }
+}
+
 Module read_module(const Sexpr& s, const Source& source) {
   if (s.head() != ":module" || s.items().size() < 2) {
     source.fail(s.where, "a module expected", "write (:module NAME (:function (f ?x - TYPE …)) …)");
@@ -24,13 +47,7 @@ Module read_module(const Sexpr& s, const Source& source) {
   Module module;
   module.where = s.where;
   module.name = read_name(s.items()[1], "the name of a module", source);
-  for (const Sexpr& item : rest(s, 2)) {
-    source.attempt([&] {
-      if (item.head() != ":function" || item.items().size() != 2)
-        source.fail(item.where, "an external function expected", "write (:function (f ?x - TYPE …))");
-      module.functions.push_back(read_signature(item.items()[1], "an external function", source));
-    });
-  }
+  for (const Sexpr& item : rest(s, 2)) source.attempt([&] { read_external_function(item, module, source); });
   return module;
 }
 

@@ -40,12 +40,21 @@ std::string print_requirements(const std::vector<Requirement>& requirements) {
   return text + ")\n";
 }
 
+std::string print_dependence(const StateDependence& dependence) {
+  std::string text = " :depends-on (" + print(dependence.fluent);
+  for (const double level : dependence.levels) text += " " + print_number(level);
+  return text + ")";
+}
+
 std::string print_modules(const std::vector<Module>& modules) {
   Section section(":modules");
   for (const Module& module : modules) {
     std::string text = "(:module " + module.name;
     for (const Signature& function : module.functions) {
-      text += "\n      (:function " + print_signature(function) + ")";
+      text += "\n      (:function " + print_signature(function);
+      for (const StateDependence& dependence : module.dependences)
+        if (dependence.function == function.name) text += print_dependence(dependence);
+      text += ")";
     }
     section.add(text + ")");
   }

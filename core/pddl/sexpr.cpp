@@ -262,9 +262,8 @@ class Reader {
 }  // namespace
 
 SexprTree::SexprTree(std::string_view text) : text_(text.size() + 1) {
-  std::ranges::transform(text, text_.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
+  std::ranges::transform(text, text_.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
 }
 
 std::span<const Sexpr> SexprTree::keep(std::span<const Sexpr> items) {

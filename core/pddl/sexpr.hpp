@@ -38,9 +38,7 @@ class Sexpr {
   bool is_word(std::string_view text) const { return !is_list_ && word() == text; }
   /// Returns the word in front of a list, as "and" of (and …); it is empty for words and for lists that begin
   /// with a list.
-  std::string_view head() const {
-    return items().empty() ? std::string_view() : items().front().word();
-  }
+  std::string_view head() const { return items().empty() ? std::string_view() : items().front().word(); }
 
   SourceLocation where;   ///< first character, a list's "("
   SourceLocation closed;  ///< a list's ")"

@@ -49,8 +49,8 @@ std::set<std::string> TypeTree::ancestors(std::string_view type) const {
 bool TypeTree::is_any(std::string_view type, const std::vector<std::string>& ancestors) const {
   const auto it = ancestors_.find(type);
   return it != ancestors_.end() && std::ranges::any_of(ancestors, [&](const std::string& ancestor) {
-    return it->second.contains(ancestor);
-  });
+           return it->second.contains(ancestor);
+         });
 }
 
 bool TypeTree::accepts(const std::vector<std::string>& wanted, const std::vector<std::string>& given) const {
@@ -83,9 +83,8 @@ int ObjectTable::find(std::string_view name) const {
 
 bool ObjectTable::has_type(std::size_t object, const std::vector<std::string>& types) const {
   const auto& own = objects_[object].types;
-  return std::any_of(own.begin(), own.end(), [&](const std::string& type) {
-    return types_.is_any(type, types);
-  });
+  return std::any_of(own.begin(), own.end(),
+                     [&](const std::string& type) { return types_.is_any(type, types); });
 }
 
 std::vector<int> ObjectTable::of_types(const std::vector<std::string>& types) const {

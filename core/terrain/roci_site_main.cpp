@@ -38,7 +38,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--craters", recipe.crater_count, "number of scattered craters")->capture_default_str();
   app.add_option("--out", folder, "folder for site.yaml, rocks.pgm and elevation.pgm")->required();
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   try {
     recipe.resolution = std::llround(resolution * 1000);
     recipe.cells_per_side = static_cast<int>(std::lround(side / resolution));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/terrain/grid.hpp"
+#include "core/terrain/polygon.hpp"
 
 namespace roci::terrain {
 
@@ -21,6 +22,7 @@ struct SiteLayers {
   std::vector<float> elevation;      ///< Is in metres, at the centre of the cell.
   std::vector<float> rock_height;    ///< Is that of the tallest rock in the cell, m, or 0.
   std::vector<Occupancy> occupancy;  ///< Says what a map_server reader makes of the cell.
+  std::vector<Polygon> keep_out{};   ///< Holds the ground that nobody may enter; it may reach beyond the map.
 };
 
 /// Holds the terrain of a mission as values: it is immutable once built, and safe to read from several
@@ -33,6 +35,7 @@ class Site {
 
   const Grid& grid() const { return grid_; }
   const SiteLayers& layers() const { return layers_; }
+  const std::vector<Polygon>& keep_out() const { return layers_.keep_out; }
 
   /// Returns metres, interpolated bilinearly between the centres of cells; outside the outermost centres it
   /// is the value of the border.

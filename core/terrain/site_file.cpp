@@ -1,11 +1,18 @@
 #include "core/terrain/site_file.hpp"
 
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/mission/entry.hpp"
+#include "core/terrain/geotiff.hpp"
+#include "core/terrain/holes.hpp"
+#include "core/terrain/map_error.hpp"
 #include "core/terrain/pgm.hpp"
+#include "core/terrain/polygon_file.hpp"
 
 namespace roci::terrain {
 namespace {
@@ -69,15 +76,17 @@ double read_rock_height(const Entry& map) {
   return height.number();
 }
 
-GreyImage read_image(const Entry& owner) {
+std::filesystem::path image_path(const Entry& owner) {
   const Entry name = owner.at("image");
   const std::filesystem::path path = owner.resolve(name.text());
   if (!std::filesystem::is_regular_file(path)) {
     name.fail("image '" + name.text() +
               "' is not there; it is looked for beside this file: " + path.string());
   }
-  return read_pgm(path);
+  return path;
 }
+
+GreyImage read_image(const Entry& owner) { return read_pgm(image_path(owner)); }
 
 // Returns the pixel of the image (rows from the north) that shows a cell (rows from the south).
 std::size_t pixel_of(const Grid& grid, Cell c) { return grid.index({c.column, grid.rows - 1 - c.row}); }
@@ -97,30 +106,99 @@ void fill_rocks(SiteLayers& layers, const Grid& grid, const GreyImage& image, co
   }
 }
 
+void require_size(const Entry& section, const Grid& grid, int columns, int rows) {
+  if (columns == grid.columns && rows == grid.rows) return;
+  section.at("image").fail("the elevation image has " + std::to_string(columns) + " x " +
+                           std::to_string(rows) + " pixels, the map " + std::to_string(grid.columns) + " x " +
+                           std::to_string(grid.rows) + "; both must cover the same cells");
+}
+
+std::optional<int> read_nodata(const Entry& section) {
+  const auto nodata = section.find("nodata");
+  if (!nodata) return std::nullopt;
+  const std::int64_t value = nodata->integer();
+  if (value < 0 || value > 65535) nodata->fail("'nodata' must be the value of a pixel, 0 … 65535");
+  return static_cast<int>(value);
+}
+
 void fill_elevation(SiteLayers& layers, const Grid& grid, const Entry& section) {
-  section.allow_only({"image", "min", "max"});
+  section.allow_only({"image", "min", "max", "nodata"});
   const double low = section.at("min").number();
   const double high = section.at("max").number();
   if (high < low) section.at("max").fail("'max' must not be below 'min', metres");
+  const std::optional<int> nodata = read_nodata(section);
   const GreyImage image = read_image(section);
-  if (image.width != grid.columns || image.height != grid.rows) {
-    section.at("image").fail("the elevation image has " + std::to_string(image.width) + " x " +
-                             std::to_string(image.height) + " pixels, the map " +
-                             std::to_string(grid.columns) + " x " + std::to_string(grid.rows) +
-                             "; both must cover the same cells");
-  }
+  require_size(section, grid, image.width, image.height);
   for (std::size_t i = 0; i < grid.cell_count(); ++i) {
-    const double share = static_cast<double>(image.pixels[pixel_of(grid, grid.cell_at(i))]) / image.max_value;
-    layers.elevation.push_back(static_cast<float>(low + (high - low) * share));
+    const int pixel = image.pixels[pixel_of(grid, grid.cell_at(i))];
+    const double share = static_cast<double>(pixel) / image.max_value;
+    layers.elevation.push_back(pixel == nodata ? std::numeric_limits<float>::quiet_NaN()
+                                               : static_cast<float>(low + (high - low) * share));
   }
+}
+
+bool is_geotiff(const Entry& elevation) {
+  return elevation.is_mapping() && elevation.find("image") && is_geotiff_name(elevation.at("image").text());
+}
+
+ElevationModel read_model(const Entry& section) {
+  section.allow_only({"image"});
+  return read_geotiff(image_path(section));
+}
+
+std::vector<Polygon> read_keep_out(const Entry& map) {
+  std::vector<Polygon> polygons;
+  if (const auto zones = map.find("keep_out")) {
+    for (const Entry& zone : zones->items()) polygons.push_back(read_polygon(zone));
+  }
+  return polygons;
+}
+
+Site finish(const std::filesystem::path& file, const Grid& grid, SiteLayers layers) {
+  try {
+    fill_holes(grid, layers);
+  } catch (const MapError& error) {
+    throw MapError(file.string() + ": " + error.what());
+  }
+  return Site(grid, std::move(layers));
+}
+
+// Makes a site of what a GeoTIFF says alone: known ground without rocks.
+Site site_of(const std::filesystem::path& file, ElevationModel model, std::vector<Polygon> keep_out) {
+  SiteLayers layers;
+  layers.rock_height.assign(model.grid.cell_count(), 0.0F);
+  layers.occupancy.assign(model.grid.cell_count(), Occupancy::free);
+  layers.elevation = std::move(model.elevation);
+  layers.keep_out = std::move(keep_out);
+  return finish(file, model.grid, std::move(layers));
+}
+
+// Reads the section of a map with an image of rocks, which says where the cells lie.
+void fill_from_model(SiteLayers& layers, const Grid& grid, const Entry& section) {
+  ElevationModel model = read_model(section);
+  require_size(section, grid, model.grid.columns, model.grid.rows);
+  if (std::abs(model.grid.resolution - grid.resolution) > 1e-6 * grid.resolution) {
+    section.at("image").fail("the GeoTIFF has pixels of " + std::to_string(model.grid.resolution) +
+                             " m, the map of " + std::to_string(grid.resolution) +
+                             " m; both must cover the same cells");
+  }
+  layers.elevation = std::move(model.elevation);
 }
 
 }  // namespace
 
 Site load_site(const std::filesystem::path& description) {
+  if (is_geotiff_name(description)) return site_of(description, read_geotiff(description), {});
   const Entry map = Entry::load(description);
   map.allow_only({"image", "mode", "resolution", "origin", "negate", "occupied_thresh", "free_thresh",
-                  "rocks", "elevation"});
+                  "rocks", "elevation", "keep_out"});
+  const auto elevation = map.find("elevation");
+  if (elevation && is_geotiff(*elevation) && !map.find("image")) {
+    map.allow_only({"elevation", "origin", "keep_out"});
+    ElevationModel model = read_model(*elevation);
+    if (map.find("origin")) model.grid.origin = read_origin(map);
+    return site_of(description, std::move(model), read_keep_out(map));
+  }
   Grid grid;
   grid.resolution = read_resolution(map);
   grid.origin = read_origin(map);
@@ -131,13 +209,16 @@ Site load_site(const std::filesystem::path& description) {
   grid.rows = image.height;
 
   SiteLayers layers;
+  layers.keep_out = read_keep_out(map);
   fill_rocks(layers, grid, image, thresholds, max_height);
-  if (const auto elevation = map.find("elevation")) {
-    fill_elevation(layers, grid, *elevation);
-  } else {
+  if (!elevation) {
     layers.elevation.assign(grid.cell_count(), 0.0F);
+  } else if (is_geotiff(*elevation)) {
+    fill_from_model(layers, grid, *elevation);
+  } else {
+    fill_elevation(layers, grid, *elevation);
   }
-  return Site(grid, std::move(layers));
+  return finish(description, grid, std::move(layers));
 }
 
 }  // namespace roci::terrain

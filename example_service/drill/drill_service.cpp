@@ -52,7 +52,8 @@ class Drill final : public services::Service, private owner::Driver {
  private:
   // The function: how long a hole takes, of each place that the planner asks for.
   v1::FunctionReply answer(const v1::FunctionRequest& request) const {
-    const auto evaluate = [](const wire::OwnedFunction&, std::span<const v1::PlanObject* const> places) {
+    const auto evaluate = [](const wire::OwnedFunction&, std::span<const v1::PlanObject* const> places,
+                             v1::FunctionAccuracy) {
       const auto depth_m = wire::finite_property(*places[0], "depth");
       if (!depth_m) return wire::FunctionResult{v1::FUNCTION_UNKNOWN_OBJECT};
       if (*depth_m > kDeepestM) return wire::FunctionResult{v1::FUNCTION_UNREACHABLE};

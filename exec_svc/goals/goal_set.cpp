@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/words/nearest_word.hpp"
 #include "exec_svc/goals/goal_merge.hpp"
 #include "exec_svc/mission/template_text.hpp"
 
@@ -76,6 +77,10 @@ std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) co
     if (argument == ArgumentKind::text && !is_name(given->second)) {
       return "argument '" + name + "' is '" + given->second + "'; use lower-case letters, digits, - and _";
     }
+    if (argument == ArgumentKind::object) {
+      std::string fault = fault_of_object(kind->second.object_types.at(name), given->second, name);
+      if (!fault.empty()) return fault;
+    }
     if (argument == ArgumentKind::goal) {
       std::string fault = fault_of_reference(request, name);
       if (!fault.empty()) return fault;
@@ -97,6 +102,18 @@ std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) co
     return "the window closes before it opens or has passed; give a later end";
   }
   return "";
+}
+
+std::string GoalSet::fault_of_object(const std::string& type, const std::string& given,
+                                     const std::string& argument) const {
+  const std::vector<std::string> known = objects_of_type(*mission_, type);
+  if (std::ranges::find(known, given) != known.end()) return "";
+  constexpr std::size_t kNamed = 20;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(known.size(), kNamed); ++i) names += (i == 0 ? "" : ", ") + known[i];
+  if (known.size() > kNamed) names += ", … (" + std::to_string(known.size()) + " in all)";
+  return "argument '" + argument + "' is '" + given + "'; the mission has no such " + type +
+         ", it has: " + (names.empty() ? "none" : names) + words::did_you_mean(given, known);
 }
 
 std::string GoalSet::fault_of_address(const GoalRequest& request) const {

@@ -124,6 +124,8 @@ class GoalSet {
   Disposition change(GoalRecord&, const GoalRequest&, temporal::Time now);
   std::string fault_of(const GoalRequest& request, temporal::Time now) const;
   std::string fault_of_address(const GoalRequest& request) const;
+  std::string fault_of_object(const std::string& type, const std::string& given,
+                              const std::string& argument) const;
   bool names(const GoalRequest& request, const GoalRequest& other) const;
   std::string fault_of_reference(const GoalRequest& request, const std::string& argument) const;
 

@@ -74,7 +74,7 @@ class NameCheck {
   void goals(const Entry& kind) const {
     const auto list = kind.find("goal");
     if (!list) return;
-    list->each([&](const Entry& goal) { formula(goal, read_goal(goal, kind)); });
+    list->each([&](const Entry& goal) { formula(goal, read_goal(goal, kind, &domain_)); });
   }
   void fact(const Entry& parent, const char* key) const {
     if (const auto entry = parent.find(key))
@@ -187,6 +187,7 @@ pddl::Domain read_domain(const std::string& text, const std::string& file) {
 void require_domain_names(const Entry& root, const pddl::Domain& domain) {
   const NameCheck check(domain);
   check.objects(root);
+  check.facts(root, "facts");
   check.states(root, "components");
   check.states(root, "families");
   check.fluents(root);

@@ -4,6 +4,8 @@
 #include <map>
 #include <optional>
 
+#include "core/pddl/types.hpp"
+#include "core/words/nearest_word.hpp"
 #include "exec_svc/mission/condition_entry.hpp"
 #include "exec_svc/mission/goal_formula.hpp"
 #include "exec_svc/mission/template_text.hpp"
@@ -43,12 +45,17 @@ ObjectModel read_object(const Entry& entry, bool has_domain) {
   return out;
 }
 
-ArgumentKind read_argument_kind(const Entry& entry) {
+ArgumentKind read_argument_kind(const Entry& entry, const pddl::Domain* domain) {
   const std::string text = entry.text();
   if (text == "number") return ArgumentKind::number;
   if (text == "text") return ArgumentKind::text;
   if (text == "goal") return ArgumentKind::goal;
-  entry.fail("unknown kind of argument '" + text + "'; one of: number, text, goal");
+  if (domain == nullptr) entry.fail("unknown kind of argument '" + text + "'; one of: number, text, goal");
+  if (pddl::TypeTree(*domain).knows(text)) return ArgumentKind::object;
+  std::vector<std::string> known{"number", "text", "goal"};
+  for (const pddl::TypedName& type : domain->types) known.push_back(type.name);
+  entry.fail("unknown kind of argument '" + text +
+             "'; one of number, text, goal, or a type of the domain's objects" + words::did_you_mean(text, known));
 }
 
 // The facts that a state of a component or of a family stands for; nothing if it is none of theirs.
@@ -92,11 +99,11 @@ std::vector<std::string> facts_of(const Entry& achieved, const temporal::Conditi
 }
 
 // Texts of `goal` with something in the place of each {name}: enough to be read.
-std::map<std::string, std::string> placeholders(const Entry& kind) {
+std::map<std::string, std::string> placeholders(const Entry& kind, const pddl::Domain* domain) {
   std::map<std::string, std::string> out{{"id", "id"}, {"robot", "robot"}};
   if (const auto arguments = kind.find("arguments"))
     for (const auto& [name, argument] : arguments->fields())
-      out[name] = read_argument_kind(argument) == ArgumentKind::number ? "1" : name;
+      out[name] = read_argument_kind(argument, domain) == ArgumentKind::number ? "1" : name;
   return out;
 }
 
@@ -122,8 +129,10 @@ GoalKind read_goal_kind(const std::string& name, const Entry& entry, const Missi
   out.name = name;
   out.help = entry.text_or("help", "");
   if (const auto arguments = entry.find("arguments")) {
-    for (const auto& [argument, kind] : arguments->fields())
-      out.arguments[argument] = read_argument_kind(kind);
+    for (const auto& [argument, kind] : arguments->fields()) {
+      out.arguments[argument] = read_argument_kind(kind, mission.domain.get());
+      if (out.arguments[argument] == ArgumentKind::object) out.object_types[argument] = kind.text();
+    }
   }
   if (const auto example = entry.find("example"))
     for (const auto& [argument, value] : example->fields())
@@ -151,16 +160,16 @@ GoalKind read_goal_kind(const std::string& name, const Entry& entry, const Missi
     out.goal = entry.at("goal").texts();
     if (out.goal.empty()) entry.at("goal").fail("a goal kind needs at least one goal fact");
     for (const Entry& item : entry.at("goal").items())
-      if (mission.domain && !is_observed_fact(read_goal(item, entry), *mission.domain)) out.formula = true;
+      if (mission.domain && !is_observed_fact(read_goal(item, entry, mission.domain.get()), *mission.domain)) out.formula = true;
   } else {
     out.goal = facts_of(entry.at("achieved"), out.achieved, mission);
   }
   return out;
 }
 
-pddl::Condition read_goal(const Entry& goal, const Entry& kind) {
+pddl::Condition read_goal(const Entry& goal, const Entry& kind, const pddl::Domain* domain) {
   try {
-    return read_goal_formula(fill_names(goal.text(), placeholders(kind)));
+    return read_goal_formula(fill_names(goal.text(), placeholders(kind, domain)));
   } catch (const pddl::ParseError& error) {
     goal.fail("'" + goal.text() + "' is no condition of PDDL: " + error.diagnostic().message +
               "; write a fact, \"(sent image-{id})\", or one with not, or, and, or a comparison of numbers");

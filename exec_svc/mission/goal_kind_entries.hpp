@@ -15,8 +15,9 @@ namespace roci::exec::mission {
 std::vector<ObjectModel> read_objects(const roci::mission::Entry& parent, bool has_domain);
 
 /// The formula of an item of `goal`, in which something stands in the place of each {name}. Throws FileError at the item
-/// for what is no condition of PDDL.
-pddl::Condition read_goal(const roci::mission::Entry& goal, const roci::mission::Entry& kind);
+/// for what is no condition of PDDL. `domain` may be null.
+pddl::Condition read_goal(const roci::mission::Entry& goal, const roci::mission::Entry& kind,
+                          const pddl::Domain* domain);
 
 /// `mission` knows its role, its components and its families. With a domain a kind has a `goal` of conditions or an
 /// `achieved` whose states stand for facts; without one it has `achieved` and no facts.

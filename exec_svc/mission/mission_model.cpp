@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/mission/mission_file.hpp"
+#include "core/pddl/types.hpp"
 #include "exec_svc/mission/action_entries.hpp"
 #include "exec_svc/mission/domain_names.hpp"
 #include "exec_svc/mission/goal_kind_entries.hpp"
@@ -200,6 +201,10 @@ MissionModel read_mission(const std::filesystem::path& folder_or_file, const Exe
   root.attempt([&] { out.name = root.at("name").text(); });
   root.attempt([&] { read_model(root, out); });
   root.attempt([&] { out.objects = read_objects(root, out.has_domain()); });
+  if (const auto facts = root.find("facts")) {
+    if (!out.has_domain()) refuse_without_domain(root, {"facts"});
+    facts->attempt([&] { out.facts = facts->texts(); });
+  }
   root.attempt([&] {
     root.at("components").each([&](const Entry& item) {
       out.components.push_back(read_component(item, out));
@@ -228,6 +233,17 @@ MissionModel read_mission(const std::filesystem::path& folder_or_file, const Exe
     executive->attempt([&] { out.executive = read_executive(*executive); });
   if (const auto ground = root.find("ground"))
     ground->attempt([&] { out.ground = read_ground(*ground, out.contingencies); });
+  return out;
+}
+
+std::vector<std::string> objects_of_type(const MissionModel& mission, const std::string& type) {
+  std::vector<std::string> out;
+  if (!mission.domain) return out;
+  const pddl::TypeTree types(*mission.domain);
+  for (const pddl::TypedName& constant : mission.domain->constants)
+    if (types.accepts({type}, constant.types)) out.push_back(constant.name);
+  for (const ObjectModel& object : mission.objects)
+    if (!object.dynamic && types.is_a(object.type, type)) out.push_back(object.name);
   return out;
 }
 

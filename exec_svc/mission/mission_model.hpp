@@ -79,13 +79,15 @@ struct ObjectModel {
   std::vector<PropertySource> properties;
 };
 
-enum class ArgumentKind { number, text, goal };
+/// What a goal's argument is: a number, a word, the id of another goal, or an object of the mission.
+enum class ArgumentKind { number, text, goal, object };
 
 /// Templates with {id}, {robot} (that the goal is for) and {argument}.
 struct GoalKind {
   std::string name;
   std::string help;
   std::map<std::string, ArgumentKind> arguments;
+  std::map<std::string, std::string> object_types;  ///< of the arguments that are objects: their type in the domain
   std::vector<ObjectModel> objects;
   std::vector<std::string> facts;
   /// Timeline → facts that hold until it is seen.
@@ -174,6 +176,7 @@ struct MissionModel {
   std::string domain_name;  ///< empty: the engine reads no PDDL
   std::shared_ptr<const pddl::Domain> domain;  ///< as read; null where the engine reads no PDDL
   std::vector<ObjectModel> objects;
+  std::vector<std::string> facts;  ///< hold in every problem and never change
   std::vector<Component> components;
   std::vector<TimelineFamily> families;
   std::vector<FluentSource> fluents;
@@ -187,6 +190,9 @@ struct MissionModel {
 
   bool has_domain() const { return !domain_name.empty(); }
 };
+
+/// Returns the names of the objects of a type of the domain that every problem has, and of its constants.
+std::vector<std::string> objects_of_type(const MissionModel& mission, const std::string& type);
 
 /// The services that execute the commands of its components.
 std::set<std::string> owners_of(const MissionModel& mission);

@@ -66,6 +66,7 @@ class Draft {
       known_.insert_or_assign(object.name, object);
       if (!object.dynamic) declared_.insert(object.name);
     }
+    facts_.insert(situation_.mission.facts.begin(), situation_.mission.facts.end());
     for (const std::string& fact : situation_.beliefs.component_facts()) {
       facts_.insert(fact);
       declare_words(fact);

@@ -40,13 +40,16 @@ const PlanReply* PlannerCall::take(const ReactorInputs& inputs) {
   return &*inputs.reply;
 }
 
-void PlannerCall::note_models(const std::vector<ModelVersion>& models) {
+std::vector<ModelVersion> PlannerCall::note_models(const std::vector<ModelVersion>& models) {
+  std::vector<ModelVersion> newer;
   for (const ModelVersion& model : models) {
     const auto [known, is_new] = models_.try_emplace(model.owner, model.version);
     if (is_new || known->second == model.version) continue;
+    if (known->second < model.version) newer.push_back(model);
     known->second = model.version;
     models_changed_ = true;
   }
+  return newer;
 }
 
 void PlannerCall::cancel_if_stale(bool reply_wanted) {

@@ -29,8 +29,8 @@ class PlannerCall {
   bool open() const { return open_; }
   const PlanRequest& request() const { return request_; }
 
-  /// Newer models than those known make the open call stale.
-  void note_models(const std::vector<ModelVersion>& models);
+  /// Newer models than those known make the open call stale. Returns those that are newer.
+  std::vector<ModelVersion> note_models(const std::vector<ModelVersion>& models);
   /// Cancels the open call once it is of no use: its reply is not wanted, no goal is open, or a model has
   /// changed (but not again and again: after a few calls in a row one goes on).
   void cancel_if_stale(bool reply_wanted);

@@ -61,7 +61,7 @@ ReactorOutputs Reactor::step(Time now, const ReactorInputs& came_in) {
   for (const Observation& observation : inputs.observations)
     state.beliefs.observe(observation.timeline, observation.value);
   take_services(inputs);
-  parts_->call.note_models(inputs.models);
+  for (const ModelVersion& newer : parts_->call.note_models(inputs.models)) parts_->plan.note_newer(newer);
   if (take_goals(state, now, inputs.goals)) parts_->planning.keep_reserves();
   if (take_handed_over(state, inputs.handed_over)) parts_->planning.keep_reserves();
   note_achieved(state, now);
@@ -175,6 +175,8 @@ void Reactor::restore(std::string_view snapshot) {
 }
 
 const temporal::FlexiblePlan& Reactor::plan() const { return parts_->plan.executive().plan(); }
+
+const std::vector<PlannedAction>& Reactor::planned_actions() const { return parts_->plan.planned(); }
 
 std::vector<StepStatus> Reactor::steps() const { return parts_->plan.executive().steps(); }
 

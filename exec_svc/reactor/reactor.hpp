@@ -39,6 +39,8 @@ class Reactor {
   void restore(std::string_view snapshot);
 
   const temporal::FlexiblePlan& plan() const;
+  /// What the planner wrote for it; after a restart what nobody had begun.
+  const std::vector<PlannedAction>& planned_actions() const;
   std::vector<executive::StepStatus> steps() const;
 
   MissionPhase phase() const;

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "core/temporal/function_values.hpp"
 #include "core/temporal/schedule.hpp"
 #include "exec_svc/reactor/recovery_policy.hpp"
 #include "exec_svc/reactor/relaunch.hpp"
@@ -24,6 +25,9 @@ namespace {
 /// Activities whose windows are told to the ground when these move: what a screen shows, and no work in the
 /// size of the plan.
 constexpr std::size_t kReportedAhead = 32;
+
+/// Activities that one event names.
+constexpr std::size_t kNamed = 5;
 
 bool under_way(const StepStatus& step) {
   const bool begun =
@@ -170,6 +174,32 @@ std::optional<ConflictAhead> RunningPlan::conflict_ahead(Time now) {
   }
   if (const auto next = conflict_monitor_.next_check()) state_->wake_at(*next);
   return std::nullopt;
+}
+
+void RunningPlan::note_newer(const ModelVersion& model) {
+  if (state_->phase != MissionPhase::executing) return;
+  const auto& values = executive_.plan().function_values;
+  const auto is_older = [&](std::size_t i) {
+    return values[i].owner == model.owner && values[i].model_version < model.version;
+  };
+  std::set<std::uint64_t> versions;
+  std::string names;
+  std::size_t count = 0;
+  for (const PlannedAction& action : remaining()) {
+    auto used = temporal::function_values_of(action.arguments, values);
+    std::erase_if(used, [&](std::size_t i) { return !is_older(i); });
+    if (used.empty()) continue;
+    for (const std::size_t i : used) versions.insert(values[i].model_version);
+    if (++count <= kNamed) names += (count == 1 ? "" : ", ") + action.activity;
+  }
+  if (count == 0) return;
+  if (count > kNamed) names += " and " + std::to_string(count - kNamed) + " more";
+  std::string before;
+  for (const std::uint64_t version : versions)
+    before += (before.empty() ? "" : ", ") + std::to_string(version);
+  state_->report(Severity::info, "values.outdated",
+                 name() + " stands on values of an older model: " + model.owner + " has version " +
+                     std::to_string(model.version) + " now, " + names + " have values of version " + before);
 }
 
 std::vector<PlannedAction> RunningPlan::remaining() const {

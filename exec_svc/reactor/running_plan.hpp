@@ -65,6 +65,9 @@ class RunningPlan {
   /// What the planner wrote for the loaded plan; each with its id in it.
   void keep_actions(std::vector<PlannedAction> planned) { planned_ = std::move(planned); }
 
+  /// Tells the ground which of the running plan's activities, as far as nobody has begun them, stand on values of an older model.
+  void note_newer(const ModelVersion& model);
+
   /// The first activity that will not find what it needs, as far as is known (R73-R76). Asks to be woken when
   /// a doubt becomes certain.
   std::optional<ConflictAhead> conflict_ahead(temporal::Time now);
@@ -82,6 +85,8 @@ class RunningPlan {
   /// The executive's epoch; 0: it was not told.
   std::uint64_t epoch() const { return epoch_; }
   std::string name() const { return "plan " + std::to_string(version_); }
+  /// What the planner wrote; after a restart what nobody had begun.
+  const std::vector<PlannedAction>& planned() const { return planned_; }
   /// What the planner wrote and nobody has begun.
   std::vector<PlannedAction> remaining() const;
   /// The executive knows again what was observed before a restart.

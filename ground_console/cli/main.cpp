@@ -7,11 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/mission/entry.hpp"
+#include "ground_console/cli/map/map.hpp"
 #include "ground_console/cli/mission_words.hpp"
 #include "ground_console/cli/orders.hpp"
 #include "ground_console/cli/reach.hpp"
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/runs.hpp"
+#include "ground_console/cli/unknown_verb.hpp"
 #include "ground_console/cli/verbs.hpp"
 #include "ground_console/cli/watch/watch.hpp"
 #include "services/process/mission_folder.hpp"
@@ -29,10 +31,12 @@ struct Line {
   cli::GoalArguments goal;
   cli::OrderArguments order;
   std::size_t count = 0;
+  std::string activity;  // whose values are asked for
   std::vector<std::string> timelines;
   std::string mission;  // folder or name, for what its file says
   std::int64_t launcher = 0;
   cli::ReachArguments reach;
+  cli::map::MapArguments map;
   std::vector<double> from;
   bool prunes = false;
   std::size_t kept = 20;
@@ -214,7 +218,10 @@ int main(int argc, char** argv) {
   add_verb(app, line, "status", "Mission, goals, services, newest values",
            [](lib::Client& client, const Line& l) { return cli::show_status(client, l.json); });
   add_verb(app, line, "plan", "The running plan and the state of each activity",
-           [](lib::Client& client, const Line& l) { return cli::show_plan(client, l.json); });
+           [](lib::Client& client, const Line& l) { return cli::show_plan(client, l.activity, l.json); })
+      ->add_option("--why", line.activity,
+                   "Instead: the function values that this activity stands on (its id, or its name for all "
+                   "of that name)");
   CLI::App* timelines =
       add_verb(app, line, "timelines", "Planned, executed and projected values of every timeline",
                [](lib::Client& client, const Line& l) {
@@ -238,6 +245,15 @@ int main(int argc, char** argv) {
       ->expected(2);
   reach->add_option("--robot", line.reach.robot, "From where this robot is (default: the only one)");
   reach->add_option("--service", line.reach.service, "The path planner that is asked")->capture_default_str();
+  CLI::App* map =
+      add_verb(app, line, "map", "Draw the ground with hazards, zones, planned and driven ways", nullptr);
+  map->add_option("--png", line.map.png, "The file to write")->required();
+  map->add_option("--mission", line.map.mission,
+                  "Mission folder or name: it alone is drawn, unless a run is named, too");
+  map->add_option("--run", line.map.run,
+                  "Run folder, as roci runs lists them (default: the run on this machine, if any)");
+  map->callback(
+      [&line] { line.own = [](const Line& l) { return cli::map::show_map(l.map, l.connection, l.json); }; });
   CLI::App* runs = add_verb(app, line, "runs", "The runs of this machine: when, what, result, size", nullptr);
   runs->add_flag("--prune", line.prunes, "Remove the folders of all but the newest runs");
   runs->add_option("--keep", line.kept, "With --prune: so many stay")->capture_default_str();
@@ -257,7 +273,12 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? cli::kDone : cli::kBadUsage;
+    const std::string verb =
+        cli::words_on_verb(app, {argv + 1, argv + argc},
+                           {"--domain", "--dds", "--address", "--peers", "--network", "--executive"});
+    if (error.get_exit_code() == 0 || verb.empty()) return app.exit(error) == 0 ? cli::kDone : cli::kBadUsage;
+    std::cerr << "roci: " << verb << "\n";
+    return cli::kBadUsage;
   }
   try {
     if (line.own != nullptr) return line.own(line);

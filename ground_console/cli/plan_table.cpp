@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/temporal/schedule.hpp"
+#include "ground_console/cli/plan_values.hpp"
 #include "ground_console/cli/table.hpp"
 #include "services/wire/plan_wire.hpp"
 
@@ -58,6 +59,12 @@ std::string executed_of(const v1::StepStatus* step) {
          (step->ended_us() < 0 ? "" : lib::clock_text(step->ended_us()));
 }
 
+// Of an action that was bound to commands the wire has the objects by their positions, and the commands say the same in words.
+bool is_bound(const v1::PlanActivity& activity) {
+  return !activity.commands().empty() && !activity.arguments().empty() &&
+         activity.arguments().front().name() == "1";
+}
+
 std::string duration_of(const v1::PlanActivity& activity) {
   return lib::value_text(static_cast<double>(activity.duration_lower_us() / 100'000) / 10) + " s";
 }
@@ -65,7 +72,7 @@ std::string duration_of(const v1::PlanActivity& activity) {
 }  // namespace
 
 const std::vector<v1::Property>& arguments_of(const v1::PlanActivity& activity) {
-  const bool own = !activity.arguments().empty() || activity.commands().empty();
+  const bool own = !is_bound(activity) && (!activity.arguments().empty() || activity.commands().empty());
   return own ? activity.arguments() : activity.commands().front().arguments();
 }
 
@@ -86,13 +93,14 @@ std::string plan_table(const lib::MissionView& view) {
   for (const v1::PlanActivity* activity : order) {
     const v1::StepStatus* step = view.step(activity->id());
     const std::int64_t start = start_in(schedule, plan, *activity);
-    rows.push_back({activity->id(), activity->name(), arguments_text(*activity),
-                    step == nullptr ? "waiting" : lib::name_of(step->state()),
+    std::string state = step == nullptr ? "waiting" : lib::name_of(step->state());
+    if (stands_on_older_values(view, *activity)) state += " *";
+    rows.push_back({activity->id(), activity->name(), arguments_text(*activity), std::move(state),
                     start < 0 ? "" : lib::clock_text(start), duration_of(*activity), window_of(step),
                     executed_of(step), joined(activity->goals_served(), ", ")});
   }
   return "plan " + std::to_string(plan.version()) + ", from " + lib::clock_text(plan.origin_us()) + ", now " +
-         lib::clock_text(view.now_us()) + "\n\n" + table_text(rows);
+         lib::clock_text(view.now_us()) + "\n\n" + table_text(rows) + older_values_text(view);
 }
 
 }  // namespace roci::console::cli

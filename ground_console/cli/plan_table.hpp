@@ -9,12 +9,12 @@
 
 namespace roci::console::cli {
 
-/// A row for each activity, in the order of their starts. `planned` is its start in the schedule of earliest times that the
+/// A row for each activity, and what stands on values of an older model (plan_values.hpp). Rows come in the order of the starts. `planned` is its start in the schedule of earliest times that the
 /// plan came with and its least duration, `window` when it may start as things stand, `executed` when it did start and end.
 /// "no plan yet" without a plan.
 std::string plan_table(const lib::MissionView& view);
 
-/// The arguments of the action, else those of its first command.
+/// The arguments of the activity in words: of an action that was bound to commands those of its first command.
 const std::vector<v1::Property>& arguments_of(const v1::PlanActivity& activity);
 
 /// Mission time in microseconds at which an activity starts in the plan's schedule of earliest times; -1 without one.

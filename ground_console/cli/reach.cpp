@@ -81,8 +81,9 @@ int show_reach(lib::Client& client, const ReachArguments& arguments, bool as_jso
               << lib::value_text(reply->expected_s()) << " s, " << lib::value_text(reply->expected_j())
               << " J (map " << reply->map_version() << ")\n";
   } else {
-    std::cout << "no way from " << ends << ": " << printable(reply->reason()) << " (map "
-              << reply->map_version() << ")\n";
+    const bool known = reply->outcome() != v1::MOTION_UNKNOWN;
+    std::cout << (known ? "no way from " : "no way is known, and none is ruled out, from ") << ends << ": "
+              << printable(reply->reason()) << " (map " << reply->map_version() << ")\n";
   }
   return found ? kDone : kRefused;
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ground_console/cli/plan_table.hpp"
+#include "ground_console/cli/plan_values.hpp"
 
 namespace roci::console::cli {
 
@@ -118,7 +119,8 @@ json plan_json(const lib::MissionView& view) {
                {"goals", activity.goals_served()},
                {"planned_start_us", planned_start_us(*view.plan(), activity)},
                {"duration_us", activity.duration_lower_us()},
-               {"arguments", json::object()}};
+               {"arguments", json::object()},
+               {"older_values", stands_on_older_values(view, activity)}};
     for (const v1::Property& argument : arguments_of(activity))
       entry["arguments"][argument.name()] = argument.value();
     if (const v1::StepStatus* step = view.step(activity.id())) {

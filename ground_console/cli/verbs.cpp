@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "ground_console/cli/plan_table.hpp"
+#include "ground_console/cli/plan_values.hpp"
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/timelines.hpp"
 
@@ -31,7 +32,15 @@ v1::Property property_of(const std::string& text) {
   return out;
 }
 
-int no_mission() {
+// With --executive somebody else may have answered.
+int no_mission(const lib::MissionView& view) {
+  const std::vector<std::string> known = view.executives();
+  if (!known.empty() && view.mission() == nullptr) {
+    std::cerr << "roci: there is no executive '" << printable(view.executive()) << "' in this run; it has:";
+    for (const std::string& name : known) std::cerr << " " << printable(name);
+    std::cerr << "\n";
+    return kNoMission;
+  }
   std::cerr << "roci: exec_svc did not answer within " << kAnswerLimit.count() / 1000
             << " s; is the mission running there (roci status)?\n";
   return kNoMission;
@@ -47,8 +56,8 @@ void print_goal(const v1::GoalStatus& status, bool why, bool as_json) {
     std::cout << "  the planner: " << printable(details) << std::endl;
 }
 
-int report_goal(const std::optional<v1::GoalStatus>& status, bool as_json) {
-  if (!status) return no_mission();
+int report_goal(const lib::MissionView& view, const std::optional<v1::GoalStatus>& status, bool as_json) {
+  if (!status) return no_mission(view);
   print_goal(*status, false, as_json);
   return status->goal_state() == v1::GOAL_REJECTED ? kRefused : kDone;
 }
@@ -100,12 +109,12 @@ int add_goal(lib::Client& client, const GoalArguments& arguments, bool as_json) 
   goal.opens_us(static_cast<std::int64_t>(arguments.opens_s * 1e6));
   goal.closes_us(static_cast<std::int64_t>(arguments.closes_s * 1e6));
   const auto status = client.send_goal(goal, kAnswerLimit);
-  const int code = report_goal(status, as_json);
+  const int code = report_goal(client.view(), status, as_json);
   return code == kDone && arguments.waits ? follow_goal(client, *status, arguments, as_json) : code;
 }
 
 int cancel_goal(lib::Client& client, const std::string& issuer, const std::string& id, bool as_json) {
-  if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
+  if (!client.wait_for_mission(kAnswerLimit)) return no_mission(client.view());
   const lib::MissionView::GoalKey key{issuer, id};
   if (!client.wait([&] { return client.view().goals().contains(key); }, std::chrono::seconds(2))) {
     std::cerr << "roci: there is no goal " << issuer << "/" << id << "; see roci goal list\n";
@@ -116,11 +125,12 @@ int cancel_goal(lib::Client& client, const std::string& issuer, const std::strin
   goal.issuer(issuer);
   goal.id(id);
   goal.recalled(true);
-  return report_goal(client.send_goal(goal, kAnswerLimit), as_json);
+  const auto status = client.send_goal(goal, kAnswerLimit);
+  return report_goal(client.view(), status, as_json);
 }
 
 int list_goals(lib::Client& client, bool why, bool as_json) {
-  if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
+  if (!client.wait_for_mission(kAnswerLimit)) return no_mission(client.view());
   client.wait([] { return false; }, std::chrono::milliseconds(300));  // the other goals come right behind
   json list = json::array();
   for (const auto& [key, status] : client.view().goals()) {
@@ -135,7 +145,7 @@ int list_goals(lib::Client& client, bool why, bool as_json) {
 }
 
 int show_status(lib::Client& client, bool as_json) {
-  if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
+  if (!client.wait_for_mission(kAnswerLimit)) return no_mission(client.view());
   client.wait([] { return false; }, std::chrono::milliseconds(300));
   std::cout << (as_json ? json_text(status_json(client.view())) + "\n" : status_text(client.view()));
   return kDone;
@@ -154,11 +164,37 @@ void tell_whose(const lib::MissionView& view) {
 
 }  // namespace
 
-int show_plan(lib::Client& client, bool as_json) {
-  if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
+namespace {
+
+// What activities of this id or name stand on.
+int show_values(const lib::MissionView& view, const std::string& name, bool as_json) {
+  const auto activities = activities_named(view, name);
+  if (activities.empty()) {
+    std::cerr << "roci: the running plan has no activity '" << printable(name)
+              << "'; roci plan lists them, by id and by what they do\n";
+    return kRefused;
+  }
+  if (!as_json) {
+    std::cout << values_text(view, activities);
+    return kDone;
+  }
+  json list = json::array();
+  for (const v1::PlanActivity* activity : activities)
+    list.push_back({{"id", activity->id()},
+                    {"name", activity->name()},
+                    {"function_values", values_json(view, *activity)}});
+  std::cout << json_text(list) << "\n";
+  return kDone;
+}
+
+}  // namespace
+
+int show_plan(lib::Client& client, const std::string& why, bool as_json) {
+  if (!client.wait_for_mission(kAnswerLimit)) return no_mission(client.view());
   client.wait([&] { return client.view().plan() != nullptr; }, std::chrono::milliseconds(1000));
   client.wait([] { return false; }, std::chrono::milliseconds(300));
   tell_whose(client.view());
+  if (!why.empty()) return show_values(client.view(), why, as_json);
   if (as_json) {
     std::cout << json_text(plan_json(client.view())) << "\n";
     return kDone;
@@ -169,7 +205,7 @@ int show_plan(lib::Client& client, bool as_json) {
 
 int show_timelines(lib::Client& client, const std::vector<std::string>& names, const MissionWords& words,
                    bool as_json) {
-  if (!client.wait_for_mission(kAnswerLimit)) return no_mission();
+  if (!client.wait_for_mission(kAnswerLimit)) return no_mission(client.view());
   client.wait([&] { return client.view().plan() != nullptr; }, std::chrono::milliseconds(1000));
   client.wait([] { return false; }, std::chrono::milliseconds(300));
   tell_whose(client.view());

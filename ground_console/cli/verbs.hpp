@@ -45,7 +45,8 @@ int add_goal(lib::Client& client, const GoalArguments& arguments, bool json);
 int cancel_goal(lib::Client& client, const std::string& issuer, const std::string& id, bool json);
 int list_goals(lib::Client& client, bool why, bool json);
 int show_status(lib::Client& client, bool json);
-int show_plan(lib::Client& client, bool json);
+/// The running plan; with `why`, the id or the name of an activity, the values that it stands on.
+int show_plan(lib::Client& client, const std::string& why, bool json);
 /// Planned, executed and projected values; a row for each timeline, or, with `names`, every change of these alone.
 int show_timelines(lib::Client& client, const std::vector<std::string>& names, const MissionWords& words,
                    bool json);

@@ -131,6 +131,7 @@ Client::Client(const services::process::Connection& connection)
   follow(topics::exec_member);
   follow(topics::decision);
   follow(topics::order_status);
+  follow(topics::function_offer);
 }
 
 template <class T>

@@ -116,6 +116,18 @@ void MissionView::take(const v1::Hazard& hazard) {
   count(keep_newest(hazards_, {hazard.found_by(), hazard.id()}, hazard));
 }
 
+void MissionView::take(const v1::FunctionOffer& offer) {
+  note_time(offer.header());
+  count(keep_newest(offers_, {offer.module_name(), offer.owner()}, offer, kServices));
+}
+
+std::uint64_t MissionView::model_version(const std::string& owner) const {
+  std::uint64_t out = 0;
+  for (const auto& [key, offer] : offers_)
+    if (offer.owner() == owner) out = std::max<std::uint64_t>(out, offer.model_version());
+  return out;
+}
+
 void MissionView::take(const v1::Heartbeat& heartbeat) {
   const auto age = [](const v1::Heartbeat& h) { return std::make_pair(h.incarnation(), h.progress()); };
   if (heartbeats_.size() >= kServices && !heartbeats_.contains(heartbeat.service())) return count(false);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "roci_idl/command.h"
+#include "roci_idl/function.h"
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
 #include "roci_idl/motion.h"
@@ -40,6 +41,7 @@ class MissionView {
   void take(const v1::LeaseMessage& member);
   void take(const v1::Decision& decision);
   void take(const v1::OrderStatus& status);
+  void take(const v1::FunctionOffer& offer);
 
   using GoalKey = std::pair<std::string, std::string>;  ///< issuer, id
 
@@ -66,6 +68,10 @@ class MissionView {
   const v1::TimelineValue* timeline(const std::string& name) const;
   const std::map<std::string, v1::Observation>& timelines() const { return observations_; }
   const std::map<std::string, v1::DataProduct>& products() const { return products_; }
+  /// What owners offer, by module and owner.
+  const std::map<std::pair<std::string, std::string>, v1::FunctionOffer>& offers() const { return offers_; }
+  /// The version that the model of an owner of functions has now; 0 while it has offered nothing.
+  std::uint64_t model_version(const std::string& owner) const;
   const std::map<std::string, v1::Heartbeat>& services() const { return heartbeats_; }
   /// Of executive()'s pair the one that leads in the latest epoch; null without a pair.
   const v1::LeaseMessage* leader() const;
@@ -100,6 +106,7 @@ class MissionView {
   std::map<std::string, v1::Heartbeat> heartbeats_;
   std::map<std::pair<std::string, std::string>, v1::LeaseMessage> members_;  ///< by executive and member
   std::map<std::pair<std::string, std::string>, v1::Hazard> hazards_;        // by finder and id
+  std::map<std::pair<std::string, std::string>, v1::FunctionOffer> offers_;
   std::map<std::string, std::vector<Place>> ways_;
   std::map<std::string, v1::Decision> decisions_;
   std::map<GoalKey, std::vector<v1::OrderStatus>> orders_;  // by issuer and id

@@ -23,8 +23,10 @@ struct BlockingGoal {
 /// Work that does not depend on the machine, but for `bytes_per_state`.
 struct Statistics {
   std::uint64_t expanded = 0;
-  std::uint64_t evaluated = 0;  ///< the simulated duration of a call counts these
-  std::uint64_t function_tuples = 0;
+  std::uint64_t evaluated = 0;          ///< the simulated duration of a call counts these
+  std::uint64_t function_tuples = 0;    ///< that owners were asked for
+  std::uint64_t function_requests = 0;  ///< batches in which they were
+  std::uint64_t exact_values = 0;       ///< those of the tuples that were to be exact
   double bytes_per_state = 0;
   bool from_remaining = false;  ///< whether the first plan was made of what remained of an earlier one
 };

@@ -21,15 +21,22 @@ class RecordedFunctions final : public FunctionSource {
   std::vector<FunctionValue> evaluate(std::span<const FunctionCall> calls,
                                       const std::function<bool()>& cancelled) override {
     std::vector<FunctionValue> values = source_.evaluate(calls, cancelled);
+    ++requests_;
     if (values.size() == calls.size())
       for (std::size_t i = 0; i < calls.size(); ++i) uses_.push_back({calls[i], values[i]});
     return values;
   }
 
   std::span<const FunctionUse> uses() const { return uses_; }
+  std::uint64_t requests() const { return requests_; }
+  std::uint64_t exact() const {
+    return static_cast<std::uint64_t>(
+        std::ranges::count_if(uses_, [](const FunctionUse& use) { return use.answer.is_exact(); }));
+  }
 
  private:
   FunctionSource& source_;
+  std::uint64_t requests_ = 0;
   std::vector<FunctionUse> uses_;
 };
 
@@ -45,6 +52,8 @@ Answer answer_by(const TableEntry& entry, const Request& request, const Limits& 
   RecordedFunctions recorded(functions);
   Answer answer = std::get<MakeAnswering>(entry.make)()->answer(request, limits, recorded);
   answer.statistics.function_tuples = recorded.uses().size();
+  answer.statistics.function_requests = recorded.requests();
+  answer.statistics.exact_values = recorded.exact();
   if (!answer.plan) return answer;
   const std::string refusal =
       refusal_of(*entry.make_checker(), {request, recorded.uses(), *answer.plan, nullptr, nullptr});

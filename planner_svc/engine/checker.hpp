@@ -15,7 +15,8 @@ namespace roci::planner::engine {
 /// A plan with all that it must fit.
 struct CheckedPlan {
   const Request& request;
-  std::span<const FunctionUse> values;  ///< as the owners gave them in this call
+  /// As the owners gave them in this call; a plan may stand on exact ones alone.
+  std::span<const FunctionUse> values;
   const temporal::FlexiblePlan& plan;
   const temporal::FlexiblePlan* before = nullptr;  ///< the version that it changes; null: there is none
   /// How far the executed version has come; null: none is executed.

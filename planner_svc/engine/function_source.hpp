@@ -7,31 +7,61 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/temporal/duration.hpp"
+#include "core/temporal/flexible_plan.hpp"
 
 namespace roci::planner::engine {
+
+/// Which values an engine asks owners for, and when (docs/external-functions.md).
+enum class FunctionsMode {
+  eager,         ///< every typed tuple exactly, before the search (R37)
+  lazy,          ///< exactly, and only what searches touch
+  two_accuracy,  ///< every typed tuple as a lower bound, and exactly what a candidate plan stands on
+};
+
+/// "eager", "lazy", "two_accuracy": as written in mission files.
+const char* to_string(FunctionsMode mode);
+/// Returns the mode of that name, where '-' may stand for '_', or nothing for any other text.
+std::optional<FunctionsMode> functions_mode_named(std::string_view name);
+
+/// A number that a timeline is taken to have while a function is evaluated.
+struct AssumedValue {
+  std::string timeline;
+  double number = 0;
+  std::string object;  ///< that stands for the number in the engine's model: "battery-20"
+
+  bool operator==(const AssumedValue&) const = default;
+};
 
 /// One tuple of one function of one module.
 struct FunctionCall {
   std::string module;
   std::string function;
   std::vector<std::string> arguments;  ///< object names
+  temporal::FunctionAccuracy accuracy = temporal::FunctionAccuracy::exact;
+  std::vector<AssumedValue> state{};  ///< of functions that depend on timelines: for which values of these
 
   bool operator==(const FunctionCall&) const = default;
 };
 
+/// "(traverse_time a b)"; objects that stand for assumed values follow the arguments.
+std::string application(const FunctionCall& call);
+
 enum class FunctionOutcome {
   value,
-  unreachable,     ///< the owner says that no value exists: the action instance that needs it does not exist
-  unavailable,     ///< nobody owns the function, or its owner cannot say
-  owner_lost,      ///< the owner died while it was asked
-  late,            ///< the owner did not answer within the source's deadline
-  not_a_number,    ///< NaN or infinite
-  wrong_arity,     ///< the owner knows the function with another number of arguments
+  unreachable,   ///< the owner proved that no value exists: the action instance that needs it does not exist
+  unknown,       ///< the owner found no value with the effort spent: as unreachable, but nothing is proved
+  unavailable,   ///< nobody owns the function, or its owner cannot say
+  owner_lost,    ///< the owner died while it was asked
+  late,          ///< the owner did not answer within the source's deadline
+  not_a_number,  ///< NaN or infinite
+  wrong_arity,   ///< the owner knows the function with another number of arguments
   unknown_object,  ///< the owner does not know one of the objects
 };
 
@@ -52,6 +82,10 @@ struct FunctionValue {
   double value = 0;  ///< with value: finite
   Provenance provenance;
   std::string reason;  ///< the owner's own words, may be empty
+  /// Of the value: an owner that has no bounds gives exact values where these are asked for.
+  temporal::FunctionAccuracy accuracy = temporal::FunctionAccuracy::exact;
+
+  bool is_exact() const { return accuracy == temporal::FunctionAccuracy::exact; }
 };
 
 /// One tuple that was asked for, and what its owner said.
@@ -65,7 +99,7 @@ class FunctionSource {
   virtual ~FunctionSource() = default;
 
   /// One value per call, in the same order; an answer of another length counts as unavailable for all. All
-  /// calls of a batch belong to one function. Returns early, with late for the rest, once `cancelled` returns
+  /// calls of a batch belong to one function, ask for one accuracy and assume one state. Returns early, with late for the rest, once `cancelled` returns
   /// true.
   virtual std::vector<FunctionValue> evaluate(std::span<const FunctionCall> calls,
                                               const std::function<bool()>& cancelled) = 0;

@@ -13,6 +13,7 @@
 #include "core/temporal/flexible_plan.hpp"
 #include "core/temporal/rank_vector.hpp"
 #include "core/temporal/value.hpp"
+#include "planner_svc/engine/function_source.hpp"
 
 namespace roci::planner::engine {
 
@@ -82,8 +83,9 @@ struct Request {
   std::vector<Object> objects;
   /// Stands in order of time; what is unknown or impossible by now is to be passed over.
   std::vector<RemainingAction> remaining;
-  std::uint64_t work = 0;        ///< budget in evaluations; 0: no bound
-  std::size_t memory_bytes = 0;  ///< budget; 0: no bound
+  std::uint64_t work = 0;                          ///< budget in evaluations; 0: no bound
+  std::size_t memory_bytes = 0;                    ///< budget; 0: no bound
+  FunctionsMode functions = FunctionsMode::eager;  ///< which values owners are asked for
   /// Evaluations that may be spent on better plans once there is one, beside `work`; 0: none. It is the mission's and not on
   /// the wire: whoever hosts the engine sets it.
   std::uint64_t improvement = kImprovement;

@@ -1,7 +1,9 @@
 #include "planner_svc/temporal_pddl/planner.hpp"
 
+#include <algorithm>
 #include <new>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,14 +21,17 @@
 #include "planner_svc/temporal_pddl/improvement/improvement.hpp"
 #include "planner_svc/temporal_pddl/improvement/restarts.hpp"
 #include "planner_svc/temporal_pddl/improvement/warm_start.hpp"
+#include "planner_svc/temporal_pddl/refining.hpp"
 #include "planner_svc/temporal_pddl/search/portfolio.hpp"
+#include "planner_svc/temporal_pddl/values/counted_functions.hpp"
+#include "planner_svc/temporal_pddl/values/level_functions.hpp"
 
 namespace roci::planner::temporal_pddl {
 
 using call::Budget, call::Monitor, call::NamedGoal, call::Options, call::PlanningFailure, call::SearchLimits,
     call::Statistics;
 using dead_ends::DeadEndDetectors, dead_ends::MutexDeadEnds, dead_ends::ResourceDeadEnds;
-using engine::FunctionSource;
+using engine::FunctionOutcome, engine::FunctionSource, engine::FunctionsMode, engine::FunctionUse;
 using extraction::build_plan;
 using grounding::Grounding, grounding::GroundingReport, grounding::ground, grounding::ground_remaining_plan;
 using grounding::lifted::ModelFailure;
@@ -36,6 +41,7 @@ using search::Guide, search::PlanPrefix, search::SearchContext, search::SearchOu
     search::search_portfolio;
 using task::Task;
 using temporal::Verdict;
+using values::CountedFunctions, values::LevelFunctions;
 
 namespace {
 
@@ -97,13 +103,36 @@ Grounding grounded(const pddl::Domain& domain, const pddl::Problem& problem, Fun
   }
 }
 
-void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
-           const Options& options, std::span<const pddl::PlanStep> remaining,
+// Names what searches have touched for whoever asked for it, when the call ends.
+class Touched {
+ public:
+  Touched(const Task& task, std::vector<values::ActionInstance>* wanted, SearchLimits& limits)
+      : task_(task), wanted_(wanted), marks_(wanted ? task.actions.size() : 0) {
+    if (wanted) limits.mark_touched(&marks_);
+  }
+
+  void tell() const {
+    if (!wanted_) return;
+    for (std::size_t i = 0; i < marks_.size(); ++i) {
+      const task::ActionId action(i);
+      const auto arguments = task_.action_arguments[action];
+      if (marks_[i]) wanted_->push_back({task_.actions[action].schema, {arguments.begin(), arguments.end()}});
+    }
+  }
+
+ private:
+  const Task& task_;
+  std::vector<values::ActionInstance>* wanted_;
+  std::vector<bool> marks_;  // by ActionId
+};
+
+void solve(const pddl::Domain& domain, const pddl::Problem& problem, const Attempt& attempt,
            std::span<const NamedGoal> goals, SearchLimits& limits, Result& result) {
-  require_model(domain, problem);
+  const Options& options = attempt.options;
   limits.phase("grounding");
-  const Grounding grounding = grounded(domain, problem, functions, options, limits, result);
+  const Grounding grounding = grounded(domain, problem, attempt.functions, options, limits, result);
   const Task& task = grounding.task;
+  const Touched touched(task, attempt.touched, limits);
   describe(task, result.statistics);
   limits.hold(task.bytes());
   limits.phase("looking for landmarks");
@@ -119,7 +148,7 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
   const SearchContext context{task, options, limits, result.statistics};
   SearchOutcome outcome;
   limits.phase("completing the earlier plan");
-  outcome.plan = warm_start(context, ground_remaining_plan(task, remaining), guide);
+  outcome.plan = warm_start(context, ground_remaining_plan(task, attempt.remaining), guide);
   result.statistics.from_remaining = outcome.plan.has_value();
   if (!outcome.plan) outcome = search_portfolio(context, guide, ff);
   if (outcome.plan) {
@@ -131,17 +160,14 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSou
     result.verdict = Verdict::unsolvable;
     explain(ff, resources, std::move(outcome), result);
   }
+  touched.tell();
 }
 
-}  // namespace
-
-Result plan(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
-            const Budget& budget, const Monitor& monitor, const Options& options,
-            std::span<const pddl::PlanStep> remaining, std::span<const NamedGoal> goals) {
-  Result result;
-  SearchLimits limits(budget, monitor);
+// Does the work, and gives what it throws for the model, the budget or the memory as a verdict.
+template <typename Work>
+void guarded(Result& result, Work work) {
   try {
-    solve(domain, problem, functions, options, remaining, goals, limits, result);
+    work();
   } catch (const ModelFailure& failure) {
     result.verdict = failure.verdict();
     result.reason = failure.reason();
@@ -154,7 +180,53 @@ Result plan(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSo
     result.verdict = Verdict::out_of_memory;
     result.reason = "the system has no more memory";
   }
+}
+
+Result plan_once(const pddl::Domain& domain, const pddl::Problem& problem, const Attempt& attempt,
+                 const Monitor& monitor, std::span<const NamedGoal> goals) {
+  Result result;
+  SearchLimits limits(attempt.budget, monitor);
+  guarded(result, [&] { solve(domain, problem, attempt, goals, limits, result); });
   result.statistics.peak_bytes = limits.peak_bytes();
+  return result;
+}
+
+// That no plan exists is not proved where an owner found no value with the effort that it spent.
+void doubt_unknown_values(Result& result) {
+  const auto is_unknown = [](const FunctionUse& use) {
+    return use.answer.outcome == FunctionOutcome::unknown;
+  };
+  const auto first = std::ranges::find_if(result.functions, is_unknown);
+  if (result.verdict != Verdict::unsolvable || first == result.functions.end()) return;
+  const auto count = std::ranges::count_if(result.functions, is_unknown);
+  const std::string& owner = first->answer.provenance.owner;
+  std::string doubt =
+      "not known: " + (owner.empty() ? "the owner" : owner) + " found no way for " + application(first->call);
+  if (count > 1) doubt += " and " + std::to_string(count - 1) + " more";
+  result.verdict = Verdict::timeout;
+  result.reason = doubt + " with the effort spent; ask again or give it more; without that, " + result.reason;
+  result.blocked.clear();
+}
+
+}  // namespace
+
+Result plan(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
+            const Budget& budget, const Monitor& monitor, const Options& options,
+            std::span<const pddl::PlanStep> remaining, std::span<const NamedGoal> goals) {
+  CountedFunctions owners(functions);
+  LevelFunctions at_levels(owners, domain.level_parameters);
+  const auto attempt = [&](const Attempt& one) { return plan_once(domain, problem, one, monitor, goals); };
+  Result result;
+  guarded(result, [&] {
+    require_model(domain, problem);
+    result = options.functions == FunctionsMode::eager || domain.modules.empty()
+                 ? attempt({at_levels, budget, options, remaining})
+                 : plan_refining({domain, problem, at_levels, budget, monitor, options, remaining}, attempt);
+  });
+  doubt_unknown_values(result);
+  result.statistics.function_requests = owners.requests();
+  result.statistics.exact_values = owners.exact();
+  result.statistics.cheap_values = owners.cheap();
   return result;
 }
 

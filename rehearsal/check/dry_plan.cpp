@@ -161,17 +161,51 @@ Answer planned(const MissionModel& model, const Candidate& candidate, AskedOwner
   return answer_checked(planner::engines(), request, limits, owners);
 }
 
+std::string arguments_text(const GoalRequest& goal) {
+  std::string out;
+  for (const auto& [name, value] : goal.arguments) out += " " + name + "=" + value;
+  return out.empty() ? "" : " with" + out;
+}
+
+// The words of an owner of functions end with who says so (adapter/owners_verdicts); others are the planner's own.
+bool is_said_by_owner(const std::string& reason) { return reason.find("(says ") != std::string::npos; }
+
+// Why there is no plan, without a word of how planners work.
+std::string why_not(const MissionModel& model, const GoalRequest& goal, const Answer& answer) {
+  switch (answer.verdict) {
+    case Verdict::unsolvable:
+      break;
+    case Verdict::timeout:
+      return "none was found within planner.budget (work: " + std::to_string(model.planner.work) + ")";
+    case Verdict::out_of_memory:
+      return "none was found within planner.budget (memory_mb: " + std::to_string(model.planner.memory_mb) +
+             ")";
+    default:
+      return std::string(to_string(answer.verdict)) + ": " + answer.reason;
+  }
+  for (const auto& blocking : answer.blocking) {
+    const bool itself = blocking.issuer == goal.key.issuer && blocking.id == goal.key.id;
+    const std::string whose = itself ? "" : "goal '" + blocking.id + "', which it needs, is out of reach: ";
+    if (is_said_by_owner(blocking.reason)) return whose + blocking.reason;
+    if (!blocking.timeline.empty())
+      return whose + "from where the scenario starts no action brings about " + blocking.timeline;
+  }
+  return "from where the scenario starts no sequence of actions leads to it";
+}
+
 // What stands in the way, at the kind's entry. A budget that is spent proves nothing.
-mission::Finding obstacle(const mission::Entry& kind, const std::string& name, const Candidate& candidate,
-                          const Answer& answer) {
+mission::Finding obstacle(const mission::Entry& kind, const std::string& name, const MissionModel& model,
+                          const Candidate& candidate, const Answer& answer) {
   const bool spent = answer.verdict == Verdict::timeout || answer.verdict == Verdict::out_of_memory;
   mission::Finding out =
       mission::finding_of(kind.place() + ": ", spent ? mission::Severity::warning : mission::Severity::error);
   out.what = "no plan achieves a goal of kind '" + name + "' (goal '" + candidate.goals.back().key.id +
-             "' of scenario '" + candidate.scenario->name + "'): " + to_string(answer.verdict) + ": " +
-             answer.reason;
+             "' of scenario '" + candidate.scenario->name + "')" + arguments_text(candidate.goals.back()) +
+             ": " + why_not(model, candidate.goals.back(), answer);
   out.remedy = spent ? "raise planner.budget, or make the goal easier"
-                     : "check its facts, the domain's actions, the place, and the scenario's start";
+                     : "check its facts, the domain's actions, the place, and the scenario's start; "
+                       "roci-check --why has "
+                       "the planner's own words";
   return out;
 }
 
@@ -221,7 +255,9 @@ DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executi
     if (std::string unasked = why_no_functions(mission, model, *first); !unasked.empty()) {
       out.not_tried.push_back({name, std::move(unasked)});
     } else {
-      findings.add(obstacle(kinds->at(name), name, tries.front(), *first));
+      findings.add(obstacle(kinds->at(name), name, model, tries.front(), *first));
+      out.unachieved.push_back({name, tries.front().scenario->name, tries.front().goals.back().key.id,
+                                to_string(first->verdict), first->reason});
     }
   }
   return out;

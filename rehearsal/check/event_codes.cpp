@@ -9,7 +9,7 @@ const std::vector<std::string>& event_codes() {
       "command.foreign", "commander.doubled", "contract.mismatch", "datagram.refused", "epoch.refused",
       "epoch.taken", "executive.resumed", "fact.left_out", "fallback.failed", "goal.accepted",
       "goal.achieved", "goal.dropped", "goal.failed", "goal.merged", "goal.no_room", "goal.recalled",
-      "goal.refused", "goal.rejected", "goal.suspected", "hazard.refused", "hazard.seen", "journal.damaged",
+      "goal.refused", "goal.rejected", "goal.suspected", "hazard.refused", "hazard.seen", "image.unreadable", "journal.damaged",
       "journal.diverged", "journal.shortened", "journal.waiting", "journal.written", "lead.split",
       "lead.whole", "ledger.unwritten", "map.changed", "model.no_room", "motion.refused",
       "observation.malformed", "order.accepted", "order.malformed", "order.no_room", "order.refused",
@@ -20,6 +20,8 @@ const std::vector<std::string>& event_codes() {
       "scenario.as_expected", "scenario.over", "scenario.time-up", "scenario.unexpected", "science.find",
       "science.no_room", "service.died", "service.doubled", "service.found", "service.lost",
       "service.missed", "standby.gone", "standby.ready", "timeline.contested", "timeline.no_room",
+      "values.outdated",
+      "watch.goal", "watch.no_room",
   };
   // clang-format on
   return codes;

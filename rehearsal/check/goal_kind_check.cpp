@@ -45,6 +45,7 @@ class GoalKindCheck {
       : mission_(mission), executive_(executive), timelines_(mission, executive) {
     note_states("components");
     note_states("families");
+    for (const std::string& fact : executive.model.facts) note(fact);
     if (const auto windows = executive.file.find("windows"); windows && windows->is_sequence())
       for (const Entry& window : windows->items())
         if (window.is_mapping())

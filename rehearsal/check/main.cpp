@@ -27,11 +27,9 @@ std::string short_name(const std::string& file) {
 }
 
 nlohmann::json as_json(const check::CheckReport& report, const fs::path& mission) {
-  nlohmann::json out{{"mission", mission.filename().string()},
-                     {"scenarios", report.scenarios},
-                     {"findings", nlohmann::json::array()},
-                     {"planned", nlohmann::json::array()},
-                     {"not_planned", nlohmann::json::array()}};
+  nlohmann::json out{{"mission", mission.filename().string()}, {"scenarios", report.scenarios},
+                     {"findings", nlohmann::json::array()},    {"planned", nlohmann::json::array()},
+                     {"not_planned", nlohmann::json::array()}, {"unachieved", nlohmann::json::array()}};
   for (const Finding& one : report.findings.sorted())
     out["findings"].push_back({{"file", one.file},
                                {"line", one.line},
@@ -44,6 +42,12 @@ nlohmann::json as_json(const check::CheckReport& report, const fs::path& mission
         {{"kind", one.kind}, {"scenario", one.scenario}, {"goal", one.goal}, {"activities", one.activities}});
   for (const check::UnplannedKind& one : report.plans.not_tried)
     out["not_planned"].push_back({{"kind", one.kind}, {"why", one.why}});
+  for (const check::UnachievedKind& one : report.plans.unachieved)
+    out["unachieved"].push_back({{"kind", one.kind},
+                                 {"scenario", one.scenario},
+                                 {"goal", one.goal},
+                                 {"verdict", one.verdict},
+                                 {"details", one.details}});
   return out;
 }
 
@@ -51,13 +55,17 @@ std::string counted(std::size_t count, const std::string& one, const std::string
   return std::to_string(count) + " " + (count == 1 ? one : several);
 }
 
-void print(const check::CheckReport& report, const fs::path& mission) {
+void print(const check::CheckReport& report, const fs::path& mission, bool why) {
   for (Finding one : report.findings.sorted()) {
     one.what = std::string(to_string(one.severity)) + ": " + one.what;
     one.file = short_name(one.file);
     std::cout << one.text() << "\n";
     if (!one.remedy.empty()) std::cout << "    " << one.remedy << "\n";
   }
+  for (const check::UnachievedKind& one : report.plans.unachieved)
+    if (why)
+      std::cout << "of goal kind '" << one.kind << "' (goal '" << one.goal << "' of scenario '"
+                << one.scenario << "') the planner says: " << one.verdict << ": " << one.details << "\n";
   for (const check::UnplannedKind& one : report.plans.not_tried)
     std::cout << "goal kind '" << one.kind << "' was not planned: " << one.why << "\n";
   const std::size_t count = report.findings.size();
@@ -75,6 +83,7 @@ int main(int argc, char** argv) {
   std::string name;
   std::string scenario;
   bool json = false;
+  bool why = false;
   CLI::App app(
       "Finds what is wrong with a mission without flying it: reads mission.yaml, the files that it names and "
       "every "
@@ -82,6 +91,7 @@ int main(int argc, char** argv) {
       "roci-check");
   app.add_option("mission", name, "Mission folder, or the name of an installed mission")->required();
   app.add_option("--scenario", scenario, "Read this scenario alone (default: all)");
+  app.add_flag("--why", why, "Why a goal cannot be planned, in the planner's own words too");
   app.add_flag("--json", json, "One JSON object instead of lines");
   app.footer(
       "Exit code: 0 no error found (warnings may be), 1 errors, 2 wrong command line or no such mission, 3 a "
@@ -99,7 +109,7 @@ int main(int argc, char** argv) {
     if (json) {
       std::cout << as_json(report, mission).dump() << "\n";
     } else {
-      print(report, mission);
+      print(report, mission, why);
     }
     return report.findings.errors() == 0 ? kNothingFound : kFound;
   } catch (const roci::mission::FileError& error) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <functional>
+#include <map>
 #include <optional>
 
 #include "core/mission/mission_file.hpp"
@@ -12,10 +13,12 @@
 #include "rehearsal/check/action_check.hpp"
 #include "rehearsal/check/component_check.hpp"
 #include "rehearsal/check/goal_kind_check.hpp"
+#include "rehearsal/check/map_check.hpp"
 #include "rehearsal/check/scenario_check.hpp"
 #include "rehearsal/check/words.hpp"
 #include "rehearsal/flight.hpp"
 #include "science_svc/detector_file.hpp"
+#include "science_svc/watch/watch_file.hpp"
 #include "services/link/link_file.hpp"
 
 namespace roci::rehearsal::check {
@@ -77,7 +80,10 @@ void read_scenario(CheckedMission& mission, const std::string& name, bool simula
   note(findings, [&] {
     CheckedScenario scenario{name, mission::load_scenario(mission.folder, name, &findings), {}};
     note(findings, [&] { services::link::read_links(scenario.file, mission.services, 1); });
-    note(findings, [&] { science::read_detector(mission.file, scenario.file); });
+    note(findings, [&] {
+      for (const std::string& warning : science::read_detector(mission.file, scenario.file).warnings)
+        findings.add(warning, mission::Severity::warning);
+    });
     if (!simulated) return;
     scenario.run =
         sim::scenario::load_run(mission.folder, name, sim::components::standard_types(), &findings);
@@ -108,16 +114,52 @@ void check_science(const CheckedMission& mission) {
     kind->complain("the mission has no goal kind '" + kind->text() + "'; " + instead_of(kind->text(), known));
 }
 
+// What the watch asks for must be what an executive understands.
+void check_watch(const CheckedMission& mission) {
+  const auto list = mission.file.find("watch");
+  if (!list) return;
+  science::watch::read_rules(mission.file);
+  if (mission.services.of_program("science_svc").empty())
+    list->complain("nobody watches: the mission has no science_svc; add it to 'services', or drop 'watch'");
+  std::map<std::string, const exec::mission::GoalKind*> kinds;
+  std::vector<std::string> known;
+  for (const CheckedExecutive& executive : mission.executives)
+    for (const auto& [name, kind] : executive.model.goal_kinds) {
+      kinds.emplace(name, &kind);
+      known.push_back(name);
+    }
+  list->each([&](const Entry& rule) {
+    const Entry name = rule.at("goal_kind");
+    const auto kind = kinds.find(name.text());
+    if (kind == kinds.end())
+      name.fail("the mission has no goal kind '" + name.text() + "'; " + instead_of(name.text(), known));
+    const auto arguments = rule.find("arguments");
+    for (const auto& [argument, type] : kind->second->arguments)
+      if (!arguments || !arguments->find(argument))
+        rule.complain("argument '" + argument + "' of goal kind " + name.text() + " is missing; add it to 'arguments'");
+    if (!arguments) return;
+    std::vector<std::string> taken;
+    for (const auto& [argument, type] : kind->second->arguments) taken.push_back(argument);
+    for (const auto& [argument, value] : arguments->fields())
+      if (!contains(taken, argument))
+        value.complain("a " + name.text() + " has no argument '" + argument + "'; " + instead_of(argument, taken));
+  });
+}
+
 void check_names(const CheckedMission& mission, Findings& findings) {
   for (const CheckedExecutive& executive : mission.executives) {
     note(findings, [&] { check_components(mission, executive); });
     note(findings, [&] { check_actions(mission, executive); });
     note(findings, [&] { check_goal_kinds(mission, executive); });
+    note(findings, [&] { check_objects_on_map(mission, executive); });
   }
   note(findings, [&] { check_simulation(mission); });
   note(findings, [&] { check_science(mission); });
-  for (const CheckedScenario& scenario : mission.scenarios)
+  note(findings, [&] { check_watch(mission); });
+  for (const CheckedScenario& scenario : mission.scenarios) {
     note(findings, [&] { check_scenario(mission, scenario); });
+    note(findings, [&] { check_scenario_on_map(mission, scenario, findings); });
+  }
 }
 
 void plan_goals(const CheckedMission& mission, const std::vector<std::string>& scenarios, CheckReport& out) {
@@ -131,6 +173,7 @@ void plan_goals(const CheckedMission& mission, const std::vector<std::string>& s
     DryPlans plans = dry_plan(mission, executive, owners, out.findings);
     std::ranges::move(plans.planned, std::back_inserter(out.plans.planned));
     std::ranges::move(plans.not_tried, std::back_inserter(out.plans.not_tried));
+    std::ranges::move(plans.unachieved, std::back_inserter(out.plans.unachieved));
   }
 }
 

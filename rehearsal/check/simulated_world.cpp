@@ -30,6 +30,14 @@ void add_component(const std::string& robot, const std::string& name, const Comp
     out.timelines.push_back(entry.timeline() + "." + number.name);
   for (const auto& thing : component->thing_forms())
     out.families.push_back({robot + "." + thing.family + ".", thing.states});
+  // A state of its own is modelled as a component is, though it takes no commands. `entry` is not valid behind this.
+  for (const auto& named : component->named_forms()) {
+    out.timelines.push_back(robot + "." + named.name);
+    SimulatedComponent state{robot, named.name, true};
+    state.states = named.states;
+    state.commands.push_back({sim::world::kStopCommand, {}});
+    out.components.push_back(std::move(state));
+  }
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "services/clock/wall.hpp"
 #include "services/link/link_file.hpp"
 #include "services/process/mission_folder.hpp"
+#include "services/process/number_checks.hpp"
 #include "services/process/service_options.hpp"
 
 namespace roci::services::launch {
@@ -84,7 +85,7 @@ Options parse_options(int argc, const char* const* argv, const services::process
   app.add_option("--dds", flags.dds, "fastdds, cyclonedds, mixed, or inproc (one process)");
   app.add_option("--speed", speed, "Mission seconds per second, or max (default: 60 simulated, 1 live)");
   app.add_option("--seed", options.seed, "Seed of everything random")
-      ->check(CLI::NonNegativeNumber)
+      ->check(services::process::from_zero())
       ->capture_default_str();
   app.add_option("--clock", clock, "simulated or live")
       ->check(CLI::IsMember({"simulated", "live"}))
@@ -95,7 +96,7 @@ Options parse_options(int argc, const char* const* argv, const services::process
                "A second process follows each service that allows it (standby: true) and takes over from it");
   app.add_option("--watchdog", options.watchdog_s,
                  "Seconds of silence until a service counts as hung and is replaced; 0: never")
-      ->check(CLI::NonNegativeNumber)
+      ->check(services::process::from_zero())
       ->capture_default_str();
   app.add_option("--services", service_list,
                  "Services to start on this host, separated by commas (default: all)");

@@ -18,7 +18,9 @@ constexpr std::pair<Role, std::string_view> kWords[] = {{service, "service"},
                                                         {planner, "planner"},
                                                         {path_planner, "path_planner"},
                                                         {arm_planner, "arm_planner"},
+                                                        {functions, "functions"},
                                                         {analyst, "analyst"},
+                                                        {listener, "listener"},
                                                         {owner, "owner"},
                                                         {world, "world"},
                                                         {resolver, "resolver"},
@@ -56,17 +58,17 @@ std::vector<TopicRights> make_table() {
       row(topics::goal_hand_over,  {executive},                              {executive}),
 
       row(topics::event,           all,                                      all),
-      row(topics::goal,            {executive, analyst, world, console},     {executive, planner, console}),
-      row(topics::goal_status,     {executive},                              {planner, console}),
-      row(topics::command,         {executive},                              {owner}),
-      row(topics::command_ack,     {owner},                                  {executive}),
-      row(topics::observation,     {owner, executive},                       {executive, planner, console}),
-      row(topics::data_product,    {owner},                                  {analyst, console}),
-      row(topics::hazard,          {owner},                                  {path_planner, console}),
-      row(topics::plan,            {executive},                              {planner, console}),
-      row(topics::step_status,     {executive},                              {planner, console}),
-      row(topics::mission_status,  {executive},                              {world, launcher, console}),
-      row(topics::function_offer,  {path_planner, arm_planner},              {planner, executive}),
+      row(topics::goal,            {executive, analyst, world, console},     {executive, planner, listener, console}),
+      row(topics::goal_status,     {executive},                              {planner, analyst, listener, console}),
+      row(topics::command,         {executive},                              {listener, owner}),
+      row(topics::command_ack,     {owner},                                  {executive, listener}),
+      row(topics::observation,     {owner, executive},                       {executive, planner, analyst, listener, console}),
+      row(topics::data_product,    {owner, analyst},                         {analyst, listener, console}),
+      row(topics::hazard,          {owner},                                  {path_planner, listener, console}),
+      row(topics::plan,            {executive},                              {planner, listener, console}),
+      row(topics::step_status,     {executive},                              {planner, listener, console}),
+      row(topics::mission_status,  {executive},                              {listener, world, launcher, console}),
+      row(topics::function_offer,  {path_planner, arm_planner, functions},   {executive, planner, listener, console}),
 
       row(topics::order,           {console},                                {executive}),
       row(topics::order_status,    {executive},                              {console}),
@@ -76,11 +78,11 @@ std::vector<TopicRights> make_table() {
 
       row(topics::plan_delta,      {planner},                                {executive}),
       row(topics::plan_receipt,    {executive},                              {planner}),
-      row(topics::call_cancel,     {executive, planner, owner, console},     {planner, path_planner, arm_planner}),
+      row(topics::call_cancel,     {executive, planner, owner, console},     {planner, path_planner, arm_planner, functions}),
   };
   //        procedure                callers       servers
   add(rows, topics::plan_request,  {executive},  {planner});
-  add(rows, topics::function_call, {planner},    {path_planner, arm_planner});
+  add(rows, topics::function_call, {planner},    {path_planner, arm_planner, functions});
   add(rows, topics::path_request,  {owner, console}, {path_planner});
   add(rows, topics::arm_motion,    {owner},      {arm_planner});
   // clang-format on

@@ -21,7 +21,9 @@ enum class Role {
   planner,       ///< It answers the executive with plans.
   path_planner,  ///< It serves paths and the functions of traverses.
   arm_planner,   ///< It serves motions of arms and their functions.
+  functions,     ///< It owns external functions of its own.
   analyst,       ///< It looks at data products and asks for goals.
+  listener,      ///< It hears whatever the robot and its executive say, and says nothing but events.
   owner,         ///< It executes commands and reports what it observes.
   world,         ///< It plays the ground's script beside being an owner: the simulator.
   resolver,      ///< It answers decisions of running plans.

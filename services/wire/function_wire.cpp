@@ -10,17 +10,23 @@ namespace roci::services::wire {
 namespace {
 
 FunctionResult answer_tuple(const v1::FunctionRequest& request, std::span<const std::uint32_t> tuple,
-                            const OwnedFunction& function, const Evaluator& evaluate) {
+                            const OwnedFunction& function, v1::FunctionAccuracy accuracy,
+                            const Evaluator& evaluate) {
   if (tuple.size() != function.parameter_types.size()) return {v1::FUNCTION_WRONG_ARITY};
   std::vector<const v1::PlanObject*> objects;
   for (const std::uint32_t index : tuple) {
     if (index >= request.objects().size()) return {v1::FUNCTION_UNKNOWN_OBJECT};
     objects.push_back(&request.objects()[index]);
   }
-  return evaluate(function, objects);
+  return evaluate(function, objects, accuracy);
 }
 
 }  // namespace
+
+bool OwnedFunction::offers(v1::FunctionAccuracy accuracy) const {
+  if (accuracies.empty()) return accuracy == v1::ACCURACY_EXACT;
+  return std::ranges::find(accuracies, accuracy) != accuracies.end();
+}
 
 v1::FunctionOffer function_offer(const std::string& module_name, const std::string& owner,
                                  std::uint64_t model_version, const std::vector<OwnedFunction>& functions) {
@@ -33,6 +39,8 @@ v1::FunctionOffer function_offer(const std::string& module_name, const std::stri
     signature.name(function.name);
     signature.parameter_types(function.parameter_types);
     signature.unit(function.unit);
+    signature.accuracies(function.accuracies);
+    signature.depends_on(function.depends_on);
     offer.functions().push_back(signature);
   }
   return offer;
@@ -47,6 +55,8 @@ v1::FunctionReply answer_batches(const v1::FunctionRequest& request, std::uint64
     v1::FunctionValues values;
     values.function(batch.function());
     const auto function = std::ranges::find(functions, batch.function(), &OwnedFunction::name);
+    const bool offered = function != functions.end() && function->offers(batch.accuracy());
+    values.accuracy(offered ? batch.accuracy() : v1::ACCURACY_EXACT);
     const std::size_t arity = std::max<std::size_t>(batch.arity(), 1);
     const std::span<const std::uint32_t> tuples = batch.tuples();
     for (std::size_t i = 0; i < tuples.size(); i += arity) {
@@ -54,8 +64,8 @@ v1::FunctionReply answer_batches(const v1::FunctionRequest& request, std::uint64
       if (stop.stop_requested()) {
         result.outcome = v1::FUNCTION_FAILED;
       } else if (function != functions.end()) {
-        result =
-            answer_tuple(request, tuples.subspan(i, std::min(arity, tuples.size() - i)), *function, evaluate);
+        result = answer_tuple(request, tuples.subspan(i, std::min(arity, tuples.size() - i)), *function,
+                              values.accuracy(), evaluate);
       }
       values.numbers().push_back(result.number);
       values.outcomes().push_back(result.outcome);

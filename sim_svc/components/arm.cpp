@@ -44,8 +44,13 @@ Ending Arm::begin(const world::Task& task, Time, Surroundings& around) {
   const auto* wheels = around.components.find<world::Mobility>();
   if (wheels && !wheels->place()) return Failure{"driving", "the robot drives; stop it first"};
   target_ = task.arguments.at("to");
-  around.out.push_back(
-      world::MotionWanted{task.key, settings_.planner, around.robot, from, joints_, *target_});
+  world::MotionWanted wanted{task.key, settings_.planner, around.robot, from, joints_, *target_};
+  const auto* holder = around.components.find<world::PayloadHolder>();
+  if (const auto load = holder ? holder->payload() : std::nullopt) {
+    wanted.payload_kg = load->told_kg;
+    wanted.payload_size_m = load->size_m;
+  }
+  around.out.push_back(std::move(wanted));
   return std::nullopt;
 }
 
@@ -55,9 +60,13 @@ Ending Arm::answer(const world::Answer& answer, Time now, Surroundings& around) 
   if (std::string fault = motion_fault(joints_, trajectory->targets); !fault.empty()) {
     return Failure{"bad-trajectory", std::move(fault)};
   }
-  trace_ = simulate_arm(settings_.motion, now, joints_, trajectory->targets, noise_);
+  trace_ = track(trajectory->targets, now, around.components);
   around.deeds.push_back({"motion", *target_});
   return std::nullopt;
+}
+
+ArmTrace Arm::track(const std::vector<world::JointTarget>& targets, Time now, const world::ComponentSet&) {
+  return simulate_arm(settings_.motion, now, joints_, targets, noise_);
 }
 
 std::optional<Time> Arm::next_change() const {
@@ -67,6 +76,11 @@ std::optional<Time> Arm::next_change() const {
 
 Ending Arm::finish(Surroundings&) {
   joints_ = trace_->samples.back().joints;
+  if (!trace_->stalled.empty()) {
+    Failure stalled{"arm-stalled", trace_->stalled};
+    rest(settings_.stop_pose);
+    return stalled;
+  }
   rest(*target_);
   return std::nullopt;
 }

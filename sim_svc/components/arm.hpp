@@ -1,6 +1,10 @@
+// An arm between named poses: what a command of it means and what it says, whatever its motions are; and the simple
+// one (type `arm`), whose joints lag behind the trajectory.
 #pragma once
+
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim_svc/components/arm_motion.hpp"
@@ -19,9 +23,10 @@ struct ArmSettings {
   std::vector<double> start_joints;  ///< rad or m, one per joint
 };
 
-/// Is an arm: move (from, to) asks for a trajectory between named poses and tracks it; a stop on the way
-/// leaves it at the stop pose. It does not move while the body drives.
-class Arm final : public world::Component, public world::Manipulator, public world::BodyInterlock {
+/// Is an arm: move (from, to) asks for a trajectory between named poses, with the load that it believes to hold, and
+/// tracks it; a stop on the way leaves it at the stop pose, and so does a motion that cannot be ended (`arm-stalled`).
+/// It does not move while the body drives.
+class Arm : public world::Component, public world::Manipulator, public world::BodyInterlock {
  public:
   Arm(ArmSettings, world::RandomStream noise);
 
@@ -48,6 +53,16 @@ class Arm final : public world::Component, public world::Manipulator, public wor
   std::vector<world::NamedNumber> numbers() const override;
   world::Memory memory() const override;
   void restore(const world::Memory&) override;
+
+ protected:
+  /// Works out the motion along the trajectory, which fits the arm, as it happens if nobody interrupts it.
+  virtual ArmTrace track(const std::vector<world::JointTarget>&, temporal::Time now,
+                         const world::ComponentSet&);
+  const std::vector<double>& joints() const { return joints_; }
+  const std::optional<ArmTrace>& trace() const { return trace_; }
+  /// Lets the running motion be another one from now on.
+  void retrace(ArmTrace trace) { trace_ = std::move(trace); }
+  world::RandomStream& noise() { return noise_; }
 
  private:
   void rest(std::string pose);

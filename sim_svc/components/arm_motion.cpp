@@ -37,7 +37,7 @@ const ArmSample& ArmTrace::at(Time t) const {
 
 ArmTrace simulate_arm(const ArmParameters& parameters, Time start, const std::vector<double>& from,
                       const std::vector<JointTarget>& targets, RandomStream& noise) {
-  ArmTrace trace{start, {{from, 0}}, parameters.base_power_w};
+  ArmTrace trace{start, {{from, 0}}, parameters.base_power_w, {}};
   const double pace = std::clamp(1 + parameters.speed_noise * noise.normal(), 0.5, 1.5);
   const double approach = 1 - std::exp(-kArmStepSeconds / parameters.joint_lag_s);
   for (double time_s = kArmStepSeconds;; time_s += kArmStepSeconds) {

@@ -1,4 +1,7 @@
+// The motion of the simple arm (type `arm`): joints that lag behind the trajectory, and what every arm's motion is as
+// the simulator keeps it, a trace.
 #pragma once
+
 #include <string>
 #include <vector>
 
@@ -27,6 +30,7 @@ struct ArmTrace {
   temporal::Time start{};
   std::vector<ArmSample> samples;
   double peak_power_w = 0;
+  std::string stalled{};  ///< why it ended short of its target, in plain words; empty: it arrived
 
   temporal::Time end() const;
   /// Returns the last sample at or before the time.

@@ -1,4 +1,6 @@
+// Wheels under a body: a drive along way-points over the true ground, which the map does not show in full.
 #pragma once
+
 #include <map>
 #include <optional>
 #include <set>

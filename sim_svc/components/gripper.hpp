@@ -1,4 +1,6 @@
+// A gripper that picks samples up and drops them, at the places and poses where that is possible.
 #pragma once
+
 #include <map>
 #include <optional>
 #include <string>

@@ -2,19 +2,27 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/temporal/duration.hpp"
 #include "sim_svc/world/environment.hpp"
 #include "sim_svc/world/random_stream.hpp"
 #include "sim_svc/world/values.hpp"
 
 namespace roci::sim::components {
 
-inline constexpr int kPreviewWidth = 24;
-inline constexpr int kPreviewHeight = 16;
+/// Says how a camera looks at the ground: a pinhole on a mast, that looks along the body's heading and down.
+struct View {
+  double mast_m = 1.9;   ///< height above the ground
+  double tilt_deg = 18;  ///< of the middle of the image below the horizon
+  double view_deg = 60;  ///< from the left edge to the right one
+  int width_px = 96;     ///< 8 … 1024; pixels are square
+  int height_px = 64;    ///< 8 … 1024
+  double noise = 0.02;   ///< standard deviation of a pixel, as a share of white
+};
 
-/// Renders a thumbnail of what lies ahead, as seen from the mast: each pixel is a spot of ground between 2
-/// and 20 m away within 60 degrees of view, shaded by a low sun in the west; rocks are dark. The ground has a
-/// site. The pixels are grey, by rows from the top.
-std::vector<std::uint8_t> render_preview(const world::Ground&, const world::Pose& from, double noise_share,
-                                         world::RandomStream&);
+/// Renders what a camera on a body sees, as a binary PGM file of 8 bits: rays are marched over the ground (Relief), which
+/// is lit by the sun (Lambert's law, cast shadows, a little light of the sky) and exposed so that flat ground is of middle
+/// grey by day. The image is the same for the same ground, pose, view, time and stream. The ground has a site.
+std::vector<std::uint8_t> render_preview(const world::Ground&, const world::Pose& from, const View&,
+                                         temporal::Time at, world::RandomStream noise);
 
 }  // namespace roci::sim::components

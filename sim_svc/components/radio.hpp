@@ -1,4 +1,6 @@
+// A radio that sends images to the other side, as long as the window to it is open.
 #pragma once
+
 #include <map>
 #include <optional>
 #include <string>

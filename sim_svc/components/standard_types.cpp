@@ -5,8 +5,13 @@
 #include <utility>
 
 #include "sim_svc/components/arm.hpp"
+#include "sim_svc/components/arm_settings.hpp"
 #include "sim_svc/components/camera.hpp"
 #include "sim_svc/components/drive.hpp"
+#include "sim_svc/components/dynamic_arm.hpp"
+#include "sim_svc/components/dynamic_arm_settings.hpp"
+#include "sim_svc/components/grapple.hpp"
+#include "sim_svc/components/grapple_settings.hpp"
 #include "sim_svc/components/gripper.hpp"
 #include "sim_svc/components/radio.hpp"
 #include "sim_svc/components/task.hpp"
@@ -14,7 +19,6 @@
 
 namespace roci::sim::components {
 
-using mission::Entry;
 using setup::Settings;
 
 namespace {
@@ -53,40 +57,17 @@ world::MakeComponent read_drive(Settings& in) {
   return making<Drive>(std::move(out));
 }
 
-// A start pose has no inverse kinematics yet: it must be given by joint coordinates.
-std::vector<double> joints_of(const Entry& pose, const Entry& poses_file) {
-  const Entry poses = Entry::load(poses_file.resolve(poses_file.text())).at("poses");
-  const auto entry = poses.find(pose.text());
-  if (entry) entry->allow_only({"joints", "position", "approach", "rpy"});
-  const auto joints = entry ? entry->find("joints") : std::nullopt;
-  if (!joints) {
-    pose.fail("no pose '" + pose.text() + "' with joints stands in " + poses.file().string() +
-              "; start at a pose that is given by joints");
-  }
-  std::vector<double> out;
-  for (const Entry& joint : joints->items()) out.push_back(joint.number());
-  return out;
-}
+world::MakeComponent read_arm(Settings& in) { return making<Arm>(read_arm_settings(in)); }
 
-world::MakeComponent read_arm(Settings& in) {
-  ArmSettings out;
-  ArmParameters& p = out.motion;
-  p.joint_lag_s = in.number("joint_lag_s", p.joint_lag_s, kPositive);
-  p.speed_noise = in.number("speed_noise", p.speed_noise);
-  p.settled_rad = in.number("settled_rad", p.settled_rad, 1e-6);
-  p.base_power_w = in.number("base_power_w", p.base_power_w);
-  p.power_per_speed_w = in.number("power_per_speed_w", p.power_per_speed_w);
-  out.planner = in.text("planner", out.planner);
-  out.stow_pose = in.text("stow_pose", out.stow_pose);
-  out.stop_pose = in.text("stop_pose", out.stop_pose);
-  const auto start_pose = in.find("start_pose");
-  const auto poses = in.find("poses");
-  const std::optional<Entry> start = in.start() ? in.start() : start_pose;
-  if (!start)
-    in.component().fail("the pose at the start is not given; add start_pose, or the scenario's start");
-  out.start_pose = start->text();
-  out.start_joints = joints_of(*start, poses ? *poses : in.mission().at("arm").at("poses"));
-  return making<Arm>(std::move(out));
+double between(Settings& in, std::string_view key, double fallback, double least, double most) {
+  const auto entry = in.find(key);
+  if (!entry) return fallback;
+  const double value = entry->number();
+  if (value < least || value > most) {
+    entry->fail("'" + std::string(key) + "' must lie between " + std::to_string(least) + " and " + std::to_string(most) +
+                "; correct the number");
+  }
+  return value;
 }
 
 world::MakeComponent read_camera(Settings& in) {
@@ -96,7 +77,19 @@ world::MakeComponent read_camera(Settings& in) {
   out.power_w = in.number("power_w", out.power_w);
   out.image_bytes = in.number("image_bytes", out.image_bytes);
   out.bytes_noise = in.number("bytes_noise", out.bytes_noise);
-  out.image_noise = in.number("image_noise", out.image_noise);
+  View& view = out.view;
+  view.noise = in.number("image_noise", view.noise);
+  view.mast_m = between(in, "mast_m", view.mast_m, 0.1, 20);
+  view.tilt_deg = between(in, "tilt_deg", view.tilt_deg, -30, 80);
+  view.view_deg = between(in, "view_deg", view.view_deg, 5, 150);
+  view.width_px = static_cast<int>(between(in, "width_px", view.width_px, 8, 1024));
+  view.height_px = static_cast<int>(between(in, "height_px", view.height_px, 8, 1024));
+  if (const auto every = in.find("panorama_every_s")) {
+    out.panorama_every_s = every->number();
+    if (out.panorama_every_s != 0 && (out.panorama_every_s < 1 || out.panorama_every_s > 1e9))
+      every->fail("'panorama_every_s' must be at least 1, or 0 for none; correct the number");
+  }
+  out.panorama_views = static_cast<int>(between(in, "panorama_views", out.panorama_views, 1, kMostViews));
   return making<Camera>(out);
 }
 
@@ -126,6 +119,8 @@ setup::Registry standard_types() {
   setup::Registry out;
   out.add("drive", {read_drive, true});
   out.add("arm", {read_arm});
+  out.add("dynamic_arm", {[](Settings& in) { return making<DynamicArm>(read_dynamic_arm_settings(in)); }});
+  out.add("grapple", {[](Settings& in) { return making<Grapple>(read_grapple_settings(in)); }});
   out.add("camera", {read_camera, true});
   out.add("gripper", {read_gripper});
   out.add("radio", {read_radio});

@@ -3,8 +3,8 @@
 
 namespace roci::sim::components {
 
-/// Returns the types that come with the simulator: arm, camera, drive, gripper, radio, task. README.md lists
-/// their settings.
+/// Returns the types that come with the simulator: arm, camera, drive, dynamic_arm, grapple, gripper, radio, task.
+/// README.md lists their settings.
 setup::Registry standard_types();
 
 }  // namespace roci::sim::components

@@ -9,6 +9,7 @@
 #include "core/terrain/map_error.hpp"
 #include "core/terrain/site_file.hpp"
 #include "sim_svc/scenario/scenario_file.hpp"
+#include "sim_svc/scenario/surface_file.hpp"
 
 namespace roci::sim::scenario {
 
@@ -37,6 +38,47 @@ std::vector<Window> true_windows(const Entry& mission, const std::vector<Window>
     out.push_back(window);
   }
   return out;
+}
+
+constexpr temporal::Duration kLongestSunlight = temporal::Duration(10'000'000'000'000);  // 116 days
+
+// Adds the sunlight of the robots' orbits as windows, in place of what is predicted.
+void add_sunlight(const Roster& roster, const Scenario& scenario, const std::optional<Entry>& overriding,
+                  std::vector<Window>& windows) {
+  std::vector<Window> lights;
+  for (const RobotEntry& robot : roster) {
+    if (!robot.power || !robot.power->orbit) continue;
+    const world::Orbit& orbit = *robot.power->orbit;
+    for (const Window& window : scenario.windows)
+      if (window.timeline == orbit.window && overriding)
+        overriding->complain("'" + orbit.window + "' follows from the orbit of '" + robot.name +
+                             "'; drop it here, or name the orbit's window otherwise");
+    Window light{orbit.window, world::sunlight(orbit, std::min(scenario.duration, kLongestSunlight))};
+    const auto same = std::ranges::find(lights, light.timeline, &Window::timeline);
+    if (same != lights.end() && same->open != light.open)
+      robot.components.front().entry.complain("another robot's orbit has other sunlight on '" + orbit.window +
+                                              "'; give the orbits windows of their own (orbit: {window: …})");
+    if (same == lights.end()) lights.push_back(std::move(light));
+  }
+  for (Window& light : lights) {
+    std::erase_if(windows, [&](const Window& other) { return other.timeline == light.timeline; });
+    windows.push_back(std::move(light));
+  }
+}
+
+// A mishap must be able to befall one of the robot's components, which know their own joints, slots and modules.
+void check_mishap(const world::ComponentMishap& mishap, const Entry& entry, const world::WorldSetup& world) {
+  const auto robot = std::ranges::find(world.robots, mishap.robot, &world::RobotSetup::name);
+  if (robot == world.robots.end()) return;
+  std::string why = "no component of '" + mishap.robot +
+                    "' has such things; drop the stimulus, or add a component that has (sim_svc/README.md)";
+  for (const world::ComponentSetup& component : robot->components) {
+    const auto spared = component.make(world::RandomStream(0, component.type))->spared_from(mishap.what);
+    if (!spared) continue;
+    if (spared->empty()) return;
+    why = *spared;
+  }
+  entry.complain(why);
 }
 
 void check_on_map(const Start& start, const std::string& robot, const world::Ground& ground) {
@@ -82,15 +124,26 @@ RunSetup load_run(const std::filesystem::path& mission_folder, const std::string
   const bool on_ground =
       std::any_of(roster.begin(), roster.end(), [](const RobotEntry& r) { return r.on_ground; });
   run.world.ground = {nullptr, run.scenario.rocks};
+  if (const auto surface = mission.at("simulation").find("surface"))
+    surface->attempt([&] { read_surface(*surface, run.world.ground.surface); });
+  const auto conditions = scenario_file.find("world");
+  if (const auto surface = conditions ? conditions->find("surface") : std::nullopt)
+    surface->attempt([&] { read_surface(*surface, run.world.ground.surface); });
   if (on_ground) mission.attempt([&] { run.world.ground.site = load_ground(mission.at("site")); });
   run.world.windows = true_windows(mission, run.scenario.windows);
-  std::set<std::string, std::less<>> known{"rocks"};
+  add_sunlight(roster, run.scenario, scenario_file.find("windows"), run.world.windows);
+  std::set<std::string, std::less<>> known{"rocks", "surface"};
   for (const RobotEntry& robot : roster) {
     const Start& start = run.scenario.starts[robot.name];
     check_on_map(start, robot.name, run.world.ground);
     run.world.robots.push_back(read_robot(robot, start, mission, types, run.scenario, known));
   }
-  if (const auto world = scenario_file.find("world")) setup::refuse_unknown_keys(*world, known);
+  if (conditions) setup::refuse_unknown_keys(*conditions, known);
+  for (const Stimulus& stimulus : run.scenario.stimuli) {
+    const auto* disturbance = std::get_if<world::Disturbance>(&stimulus.what);
+    const auto* mishap = disturbance ? std::get_if<world::ComponentMishap>(disturbance) : nullptr;
+    if (mishap && stimulus.entry) check_mishap(*mishap, *stimulus.entry, run.world);
+  }
   return run;
 }
 

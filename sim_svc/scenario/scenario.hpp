@@ -49,6 +49,7 @@ struct HazardStimulus {
 struct Stimulus {
   temporal::Time at{};
   std::variant<GoalStimulus, RecallStimulus, HazardStimulus, world::Disturbance> what;
+  std::optional<mission::Entry> entry{};  ///< is where a ComponentMishap stands in the file
 };
 
 /// Says how a robot begins.

@@ -70,7 +70,7 @@ void read_starts(const Entry& root, const Roster& roster, Scenario& out) {
 
 void read_world(const Entry& entry, Scenario& out) {
   for (const auto& [key, value] : entry.fields()) {
-    if (key != "rocks") out.conditions.emplace(key, value);
+    if (key != "rocks" && key != "surface") out.conditions.emplace(key, value);
   }
   if (const auto rocks = entry.find("rocks")) {
     rocks->each([&](const Entry& rock) { out.rocks.push_back(read_rock(rock)); });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "sim_svc/scenario/file_values.hpp"
 
@@ -12,9 +13,14 @@ using setup::RobotEntry;
 using setup::Roster;
 using temporal::Time;
 using world::ComponentFault;
+using world::ComponentMishap;
 using world::Disturbance;
 using world::EnergyLoss;
+using world::GenerationLoss;
+using world::JointWear;
+using world::ModuleFailure;
 using world::RockFall;
+using world::SlotBlock;
 
 namespace {
 
@@ -96,6 +102,40 @@ EnergyLoss read_loss(const Entry& entry, const RobotEntry& robot) {
   return {robot.name, at_least(entry, 0)};
 }
 
+double share_of(const Entry& entry) {
+  const double value = at_least(entry, 0);
+  if (value > 1) entry.fail("is a share, from 0 to 1; correct the number");
+  return value;
+}
+
+ModuleFailure read_module_failure(const Entry& entry) {
+  entry.allow_only({"module"});
+  return {entry.at("module").text()};
+}
+
+SlotBlock read_slot_block(const Entry& entry) {
+  entry.allow_only({"slot"});
+  return {entry.at("slot").text()};
+}
+
+JointWear read_joint_wear(const Entry& entry) {
+  entry.allow_only({"joint", "friction", "growth"});
+  JointWear out{entry.at("joint").text()};
+  const auto friction = entry.find("friction"), growth = entry.find("growth");
+  if (!friction && !growth) entry.fail("the joint would stay as it is; add friction or growth");
+  if (friction) out.friction = at_least(*friction, 0);
+  if (growth) out.growth = at_least(*growth, 0);
+  return out;
+}
+
+GenerationLoss read_eclipse(const Entry& entry, const RobotEntry& robot, Time at) {
+  entry.allow_only({"generation", "for_s"});
+  if (!robot.power ||
+      (robot.power->solar_peak_w <= 0 && (!robot.power->orbit || robot.power->orbit->solar_w <= 0)))
+    entry.fail("'" + robot.name + "' has no panel that could give less; drop the stimulus");
+  return {robot.name, share_of(entry.at("generation")), at + time_of(entry.at("for_s"))};
+}
+
 // Returns the robot whom the stimulus concerns.
 const RobotEntry& robot_of(const Entry& entry, const Roster& roster) {
   const auto name = entry.find("robot");
@@ -109,13 +149,13 @@ const RobotEntry& robot_of(const Entry& entry, const Roster& roster) {
 }
 
 Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
-  entry.allow_only({"at_s", "robot", "goal", "recall", "hazard", "fault", "rock", "battery_loss_j"});
+  entry.allow_only({"at_s", "robot", "goal", "recall", "hazard", "fault", "rock", "battery_loss_j",
+                    "module_fails", "slot_blocked", "slow_joint", "eclipse"});
   const std::size_t frame = entry.find("robot") ? 2 : 1;
   if (entry.fields().size() != frame + 1) {
     entry.fail(
-        "a stimulus is at_s (and robot) and one of goal, recall, hazard, fault, rock, battery_loss_j; split "
-        "it into "
-        "several");
+        "a stimulus is at_s (and robot) and one of goal, recall, hazard, fault, rock, battery_loss_j, "
+        "module_fails, slot_blocked, slow_joint, eclipse; split it into several");
   }
   Stimulus out;
   out.at = time_of(entry.at("at_s"));
@@ -129,6 +169,15 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
   if (const auto loss = entry.find("battery_loss_j")) {
     out.what = Disturbance{read_loss(*loss, robot_of(entry, roster))};
   }
+  const auto befalls = [&](const Entry& where, world::Mishap what) {
+    out.what = Disturbance{ComponentMishap{robot_of(entry, roster).name, std::move(what)}};
+    out.entry = where;
+  };
+  if (const auto failure = entry.find("module_fails")) befalls(*failure, read_module_failure(*failure));
+  if (const auto block = entry.find("slot_blocked")) befalls(*block, read_slot_block(*block));
+  if (const auto wear = entry.find("slow_joint")) befalls(*wear, read_joint_wear(*wear));
+  if (const auto eclipse = entry.find("eclipse"))
+    out.what = Disturbance{read_eclipse(*eclipse, robot_of(entry, roster), out.at)};
   return out;
 }
 

@@ -23,9 +23,32 @@ double number(const Entry& section, std::string_view key, double fallback, doubl
   return value;
 }
 
+constexpr double kShortestOrbit = 60;  // s
+
+world::Orbit read_orbit(const Entry& entry) {
+  entry.allow_only({"orbit_s", "eclipse_s", "first_eclipse_s", "solar_w", "window"});
+  world::Orbit out;
+  out.orbit_s = number(entry, "orbit_s", out.orbit_s, kShortestOrbit);
+  out.eclipse_s = number(entry, "eclipse_s", out.eclipse_s);
+  out.first_eclipse_s = number(entry, "first_eclipse_s", out.first_eclipse_s);
+  out.solar_w = number(entry, "solar_w", out.solar_w);
+  out.window = entry.text_or("window", out.window);
+  if (out.eclipse_s >= out.orbit_s)
+    entry.find("eclipse_s")
+        .value_or(entry)
+        .fail("the eclipse would last as long as the orbit; shorten it, or lengthen orbit_s");
+  return out;
+}
+
 world::PowerParameters read_power(const Entry& entry) {
-  entry.allow_only({"capacity_j", "idle_w", "solar_peak_w", "solar_noon_s", "day_s"});
+  entry.allow_only({"capacity_j", "idle_w", "solar_peak_w", "solar_noon_s", "day_s", "orbit"});
   world::PowerParameters out;
+  if (const auto orbit = entry.find("orbit")) {
+    for (const char* key : {"solar_peak_w", "solar_noon_s", "day_s"})
+      if (const auto day = entry.find(key))
+        day->fail("a robot in orbit has no day of a planet; drop " + std::string(key) + ", or orbit");
+    out.orbit = read_orbit(*orbit);
+  }
   out.capacity_j = number(entry, "capacity_j", out.capacity_j, 1);
   out.idle_w = number(entry, "idle_w", out.idle_w);
   out.solar_peak_w = number(entry, "solar_peak_w", out.solar_peak_w);
@@ -100,7 +123,7 @@ std::vector<std::string> RobotEntry::component_names() const {
 }
 
 Roster read_roster(const Entry& simulation, const Registry& registry) {
-  simulation.allow_only({"robots"});
+  simulation.allow_only({"robots", "surface"});  // the surface is read with the ground
   Roster out;
   const Entry robots = simulation.at("robots");
   robots.each([&](const Entry& item) {

@@ -12,6 +12,38 @@ double solar_power_w(const PowerParameters& parameters, temporal::Time t) {
   return parameters.solar_peak_w * std::max(0.0, std::cos(angle));
 }
 
+namespace {
+
+// Returns how many seconds of eclipse lie before the time.
+double shadow_s(const Orbit& orbit, temporal::Time t) {
+  const double since = temporal::to_seconds(t) - orbit.first_eclipse_s;
+  if (since <= 0) return 0;
+  const double orbits = std::floor(since / orbit.orbit_s);
+  return orbits * orbit.eclipse_s + std::min(orbit.eclipse_s, since - orbits * orbit.orbit_s);
+}
+
+}  // namespace
+
+double sunlit_s(const Orbit& orbit, temporal::Time from, temporal::Time to) {
+  return temporal::to_seconds(to - from) - (shadow_s(orbit, to) - shadow_s(orbit, from));
+}
+
+std::vector<std::pair<temporal::Time, temporal::Time>> sunlight(const Orbit& orbit, temporal::Time end) {
+  std::vector<std::pair<temporal::Time, temporal::Time>> out;
+  temporal::Time opens{};
+  for (double eclipse = orbit.first_eclipse_s; opens < end; eclipse += orbit.orbit_s) {
+    const temporal::Time closes = temporal::seconds(eclipse);
+    if (closes > opens) out.emplace_back(opens, closes);
+    opens = temporal::seconds(eclipse + orbit.eclipse_s);
+  }
+  return out;
+}
+
+double solar_energy_j(const PowerParameters& parameters, temporal::Time from, temporal::Time to) {
+  if (parameters.orbit) return parameters.orbit->solar_w * sunlit_s(*parameters.orbit, from, to);
+  return solar_power_w(parameters, from + (to - from) / 2) * temporal::to_seconds(to - from);
+}
+
 Battery::Battery(double energy_j, double capacity_j) : energy_j_(0), capacity_j_(capacity_j) {
   add(energy_j);
 }

@@ -1,7 +1,27 @@
 #pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "core/temporal/duration.hpp"
 
 namespace roci::sim::world {
+
+/// Describes day and night of a body in orbit: the sun is gone for `eclipse_s` of every `orbit_s`.
+struct Orbit {
+  double orbit_s = 5700;
+  double eclipse_s = 2100;            ///< below orbit_s
+  double first_eclipse_s = 3600;      ///< mission time at which the first eclipse begins
+  double solar_w = 0;                 ///< of the panel in sunlight
+  std::string window = "sun.window";  ///< timeline of the window that is open in sunlight
+};
+
+/// Returns how many seconds of [from, to) lie in sunlight.
+double sunlit_s(const Orbit&, temporal::Time from, temporal::Time to);
+
+/// Returns the intervals of sunlight that begin before `end`, ascending.
+std::vector<std::pair<temporal::Time, temporal::Time>> sunlight(const Orbit&, temporal::Time end);
 
 /// Describes a robot's store of energy and what always draws from it or charges it.
 struct PowerParameters {
@@ -10,10 +30,15 @@ struct PowerParameters {
   double solar_peak_w = 0;      ///< 0: there is no panel
   double solar_noon_s = 21600;  ///< mission time of the highest sun
   double day_s = 88775;         ///< length of a day, by default a Martian one
+  /// Takes the place of the panel and the day above.
+  std::optional<Orbit> orbit{};
 };
 
 /// Returns the power of the panel in W: the positive half of a cosine over the day.
 double solar_power_w(const PowerParameters&, temporal::Time);
+
+/// Returns what the panel gives in [from, to), in J: an orbit's exactly, else the power in the middle for as long.
+double solar_energy_j(const PowerParameters&, temporal::Time from, temporal::Time to);
 
 /// Is an ideal store between 0 and its capacity.
 class Battery {

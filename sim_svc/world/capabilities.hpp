@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim_svc/world/values.hpp"
 
@@ -31,6 +32,20 @@ class SampleHolder {
  public:
   virtual ~SampleHolder() = default;
   virtual std::optional<std::string> held() const = 0;
+};
+
+/// Is a load as a tool holds it.
+struct Payload {
+  double told_kg = 0;            ///< as the robot believes it to be
+  double true_kg = 0;            ///< as it is
+  std::vector<double> size_m{};  ///< edges of its box along x, y and z of the tool; empty: a point
+};
+
+/// Holds a load at the tool of a manipulator.
+class PayloadHolder {
+ public:
+  virtual ~PayloadHolder() = default;
+  virtual std::optional<Payload> payload() const = 0;
 };
 
 /// Has a say in whether the body may move.

@@ -4,6 +4,7 @@
 
 #include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "sim_svc/world/body.hpp"
 #include "sim_svc/world/component_set.hpp"
+#include "sim_svc/world/disturbance.hpp"
 #include "sim_svc/world/environment.hpp"
 #include "sim_svc/world/values.hpp"
 
@@ -46,6 +48,12 @@ struct StateForm {
   auto operator<=>(const StateForm&) const = default;
 };
 
+/// Is a state timeline that a component always has beside its own, `<robot>.<name>`.
+struct NamedForm {
+  std::string name;
+  std::vector<StateForm> states;
+};
+
 /// Is a family of state timelines of things that a component handles, `<robot>.<family>.<thing>`.
 struct ThingForm {
   std::string family;
@@ -69,11 +77,16 @@ class Component {
  public:
   virtual ~Component() = default;
 
+  /// Is told the parts of its robot, itself included, before anything else; they live as long as it does.
+  virtual void meet(const ComponentSet&) {}
+
   virtual std::vector<CommandForm> commands() const = 0;
   /// Returns every state that it can be in; none: it does not say. Who checks a mission reads it.
   virtual std::vector<StateForm> state_forms() const { return {}; }
   /// Returns the families of things whose states it reports.
   virtual std::vector<ThingForm> thing_forms() const { return {}; }
+  /// Returns the state timelines beside its own that belong to no family.
+  virtual std::vector<NamedForm> named_forms() const { return {}; }
   /// Returns the timelines of the windows without which its tasks fail.
   virtual std::vector<std::string> awaited_windows() const { return {}; }
   /// Returns the value of the timeline `<robot>.<component>`.
@@ -86,6 +99,11 @@ class Component {
   virtual std::optional<temporal::Time> next_change() const = 0;
   /// Says, at next_change(), how the task ended; if it goes on, the component is still busy().
   virtual Ending finish(Surroundings&) = 0;
+  /// Returns when it next does something of its own accord, beside any task; nothing while it does not know.
+  virtual std::optional<temporal::Time> next_routine() const { return std::nullopt; }
+  /// Does of its own accord what is due. It is called after the tasks at every event of the world, and passes a turn over
+  /// while it is not `able` (out of order, battery empty); afterwards next_routine() lies after `now`.
+  virtual void run_routine(temporal::Time /*now*/, bool /*able*/, Surroundings&) {}
   /// Lets its tasks get on at this share of their usual speed until then; a component that cannot be slowed
   /// (ComponentType::can_be_slowed) does not hear of it.
   virtual void slow_down(double /*pace*/, temporal::Time /*until*/, temporal::Time /*now*/, Surroundings&) {}
@@ -96,6 +114,12 @@ class Component {
   /// that service's answer, which is no Failure: that one ends the task.
   virtual bool waits_for_answer() const { return false; }
   virtual Ending answer(const Answer&, temporal::Time now, Surroundings&);
+
+  /// Says whether the mishap can befall this component: nothing if it has no things of that kind, else why it cannot
+  /// (no such name); that text is empty if it can.
+  virtual std::optional<std::string> spared_from(const Mishap&) const { return std::nullopt; }
+  /// Suffers a mishap from which it is not spared.
+  virtual void suffer(const Mishap&, temporal::Time /*now*/, Surroundings&) {}
 
   /// Brings what the component says, and the body that it moves, up to `now`.
   virtual void settle(temporal::Time /*now*/, Body&) {}
@@ -108,6 +132,9 @@ class Component {
   virtual double peak_power_w() const { return 0; }
 
   virtual std::vector<NamedState> states() const { return {}; }
+  /// Returns a number that changes when states() does, so that many states are not looked at for nothing. Nothing: it
+  /// does not count.
+  virtual std::optional<std::uint64_t> states_version() const { return std::nullopt; }
   virtual std::vector<NamedNumber> numbers() const { return {}; }
   /// Returns whether the robot's numbers change quickly now, so that they are reported often.
   virtual bool moves() const { return false; }

@@ -27,6 +27,39 @@ struct EnergyLoss {
   double joules = 0;
 };
 
-using Disturbance = std::variant<ComponentFault, RockFall, EnergyLoss>;
+/// Lets the panel give less than it is told to, from now until `until`.
+struct GenerationLoss {
+  std::string robot;
+  double share = 1;  ///< of the told power that is left, 0 … 1
+  temporal::Time until{};
+};
+
+/// A module works no more.
+struct ModuleFailure {
+  std::string module;
+};
+
+/// Nothing can be placed in a slot any more; nobody sees that before the slot is localized.
+struct SlotBlock {
+  std::string slot;
+};
+
+/// A joint of an arm moves heavily from now on; friction and growth are shares of the joint's effort limit.
+struct JointWear {
+  std::string joint;
+  double friction = 0;  ///< Coulomb friction beside the joint's own
+  double growth = 0;    ///< by which it grows for each rad or m of travel
+};
+
+/// Is what can go wrong within a component, whichever has the thing that is named.
+using Mishap = std::variant<ModuleFailure, SlotBlock, JointWear>;
+
+/// Lets a mishap befall the first component of the robot that has the thing.
+struct ComponentMishap {
+  std::string robot;
+  Mishap what;
+};
+
+using Disturbance = std::variant<ComponentFault, RockFall, EnergyLoss, GenerationLoss, ComponentMishap>;
 
 }  // namespace roci::sim::world

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/terrain/site.hpp"
+#include "sim_svc/world/surface.hpp"
 #include "sim_svc/world/values.hpp"
 #include "sim_svc/world/windows.hpp"
 
@@ -23,6 +24,7 @@ struct Rock {
 struct Ground {
   std::shared_ptr<const terrain::Site> site;  ///< empty in a world without ground
   std::vector<Rock> hidden_rocks;
+  Surface surface{};
 };
 
 /// Holds what all robots of a world share.

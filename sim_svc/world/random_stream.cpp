@@ -18,7 +18,10 @@ std::uint64_t mixed(std::uint64_t seed, std::string_view name) {
 
 }  // namespace
 
-RandomStream::RandomStream(std::uint64_t seed, std::string_view name) : engine_(mixed(seed, name)) {}
+RandomStream::RandomStream(std::uint64_t seed, std::string_view name)
+    : origin_(mixed(seed, name)), engine_(origin_) {}
+
+RandomStream RandomStream::branch(std::string_view name) const { return {origin_, name}; }
 
 double RandomStream::uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 

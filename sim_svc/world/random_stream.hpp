@@ -11,6 +11,10 @@ class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view name);
 
+  /// Returns a stream of its own for a part of what this one serves: it depends on the name and on where this one began, not on
+  /// what was drawn, and drawing from it moves nothing here.
+  RandomStream branch(std::string_view name) const;
+
   /// Returns a number in [0, 1) with 53 bits.
   double uniform();
   /// Returns a standard normal number by Box and Muller, "A note on the generation of random normal deviates"
@@ -18,6 +22,7 @@ class RandomStream {
   double normal();
 
  private:
+  std::uint64_t origin_;
   std::mt19937_64 engine_;
 };
 

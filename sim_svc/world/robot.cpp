@@ -31,9 +31,10 @@ Robot::Robot(RobotSetup setup, bool first, std::uint64_t seed)
   for (const ComponentSetup& one : setup.components) {
     const bool first_of_type = types.insert(one.type).second;
     const std::string stream = (first ? "" : name_ + "/") + one.type + (first_of_type ? "" : ":" + one.name);
-    parts_.push_back({one.name, one.make(RandomStream(seed, stream)), std::nullopt, {}});
+    parts_.push_back({one.name, one.make(RandomStream(seed, stream)), std::nullopt, {}, {}});
     components_.add(one.name, parts_.back().component.get());
   }
+  for (Part& one : parts_) one.component->meet(components_);
 }
 
 RobotMemory Robot::memory() const {
@@ -169,6 +170,13 @@ void Robot::finish_due(Time now, Environment& environment, Outputs& out) {
   }
 }
 
+void Robot::run_routines(Time now, Environment& environment, Outputs& out) {
+  for (Part& one : parts_) {
+    Surroundings surroundings = around(environment, out);
+    one.component->run_routine(now, now >= one.out_of_order_until && !flat(), surroundings);
+  }
+}
+
 void Robot::break_component(const std::string& component, Time until, Time now, Environment& environment,
                             Outputs& out) {
   Part* one = part(component);
@@ -194,6 +202,20 @@ void Robot::lose_energy(double joules) {
   if (body_.battery) body_.battery->add(-joules);
 }
 
+void Robot::lose_generation(double share, Time until) {
+  generation_ = share;
+  dim_until_ = until;
+}
+
+void Robot::suffer(const Mishap& what, Time now, Environment& environment, Outputs& out) {
+  for (Part& one : parts_) {
+    if (one.component->spared_from(what) != std::string()) continue;
+    Surroundings surroundings = around(environment, out);
+    one.component->suffer(what, now, surroundings);
+    return;
+  }
+}
+
 void Robot::settle(Time from, Time to, Environment& environment, Outputs& out) {
   double used = power_ ? power_->idle_w * to_seconds(to - from) : 0;
   for (Part& one : parts_) {
@@ -202,7 +224,8 @@ void Robot::settle(Time from, Time to, Environment& environment, Outputs& out) {
     used += energy;
   }
   if (body_.battery) {
-    body_.battery->add(solar_power_w(*power_, from + (to - from) / 2) * to_seconds(to - from) - used);
+    const double share = from < dim_until_ ? generation_ : 1;
+    body_.battery->add(share * solar_energy_j(*power_, from, to) - used);
   }
   for (Part& one : parts_) one.component->settle(to, body_);
   if (!flat()) return;

@@ -97,18 +97,23 @@ class Robot {
   void answer(const TaskKey&, const Answer&, temporal::Time now, Environment&, Outputs& out);
   /// Lets every task end or change whose time it is.
   void finish_due(temporal::Time now, Environment&, Outputs& out);
+  /// Lets every component do what it does of its own accord.
+  void run_routines(temporal::Time now, Environment&, Outputs& out);
   void break_component(const std::string& component, temporal::Time until, temporal::Time now, Environment&,
                        Outputs& out);
   void slow_component(const std::string& component, double pace, temporal::Time until, temporal::Time now,
                       Environment&, Outputs& out);
   void ground_changed(temporal::Time now, Environment&, Outputs& out);
   void lose_energy(double joules);
+  /// The panel gives this share of its told power until then.
+  void lose_generation(double share, temporal::Time until);
+  void suffer(const Mishap&, temporal::Time now, Environment&, Outputs& out);
 
   /// Settles energy and body over [from, to], at most a tick long, with the tasks as they run.
   void settle(temporal::Time from, temporal::Time to, Environment&, Outputs& out);
 
   void report_components(temporal::Time now, Reporter&, Outputs& out) const;
-  void report_things(temporal::Time now, Reporter&, Outputs& out) const;
+  void report_things(temporal::Time now, Reporter&, Outputs& out);
   /// Reports the numbers if a task has ended since the last time, or the telemetry's period is over.
   void report_numbers_if_due(temporal::Time now, Reporter&, Outputs& out);
   /// Lets the next numbers come within the telemetry's period if something has begun to move.
@@ -125,6 +130,7 @@ class Robot {
     std::unique_ptr<Component> component;
     std::optional<Running> running;
     temporal::Time out_of_order_until{};
+    std::optional<std::uint64_t> states_reported{};  // their version
   };
 
   Part* part(std::string_view name);
@@ -143,6 +149,8 @@ class Robot {
   std::string name_;
   Body body_;
   std::optional<PowerParameters> power_;
+  double generation_ = 1;  // share of the told power, until dim_until_
+  temporal::Time dim_until_{};
   TelemetryParameters telemetry_;
   std::vector<Part> parts_;
   ComponentSet components_;

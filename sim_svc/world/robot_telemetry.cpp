@@ -22,6 +22,7 @@ Time Robot::next_change() const {
   Time best = next_report_;
   for (const Part& one : parts_) {
     if (const auto change = one.component->next_change()) best = std::min(best, *change);
+    if (const auto routine = one.component->next_routine()) best = std::min(best, *routine);
   }
   return best;
 }
@@ -41,11 +42,14 @@ void Robot::report_components(Time now, Reporter& reporter, Outputs& out) const 
   for (const Part& one : parts_) reporter.report(name_ + "." + one.name, one.component->state(), now, out);
 }
 
-void Robot::report_things(Time now, Reporter& reporter, Outputs& out) const {
+void Robot::report_things(Time now, Reporter& reporter, Outputs& out) {
   for (const auto& [id, image] : body_.images) {
     reporter.report(name_ + ".image." + id, temporal::State{image.sent ? "sent" : "stored", {}}, now, out);
   }
-  for (const Part& one : parts_) {
+  for (Part& one : parts_) {
+    const auto version = one.component->states_version();
+    if (version && version == one.states_reported) continue;
+    one.states_reported = version;
     for (const NamedState& thing : one.component->states()) {
       reporter.report(name_ + "." + thing.name, thing.state, now, out);
     }

@@ -102,7 +102,7 @@ struct Observed {
   bool operator==(const Observed&) const = default;
 };
 
-/// Is an image on board of a robot.
+/// Is an image that a robot has taken.
 struct Image {
   std::string id;
   std::string robot;
@@ -111,7 +111,9 @@ struct Image {
   bool sent = false;
   temporal::Time taken{};
   Pose taken_from;
-  std::vector<std::uint8_t> preview;  ///< 24 × 16 grey values, rows from the top
+  std::vector<std::uint8_t> preview;  ///< binary PGM file
+  /// `image`: on board, until it is sent; `panorama`: a view that the robot takes for itself, which is not kept.
+  std::string kind = "image";
   bool operator==(const Image&) const = default;
 };
 
@@ -142,9 +144,11 @@ struct MotionWanted {
   TaskKey key;
   std::string service;  ///< who is asked
   std::string robot;
-  std::string from;            ///< pose by name
-  std::vector<double> joints;  ///< say where the arm stands, rad or m
-  std::string to;              ///< pose by name
+  std::string from;                      ///< pose by name
+  std::vector<double> joints;            ///< say where the arm stands, rad or m
+  std::string to;                        ///< pose by name
+  double payload_kg = 0;                 ///< that the tool holds, as the robot believes it to be
+  std::vector<double> payload_size_m{};  ///< edges of its box along x, y and z of the tool; empty: a point
   bool operator==(const MotionWanted&) const = default;
 };
 

@@ -32,6 +32,7 @@ void check_unique(const std::vector<Named>& all, const std::string& what) {
 
 World::World(WorldSetup setup, std::uint64_t seed)
     : environment_{std::move(setup.ground), std::move(setup.windows), {}, {}, {}} {
+  environment_.ground.surface.seed = seed;
   check_unique(setup.robots, "robots");
   for (RobotSetup& robot : setup.robots) {
     check_unique(robot.components, "components of '" + robot.name + "'");
@@ -118,10 +119,14 @@ Outputs World::disturb(Time now, const Disturbance& disturbance) {
   } else if (const auto* fall = std::get_if<RockFall>(&disturbance)) {
     environment_.ground.hidden_rocks.push_back(fall->rock);
     for (Robot& one : robots_) one.ground_changed(now, environment_, out_);
-  } else {
-    const auto& loss = std::get<EnergyLoss>(disturbance);
-    if (Robot* one = robot(loss.robot)) one->lose_energy(loss.joules);
+  } else if (const auto* loss = std::get_if<EnergyLoss>(&disturbance)) {
+    if (Robot* one = robot(loss->robot)) one->lose_energy(loss->joules);
     settle(now);
+  } else if (const auto* dim = std::get_if<GenerationLoss>(&disturbance)) {
+    if (Robot* one = robot(dim->robot)) one->lose_generation(dim->share, dim->until);
+  } else {
+    const auto& mishap = std::get<ComponentMishap>(disturbance);
+    if (Robot* one = robot(mishap.robot)) one->suffer(mishap.what, now, environment_, out_);
   }
   return done(now);
 }
@@ -140,7 +145,7 @@ Time World::next_event() const {
   std::optional<Time> best = next_tick();
   for (const Robot& one : robots_) keep_earlier(best, one.next_change());
   for (const Window& window : environment_.windows) keep_earlier(best, window.next_change(now_));
-  return *best;
+  return std::max(*best, now_);  // what fell due while nobody simulated the world is due now
 }
 
 Time World::next_tick() const { return (now_ / kTick + 1) * kTick; }
@@ -149,6 +154,7 @@ void World::advance_to(Time now) {
   for (Time t = next_event(); t <= now; t = next_event()) {
     settle(t);
     for (Robot& one : robots_) one.finish_due(t, environment_, out_);
+    for (Robot& one : robots_) one.run_routines(t, environment_, out_);
     publish(t);
   }
 }
@@ -169,7 +175,7 @@ void World::publish(Time t) {
   for (const Robot& one : robots_) one.report_components(t, reporter_, out_);
   for (const Window& window : environment_.windows)
     reporter_.report(window.timeline, window.is_open(t), t, out_);
-  for (const Robot& one : robots_) one.report_things(t, reporter_, out_);
+  for (Robot& one : robots_) one.report_things(t, reporter_, out_);
   for (Robot& one : robots_) one.report_numbers_if_due(t, reporter_, out_);
 }
 

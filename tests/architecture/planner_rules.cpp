@@ -30,6 +30,7 @@ const std::vector<std::string> kFloors = {"call",
                                           "search",
                                           "improvement",
                                           "extraction",
+                                          "values",
                                           "",
                                           "adapter",
                                           "cli"};

@@ -78,6 +78,10 @@ void check_libraries(const SourceFile& file, Complaints& out) {
       {"fcl/", {"arm_svc"}},
       {"urdf_", {"core/kinematics"}},
       {"tinyxml2", {"core/kinematics"}},
+      {"gdal", {"core/terrain"}},
+      {"ogr_", {"core/terrain"}},
+      {"cpl_", {"core/terrain"}},
+      {"png.h", {"ground_console"}},
       {"spdlog/", {"services/log"}}};
   for (const std::string& include : file.includes) {
     for (const Home& home : homes) {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tests/contract/support/pairing.hpp"
+#include "tests/contract/support/native_pairing.hpp"
 #include "tests/contract/support/peers.hpp"
 
 namespace roci::services::contract {
@@ -99,19 +99,7 @@ TEST_P(NativeCalls, AStrangerWithAnotherTypeOnTheTopicIsNotHeard) {
     EXPECT_TRUE(line == "ready" || line.starts_with("matched") || line.ends_with(" 3 4")) << line;
 }
 
-constexpr auto calls_name = [](const auto& instance) {
-  auto name = name_of(instance.param);
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-};
-
-INSTANTIATE_TEST_SUITE_P(
-    Wire, NativeCalls,
-    testing::Values(Pairing{"native-fastdds", "fastdds"}, Pairing{"native-fastdds", "cyclonedds"},
-                    Pairing{"native-cyclonedds", "fastdds"}, Pairing{"native-cyclonedds", "cyclonedds"},
-                    Pairing{"fastdds", "native-fastdds"}, Pairing{"cyclonedds", "native-fastdds"},
-                    Pairing{"fastdds", "native-cyclonedds"}, Pairing{"cyclonedds", "native-cyclonedds"}),
-    calls_name);
+INSTANTIATE_TEST_SUITE_P(Wire, NativeCalls, kEveryNativePairing, native_pairing_name);
 
 // Of each program one that is killed, and one that notices; a lease of 3 s runs out each time.
 INSTANTIATE_TEST_SUITE_P(Wire, NativeKill,
@@ -119,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Wire, NativeKill,
                                          Pairing{"native-cyclonedds", "fastdds"},
                                          Pairing{"cyclonedds", "native-fastdds"},
                                          Pairing{"fastdds", "native-cyclonedds"}),
-                         calls_name);
+                         native_pairing_name);
 
 }  // namespace
 }  // namespace roci::services::contract

@@ -2,7 +2,7 @@
 // one side is a program on a vendor's own API with the vendor's own generated types.
 #include <gmock/gmock.h>
 
-#include "tests/contract/support/pairing.hpp"
+#include "tests/contract/support/native_pairing.hpp"
 #include "tests/contract/support/peers.hpp"
 
 namespace roci::services::contract {
@@ -61,19 +61,7 @@ TEST_P(NativeDispose, EndsTheInstanceUntilItIsWrittenAgain) {
   EXPECT_EQ(reader.finish(), 0);
 }
 
-constexpr auto native_name = [](const auto& instance) {
-  auto name = name_of(instance.param);
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-};
-
-INSTANTIATE_TEST_SUITE_P(
-    Wire, Native,
-    testing::Values(Pairing{"native-fastdds", "fastdds"}, Pairing{"native-fastdds", "cyclonedds"},
-                    Pairing{"native-cyclonedds", "fastdds"}, Pairing{"native-cyclonedds", "cyclonedds"},
-                    Pairing{"fastdds", "native-fastdds"}, Pairing{"cyclonedds", "native-fastdds"},
-                    Pairing{"fastdds", "native-cyclonedds"}, Pairing{"cyclonedds", "native-cyclonedds"}),
-    native_name);
+INSTANTIATE_TEST_SUITE_P(Wire, Native, kEveryNativePairing, native_pairing_name);
 
 // Without fastdds to native-cyclonedds: a Fast DDS writer disposes by key hash alone, and the generated types
 // of Cyclone DDS cannot find the instance of a hash; no two native participants of these versions can either.
@@ -83,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Pairing{"native-cyclonedds", "fastdds"}, Pairing{"native-cyclonedds", "cyclonedds"},
                     Pairing{"fastdds", "native-fastdds"}, Pairing{"cyclonedds", "native-fastdds"},
                     Pairing{"cyclonedds", "native-cyclonedds"}),
-    native_name);
+    native_pairing_name);
 
 }  // namespace
 }  // namespace roci::services::contract

@@ -3,7 +3,8 @@
 BUILD, installed there, else with those of $PREFIX. Home and runtime folders are its own, too.
 
 A block that begins with a comment that names a file is written to that file; a block of `sh` is run by bash, which ends with the
-first command that fails. Variables and the current folder are those of the block before. Exit code 0: everything ran.
+first command that fails. A block of `text` is what the block before it prints: each of its lines comes in its output, where … stands
+for anything. Variables and the current folder are those of the block before. Exit code 0: everything ran.
 """
 import os
 import pathlib
@@ -31,6 +32,7 @@ def main():
             subprocess.run(["cmake", "--install", sys.argv[sys.argv.index("--install") + 1], "--prefix", environment["PREFIX"]],
                            check=True, stdout=subprocess.DEVNULL)
         before = "set -euo pipefail"
+        printed = ""
         for line, language, body in blocks:
             named = FILE.match(body)
             if named:
@@ -46,6 +48,12 @@ def main():
                     print(f"{sys.argv[1]}:{line}: ended with {done.returncode}\n{body}\n{done.stdout}")
                     return 1
                 ran += 1
+                printed = done.stdout
+            elif language == "text":
+                for wanted in body.splitlines():
+                    if not re.search("^" + ".*".join(map(re.escape, wanted.split("…"))) + "$", printed, re.M):
+                        print(f"{sys.argv[1]}:{line}: this line was not printed: {wanted}\n{printed}")
+                        return 1
             else:
                 print(f"{sys.argv[1]}:{line}: a block of {language} is neither a file nor to be run")
                 return 1

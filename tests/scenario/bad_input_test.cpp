@@ -150,6 +150,27 @@ INSTANTIATE_TEST_SUITE_P(
              "expected a finite number"}),
     [](const auto& test) { return std::string(test.param.name); });
 
+// What a newcomer mistypes: the answer names it, and the code is that of a wrong command line.
+TEST(BadCommandLine, NamesWhatWasMistyped) {
+  const std::string mission = ROCI_SOURCE_DIR "/missions/planetary";
+  const std::pair<std::string, const char*> slips[] = {
+      {"roci gaol list", "roci: 'gaol' is no verb of roci; did you mean 'goal'?; roci --help lists them"},
+      {"roci goal ad x photo", "roci: 'ad' is no verb of roci goal; did you mean 'add'?"},
+      {"roci --domain 7 stauts", "did you mean 'status'?"},
+      {"roci-launch " + mission + " --seed -3", "--seed: '-3' is no number from 0 on"},
+      {"roci-rehearse " + mission + " --runs 0", "--runs: '0' is no number above 0"},
+      {"roci-rehearse " + mission + " --speed fast", "fast"},
+      {"roci-check " + mission + " --scenario nominel", "did you mean 'nominal'?"},
+      {"roci-launch nowhere", "no mission \"nowhere\": give a folder with a mission.yaml"},
+      {"roci-keys make", "mission is required"},
+      {"roci-site --side 100", "--out is required"}};
+  for (const auto& [line, words] : slips) {
+    const Ended ended = run("timeout 20 " + line + " 2>&1");
+    EXPECT_EQ(ended.exit_code, 2) << line << ": " << ended.output;
+    EXPECT_THAT(ended.output, HasSubstr(words)) << line;
+  }
+}
+
 TEST(BadCommandLine, IsToldWithTheRemedy) {
   const std::string planetary = ROCI_SOURCE_DIR "/missions/planetary";
   Ended ended = run("timeout 60 roci-launch " + planetary + " --scenario nowhere --headless 2>&1");

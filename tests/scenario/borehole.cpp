@@ -3,9 +3,6 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <sstream>
-
 namespace roci::scenario {
 
 namespace fs = std::filesystem;
@@ -13,12 +10,6 @@ using ::testing::HasSubstr;
 
 fs::path mission_of(const std::string& drill) {
   return fs::path(ROCI_BINARY_DIR "/tests/missions") / drill / "borehole";
-}
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
 }
 
 BoreholeFlight::BoreholeFlight()

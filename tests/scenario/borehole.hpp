@@ -12,8 +12,6 @@ namespace roci::scenario {
 
 std::filesystem::path mission_of(const std::string& drill);
 
-std::string text_of(const std::filesystem::path& file);
-
 class BoreholeFlight : public ::testing::Test {
  protected:
   BoreholeFlight();

@@ -7,9 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <sstream>
 
-#include "exec_svc/journal/journal.hpp"
 #include "services/process/domain_claim.hpp"
 #include "tests/scenario/flight.hpp"
 
@@ -17,8 +15,6 @@ namespace roci::scenario {
 namespace {
 
 namespace fs = std::filesystem;
-using exec::journal::Durability;
-using exec::journal::Journal;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -40,12 +36,8 @@ class Endurance : public ::testing::Test {
   // The planetary mission, with this script in the place of science_svc.
   fs::path mission_with_science(const std::string& script) const {
     fs::copy(kPlanetary, folder / "planetary", fs::copy_options::recursive);
-    std::ostringstream text;
-    text << std::ifstream(folder / "planetary/mission.yaml").rdbuf();
-    std::string mission = text.str();
-    const std::string right = "{name: science_svc, ";
-    mission.replace(mission.find(right), right.size(), "{name: science_svc, program: ./science, ");
-    std::ofstream(folder / "planetary/mission.yaml") << mission;
+    edit(folder / "planetary/mission.yaml", "{name: science_svc, ",
+         "{name: science_svc, program: ./science, ");
     std::ofstream(folder / "planetary/science") << script;
     fs::permissions(folder / "planetary/science", fs::perms::owner_all);
     return folder / "planetary";
@@ -55,14 +47,7 @@ class Endurance : public ::testing::Test {
     return "until_it_says() { for i in $(seq 600); do grep -aqs \"$2\" $1 && return 0; sleep 0.1; done; "
            "return 1; }; ";
   }
-  std::vector<std::string> events() const {
-    std::vector<std::string> out;
-    Journal(run_folder / "journal.sqlite", Durability::process)
-        .for_each([&](temporal::Time, std::string_view kind, std::string_view text) {
-          if (kind == "event") out.emplace_back(text);
-        });
-    return out;
-  }
+  std::vector<std::string> events() const { return journaled_events(run_folder / "journal.sqlite"); }
   static void expect_achieved(const Ended& ended) {
     EXPECT_EQ(ended.exit_code, 0) << ended.output;
     EXPECT_EQ(last_line_as_json(ended.output).value("result", ""), "achieved") << ended.output;
@@ -133,9 +118,7 @@ TEST_F(Endurance, AFullDiskIsWaitedOut) {
       "; exit $(cat " + (folder / "code").string() + ")'");
   if (ended.exit_code == 77) GTEST_SKIP() << "this user cannot mount a small disk (unshare -rm)";
   expect_achieved(ended);
-  std::ostringstream log;
-  log << std::ifstream(folder / "exec_svc.log").rdbuf();
-  EXPECT_THAT(log.str(), HasSubstr("the journal was written after"));
+  EXPECT_THAT(text_of(folder / "exec_svc.log"), HasSubstr("the journal was written after"));
   EXPECT_THAT(ended.output, HasSubstr("journal.waiting"));
 }
 

@@ -1,11 +1,15 @@
 #include "tests/scenario/flight.hpp"
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <array>
 #include <cstdio>
+#include <fstream>
 #include <memory>
 #include <sstream>
+
+#include "exec_svc/journal/journal.hpp"
 
 namespace roci::scenario {
 
@@ -47,6 +51,29 @@ std::map<std::string, Step> steps_of(const std::string& output) {
     out[line.substr(0, first)] = {std::stoi(line.substr(first + 1)),
                                   nlohmann::json::parse(line.substr(second + 1), nullptr, false)};
   }
+  return out;
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void edit(const std::filesystem::path& file, const std::string& right, const std::string& wrong) {
+  std::string text = text_of(file);
+  const std::size_t at = text.find(right);
+  ASSERT_NE(at, std::string::npos) << right << " does not stand in " << file;
+  text.replace(at, right.size(), wrong);
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+std::vector<std::string> journaled_events(const std::filesystem::path& journal) {
+  std::vector<std::string> out;
+  exec::journal::Journal(journal, exec::journal::Durability::process)
+      .for_each([&](temporal::Time, std::string_view kind, std::string_view text) {
+        if (kind == "event") out.emplace_back(text);
+      });
   return out;
 }
 

@@ -1,6 +1,7 @@
 // Whole missions flown by the programs that users start.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -34,5 +35,13 @@ struct Flight {
 };
 Flight fly(const std::string& mission, const std::string& dds, std::uint64_t seed = 1,
            const std::string& more = "");
+
+std::string text_of(const std::filesystem::path& file);
+
+// Replaces the first place of `right` in a file; a test fails where it does not stand there.
+void edit(const std::filesystem::path& file, const std::string& right, const std::string& wrong);
+
+// "code text" of each event of an executive, as its journal has them.
+std::vector<std::string> journaled_events(const std::filesystem::path& journal);
 
 }  // namespace roci::scenario

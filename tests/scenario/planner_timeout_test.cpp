@@ -6,17 +6,13 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
-#include "exec_svc/journal/journal.hpp"
 #include "tests/scenario/flight.hpp"
 
 namespace roci::scenario {
 namespace {
 
 namespace fs = std::filesystem;
-using exec::journal::Durability;
-using exec::journal::Journal;
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -27,12 +23,7 @@ class PlannerTimeout : public ::testing::TestWithParam<const char*> {
     fs::remove_all(folder);
     fs::create_directories(folder);
     fs::copy(ROCI_SOURCE_DIR "/missions/planetary", folder / "mission", fs::copy_options::recursive);
-    std::ostringstream text;
-    text << std::ifstream(folder / "mission/mission.yaml").rdbuf();
-    std::string mission = text.str();
-    const std::string time = "wall_s: 60}";
-    mission.replace(mission.find(time), time.size(), "wall_s: 0.000001}");
-    std::ofstream(folder / "mission/mission.yaml") << mission;
+    edit(folder / "mission/mission.yaml", "wall_s: 60}", "wall_s: 0.000001}");
     std::ofstream(folder / "mission/scenarios/one.yaml")
         << "description: Two photos.\nduration_s: 3600\nstart: {x: 40, y: 40, heading: 0, arm: stow, "
            "battery: 900000}\n"
@@ -44,14 +35,7 @@ class PlannerTimeout : public ::testing::TestWithParam<const char*> {
   }
   ~PlannerTimeout() override { fs::remove_all(folder); }
 
-  std::vector<std::string> events() const {
-    std::vector<std::string> out;
-    Journal(folder / "run/journal.sqlite", Durability::process)
-        .for_each([&](temporal::Time, std::string_view kind, std::string_view text) {
-          if (kind == "event") out.emplace_back(text);
-        });
-    return out;
-  }
+  std::vector<std::string> events() const { return journaled_events(folder / "run/journal.sqlite"); }
 
   const fs::path folder = fs::temp_directory_path() / ("roci_planner_timeout_" + std::to_string(::getpid()));
 };

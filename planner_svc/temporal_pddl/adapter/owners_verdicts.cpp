@@ -45,16 +45,23 @@ std::string described(const std::string& name, const std::vector<Object>& object
   return name + " (" + properties + ")";
 }
 
-// The first use that speaks against the object as the goal of the way; null if some tuple with it has a value.
-const FunctionUse* use_against(const std::string& object, std::span<const FunctionUse> uses) {
-  const FunctionUse* out = nullptr;
+// What speaks against the object as the goal of the way.
+struct Against {
+  const FunctionUse* use = nullptr;  // null: some tuple with it has a value, or nobody was asked
+  bool proved = true;                // of every tuple with it its owner knows that there is no value
+};
+
+Against against(const std::string& object, std::span<const FunctionUse> uses) {
+  Against out;
   for (const FunctionUse& use : uses) {
     const auto& arguments = use.call.arguments;
     const bool of_others =
         std::ranges::any_of(arguments, [&](const std::string& one) { return one != object; });
     if (arguments.empty() || arguments.back() != object || !of_others) continue;
-    if (use.answer.outcome != FunctionOutcome::unreachable) return nullptr;
-    if (out == nullptr) out = &use;
+    if (use.answer.outcome == FunctionOutcome::value) return {};
+    const bool proved = use.answer.outcome == FunctionOutcome::unreachable;
+    if (out.use == nullptr || (out.proved && !proved)) out.use = &use;
+    out.proved = out.proved && proved;
   }
   return out;
 }
@@ -64,9 +71,13 @@ const FunctionUse* use_against(const std::string& object, std::span<const Functi
 std::string words_against(const std::vector<std::string>& facts, const pddl::Problem& problem,
                           const std::vector<Object>& objects, std::span<const FunctionUse> uses) {
   for (const std::string& object : with_neighbours(objects_in(facts), problem)) {
-    const FunctionUse* use = use_against(object, uses);
+    const auto [use, proved] = against(object, uses);
     if (use == nullptr) continue;
     const engine::Provenance& said = use->answer.provenance;
+    if (!proved)
+      return "no way to " + described(object, objects) + " is known: " + said.owner +
+             " found none with the effort spent (" + use->call.function + ", model " + said.model_version +
+             "), which proves nothing; ask again, or let it search longer";
     const std::string about = object + ": ";
     if (use->answer.reason.starts_with(about))
       return described(object, objects) + ": " + use->answer.reason.substr(about.size()) + " (says " +

@@ -38,15 +38,21 @@ std::vector<pddl::PlanStep> steps_of(const std::vector<RemainingAction>& remaini
   return out;
 }
 
-// A tuple without a value stands in it as unreachable.
-pddl::FunctionTable table_of(const std::vector<FunctionUse>& uses) {
-  pddl::FunctionTable table;
+// What owners said, as roci-plan reads it. What has no value otherwise stands in it as unreachable.
+pddl::FunctionTables tables_of(const std::vector<FunctionUse>& uses) {
+  pddl::FunctionTables tables;
   for (const FunctionUse& use : uses) {
     const bool has_value = use.answer.outcome == FunctionOutcome::value;
-    pddl::put(table, use.call.function, use.call.arguments,
-              has_value ? std::optional(use.answer.value) : std::nullopt);
+    if (use.answer.outcome == FunctionOutcome::unknown) {
+      tables.unknown.insert(application(use.call));
+    } else if (has_value && !use.answer.is_exact()) {
+      tables.lower_bounds.emplace(application(use.call), use.answer.value);
+    } else {
+      pddl::put(tables.exact, use.call.function, use.call.arguments,
+                has_value ? std::optional(use.answer.value) : std::nullopt);
+    }
   }
-  return table;
+  return tables;
 }
 
 // The facts that a goal asks for. Its condition is a conjunction over facts as timelines; other conditions
@@ -95,6 +101,7 @@ Answer plan_for(const Request& request, const Limits& limits, FunctionSource& fu
   monitor.cancelled = limits.cancelled;
   Options options;
   options.improvement_evaluations = request.improvement;
+  options.functions = request.functions;
   const std::vector<NamedGoal> goals = named_goals(request.goals);
   Result result = temporal_pddl::plan(domain, problem, functions, budget, monitor, options, remaining, goals);
   Answer out;
@@ -132,7 +139,7 @@ Answer PddlEngine::answer(const Request& request, const Limits& limits, Function
   } catch (const std::exception& error) {
     out = engine::without_plan(Verdict::crashed, error.what());
   }
-  out.record = {{".pddl", request.problem_text}, {".values", pddl::print(table_of(used))}};
+  out.record = {{".pddl", request.problem_text}, {".values", pddl::print(tables_of(used))}};
   if (!remaining.empty()) out.record.push_back({".remaining", pddl::print_plan(remaining)});
   return out;
 }

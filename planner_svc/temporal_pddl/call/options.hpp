@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/temporal/duration.hpp"
+#include "planner_svc/engine/function_source.hpp"
 
 namespace roci::planner::temporal_pddl::call {
 
@@ -38,7 +39,9 @@ struct Options {
   /// actions are taken out.
   std::size_t improvement_evaluations = 0;
   std::uint64_t seed = 0;  ///< breaks ties among equally good successors; 0 keeps the order of generation
-  bool describe_activities = true;  ///< whether activities carry conditions and effects, for an executive
+  engine::FunctionsMode functions =
+      engine::FunctionsMode::eager;  ///< see planner_svc/temporal_pddl/refining.hpp
+  bool describe_activities = true;   ///< whether activities carry conditions and effects, for an executive
 };
 
 }  // namespace roci::planner::temporal_pddl::call

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <string_view>
+#include <vector>
 
 #include "planner_svc/temporal_pddl/call/progress.hpp"
 #include "planner_svc/temporal_pddl/call/statistics.hpp"
@@ -61,6 +62,11 @@ class SearchLimits {
   /// Lets evaluations() pass everything from now on.
   void first_plan_found() { has_plan_ = true; }
 
+  /// Searches set a mark, by ActionId, for each action whose facts hold in a state that they expand; null:
+  /// nobody asks. The marks must outlive the searches.
+  void mark_touched(std::vector<bool>* marks) { touched_ = marks; }
+  std::vector<bool>* touched() const { return touched_; }
+
   void progress(const Statistics& statistics) const {
     if (monitor_.progress) monitor_.progress(statistics);
   }
@@ -77,6 +83,7 @@ class SearchLimits {
   std::size_t bytes_ = 0;  // as last reported
   std::size_t peak_bytes_ = 0;
   Progress progress_;
+  std::vector<bool>* touched_ = nullptr;
 };
 
 }  // namespace roci::planner::temporal_pddl::call

@@ -20,8 +20,13 @@ struct Statistics {
   std::size_t dead_ends = 0;                ///< successors that a dead-end detector pruned
   /// The mean over the stored states, in bytes: packed state, numbers, parent, operator, constraints.
   double bytes_per_state = 0;
-  bool from_remaining = false;  ///< whether the first plan was made of what remained of an earlier one
-  std::size_t peak_bytes = 0;   ///< the largest amount of memory, as the engine counts its own
+  bool exhausted = false;  ///< whether the search for better plans came to its end, so that there is none
+  bool from_remaining = false;        ///< whether the first plan was made of what remained of an earlier one
+  std::size_t function_requests = 0;  ///< batches that owners of external functions were asked for
+  std::size_t exact_values = 0;       ///< tuples in them that were to be exact
+  std::size_t cheap_values = 0;       ///< tuples in them for which less was asked
+  std::size_t rounds = 1;             ///< searches, each on values that were known better
+  std::size_t peak_bytes = 0;         ///< the largest amount of memory, as the engine counts its own
 };
 
 }  // namespace roci::planner::temporal_pddl::call

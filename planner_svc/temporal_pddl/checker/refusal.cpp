@@ -12,8 +12,8 @@ pddl::FunctionTable table_of(std::span<const FunctionUse> uses) {
   pddl::FunctionTable table;
   for (const FunctionUse& use : uses) {
     const bool has_value = use.answer.outcome == FunctionOutcome::value;
-    pddl::put(table, use.call.function, use.call.arguments,
-              has_value ? std::optional(use.answer.value) : std::nullopt);
+    if (has_value && !use.answer.is_exact()) continue;  // no plan may stand on it
+    table[application(use.call)] = has_value ? std::optional(use.answer.value) : std::nullopt;
   }
   return table;
 }

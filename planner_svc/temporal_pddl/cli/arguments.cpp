@@ -43,6 +43,12 @@ void add_options(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--functions", arguments.functions,
                  "values of external functions: (traverse_time a b) 12.5");
+  app.add_option(
+         "--functions-mode", arguments.functions_mode,
+         "which of these are asked for: eager (all), lazy (what searches touch) or two-accuracy (exact "
+         "ones for candidate plans, else lower bounds: (traverse_time a b) >= 10)")
+      ->check(CLI::IsMember({"eager", "lazy", "two-accuracy"}))
+      ->capture_default_str();
   app.add_option("--remaining", arguments.remaining, "what is left of an earlier plan, to begin with");
   app.add_option("--stats", arguments.stats, "write statistics as JSON to this file");
   app.add_flag("--strict", arguments.strict,

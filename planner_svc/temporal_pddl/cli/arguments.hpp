@@ -15,6 +15,7 @@ std::size_t default_megabytes();
 /// Holds what the command line asks for; a limit of 0 is none.
 struct Arguments {
   std::string domain, problem, functions, stats, remaining, gantt;
+  std::string functions_mode = "eager";
   double seconds = 0;            ///< of wall time
   double processor_seconds = 0;  ///< of processor time
   std::size_t megabytes = default_megabytes();

@@ -1,5 +1,5 @@
 // roci-plan DOMAIN PROBLEM [--time S | --cpu-time S] [--evaluations N] [--memory MB] [--functions FILE]
-//           [--remaining PLAN] [--stats FILE] [--json] [--seed N] [--progress] [--gantt FILE]
+//           [--functions-mode MODE] [--remaining PLAN] [--stats FILE] [--json] [--seed N] [--progress] [--gantt FILE]
 // roci-plan DOMAIN PROBLEM --parse-only [--strict]
 //
 // The plan goes to standard output, what is wrong to standard error, the verdict into the exit code

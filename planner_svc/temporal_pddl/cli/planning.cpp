@@ -37,7 +37,8 @@ Result plan(const Arguments& arguments, const Model& model, const std::function<
   std::unique_ptr<FunctionSource> functions = std::make_unique<NoFunctions>();
   if (!arguments.functions.empty()) {
     functions = std::make_unique<TableFunctions>(
-        pddl::parse_function_table(read_file(arguments.functions), arguments.functions), arguments.functions);
+        pddl::parse_function_tables(read_file(arguments.functions), arguments.functions),
+        arguments.functions);
   }
   Budget budget;
   budget.out_of_time = out_of_time;
@@ -53,6 +54,7 @@ Result plan(const Arguments& arguments, const Model& model, const std::function<
     options.dominance = false;
     options.windows = WindowExtraction::none;
   }
+  options.functions = *engine::functions_mode_named(arguments.functions_mode);
   options.describe_activities = false;
   options.improvement_evaluations = arguments.improve;
   if (arguments.seconds + arguments.processor_seconds > 0 && arguments.improve == 0)

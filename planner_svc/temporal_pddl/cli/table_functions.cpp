@@ -3,23 +3,35 @@
 namespace roci::planner::temporal_pddl::cli {
 
 using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionValue;
+using temporal::FunctionAccuracy;
 
 std::vector<FunctionValue> TableFunctions::evaluate(std::span<const FunctionCall> calls,
                                                     const std::function<bool()>&) {
   std::vector<FunctionValue> answers;
-  for (const FunctionCall& call : calls) {
-    std::string application = "(" + call.function;
-    for (const auto& argument : call.arguments) application += " " + argument;
-    FunctionValue answer;
-    answer.provenance.owner = owner_;
-    const auto entry = table_.find(application + ")");
-    if (entry != table_.end()) {
-      answer.outcome = entry->second ? FunctionOutcome::value : FunctionOutcome::unreachable;
-      answer.value = entry->second.value_or(0);
-    }
-    answers.push_back(std::move(answer));
-  }
+  answers.reserve(calls.size());
+  for (const FunctionCall& call : calls) answers.push_back(answer(call));
   return answers;
+}
+
+FunctionValue TableFunctions::answer(const FunctionCall& call) const {
+  const std::string tuple = application(call);
+  FunctionValue answer;
+  answer.provenance.owner = owner_;
+  if (call.accuracy == FunctionAccuracy::lower_bound) {
+    if (const auto bound = tables_.lower_bounds.find(tuple); bound != tables_.lower_bounds.end()) {
+      answer.outcome = FunctionOutcome::value;
+      answer.value = bound->second;
+      answer.accuracy = FunctionAccuracy::lower_bound;
+      return answer;
+    }
+  }
+  if (tables_.unknown.contains(tuple)) {
+    answer.outcome = FunctionOutcome::unknown;
+  } else if (const auto entry = tables_.exact.find(tuple); entry != tables_.exact.end()) {
+    answer.outcome = entry->second ? FunctionOutcome::value : FunctionOutcome::unreachable;
+    answer.value = entry->second.value_or(0);
+  }
+  return answer;
 }
 
 }  // namespace roci::planner::temporal_pddl::cli

@@ -8,17 +8,20 @@
 
 namespace roci::planner::temporal_pddl::cli {
 
-/// Tuples that are not in the table are unavailable. `owner` is given as who says so.
+/// Gives exact values where no lower bound stands in the tables; tuples that are not in them are unavailable.
+/// `owner` is given as who says so.
 class TableFunctions final : public engine::FunctionSource {
  public:
-  TableFunctions(pddl::FunctionTable table, std::string owner)
-      : table_(std::move(table)), owner_(std::move(owner)) {}
+  TableFunctions(pddl::FunctionTables tables, std::string owner)
+      : tables_(std::move(tables)), owner_(std::move(owner)) {}
 
   std::vector<engine::FunctionValue> evaluate(std::span<const engine::FunctionCall> calls,
                                               const std::function<bool()>& cancelled) override;
 
  private:
-  pddl::FunctionTable table_;
+  engine::FunctionValue answer(const engine::FunctionCall& call) const;
+
+  pddl::FunctionTables tables_;
   std::string owner_;
 };
 

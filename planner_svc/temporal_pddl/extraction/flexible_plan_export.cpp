@@ -182,7 +182,8 @@ temporal::FlexiblePlan export_plan(const Plan& plan, const std::vector<FunctionU
     out.constraints.push_back(exported_constraint);
   }
   for (const FunctionUse& use : functions) {
-    if (use.answer.outcome != FunctionOutcome::value || !concerns(use, plan)) continue;
+    if (use.answer.outcome != FunctionOutcome::value || !use.answer.is_exact() || !concerns(use, plan))
+      continue;
     std::uint64_t version = 0;
     const std::string& text = use.answer.provenance.model_version;
     std::from_chars(text.data(), text.data() + text.size(), version);

@@ -53,6 +53,7 @@ class Improvement {
       for (const std::int64_t weight : kSearchWeights) {
         for (const Guide& guide : guides_) exhausted = search(guide, weight, limit, left) && exhausted;
       }
+      context_.statistics.exhausted = exhausted;
       if (exhausted) return;
     }
   }

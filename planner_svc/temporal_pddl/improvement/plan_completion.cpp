@@ -27,7 +27,7 @@ PlanCompletion::PlanCompletion(const SearchContext& context)
       evaluation_(context.task),
       relaxed_schedule_(context.task),
       release_times_(context.task),
-      space_(context.task, context.options.epsilon, ActionCompression::where_safe),
+      space_(context.task, context.options.epsilon, ActionCompression::where_safe, context.limits.touched()),
       goal_(context.task, space_.check(), context.options.epsilon),
       dominance_(context.task, space_.store(), space_.bounds(), space_.check(), context.options.epsilon, true,
                  true) {}

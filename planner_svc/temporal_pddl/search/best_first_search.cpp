@@ -24,7 +24,7 @@ BestFirstSearch::BestFirstSearch(const SearchContext& context, const Guide& guid
       guide_(guide),
       follows_plans_(style.lookahead),
       complete_(style.steps == ActionCompression::where_safe),
-      space_(context.task, context.options.epsilon, style.steps),
+      space_(context.task, context.options.epsilon, style.steps, context.limits.touched()),
       goal_(context.task, space_.check(), context.options.epsilon),
       dominance_(context.task, space_.store(), space_.bounds(), space_.check(), context.options.epsilon,
                  goal_.has_deadlines()),

@@ -23,7 +23,7 @@ BestFirstWidthSearch::BestFirstWidthSearch(const SearchContext& context, const G
       task_(context.task),
       guide_(guide),
       semantics_(context.task),
-      space_(context.task, context.options.epsilon, compression),
+      space_(context.task, context.options.epsilon, compression, context.limits.touched()),
       goal_(context.task, space_.check(), context.options.epsilon),
       dominance_(context.task, space_.store(), space_.bounds(), space_.check(), context.options.epsilon,
                  goal_.has_deadlines()),

@@ -12,7 +12,7 @@ using task::ActionCompression, task::FactId, task::SnapId, task::StateLayout;
 namespace {
 
 constexpr std::size_t kMaxSubgoals = 8;  // from one state
-constexpr int kVainPlans = 4;             // plans that are followed although their goal comes no nearer
+constexpr int kVainPlans = 4;            // plans that are followed although their goal comes no nearer
 
 // Returns whether two facts of one variable cannot both hold. What negations are of is not known here: they
 // count as consistent.
@@ -28,7 +28,7 @@ GoalSerialization::GoalSerialization(const SearchContext& context, const Guide& 
       task_(context.task),
       guide_(guide),
       ff_(ff),
-      space_(context.task, context.options.epsilon, compression),
+      space_(context.task, context.options.epsilon, compression, context.limits.touched()),
       goal_test_(context.task, space_.check(), context.options.epsilon),
       evaluation_(context.task),
       lookahead_(context.task, space_),

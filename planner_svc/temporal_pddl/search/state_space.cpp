@@ -9,7 +9,11 @@ using task::SnapId;
 std::span<const SnapId> StateSpace::applicable(const PlanPrefix& prefix) {
   candidates_.clear();
   for (const ActionId action : prefix.running_actions) candidates_.push_back(task_.actions[action].end);
+  const std::size_t running = candidates_.size();
   tree_.collect(store_.state(prefix.node), candidates_);
+  if (touched_)
+    for (const SnapId snap : std::span(candidates_).subspan(running))
+      (*touched_)[task_.snaps[snap].action.index()] = true;
   if (prefix.timed_done < task_.timed_steps.size())
     candidates_.push_back(task_.timed_steps[prefix.timed_done].snap);
   std::erase_if(candidates_, [&](SnapId snap) { return !builder_.applicable(prefix, snap); });

@@ -17,14 +17,17 @@ namespace roci::planner::temporal_pddl::search {
 /// Stores states and builds their successors, for one search. The task must outlive it.
 class StateSpace {
  public:
-  StateSpace(const task::Task& task, temporal::Duration epsilon, task::ActionCompression steps)
+  /// `touched`: see call::SearchLimits::mark_touched(); null: nobody asks.
+  StateSpace(const task::Task& task, temporal::Duration epsilon, task::ActionCompression steps,
+             std::vector<bool>* touched = nullptr)
       : task_(task),
         steps_(steps),
         epsilon_(epsilon),
         store_(task.layout.words()),
         check_(task, epsilon),
         builder_(task, store_, check_, epsilon, steps),
-        tree_(task) {}
+        tree_(task),
+        touched_(touched) {}
   StateSpace(const StateSpace&) = delete;
   StateSpace& operator=(const StateSpace&) = delete;
 
@@ -62,6 +65,7 @@ class StateSpace {
   TemporalCheck check_;
   SuccessorBuilder builder_;
   SuccessorGenerator tree_;
+  std::vector<bool>* touched_;  // by ActionId
   std::vector<task::SnapId> candidates_;
   std::vector<std::uint8_t> code_;
 };

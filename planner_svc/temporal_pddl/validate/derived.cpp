@@ -1,20 +1,45 @@
-// The truth of derived predicates is their least fixed point, layer by layer; only the instances that a
-// question reaches are computed.
+// The truth of derived predicates is their least fixed point, layer by layer, where they rest on themselves; only
+// the instances that a question reaches are computed.
 #include <algorithm>
+#include <utility>
 
 #include "planner_svc/temporal_pddl/validate/evaluator.hpp"
 
 namespace roci::planner::temporal_pddl::validate {
 
+// What hangs on nothing that changes is settled once for all states, and is no part of what is read.
+bool Evaluator::constant(const pddl::Atom& atom, const std::string& ground, const Bindings& bindings) {
+  std::map<std::string, bool>& constants = model_.constants();
+  const auto known = constants.find(ground);
+  if (known != constants.end()) return known->second;
+  Evaluator inner(model_, state_);
+  inner.settles_constants_ = true;
+  inner.settled_.swap(constants);
+  const bool out = inner.derived(atom, ground, bindings);
+  inner.settled_.swap(constants);
+  return out;
+}
+
 bool Evaluator::derived(const pddl::Atom& atom, const std::string& ground, const Bindings& bindings) {
+  if (!settles_constants_ && model_.is_static(atom.symbol)) return constant(atom, ground, bindings);
   if (reads_) reads_->facts.push_back(ground);  // nobody changes it directly, but it is no constant
   const int number = model_.layer(atom.symbol);
-  if (!open_ || open_->number != number) {
+  const bool alone = !model_.is_recursive(atom.symbol) && depth_ < kMostBelow;
+  if (alone || !open_ || open_->number != number) {
     const auto known = settled_.find(ground);
     if (known != settled_.end() && !reads_) return known->second;
   }
   Instance instance{&atom, {}, false};
   for (const pddl::Term& term : atom.arguments) instance.objects.push_back(bindings.object_of(term));
+  if (alone) {
+    Layer* const outer = std::exchange(open_, nullptr);
+    ++depth_;
+    const bool out = derive(instance);
+    --depth_;
+    open_ = outer;
+    settled_[ground] = out;
+    return out;
+  }
   if (open_ && open_->number == number) {
     const auto [it, first] = open_->index.emplace(ground, open_->instances.size());
     if (first) open_->instances.push_back(std::move(instance));

@@ -62,6 +62,7 @@ class Evaluator {
   Truth imply(const pddl::Imply& imply, Bindings& bindings);
   Truth fact(const pddl::Atom& atom, const Bindings& bindings);
   Truth compare(const pddl::Comparison& comparison, const Bindings& bindings);
+  bool constant(const pddl::Atom& atom, const std::string& ground, const Bindings& bindings);
   bool derived(const pddl::Atom& atom, const std::string& ground, const Bindings& bindings);
   void settle(Layer& layer);
   bool derive(const Instance& instance);
@@ -76,6 +77,10 @@ class Evaluator {
   Reads* reads_;
   Layer* open_ = nullptr;
   std::map<std::string, bool> settled_;
+  bool settles_constants_ = false;
+  // Rules that rest on each other's heads are followed so deep; deeper ones are settled as a layer, which does not recurse.
+  static constexpr int kMostBelow = 20;
+  int depth_ = 0;
   std::string reason_;
 };
 

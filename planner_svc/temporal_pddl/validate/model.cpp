@@ -19,6 +19,51 @@ void collect_changed(const std::vector<pddl::Effect>& effects, std::set<std::str
   }
 }
 
+// Adds the predicates and fluents that the condition looks at.
+void collect_read(const pddl::Expression& expression, std::set<std::string>& out) {
+  if (const auto* fluent = std::get_if<pddl::Atom>(&expression.node)) out.insert(fluent->symbol);
+  if (const auto* sum = std::get_if<pddl::Arithmetic>(&expression.node))
+    for (const pddl::Expression& operand : sum->operands) collect_read(operand, out);
+}
+void collect_read(const pddl::Condition& condition, std::set<std::string>& out) {
+  const auto all_of = [&](const std::vector<pddl::Condition>& parts) {
+    for (const pddl::Condition& part : parts) collect_read(part, out);
+  };
+  std::visit(pddl::Overloaded{[&](const pddl::And& all) { all_of(all.parts); },
+                              [&](const pddl::Or& any) { all_of(any.parts); },
+                              [&](const pddl::Not& negated) { collect_read(*negated.body, out); },
+                              [&](const pddl::Imply& imply) {
+                                collect_read(*imply.premise, out);
+                                collect_read(*imply.conclusion, out);
+                              },
+                              [&](const pddl::Forall& forall) { collect_read(*forall.body, out); },
+                              [&](const pddl::Exists& exists) { collect_read(*exists.body, out); },
+                              [&](const pddl::Atom& atom) { out.insert(atom.symbol); },
+                              [](const pddl::TermEquality&) {},
+                              [&](const pddl::Comparison& comparison) {
+                                collect_read(comparison.left, out);
+                                collect_read(comparison.right, out);
+                              }},
+             condition.node);
+}
+
+// By symbol: the derived predicates whose rules look at it.
+using Readers = std::map<std::string, std::set<std::string>>;
+
+// All derived predicates whose truth may rest on one of these symbols.
+std::set<std::string> resting_on(const Readers& readers, const std::set<std::string>& symbols) {
+  std::set<std::string> out;
+  std::vector<std::string> open(symbols.begin(), symbols.end());
+  while (!open.empty()) {
+    const auto found = readers.find(open.back());
+    open.pop_back();
+    if (found == readers.end()) continue;
+    for (const std::string& name : found->second)
+      if (out.insert(name).second) open.push_back(name);
+  }
+  return out;
+}
+
 }  // namespace
 
 Model::Model(const pddl::Domain& domain, const pddl::Problem& problem, const pddl::FunctionTable& functions)
@@ -38,6 +83,15 @@ Model::Model(const pddl::Domain& domain, const pddl::Problem& problem, const pdd
   }
   for (const pddl::TimedLiteral& timed : problem.timed_literals) changing_.insert(timed.literal.atom.symbol);
   for (const pddl::TimedValue& timed : problem.timed_values) changing_.insert(timed.fluent.symbol);
+  Readers readers;
+  for (const pddl::DerivedPredicate& rule : domain.derived) {
+    std::set<std::string> read;
+    collect_read(rule.body, read);
+    for (const std::string& symbol : read) readers[symbol].insert(rule.head.name);
+  }
+  changing_.merge(resting_on(readers, changing_));
+  for (const auto& [name, rules] : rules_)
+    if (resting_on(readers, {name}).contains(name)) recursive_.insert(name);
 }
 
 const std::vector<const pddl::DerivedPredicate*>& Model::rules(const std::string& predicate) const {

@@ -29,10 +29,15 @@ class Model {
   const pddl::FunctionTable& functions() const { return functions_; }
 
   bool is_external(const std::string& function) const { return externals_.contains(function); }
-  /// Returns whether no effect and no timed fact ever changes the predicate or fluent.
+  /// Returns whether no effect and no timed fact ever changes the predicate or fluent; of a derived predicate,
+  /// whether it hangs on such ones alone.
   bool is_static(const std::string& symbol) const { return !changing_.contains(symbol); }
   /// Returns the rules of a derived predicate; there are none for others.
   const std::vector<const pddl::DerivedPredicate*>& rules(const std::string& predicate) const;
+  /// Holds what was found of the instances of derived predicates that are static: it is so in every state.
+  std::map<std::string, bool>& constants() const { return constants_; }
+  /// Returns whether the truth of a derived predicate may rest on itself.
+  bool is_recursive(const std::string& derived) const { return recursive_.contains(derived); }
   int layer(const std::string& derived) const { return strata_.layer.at(derived); }
 
   State initial_state() const;
@@ -51,6 +56,8 @@ class Model {
   std::map<std::string, std::vector<const pddl::DerivedPredicate*>> rules_;
   std::set<std::string> externals_;
   std::set<std::string> changing_;  // predicates and fluents
+  std::set<std::string> recursive_;  // derived predicates
+  mutable std::map<std::string, bool> constants_;
 };
 
 }  // namespace roci::planner::temporal_pddl::validate

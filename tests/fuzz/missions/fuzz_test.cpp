@@ -9,6 +9,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "arm_svc/functions.hpp"
 #include "arm_svc/setup_file.hpp"
 #include "core/mission/entry.hpp"
 #include "core/mission/scenario.hpp"
@@ -47,6 +48,11 @@ const std::vector<Reader> kReaders{
     {"sim_svc", [](const fs::path& folder) { sim::scenario::load_run(folder, "opportunistic"); }},
     {"arm_svc",
      [](const fs::path& folder) { arm::load_setup(folder / "arm/arm.urdf", folder / "arm/poses.yaml"); }},
+    {"arm functions",
+     [](const fs::path& folder) {
+       const auto setup = arm::load_setup(folder / "arm/arm.urdf", folder / "arm/poses.yaml");
+       arm::read_module(Entry::load(folder / "arm.yaml"), setup);
+     }},
     {"pathplan_svc",
      [](const fs::path& folder) {
        const Entry root = Entry::load(folder / "mission.yaml");
@@ -90,6 +96,11 @@ class FuzzMissions : public testing::TestWithParam<const char*> {
     fs::copy(kMission, folder_, fs::copy_options::recursive);
     write(folder_ / "network.yaml",
           "dds: fastdds\ndomain: 7\naddress: 127.0.0.1\npeers: [127.0.0.1, 127.0.0.2]\n");
+    write(folder_ / "arm.yaml",
+          "module: shifting\nfunctions:\n"
+          "  reach_for: {parameters: [slot], gives: duration, from: stow, to: \"?1\"}\n"
+          "  shift: {parameters: [thing, slot, slot], gives: energy, from: \"?2\", to: \"?3\",\n"
+          "          payload: {mass_kg: \"?1.mass_kg\", size_m: [0.4, \"?1.edge_m\", 0.4]}}\n");
   }
   ~FuzzMissions() override { fs::remove_all(folder_); }
 
@@ -112,8 +123,8 @@ TEST_P(FuzzMissions, IsTakenOrRefusedWithItsPlace) {
 
 INSTANTIATE_TEST_SUITE_P(Files, FuzzMissions,
                          testing::Values("mission.yaml", "domain.pddl", "scenarios/opportunistic.yaml",
-                                         "arm/arm.urdf", "arm/poses.yaml", "site/site.yaml", "site/rocks.pgm",
-                                         "network.yaml"),
+                                         "arm/arm.urdf", "arm/poses.yaml", "arm.yaml", "site/site.yaml",
+                                         "site/rocks.pgm", "network.yaml"),
                          [](const auto& test) {
                            std::string name = test.param;
                            for (char& c : name) c = c == '/' || c == '.' ? '_' : c;

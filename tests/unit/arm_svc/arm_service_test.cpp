@@ -223,6 +223,144 @@ TEST_F(ArmMission, PosesThatCannotBeReachedAreReportedAtTheStart) {
   EXPECT_THAT(events, ElementsAre(HasSubstr("pose 'far' is out of the arm's reach")));
 }
 
+// Names, arities, types, loads: all of it is the mission's.
+class DeclaredFunctions : public ArmMission {
+ protected:
+  void fly() {
+    const std::filesystem::path arm = ROCI_SOURCE_DIR "/tests/unit/arm_svc/rail";
+    write("mission.yaml", "arm:\n  model: " + (arm / "arm.urdf").string() +
+                              "\n  poses: " + (arm / "poses.yaml").string() + R"(
+  module: shifting
+  functions:
+    reach_for: {parameters: [slot], gives: duration, from: home, to: "?1"}
+    shift: {parameters: [thing, slot, slot], gives: energy, from: "?2", to: "?3",
+            payload: {mass_kg: "?1.mass_kg", size_m: ["?1.edge_m", "?1.edge_m", "?1.edge_m"]}}
+)");
+    services::SimRun run{{"master", "arm_svc"}};
+    services::Node& master = run.add("master");
+    services::subscribe(master, topics::function_offer, [&](const v1::FunctionOffer& said) { offer = said; });
+    services::subscribe(master, topics::event,
+                        [&](const v1::Event& event) { events.push_back(event.text()); });
+    const auto service = make_service(run.add("arm_svc"), settings_for(folder_));
+    services::Client<v1::FunctionRequest, v1::FunctionReply> functions{master, topics::function_call};
+    services::Client<v1::ArmMotionRequest, v1::ArmMotionReply> client{master, topics::arm_motion};
+    master.after(1s, [&] {
+      functions.call(request, "arm_svc", 1s, [&](const CallResult<v1::FunctionReply>& result) {
+        ASSERT_EQ(result.status, CallStatus::ok) << result.reason;
+        reply = result.reply;
+      });
+      for (const v1::ArmMotionRequest& asked : motions) {
+        client.call(asked, "arm_svc", 1s, [&](const CallResult<v1::ArmMotionReply>& result) {
+          ASSERT_EQ(result.status, CallStatus::ok) << result.reason;
+          motion_replies.push_back(result.reply);
+        });
+      }
+    });
+    master.after(2s, [&] { master.stop(); });
+    run.run();
+  }
+
+  static v1::PlanObject thing(const std::string& name, const std::string& mass, const std::string& edge) {
+    v1::PlanObject object = pose(name);
+    for (const auto& [key, value] : {std::pair{"mass_kg", mass}, std::pair{"edge_m", edge}}) {
+      v1::Property property;
+      property.name(key);
+      property.value(value);
+      object.properties().push_back(property);
+    }
+    return object;
+  }
+
+  v1::FunctionRequest request;
+  std::vector<v1::ArmMotionRequest> motions;
+  v1::FunctionOffer offer;
+  v1::FunctionReply reply;
+  std::vector<v1::ArmMotionReply> motion_replies;
+  std::vector<std::string> events;
+};
+
+TEST_F(DeclaredFunctions, AreOfferedAndAnsweredAsDeclared) {
+  request.module_name("shifting");
+  request.objects({pose("s0"), pose("s1"), thing("light", "10", "0.3"), thing("heavy", "2000", "0.3"),
+                   thing("odd", "nan", "0.3"), thing("flat", "10", "0"), thing("anti", "-3", "0.3"),
+                   pose("bare")});
+  auto bound = batch("shift", 3, {2, 0, 1, 3, 0, 1});
+  bound.accuracy(v1::ACCURACY_LOWER_BOUND);
+  request.batches({batch("reach_for", 1, {0, 1}), batch("shift", 3, {2, 0, 1, 3, 0, 1}), bound,
+                   batch("shift", 3, {4, 0, 1, 6, 0, 1, 7, 0, 1, 2, 0, 7}), batch("shift", 2, {0, 1}),
+                   batch("arm_move_time", 2, {0, 1})});
+  fly();
+  EXPECT_EQ(offer.module_name(), "shifting");
+  ASSERT_EQ(offer.functions().size(), 2U);
+  EXPECT_EQ(offer.functions()[1].name(), "shift");
+  EXPECT_EQ(offer.functions()[1].unit(), "J");
+  EXPECT_THAT(offer.functions()[1].parameter_types(), ElementsAre("thing", "slot", "slot"));
+  EXPECT_THAT(offer.functions()[1].accuracies(), ElementsAre(v1::ACCURACY_EXACT, v1::ACCURACY_LOWER_BOUND));
+
+  const auto& results = reply.results();
+  ASSERT_EQ(results.size(), 6U);
+  for (const std::size_t i : {0U, 1U, 2U})
+    EXPECT_THAT(results[i].outcomes(), testing::Each(v1::FUNCTION_VALUE));
+  EXPECT_GT(results[0].numbers().at(0), 1.0);
+  EXPECT_GT(results[1].numbers().at(1), 1.5 * results[1].numbers().at(0)) << "more mass, more energy";
+  EXPECT_EQ(results[2].accuracy(), v1::ACCURACY_LOWER_BOUND);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_GT(results[2].numbers().at(i), 0.0);
+    EXPECT_LE(results[2].numbers().at(i), results[1].numbers().at(i));
+  }
+  EXPECT_THAT(results[3].outcomes(), testing::Each(v1::FUNCTION_UNKNOWN_OBJECT));
+  EXPECT_THAT(results[4].outcomes(), ElementsAre(v1::FUNCTION_WRONG_ARITY));
+  EXPECT_THAT(results[5].outcomes(), testing::Each(v1::FUNCTION_UNKNOWN_FUNCTION));
+  EXPECT_THAT(events, testing::UnorderedElementsAre(
+                          HasSubstr("'odd' has no property mass_kg that is a finite number"),
+                          HasSubstr("'anti' has a property mass_kg below 0"),
+                          HasSubstr("'bare' has no property mass_kg that is a finite number"),
+                          HasSubstr("s0 to bare: no pose 'bare'")));
+  EXPECT_THAT(reply.reply().remote_message(), HasSubstr("odd: it has no property mass_kg"));
+}
+
+TEST_F(DeclaredFunctions, MotionsCarryLoads) {
+  motions = {motion("s0", "s1"), motion("s0", "s1"), motion("s0", "s1"), motion("s0", "s1")};
+  motions[1].payload_kg(2000);
+  motions[1].payload_size_m({0.3, 0.3, 0.3});
+  motions[2].payload_kg(-1);
+  motions[3].payload_size_m({0.3, 0.3});
+  fly();
+  ASSERT_EQ(motion_replies.size(), 4U);
+  ASSERT_EQ(motion_replies[0].outcome(), v1::MOTION_FOUND) << motion_replies[0].reason();
+  ASSERT_EQ(motion_replies[1].outcome(), v1::MOTION_FOUND) << motion_replies[1].reason();
+  EXPECT_GT(motion_replies[1].expected_s(), motion_replies[0].expected_s());
+  EXPECT_GT(motion_replies[1].expected_j(), motion_replies[0].expected_j());
+  EXPECT_EQ(motion_replies[2].outcome(), v1::MOTION_INVALID);
+  EXPECT_THAT(motion_replies[2].reason(), HasSubstr("mass"));
+  EXPECT_EQ(motion_replies[3].outcome(), v1::MOTION_INVALID);
+  EXPECT_THAT(motion_replies[3].reason(), HasSubstr("size"));
+}
+
+// What was not found is UNKNOWN, what is proved UNREACHABLE, for values and for motions.
+TEST_F(DeclaredFunctions, NoWayIsProvedOrNotSaid) {
+  request.module_name("shifting");
+  v1::PlanObject far = pose("far"), buried = pose("buried");
+  for (auto& [object, place] :
+       {std::pair<v1::PlanObject&, std::vector<std::string>>{far, {"0", "9", "0"}},
+        std::pair<v1::PlanObject&, std::vector<std::string>>{buried, {"1", "0.5", "-0.1"}}}) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      v1::Property property;
+      property.name(std::string(1, "xyz"[i]));
+      property.value(place[i]);
+      object.properties().push_back(property);
+    }
+  }
+  request.objects({far, buried});
+  auto bound = batch("reach_for", 1, {0, 1});
+  bound.accuracy(v1::ACCURACY_LOWER_BOUND);
+  request.batches({batch("reach_for", 1, {0, 1}), bound});
+  fly();
+  for (const auto& values : reply.results())
+    EXPECT_THAT(values.outcomes(), ElementsAre(v1::FUNCTION_UNREACHABLE, v1::FUNCTION_UNKNOWN));
+  EXPECT_THAT(reply.reply().remote_message(), HasSubstr("far: pose 'far' is out of the arm's reach"));
+}
+
 TEST_F(ArmMission, AMissionWithoutAnArmNamesThePlace) {
   write("mission.yaml", "name: none\n");
   services::SimRun run{{"master"}};

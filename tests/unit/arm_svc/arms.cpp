@@ -51,6 +51,11 @@ std::string rover_file(const std::string& name) {
 
 ArmSetup rover_setup() { return load_setup(rover_folder() / "arm.urdf", rover_folder() / "poses.yaml"); }
 
+ArmSetup rail_setup() {
+  const std::filesystem::path folder = ROCI_SOURCE_DIR "/tests/unit/arm_svc/rail";
+  return load_setup(folder / "arm.urdf", folder / "poses.yaml");
+}
+
 std::vector<NamedArm> all_arms() {
   constexpr double kPi = std::numbers::pi;
   const Arm four = arm_of({turn({0, 0, 0.2}, Z, 2.6), turn({0.4, 0, 0}, Z, 2.4),

@@ -13,6 +13,8 @@ namespace roci::arm::test {
 std::filesystem::path rover_folder();  // with arm.urdf and poses.yaml
 std::string rover_file(const std::string& name);
 ArmSetup rover_setup();
+// Six turning joints on a rail, slots with modules on both sides, no gravity, jerk limits.
+ArmSetup rail_setup();
 
 struct NamedArm {
   std::string name;

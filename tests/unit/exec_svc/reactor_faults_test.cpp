@@ -411,6 +411,28 @@ TEST_F(MapChangeTest, APlanOnTheNewestMapIsTakenEvenIfTheMapChangedDuringTheCall
   EXPECT_EQ(std::count(trace.begin(), trace.end(), "call"), 1);
 }
 
+// What runs goes on; who reads is told which of the rest was planned on an older map.
+TEST_F(MapChangeTest, WhatStandsOnAnOlderMapIsToldOnceForEachMap) {
+  planner = [&](const PlanRequest& call) {
+    PlanReply out = plan_on_version(call, newest);
+    const auto& second = out.plan.activities.at(1).arguments;
+    std::vector<std::string> objects;
+    for (const temporal::Property& argument : second) objects.push_back(argument.value);
+    out.plan.function_values = {{"traverse_time", objects, 100, "pathplan_svc", newest},
+                                {"arm_move_time", objects, 100, "arm_svc", 7}};
+    return out;
+  };
+  const auto outdated = [&] { return std::count(trace.begin(), trace.end(), "values.outdated"); };
+  change_map_at(40, 2);
+  change_map_at(41, 2);
+  run(41.5, {});
+  EXPECT_EQ(reactor.phase(), MissionPhase::executing);
+  EXPECT_EQ(outdated(), 1);
+  change_map_at(1000, 3);
+  run(1100, {});
+  EXPECT_EQ(outdated(), 1) << "nothing is left of the plan";
+}
+
 TEST_F(MapChangeTest, APlanOnAnOldMapIsNotTaken) {
   planner_hears_cancels = false;
   planner = [&, first = true](const PlanRequest& call) mutable {

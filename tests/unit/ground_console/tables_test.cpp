@@ -9,6 +9,7 @@
 
 #include "ground_console/cli/mission_words.hpp"
 #include "ground_console/cli/plan_table.hpp"
+#include "ground_console/cli/plan_values.hpp"
 #include "ground_console/cli/runs.hpp"
 #include "ground_console/cli/table.hpp"
 #include "ground_console/cli/timelines.hpp"
@@ -83,6 +84,96 @@ TEST(PlanTable, SaysWhatWhenAndForWhichGoals) {
             "ground/ridge\n"
             "p3.2-take-image  take-image  image-ridge     waiting    00:04:51  40 s   00:04:55–00:06:40\n");
   EXPECT_EQ(cli::plan_table(lib::MissionView()), "no plan yet\n");
+}
+
+// A drive and an image; the owner of the drive's values had map 1 when they were asked for.
+lib::MissionView view_with_values() {
+  lib::MissionView view = flying_mission();
+  v1::Plan plan;
+  plan.version(3);
+  plan.origin_us(100'000'000);
+  plan.point_count(5);
+  const auto property = [](const char* name, const char* value) {
+    v1::Property out;
+    out.name(name);
+    out.value(value);
+    return out;
+  };
+  const auto activity = [&](const char* id, const char* name, std::vector<v1::Property> objects,
+                            std::vector<v1::Property> words) {
+    v1::PlanActivity out;
+    out.id(id);
+    out.name(name);
+    out.arguments(std::move(objects));
+    v1::PlanCommand command;
+    command.arguments(std::move(words));
+    out.commands({command});
+    out.start_point(std::string(name) == "drive" ? 1 : 3);
+    out.end_point(out.start_point() + 1);
+    out.duration_lower_us(190'000'000);
+    out.duration_upper_us(190'000'000);
+    return out;
+  };
+  plan.activities({activity("p3.1-drive", "drive", {property("1", "here"), property("2", "place-ridge")},
+                            {property("to", "place-ridge")}),
+                   activity("p3.2-take-image", "take-image", {property("1", "image-ridge")},
+                            {property("image", "image-ridge")})});
+  const auto value = [](std::vector<std::string> arguments, double number) {
+    v1::FunctionValueUse out;
+    out.function("traverse_time");
+    out.arguments(std::move(arguments));
+    out.number(number);
+    out.owner("pathplan_svc");
+    out.model_version(1);
+    out.computed_us(90'000'000);
+    return out;
+  };
+  plan.function_values({value({"here", "place-ridge"}, 190), value({"place-ridge", "here"}, 180)});
+  view.take(plan);
+  return view;
+}
+
+v1::FunctionOffer offer_of_map(std::uint64_t version) {
+  v1::FunctionOffer out;
+  out.header(sent("pathplan_svc", version, 200));
+  out.module_name("pathplan");
+  out.owner("pathplan_svc");
+  out.model_version(version);
+  v1::FunctionSignature time;
+  time.name("traverse_time");
+  time.unit("s");
+  out.functions({time});
+  return out;
+}
+
+TEST(PlanValues, AreThoseOfTheActivityWithOwnerMapAndAge) {
+  lib::MissionView view = view_with_values();
+  view.take(offer_of_map(1));
+  EXPECT_EQ(cli::values_text(view, cli::activities_named(view, "p3.1-drive")),
+            "p3.1-drive (drive here place-ridge)\n"
+            "FUNCTION       OF                VALUE  ACCURACY  SAID BY       MODEL  COMPUTED  AGE\n"
+            "traverse_time  here place-ridge  190 s  exact     pathplan_svc  1      00:01:30  00:03:30\n");
+  EXPECT_THAT(cli::values_text(view, cli::activities_named(view, "take-image")),
+              HasSubstr("stands on no value of an external function"));
+  EXPECT_THAT(cli::activities_named(view, "nothing"), IsEmpty());
+  EXPECT_THAT(cli::plan_table(view), Not(HasSubstr("*")));
+  EXPECT_THAT(cli::plan_table(view), HasSubstr("to=place-ridge"))
+      << "the arguments stay those of the command";
+}
+
+TEST(PlanValues, OfAnOlderMapMarkWhatHasNotBegun) {
+  lib::MissionView view = view_with_values();
+  view.take(offer_of_map(1));
+  view.take(offer_of_map(4));
+  EXPECT_THAT(cli::values_text(view, cli::activities_named(view, "drive")), HasSubstr("1, now 4"));
+  EXPECT_EQ(cli::values_json(view, view.plan()->activities()[0])[0]["model_version_now"], 4);
+  EXPECT_THAT(cli::plan_table(view), HasSubstr("waiting *"));
+  EXPECT_THAT(
+      cli::plan_table(view),
+      HasSubstr("\n\n* stands on values of version 1 of pathplan_svc's model, which has version 4 now; "
+                "roci plan --why p3.1-drive shows them\n"));
+  view.take(step("p3.1-drive", v1::ACTIVITY_RUNNING, 3, 100, 100, -1));
+  EXPECT_THAT(cli::plan_table(view), Not(HasSubstr("*"))) << "it is under way";
 }
 
 TEST(MissionWords, OfPlanetaryHaveHelpAndExampleForEachGoalKind) {

@@ -122,5 +122,43 @@ TEST(Costmap, RefusesDiscsAndLimitsThatMakeNoSense) {
   EXPECT_THROW(Costmap(site, limits), std::invalid_argument);
 }
 
+TEST(Costmap, ASlopeHasNoStepAndALedgeHas) {
+  // A ledge of 0.3 m at x = 20, which the fitted plane takes for a gentle slope, and a ramp of 0.15 m a cell behind it.
+  const terrain::Site site = made_site(
+      40, 1.0, [](terrain::Point p) { return (p.x > 20 ? 0.3 : 0.0) + 0.15 * std::max(0.0, p.x - 30); },
+      no_rocks);
+  RoverLimits limits;
+  const Costmap without(site, limits);
+  limits.max_step = 0.2;
+  const Costmap with(site, limits);
+  for (std::size_t i = 0; i < without.grid().cell_count(); ++i) EXPECT_NE(without.state(i), CellState::step);
+  EXPECT_EQ(without.state(terrain::Cell{20, 15}), CellState::free);
+  for (int column = 5; column < 35; ++column) {
+    const bool at_ledge = column == 19 || column == 20;
+    EXPECT_EQ(with.state(terrain::Cell{column, 15}), at_ledge ? CellState::step : CellState::free) << column;
+  }
+}
+
+TEST(Costmap, KeepOutPolygonsKeepTheRoversRadiusAway) {
+  // A figure with a bay, one zone of the site and one of the mission.
+  const terrain::Polygon bay{{{10, 10}, {30, 12}, {18, 18}, {28, 30}, {9, 27}}};
+  const terrain::Polygon corner{{{36, 36}, {60, 36}, {60, 60}, {36, 60}}};
+  terrain::SiteLayers layers = made_site(40, 1.0, level, no_rocks).layers();
+  layers.keep_out = {bay};
+  const Costmap map(terrain::Site({40, 40, 1.0, {0, 0}}, layers), {}, {corner});
+  EXPECT_EQ(map.state(terrain::Cell{12, 12}), CellState::keep_out);
+  EXPECT_EQ(map.state(terrain::Cell{37, 37}), CellState::keep_out);
+  EXPECT_EQ(map.state(terrain::Cell{27, 21}), CellState::free) << "in the bay";
+  std::mt19937_64 random(8);
+  for (int k = 0; k < 20000; ++k) {
+    const terrain::Point p{uniform(random, 0, 40), uniform(random, 0, 40)};
+    if (!map.is_free(p)) continue;
+    for (const terrain::Polygon& zone : {bay, corner}) {
+      ASSERT_FALSE(terrain::contains(zone, p));
+      ASSERT_GE(terrain::distance_to_outline(zone, p), map.limits().radius - 1e-9);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace roci::pathplan

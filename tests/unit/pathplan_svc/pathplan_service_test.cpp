@@ -2,8 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "core/mission/entry.hpp"
 #include "pathplan_svc/limits.hpp"
@@ -121,12 +125,17 @@ TEST_F(PathplanService, OffersItsFunctions) {
   ASSERT_EQ(offers_[0].functions().size(), 2U);
   EXPECT_EQ(offers_[0].functions()[0].name(), "traverse_time");
   EXPECT_EQ(offers_[0].functions()[1].name(), "traverse_energy");
+  for (const v1::FunctionSignature& function : offers_[0].functions()) {
+    EXPECT_THAT(function.accuracies(), ElementsAre(v1::ACCURACY_EXACT, v1::ACCURACY_LOWER_BOUND));
+    EXPECT_TRUE(function.depends_on().empty());
+  }
 }
 
 // Its worker has not built one of these maps when the last one comes.
 TEST_F(PathplanService, MoreHazardsThanItCanTakeAreRefusedByOneEvent) {
   master_.after(500ms, [this] {
-    for (std::size_t i = 0; i < kMapChanges + 9; ++i) hazards_.write(hazard("rock-" + std::to_string(i), 1, 1, 0.1));
+    for (std::size_t i = 0; i < kMapChanges + 9; ++i)
+      hazards_.write(hazard("rock-" + std::to_string(i), 1, 1, 0.1));
   });
   run(1s);
   EXPECT_THAT(events_, testing::Contains("hazard.refused").Times(1));
@@ -170,6 +179,34 @@ TEST_F(PathplanService, EveryTupleHasItsOwnOutcome) {
   EXPECT_THAT(reply.results()[3].outcomes(), ElementsAre(v1::FUNCTION_WRONG_ARITY, v1::FUNCTION_WRONG_ARITY));
   EXPECT_THAT(reply.results()[4].outcomes(), ElementsAre(v1::FUNCTION_VALUE, v1::FUNCTION_WRONG_ARITY));
   EXPECT_THAT(events_, ElementsAre("place.unusable", "place.unusable")) << "each of the two once";
+}
+
+TEST_F(PathplanService, AnswersWithTheAccuracyThatIsAskedFor) {
+  v1::FunctionRequest request;
+  request.module_name("pathplan");
+  request.objects({place("home", {{"x", "40"}, {"y", "40"}}), place("ridge", {{"x", "110"}, {"y", "60"}}),
+                   place("crater", {{"x", "190"}, {"y", "60"}})});
+  for (const char* function : {"traverse_time", "traverse_energy"}) {
+    for (const v1::FunctionAccuracy accuracy : {v1::ACCURACY_EXACT, v1::ACCURACY_LOWER_BOUND}) {
+      request.batches().push_back(batch(function, 2, {0, 1, 0, 0, 0, 2}));
+      request.batches().back().accuracy(accuracy);
+    }
+  }
+  ask_for_values(request, "pathplan_svc");
+  run(2s);
+  ASSERT_EQ(function_results_.size(), 1U);
+  const auto& results = function_results_[0].reply.results();
+  ASSERT_EQ(results.size(), 4U);
+  for (std::size_t i = 0; i < 4; i += 2) {
+    EXPECT_EQ(results[i].accuracy(), v1::ACCURACY_EXACT);
+    EXPECT_EQ(results[i + 1].accuracy(), v1::ACCURACY_LOWER_BOUND);
+    EXPECT_EQ(results[i].outcomes(), results[i + 1].outcomes());
+    EXPECT_THAT(results[i].outcomes(),
+                ElementsAre(v1::FUNCTION_VALUE, v1::FUNCTION_VALUE, v1::FUNCTION_UNREACHABLE));
+    EXPECT_LT(results[i + 1].numbers()[0], results[i].numbers()[0]);
+    EXPECT_GT(results[i + 1].numbers()[0], 0.3 * results[i].numbers()[0]);
+    EXPECT_EQ(results[i + 1].numbers()[1], 0);
+  }
 }
 
 TEST_F(PathplanService, LeavesOtherModulesToTheirOwners) {
@@ -234,6 +271,62 @@ TEST(PathplanServiceStart, AMissionWithoutASiteIsRefused) {
   services::RunSettings settings;
   settings.mission = "/nowhere";
   EXPECT_THROW(make_service(run.add("pathplan_svc"), settings), mission::FileError);
+}
+
+// A mission whose map has a strip of unknown ground from north to south.
+class PathplanServiceOnAMapWithHoles : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directories(folder_);
+    std::string rocks = "P2\n40 20\n255\n";
+    for (int i = 0; i < 40 * 20; ++i) rocks += i % 40 == 20 ? "128 " : "255 ";
+    std::ofstream(folder_ / "rocks.pgm") << rocks;
+    std::ofstream(folder_ / "site.yaml") << "image: rocks.pgm\nresolution: 1\norigin: [0, 0, 0]\nnegate: "
+                                            "0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
+    std::ofstream(folder_ / "mission.yaml")
+        << "format: 1\nname: holes\nrobots: [rover]\nsite: site.yaml\nrover: {radius_m: 0.8}\n";
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("roci_holes_" + std::to_string(::getpid()));
+};
+
+TEST_F(PathplanServiceOnAMapWithHoles, SaysOnceWhatTheMapDoesNotKnowAndProvesNothingFromIt) {
+  services::SimRun run{{"master", "pathplan_svc"}};
+  services::Node& master = run.add("master");
+  std::vector<v1::Event> events;
+  services::subscribe(master, topics::event, [&](const v1::Event& event) { events.push_back(event); });
+  services::RunSettings settings;
+  settings.mission = folder_;
+  const auto service = make_service(run.add("pathplan_svc"), settings);
+  services::Client<v1::PathRequest, v1::PathReply> paths(master, topics::path_request);
+  services::Client<v1::FunctionRequest, v1::FunctionReply> functions(master, topics::function_call);
+  std::vector<v1::PathReply> path_replies;
+  std::vector<v1::FunctionReply> function_replies;
+  v1::FunctionRequest request;
+  request.module_name("pathplan");
+  request.objects({place("west", {{"x", "5"}, {"y", "10"}}), place("east", {{"x", "35"}, {"y", "10"}})});
+  request.batches({batch("traverse_time", 2, {0, 1})});
+  master.after(1s, [&] {
+    paths.call(path_request(5, 10, 35, 10), "pathplan_svc", 1s,
+               [&](const CallResult<v1::PathReply>& result) { path_replies.push_back(result.reply); });
+    functions.call(request, "pathplan_svc", 1s, [&](const CallResult<v1::FunctionReply>& result) {
+      function_replies.push_back(result.reply);
+    });
+  });
+  master.after(2s, [&] { master.stop(); });
+  run.run();
+
+  ASSERT_EQ(path_replies.size(), 1U);
+  EXPECT_EQ(path_replies[0].outcome(), v1::MOTION_UNKNOWN);
+  EXPECT_THAT(path_replies[0].reason(), testing::HasSubstr("unknown ground is not driven over"));
+  ASSERT_EQ(function_replies.size(), 1U);
+  EXPECT_THAT(function_replies[0].results().at(0).outcomes(), ElementsAre(v1::FUNCTION_UNKNOWN));
+  const auto told =
+      std::ranges::count_if(events, [](const v1::Event& event) { return event.code() == "map.unknown"; });
+  EXPECT_EQ(told, 1);
+  EXPECT_THAT(events.front().text(), testing::HasSubstr("20 of its 800 cells"));
 }
 
 }  // namespace

@@ -43,6 +43,20 @@ TEST_F(RoverFile, KeysReplaceDefaults) {
   EXPECT_THAT(rover.keep_out, testing::ElementsAre(Disc{{1, 2}, 3}));
 }
 
+TEST_F(RoverFile, KeepOutZonesAreDiscsAndPolygons) {
+  const Rover rover =
+      read("max_step_m: 0.2, keep_out: [{polygon: [[1, 2], [3, 2], [3, 5.5]]}, {x: 1, y: 2, radius_m: 3}]");
+  EXPECT_EQ(rover.limits.max_step, 0.2);
+  EXPECT_THAT(rover.keep_out, testing::ElementsAre(Disc{{1, 2}, 3}));
+  EXPECT_THAT(rover.keep_out_polygons, testing::ElementsAre(terrain::Polygon{{{1, 2}, {3, 2}, {3, 5.5}}}));
+  EXPECT_THAT(error_of("keep_out: [{polygon: [[1, 2], [3, 2]]}]"), HasSubstr("at least three corners"));
+  EXPECT_THAT(error_of("keep_out: [{polygon: [[1, 2], [3, 2], [3]]}]"), HasSubstr("must be [x, y]"));
+  EXPECT_THAT(error_of("keep_out: [{polygon: [[1, 2], [3, 2], [3, 1]], x: 1}]"),
+              HasSubstr("unknown key 'x'"));
+  EXPECT_THAT(error_of("max_step_m: -1"), HasSubstr("'max_step_m' is out of range"));
+  EXPECT_EQ(error_of("max_step_m: 0"), "no error");
+}
+
 TEST_F(RoverFile, ErrorsNamePlaceAndRemedy) {
   EXPECT_THAT(error_of("sped_m_s: 1"),
               HasSubstr(".yaml:1:19: unknown key 'sped_m_s'; known here: keep_out, radius_m"));

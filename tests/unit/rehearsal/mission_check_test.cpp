@@ -1,75 +1,11 @@
 // A mission is copied and broken by one edit: the check finds it, at its place, with a remedy, and nothing else.
-#include "rehearsal/check/mission_check.hpp"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+#include "tests/unit/rehearsal/copied_mission.hpp"
 
 namespace roci::rehearsal::check {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-const fs::path kPlanetary = ROCI_SOURCE_DIR "/missions/planetary";
-const fs::path kQuarry = ROCI_BINARY_DIR "/tests/missions/quarry";
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-// The findings as they are printed, a line each.
-std::vector<std::string> printed(const CheckReport& report) {
-  std::vector<std::string> out;
-  for (const auto& one : report.findings.sorted()) out.push_back(one.text() + "; " + one.remedy);
-  return out;
-}
-
-// A copy of a mission with those of its scenarios that are broken here; what is large in it is linked.
-class CopiedMission {
- public:
-  explicit CopiedMission(const fs::path& mission)
-      : folder_(fs::temp_directory_path() / ("roci_check_" + std::to_string(::getpid())) /
-                mission.filename()) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    for (const auto& entry : fs::directory_iterator(mission)) {
-      const fs::path to = folder_ / entry.path().filename();
-      if (entry.path().filename() == "bin" || entry.path().filename() == "site") {
-        fs::create_directory_symlink(fs::absolute(entry.path()), to);
-      } else {
-        fs::copy(entry.path(), to, fs::copy_options::recursive);
-      }
-    }
-    for (const char* name : {"battery_low", "blocked_window", "map_changes", "opportunistic"})
-      fs::remove(folder_ / "scenarios" / (std::string(name) + ".yaml"));
-  }
-  ~CopiedMission() { fs::remove_all(folder_.parent_path()); }
-
-  const fs::path& folder() const { return folder_; }
-
-  // Replaces the first place of `right`; returns the line in which it stands.
-  int edit(const std::string& file, const std::string& right, const std::string& wrong) const {
-    std::string text = text_of(folder_ / file);
-    const std::size_t at = text.find(right);
-    EXPECT_NE(at, std::string::npos) << right << " does not stand in " << file;
-    if (at == std::string::npos) return 0;
-    text.replace(at, right.size(), wrong);
-    std::ofstream(folder_ / file, std::ios::binary) << text;
-    return 1 +
-           static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-  }
-
- private:
-  fs::path folder_;
-};
 
 TEST(MissionCheck, PlanetaryIsSoundAndEachOfItsGoalKindsIsPlanned) {
   const CheckReport report = check_mission(kPlanetary);
@@ -87,42 +23,9 @@ TEST(MissionCheck, QuarryAndItsBeaconAreSoundAndWhatCannotBePlannedHereIsSaid) {
   EXPECT_EQ(report.plans.not_tried.front().why, "engine 'search' reads no PDDL");
 }
 
-struct Slip {
-  const char* file;
-  const char* right;
-  const char* wrong;
-  const char* what;
-  const char* remedy;
-  // Where it is told, if not where it was made: the line of this text in mission.yaml.
-  const char* told_at = "";
-};
-
-void PrintTo(const Slip& slip, std::ostream* out) { *out << slip.wrong; }
-
-void expect_found(const fs::path& mission, const Slip& slip) {
-  const CopiedMission copy(mission);
-  int line = copy.edit(slip.file, slip.right, slip.wrong);
-  std::string file = slip.file;
-  if (*slip.told_at != '\0') {
-    file = "mission.yaml";
-    line = copy.edit(file, slip.told_at, slip.told_at);
-  }
-  const CheckReport report = check_mission(copy.folder());
-  ASSERT_EQ(report.findings.size(), 1U) << ::testing::PrintToString(printed(report));
-  const mission::Finding& finding = report.findings.all().front();
-  EXPECT_EQ(fs::path(finding.file), copy.folder() / file) << finding.text();
-  EXPECT_EQ(finding.line, line) << finding.text();
-  EXPECT_GT(finding.column, 0) << finding.text();
-  EXPECT_THAT(finding.what, HasSubstr(slip.what));
-  EXPECT_THAT(finding.remedy, HasSubstr(slip.remedy));
-}
-
 class PlanetarySlip : public ::testing::TestWithParam<Slip> {};
 
 TEST_P(PlanetarySlip, IsTheOneFinding) { expect_found(kPlanetary, GetParam()); }
-
-constexpr char kMission[] = "mission.yaml";
-constexpr char kNominal[] = "scenarios/nominal.yaml";
 
 INSTANTIATE_TEST_SUITE_P(
     Names, PlanetarySlip,

@@ -43,6 +43,22 @@ TEST_F(DetectorFile, TheScenarioOverridesTheMission) {
   EXPECT_EQ(read(mission, "science: {threshold: 0.9}\n").threshold, 0.9);
 }
 
+TEST_F(DetectorFile, ReadsTheCamera) {
+  const DetectorSettings plain =
+      read("science: {reach_m: 9, camera: {mast_m: 1.5, tilt_deg: 20, view_deg: 70}}\n", "x: 1\n");
+  EXPECT_EQ(plain.reach_m, 9);
+  EXPECT_EQ(plain.camera.mast_m, 1.5);
+  EXPECT_EQ(plain.camera.tilt_deg, 20);
+  EXPECT_EQ(plain.camera.view_deg, 70);
+}
+
+TEST_F(DetectorFile, AnOffsetIsAcceptedAndHasNoEffect) {
+  const DetectorSettings old = read("science: {offset_m: 12}\n", "x: 1\n");
+  ASSERT_EQ(old.warnings.size(), 1u);
+  EXPECT_THAT(old.warnings[0], HasSubstr("mission.yaml:1:21: warning: 'offset_m' has no effect any more"));
+  EXPECT_TRUE(read("science: {limit: 1}\n", "x: 1\n").warnings.empty());
+}
+
 TEST_F(DetectorFile, AMissionWithoutTheSectionHasNoDetector) {
   EXPECT_FALSE(read("name: m\n", "science: {enabled: true}\n").enabled);
 }

@@ -2,122 +2,174 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
+#include "core/terrain/pgm.hpp"
 #include "science_svc/limits.hpp"
+#include "tests/unit/science_svc/photos.hpp"
 
 namespace roci::science {
 namespace {
 
 using temporal::seconds;
 
-constexpr std::uint64_t kSeed = 5;
-const terrain::Grid kMap{240, 240, 1.0, {0, 0}};
+constexpr double kThreshold = 0.75;
 
 DetectorSettings eager() {
   DetectorSettings settings;
-  settings.threshold = 0;
+  settings.threshold = kThreshold;
   settings.limit = 1000;
-  settings.merge_m = -1;
+  settings.merge_m = 0;
   return settings;
 }
 
-TEST(Detector, ScoresFillTheUnitIntervalEvenly) {
-  const Detector detector(eager(), kMap, kSeed);
-  int above = 0;
-  for (int x = 0; x < 100; ++x) {
-    for (int y = 0; y < 100; ++y) {
-      const double score = detector.score({x + 0.5, y + 0.5});
-      ASSERT_GE(score, 0);
-      ASSERT_LT(score, 1);
-      above += score >= 0.85;
-    }
-  }
-  EXPECT_NEAR(above, 1500, 180);  // five standard deviations
+// A detector on flat ground without an end that has seen some of it.
+Detector taught(const DetectorSettings& settings) {
+  Detector out(settings, nullptr);
+  for (std::uint64_t i = 0; i < 4; ++i)
+    EXPECT_TRUE(out.look(photo("plain-" + std::to_string(i), {0, 0}, made_ground(i)), seconds(0)).empty());
+  return out;
 }
 
-TEST(Detector, TheSameSeedAndPlaceScoreAlikeAndOthersDiffer) {
-  const Detector detector(eager(), kMap, kSeed);
-  EXPECT_EQ(detector.score({10.1, 20.2}), Detector(eager(), kMap, kSeed).score({10.9, 20.7}));
-  EXPECT_NE(detector.score({10.1, 20.2}), detector.score({11.1, 20.2}));
-  EXPECT_NE(detector.score({10.1, 20.2}), Detector(eager(), kMap, kSeed + 1).score({10.1, 20.2}));
-}
-
-TEST(Detector, LooksAtABoundedNumberOfPhotos) {
-  DetectorSettings none = eager();
-  none.threshold = 2;
-  Detector detector(none, kMap, kSeed);
-  EXPECT_FALSE(detector.look({std::string(kNameBytes + 1, 'x'), {10, 10}}, seconds(0)));
-  for (std::size_t i = 0; i < kPhotos; ++i) {
-    EXPECT_FALSE(detector.full()) << i;
-    detector.look({"photo-" + std::to_string(i), {10, 10}}, seconds(0));
-  }
-  EXPECT_TRUE(detector.full());
+std::vector<Find> show(Detector& detector, const std::string& id, terrain::Point at, temporal::Time now) {
+  return detector.look(photo(id, at, made_ground(77, 12)), now);
 }
 
 TEST(Detector, FindsExactlyWhatScoresAboveTheThreshold) {
-  DetectorSettings settings = eager();
-  settings.threshold = 0.7;
-  Detector detector(settings, kMap, kSeed);
-  std::mt19937_64 engine(1);
-  std::uniform_real_distribution<double> anywhere(0, 239);
-  int found = 0;
-  for (int i = 0; i < 300; ++i) {
-    const terrain::Point p{anywhere(engine), anywhere(engine)};
-    const auto find = detector.look({"image-" + std::to_string(i), p}, seconds(i));
-    if (!find) {
-      EXPECT_LT(detector.score(p), 0.7);
-      continue;
-    }
-    ++found;
-    EXPECT_GE(detector.score(p), 0.7);
-    EXPECT_EQ(find->score, detector.score(p));
-    EXPECT_NEAR(terrain::distance(find->place, p), settings.offset_m, 1);
-    EXPECT_TRUE(kMap.contains(find->place));
+  for (const double threshold : {0.3, 0.75, 0.999}) {
+    DetectorSettings settings = eager();
+    settings.threshold = threshold;
+    Detector detector(settings, nullptr);
+    for (std::uint64_t i = 0; i < 4; ++i)
+      detector.learn(photo("plain-" + std::to_string(i), {0, 0}, made_ground(i)));
+    const Photo odd = photo("odd", {0, 0}, made_ground(77, 12));
+    Detector other = detector;
+    const auto all = other.candidates(odd, 0.01);
+    ASSERT_FALSE(all.empty());
+    const auto finds = detector.look(odd, seconds(1));
+    EXPECT_EQ(finds.empty(), all.front().score < threshold) << threshold;
+    for (const Find& one : finds) EXPECT_GE(one.score, threshold);
   }
-  EXPECT_NEAR(found, 90, 40);
+}
+
+TEST(Detector, ScoresComeFromThePixels) {
+  Detector detector = taught(eager());
+  const auto plain = detector.candidates(photo("p", {0, 0}, made_ground(50)), 0);
+  const auto odd = detector.candidates(photo("o", {0, 0}, made_ground(50, 12)), 0);
+  ASSERT_FALSE(plain.empty());
+  ASSERT_FALSE(odd.empty());
+  EXPECT_GT(odd.front().score, kThreshold);
+  EXPECT_LT(plain.front().score, kThreshold);
+}
+
+TEST(Detector, PlacesAFindByTheCamerasGeometry) {
+  Detector detector = taught(eager());
+  const auto finds = show(detector, "odd", {100, 200}, seconds(1));
+  ASSERT_EQ(finds.size(), 1u);
+  const auto truth = ground_at({}, {}, {{100, 200}, 0}, kWidth, kHeight, 48, 38, 50);
+  ASSERT_TRUE(truth);
+  EXPECT_LT(terrain::distance(finds[0].place, *truth), 1.5) << finds[0].place.x << ", " << finds[0].place.y;
+  EXPECT_EQ(finds[0].id, find_id(finds[0].place));
+}
+
+TEST(Detector, ACropShowsTheFind) {
+  Detector detector = taught(eager());
+  const auto finds = show(detector, "odd", {0, 0}, seconds(1));
+  ASSERT_EQ(finds.size(), 1u);
+  const terrain::GreyImage crop = terrain::parse_pgm(finds[0].crop, "crop");
+  int light = 0;
+  for (const auto pixel : crop.pixels) light += pixel > 220;
+  EXPECT_GT(light, 70) << "of the 144 pixels of the square";
+  EXPECT_LT(crop.width * crop.height, kWidth * kHeight / 4);
+}
+
+TEST(Detector, WhatIsEverywhereIsNoFind) {
+  Detector detector(eager(), nullptr);
+  for (std::uint64_t i = 0; i < 8; ++i)
+    detector.look(photo(std::to_string(i), {0, 0}, made_ground(i, 12)), seconds(0));
+  EXPECT_TRUE(show(detector, "again", {500, 0}, seconds(1)).empty());
 }
 
 TEST(Detector, LooksAtAPhotoOnce) {
-  Detector detector(eager(), kMap, kSeed);
-  EXPECT_TRUE(detector.look({"a", {50, 50}}, seconds(1)));
-  EXPECT_FALSE(detector.look({"a", {150, 150}}, seconds(2)));
+  Detector detector = taught(eager());
+  EXPECT_EQ(show(detector, "a", {50, 50}, seconds(1)).size(), 1u);
+  EXPECT_TRUE(show(detector, "a", {150, 150}, seconds(2)).empty());
 }
 
 TEST(Detector, MergesFindsThatLieClose) {
   DetectorSettings settings = eager();
   settings.merge_m = 10;
-  Detector detector(settings, kMap, kSeed);
-  EXPECT_TRUE(detector.look({"a", {50, 50}}, seconds(1)));
-  EXPECT_FALSE(detector.look({"b", {50, 50}}, seconds(2)));
-  EXPECT_TRUE(detector.look({"c", {150, 150}}, seconds(3)));
+  Detector detector = taught(settings);
+  EXPECT_EQ(show(detector, "a", {50, 50}, seconds(1)).size(), 1u);
+  EXPECT_TRUE(show(detector, "b", {55, 50}, seconds(2)).empty());
+  EXPECT_EQ(show(detector, "c", {150, 150}, seconds(3)).size(), 1u);
 }
 
 TEST(Detector, KeepsItsDistanceInTime) {
   DetectorSettings settings = eager();
   settings.min_interval = seconds(100);
-  Detector detector(settings, kMap, kSeed);
-  EXPECT_TRUE(detector.look({"a", {50, 50}}, seconds(10)));
-  EXPECT_FALSE(detector.look({"b", {100, 100}}, seconds(109)));
-  EXPECT_TRUE(detector.look({"c", {150, 150}}, seconds(110)));
+  Detector detector = taught(settings);
+  EXPECT_EQ(show(detector, "a", {50, 50}, seconds(10)).size(), 1u);
+  EXPECT_TRUE(show(detector, "b", {100, 100}, seconds(109)).empty());
+  EXPECT_EQ(show(detector, "c", {150, 150}, seconds(110)).size(), 1u);
 }
 
 TEST(Detector, StopsAtItsLimit) {
   DetectorSettings settings = eager();
   settings.limit = 2;
-  Detector detector(settings, kMap, kSeed);
-  int found = 0;
-  for (int i = 0; i < 10; ++i) {
-    found += detector.look({std::to_string(i), {20.0 * i + 20, 20.0 * i + 20}}, seconds(i)).has_value();
-  }
-  EXPECT_EQ(found, 2);
+  Detector detector = taught(settings);
+  std::size_t found = 0;
+  for (int i = 0; i < 6; ++i) found += show(detector, std::to_string(i), {100.0 * i, 0}, seconds(i)).size();
+  EXPECT_EQ(found, 2u);
 }
 
-TEST(Detector, FindsNothingWhenSwitchedOffOrOffTheMap) {
+TEST(Detector, RemembersWhatAnEarlierProcessRaised) {
+  DetectorSettings settings = eager();
+  settings.merge_m = 5;
+  settings.limit = 2;
+  Detector first = taught(settings), second = taught(settings);
+  const auto finds = show(first, "a", {50, 50}, seconds(1));
+  ASSERT_EQ(finds.size(), 1u);
+  second.remember(finds[0].id, seconds(2));
+  second.remember(finds[0].id, seconds(2));
+  second.remember("ridge", seconds(2));
+  EXPECT_TRUE(show(second, "a", {50, 50}, seconds(3)).empty()) << "the same place";
+  EXPECT_EQ(show(second, "b", {150, 50}, seconds(4)).size(), 1u);
+  EXPECT_TRUE(show(second, "c", {250, 50}, seconds(5)).empty()) << "the limit counts the earlier one";
+}
+
+TEST(Detector, AnIdSaysThePlace) {
+  EXPECT_EQ(find_id({74.4, -51.6}), "find-e74s52");
+  EXPECT_EQ(place_of("find-w3n0"), (terrain::Point{-3, 0}));
+  for (const char* word : {"find-1", "ridge", "find-e1", "find-e1n2x", "find-e-1n2", "find-e01n2",
+                           "find-x1n2", "find-e99999999n1", ""})
+    EXPECT_FALSE(place_of(word)) << word;
+}
+
+TEST(Detector, FindsNothingWhenSwitchedOffOffTheMapOrNowhere) {
   DetectorSettings off = eager();
+  off.threshold = 0;
+  const Photo any = photo("a", {50, 50}, made_ground(1, 12));
+  EXPECT_EQ(Detector(off, nullptr).look(any, seconds(1)).size(), 1u) << "a threshold of 0 takes every image";
+  EXPECT_TRUE(
+      Detector(off, nullptr).look(photo("a", {std::nan(""), 0}, made_ground(1, 12)), seconds(1)).empty());
+  EXPECT_TRUE(Detector(off, nullptr).look(photo("a", {1e300, 0}, made_ground(1, 12)), seconds(1)).empty());
+  EXPECT_TRUE(
+      Detector(off, nullptr).look(photo("a", {0, 0}, made_ground(1, 12), 1 / 0.0), seconds(1)).empty());
   off.enabled = false;
-  EXPECT_FALSE(Detector(off, kMap, kSeed).look({"a", {50, 50}}, seconds(1)));
-  EXPECT_FALSE(Detector(eager(), kMap, kSeed).look({"a", {-50, 50}}, seconds(1)));
+  EXPECT_TRUE(Detector(off, nullptr).look(any, seconds(1)).empty());
+}
+
+TEST(Detector, LooksAtABoundedNumberOfPhotos) {
+  DetectorSettings settings = eager();
+  settings.reach_m = 1;  // nothing to see, so that many are quick
+  Detector detector(settings, nullptr);
+  EXPECT_TRUE(
+      detector.look(photo(std::string(kNameBytes + 1, 'x'), {10, 10}, made_ground(1)), seconds(0)).empty());
+  terrain::GreyImage tiny{16, 16, 255, std::vector<std::uint16_t>(256, 9)};
+  for (std::size_t i = 0; i < kPhotos; ++i) {
+    ASSERT_FALSE(detector.full()) << i;
+    detector.look(photo("photo-" + std::to_string(i), {10, 10}, tiny), seconds(0));
+  }
+  EXPECT_TRUE(detector.full());
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ v1::FunctionRequest request(const std::string& function, std::uint32_t arity,
   return out;
 }
 
-FunctionResult sum(const OwnedFunction&, std::span<const v1::PlanObject* const> objects) {
+FunctionResult sum(const OwnedFunction&, std::span<const v1::PlanObject* const> objects,
+                   v1::FunctionAccuracy) {
   double total = 0;
   for (const v1::PlanObject* object : objects) total += *finite_property(*object, "x");
   return {v1::FUNCTION_VALUE, total};
@@ -58,6 +59,32 @@ TEST(FunctionWire, SaysWhatIsWrongWithATuple) {
   EXPECT_THAT(answer(request("two", 2, {0, 1, 0})).outcomes(),
               ElementsAre(v1::FUNCTION_VALUE, v1::FUNCTION_WRONG_ARITY));
   EXPECT_THAT(answer(request("three", 1, {0})).outcomes(), ElementsAre(v1::FUNCTION_UNKNOWN_FUNCTION));
+}
+
+TEST(FunctionWire, OffersItsAccuraciesAndAnswersWithTheExactValueForAnother) {
+  const std::vector<OwnedFunction> functions{
+      {"plain", {"thing"}, "s"},
+      {"both", {"thing"}, "s", {v1::ACCURACY_EXACT, v1::ACCURACY_LOWER_BOUND}, {"rover.battery"}}};
+  const v1::FunctionOffer offer = function_offer("m", "o", 1, functions);
+  EXPECT_TRUE(offer.functions().at(0).accuracies().empty());
+  EXPECT_THAT(offer.functions().at(1).accuracies(),
+              ElementsAre(v1::ACCURACY_EXACT, v1::ACCURACY_LOWER_BOUND));
+  EXPECT_THAT(offer.functions().at(1).depends_on(), ElementsAre("rover.battery"));
+
+  const Evaluator tell = [](const OwnedFunction&, std::span<const v1::PlanObject* const>,
+                            v1::FunctionAccuracy accuracy) -> FunctionResult {
+    return {v1::FUNCTION_VALUE, accuracy == v1::ACCURACY_LOWER_BOUND ? 1.0 : 2.0};
+  };
+  const auto asked = [&](const char* name, v1::FunctionAccuracy accuracy) {
+    v1::FunctionRequest one = request(name, 1, {0});
+    one.batches()[0].accuracy(accuracy);
+    return answer_batches(one, 7, functions, tell, {}).results().at(0);
+  };
+  EXPECT_EQ(asked("both", v1::ACCURACY_LOWER_BOUND).accuracy(), v1::ACCURACY_LOWER_BOUND);
+  EXPECT_THAT(asked("both", v1::ACCURACY_LOWER_BOUND).numbers(), ElementsAre(1.0));
+  EXPECT_EQ(asked("plain", v1::ACCURACY_LOWER_BOUND).accuracy(), v1::ACCURACY_EXACT);
+  EXPECT_THAT(asked("plain", v1::ACCURACY_LOWER_BOUND).numbers(), ElementsAre(2.0));
+  EXPECT_EQ(asked("both", v1::ACCURACY_ESTIMATE).accuracy(), v1::ACCURACY_EXACT);
 }
 
 TEST(FunctionWire, AStoppedOwnerFailsTheRest) {

@@ -35,11 +35,7 @@ std::vector<std::vector<ObjectId>> all_tuples(const std::vector<std::vector<Obje
   return tuples;
 }
 
-std::string describe(const FunctionCall& call) {
-  std::string text = "(" + call.function;
-  for (const auto& argument : call.arguments) text += " " + argument;
-  return text + ") of module " + call.module;
-}
+std::string describe(const FunctionCall& call) { return application(call) + " of module " + call.module; }
 
 std::string remedy_for(FunctionOutcome outcome, const FunctionCall& call) {
   switch (outcome) {
@@ -55,6 +51,7 @@ std::string remedy_for(FunctionOutcome outcome, const FunctionCall& call) {
       return "the owner must answer with a finite number or with 'unreachable'";
     case FunctionOutcome::value:
     case FunctionOutcome::unreachable:
+    case FunctionOutcome::unknown:
       break;
   }
   return "";
@@ -72,7 +69,9 @@ std::string describe(const Provenance& said) {
 
 void require_usable(const FunctionCall& call, const FunctionValue& answer, const Symbols& symbols,
                     const FunctionSymbol& symbol) {
-  if (answer.outcome == FunctionOutcome::value || answer.outcome == FunctionOutcome::unreachable) return;
+  if (answer.outcome == FunctionOutcome::value || answer.outcome == FunctionOutcome::unreachable ||
+      answer.outcome == FunctionOutcome::unknown)
+    return;
   std::string message = "external function " + describe(call) + ": " + to_string(answer.outcome);
   if (!answer.reason.empty()) message += ", " + answer.reason;
   message += describe(answer.provenance);

@@ -24,13 +24,13 @@ class ConstantFunctions {
 
   /// Asks `source` for all external functions on all typed tuples, one batch per function (R37), and appends
   /// every tuple with its answer to `used`. Throws ModelFailure (function_unavailable), naming function and
-  /// tuple, if an answer is neither a value nor "unreachable", and PlanningFailure (cancelled).
+  /// tuple, if an answer is neither a value nor "unreachable" nor "unknown", and PlanningFailure (cancelled).
   void load_external(engine::FunctionSource& source, const std::function<bool()>& cancelled,
                      const Symbols& symbols, std::vector<engine::FunctionUse>& used);
 
   bool is_constant(task::FunctionId function) const { return constant_[function]; }
-  /// Returns nothing if the constant is undefined or unreachable there, so that no action instance can use
-  /// it.
+  /// Returns nothing if the constant is undefined, unreachable or unknown there, so that no action instance
+  /// can use it.
   std::optional<double> value(task::FunctionId function, std::span<const task::ObjectId> objects) const;
   /// Returns a tuple without a value that was asked for, if there was one; never one of an external function.
   const std::optional<std::vector<task::ObjectId>>& missed(task::FunctionId function) const {

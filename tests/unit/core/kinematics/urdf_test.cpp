@@ -70,6 +70,17 @@ TEST(Urdf, AccelerationDefaultsToTheTimeToSpeed) {
   EXPECT_DOUBLE_EQ(std::get<Arm>(result).joints[2].limits.acceleration, 0.35 / 2.0);
 }
 
+TEST(Urdf, JerkIsGivenOrFollowsFromTheTimeToAccelerationOrIsNotBounded) {
+  const std::string text = edited("name=\"elbow\"", "effort=\"30\"", "effort=\"30\" jerk=\"2.5\"");
+  const auto plain = parse_urdf(text, "arm.urdf", kScoop),
+             timed = parse_urdf(text, "arm.urdf", {"scoop_tip", 0.5, 0.2});
+  ASSERT_TRUE(std::holds_alternative<Arm>(plain) && std::holds_alternative<Arm>(timed));
+  EXPECT_EQ(std::get<Arm>(plain).joints[2].limits.jerk, 2.5);
+  EXPECT_EQ(std::get<Arm>(plain).joints[1].limits.jerk, 0);
+  EXPECT_EQ(std::get<Arm>(timed).joints[2].limits.jerk, 2.5);
+  EXPECT_DOUBLE_EQ(std::get<Arm>(timed).joints[1].limits.jerk, 0.35 / 0.2);
+}
+
 TEST(Urdf, FixedJointFoldsMassIntoTheBodyThatHoldsIt) {
   const std::string payload =
       "<link name=\"scoop_tip\"><inertial><mass value=\"0.45\"/>"
@@ -106,6 +117,17 @@ TEST(UrdfError, NamesFileLineElementAndRemedy) {
   EXPECT_THAT(error_of(edited("name=\"wrist\"", "<cylinder radius=\"0.03\" length=\"0.08\"/>",
                               "<mesh filename=\"wrist.stl\"/>")),
               HasSubstr("not mesh"));
+  EXPECT_THAT(error_of(edited("name=\"scoop\"", "<mass value=\"0.45\"/>", "")),
+              HasSubstr("inertial: needs a <mass value="));
+  EXPECT_THAT(
+      error_of(edited("name=\"scoop\"", "ixx=\"0.0004\"", "ixx=\"-0.0004\"")),
+      HasSubstr("inertia: the moments of inertia must not be negative, about no axis (the least is -0.0004"));
+  const std::string massless = edited("name=\"scoop\"", "<mass value=\"0.45\"/>", "<mass value=\"0\"/>");
+  EXPECT_THAT(error_of(massless),
+              HasSubstr("arm.urdf:" + std::to_string(line_of(massless, "<joint name=\"tool_roll\"")) +
+                        ": joint 'tool_roll': moves no mass; give link 'scoop'"));
+  EXPECT_THAT(error_of(edited("name=\"elbow\"", "effort=\"30\"", "effort=\"30\" jerk=\"0\"")),
+              HasSubstr("attribute 'jerk' must be above 0"));
   EXPECT_THAT(error_of("<robot name=\"x\"><link name=\"a\"></robot>"),
               HasSubstr("arm.urdf:1: document: not XML"));
   EXPECT_THAT(error_of("<sdf/>"), HasSubstr("root element is <robot>"));

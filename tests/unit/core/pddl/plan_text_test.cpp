@@ -105,10 +105,23 @@ TEST(FunctionTable, PrintedAndReadAgainItIsTheSame) {
   EXPECT_EQ(parse_function_table(print(table), "printed"), table);
 }
 
+TEST(FunctionTable, HasBoundsBesideExactValuesAndTellsWhatWasNotFound) {
+  const std::string text =
+      "(time a b) >= 10\n(time a b) 12.5\n(time b a) >=3 ; no blank\n(time b b) unknown\n(k) unreachable\n";
+  const FunctionTables tables = parse_function_tables(text, "f");
+  EXPECT_EQ(tables.exact, (FunctionTable{{"(time a b)", 12.5}, {"(k)", std::nullopt}}));
+  EXPECT_EQ(tables.lower_bounds.at("(time a b)"), 10);
+  EXPECT_EQ(tables.lower_bounds.at("(time b a)"), 3);
+  EXPECT_TRUE(tables.unknown.contains("(time b b)"));
+  EXPECT_EQ(parse_function_tables(print(tables), "printed"), tables);
+  EXPECT_EQ(parse_function_table(text, "f"), tables.exact) << "a plan is judged by exact values alone";
+}
+
 TEST(FunctionTable, RefusesOtherThings) {
   const std::vector<Refused> cases = {
       {"(f a)", {1, 6}},        {"(f a) x", {1, 7}}, {"f 3", {1, 1}},     {"(f) 1 2", {1, 7}},
       {"(f) 1\n(f) 2", {2, 1}}, {"(f) nan", {1, 5}}, {"(f) inf", {1, 5}},
+      {"(f) >= x", {1, 7}},     {"(f) >= 1\n(f) >= 2", {2, 1}}, {"(f) 1\n(f) unknown", {2, 1}},
   };
   for (const Refused& c : cases) {
     SCOPED_TRACE(c.text);

@@ -113,5 +113,33 @@ TEST_F(SiteFile, ImagesOfAnotherSizeOrCutShortAreRefused) {
   EXPECT_THAT(error_after("", ""), HasSubstr((folder_ / "elevation.pgm").string() + ":3: truncated"));
 }
 
+TEST_F(SiteFile, AHoleIsUnknownGroundAtTheHeightOfItsNeighbour) {
+  write("elevation.pgm", to_pgm({3, 2, 65535, {0, 7, 65535, 65535, 7, 7}}, ""));
+  const Site site = load_site(description("max: 4}", "max: 4, nodata: 7}"));
+  EXPECT_EQ(site.occupancy(Cell{1, 1}), Occupancy::unknown);
+  EXPECT_EQ(site.occupancy(Cell{2, 0}), Occupancy::unknown);
+  EXPECT_EQ(site.occupancy(Cell{0, 0}), Occupancy::free);
+  EXPECT_EQ(site.elevation(Cell{1, 0}), 4) << "of the cell west of it";
+  EXPECT_EQ(site.elevation(Cell{2, 0}), 4) << "of the cell north of it";
+  EXPECT_EQ(site.elevation(Cell{0, 1}), -2);
+}
+
+TEST_F(SiteFile, AMapOfHolesAloneIsRefused) {
+  write("elevation.pgm", to_pgm({3, 2, 65535, {7, 7, 7, 7, 7, 7}}, ""));
+  EXPECT_THAT(error_after("max: 4}", "max: 4, nodata: 7}"),
+              AllOf(HasSubstr("site.yaml: "), HasSubstr("every cell is a hole")));
+  EXPECT_THAT(error_after("max: 4}", "max: 4, nodata: -1}"), HasSubstr("must be the value of a pixel"));
+}
+
+TEST_F(SiteFile, KeepOutZonesArePolygons) {
+  const Site site =
+      load_site(description("negate: 0\n", "negate: 0\nkeep_out: [{polygon: [[1, 2], [3, 4], [5, 0]]}]\n"));
+  ASSERT_EQ(site.keep_out().size(), 1U);
+  EXPECT_EQ(site.keep_out()[0], (Polygon{{{1, 2}, {3, 4}, {5, 0}}}));
+  EXPECT_THAT(error_after("negate: 0\n", "negate: 0\nkeep_out: [{polygon: [[1, 2], [3, 4]]}]\n"),
+              AllOf(HasSubstr("site.yaml:5:"), HasSubstr("at least three corners")));
+  EXPECT_THAT(error_after("negate: 0\n", "negate: 0\nkeep_out: [{polygn: []}]\n"), HasSubstr("'polygn'"));
+}
+
 }  // namespace
 }  // namespace roci::terrain

@@ -7,6 +7,7 @@
 #include "planner_svc/function_owners_service.hpp"
 #include "planner_svc/limits.hpp"
 #include "services/publisher.hpp"
+#include "services/rpc.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
 namespace roci::planner {
@@ -65,6 +66,48 @@ TEST(FunctionOwnersChoice, NoOfferIsToldWithWhatThereIs) {
   EXPECT_EQ(choose_owner(offers_of({{"roads_a", ""}}), "raods", "", {}).reason,
             "no service offers module 'raods'; offered are: roads");
   EXPECT_EQ(choose_owner({}, "roads", "", {}).reason, "no service offers module 'roads'; offered are: none");
+}
+
+// An owner that does not offer the accuracy is asked for exact values, and one that does gets what was asked.
+TEST(FunctionOwnersAccuracy, WhatIsNotOfferedIsAskedForExactly) {
+  using namespace std::chrono_literals;
+  services::SimRun run({"sim_svc", "planner_svc"});
+  services::Node& owner = run.add("sim_svc");
+  services::Node& planner = run.add("planner_svc");
+  const auto offers = services::advertise(owner, services::topics::function_offer);
+  FunctionOwners owners(planner, 1s);
+  std::map<std::string, v1::FunctionAccuracy> asked;
+  services::serve(owner, services::topics::function_call,
+                  [&](const v1::FunctionRequest& request, services::Responder<v1::FunctionReply> responder) {
+                    const v1::FunctionBatch& batch = request.batches()[0];
+                    asked[batch.function()] = batch.accuracy();
+                    EXPECT_EQ(request.state().size(), 1U);
+                    EXPECT_EQ(request.state()[0].name(), "(battery)");
+                    EXPECT_EQ(request.state()[0].held().number(), 20);
+                    responder.reply(v1::FunctionReply());
+                  });
+  owner.at(1s, [&] {
+    v1::FunctionOffer offer;
+    offer.module_name("roads");
+    offer.owner("sim_svc");
+    offer.functions().resize(2);
+    offer.functions()[0].name("exact_alone");
+    offer.functions()[1].name("both");
+    offer.functions()[1].accuracies({v1::ACCURACY_EXACT, v1::ACCURACY_LOWER_BOUND});
+    offers.write(offer);
+  });
+  const auto ask = [&](const std::string& function) {
+    engine::FunctionCall call{"roads", function, {"a"}};
+    call.accuracy = temporal::FunctionAccuracy::lower_bound;
+    call.state = {{"(battery)", 20, "battery-20"}};
+    owners.ask({call}, {}, [](const std::vector<engine::FunctionValue>&) {});
+  };
+  planner.at(2s, [&] { ask("exact_alone"); });
+  planner.at(4s, [&] { ask("both"); });
+  owner.at(10s, [&] { owner.stop(); });
+  run.run();
+  EXPECT_EQ(asked["exact_alone"], v1::ACCURACY_EXACT);
+  EXPECT_EQ(asked["both"], v1::ACCURACY_LOWER_BOUND);
 }
 
 // Who offers more than there is room for is not asked; who was there before is, and may say something newer.

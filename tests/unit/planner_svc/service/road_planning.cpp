@@ -12,12 +12,12 @@ namespace topics = services::topics;
 using namespace std::chrono_literals;
 
 // A mission whose planner waits 20 s for values and takes 0.5 s for a call.
-std::string made_mission(int domain) {
+std::string made_mission(int domain, const std::string& functions) {
   const auto folder = std::filesystem::temp_directory_path() /
                       ("roci_roads_" + std::to_string(::getpid()) + "_" + std::to_string(domain));
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / "mission.yaml")
-      << "planner: {function_timeout_s: 20, simulated: {base_s: 0.5, per_evaluation_s: 0}}\n";
+  std::ofstream(folder / "mission.yaml") << "planner: {function_timeout_s: 20, functions: " << functions
+                                         << ", simulated: {base_s: 0.5, per_evaluation_s: 0}}\n";
   return folder;
 }
 
@@ -29,6 +29,7 @@ v1::FunctionOffer offer() {
   out.functions().resize(1);
   out.functions()[0].name("travel_time");
   out.functions()[0].parameter_types({"place", "place"});
+  out.functions()[0].accuracies({v1::ACCURACY_EXACT, v1::ACCURACY_LOWER_BOUND});
   return out;
 }
 
@@ -67,6 +68,7 @@ v1::FunctionReply ten_seconds(const v1::FunctionRequest& request, temporal::Time
   for (const v1::FunctionBatch& batch : request.batches()) {
     v1::FunctionValues values;
     values.function(batch.function());
+    values.accuracy(batch.accuracy());
     values.numbers().assign(batch.tuples().size() / batch.arity(), 10);
     values.outcomes().assign(batch.tuples().size() / batch.arity(), v1::FUNCTION_VALUE);
     out.results().push_back(values);
@@ -83,8 +85,8 @@ std::string steps_of(const v1::Plan& plan) {
   return out;
 }
 
-RoadPlanning::RoadPlanning(const RoadVendors& vendors, int domain, bool offered)
-    : mission_(made_mission(domain)),
+RoadPlanning::RoadPlanning(const RoadVendors& vendors, int domain, bool offered, const std::string& functions)
+    : mission_(made_mission(domain, functions)),
       run_({"client", "planner_svc", "roads_svc"}, domain),
       client_(run_.add("client", 1, vendors.client)),
       owner_(run_.add("roads_svc", 1, vendors.owner)),

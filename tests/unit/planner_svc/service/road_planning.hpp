@@ -34,7 +34,7 @@ extern const std::string kRoadDomain;
 std::string road_problem(const std::string& goal = "(at c)");
 v1::PlanRequest plan_request(const std::string& domain, const std::string& problem);
 
-// An answer of roads_svc, map version 7: ten seconds for every tuple.
+// An answer of roads_svc, map version 7: ten seconds for every tuple, in the accuracy that is asked for.
 v1::FunctionReply ten_seconds(const v1::FunctionRequest& request, temporal::Time now);
 
 // "go a c, …": what a plan does, in the order of its activities.
@@ -49,9 +49,10 @@ class RoadPlanning {
  public:
   using Answer = std::function<void(const v1::FunctionRequest&, services::Responder<v1::FunctionReply>)>;
 
-  // Under the simulated clock: "client" is its master; roads_svc offers module roads if `offered`.
+  // Under the simulated clock: "client" is its master; roads_svc offers module roads if `offered`, with lower
+  // bounds. `functions`: as in mission.yaml.
   explicit RoadPlanning(const RoadVendors& vendors = {}, int domain = services::next_domain(),
-                        bool offered = true);
+                        bool offered = true, const std::string& functions = "eager");
   ~RoadPlanning();
 
   // From now on the owner answers so.

@@ -1,16 +1,11 @@
 // roci-plan: what it prints where, and that it prints no plan that the validator refuses.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "planner_svc/temporal_pddl/cli/checked_result.hpp"
 #include "planner_svc/temporal_pddl/cli/gantt.hpp"
 #include "planner_svc/temporal_pddl/cli/progress_line.hpp"
+#include "tests/unit/planner_svc/temporal_pddl/cli/roci_plan_program.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
 
 namespace roci::planner::temporal_pddl::cli {
@@ -78,32 +73,14 @@ TEST(ProgressLine, TellsWhatItIsDoingAndFitsTheTerminal) {
   EXPECT_EQ(progress_text(progress, 1, 0, 20).size(), 20u);
 }
 
-class Program : public ::testing::Test {
+class Program : public testing::RociPlanProgram {
  protected:
   void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(::testing::TempDir()) / ("roci-plan-" + std::string(test->name()));
-    std::filesystem::create_directories(folder_);
+    RociPlanProgram::SetUp();
     write("domain", std::string("(define (domain d) ") + kDomain + ")");
     write("sound", std::string("(define (problem p) (:domain d) ") + kObjects + "(= (fuel) 3)" + kGoal + ")");
     write("without", std::string("(define (problem p) (:domain d) ") + kObjects + kGoal + ")");
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
-
-  std::string read(const std::string& name) {
-    std::ifstream file(folder_ / name);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
-  int run(const std::string& arguments) {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" ROCI_BINARY_DIR "/bin/roci-plan' " + arguments + " > out 2> err";
-    return WEXITSTATUS(std::system(command.c_str()));
-  }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(Program, ThePlanGoesToStandardOutputAndThePictureIntoItsFile) {
@@ -120,6 +97,28 @@ TEST_F(Program, WarningsGoToStandardErrorAndIntoTheJson) {
   EXPECT_THAT(read("err"), HasSubstr("\nunsolvable: (drive r ? b) reads (fuel), which has no value"));
   EXPECT_EQ(run("domain without --json"), 1);
   EXPECT_THAT(read("out"), HasSubstr("\"warnings\": [\n    \"without:1:1: warning: (fuel)"));
+}
+
+TEST_F(Program, AsksForExactValuesAsItsModeSays) {
+  write("ways",
+        "(define (domain w) (:requirements :typing :durative-actions) (:types place) (:predicates (at ?p - place))"
+        " (:modules (:module roads (:function (time ?a ?b - place)))) (:durative-action go :parameters (?a ?b - "
+        "place) :duration (= ?duration (time ?a ?b)) :condition (at start (at ?a)) :effect (and (at start (not (at "
+        "?a))) (at end (at ?b)))))");
+  write("trip", "(define (problem p) (:domain w) (:objects a b c - place) (:init (at a)) (:goal (at c)))");
+  std::string values;
+  for (const std::string from : {"a", "b", "c"})
+    for (const std::string to : {"a", "b", "c"})
+      values += "(time " + from + " " + to + ") 10\n(time " + from + " " + to + ") >= 6\n";
+  write("values", values);
+  EXPECT_EQ(run("ways trip --functions values --json"), 0);
+  EXPECT_THAT(read("out"), HasSubstr("\"exact_values\": 9"));
+  EXPECT_EQ(run("ways trip --functions values --functions-mode two-accuracy --json"), 0) << read("err");
+  EXPECT_THAT(read("out"), HasSubstr("\"cheap_values\": 9"));
+  EXPECT_THAT(read("out"), HasSubstr("\"exact_values\": 1,"));
+  EXPECT_THAT(read("out"), HasSubstr("\"duration\": 10.0"));
+  EXPECT_EQ(run("ways trip --functions values --functions-mode none"), 64);
+  EXPECT_THAT(read("err"), HasSubstr("two-accuracy"));
 }
 
 TEST_F(Program, AMemoryLimitIsSetWithoutAskingAndIsACleanVerdict) {

@@ -55,6 +55,16 @@ class ScenarioFile : public testing::Test {
   const std::string head_ = "duration_s: 100\nstart: {x: 1, y: 2, arm: stow, battery: 10}\n";
 };
 
+TEST_F(ScenarioFile, TheSurfaceOfTheScenarioStandsOverThatOfTheMission) {
+  std::string mission = kRover;
+  mission.replace(mission.find("  robots:"), 0, "  surface: {odd_per_hectare: 7, sun: {elevation_deg: 50}}\n");
+  const RunSetup run = load(head_ + "world: {surface: {odd_per_hectare: 3}, panorama_every_s: 60}\n", mission);
+  EXPECT_EQ(run.world.ground.surface.odd_per_hectare, 3);
+  EXPECT_EQ(run.world.ground.surface.sun.elevation_deg, 50);
+  EXPECT_THAT(error_of(head_ + "world: {panorama_every_s: 0.5}\n"), HasSubstr("must be at least 1, or 0 for none"));
+  EXPECT_THAT(error_of(head_ + "world: {width_px: 4}\n"), HasSubstr("must lie between"));
+}
+
 TEST_F(ScenarioFile, ReadsTheExpectedOrderOfEvents) {
   const Scenario s =
       load(head_ + "expect: [plan.adopted, goal.dropped: gap, hazard.seen+, plan.broken+: late]\n").scenario;

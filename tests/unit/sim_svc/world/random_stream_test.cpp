@@ -18,6 +18,16 @@ TEST(RandomStream, AnotherSeedOrNameGivesOthers) {
   EXPECT_NE(RandomStream(7, "drive").uniform(), RandomStream(7, "arm").uniform());
 }
 
+TEST(RandomStream, ABranchIsAStreamOfItsOwn) {
+  RandomStream stream(7, "camera");
+  RandomStream untouched(7, "camera");
+  const double first = stream.branch("pixels").uniform();
+  EXPECT_EQ(stream.uniform(), untouched.uniform()) << "a branch draws nothing from its stream";
+  EXPECT_EQ(stream.branch("pixels").uniform(), first) << "nor does the stream move its branches";
+  EXPECT_NE(stream.branch("others").uniform(), first);
+  EXPECT_NE(stream.branch("pixels").branch("image").uniform(), first);
+}
+
 TEST(RandomStream, UniformFillsTheUnitInterval) {
   RandomStream stream(1, "x");
   double sum = 0;

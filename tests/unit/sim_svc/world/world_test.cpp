@@ -3,13 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim_svc/components/preview.hpp"
 #include "tests/unit/sim_svc/world_fixture.hpp"
 
 namespace roci::sim::world {
 
-using components::kPreviewHeight;
-using components::kPreviewWidth;
 using services::owner::Stage;
 using temporal::seconds;
 using temporal::State;
@@ -321,7 +318,9 @@ TEST(World, AnImageIsStoredThenSentInTheWindow) {
   for (const Output& output : run.said) {
     if (const auto* image = std::get_if<Image>(&output)) {
       sent.push_back(image->sent);
-      EXPECT_EQ(image->preview.size(), static_cast<std::size_t>(kPreviewWidth) * kPreviewHeight);
+      EXPECT_EQ(std::string(image->preview.begin(), image->preview.begin() + 13), "P5\n96 64\n255\n");
+      EXPECT_EQ(image->preview.size(), 13u + 96 * 64);
+      EXPECT_EQ(image->kind, "image");
       EXPECT_GT(image->bytes, 1000000u);
       EXPECT_EQ(image->source, "i");
     }

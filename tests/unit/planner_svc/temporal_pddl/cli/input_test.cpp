@@ -1,14 +1,12 @@
 // The input side of roci-plan: each kind of file that departs from PDDL is planned for, with its warning on standard error
 // and nothing but the plan on standard output; what is refused ends with the code that says how.
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "tests/unit/planner_svc/temporal_pddl/cli/roci_plan_program.hpp"
+
+namespace roci::planner::temporal_pddl {
 namespace {
 
 using ::testing::AllOf;
@@ -18,36 +16,14 @@ using ::testing::Not;
 
 const std::string kFiles = ROCI_SOURCE_DIR "/tests/unit/planner_svc/temporal_pddl/cli/departures/";
 
-class RociPlanInput : public ::testing::Test {
+class RociPlanInput : public testing::RociPlanProgram {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(::testing::TempDir()) / ("roci-plan-" + std::string(test->name()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
-
-  std::string read(const std::string& name) {
-    std::ifstream file(folder_ / name);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
-  int run(const std::string& arguments) {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" ROCI_BINARY_DIR "/bin/roci-plan' " + arguments + " > out 2> err";
-    return WEXITSTATUS(std::system(command.c_str()));
-  }
-
   // Runs with the file of a departure in the place of its counterpart.
   int run_departure(const std::string& name, const std::string& options) {
     const bool in_domain = std::filesystem::exists(kFiles + name + "-domain.pddl");
     return run(kFiles + (in_domain ? name + "-domain.pddl " : "domain.pddl ") + kFiles +
                (in_domain ? "problem.pddl " : name + "-problem.pddl ") + options);
   }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(RociPlanInput, SaysNothingOfWhatIsRight) {
@@ -142,3 +118,4 @@ TEST_F(RociPlanInput, ParseOnlyEndsBeforePlanning) {
 }
 
 }  // namespace
+}  // namespace roci::planner::temporal_pddl
