@@ -44,7 +44,8 @@ v1::FunctionReply without_the_direct_road(const v1::FunctionRequest& request, te
 }
 
 TEST(PlannerSettings, TheMissionSaysWhatBetterPlansMayCost) {
-  const auto folder = std::filesystem::temp_directory_path() / ("roci_improvement_" + std::to_string(::getpid()));
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("roci_improvement_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   const auto read = [&](const std::string& budget) {
     std::ofstream(folder / "mission.yaml") << "planner: {budget: {" + budget + "}}\n";
