@@ -69,6 +69,7 @@ void AnsweringHost::take(const v1::PlanRequest& request,
   try {
     queue_.push_back({number, request.header().sender(), from_wire(request),
                       Duration(request.budget().wall_us()), responder});
+    queue_.back().request.improvement = settings_.improvement;
     queue_.back().request.functions = settings_.functions;
   } catch (const services::wire::WireError& error) {
     return responder.reply(to_wire(engine::without_plan(Verdict::invalid_input, error.what())));

@@ -1,5 +1,6 @@
 #include "planner_svc/settings.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -24,6 +25,15 @@ Settings read_settings(const std::filesystem::path& mission) {
   if (!planner) return out;
   out.engine = planner->text_or("engine", "");
   out.function_timeout = temporal::seconds(planner->number_or("function_timeout_s", 20));
+  if (const auto budget = planner->find("budget")) {
+    if (const auto improvement = budget->find("improvement")) {
+      const double evaluations = improvement->number();
+      if (!(evaluations >= 0) || evaluations > 1e12 || evaluations != std::floor(evaluations))
+        improvement->fail(
+            "'improvement' counts evaluations: write a whole number, 0 for the first plan as it is");
+      out.improvement = static_cast<std::uint64_t>(evaluations);
+    }
+  }
   if (const auto functions = planner->find("functions")) {
     const auto mode = engine::functions_mode_named(functions->text());
     if (!mode)

@@ -1,11 +1,13 @@
 // What a mission file says about its planner.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
 #include "core/temporal/duration.hpp"
 #include "planner_svc/engine/function_source.hpp"
+#include "planner_svc/engine/request.hpp"
 
 namespace roci::planner {
 
@@ -13,6 +15,8 @@ struct Settings {
   std::string engine;  ///< that the mission names; empty: none
   std::string model;   ///< text of the mission's model in that engine's language; empty: the mission has none
   temporal::Duration function_timeout = temporal::seconds(20);  ///< for one batch of values
+  /// Evaluations that a call may spend on better plans once it has one; see engine::Request.
+  std::uint64_t improvement = engine::kImprovement;
   /// Which values of external functions are asked for: `functions: eager`, `lazy` or `two_accuracy`.
   engine::FunctionsMode functions = engine::FunctionsMode::eager;
   /// Mission time that a call takes under the simulated clock.

@@ -126,7 +126,7 @@ PlannerSettings read_planner(const Entry& entry, const MissionModel& mission) {
   out.engine = entry.text_or("engine", out.engine);
   if (const auto service = entry.find("service")) out.service = read_timeline(*service, mission.role);
   if (const auto budget = entry.find("budget")) {
-    budget->allow_only({"work", "memory_mb", "wall_s"});
+    budget->allow_only({"work", "memory_mb", "wall_s", "improvement"});  // the last one is planner_svc's
     out.work = static_cast<std::uint64_t>(budget->number_or("work", 0));
     out.memory_mb = static_cast<std::uint32_t>(budget->number_or("memory_mb", 0));
     out.wall = seconds_or(*budget, "wall_s", 0);

@@ -66,6 +66,9 @@ struct RemainingAction {
 /// Values of timelines by their names.
 using Timelines = std::map<std::string, temporal::Value>;
 
+/// Is the budget for better plans of a mission that says none: some 60 ms in the missions at hand.
+inline constexpr std::uint64_t kImprovement = 1000;
+
 /// One planning problem. Of an engine that plans all the time it is what was heard so far: `origin` is then
 /// the time of the step, `state` the newest observations, and `goals` are those that are open.
 struct Request {
@@ -83,6 +86,9 @@ struct Request {
   std::uint64_t work = 0;                          ///< budget in evaluations; 0: no bound
   std::size_t memory_bytes = 0;                    ///< budget; 0: no bound
   FunctionsMode functions = FunctionsMode::eager;  ///< which values owners are asked for
+  /// Evaluations that may be spent on better plans once there is one, beside `work`; 0: none. It is the mission's and not on
+  /// the wire: whoever hosts the engine sets it.
+  std::uint64_t improvement = kImprovement;
 };
 
 /// What may end a call early. Both functions may be called from any thread, and as often as every

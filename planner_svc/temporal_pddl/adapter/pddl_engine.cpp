@@ -24,9 +24,6 @@ using temporal::Verdict;
 
 namespace {
 
-// Evaluations spent on better plans once there is one: some 60 ms in the missions at hand.
-constexpr std::size_t kImprovementEvaluations = 1000;
-
 std::vector<pddl::PlanStep> steps_of(const std::vector<RemainingAction>& remaining) {
   std::vector<pddl::PlanStep> out;
   out.reserve(remaining.size());
@@ -103,7 +100,7 @@ Answer plan_for(const Request& request, const Limits& limits, FunctionSource& fu
   Monitor monitor;
   monitor.cancelled = limits.cancelled;
   Options options;
-  options.improvement_evaluations = kImprovementEvaluations;
+  options.improvement_evaluations = request.improvement;
   options.functions = request.functions;
   const std::vector<NamedGoal> goals = named_goals(request.goals);
   Result result = temporal_pddl::plan(domain, problem, functions, budget, monitor, options, remaining, goals);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "planner_svc/temporal_pddl/constraints/orderings.hpp"
@@ -28,14 +29,18 @@ std::optional<GroundLiteral> broken_by_own_start(const GroundModel& model, const
 }
 
 // Of ascending atoms.
-bool intersect(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+bool intersect(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
   for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end(); *i < *j ? ++i : ++j)
     if (*i == *j) return true;
   return false;
 }
 
 ImpossibleAction note_of(const GroundAction& action) {
-  ImpossibleAction note{action.schema, action.arguments, action.start_effects.adds, {}, action.max_duration};
+  ImpossibleAction note{action.schema,
+                        {action.arguments.begin(), action.arguments.end()},
+                        {action.start_effects.adds.begin(), action.start_effects.adds.end()},
+                        {},
+                        action.max_duration};
   const auto& adds = action.end_effects.adds;
   note.adds.insert(note.adds.end(), adds.begin(), adds.end());
   return note;

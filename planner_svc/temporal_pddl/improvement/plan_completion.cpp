@@ -6,7 +6,6 @@
 
 namespace roci::planner::temporal_pddl::improvement {
 
-using constraints::kMaxSteps;
 using heuristics::CostMeasure;
 using search::Guide, search::NodeId, search::PlanPrefix, search::Rejection, search::Running,
     search::SearchContext;
@@ -99,7 +98,7 @@ bool PlanCompletion::advance(const PlanPrefix& prefix, SnapId snap) {
   if (guide_->detectors.prove_dead_end(successor_.state, successor_.prefix.running_actions, space_.steps()))
     return false;
   if (only_grows_ && worse(quality_of(task_, successor_.prefix, space_.check()), bound_)) return false;
-  if (successor_.prefix.steps.size() + 2 > kMaxSteps || dominance_.dominated(successor_)) return false;
+  if (is_too_long(successor_.prefix) || dominance_.dominated(successor_)) return false;
   space_.add(prefix.node, successor_);
   dominance_.insert(successor_.prefix.node, successor_.state, successor_.prefix);
   return true;

@@ -11,7 +11,6 @@
 
 namespace roci::planner::temporal_pddl::improvement {
 
-using constraints::kMaxSteps;
 using heuristics::CostMeasure, heuristics::Estimate;
 using search::Dominance, search::Evaluation, search::GoalTest, search::Guide, search::NodeId,
     search::PlanPrefix, search::RankedQueue, search::Rejection, search::SearchContext, search::StateSpace,
@@ -69,7 +68,7 @@ class WeightedAStar {
   bool take_up(NodeId parent) {
     PlanPrefix& prefix = successor_.prefix;
     const PlanQuality quality = quality_of(task_, prefix, space_.check());
-    if ((only_grows_ && quality >= known_) || prefix.steps.size() + 2 > kMaxSteps) return false;
+    if ((only_grows_ && quality >= known_) || is_too_long(prefix)) return false;
     if (dominance_.dominated(successor_)) return false;
     dominance_.insert(space_.add(parent, successor_), successor_.state, prefix);
     if (goal_.complete(successor_.state, prefix) && quality_of(task_, prefix, space_.check()) < known_)

@@ -8,7 +8,6 @@
 namespace roci::planner::temporal_pddl::search {
 
 using call::PlanningFailure;
-using constraints::kMaxSteps;
 using task::ActionCompression;
 using temporal::Verdict;
 
@@ -56,6 +55,10 @@ std::optional<SearchOutcome> BestFirstSearch::run(std::size_t evaluations, std::
     const Rejection rejection = space_.build(prefix_, entry->snap, successor_);
     if (rejection == Rejection::temporal) ++context_.statistics.temporally_inconsistent;
     if (rejection != Rejection::none) continue;
+    if (is_too_long(successor_.prefix)) {
+      too_long_ = true;
+      continue;
+    }
     if (guide_.detectors.prove_dead_end(successor_.state, successor_.prefix.running_actions,
                                         space_.steps())) {
       ++context_.statistics.dead_ends;
@@ -113,10 +116,6 @@ bool BestFirstSearch::look_ahead(bool careful) {
 // Evaluates the stored state in successor_ and queues what can follow. Returns whether it is a goal state.
 bool BestFirstSearch::take_up() {
   PlanPrefix& prefix = successor_.prefix;
-  if (prefix.steps.size() + 2 > kMaxSteps) {
-    too_long_ = true;
-    return false;
-  }
   if (dominate_) dominance_.insert(prefix.node, successor_.state, prefix);
   if (goal_.complete(successor_.state, prefix)) return true;
 

@@ -4,7 +4,6 @@
 
 namespace roci::planner::temporal_pddl::search {
 
-using constraints::kMaxSteps;
 using task::ActionCompression, task::ActionId, task::FactId, task::Goal, task::NumericCondition, task::SnapId,
     task::StateView;
 
@@ -89,7 +88,7 @@ bool BestFirstWidthSearch::expand(NodeId node) {
 // Queues the state in successor_ if it is new. Returns whether it is a goal state.
 bool BestFirstWidthSearch::reach(NodeId parent) {
   PlanPrefix& prefix = successor_.prefix;
-  if (prefix.steps.size() + 2 > kMaxSteps) return false;
+  if (is_too_long(prefix)) return false;
   account(1);
   if (goal_.complete(successor_.state, prefix)) {
     space_.add(parent, successor_);

@@ -6,7 +6,6 @@
 
 namespace roci::planner::temporal_pddl::search {
 
-using constraints::kMaxSteps;
 using task::Action, task::FactId, task::SnapId, task::SnapKind, task::StateView;
 
 bool Lookahead::follow(const PlanPrefix& from, std::span<const SnapId> relaxed_plan, bool careful,
@@ -76,12 +75,12 @@ void Lookahead::count_uses(SnapId start, int by) {
 }
 
 bool Lookahead::take(SnapId snap, Successor& last) {
-  if (prefix_.steps.size() + 2 > kMaxSteps) return false;
   if (failures_left_ == 0 || !space_.possible(prefix_, snap)) return false;
   if (space_.build(prefix_, snap, next_) != Rejection::none) {
     --failures_left_;
     return false;
   }
+  if (is_too_long(next_.prefix)) return false;
   space_.add(prefix_.node, next_);
   prefix_ = next_.prefix;
   std::swap(last, next_);

@@ -34,6 +34,11 @@ struct PlanPrefix {
   std::uint32_t timed_done = 0;  ///< counts the timed literals among the steps
 };
 
+/// Returns whether the plan has more than kMaxSteps steps together with the ends that what runs still needs (R30).
+inline bool is_too_long(const PlanPrefix& prefix) {
+  return prefix.steps.size() + prefix.running.size() > constraints::kMaxSteps;
+}
+
 /// Refills `prefix`, keeping its memory.
 void rebuild(const task::Task& task, const StateStore& store, const constraints::BoundTable& bounds,
              temporal::Duration epsilon, NodeId node, PlanPrefix& prefix);

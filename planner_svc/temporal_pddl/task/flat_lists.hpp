@@ -19,6 +19,14 @@ class FlatLists {
     begins_.push_back(static_cast<std::uint32_t>(items_.size()));
   }
 
+  /// Makes room for so many lists in all.
+  void reserve(std::size_t lists) { begins_.reserve(lists + 1); }
+  /// Gives back what room is left.
+  void shrink() {
+    items_.shrink_to_fit();
+    begins_.shrink_to_fit();
+  }
+
   std::span<const T> operator[](std::size_t list) const {
     return {items_.data() + begins_[list], items_.data() + begins_[list + 1]};
   }

@@ -49,6 +49,7 @@ class IdVector {
     items_.push_back(std::move(value));
     return IdType(items_.size() - 1);
   }
+  void reserve(std::size_t size) { items_.reserve(size); }
   void resize(std::size_t size, const T& value = T()) { items_.resize(size, value); }
   void assign(std::size_t size, const T& value) { items_.assign(size, value); }
   std::size_t size() const { return items_.size(); }

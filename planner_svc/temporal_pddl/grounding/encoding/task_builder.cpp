@@ -38,6 +38,7 @@ class Builder {
     number_facts();
     task_.expressions = model_.expressions;
     task_.metric = model_.metric;
+    reserve();
     for (std::size_t i = 0; i < model_.actions.size(); ++i) {
       add_action(model_.actions[i], compression[i]);
       limits.step();
@@ -49,15 +50,52 @@ class Builder {
            timed.time});
     }
     for (const auto& goal : model_.goal) {
-      task_.goals.push_back({facts_of(goal.literals), goal.comparisons});
+      task_.goals.push_back({facts_of(goal.literals), {goal.comparisons.begin(), goal.comparisons.end()}});
       task_.derived_goal_reads.push_back(derived_reads(goal));
     }
     add_rules();
     lay_out(groups);
+    for_each_snap_list([](auto& lists) { lists.shrink(); });
+    for_each_action_list([](auto& lists) { lists.shrink(); });
     return std::move(task_);
   }
 
  private:
+  template <typename Visit>
+  void for_each_snap_list(const Visit& visit) {
+    visit(task_.conditions);
+    visit(task_.comparisons);
+    visit(task_.adds);
+    visit(task_.deletes);
+    visit(task_.numeric_effects);
+    visit(task_.reads);
+    visit(task_.writes);
+    visit(task_.windows);
+  }
+
+  template <typename Visit>
+  void for_each_action_list(const Visit& visit) {
+    visit(task_.action_arguments);
+    visit(task_.invariants);
+    visit(task_.numeric_invariants);
+    visit(task_.invariant_reads);
+    visit(task_.span_windows);
+    visit(task_.duration_rules);
+    visit(task_.derived_invariant_reads);
+    visit(task_.absent_for_compression);
+  }
+
+  // There may be a million actions: growing by doubling would take up to twice as much.
+  void reserve() {
+    const std::size_t actions = model_.actions.size();
+    std::size_t snaps = actions + model_.timed.size() + model_.rules.size() + negations_.size();
+    for (const GroundAction& action : model_.actions) snaps += action.durative ? 1 : 0;
+    task_.actions.reserve(actions);
+    task_.snaps.reserve(snaps);
+    for_each_action_list([&](auto& lists) { lists.reserve(actions); });
+    for_each_snap_list([&](auto& lists) { lists.reserve(snaps); });
+  }
+
   void name_symbols(const std::vector<LiftedAction>& schemas) {
     for (std::size_t i = 0; i < symbols_.objects(); ++i) task_.objects.push_back(symbols_.name(ObjectId(i)));
     for (std::size_t i = 0; i < symbols_.predicates(); ++i)
@@ -122,8 +160,9 @@ class Builder {
 
   FactId fact(GroundLiteral literal) const { return facts_[literal_index(literal)]; }
 
-  std::vector<FactId> facts_of(const std::vector<GroundLiteral>& literals) const {
+  std::vector<FactId> facts_of(std::span<const GroundLiteral> literals) const {
     std::vector<FactId> result;
+    result.reserve(literals.size());
     for (const auto literal : literals) result.push_back(fact(literal));
     return result;
   }
@@ -196,7 +235,7 @@ class Builder {
     return task_.snaps.push_back(snap);
   }
 
-  std::vector<VariableId> reads(const Conjunction& conditions, const std::vector<NumericEffect>& effects,
+  std::vector<VariableId> reads(const Conjunction& conditions, std::span<const NumericEffect> effects,
                                 std::vector<VariableId> result) const {
     for (const auto literal : conditions.literals) add_reads(literal, result);
     for (const auto& comparison : conditions.comparisons) add_terms(comparison.expression, result);
@@ -229,7 +268,10 @@ class Builder {
   void add_rules() {
     std::vector<DerivationRule> rules;
     for (const auto& rule : model_.rules) {
-      rules.push_back({fact(rule.head), rule.layer, facts_of(rule.body.literals), rule.body.comparisons});
+      rules.push_back({fact(rule.head),
+                       rule.layer,
+                       facts_of(rule.body.literals),
+                       {rule.body.comparisons.begin(), rule.body.comparisons.end()}});
       add_derivation(rule);
     }
     for (const auto& rule : negations_) add_derivation(rule);

@@ -27,7 +27,7 @@ void normalise(GroundEffects& effects) {
   }
   effects.resets.clear();
   std::ranges::set_intersection(effects.deletes, effects.adds, std::back_inserter(effects.resets));
-  std::vector<std::uint32_t> deletes;
+  task::ShortList<std::uint32_t> deletes;
   std::ranges::set_difference(effects.deletes, effects.adds, std::back_inserter(deletes));
   effects.deletes = std::move(deletes);
 }
@@ -128,7 +128,8 @@ std::uint32_t ActionInstantiator::reads_beside(const Conjunction& at_start, cons
   std::vector<ReadVariable> result;
   std::ranges::copy_if(reads_, std::back_inserter(result), [&](const ReadVariable& read) {
     const auto& literals = (read.at_end ? at_end : at_start).literals;
-    return read.is_number || std::ranges::find(literals, read.index, &GroundLiteral::atom) == literals.end();
+    return read.is_number ||
+           std::ranges::none_of(literals, [&](GroundLiteral literal) { return literal.atom == read.index; });
   });
   if (result.empty()) return 0;
   if (result != lists.back()) lists.push_back(std::move(result));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "planner_svc/temporal_pddl/grounding/lifted/model_failure.hpp"
 
@@ -79,6 +80,8 @@ Disjunction FormulaGrounder::ground(const LiftedFormula& formula, Binding& bindi
   Disjunction result;
   const auto conjoin = [&](const LiftedFormula& part) {
     if (result.empty()) return;
+    const bool is_literal = part.kind == Kind::atom || part.kind == Kind::not_atom;
+    if (is_literal && result.size() == 1) return conjoin_atom(part, binding, result);
     const Disjunction more = ground(part, binding);
     if (!is_certain(more)) result = is_certain(result) ? more : both(result, more);
     if (result.size() > kMaxAlternatives) {
@@ -116,16 +119,40 @@ Disjunction FormulaGrounder::ground(const LiftedFormula& formula, Binding& bindi
   return result;
 }
 
-Disjunction FormulaGrounder::ground_atom(const LiftedFormula& formula, const Binding& binding) const {
+// Does what both(result, ground_atom(formula, binding)) would, in place.
+void FormulaGrounder::conjoin_atom(const LiftedFormula& formula, const Binding& binding,
+                                   Disjunction& result) const {
+  GroundLiteral literal;
+  const Truth truth = decide(formula, binding, literal);
+  if (truth == Truth::no) return result.clear();
+  if (truth == Truth::yes) return;
+  auto& literals = result.front().literals;
+  const auto place = std::ranges::lower_bound(literals, GroundLiteral{literal.atom, false});
+  if (place == literals.end() || place->atom != literal.atom) {
+    literals.insert(place, literal);
+  } else if (place->negated != literal.negated) {
+    result.clear();
+  }
+}
+
+FormulaGrounder::Truth FormulaGrounder::decide(const LiftedFormula& formula, const Binding& binding,
+                                               GroundLiteral& literal) const {
   const bool positive = formula.kind == Kind::atom;
   const auto atom = reached_atom(formula.atom, binding);
-  if (!atom) return positive ? Disjunction{} : always();
+  if (!atom) return positive ? Truth::no : Truth::yes;
   const PredicateId predicate = formula.atom.predicate;
   const auto objects = reachability_.atoms.objects(*atom);
-  if (static_model_.holds_initially(predicate, objects) && !touched_.find(predicate.value, objects)) {
-    return positive ? always() : Disjunction{};
-  }
-  return {Conjunction{{{*atom, !positive}}, {}}};
+  if (static_model_.holds_initially(predicate, objects) && !touched_.find(predicate.value, objects))
+    return positive ? Truth::yes : Truth::no;
+  literal = {*atom, !positive};
+  return Truth::open;
+}
+
+Disjunction FormulaGrounder::ground_atom(const LiftedFormula& formula, const Binding& binding) const {
+  GroundLiteral literal;
+  const Truth truth = decide(formula, binding, literal);
+  if (truth == Truth::open) return {Conjunction{{literal}, {}}};
+  return truth == Truth::yes ? always() : Disjunction{};
 }
 
 void FormulaGrounder::read(const LiftedFormula& formula, Binding& binding, bool at_end,
@@ -194,7 +221,40 @@ Disjunction FormulaGrounder::ground_comparison(const LiftedFormula& formula, con
 
 std::optional<LinearExpression> FormulaGrounder::linear(const LiftedExpression& expression,
                                                         const Binding& binding) {
+  std::vector<NumberId> cancelled;
+  auto result = linear_form(expression, binding, cancelled);
+  if (!result) return result;
+  for (const NumberId number : cancelled) {
+    const auto place = std::ranges::lower_bound(result->terms, number, {}, &LinearExpression::Term::variable);
+    const bool stands = place != result->terms.end() && place->variable == number;
+    if (!stands && !begins_with_value(number)) result->terms.insert(place, {number, 0});
+  }
+  return result;
+}
+
+bool FormulaGrounder::begins_with_value(NumberId number) {
+  const lifted::Symbols& symbols = static_model_.symbols();
+  if (!valued_) {
+    valued_.emplace();
+    for (const auto& value : problem_.values) {
+      std::vector<ObjectId> objects;
+      for (const auto& term : value.fluent.arguments) objects.push_back(symbols.object(term.name));
+      valued_->intern(symbols.function(value.fluent.symbol).value, objects);
+    }
+    if (const auto total_cost = symbols.total_cost()) valued_->intern(total_cost->value, {});
+  }
+  return valued_->find(numbers_.symbol(number.value), numbers_.objects(number.value)).has_value();
+}
+
+std::optional<LinearExpression> FormulaGrounder::linear_form(const LiftedExpression& expression,
+                                                             const Binding& binding,
+                                                             std::vector<NumberId>& cancelled) {
   LinearExpression result;
+  const auto note_cancelled = [&](const LinearExpression& part) {
+    for (const auto& term : part.terms)
+      if (std::ranges::count(result.terms, term.variable, &LinearExpression::Term::variable) == 0)
+        cancelled.push_back(term.variable);
+  };
   switch (expression.kind) {
     case LiftedExpression::Kind::number:
       result.constant = expression.number;
@@ -216,8 +276,9 @@ std::optional<LinearExpression> FormulaGrounder::linear(const LiftedExpression& 
       break;
   }
   for (std::size_t i = 0; i < expression.operands.size(); ++i) {
-    const auto operand = linear(expression.operands[i], binding);
+    const auto operand = linear_form(expression.operands[i], binding, cancelled);
     if (!operand) return std::nullopt;
+    const LinearExpression before = std::move(result);
     if (i == 0) {
       const bool negation =
           expression.op == pddl::ArithmeticOperator::subtract && expression.operands.size() == 1;
@@ -226,18 +287,18 @@ std::optional<LinearExpression> FormulaGrounder::linear(const LiftedExpression& 
     }
     switch (expression.op) {
       case pddl::ArithmeticOperator::add:
-        result = sum(result, *operand);
+        result = sum(before, *operand);
         break;
       case pddl::ArithmeticOperator::subtract:
-        result = sum(result, scaled(*operand, -1));
+        result = sum(before, scaled(*operand, -1));
         break;
       case pddl::ArithmeticOperator::multiply:
-        if (!result.is_constant() && !operand->is_constant()) {
+        if (!before.is_constant() && !operand->is_constant()) {
           fail(expression.where, "a product of numbers that change is not linear",
                "make one factor a constant");
         }
         result =
-            operand->is_constant() ? scaled(result, operand->constant) : scaled(*operand, result.constant);
+            operand->is_constant() ? scaled(before, operand->constant) : scaled(*operand, before.constant);
         break;
       case pddl::ArithmeticOperator::divide:
         if (!operand->is_constant()) {
@@ -246,12 +307,15 @@ std::optional<LinearExpression> FormulaGrounder::linear(const LiftedExpression& 
         }
         if (operand->constant == 0) return std::nullopt;
         {
-          const double quotient = result.constant / operand->constant;
-          result = scaled(result, 1 / operand->constant);
+          const double quotient = before.constant / operand->constant;
+          result = scaled(before, 1 / operand->constant);
           result.constant = quotient;
         }
         break;
     }
+    if (result.terms.size() == before.terms.size() + operand->terms.size()) continue;
+    note_cancelled(before);
+    note_cancelled(*operand);
   }
   if (!std::isfinite(result.constant)) return std::nullopt;
   return result;
@@ -268,7 +332,7 @@ std::optional<std::uint32_t> FormulaGrounder::known_atom(const LiftedAtom& atom,
   return reachability_.atoms.find(atom.predicate.value, objects_of(atom.arguments, binding));
 }
 
-NumberId FormulaGrounder::number(FunctionId function, const std::vector<ObjectId>& objects) {
+NumberId FormulaGrounder::number(FunctionId function, std::span<const ObjectId> objects) {
   return NumberId(numbers_.intern(function.value, objects));
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,12 +23,13 @@ class FormulaGrounder {
   /// true for ever; what is not reached is false for ever.
   FormulaGrounder(const lifted::StaticModel& static_model, const reachability::Reachability& reachability,
                   const lifted::TupleTable& touched, lifted::TupleTable& numbers,
-                  task::ExpressionPool& expressions, const std::string& file)
+                  task::ExpressionPool& expressions, const pddl::Problem& problem, const std::string& file)
       : static_model_(static_model),
         reachability_(reachability),
         touched_(touched),
         numbers_(numbers),
         expressions_(expressions),
+        problem_(problem),
         file_(file) {}
 
   /// Grounds the formula. Throws ModelFailure (unsupported) for more than kMaxAlternatives, and for products
@@ -39,7 +41,9 @@ class FormulaGrounder {
   void read(const lifted::LiftedFormula& formula, lifted::Binding& binding, bool at_end,
             std::vector<ReadVariable>& result);
 
-  /// Returns the expression in linear form, or nothing if a constant in it is undefined or it divides by 0.
+  /// Returns the expression in linear form, or nothing if a constant in it is undefined or it divides by 0. A number that
+  /// cancels, as in (- (f) (f)), is read all the same: if it has no initial value it stands there with weight 0, until
+  /// simplification/defined_numbers.hpp has seen it.
   std::optional<task::LinearExpression> linear(const lifted::LiftedExpression& expression,
                                                const lifted::Binding& binding);
 
@@ -49,7 +53,7 @@ class FormulaGrounder {
   /// it.
   std::optional<std::uint32_t> known_atom(const lifted::LiftedAtom& atom,
                                           const lifted::Binding& binding) const;
-  task::NumberId number(task::FunctionId function, const std::vector<task::ObjectId>& objects);
+  task::NumberId number(task::FunctionId function, std::span<const task::ObjectId> objects);
   task::ExpressionId intern(const task::LinearExpression& expression) {
     return expressions_.intern(expression);
   }
@@ -60,6 +64,16 @@ class FormulaGrounder {
   const lifted::StaticModel& static_model() const { return static_model_; }
 
  private:
+  // What an atom, or its negation, is found to be: false, true, or a literal that may be either.
+  enum class Truth { no, yes, open };
+  Truth decide(const lifted::LiftedFormula& formula, const lifted::Binding& binding,
+               GroundLiteral& literal) const;
+  void conjoin_atom(const lifted::LiftedFormula& formula, const lifted::Binding& binding,
+                    Disjunction& result) const;
+  std::optional<task::LinearExpression> linear_form(const lifted::LiftedExpression& expression,
+                                                    const lifted::Binding& binding,
+                                                    std::vector<task::NumberId>& cancelled);
+  bool begins_with_value(task::NumberId number);
   Disjunction ground_atom(const lifted::LiftedFormula& formula, const lifted::Binding& binding) const;
   void read(const lifted::LiftedExpression& expression, const lifted::Binding& binding, bool at_end,
             std::vector<ReadVariable>& result);
@@ -70,7 +84,9 @@ class FormulaGrounder {
   const lifted::TupleTable& touched_;
   lifted::TupleTable& numbers_;
   task::ExpressionPool& expressions_;
+  const pddl::Problem& problem_;
   const std::string& file_;
+  std::optional<lifted::TupleTable> valued_;  // numbers with an initial value; made when it is asked for
 };
 
 /// Returns whether it may be that not all parts of the formula that can change are in all alternatives.

@@ -11,21 +11,32 @@
 
 #include "planner_svc/temporal_pddl/grounding/lifted/tuple_table.hpp"
 #include "planner_svc/temporal_pddl/task/numbers.hpp"
+#include "planner_svc/temporal_pddl/task/short_list.hpp"
 #include "planner_svc/temporal_pddl/task/task.hpp"
 
 namespace roci::planner::temporal_pddl::grounding::instantiation {
 
 /// Is an atom or its negation.
 struct GroundLiteral {
-  std::uint32_t atom = 0;
-  bool negated = false;
-  auto operator<=>(const GroundLiteral&) const = default;
+  GroundLiteral() = default;
+  constexpr GroundLiteral(std::uint32_t of, bool is_negated) : atom(of & 0x7fffffffu), negated(is_negated) {}
+
+  std::uint32_t atom : 31 = 0;
+  bool negated : 1 = false;
+
+  /// Orders by atom; a negation follows its atom.
+  constexpr std::strong_ordering operator<=>(const GroundLiteral& other) const {
+    return (2 * std::uint64_t{atom} + negated) <=> (2 * std::uint64_t{other.atom} + other.negated);
+  }
+  constexpr bool operator==(const GroundLiteral& other) const {
+    return atom == other.atom && negated == other.negated;
+  }
 };
 
 /// Is a conjunction, all of which must hold. Both lists are sorted and without duplicates.
 struct Conjunction {
-  std::vector<GroundLiteral> literals;
-  std::vector<task::NumericCondition> comparisons;
+  task::ShortList<GroundLiteral> literals;
+  task::RareList<task::NumericCondition> comparisons;
 
   bool empty() const { return literals.empty() && comparisons.empty(); }
   auto operator<=>(const Conjunction&) const = default;
@@ -47,10 +58,10 @@ struct ReadVariable {
 
 /// Holds what happens at one end of an action or at a timed literal.
 struct GroundEffects {
-  std::vector<std::uint32_t> adds, deletes;  ///< atoms, sorted; no atom is in both
-  std::vector<task::NumericEffect> numeric;
+  task::ShortList<std::uint32_t> adds, deletes;  ///< atoms, sorted; no atom is in both
+  task::RareList<task::NumericEffect> numeric;
   /// Holds those of `adds` that are also deleted, which is seen by what happens at that moment.
-  std::vector<std::uint32_t> resets;
+  task::RareList<std::uint32_t> resets;
   auto operator<=>(const GroundEffects&) const = default;
 };
 
@@ -60,19 +71,23 @@ struct ActionWindows {
   task::TimeWindows start = task::any_time(), end = task::any_time(), span = task::any_time();
 };
 
-/// Is an action instance with one choice among the alternatives of its conditions.
+/// Is an action instance with one choice among the alternatives of its conditions. There may be a million of them: an
+/// action of a few conditions and effects takes this struct and nothing on the heap.
 struct GroundAction {
   task::SchemaId schema;
-  std::vector<task::ObjectId> arguments;
-  bool durative = true;
   std::uint32_t read_sets = 0;  ///< the index of a list of GroundModel::read_sets
+  task::ShortList<task::ObjectId> arguments;
   temporal::Duration min_duration{0};
   temporal::Duration max_duration = temporal::no_bound;
-  std::vector<task::DurationRule> duration_rules;
+  task::RareList<task::DurationRule> duration_rules;
   Conjunction at_start, over_all, at_end;
   GroundEffects start_effects, end_effects;
   std::shared_ptr<const ActionWindows> windows;  ///< is null where any time will do
+  bool durative = true;
 };
+
+/// Returns what the lists of an action take besides the action itself.
+std::size_t heap_bytes(const GroundAction& action);
 
 /// Is a rule: wherever the body holds, so does the head, a derived atom.
 struct GroundRule {

@@ -16,8 +16,8 @@ using lifted::Binding, lifted::LiftedAction, lifted::LiftedEffect, lifted::Lifte
     lifted::LiftedFormula, lifted::StaticModel, lifted::TupleTable, lifted::for_each_value,
     lifted::objects_of;
 using reachability::Reachability;
-using task::IdVector, task::LinearExpression, task::NumberId, task::NumericCondition, task::NumericEffect,
-    task::ObjectId, task::PredicateId, task::SchemaId;
+using task::IdVector, task::LinearExpression, task::NumberId, task::ObjectId, task::PredicateId,
+    task::SchemaId;
 using temporal::Duration;
 
 namespace {
@@ -179,19 +179,12 @@ void set_initial(const pddl::Problem& problem, const StaticModel& static_model,
 }
 
 std::size_t bytes_of(const Conjunction& conjunction) {
-  return conjunction.literals.capacity() * sizeof(GroundLiteral) +
-         conjunction.comparisons.capacity() * sizeof(NumericCondition);
+  return conjunction.literals.heap_bytes() + conjunction.comparisons.heap_bytes();
 }
 
 std::size_t bytes_of(const GroundEffects& effects) {
-  return (effects.adds.capacity() + effects.deletes.capacity()) * sizeof(std::uint32_t) +
-         effects.numeric.capacity() * sizeof(NumericEffect);
-}
-
-std::size_t bytes_of(const GroundAction& action) {
-  return action.arguments.capacity() * sizeof(ObjectId) + bytes_of(action.at_start) +
-         bytes_of(action.over_all) + bytes_of(action.at_end) + bytes_of(action.start_effects) +
-         bytes_of(action.end_effects);
+  return effects.adds.heap_bytes() + effects.deletes.heap_bytes() + effects.numeric.heap_bytes() +
+         effects.resets.heap_bytes();
 }
 
 // Returns how many actions there are without alternatives, which make more of them.
@@ -205,12 +198,18 @@ std::size_t planned_actions(const std::vector<LiftedAction>& actions, const Reac
 
 }  // namespace
 
+std::size_t heap_bytes(const GroundAction& action) {
+  return action.arguments.heap_bytes() + action.duration_rules.heap_bytes() + bytes_of(action.at_start) +
+         bytes_of(action.over_all) + bytes_of(action.at_end) + bytes_of(action.start_effects) +
+         bytes_of(action.end_effects);
+}
+
 GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem,
                         const std::vector<LiftedAction>& actions, const StaticModel& static_model,
                         Reachability reachability, SearchLimits& limits) {
   GroundModel model;
   const TupleTable touched = touched_atoms(actions, static_model, reachability);
-  FormulaGrounder formulas(static_model, reachability, touched, model.numbers, model.expressions,
+  FormulaGrounder formulas(static_model, reachability, touched, model.numbers, model.expressions, problem,
                            domain.file);
   ActionInstantiator instantiator(formulas);
   std::size_t counted = 0, lists = 0;
@@ -231,11 +230,12 @@ GroundModel instantiate(const pddl::Domain& domain, const pddl::Problem& problem
       }
       for (; lists < model.read_sets.size(); ++lists)
         bytes += model.read_sets[lists].capacity() * sizeof(ReadVariable);
-      for (; counted < model.actions.size(); ++counted) bytes += bytes_of(model.actions[counted]);
+      for (; counted < model.actions.size(); ++counted) bytes += heap_bytes(model.actions[counted]);
       limits.memory(bytes + instances.bytes() + model.actions.capacity() * sizeof(GroundAction));
     }
   }
-  FormulaGrounder goals(static_model, reachability, touched, model.numbers, model.expressions, problem.file);
+  FormulaGrounder goals(static_model, reachability, touched, model.numbers, model.expressions, problem,
+                        problem.file);
   ground_goal(problem, goals, model);
   if (problem.metric) ground_metric(*problem.metric, goals, problem.file, model);
   add_timed(problem, static_model, reachability, formulas, model);

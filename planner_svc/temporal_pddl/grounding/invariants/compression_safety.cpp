@@ -4,6 +4,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "planner_svc/temporal_pddl/grounding/simplification/relaxed_pruning.hpp"
 
@@ -20,7 +21,7 @@ namespace {
 
 using Groups = std::vector<std::uint32_t>;  // ascending indices of mutex groups
 
-bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t value) {
+bool contains(std::span<const std::uint32_t> sorted, std::uint32_t value) {
   return std::ranges::binary_search(sorted, value);
 }
 
@@ -115,7 +116,7 @@ class Analysis {
     bool redundantly_deleted = false;
   };
 
-  Groups needs(const std::vector<GroundLiteral>& literals) const {
+  Groups needs(std::span<const GroundLiteral> literals) const {
     Groups result;
     for (const auto literal : literals) {
       if (!literal.negated) result = united(result, groups_of_[literal.atom]);
@@ -176,7 +177,7 @@ class Analysis {
   }
 
   void touch_by_snap(std::size_t index, const GroundEffects& effects, const Groups& needed,
-                     const std::vector<GroundLiteral>& literals) {
+                     std::span<const GroundLiteral> literals) {
     for (const std::uint32_t atom : effects.adds) {
       atoms_[atom].by(index, needed);
       adders_[atom].by(index, needed);

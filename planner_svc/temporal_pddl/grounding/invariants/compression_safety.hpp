@@ -36,7 +36,7 @@ namespace roci::planner::temporal_pddl::grounding::invariants {
 /// Says whether an action is compression safe, and under what condition.
 struct Compression {
   bool safe = false;
-  std::vector<std::uint32_t> absent;  ///< the atoms that must be false before the start
+  task::ShortList<std::uint32_t> absent;  ///< the atoms that must be false before the start
 };
 
 /// Finds compression safety for each action, after prune() and drop_irrelevant_effects().

@@ -132,10 +132,11 @@ std::optional<double> StaticModel::constant_value(const LiftedExpression& expres
   return std::nullopt;
 }
 
-std::vector<ObjectId> objects_of(const std::vector<Argument>& arguments, const Binding& binding) {
-  std::vector<ObjectId> result;
+Objects objects_of(const std::vector<Argument>& arguments, const Binding& binding) {
+  Objects result;
   result.reserve(arguments.size());
-  for (const Argument argument : arguments) result.push_back(resolve(argument, binding));
+  result.set_size(arguments.size());
+  for (std::size_t i = 0; i < arguments.size(); ++i) result[i] = resolve(arguments[i], binding);
   return result;
 }
 

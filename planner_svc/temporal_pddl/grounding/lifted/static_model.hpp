@@ -9,6 +9,7 @@
 #include "planner_svc/temporal_pddl/grounding/lifted/lifted.hpp"
 #include "planner_svc/temporal_pddl/grounding/lifted/symbols.hpp"
 #include "planner_svc/temporal_pddl/grounding/lifted/tuple_table.hpp"
+#include "planner_svc/temporal_pddl/task/short_list.hpp"
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
@@ -54,8 +55,11 @@ class StaticModel {
   std::vector<TimedAtom> timed_;
 };
 
+/// Holds the objects of an atom; those of most atoms without the heap.
+using Objects = task::ShortList<task::ObjectId, 8>;
+
 /// Returns the objects of the atom under a binding.
-std::vector<task::ObjectId> objects_of(const std::vector<Argument>& arguments, const Binding& binding);
+Objects objects_of(const std::vector<Argument>& arguments, const Binding& binding);
 
 /// Calls visit() for every value of the slots, from `first` on, leaving `binding` as it was.
 template <typename Visit>

@@ -9,12 +9,13 @@ namespace roci::planner::temporal_pddl::grounding::simplification {
 using instantiation::Conjunction, instantiation::GroundAction, instantiation::GroundEffects,
     instantiation::GroundLiteral, instantiation::GroundModel;
 using lifted::Symbols;
-using task::ExpressionId, task::FunctionId, task::NumberId, task::ObjectId, task::PredicateId;
+using task::ExpressionId, task::FunctionId, task::LinearExpression, task::NumberId, task::ObjectId,
+    task::PredicateId;
 
 namespace {
 
-template <typename T>
-void insert(std::vector<T>& sorted, const T& value) {
+template <typename List>
+void insert(List& sorted, const typename List::value_type& value) {
   const auto place = std::ranges::lower_bound(sorted, value);
   if (place == sorted.end() || *place != value) sorted.insert(place, value);
 }
@@ -33,6 +34,7 @@ class DefinedNumbers {
       give(action.end_effects);
     }
     for (auto& timed : model_.timed) give(timed.effects);
+    drop_cancelled();
     return std::move(result_);
   }
 
@@ -87,6 +89,36 @@ class DefinedNumbers {
         model_.atoms.intern(place->second.value, std::vector<ObjectId>(objects.begin(), objects.end()));
     model_.derived.resize(model_.atoms.size(), false);
     return result;
+  }
+
+  // Numbers that cancel were asked for, and have done their part.
+  void drop_cancelled() {
+    const auto is_cancelled = [](const LinearExpression::Term& term) { return term.weight == 0; };
+    std::erase_if(model_.metric.expression.terms, is_cancelled);
+    std::map<ExpressionId, ExpressionId> without;
+    for (std::size_t i = 0; i < model_.expressions.size(); ++i) {
+      LinearExpression expression = model_.expressions[ExpressionId(i)];
+      if (std::erase_if(expression.terms, is_cancelled) > 0)
+        without.emplace(ExpressionId(i), model_.expressions.intern(expression));
+    }
+    if (without.empty()) return;
+    const auto replace = [&](ExpressionId& expression) {
+      if (const auto found = without.find(expression); found != without.end()) expression = found->second;
+    };
+    const auto replace_in = [&](Conjunction& conjunction) {
+      for (auto& comparison : conjunction.comparisons) replace(comparison.expression);
+      std::ranges::sort(conjunction.comparisons);
+      const auto again = std::unique(conjunction.comparisons.begin(), conjunction.comparisons.end());
+      conjunction.comparisons.erase(again, conjunction.comparisons.end());
+    };
+    for (GroundAction& action : model_.actions) {
+      for (auto* conjunction : {&action.at_start, &action.over_all, &action.at_end}) replace_in(*conjunction);
+      for (auto* effects : {&action.start_effects, &action.end_effects})
+        for (auto& effect : effects->numeric) replace(effect.expression);
+      for (auto& rule : action.duration_rules) replace(rule.bound);
+    }
+    for (auto& rule : model_.rules) replace_in(rule.body);
+    for (Conjunction& goal : model_.goal) replace_in(goal);
   }
 
   void give(GroundEffects& effects) {

@@ -17,12 +17,12 @@ using temporal::Duration;
 
 namespace {
 
-bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t value) {
+bool contains(std::span<const std::uint32_t> sorted, std::uint32_t value) {
   return std::ranges::binary_search(sorted, value);
 }
 
-template <typename T>
-void insert(std::vector<T>& sorted, const T& value) {
+template <typename List>
+void insert(List& sorted, const typename List::value_type& value) {
   sorted.insert(std::ranges::lower_bound(sorted, value), value);
 }
 
@@ -112,7 +112,7 @@ void split_envelopes_by_duration(GroundModel& model, Symbols& symbols) {
   LongEnough long_enough(model, symbols);
   std::map<std::pair<std::uint32_t, Duration>, std::uint32_t> wanted;
   for (GroundAction& action : model.actions) {
-    const std::vector<GroundLiteral> invariants = action.over_all.literals;
+    const auto invariants = action.over_all.literals;
     for (const GroundLiteral literal : invariants) {
       const auto at_least = envelopes.at_least(action, literal);
       if (!at_least) continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 
 namespace roci::planner::temporal_pddl::grounding::simplification {
 
@@ -60,7 +61,7 @@ class RelaxedReach {
   }
 
   // Literals that are queued still count as missing until they are taken.
-  void await(std::uint32_t snap, const std::vector<GroundLiteral>& literals, std::uint32_t more) {
+  void await(std::uint32_t snap, std::span<const GroundLiteral> literals, std::uint32_t more) {
     missing_[snap] = static_cast<std::uint32_t>(literals.size()) + more;
     for (const auto literal : literals) waiting_[literal_index(literal)].push_back(snap);
     if (missing_[snap] == 0) happen(snap);
@@ -120,7 +121,7 @@ void keep(std::vector<T>& list, const Predicate& wanted) {
 }  // namespace
 
 std::vector<GroundLiteral> start_requirements(const GroundModel& model, const GroundAction& action) {
-  std::vector<GroundLiteral> result = action.at_start.literals;
+  std::vector<GroundLiteral> result(action.at_start.literals.begin(), action.at_start.literals.end());
   for (const auto literal : action.over_all.literals) {
     if (!model.derived[literal.atom] && !achieves(action.start_effects, literal)) result.push_back(literal);
   }
@@ -144,11 +145,10 @@ std::vector<bool> prune(GroundModel& model, SearchLimits& limits) {
     const auto certain = [&](GroundLiteral literal) {
       return !reached[literal_index({literal.atom, !literal.negated})];
     };
-    const auto drop_certain = [&](Conjunction& conjunction) { std::erase_if(conjunction.literals, certain); };
+    const auto drop_certain = [&](Conjunction& conjunction) { erase_if(conjunction.literals, certain); };
     const auto drop_untouched = [&](Conjunction& conjunction) {
-      std::erase_if(conjunction.literals, [&](GroundLiteral literal) {
-        return certain(literal) && !brought[literal_index(literal)];
-      });
+      erase_if(conjunction.literals,
+               [&](GroundLiteral literal) { return certain(literal) && !brought[literal_index(literal)]; });
     };
     for (auto& action : model.actions) {
       drop_certain(action.over_all);

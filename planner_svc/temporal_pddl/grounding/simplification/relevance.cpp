@@ -115,20 +115,19 @@ void drop_irrelevant_effects(GroundModel& model) {
   }
   for_each_effects(model, [&](GroundEffects& effects) {
     for (const std::uint32_t atom : effects.adds) added[atom] = true;
-    for (const auto* list : {&effects.deletes, &effects.resets}) {
-      for (const std::uint32_t atom : *list) deleted[atom] = true;
-    }
+    for (const std::uint32_t atom : effects.deletes) deleted[atom] = true;
+    for (const std::uint32_t atom : effects.resets) deleted[atom] = true;
   });
   const std::vector<bool> relevant = relevant_numbers(model);
   const auto irrelevant_atom = [&](std::uint32_t atom) {
     return !read[atom] && !(added[atom] && deleted[atom]);
   };
   for_each_effects(model, [&](GroundEffects& effects) {
-    std::erase_if(effects.adds, irrelevant_atom);
-    std::erase_if(effects.deletes, irrelevant_atom);
-    std::erase_if(effects.resets, irrelevant_atom);
-    std::erase_if(effects.numeric,
-                  [&](const NumericEffect& effect) { return !relevant[effect.variable.index()]; });
+    erase_if(effects.adds, irrelevant_atom);
+    erase_if(effects.deletes, irrelevant_atom);
+    erase_if(effects.resets, irrelevant_atom);
+    erase_if(effects.numeric,
+             [&](const NumericEffect& effect) { return !relevant[effect.variable.index()]; });
   });
   std::erase_if(model.timed, [](const TimedChange& timed) {
     return timed.effects.adds.empty() && timed.effects.deletes.empty() && timed.effects.numeric.empty();

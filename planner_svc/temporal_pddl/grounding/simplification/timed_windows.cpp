@@ -61,8 +61,8 @@ class Extraction {
     });
     const auto extracted = [&](std::uint32_t atom) { return windows_.contains(atom); };
     for (auto& timed : model_.timed) {
-      std::erase_if(timed.effects.adds, extracted);
-      std::erase_if(timed.effects.deletes, extracted);
+      erase_if(timed.effects.adds, extracted);
+      erase_if(timed.effects.deletes, extracted);
     }
     std::erase_if(model_.timed, [](const TimedChange& timed) {
       return timed.effects.adds.empty() && timed.effects.deletes.empty() && timed.effects.numeric.empty();
@@ -112,7 +112,7 @@ class Extraction {
   // with a margin at both ends.
   TimeWindows take(Conjunction& conjunction, Duration margin) const {
     TimeWindows result = any_time();
-    std::erase_if(conjunction.literals, [&](GroundLiteral literal) {
+    erase_if(conjunction.literals, [&](GroundLiteral literal) {
       const auto found = windows_.find(literal.atom);
       if (found == windows_.end()) return false;
       result = intersection(result, shrunk(found->second, margin, margin));
@@ -125,7 +125,11 @@ class Extraction {
     if (!action.windows) return;
     const auto& span = action.windows->span;
     if (span.empty() || !shrunk(span, Duration{0}, action.min_duration).empty()) return;
-    WindowMisfit note{action.schema, action.arguments, action.start_effects.adds, action.min_duration, {}};
+    WindowMisfit note{action.schema,
+                      {action.arguments.begin(), action.arguments.end()},
+                      {action.start_effects.adds.begin(), action.start_effects.adds.end()},
+                      action.min_duration,
+                      {}};
     const auto& adds = action.end_effects.adds;
     note.adds.insert(note.adds.end(), adds.begin(), adds.end());
     for (const TimeWindow& window : span) note.window = std::max(note.window, window.close - window.open);

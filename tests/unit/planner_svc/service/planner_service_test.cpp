@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <sstream>
 
+#include "planner_svc/settings.hpp"
 #include "tests/unit/planner_svc/service/road_planning.hpp"
 
 namespace roci::planner {
@@ -39,6 +41,22 @@ v1::FunctionReply without_the_direct_road(const v1::FunctionRequest& request, te
   v1::FunctionReply reply = ten_seconds(request, now);
   reply.results()[0].outcomes()[2] = v1::FUNCTION_UNREACHABLE;  // a c
   return reply;
+}
+
+TEST(PlannerSettings, TheMissionSaysWhatBetterPlansMayCost) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("roci_improvement_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const auto read = [&](const std::string& budget) {
+    std::ofstream(folder / "mission.yaml") << "planner: {budget: {" + budget + "}}\n";
+    return read_settings(folder).improvement;
+  };
+  EXPECT_EQ(read("work: 4000"), engine::kImprovement);
+  EXPECT_EQ(read("work: 4000, improvement: 0"), 0U);
+  EXPECT_EQ(read("improvement: 250"), 250U);
+  EXPECT_ANY_THROW(read("improvement: -1"));
+  EXPECT_ANY_THROW(read("improvement: 2.5"));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(PlannerService, AnswersWithPlanNetworkVerdictAndStatistics) {

@@ -69,5 +69,40 @@ TEST(Compression, SeveralAddersOfWhatOthersReadAreNot) {
 
 TEST(Compression, NumbersThatOthersReadAreNot) { EXPECT_FALSE(safe("(charge)")); }
 
+// Jobs that hold one of two keys at the same time: two find one each, three do not, which no pair of facts shows, so that all
+// states are looked at.
+testing::Model jobs(int count) {
+  std::string objects, init, goal;
+  for (int i = 0; i < count; ++i) {
+    const std::string job = " j" + std::to_string(i);
+    objects += job;
+    init += "(idle" + job + ")";
+    goal += "(busy" + job + ")";
+  }
+  return testing::model(R"((:requirements :typing :durative-actions) (:types job key)
+    (:predicates (idle ?j - job) (busy ?j - job) (free ?k - key) (holds ?j - job ?k - key))
+    (:durative-action take :parameters (?j - job ?k - key) :duration (= ?duration 5)
+      :condition (and (at start (idle ?j)) (at start (free ?k)))
+      :effect (and (at start (not (idle ?j))) (at start (not (free ?k))) (at end (busy ?j)) (at end (holds ?j ?k))))
+    (:durative-action give :parameters (?j - job ?k - key) :duration (= ?duration 5)
+      :condition (and (at start (busy ?j)) (at start (holds ?j ?k)))
+      :effect (and (at start (not (busy ?j))) (at start (not (holds ?j ?k))) (at end (idle ?j)) (at end (free ?k)))))",
+                        "(:objects" + objects + " - job k l - key) (:init (free k) (free l) " + init +
+                            ") (:goal (and " + goal + "))");
+}
+
+// R14: the same verdicts with it and without, and with it a half of the states at most.
+TEST(Compression, SparesStatesAndKeepsSolvability) {
+  call::Options with, without;
+  without.compression_safety = false;
+  EXPECT_EQ(testing::solved(jobs(2), with).verdict, temporal::Verdict::solved);
+  EXPECT_EQ(testing::solved(jobs(2), without).verdict, temporal::Verdict::solved);
+  const Result few = testing::solved(jobs(3), with), many = testing::solved(jobs(3), without);
+  EXPECT_EQ(few.verdict, temporal::Verdict::unsolvable) << few.reason;
+  EXPECT_EQ(many.verdict, temporal::Verdict::unsolvable) << many.reason;
+  EXPECT_GT(few.statistics.evaluated, 5u) << few.reason;
+  EXPECT_LE(2 * few.statistics.evaluated, many.statistics.evaluated);
+}
+
 }  // namespace
 }  // namespace roci::planner::temporal_pddl

@@ -5,12 +5,14 @@
 #include <random>
 #include <stdexcept>
 
+#include "planner_svc/temporal_pddl/search/plan_prefix.hpp"
+
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using constraints::BoundTable;
 using constraints::decode;
 using constraints::encode;
-using constraints::BoundTable;
 using constraints::kMaxSteps;
 using constraints::StepConstraint;
 using temporal::Duration;
@@ -48,6 +50,20 @@ TEST(ConstraintCode, RefusesStep32768) {
   BoundTable bounds;
   EXPECT_THROW(code_of({0, 32767, kEpsilon, no_bound}, bounds), std::length_error);
   EXPECT_THROW(code_of({32767, 0, kEpsilon, no_bound}, bounds), std::length_error);
+}
+
+// R30: 32,767 steps are a plan, and one more is not, be it taken or still needed to end what runs.
+TEST(PlanPrefix, IsTooLongFromStep32768On) {
+  search::PlanPrefix prefix;
+  prefix.steps.resize(32767);
+  EXPECT_FALSE(search::is_too_long(prefix));
+  prefix.steps.resize(32768);
+  EXPECT_TRUE(search::is_too_long(prefix));
+  prefix.steps.resize(32766);
+  prefix.running.resize(1);
+  EXPECT_FALSE(search::is_too_long(prefix));
+  prefix.steps.resize(32767);
+  EXPECT_TRUE(search::is_too_long(prefix));
 }
 
 TEST(ConstraintCode, RandomListsRoundTrip) {

@@ -221,6 +221,37 @@ TEST_F(Windows, AFactThatIsTrueOnceBoundsTheSteps) {
   EXPECT_EQ(task(init, WindowExtraction::none).timed_steps.size(), 2u);
 }
 
+// R34: what a state takes does not depend on how many timed literals bound its steps.
+TEST(TimedLiteralBounds, BytesPerStateAreTheSameForAnyNumberOfTimedLiterals) {
+  const auto bytes = [](int windows) {
+    std::string init = "(at p0)", goal;
+    for (int i = 0; i < 6; ++i) {
+      init += "(road p" + std::to_string(i) + " p" + std::to_string(i + 1) + ")";
+      for (int w = 0; w < windows; ++w) {
+        const std::string lit = "(lit p" + std::to_string(i) + ")";
+        init += "(at " + std::to_string(1000 * w + 10) + " " + lit + ") (at " +
+                std::to_string(1000 * w + 900) + " (not " + lit + "))";
+      }
+      goal += "(seen p" + std::to_string(i) + ")";
+    }
+    const Result result = testing::solved(model(
+        R"((:requirements :typing :durative-actions :timed-initial-literals) (:types place)
+      (:predicates (at ?p - place) (road ?a ?b - place) (lit ?p - place) (seen ?p - place))
+      (:durative-action go :parameters (?a ?b - place) :duration (= ?duration 20)
+        :condition (and (at start (at ?a)) (at start (road ?a ?b)))
+        :effect (and (at start (not (at ?a))) (at end (at ?b))))
+      (:durative-action see :parameters (?p - place) :duration (= ?duration 5)
+        :condition (and (over all (at ?p)) (over all (lit ?p))) :effect (at end (seen ?p))))",
+        "(:objects p0 p1 p2 p3 p4 p5 p6 - place) (:init " + init + ") (:goal (and " + goal + "))"));
+    EXPECT_EQ(result.verdict, Verdict::solved) << result.reason;
+    return result.statistics.bytes_per_state;
+  };
+  const double one = bytes(1);
+  EXPECT_GT(one, 0);
+  EXPECT_EQ(bytes(4), one);
+  EXPECT_EQ(bytes(64), one);
+}
+
 TEST_F(Windows, ADeadlineIsAWindowFromTheBeginning) {
   EXPECT_EQ(starts(task("(open) (at 20 (not (open)))", WindowExtraction::one_off)),
             (std::vector<TimeWindow>{{Duration{0}, 18000 * kMs}}));

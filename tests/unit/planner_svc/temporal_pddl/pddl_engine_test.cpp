@@ -51,6 +51,20 @@ Answer answer_to(const Request& request) {
   return engine::answer_checked(engines(), request, {}, functions);
 }
 
+TEST(PddlEngine, TheRequestSaysWhatBetterPlansMayCost) {
+  Request request = request_for({goal_of("one", "(seen b)"), goal_of("two", "(seen c)")});
+  const auto evaluated = [&](std::uint64_t improvement) {
+    request.improvement = improvement;
+    const Answer answer = answer_to(request);
+    EXPECT_TRUE(answer.plan) << answer.reason;
+    return answer.statistics.evaluated;
+  };
+  const auto none = evaluated(0), few = evaluated(3), many = evaluated(engine::kImprovement);
+  EXPECT_LT(none, few);
+  EXPECT_LE(few, none + 3);
+  EXPECT_LT(few, many);
+}
+
 TEST(PddlEngine, ActivitiesServeGoalsByIssuerAndId) {
   const Answer answer = answer_to(request_for({goal_of("one", "(seen b)"), goal_of("two", "(seen c)")}));
   ASSERT_TRUE(answer.plan) << answer.reason;

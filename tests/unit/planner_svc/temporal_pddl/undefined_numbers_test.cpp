@@ -35,6 +35,29 @@ TEST(UndefinedNumbers, WhatChangesOneWaitsForAnAssignment) {
   EXPECT_THAT(result.warnings, IsEmpty());
 }
 
+// (- (f) (f)) and (* 0 (f)) are 0, but only once (f) has a value.
+TEST(UndefinedNumbers, OneThatCancelsIsReadAllTheSame) {
+  const std::string uses = R"((:requirements :numeric-fluents) (:predicates (done)) (:functions (f) (g))
+    (:action subtract :parameters () :precondition (>= (- (f) (f)) 0) :effect (done)))";
+  const std::string scales = R"((:requirements :numeric-fluents) (:predicates (done)) (:functions (f) (g))
+    (:action scale :parameters () :precondition () :effect (and (increase (g) (* 0 (f))) (done))))";
+  const std::string sets = "(:action set :parameters () :precondition () :effect (assign (f) 3))";
+  const std::string problem = "(:init (= (g) 0)) (:goal (done))";
+  for (const std::string& domain : {uses, scales}) {
+    const auto made = testing::model(domain + sets, problem);
+    const Result result = testing::solved(made);
+    testing::expect_valid(made, result);
+    EXPECT_EQ(result.plan->activities.size(), 2u) << domain;
+    const Result without = testing::solved(testing::model(domain, problem));
+    EXPECT_EQ(without.verdict, Verdict::unsolvable) << domain;
+    EXPECT_THAT(without.reason, HasSubstr("reads (f), which has no value")) << domain;
+    const Result given =
+        testing::solved(testing::model(domain, "(:init (= (g) 0) (= (f) 1)) (:goal (done))"));
+    ASSERT_TRUE(given.plan) << domain;
+    EXPECT_EQ(given.plan->activities.size(), 1u) << domain;
+  }
+}
+
 // The domain without what assigns the number.
 std::string never_filled() {
   const std::string domain = kVan;
