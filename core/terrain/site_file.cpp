@@ -22,7 +22,7 @@ using mission::Entry;
 double read_resolution(const Entry& map) {
   const Entry value = map.at("resolution");
   const double resolution = value.number();
-  if (resolution <= 0) value.fail("'resolution' must be positive, metres per pixel");
+  if (resolution <= 0) value.fail("'resolution' must be positive; give it in metres per pixel");
   return resolution;
 }
 

@@ -25,8 +25,8 @@ struct ModuleSettings {
   std::string slot;         ///< in which it is latched at the start
   double mass_kg = 0;       ///< as the robot is told
   double true_mass_kg = 0;  ///< as it is
-  std::vector<double>
-      size_m{};  ///< edges of its box along x, y and z of the tool that holds it; empty: a point
+  /// Holds the edges of its box along x, y and z of the tool that holds it; empty: a point.
+  std::vector<double> size_m{};
   bool works = true;
   std::int64_t latch_tries = 1;  ///< that its latch needs when it is placed next
 };

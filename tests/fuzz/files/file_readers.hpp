@@ -21,6 +21,7 @@ inline const std::map<std::string, std::string> kFileReaders{
     {"exec_svc/standby/persisted_term_file.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"exec_svc/trace/journal_reader.cpp", "FuzzRunFiles.ARecordedRunIsReadOrRefused"},
     {"exec_svc/trace/run_reader.cpp", "FuzzRunFiles.ARecordedRunIsReadOrRefused"},
+    {"ground_console/cli/map/map.cpp", "- files of a run that ended, shown as a picture; what is no JSON counts as absent"},
     {"ground_console/cli/orders.cpp", "- bytes that the user uploads, sent as they are"},
     {"ground_console/cli/runs.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"ground_console/lib/client.cpp", "- /proc, which the kernel writes"},
@@ -42,6 +43,7 @@ inline const std::map<std::string, std::string> kFileReaders{
     {"services/process/run_summary.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"services/security/issued.cpp", "FuzzKeys.ADamagedFileIsReadOrRefused"},
     {"services/security/key_folder.cpp", "FuzzKeys.ADamagedFileIsReadOrRefused"},
+    {"sim_svc/components/dynamic_arm_settings.cpp", "- the URDF, read by core/kinematics as in arm_svc: FuzzMissions"},
     {"sim_svc/world_file_service.cpp", "FuzzRunFiles.AreReadOrRefused"},
 };
 

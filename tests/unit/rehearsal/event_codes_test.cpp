@@ -20,7 +20,7 @@ const std::set<std::string> kOthers{"begun.json",    "comm.window",    "continge
                                     "issued.json",   "journal.sqlite", "launch.json",
                                     "launch.lock",   "mission.yaml",   "permissions.key",
                                     "revoked.pem",   "roci.inner",     "roci.team",
-                                    "summary.json"};
+                                    "summary.json",  "sun.window"};
 
 std::set<std::string> codes_in_sources() {
   std::set<std::string> out;

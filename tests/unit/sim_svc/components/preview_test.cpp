@@ -84,7 +84,7 @@ TEST(Preview, OddTargetsDifferFromTheGroundAroundThem) {
 TEST(Preview, ARockStandsInTheWayOfWhatLiesBehind) {
   Ground ground = ground_with({{68, 60, 1.2, Look::bright}});
   const double open = mean(render(ground), 44, 22, 8, 5);
-  ground.hidden_rocks = {{64, 60, 1}};
+  ground.hidden_rocks = {{65.5, 60, 1.2}};
   EXPECT_LT(mean(render(ground), 44, 22, 8, 5), open - 30);
 }
 
