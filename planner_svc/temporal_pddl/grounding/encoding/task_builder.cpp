@@ -54,7 +54,7 @@ class Builder {
       task_.derived_goal_reads.push_back(derived_reads(goal));
     }
     add_rules();
-    lay_out(groups);
+    lay_out(groups, limits);
     for_each_snap_list([](auto& lists) { lists.shrink(); });
     for_each_action_list([](auto& lists) { lists.shrink(); });
     return std::move(task_);
@@ -317,7 +317,15 @@ class Builder {
     return list;
   }
 
-  void lay_out(const std::vector<MutexGroup>& groups) {
+  // What a list of lists takes.
+  template <typename T>
+  static std::size_t bytes_of(const std::vector<std::vector<T>>& lists) {
+    std::size_t bytes = lists.capacity() * sizeof(std::vector<T>);
+    for (const std::vector<T>& list : lists) bytes += list.capacity() * sizeof(T) + 16;  // and the heap's own
+    return bytes;
+  }
+
+  void lay_out(const std::vector<MutexGroup>& groups, SearchLimits& limits) {
     std::vector<bool> needed(task_.fact_names.size(), false);
     for (std::size_t i = 0; i < needed.size(); ++i) needed[i] = negation_of_[FactId(i)].is_none();
     std::vector<std::vector<std::uint32_t>> candidates;
@@ -330,10 +338,14 @@ class Builder {
       if (members.size() > 1) candidates.push_back(std::move(members));
     }
     std::vector<std::vector<FactId>> variables;
-    for (const auto& members : cover(needed, candidates)) {
+    const auto covering = cover(needed, candidates);
+    for (const auto& members : covering) {
       auto& variable = variables.emplace_back();
+      variable.reserve(members.size());
       for (const std::uint32_t member : members) variable.emplace_back(std::size_t{member});
     }
+    limits.memory_on_top(task_.bytes() + bytes_of(candidates) + bytes_of(covering) + bytes_of(variables) +
+                         facts_.capacity() * sizeof(FactId) + negation_of_.bytes());
     task_.layout = StateLayout(std::move(variables), negation_of_, model_.numbers.size());
     task_.initial_state.assign(task_.layout.words(), 0);
     for (const std::uint32_t atom : model_.initial_atoms) {
