@@ -59,7 +59,8 @@ class RelaxedTask {
   /// Returns whether the step is one that the planner chooses, and not what follows from one.
   bool is_choice(task::SnapId op) const { return is_choice_[op] != 0; }
   std::size_t bytes() const {
-    return costs_.bytes() + lists_.bytes() + needed_by_.bytes() + is_choice_.bytes();
+    return costs_.bytes() + lists_.bytes() + needed_by_.bytes() + added_by_.bytes() + is_choice_.bytes() +
+           free_.capacity() * sizeof(task::SnapId);
   }
   /// Returns the operators that need nothing and are no timed literals.
   const std::vector<task::SnapId>& free() const { return free_; }

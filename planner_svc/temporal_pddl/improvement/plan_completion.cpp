@@ -30,7 +30,9 @@ PlanCompletion::PlanCompletion(const SearchContext& context)
       space_(context.task, context.options.epsilon, ActionCompression::where_safe, context.limits.touched()),
       goal_(context.task, space_.check(), context.options.epsilon),
       dominance_(context.task, space_.store(), space_.bounds(), space_.check(), context.options.epsilon, true,
-                 true) {}
+                 true) {
+  context.limits.memory_on_top(relaxed_schedule_.bytes());
+}
 
 void PlanCompletion::restart() {
   space_.clear();

@@ -26,6 +26,11 @@ class RelaxedSchedule {
   /// Returns, after measure(), the steps of the relaxed plan of which all facts hold.
   std::span<const task::SnapId> preferred() const { return preferred_; }
   std::size_t steps() const { return plan_.size(); }
+  /// Returns how many bytes it keeps that grow with the problem.
+  std::size_t bytes() const {
+    return relaxed_.bytes() + facts_.bytes() + at_first_.bytes() + operators_.bytes() + needed_.bytes() +
+           in_plan_.bytes() + times_.bytes();
+  }
   /// Returns all its steps in the order of that schedule, timed literals and derivations among them.
   std::span<const task::SnapId> plan() const { return plan_; }
   /// Lets what could be reached only later than this not count as reachable.
