@@ -5,6 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
+#include <vector>
+#include <string>
+#include <filesystem>
 
 #include "rehearsal/flight.hpp"
 #include "services/clock/wall.hpp"
@@ -80,11 +84,15 @@ bool any_of(const std::set<Role>& some, const std::set<Role>& others) {
   return std::any_of(some.begin(), some.end(), [&](Role role) { return others.contains(role); });
 }
 
-TEST(TopicRightsOfServices, CoverWhatTheyPublishAndSubscribe) {
-  const std::filesystem::path mission = ROCI_SOURCE_DIR "/missions/planetary";
-  for (const mission::ServiceEntry& entry : rehearsal::crew_of(mission)) {
+const std::vector<std::filesystem::path> kMissions{ROCI_SOURCE_DIR "/missions/planetary",
+                                                   ROCI_SOURCE_DIR "/missions/orbital"};
+
+class TopicRightsOfMissions : public ::testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(TopicRightsOfMissions, CoverWhatTheirServicesPublishAndSubscribe) {
+  for (const mission::ServiceEntry& entry : rehearsal::crew_of(GetParam())) {
     for (const bool live : {false, true}) {
-      const Used used = used_by(mission, entry, live);
+      const Used used = used_by(GetParam(), entry, live);
       EXPECT_TRUE(used.written.contains("roci/event")) << entry.name;
       for (const security::TopicRights& row : security::topic_rights()) {
         if (used.written.contains(row.topic)) {
@@ -98,30 +106,35 @@ TEST(TopicRightsOfServices, CoverWhatTheyPublishAndSubscribe) {
   }
 }
 
+INSTANTIATE_TEST_SUITE_P(Missions, TopicRightsOfMissions, ::testing::ValuesIn(kMissions),
+                         [](const auto& mission) { return mission.param.filename().string(); });
+
+// What the services of this program use, over all missions.
+Used used_by_program(const std::string& program) {
+  Used out;
+  for (const std::filesystem::path& mission : kMissions) {
+    for (const mission::ServiceEntry& entry : rehearsal::crew_of(mission)) {
+      if (entry.program != program) continue;
+      for (const bool live : {false, true}) {
+        const Used used = used_by(mission, entry, live);
+        out.written.insert(used.written.begin(), used.written.end());
+        out.read.insert(used.read.begin(), used.read.end());
+      }
+    }
+  }
+  return out;
+}
+
 // A right that no service of a program uses is one too many. The engines that plan all the time, pairs and decisions have no part in
-// this mission; an executive of a pair writes the goals anew that it takes over, and an engine that plans all the time reads more.
+// these missions; an executive of a pair writes the goals anew that it takes over, and an engine that plans all the time reads more.
 TEST(TopicRightsOfServices, GiveNoMoreThanWhatIsUsed) {
-  const std::filesystem::path mission = ROCI_SOURCE_DIR "/missions/planetary";
-  const std::set<std::string> elsewhere{"roci/exec/member",
-                                        "roci/exec/journal",
-                                        "roci/exec/goal",
-                                        "roci/lease/request",
-                                        "roci/lease/state",
-                                        "roci/decision",
-                                        "roci/decision/answer",
-                                        "roci/decision/receipt",
-                                        "roci/planner/delta",
-                                        "roci/planner/receipt",
-                                        "roci/goal/status",
-                                        "roci/plan",
-                                        "roci/plan/step",
-                                        "roci/order",
-                                        "roci/order/status"};
-  for (const mission::ServiceEntry& entry : rehearsal::crew_of(mission)) {
-    Used used = used_by(mission, entry, false);
-    const Used live = used_by(mission, entry, true);
-    used.written.insert(live.written.begin(), live.written.end());
-    used.read.insert(live.read.begin(), live.read.end());
+  const std::set<std::string> elsewhere{
+      "roci/exec/member",   "roci/exec/journal",    "roci/exec/goal",       "roci/lease/request",
+      "roci/lease/state",   "roci/decision",        "roci/decision/answer", "roci/decision/receipt",
+      "roci/planner/delta", "roci/planner/receipt", "roci/goal/status",     "roci/plan",
+      "roci/plan/step",     "roci/order",           "roci/order/status"};
+  for (const mission::ServiceEntry& entry : rehearsal::crew_of(kMissions.front())) {
+    const Used used = used_by_program(entry.program);
     std::set<Role> own = roles_of(entry);
     own.erase(Role::service);  // what every process may
     own.erase(Role::master);   // its topics are opened when the clock starts
