@@ -81,7 +81,7 @@ class Operator : public ::testing::Test {
 
 TEST_F(Operator, SeesThePlanAsATable) {
   EXPECT_EQ(code("plan"), 0) << ended_.output;
-  EXPECT_THAT(said("plan"), ContainsRegex("plan 1, from 00:00:[0-9]+, now 00:0"));
+  EXPECT_THAT(said("plan"), ContainsRegex("plan 1, from 00:0[0-9]:[0-9]+, now 00:[0-9]"));
   EXPECT_THAT(said("plan"), HasSubstr("ACTIVITY"));
   EXPECT_THAT(said("plan"),
               ContainsRegex("p1\\.1-drive +drive +to=place-[a-z]+ x=[0-9]+ y=[0-9]+ +running "));
@@ -121,7 +121,8 @@ TEST_F(Operator, IsToldWhetherThereIsAWay) {
 TEST_F(Operator, SeesTheValuesThatAnActivityStandsOn) {
   EXPECT_EQ(code("why"), 0) << said("why.err");
   EXPECT_THAT(said("why"),
-              ContainsRegex("traverse_time +here place-[a-z]+ +[0-9.]+ s +exact +pathplan_svc +1 +00:00:1"));
+              ContainsRegex(
+                  "traverse_time +here place-[a-z]+ +[0-9.]+ s +exact +pathplan_svc +1 +00:0[0-9]:[0-9]+ "));
   EXPECT_THAT(said("why"), HasSubstr("traverse_energy"));
   EXPECT_THAT(said("why"), Not(HasSubstr("arm_move")));
   const json drive = parsed("why.json");
@@ -142,8 +143,8 @@ TEST_F(Operator, SeesTheValuesThatAnActivityStandsOn) {
 
 // The obstacle is seen, the map gets its next version, and what was planned on the one before is marked until it is planned anew.
 TEST_F(Operator, SeesWhichActivitiesStandOnAnOlderMap) {
-  EXPECT_THAT(text_of(folder_ / "obstacle/older"), ContainsRegex("drive .* waiting \\*"));
-  EXPECT_THAT(text_of(folder_ / "obstacle/older"), Not(ContainsRegex("take-image.* waiting \\*")))
+  EXPECT_THAT(text_of(folder_ / "obstacle/older"), ContainsRegex("drive [^\n]* waiting \\*"));
+  EXPECT_THAT(text_of(folder_ / "obstacle/older"), Not(ContainsRegex("take-image[^\n]* waiting \\*")))
       << "asks no path planner";
   EXPECT_THAT(text_of(folder_ / "obstacle/older"),
               ContainsRegex("\n\\* stands on values of version 1 of pathplan_svc's model, which has "
