@@ -6,13 +6,12 @@ bound."""
 
 from __future__ import annotations
 
-import itertools
 import shutil
 from pathlib import Path
 
 import problem
 from flights import MISSION_WORK, Flight, Programs, lay_out_mission, rehearse
-from hindsight import LARGEST, Hindsight
+from hindsight import LARGEST, Hindsight, best_subset
 from orbital_reference import Scheduler
 from orbital_scenarios import UPLOAD_S, Goal, Scenario
 
@@ -54,15 +53,6 @@ class Instance:
         scheduler = Scheduler(self.problem, self.values, self.energy_j)
         scheduler.goal = ["and", *(self.conditions[goal.id] for goal in goals)]
         return scheduler.run().solvable
-
-
-def best_subset(instance: Instance, given: list[Goal], soft: list[Goal]) -> tuple[float, frozenset[str]]:
-    subsets = [subset for size in range(len(soft) + 1) for subset in itertools.combinations(soft, size)]
-    subsets.sort(key=lambda subset: (-sum(goal.utility for goal in subset), len(subset)))
-    for subset in subsets:
-        if instance.solvable(given + list(subset)):
-            return sum(goal.utility for goal in subset), frozenset(goal.id for goal in subset)
-    return 0, frozenset()
 
 
 def look_back(programs: Programs, scenario: Scenario, flight: Flight, folder: Path) -> Hindsight:
