@@ -5,6 +5,8 @@ from __future__ import annotations
 import random
 from dataclasses import dataclass, field
 
+from drawn import DrawnGoal, DrawnScenario
+
 DURATION_S = 37000  # a flight ends with its last goal; this is for one that never ends
 UPLOAD_S = 10
 # As in missions/orbital/mission.yaml: where each module is at the start, and what it is for.
@@ -20,7 +22,7 @@ JOINTS = ["rail", "azimuth", "shoulder", "elbow", "wrist_pitch"]
 
 
 @dataclass(frozen=True)
-class Goal:
+class Goal(DrawnGoal):
     id: str
     issuer: str
     kind: str
@@ -30,19 +32,12 @@ class Goal:
     opens_s: int = 0
     closes_s: int = 0
 
-    @property
-    def key(self) -> str:
-        return f"{self.issuer}/{self.id}"
-
-    def yaml(self) -> str:
-        window = f", opens_s: {self.opens_s}, closes_s: {self.closes_s}" if self.closes_s else ""
-        arguments = ", ".join(f"{name}: {value}" for name, value in self.arguments)
-        return (f"{{issuer: {self.issuer}, id: {self.id}, kind: {self.kind}, importance: {self.importance}, "
-                f"utility: {self.utility}{window}, arguments: {{{arguments}}}}}")
+    def arguments_yaml(self) -> str:
+        return ", ".join(f"{name}: {value}" for name, value in self.arguments)
 
 
 @dataclass
-class Scenario:
+class Scenario(DrawnScenario):
     seed: int
     battery_j: int
     blocked: list[str]  # nobody knows
@@ -54,15 +49,6 @@ class Scenario:
     failing: list[str] = field(default_factory=list)  # modules that fail in flight
     faults: list[tuple[str, int, int]] = field(default_factory=list)  # component, from, to
 
-    @property
-    def name(self) -> str:
-        return f"seed-{self.seed:04d}"
-
-    @property
-    def goals(self) -> list[tuple[int, Goal]]:
-        """With the time at which each becomes known."""
-        return [(at, what) for at, what in self.stimuli if isinstance(what, Goal)]
-
     def yaml(self) -> str:
         modules = {name: [f"true_mass_kg: {mass}"] for name, mass in self.masses.items()}
         for name, tries in self.tries.items():
@@ -73,12 +59,8 @@ class Scenario:
             f"description: Field trial, seed {self.seed}.",
             f"duration_s: {DURATION_S}",
             f"start: {{battery: {self.battery_j}, grapple: {{blocked: [{', '.join(self.blocked)}], modules: {{{', '.join(told)}}}}}}}",
-            "stimuli:",
         ]
-        for at, what in self.stimuli:
-            text = f"goal: {what.yaml()}" if isinstance(what, Goal) else what
-            lines.append(f"  - {{at_s: {at}, {text}}}")
-        return "\n".join(lines) + "\n"
+        return "\n".join(lines + self.stimuli_yaml()) + "\n"
 
 
 class _Draw:

@@ -7,6 +7,8 @@ import random
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from drawn import DrawnGoal, DrawnScenario
+
 DURATION_S = 30000  # a flight ends with its last goal; this is for one that never ends
 UPLOAD_S = 10
 PREDICTED_WINDOWS = [[1500, 2700], [5400, 6600], [9300, 10500], [13200, 14400]]  # as in mission.yaml
@@ -69,7 +71,7 @@ class Site:
 
 
 @dataclass(frozen=True)
-class Goal:
+class Goal(DrawnGoal):
     id: str
     issuer: str
     kind: str
@@ -81,21 +83,13 @@ class Goal:
     opens_s: int = 0
     closes_s: int = 0
 
-    @property
-    def key(self) -> str:
-        return f"{self.issuer}/{self.id}"
-
-    def yaml(self) -> str:
-        window = f", opens_s: {self.opens_s}, closes_s: {self.closes_s}" if self.closes_s else ""
+    def arguments_yaml(self) -> str:
         sample = f", sample: {self.sample}" if self.sample else ""
-        return (
-            f"{{issuer: {self.issuer}, id: {self.id}, kind: {self.kind}, importance: {self.importance}, "
-            f"utility: {self.utility}{window}, arguments: {{x: {self.x}, y: {self.y}{sample}}}}}"
-        )
+        return f"x: {self.x}, y: {self.y}{sample}"
 
 
 @dataclass
-class Scenario:
+class Scenario(DrawnScenario):
     seed: int
     x: int
     y: int
@@ -111,15 +105,6 @@ class Scenario:
     faults: list[tuple[str, int, int]] = field(default_factory=list)  # component, from, to
     recalled: frozenset[str] = frozenset()  # ids
 
-    @property
-    def name(self) -> str:
-        return f"seed-{self.seed:04d}"
-
-    @property
-    def goals(self) -> list[tuple[int, Goal]]:
-        """With the time at which each becomes known."""
-        return [(at, what) for at, what in self.stimuli if isinstance(what, Goal)]
-
     def yaml(self) -> str:
         rocks = ", ".join(f"{{x: {x}, y: {y}, radius: {r}}}" for x, y, r in self.rocks)
         lines = [
@@ -131,11 +116,7 @@ class Scenario:
         if self.windows != PREDICTED_WINDOWS:
             lines.append(f"windows: [{{timeline: comm.window, open: {self.windows}}}]")
         lines.append(f"science: {{enabled: {str(self.science).lower()}}}")
-        lines.append("stimuli:")
-        for at, what in self.stimuli:
-            text = f"goal: {what.yaml()}" if isinstance(what, Goal) else what
-            lines.append(f"  - {{at_s: {at}, {text}}}")
-        return "\n".join(lines) + "\n"
+        return "\n".join(lines + self.stimuli_yaml()) + "\n"
 
 
 class _Draw:
