@@ -4,9 +4,10 @@
 #   roci_program(NAME roci-plan HELP "..." SOURCES main.cpp DEPENDS planner_temporal_pddl)      installed to bin/, unless NOT_INSTALLED
 #   roci_plugin (NAME roci_transport_inproc HELP "..." SOURCES ... DEPENDS ...)        installed to lib/rocinante/
 #   roci_test_library(NAME scenario_flight HELP "..." SOURCES flight.cpp DEPENDS ...)   what tests of one folder share
-#   roci_test   (NAME unit_pddl SOURCES parser_test.cpp DEPENDS core_pddl [LABEL contract] [SERIAL | PROCESSORS 2] [OPTIMIZED])
+#   roci_test   (NAME unit_pddl SOURCES parser_test.cpp DEPENDS core_pddl [LABEL contract] [SERIAL | PROCESSORS 2] [OPTIMIZED] [WHOLE])
 #     SERIAL: alone, since it is about who is late; PROCESSORS 2: beside one other, since it flies every process of a mission
 #     OPTIMIZED: its own code is a long search (an oracle, an explorer, a fuzzer); others are compiled without, which takes a quarter less time
+#     WHOLE: all its cases are one test, since they look at one flight from several sides
 #
 # Release builds compile many sources of a part at once (CMake's unity build, CMakePresets.json), which takes a third of the time. Two sources
 # that give one name to two private things cannot be compiled so: give them two names, or list one of them under ALONE.
