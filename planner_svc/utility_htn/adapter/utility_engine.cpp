@@ -1,0 +1,180 @@
+#include "planner_svc/utility_htn/adapter/utility_engine.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "planner_svc/utility_htn/assessor/subway_assessor.hpp"
+#include "planner_svc/utility_htn/reading/network_text.hpp"
+
+namespace roci::planner::utility_htn::adapter {
+
+using engine::Goal, engine::StepInputs, engine::StepOutput;
+using temporal::ActivityState, temporal::FlexiblePlan, temporal::Time;
+
+namespace {
+
+constexpr char kRequest[] = "request";
+
+const std::string* argument(const Goal& goal, const std::string& name) {
+  const auto found = std::ranges::find(goal.arguments, name, &temporal::Property::name);
+  return found == goal.arguments.end() ? nullptr : &found->value;
+}
+
+}  // namespace
+
+UtilityEngine::UtilityEngine(const engine::Setup& setup)
+    : setup_(setup),
+      network_(reading::read_network(setup.model)),
+      chains_(flattening::flatten(network_)),
+      assessor_(std::make_unique<assessor::SubwayAssessor>()),
+      scheduler_(search::make_scheduler("nearest")) {}
+
+UtilityEngine::~UtilityEngine() = default;
+
+StepOutput UtilityEngine::step(const StepInputs& inputs) {
+  if (cycle_ == nullptr) {
+    origin_ = next_cycle_ = inputs.now;
+    cycle_ = std::make_unique<cycle::Cycle>(network_, chains_, *assessor_, *scheduler_, inputs.now);
+  }
+  hear(inputs);
+  StepOutput out;
+  if (open_ && !goals_.empty() && inputs.now >= next_cycle_) {
+    const cycle::Report report = cycle_->run(inputs.now);
+    while (next_cycle_ <= inputs.now) next_cycle_ += network_.cycle.process_interval;
+    if (report.changed || told_.version == 0) send(inputs, out);
+  }
+  out.blocking = blocking_;
+  if (open_ && !goals_.empty()) out.wake = next_cycle_;
+  return out;
+}
+
+void UtilityEngine::hear(const StepInputs& inputs) {
+  if (inputs.executed) go_on_with(*inputs.executed, inputs.now);
+  for (const Goal& goal : inputs.goals) hear_goal(goal);
+  for (const engine::EndedGoal& ended : inputs.ended_goals) hear_end(ended);
+  for (const engine::Observation& observation : inputs.observations) hear_observation(observation);
+  for (const engine::StepStatus& step : inputs.steps) hear_step(step);
+  if (inputs.receipt) hear_receipt(*inputs.receipt, inputs.now);
+}
+
+std::optional<model::TaskIndex> UtilityEngine::requested_by(const Goal& goal) const {
+  if (goal.kind != kRequest) return std::nullopt;
+  const std::string* const name = argument(goal, "task");
+  if (name == nullptr) return std::nullopt;
+  const auto task = std::ranges::find(network_.tasks, *name, &model::Task::id);
+  if (task == network_.tasks.end()) return std::nullopt;
+  return static_cast<model::TaskIndex>(task - network_.tasks.begin());
+}
+
+void UtilityEngine::hear_goal(const Goal& goal) {
+  const auto known = std::ranges::find(goals_, goal.key(), &Goal::key);
+  known == goals_.end() ? goals_.push_back(goal) : void(*known = goal);
+  if (goal.kind != kRequest) return;
+  std::erase_if(blocking_, [&](const auto& one) { return one.issuer == goal.issuer && one.id == goal.id; });
+  if (const auto task = requested_by(goal)) {
+    cycle_->request(*task);
+  } else {
+    const std::string* const name = argument(goal, "task");
+    blocking_.push_back({goal.issuer, goal.id, "",
+                         name == nullptr ? "a request names its task in the argument 'task'"
+                                         : "the network has no task '" + *name + "'"});
+  }
+}
+
+void UtilityEngine::hear_end(const engine::EndedGoal& ended) {
+  const auto known = std::ranges::find_if(
+      goals_, [&](const Goal& goal) { return goal.issuer == ended.issuer && goal.id == ended.id; });
+  if (known == goals_.end()) return;
+  const auto task = requested_by(*known);
+  if (task && ended.state != engine::GoalState::achieved) cycle_->withdraw(*task);
+  goals_.erase(known);
+  std::erase_if(blocking_,
+                [&](const auto& one) { return one.issuer == ended.issuer && one.id == ended.id; });
+}
+
+void UtilityEngine::hear_observation(const engine::Observation& observation) {
+  const auto timeline = std::ranges::find(network_.timelines, observation.timeline,
+                                          &temporal::timelines::Definition::name);
+  if (timeline == network_.timelines.end() || !timeline->reported) return;
+  if (const auto number = number_of(*timeline, observation.value))
+    cycle_->observe(static_cast<temporal::timelines::Index>(timeline - network_.timelines.begin()),
+                    observation.sampled, *number);
+}
+
+void UtilityEngine::hear_step(const engine::StepStatus& step) {
+  if (initial_ && step.activity == initial_->id && temporal::is_over(step.progress.state)) initial_.reset();
+  const auto task = task_of(step.activity);
+  if (!task) return;
+  if (step.progress.started) cycle_->begun(*task, *step.progress.started);
+  if (!temporal::is_over(step.progress.state)) return;
+  const Time at = step.progress.ended.value_or(step.progress.started.value_or(origin_));
+  cycle_->ended(*task, at, step.progress.state == ActivityState::succeeded, step.cause);
+}
+
+void UtilityEngine::hear_receipt(const engine::Receipt& receipt, Time now) {
+  open_ = receipt.open;
+  if (!receipt.conflict.empty()) cycle_->doubt();
+  if (receipt.version == 0 && told_.version != 0 && receipt.refused != told_.version) {
+    cycle_->nothing_runs(now);
+    told_ = {};
+  }
+  if (receipt.refused != 0 && receipt.refused == told_.version) told_ = accepted_;
+  if (receipt.version != 0 && receipt.version == told_.version) accepted_ = told_;
+}
+
+// A process that was started again takes up the plan that is executed.
+void UtilityEngine::go_on_with(const FlexiblePlan& executed, Time now) {
+  Recovered recovered = recover(network_, chains_, executed);
+  origin_ = executed.origin;
+  points_ = recovered.points;
+  cycle_->resume(recovered.past, std::move(recovered.blocks), recovered.last_block, now);
+  told_ = accepted_ = executed;
+  next_cycle_ = now;
+}
+
+std::vector<std::string> UtilityEngine::served_goals() const {
+  std::vector<std::string> out;
+  for (const Goal& goal : goals_)
+    if (goal.kind != kRequest) out.push_back(goal.key());
+  return out;
+}
+
+// What serves a request alone serves it and nothing else.
+void UtilityEngine::serve_requests(FlexiblePlan& plan) const {
+  for (const Goal& goal : goals_) {
+    const auto task = requested_by(goal);
+    if (!task) continue;
+    for (const cycle::Block& block : cycle_->blocks()) {
+      if (chains_.chains[block.chain].task != *task) continue;
+      for (temporal::PlanActivity& activity : plan.activities) {
+        const auto id = task_of(activity.id);
+        if (id && cycle::block_of(*id) == block.number && activity.commit == temporal::CommitState::planned)
+          activity.goals_served = {goal.key()};
+      }
+    }
+  }
+}
+
+void UtilityEngine::send(const StepInputs& inputs, StepOutput& out) {
+  const bool whole = told_.version == 0;
+  if (whole) {
+    origin_ = inputs.now;
+    points_ = {};
+  }
+  const Frame frame{setup_.engine, setup_.robot, inputs.last_version + 1, origin_, served_goals()};
+  FlexiblePlan plan = plan_of(network_, chains_, *cycle_, frame, told_, points_);
+  serve_requests(plan);
+  if (plan.activities.empty()) return;
+  if (whole) {
+    initial_ = initial_activity(network_, cycle_->past(), frame);
+    std::tie(initial_->start_point, initial_->end_point) = points_.fresh();
+    if (initial_->impacts.empty()) initial_.reset();
+  }
+  if (initial_) plan.activities.insert(plan.activities.begin(), *initial_);
+  plan.point_count = points_.count();
+  out.delta = temporal::difference(told_, plan);
+  told_ = std::move(plan);
+}
+
+}  // namespace roci::planner::utility_htn::adapter

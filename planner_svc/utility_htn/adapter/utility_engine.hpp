@@ -1,0 +1,55 @@
+// The utility-driven engine as planner_svc steps it (R66, R77–R81): it hears observations, goals and what became of tasks, runs its
+// cycle at the process interval, and sends versions of its plan.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner_svc/engine/stepped_engine.hpp"
+#include "planner_svc/utility_htn/adapter/plan_of.hpp"
+#include "planner_svc/utility_htn/cycle/cycle.hpp"
+
+namespace roci::planner::utility_htn::adapter {
+
+/// Plans the network that is the mission's model. A goal of kind `request` asks for the network's task that its argument `task` names,
+/// template or not, and is served by it alone; every other goal is served by the whole plan.
+class UtilityEngine final : public engine::SteppedEngine {
+ public:
+  /// Throws std::exception with file, line and remedy for a network that cannot be used.
+  explicit UtilityEngine(const engine::Setup& setup);
+  ~UtilityEngine() override;
+
+  engine::StepOutput step(const engine::StepInputs& inputs) override;
+
+ private:
+  void hear(const engine::StepInputs& inputs);
+  void hear_goal(const engine::Goal& goal);
+  void hear_end(const engine::EndedGoal& ended);
+  void hear_observation(const engine::Observation& observation);
+  void hear_step(const engine::StepStatus& step);
+  void hear_receipt(const engine::Receipt& receipt, temporal::Time now);
+  void go_on_with(const temporal::FlexiblePlan& executed, temporal::Time now);
+  void send(const engine::StepInputs& inputs, engine::StepOutput& out);
+  void serve_requests(temporal::FlexiblePlan& plan) const;
+  std::optional<model::TaskIndex> requested_by(const engine::Goal& goal) const;
+
+  engine::Setup setup_;
+  model::Network network_;
+  flattening::Chains chains_;
+  std::unique_ptr<assessor::Assessor> assessor_;
+  std::unique_ptr<search::Scheduler> scheduler_;
+  std::unique_ptr<cycle::Cycle> cycle_;  // from the first step on
+  std::vector<engine::Goal> goals_;      // open
+  std::vector<engine::BlockingGoal> blocking_;
+  Points points_;
+  temporal::FlexiblePlan told_;      // newest version
+  temporal::FlexiblePlan accepted_;  // newest that the executive has taken
+  std::optional<temporal::PlanActivity> initial_;  // until it is over
+  temporal::Time origin_{0};
+  temporal::Time next_cycle_{0};
+  bool open_ = false;
+};
+
+}  // namespace roci::planner::utility_htn::adapter

@@ -1,0 +1,458 @@
+#include "planner_svc/utility_htn/cycle/cycle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace roci::planner::utility_htn::cycle {
+
+using model::TaskIndex;
+using temporal::Duration, temporal::Time;
+using temporal::timelines::Index;
+
+namespace {
+
+bool waits(const Link& link) { return link.stage == Stage::planned || link.stage == Stage::committed; }
+
+bool is_request(const model::Task& task) { return !task.is_template; }
+
+}  // namespace
+
+Cycle::Cycle(const model::Network& network, const flattening::Chains& chains,
+             const assessor::Assessor& assessor, const search::Scheduler& scheduler, Time origin, Settings settings)
+    : network_(network),
+      chains_(chains),
+      assessor_(assessor),
+      scheduler_(scheduler),
+      settings_(settings),
+      timelines_(network.timelines, origin),
+      past_{{}, model::priors(network), {}},
+      deviation_(network.timelines.size(), 0.0) {
+  for (const auto& definition : network.timelines) past_.internal.push_back(definition.initial);
+  for (TaskIndex task = 0; task < network.tasks.size(); ++task)
+    if (is_request(network.tasks[task])) requested_.insert(task);
+}
+
+void Cycle::observe(Index timeline, Time sampled, double value) {
+  const auto& definition = network_.timelines[timeline];
+  const double foreseen = timelines_.value(timeline, sampled);
+  timelines_.observe(timeline, sampled, value);
+  if (definition.kind == temporal::timelines::Kind::state) {
+    to_optimize_ |= foreseen != value;
+    return;
+  }
+  deviation_[timeline] += std::abs(value - foreseen);
+  const double first = std::max(std::abs(definition.initial), 1e-9);
+  to_optimize_ |= deviation_[timeline] > settings_.noticeable * first;
+}
+
+Block* Cycle::block(std::uint32_t number) {
+  const auto found = std::ranges::lower_bound(blocks_, number, {}, &Block::number);
+  return found != blocks_.end() && found->number == number ? &*found : nullptr;
+}
+
+Link* Cycle::link(TaskId task) {
+  Block* const of = block(block_of(task));
+  return of != nullptr && link_of(task) < of->links.size() ? &of->links[link_of(task)] : nullptr;
+}
+
+void Cycle::begun(TaskId task, Time at) {
+  Link* const one = link(task);
+  if (one == nullptr || !waits(*one)) return;
+  const Duration length = one->end - one->start;
+  to_optimize_ |= one->start != at;
+  *one = {one->task, one->planned, at, at + length, Stage::running};
+  timelines_.move(task, at, one->end);
+}
+
+void Cycle::ended(TaskId task, Time at, bool succeeded, const std::string& cause) {
+  Link* const one = link(task);
+  if (one == nullptr || is_over(one->stage)) return;
+  to_optimize_ |= one->end != at || !succeeded;
+  one->start = std::min(one->start, at);
+  one->end = at;
+  one->stage = succeeded ? Stage::succeeded : Stage::failed;
+  if (succeeded) {
+    timelines_.move(task, one->start, at);
+    return;
+  }
+  timelines_.remove(task);  // what failed has no effect; what it has cost is observed
+  edit_network(one->task);
+  const model::Task& failed = network_.tasks[one->task];
+  notes_.push_back(failed.id + " failed" + (cause.empty() ? "" : ": " + cause));
+}
+
+// A contingency edits the network (R69).
+void Cycle::edit_network(TaskIndex task) {
+  const auto& contingency = network_.tasks[task].contingency;
+  if (!contingency) return;
+  for (const TaskIndex one : contingency->requests) request(one);
+  for (const TaskIndex one : contingency->withdraws) withdraw(one);
+}
+
+void Cycle::request(TaskIndex task) {
+  past_.done.erase(task);
+  failures_.erase(task);
+  to_schedule_ |= requested_.insert(task).second;
+}
+
+void Cycle::withdraw(TaskIndex task) {
+  if (requested_.erase(task) == 0) return;
+  for (std::size_t i = blocks_.size(); i-- > 0;) {
+    if (chains_.chains[blocks_[i].chain].task != task || blocks_[i].begun()) continue;
+    take_out(blocks_[i]);
+    blocks_.erase(blocks_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  to_optimize_ = true;
+}
+
+std::string Cycle::set_value(model::ParameterIndex parameter, double value) {
+  const model::Parameter& known = network_.parameters[parameter];
+  if (!(value >= known.lowest && value <= known.highest))
+    return known.name + " = " + std::to_string(value) + " is not between " + std::to_string(known.lowest) +
+           " and " + std::to_string(known.highest) + "; the value before stays";
+  if (past_.values[parameter] == value) return {};
+  past_.values[parameter] = value;
+  for (Block& one : blocks_) {
+    if (one.begun()) continue;
+    take_out(one);
+    put_in(one);
+  }
+  to_schedule_ = to_optimize_ = true;
+  return {};
+}
+
+void Cycle::nothing_runs(Time now) {
+  for (Block& one : blocks_)
+    for (std::size_t i = 0; i < one.links.size(); ++i) {
+      Link& each = one.links[i];
+      if (each.stage == Stage::committed) each.stage = Stage::planned;
+      if (each.stage == Stage::running) ended(task_id(one.number, i), now, false, "the plan has ended");
+    }
+  to_optimize_ = true;
+}
+
+void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t last_block, Time now) {
+  past_ = past;
+  last_block_ = last_block;
+  timelines_ = temporal::timelines::Timelines(network_.timelines, now);
+  for (Index i = 0; i < network_.timelines.size(); ++i)
+    if (!network_.timelines[i].reported) timelines_.observe(i, now, past_.internal[i]);
+  blocks_ = std::move(blocks);
+  for (const Block& one : blocks_) put_in(one);
+  to_schedule_ = to_optimize_ = true;
+}
+
+std::vector<TaskIndex> Cycle::waiting() const {
+  std::set<TaskIndex> placed;
+  for (const Block& one : blocks_) placed.insert(chains_.chains[one.chain].task);
+  std::vector<TaskIndex> out;
+  for (const TaskIndex task : requested_)
+    if (!placed.contains(task) && !past_.done.contains(task)) out.push_back(task);
+  return out;
+}
+
+Report Cycle::run(Time now) {
+  Report report;
+  report.notes = std::exchange(notes_, {});
+  const auto does = [&](Activity what, bool changes) {
+    if (!changes) return;
+    report.done.push_back(what);
+    report.changed = true;
+  };
+  does(Activity::commit, commit(now));
+  does(Activity::consolidate, consolidate(now));
+  forget_over(report);
+  does(Activity::schedule, schedule(now, report));
+  if (settings_.repairs) does(Activity::repair, repair(now, report));
+  if (settings_.optimizes) does(Activity::optimize, optimize(now, report));
+  return report;
+}
+
+// What starts before the end of the commit window is the executive's from now on (R78).
+bool Cycle::commit(Time now) {
+  bool any = false;
+  for (Block& one : blocks_) {
+    if (one.failed()) continue;
+    for (Link& each : one.links) {
+      if (each.stage != Stage::planned || each.start >= now + network_.cycle.commit_window) continue;
+      each.stage = Stage::committed;
+      any = true;
+    }
+  }
+  return any;
+}
+
+// What should have begun or ended and has not does so now at the earliest (R76).
+void Cycle::follow(Time now) {
+  for (Block& one : blocks_)
+    for (std::size_t i = 0; i < one.links.size(); ++i) {
+      Link& each = one.links[i];
+      if (each.stage == Stage::committed && each.start < now) {
+        each.end += now - each.start;
+        each.start = now;
+      } else if (each.stage == Stage::running && each.end < now) {
+        each.end = now;
+      } else {
+        continue;
+      }
+      to_optimize_ = true;
+      timelines_.move(task_id(one.number, i), each.start, each.end);
+    }
+}
+
+bool Cycle::consolidate(Time now) {
+  follow(now);
+  timelines_.consolidate(now);
+  for (Index i = 0; i < network_.timelines.size(); ++i)
+    if (!network_.timelines[i].reported) past_.internal[i] = timelines_.value(i, now);
+  return false;
+}
+
+// Blocks that are over leave; their requests are done, or wait for another try.
+void Cycle::forget_over(Report& report) {
+  for (Block& one : blocks_) {
+    if (!one.failed()) continue;
+    abandon(one, "", report);
+  }
+  std::erase_if(blocks_, [&](const Block& one) {
+    if (!one.over()) return false;
+    report.changed = true;
+    const TaskIndex task = chains_.chains[one.chain].task;
+    if (!one.failed()) {
+      past_.done.insert(task);
+    } else if (++failures_[task] >= settings_.most_failures) {
+      requested_.erase(task);
+      report.notes.push_back(network_.tasks[task].id + " is withdrawn: it failed " +
+                             std::to_string(settings_.most_failures) + " times");
+    }
+    to_schedule_ = true;
+    return true;
+  });
+}
+
+// Takes what is only planned out of a block that cannot be finished; what is committed ends by itself.
+void Cycle::abandon(Block& begun, const std::string& why, Report& report) {
+  for (std::size_t i = 0; i < begun.links.size(); ++i) {
+    if (begun.links[i].stage != Stage::planned) continue;
+    timelines_.remove(task_id(begun.number, i));
+    begun.links[i].stage = Stage::failed;
+    report.changed = true;
+  }
+  if (!why.empty())
+    report.notes.push_back(network_.tasks[chains_.chains[begun.chain].task].id + " is broken off: " + why);
+}
+
+void Cycle::take_out(const Block& gone) {
+  for (std::size_t i = 0; i < gone.links.size(); ++i)
+    if (!is_over(gone.links[i].stage)) timelines_.remove(task_id(gone.number, i));
+}
+
+void Cycle::put_in(const Block& placed) {
+  for (std::size_t i = 0; i < placed.links.size(); ++i) {
+    const Link& each = placed.links[i];
+    if (is_over(each.stage)) continue;
+    timelines_.place(task_id(placed.number, i), footprint(placed, i), each.start);
+    timelines_.move(task_id(placed.number, i), each.start, each.end);
+  }
+}
+
+std::vector<double> Cycle::values_now(Time now) const {
+  std::vector<double> out;
+  for (Index i = 0; i < network_.timelines.size(); ++i) out.push_back(timelines_.value(i, now));
+  return out;
+}
+
+// Returns what a link asks of timelines and does to them; the first one moreover asks for what selects its decompositions.
+temporal::timelines::Footprint Cycle::footprint(const Block& block, std::size_t link) const {
+  auto out = model::footprint(network_.tasks[block.links[link].task], past_.values);
+  if (link > 0) return out;
+  for (auto constraint : chains_.chains[block.chain].when) {
+    constraint.phase = temporal::timelines::Phase::pre;
+    out.constraints.push_back(constraint);
+  }
+  return out;
+}
+
+// Returns the requests that wait and whose preferred start lies within the scheduling window (R79).
+std::set<TaskIndex> Cycle::candidates(Time now) const {
+  const Time until = temporal::plus(now, network_.cycle.scheduling_window);
+  std::set<TaskIndex> out;
+  for (const TaskIndex task : waiting()) {
+    const Time preferred = network_.tasks[task].preferred_start;
+    if (!temporal::bounded(preferred) || preferred < until) out.insert(task);
+  }
+  return out;
+}
+
+std::vector<const Block*> Cycle::by_start() const {
+  std::vector<const Block*> out;
+  for (const Block& one : blocks_) out.push_back(&one);
+  std::ranges::stable_sort(out, {}, [](const Block* one) { return one->links.front().start; });
+  return out;
+}
+
+// Returns what is in the budget when all that is placed has been paid.
+double Cycle::budget() const {
+  Time end = network_.cycle.plan_end;
+  if (!temporal::bounded(end)) {
+    end = Time{0};
+    for (const Block& one : blocks_)
+      for (const Link& each : one.links) end = std::max(end, each.end);
+  }
+  return timelines_.value(network_.budget, end) - network_.timelines[network_.budget].lowest;
+}
+
+search::Plan Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Report& report) {
+  const std::vector<double> newest = values_now(now);
+  search::Problem problem{network_, past_.values, chains_, assessor_, scheduler_, timelines_};
+  problem.from = now + network_.cycle.commit_window;
+  problem.until = network_.cycle.plan_end;
+  problem.budget = budget();
+  problem.timelines_now = newest;
+  problem.first_id = TaskId{1} << 63U;
+  std::set<TaskIndex> placed;
+  for (const Block* one : by_start()) {
+    search::Placed standing{one->chain, {}};
+    for (const Link& each : one->links) standing.starts.push_back(each.start);
+    problem.committed.push_back(std::move(standing));
+    placed.insert(chains_.chains[one->chain].task);
+  }
+  for (const flattening::Chain& chain : chains_.chains)
+    if (!candidates.contains(chain.task) && !placed.contains(chain.task)) problem.closed.push_back(chain.task);
+  const search::Outcome outcome = search::search(problem);
+  report.explored += outcome.statistics.entries;
+  return outcome.plan;
+}
+
+bool Cycle::schedule(Time now, Report& report) {
+  if (!to_schedule_) return false;
+  to_schedule_ = false;
+  const std::set<TaskIndex> waiting_requests = candidates(now);
+  if (waiting_requests.empty()) return false;
+  const search::Plan plan = plan_for(now, waiting_requests, report);
+  adopt(plan);
+  return !plan.placed.empty();
+}
+
+void Cycle::adopt(const search::Plan& plan) {
+  for (const search::Placed& placed : plan.placed) {
+    Block added{++last_block_, placed.chain, {}};
+    const auto& links = chains_.chains[placed.chain].links;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const Duration length =
+          model::footprint(network_.tasks[links[i].task], past_.values).duration;
+      added.links.push_back(
+          {links[i].task, placed.starts[i], placed.starts[i], placed.starts[i] + length, Stage::planned});
+    }
+    put_in(added);
+    blocks_.push_back(std::move(added));
+  }
+}
+
+// Conflicts behind the commit window are mended by moving what has begun to later, and taking out what has not; the
+// latter is scheduled anew at once.
+bool Cycle::repair(Time now, Report& report) {
+  const Time from = now + network_.cycle.commit_window;
+  bool changed = false;
+  for (std::size_t rounds = blocks_.size() + 1; rounds > 0; --rounds) {
+    const auto conflicts = timelines_.conflicts(from, temporal::no_bound);
+    Block* culprit = nullptr;
+    for (const auto& conflict : conflicts) {
+      if (conflict.task) culprit = block(block_of(*conflict.task));
+      if (culprit != nullptr && std::ranges::none_of(culprit->links, [](const Link& each) {
+            return each.stage == Stage::planned;
+          }))
+        culprit = nullptr;
+      if (culprit == nullptr)
+        for (Block& one : blocks_)
+          if (!one.begun() && (culprit == nullptr || one.links.front().start > culprit->links.front().start))
+            culprit = &one;
+      if (culprit != nullptr) break;
+    }
+    if (culprit == nullptr) break;
+    changed = true;
+    if (culprit->begun()) {
+      if (!shift(*culprit, from)) abandon(*culprit, "no time is left at which the rest of it fits", report);
+      continue;
+    }
+    report.notes.push_back(chains_.chains[culprit->chain].name + " is taken out: it no longer fits");
+    take_out(*culprit);
+    blocks_.erase(blocks_.begin() + (culprit - blocks_.data()));
+    to_schedule_ = true;
+  }
+  if (changed && to_schedule_) schedule(now, report);
+  return changed;
+}
+
+// Places what is only planned of a block anew, each link as early as it can be.
+bool Cycle::shift(Block& late, Time from) {
+  for (std::size_t i = 0; i < late.links.size(); ++i)
+    if (late.links[i].stage == Stage::planned) timelines_.remove(task_id(late.number, i));
+  const auto& gaps = chains_.chains[late.chain].links;
+  bool fits = true;
+  for (std::size_t i = 0; i < late.links.size(); ++i) {
+    Link& each = late.links[i];
+    if (each.stage != Stage::planned) continue;
+    const auto seen = footprint(late, i);
+    std::optional<Time> start;
+    if (fits) {
+      const Time before = i == 0 ? from : late.links[i - 1].end;
+      const Time latest = i == 0 ? temporal::no_bound : temporal::plus(before, gaps[i].longest_gap);
+      start = timelines_.first_valid_start(
+          seen, {std::max(from, before + (i == 0 ? Duration{0} : gaps[i].shortest_gap)),
+                      std::min(latest, network_.cycle.plan_end)});
+    }
+    fits = start.has_value();
+    if (start) {
+      each.planned = each.start = *start;
+      each.end = *start + seen.duration;
+    }
+    timelines_.place(task_id(late.number, i), seen, each.start);
+  }
+  return fits;
+}
+
+// Returns what has not begun as a plan, assessed as a search assesses its own.
+search::Plan Cycle::planned(Time now) const {
+  const std::vector<double> newest = values_now(now);
+  std::vector<std::uint32_t> before;
+  search::Plan out;
+  for (const Block* one : by_start()) {
+    if (!one->begun()) {
+      const assessor::Context context{network_, past_.values, chains_, newest, {}, before};
+      out.utility += assessor_.predicted(one->chain, context);
+      out.cost += flattening::cost(network_, chains_.chains[one->chain], past_.values);
+      out.placed.push_back({one->chain, {}});
+    }
+    before.push_back(one->chain);
+  }
+  return out;
+}
+
+// Plans all anew that has not begun, and changes the plan only for a better one (R101).
+bool Cycle::optimize(Time now, Report& report) {
+  if (!to_optimize_) return false;
+  to_optimize_ = false;
+  std::ranges::fill(deviation_, 0.0);
+  const search::Plan old = planned(now);
+  std::vector<Block> before;
+  for (const Block& one : blocks_)
+    if (!one.begun()) before.push_back(one);
+  for (const Block& one : before) take_out(one);
+  std::erase_if(blocks_, [](const Block& one) { return !one.begun(); });
+  const search::Plan plan = plan_for(now, candidates(now), report);
+  const bool better = plan.utility > old.utility || (plan.utility == old.utility && plan.cost < old.cost - 1e-6);
+  if (better) {
+    adopt(plan);
+    return true;
+  }
+  for (Block& one : before) {
+    put_in(one);
+    blocks_.push_back(std::move(one));
+  }
+  std::ranges::sort(blocks_, {}, &Block::number);
+  return false;
+}
+
+}  // namespace roci::planner::utility_htn::cycle

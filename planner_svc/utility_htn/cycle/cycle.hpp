@@ -1,0 +1,122 @@
+// The planning cycle (MEXEC, section IV.A.3, R77–R82): commits, consolidates, schedules, repairs and optimizes, in this order, on a
+// network whose timelines are kept in step with what is observed and executed.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/temporal/timelines/timelines.hpp"
+#include "planner_svc/utility_htn/assessor/assessor.hpp"
+#include "planner_svc/utility_htn/cycle/placement.hpp"
+#include "planner_svc/utility_htn/search/search.hpp"
+
+namespace roci::planner::utility_htn::cycle {
+
+/// Names the parts of a cycle in their order (R77).
+enum class Activity { commit, consolidate, schedule, repair, optimize };
+
+/// Says what a mission may choose (R82, R102).
+struct Settings {
+  bool repairs = true;
+  bool optimizes = true;
+  /// What was observed must differ from what was foreseen by this share of the timeline's first value before the cycle optimizes anew.
+  double noticeable = 0.005;
+  /// A request that failed so often is withdrawn.
+  std::uint32_t most_failures = 3;
+};
+
+/// Tells what a cycle did.
+struct Report {
+  std::vector<Activity> done;      ///< in their order; those that had nothing to do are not named
+  std::uint64_t explored = 0;      ///< entries that searches took from their queues
+  bool changed = false;            ///< the placements are others than before
+  std::vector<std::string> notes;  ///< what was dropped or withdrawn, and why, in words
+};
+
+/// Is what outlives the process: with it and the blocks that are executed a cycle goes on as before.
+struct Past {
+  std::set<model::TaskIndex> done;  ///< requests that need not come again
+  model::Values values;             ///< as learned
+  std::vector<double> internal;     ///< by timeline: values of those that nobody reports
+  friend bool operator==(const Past&, const Past&) = default;
+};
+
+/// Holds plan and timelines. Between cycles it takes in observations and what became of tasks; only run() changes the plan.
+class Cycle {
+ public:
+  /// The network is checked. All outlive this.
+  Cycle(const model::Network& network, const flattening::Chains& chains, const assessor::Assessor& assessor,
+        const search::Scheduler& scheduler, temporal::Time origin, Settings settings = {});
+
+  void observe(temporal::timelines::Index timeline, temporal::Time sampled, double value);
+  /// Takes the times at which a task really began and ended (R76).
+  void begun(TaskId task, temporal::Time at);
+  void ended(TaskId task, temporal::Time at, bool succeeded, const std::string& cause = {});
+  /// Asks for a template, or for something that was withdrawn; forgets its failures.
+  void request(model::TaskIndex task);
+  /// Lets a request go; what of it is committed stands.
+  void withdraw(model::TaskIndex task);
+  /// Replaces a parameter's value (R116, R118). Returns why not, if it is out of range.
+  std::string set_value(model::ParameterIndex parameter, double value);
+  /// Lets the next cycle look for a better plan, whatever it knows.
+  void doubt() { to_optimize_ = true; }
+  /// Takes in that the executive has no plan any more: what ran has failed, what was committed is only planned.
+  void nothing_runs(temporal::Time now);
+  /// Goes on where another process stood.
+  void resume(const Past& past, std::vector<Block> blocks, std::uint32_t last_block, temporal::Time now);
+
+  Report run(temporal::Time now);
+
+  const std::vector<Block>& blocks() const { return blocks_; }
+  const Past& past() const { return past_; }
+  const temporal::timelines::Timelines& timelines() const { return timelines_; }
+  std::uint32_t last_block() const { return last_block_; }
+  /// Returns the requests that wait for a place, in the order of the network.
+  std::vector<model::TaskIndex> waiting() const;
+
+ private:
+  Block* block(std::uint32_t number);
+  Link* link(TaskId task);
+  bool commit(temporal::Time now);
+  void follow(temporal::Time now);
+  bool consolidate(temporal::Time now);
+  bool schedule(temporal::Time now, Report& report);
+  bool repair(temporal::Time now, Report& report);
+  bool optimize(temporal::Time now, Report& report);
+  bool shift(Block& late, temporal::Time from);
+  void take_out(const Block& gone);
+  void put_in(const Block& placed);
+  void abandon(Block& begun, const std::string& why, Report& report);
+  void forget_over(Report& report);
+  void edit_network(model::TaskIndex task);
+  search::Plan plan_for(temporal::Time now, const std::set<model::TaskIndex>& candidates, Report& report);
+  void adopt(const search::Plan& plan);
+  std::set<model::TaskIndex> candidates(temporal::Time now) const;
+  std::vector<const Block*> by_start() const;
+  search::Plan planned(temporal::Time now) const;
+  temporal::timelines::Footprint footprint(const Block& block, std::size_t link) const;
+  double budget() const;
+  std::vector<double> values_now(temporal::Time now) const;
+
+  const model::Network& network_;
+  const flattening::Chains& chains_;
+  const assessor::Assessor& assessor_;
+  const search::Scheduler& scheduler_;
+  Settings settings_;
+  temporal::timelines::Timelines timelines_;
+  Past past_;
+  std::set<model::TaskIndex> requested_;
+  std::map<model::TaskIndex, std::uint32_t> failures_;
+  std::vector<Block> blocks_;  // by number
+  std::uint32_t last_block_ = 0;
+  std::vector<std::string> notes_;    // since the cycle before
+  bool to_schedule_ = true;           // something waits that was not tried in this situation
+  bool to_optimize_ = false;          // the situation is another one
+  std::vector<double> deviation_;     // by timeline, of observations, since it was optimized last
+};
+
+}  // namespace roci::planner::utility_htn::cycle
