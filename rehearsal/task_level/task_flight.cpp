@@ -1,0 +1,341 @@
+#include "rehearsal/task_level/task_flight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/temporal/plan_delta.hpp"
+#include "exec_svc/executive/executive.hpp"
+#include "exec_svc/reactor/commitment.hpp"
+#include "exec_svc/reactor/recovery_policy.hpp"
+#include "planner_svc/utility_htn/adapter/plan_of.hpp"
+
+namespace roci::rehearsal::task_level {
+
+using exec::executive::Command, exec::executive::CommandAck, exec::executive::CommandAction,
+    exec::executive::CommandStage, exec::executive::Executive, exec::executive::OutcomeKind;
+using planner::engine::StepInputs, planner::engine::StepOutput;
+using planner::utility_htn::model::Task;
+using temporal::ActivityState, temporal::FlexiblePlan, temporal::PlanActivity, temporal::Time;
+
+namespace {
+
+namespace model = planner::utility_htn::model;
+namespace adapter = planner::utility_htn::adapter;
+
+exec::executive::ExecutiveSettings executive_settings() {
+  exec::executive::ExecutiveSettings out;
+  out.only_committed = true;
+  return out;
+}
+
+/// Draws from the budget while a task runs.
+struct Draw {
+  double power = 0;   // per second, positive takes
+  double at_end = 0;  // at once
+};
+
+class TaskFlight {
+ public:
+  explicit TaskFlight(const Flight& flight)
+      : flight_(flight),
+        budget_(flight.network.timelines.at(flight.network.budget)),
+        left_(budget_.initial),
+        values_(model::priors(flight.network)) {}
+
+  Flown run() {
+    heard_.goals.push_back(mission_goal());
+    heard_.receipt = planner::engine::Receipt{0, 0, "", "", true};
+    for (const auto& timeline : flight_.network.timelines)
+      if (timeline.reported) observe(timeline, timeline.initial);
+    while (out_.ended_by.empty()) {
+      turn();
+      if (out_.ended_by.empty()) advance(next_time());
+    }
+    out_.end = now_;
+    out_.spent = budget_.initial - left_;
+    return std::move(out_);
+  }
+
+ private:
+  static planner::engine::Goal mission_goal() {
+    planner::engine::Goal out;
+    out.issuer = "ground";
+    out.id = "mission";
+    out.kind = "network";
+    return out;
+  }
+
+  void tell(const std::string& what) const {
+    if (flight_.tell) flight_.tell(now_, what);
+  }
+
+  void observe(const temporal::timelines::Definition& timeline, double value) {
+    const temporal::Value seen = adapter::value_of(timeline, value);
+    heard_.observations.push_back({timeline.name, seen, now_});
+    inputs_.observations.push_back({timeline.name, seen});
+  }
+
+  // Engine and executive in turn, until both have said all that there is to say at this time.
+  void turn() {
+    for (bool more = true; more && out_.ended_by.empty();) {
+      more = step_engine();
+      more = step_executive() || more;
+    }
+  }
+
+  bool heard_something() const {
+    return !heard_.goals.empty() || !heard_.observations.empty() || !heard_.steps.empty() || heard_.receipt;
+  }
+
+  bool step_engine() {
+    const bool due = engine_wake_ && *engine_wake_ <= now_;
+    if (!due && !heard_something()) return false;
+    if (due) observe(budget_, left_);
+    StepInputs inputs = std::exchange(heard_, {});
+    inputs.now = now_;
+    inputs.last_version = last_version_;
+    const StepOutput output = flight_.engine.step(inputs);
+    engine_wake_ = output.wake;
+    if (engine_wake_ && *engine_wake_ <= now_) engine_wake_.reset();
+    if (output.delta) take(*output.delta);
+    return output.delta.has_value();
+  }
+
+  void take(const temporal::PlanDelta& delta) {
+    last_version_ = delta.added.version;
+    FlexiblePlan next = plan_;
+    std::string fault = temporal::apply(delta, next);
+    if (fault.empty())
+      if (const auto faults = temporal::check(next); !faults.empty()) fault = faults.front();
+    if (fault.empty())
+      fault = exec::reactor::commitment_violation(plan_, executive_.steps(), next, now_);
+    planner::engine::Receipt receipt{plan_.version, 0, "", "", true};
+    if (fault.empty()) {
+      plan_ = std::move(next);
+      receipt.version = plan_.version;
+      ++out_.versions;
+      FlexiblePlan loaded = plan_;
+      if (flight_.strategy == Strategy::as_planned || flight_.strategy == Strategy::ground) rigid(loaded);
+      executive_.load(std::move(loaded), now_);
+      for (const temporal::Token& token : plan_.tokens)
+        if (token.start_point != temporal::origin_point) blocks_.try_emplace(token.end_point, token);
+    } else {
+      receipt.refused = delta.added.version;
+      receipt.reason = fault;
+      out_.faults.push_back("version " + std::to_string(delta.added.version) + ": " + fault);
+    }
+    heard_.receipt = receipt;
+    stepped_ = false;
+  }
+
+  // Without flexible execution nothing is tried again by the executive itself; it still waits for what is late, since the
+  // world of these experiments has no lateness but what resolving a failure takes.
+  static void rigid(FlexiblePlan& plan) {
+    for (PlanActivity& activity : plan.activities) activity.retries = 0;
+  }
+
+  bool step_executive() {
+    const bool due = executive_wake_ && *executive_wake_ <= now_;
+    std::vector<CommandAck> acks;
+    for (auto end = ends_.begin(); end != ends_.end() && end->first <= now_; end = ends_.erase(end))
+      acks.push_back(end->second);
+    if (stepped_ && !due && acks.empty() && inputs_.observations.empty() && inputs_.acks.empty()) return false;
+    stepped_ = true;
+    inputs_.acks.insert(inputs_.acks.end(), acks.begin(), acks.end());
+    const exec::executive::Outputs outputs = executive_.step(now_, std::exchange(inputs_, {}));
+    executive_wake_ = outputs.next_wake;
+    if (executive_wake_ && *executive_wake_ <= now_) executive_wake_.reset();
+    for (const auto& status : outputs.changes) take(status);
+    for (const Command& command : outputs.commands) begin(command);
+    finished_ = outputs.outcome.kind == OutcomeKind::finished;
+    return true;
+  }
+
+  const Task* task_of(const std::string& activity) const {
+    const auto found = std::ranges::find(flight_.network.tasks, activity.substr(0, activity.rfind('#')), &Task::id);
+    return found == flight_.network.tasks.end() ? nullptr : &*found;
+  }
+
+  void take(const exec::executive::StepStatus& status) {
+    planner::engine::StepStatus step;
+    step.plan_version = plan_.version;
+    step.activity = status.activity;
+    step.progress = {status.state, status.started, status.ended};
+    step.cause = status.reason;
+    heard_.steps.push_back(step);
+    const Task* const task = task_of(status.activity);
+    if (task == nullptr) return;
+    if (status.state == ActivityState::running && task->commands.empty()) draw(status.activity, *task, 1);
+    if (!temporal::is_over(status.state)) return;
+    settle_draw(status.activity, status.state == ActivityState::succeeded);
+    if (status.state == ActivityState::succeeded) {
+      ++out_.tasks;
+      succeeded_.insert(status.activity);
+      count_blocks(status.activity);
+    }
+    observe(budget_, left_);
+  }
+
+  // Utility counts when a chain is executed to its end (R90).
+  void count_blocks(const std::string& activity) {
+    const auto of = std::ranges::find(plan_.activities, activity, &PlanActivity::id);
+    if (of == plan_.activities.end()) return;
+    const auto token = blocks_.find(of->end_point);
+    if (token == blocks_.end()) return;
+    const auto id = adapter::task_of(activity);
+    temporal::RankVector gained;
+    for (const PlanActivity& link : plan_.activities) {
+      const auto other = adapter::task_of(link.id);
+      if (!other || planner::utility_htn::cycle::block_of(*other) != planner::utility_htn::cycle::block_of(*id)) continue;
+      if (!succeeded_.contains(link.id)) return;
+      gained += link.utility;
+    }
+    out_.utility += gained;
+    out_.course.push_back({budget_.initial - left_, out_.utility});
+    tell(token->second.timeline + " is completed: utility " + temporal::to_text(out_.utility));
+    blocks_.erase(token);
+  }
+
+  void draw(const std::string& activity, const Task& task, double factor) {
+    Draw out;
+    for (const model::Impact& impact : task.impacts) {
+      if (impact.timeline != flight_.network.budget) continue;
+      const double amount = -factor * model::evaluate(impact.amount, values_);
+      if (impact.kind == temporal::ImpactKind::rate) out.power += amount;
+      if (impact.kind != temporal::ImpactKind::delta) continue;
+      if (impact.moment == temporal::ImpactWhen::at_end) out.at_end += amount;
+      if (impact.moment == temporal::ImpactWhen::at_start) left_ -= amount;
+    }
+    draws_[activity] = out;
+  }
+
+  void settle_draw(const std::string& activity, bool succeeded) {
+    const auto found = draws_.find(activity);
+    if (found == draws_.end()) return;
+    if (succeeded) left_ -= found->second.at_end;
+    draws_.erase(found);
+  }
+
+  void begin(const Command& command) {
+    if (command.action != CommandAction::execute) {
+      inputs_.acks.push_back({command.activity, command.attempt, CommandStage::cancelled, "", ""});
+      return;
+    }
+    const Task* const task = task_of(command.activity);
+    if (task == nullptr) return;
+    inputs_.acks.push_back({command.activity, command.attempt, CommandStage::accepted, "", ""});
+    const Fate fate = fate_of(*task, command);
+    draw(command.activity, *task, fate.energy);
+    const double length = fate.duration * model::evaluate(task->duration, values_);
+    Time end = now_ + temporal::seconds(length);
+    CommandStage stage = CommandStage::completed;
+    if (fate.failure != Failure::none) {
+      ++out_.failures;
+      stage = resolve(*task, fate.failure, end);
+    }
+    ends_.emplace(end, CommandAck{command.activity, command.attempt, stage, "", ""});
+  }
+
+  // What was resolved once works: the next attempt of the same activity, and the next execution of the task, do not fail.
+  Fate fate_of(const Task& task, const Command& command) {
+    if (command.attempt == 1) activity_fates_[command.activity] = flight_.fates(task.id, executions_[task.id]++);
+    Fate fate = activity_fates_[command.activity];
+    if (resolved_.erase(task.id) > 0) fate.failure = Failure::none;
+    return fate;
+  }
+
+  CommandStage resolve(const Task& task, Failure failure, Time& end) {
+    const Strategy strategy = flight_.strategy;
+    resolved_.insert(task.id);
+    if (strategy == Strategy::as_planned) {
+      fails_at_ = end;
+    } else if (failure == Failure::flexible && strategy >= Strategy::flexible_execution) {
+      ++out_.retried;
+      return CommandStage::failed;
+    } else if (failure != Failure::ground && strategy == Strategy::replanning) {
+      ++out_.replanned;
+      left_ -= flight_.costs.replanning_j;
+      return task.control.retries > 0 ? fail_again(task) : CommandStage::failed;
+    } else {
+      ++out_.by_ground;
+      left_ -= flight_.costs.ground_j;
+      end += flight_.costs.ground_wait + temporal::seconds(model::evaluate(task.duration, values_));
+      return CommandStage::completed;
+    }
+    return CommandStage::failed;
+  }
+
+  // Retries do not help: the executive gives up, and the engine plans anew.
+  static CommandStage fail_again(const Task&) { return CommandStage::rejected; }
+
+  double power() const {
+    double out = 0;
+    for (const auto& [activity, draw] : draws_) out += draw.power;
+    return out;
+  }
+
+  Time next_time() const {
+    Time next = flight_.until;
+    const auto sooner = [&](Time at) { next = std::min(next, std::max(at, now_)); };
+    if (engine_wake_ && !idle()) sooner(*engine_wake_);
+    if (executive_wake_) sooner(*executive_wake_);
+    if (!ends_.empty()) sooner(ends_.begin()->first);
+    if (fails_at_) sooner(*fails_at_);
+    return next;
+  }
+
+  // Nothing runs, nothing waits, and the engine has had a cycle to think of something else.
+  bool idle() const { return finished_ && idle_cycles_ > 2; }
+
+  void advance(Time to) {
+    if (!temporal::bounded(to)) {
+      out_.ended_by = "nothing left";
+      return;
+    }
+    const double drawn = power();
+    const double needed = drawn * temporal::to_seconds(to - now_);
+    if (left_ - needed <= budget_.lowest) {
+      if (drawn > 0) now_ += temporal::seconds(std::max(0.0, left_ - budget_.lowest) / drawn);
+      left_ = std::min(left_, budget_.lowest);
+      out_.ended_by = "budget";
+      return;
+    }
+    left_ -= needed;
+    now_ = to;
+    idle_cycles_ = finished_ ? idle_cycles_ + 1 : 0;
+    if (fails_at_ && now_ >= *fails_at_) out_.ended_by = "failure";
+    if (now_ >= flight_.until) out_.ended_by = "time";
+  }
+
+  const Flight& flight_;
+  const temporal::timelines::Definition& budget_;
+  double left_;
+  model::Values values_;
+  Time now_{0};
+  Executive executive_{executive_settings()};
+  FlexiblePlan plan_;
+  std::uint32_t last_version_ = 0;
+  StepInputs heard_;
+  exec::executive::Inputs inputs_;
+  bool stepped_ = true;
+  std::optional<Time> engine_wake_, executive_wake_, fails_at_;
+  std::multimap<Time, CommandAck> ends_;
+  std::map<std::string, Draw> draws_;  // by activity
+  std::map<std::string, std::uint32_t> executions_;
+  std::map<std::string, Fate> activity_fates_;
+  std::set<std::string> resolved_, succeeded_;
+  std::map<temporal::TimePoint, temporal::Token> blocks_;  // by the end of the last link
+  bool finished_ = false;
+  int idle_cycles_ = 0;
+  Flown out_;
+};
+
+}  // namespace
+
+Flown fly(const Flight& flight) { return TaskFlight(flight).run(); }
+
+}  // namespace roci::rehearsal::task_level

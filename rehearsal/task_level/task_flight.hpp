@@ -1,0 +1,76 @@
+// Flies a task network in process at the level of tasks (MEXEC, section V.A): the engine and the executive are those of flight, the world
+// knows no more of a task than how long it takes, what it draws from the budget, and whether it fails.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/temporal/rank_vector.hpp"
+#include "planner_svc/engine/stepped_engine.hpp"
+#include "planner_svc/utility_htn/model/network.hpp"
+
+namespace roci::rehearsal::task_level {
+
+/// Says which mechanism can resolve a failure (MEXEC, section II.C): each is dearer than the one before.
+enum class Failure { none, flexible, replanning, ground };
+
+/// Says how one execution of a task goes, relative to the network's values.
+struct Fate {
+  double duration = 1;  ///< factor
+  double energy = 1;    ///< factor of all that the task draws from the budget
+  Failure failure = Failure::none;
+};
+
+/// Returns the fate of the n-th execution of a task, counted from 0. It depends on nothing else, so that strategies meet the same world.
+using Fates = std::function<Fate(const std::string& task, std::uint32_t execution)>;
+
+/// Names the strategies of section III.D (R102).
+enum class Strategy { as_planned, ground, flexible_execution, replanning };
+
+/// Says what resolving a failure takes.
+struct Costs {
+  double replanning_j = 0;
+  double ground_j = 0;
+  temporal::Duration ground_wait{0};  ///< until the ground has resolved it
+};
+
+/// Describes one flight.
+struct Flight {
+  const planner::utility_htn::model::Network& network;
+  planner::engine::SteppedEngine& engine;
+  Fates fates;
+  Strategy strategy = Strategy::replanning;
+  Costs costs{};
+  temporal::Time until = temporal::no_bound;
+  /// Is told of everything that happens, for traces; may be empty.
+  std::function<void(temporal::Time, const std::string&)> tell{};
+};
+
+/// Is the utility that was reached when so much was spent (figures 10 and 11).
+struct Reached {
+  double spent = 0;
+  temporal::RankVector utility;
+};
+
+/// Says how a flight went.
+struct Flown {
+  temporal::Time end{0};
+  std::string ended_by;           ///< "budget", "failure", "nothing left", "time"
+  double spent = 0;               ///< from the budget
+  temporal::RankVector utility;   ///< of what was executed to its end (R90)
+  std::vector<Reached> course;    ///< after each block that was completed
+  std::uint32_t tasks = 0;        ///< executions that succeeded
+  std::uint32_t failures = 0;     ///< by what resolved them:
+  std::uint32_t retried = 0;
+  std::uint32_t replanned = 0;
+  std::uint32_t by_ground = 0;
+  std::uint32_t versions = 0;
+  std::vector<std::string> faults;  ///< versions that the executive would refuse, and why; none is expected
+};
+
+/// Flies until the budget is spent, nothing is left to do, a failure ends it (as_planned), or `until`.
+Flown fly(const Flight& flight);
+
+}  // namespace roci::rehearsal::task_level

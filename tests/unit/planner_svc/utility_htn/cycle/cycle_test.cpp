@@ -1,0 +1,213 @@
+// The planning cycle by itself: its order, its windows, what it does when something is late, fails or is dearer.
+#include "planner_svc/utility_htn/cycle/cycle.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/unit/planner_svc/utility_htn/cycle/toy_network.hpp"
+
+namespace roci::planner::utility_htn::cycle {
+namespace {
+
+using namespace std::chrono_literals;
+using temporal::Duration, temporal::Time;
+using testing::task_named, testing::toy_network;
+using ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not;
+
+class CycleTest : public ::testing::Test {
+ protected:
+  Cycle make(Settings settings = {}) {
+    chains_ = flattening::flatten(network_);
+    return {network_, chains_, assessor_, *scheduler_, Time{0}, settings};
+  }
+
+  std::vector<std::string> requests(const Cycle& cycle) const {
+    std::vector<std::string> out;
+    for (const Block& one : cycle.blocks()) out.push_back(network_.tasks[chains_.chains[one.chain].task].id);
+    std::ranges::sort(out);
+    return out;
+  }
+
+  const Block& block_of_request(const Cycle& cycle, const std::string& id) const {
+    for (const Block& one : cycle.blocks())
+      if (network_.tasks[chains_.chains[one.chain].task].id == id) return one;
+    throw std::logic_error("no block of " + id);
+  }
+
+  model::Network network_ = toy_network();
+  flattening::Chains chains_;
+  assessor::NetworkAssessor assessor_;
+  std::unique_ptr<search::Scheduler> scheduler_ = search::make_scheduler("earliest");
+};
+
+TEST_F(CycleTest, SchedulesAllThatFitsBehindTheCommitWindow) {
+  Cycle cycle = make();
+  const Report report = cycle.run(Time{0});
+  EXPECT_THAT(requests(cycle), ElementsAre("idle", "sample", "view"));
+  EXPECT_THAT(report.done, Contains(Activity::schedule));
+  for (const Block& one : cycle.blocks())
+    for (const Link& link : one.links) EXPECT_GE(link.start, 30s) << "nothing is placed in the commit window";
+  EXPECT_THAT(cycle.timelines().conflicts(Time{0}, temporal::no_bound), IsEmpty());
+}
+
+TEST_F(CycleTest, CommitsWhatStartsBeforeTheEndOfTheWindowAndFirst) {
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  const Report report = cycle.run(10s);
+  ASSERT_THAT(report.done, Not(IsEmpty()));
+  EXPECT_EQ(report.done.front(), Activity::commit);
+  for (const Block& one : cycle.blocks())
+    for (const Link& link : one.links)
+      EXPECT_EQ(link.stage == Stage::committed, link.start < 40s);
+}
+
+TEST_F(CycleTest, WhereNothingHasChangedNothingIsSearched) {
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  cycle.run(10s);
+  const Report quiet = cycle.run(20s);
+  EXPECT_EQ(quiet.explored, 0U);
+  EXPECT_FALSE(quiet.changed);
+}
+
+TEST_F(CycleTest, OnlyWhatPrefersToStartWithinTheSchedulingWindowIsScheduled) {
+  network_.cycle.scheduling_window = 100s;
+  network_.tasks[task_named(network_, "idle")].preferred_start = 500s;
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  EXPECT_THAT(requests(cycle), Not(Contains("idle")));
+  cycle.doubt();
+  cycle.run(401s);
+  EXPECT_THAT(requests(cycle), Contains("idle"));
+}
+
+TEST_F(CycleTest, AFailureIsTriedAgainAndThenWithdrawn) {
+  Cycle cycle = make();
+  Time now{0};
+  int tries = 0;
+  std::vector<std::string> notes;
+  for (; now < 3000s; now += 10s) {
+    const Report report = cycle.run(now);
+    notes.insert(notes.end(), report.notes.begin(), report.notes.end());
+    for (const Block& one : std::vector<Block>(cycle.blocks())) {
+      for (std::size_t i = 0; i < one.links.size(); ++i) {
+        const Link& link = one.links[i];
+        if (link.stage != Stage::committed || link.start > now) continue;
+        if (i > 0 && one.links[i - 1].stage != Stage::succeeded) continue;
+        const bool fails = network_.tasks[link.task].id == "dig";
+        tries += fails ? 1 : 0;
+        cycle.begun(task_id(one.number, i), now);
+        cycle.ended(task_id(one.number, i), now + 1s, !fails, "stuck");
+      }
+    }
+  }
+  EXPECT_EQ(tries, 3);
+  EXPECT_THAT(notes, Contains(HasSubstr("dig failed: stuck")));
+  EXPECT_THAT(notes, Contains("sample is withdrawn: it failed 3 times"));
+  EXPECT_THAT(cycle.blocks(), IsEmpty());
+}
+
+TEST_F(CycleTest, AContingencyAsksForATemplate) {
+  model::Task probe = network_.tasks[task_named(network_, "image")];
+  probe.id = probe.name = "probe";
+  network_.tasks.push_back(probe);
+  network_.tasks[task_named(network_, "dig")].contingency =
+      model::Contingency{{task_named(network_, "probe")}, {task_named(network_, "sample")}};
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  const Block& sample = block_of_request(cycle, "sample");
+  cycle.run(sample.links.front().start - 10s);
+  const TaskId dig = task_id(sample.number, 0);
+  cycle.begun(dig, sample.links.front().start);
+  cycle.ended(dig, sample.links.front().start + 5s, false);
+  cycle.run(sample.links.front().start + 10s);
+  EXPECT_THAT(requests(cycle), Contains("probe"));
+  for (int i = 0; i < 200; ++i) cycle.run(Time{2000s} + i * 10s);
+  EXPECT_THAT(requests(cycle), Not(Contains("sample")));
+}
+
+TEST_F(CycleTest, LessEnergyThanForeseenMakesRoomForTheBetterOne) {
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  ASSERT_THAT(requests(cycle), ElementsAre("idle", "sample", "view"));
+  cycle.observe(testing::kBattery, 5s, 500);  // 350 J for the sample, 150 J for the view, 300 J for idling
+  cycle.run(10s);
+  EXPECT_THAT(requests(cycle), Contains("sample"));
+  EXPECT_THAT(cycle.timelines().conflicts(40s, temporal::no_bound), IsEmpty());
+}
+
+TEST_F(CycleTest, WhatHasBegunIsFinishedLaterWhenItsFirstLinkTakesLonger) {
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  const Block sample = block_of_request(cycle, "sample");
+  Time now = sample.links.front().start;
+  cycle.run(now);
+  cycle.begun(task_id(sample.number, 0), now);
+  for (; now < sample.links.front().end + 200s; now += 10s) cycle.run(now);
+  const Block& late = block_of_request(cycle, "sample");
+  EXPECT_EQ(late.number, sample.number);
+  for (std::size_t i = 1; i < late.links.size(); ++i)
+    if (late.links[i].stage == Stage::planned) EXPECT_GE(late.links[i].start, now);
+}
+
+TEST_F(CycleTest, AValueOutOfItsRangeIsRefused) {
+  Cycle cycle = make();
+  EXPECT_THAT(cycle.set_value(0, 1000), HasSubstr("dig_s = 1000"));
+  EXPECT_EQ(cycle.past().values.front(), 100);
+  EXPECT_EQ(cycle.set_value(0, 200), "");
+  cycle.run(Time{0});
+  const Link dig = block_of_request(cycle, "sample").links.front();
+  EXPECT_EQ(dig.end - dig.start, 200s);
+}
+
+// Executes what is committed, with random durations, failures and battery levels; whatever happens, what was committed
+// keeps its planned start, nothing is placed in the commit window, and no id comes twice.
+TEST_F(CycleTest, RandomWorldsNeverMoveWhatIsCommitted) {
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    std::mt19937 random(seed);
+    const auto chance = [&](double p) { return std::uniform_real_distribution<>(0, 1)(random) < p; };
+    Cycle cycle = make();
+    std::map<TaskId, Time> committed, ends;
+    double battery = 1000;
+    for (Time now{0}; now < 2000s; now += 10s) {
+      const std::uint32_t last = cycle.last_block();
+      if (chance(0.2)) cycle.observe(testing::kBattery, now, battery = std::max(0.0, battery - 20));
+      cycle.run(now);
+      for (const Block& one : std::vector<Block>(cycle.blocks())) {
+        for (std::size_t i = 0; i < one.links.size(); ++i) {
+          const Link& link = one.links[i];
+          const TaskId id = task_id(one.number, i);
+          if (one.number > last) EXPECT_GE(link.planned, now + 30s) << seed;
+          if (link.stage == Stage::committed || link.stage == Stage::running)
+            EXPECT_EQ(committed.try_emplace(id, link.planned).first->second, link.planned) << seed;
+          if (link.stage == Stage::planned) EXPECT_FALSE(committed.contains(id)) << seed;
+          const bool ready = i == 0 || one.links[i - 1].stage == Stage::succeeded;
+          if (link.stage == Stage::committed && link.planned <= now && ready && chance(0.8)) {
+            cycle.begun(id, now);
+            ends[id] = now + (chance(0.3) ? 3 : 1) * (link.end - link.start);
+          } else if (link.stage == Stage::running && now >= ends[id]) {
+            cycle.ended(id, now, chance(0.8));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_F(CycleTest, GoesOnWhereAnotherStood) {
+  Cycle first = make();
+  first.run(Time{0});
+  first.run(10s);
+  Cycle second = make();
+  second.resume(first.past(), first.blocks(), first.last_block(), 10s);
+  EXPECT_EQ(second.blocks(), first.blocks());
+  second.run(20s);
+  EXPECT_EQ(requests(second), requests(first));
+  for (const Block& one : second.blocks())
+    EXPECT_LE(one.number, second.last_block());
+}
+
+}  // namespace
+}  // namespace roci::planner::utility_htn::cycle
