@@ -4,6 +4,9 @@
 
 #include "planner_svc/temporal_pddl/adapter/pddl_engine.hpp"
 #include "planner_svc/temporal_pddl/checker/pddl_checker.hpp"
+#include "planner_svc/utility_htn/adapter/utility_engine.hpp"
+#include "planner_svc/utility_htn/checking/utility_checker.hpp"
+#include "planner_svc/utility_htn/reading/load.hpp"
 
 namespace roci::planner {
 
@@ -12,6 +15,13 @@ const engine::Table& engines() {
       {"temporal_pddl",
        {engine::MakeAnswering([] { return std::make_unique<temporal_pddl::adapter::PddlEngine>(); }),
         [] { return std::make_unique<temporal_pddl::checker::PddlChecker>(); }}},
+      {"utility_htn",
+       {engine::MakeStepped(
+            [](const engine::Setup& setup) {
+              return std::make_unique<utility_htn::adapter::UtilityEngine>(
+                  setup, utility_htn::reading::load_network(setup.model_file));
+            }),
+        [] { return std::make_unique<utility_htn::checking::UtilityChecker>(); }}},
   };
   return table;
 }

@@ -20,7 +20,10 @@ std::string text_of(const roci::mission::Entry& name) {
 Settings read_settings(const std::filesystem::path& mission) {
   Settings out;
   const auto root = roci::mission::load_mission_file(mission);
-  if (const auto model = root.find("model")) out.model = text_of(*model);
+  if (const auto model = root.find("model")) {
+    out.model = text_of(*model);
+    out.model_file = model->resolve(model->text());
+  }
   const auto planner = root.find("planner");
   if (!planner) return out;
   out.engine = planner->text_or("engine", "");

@@ -32,7 +32,7 @@ std::string version_text(std::uint32_t version) { return "version " + std::to_st
 SteppedHost::SteppedHost(services::Node& node, const Settings& settings, const engine::TableEntry& entry)
     : node_(node),
       entry_(entry),
-      setup_{settings.engine, node.options().robot, settings.model},
+      setup_{settings.engine, node.options().robot, settings.model, settings.model_file},
       engine_(std::get<MakeStepped>(entry.make)(setup_)),
       checker_(entry.make_checker()),
       deltas_(services::advertise(node, topics::plan_delta)),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct Setup {
   std::string engine;  ///< its name in the table, to be given in FlexiblePlan::engine
   std::string robot;   ///< whose plan it is; empty: the only one
   std::string model;   ///< of the mission, in the engine's own language; empty: it needs none
+  std::filesystem::path model_file{};  ///< from which that was read; what the model includes lies beside it
 };
 
 /// The newest value of a timeline, as its owner measured it.

@@ -174,7 +174,7 @@ class TaskFlight {
     settle_draw(status.activity, status.state == ActivityState::succeeded);
     if (status.state == ActivityState::succeeded) {
       ++out_.tasks;
-      succeeded_.insert(status.activity);
+      if (const auto id = adapter::task_of(status.activity)) succeeded_.insert(*id);
       count_blocks(status.activity);
     }
     observe(budget_, left_);
@@ -183,18 +183,17 @@ class TaskFlight {
   // Utility counts when a chain is executed to its end (R90).
   void count_blocks(const std::string& activity) {
     const auto of = std::ranges::find(plan_.activities, activity, &PlanActivity::id);
-    if (of == plan_.activities.end()) return;
+    const auto id = adapter::task_of(activity);
+    if (of == plan_.activities.end() || !id) return;
     const auto token = blocks_.find(of->end_point);
     if (token == blocks_.end()) return;
-    const auto id = adapter::task_of(activity);
-    temporal::RankVector gained;
+    const std::uint32_t block = planner::utility_htn::cycle::block_of(*id);
+    for (std::size_t link = 0; link < planner::utility_htn::cycle::link_of(*id); ++link)
+      if (!succeeded_.contains(planner::utility_htn::cycle::task_id(block, link))) return;
     for (const PlanActivity& link : plan_.activities) {
       const auto other = adapter::task_of(link.id);
-      if (!other || planner::utility_htn::cycle::block_of(*other) != planner::utility_htn::cycle::block_of(*id)) continue;
-      if (!succeeded_.contains(link.id)) return;
-      gained += link.utility;
+      if (other && planner::utility_htn::cycle::block_of(*other) == block) out_.utility += link.utility;
     }
-    out_.utility += gained;
     out_.course.push_back({budget_.initial - left_, out_.utility});
     tell(token->second.timeline + " is completed: utility " + temporal::to_text(out_.utility));
     blocks_.erase(token);
@@ -208,7 +207,7 @@ class TaskFlight {
       if (impact.kind == temporal::ImpactKind::rate) out.power += amount;
       if (impact.kind != temporal::ImpactKind::delta) continue;
       if (impact.moment == temporal::ImpactWhen::at_end) out.at_end += amount;
-      if (impact.moment == temporal::ImpactWhen::at_start) left_ -= amount;
+      if (impact.moment == temporal::ImpactWhen::at_start) spend(amount);
     }
     draws_[activity] = out;
   }
@@ -216,7 +215,7 @@ class TaskFlight {
   void settle_draw(const std::string& activity, bool succeeded) {
     const auto found = draws_.find(activity);
     if (found == draws_.end()) return;
-    if (succeeded) left_ -= found->second.at_end;
+    if (succeeded) spend(found->second.at_end);
     draws_.erase(found);
   }
 
@@ -258,11 +257,11 @@ class TaskFlight {
       return CommandStage::failed;
     } else if (failure != Failure::ground && strategy == Strategy::replanning) {
       ++out_.replanned;
-      left_ -= flight_.costs.replanning_j;
+      spend(flight_.costs.replanning_j);
       return task.control.retries > 0 ? fail_again(task) : CommandStage::failed;
     } else {
       ++out_.by_ground;
-      left_ -= flight_.costs.ground_j;
+      spend(flight_.costs.ground_j);
       end += flight_.costs.ground_wait + temporal::seconds(model::evaluate(task.duration, values_));
       return CommandStage::completed;
     }
@@ -271,6 +270,8 @@ class TaskFlight {
 
   // Retries do not help: the executive gives up, and the engine plans anew.
   static CommandStage fail_again(const Task&) { return CommandStage::rejected; }
+
+  void spend(double amount) { left_ = std::max(budget_.lowest, left_ - amount); }
 
   double power() const {
     double out = 0;
@@ -292,7 +293,7 @@ class TaskFlight {
   bool idle() const { return finished_ && idle_cycles_ > 2; }
 
   void advance(Time to) {
-    if (!temporal::bounded(to)) {
+    if (to == flight_.until && finished_) {
       out_.ended_by = "nothing left";
       return;
     }
@@ -327,7 +328,8 @@ class TaskFlight {
   std::map<std::string, Draw> draws_;  // by activity
   std::map<std::string, std::uint32_t> executions_;
   std::map<std::string, Fate> activity_fates_;
-  std::set<std::string> resolved_, succeeded_;
+  std::set<std::string> resolved_;
+  std::set<planner::utility_htn::cycle::TaskId> succeeded_;
   std::map<temporal::TimePoint, temporal::Token> blocks_;  // by the end of the last link
   bool finished_ = false;
   int idle_cycles_ = 0;

@@ -14,8 +14,8 @@ using temporal::timelines::Constraint, temporal::timelines::Definition, temporal
 
 namespace {
 
-/// A wait without an end, where a task names none.
-constexpr Duration kLongWait = temporal::seconds(1e9);
+/// Bounds the wait of a task that names no timeout itself.
+constexpr Duration kWait = temporal::seconds(3600);
 
 Condition condition_of(const Definition& timeline, const Constraint& constraint) {
   std::vector<Condition> parts;
@@ -85,7 +85,7 @@ PlanActivity activity_of(const model::Network& network, const model::Values& val
   out.maintenance = condition_of(network, task.constraints, Phase::maintenance);
   out.post = condition_of(network, task.constraints, Phase::post);
   out.skip_if = condition_of(network, task.control.skip_if, std::nullopt);
-  out.wait_timeout = temporal::bounded(task.control.wait_timeout) ? task.control.wait_timeout : kLongWait;
+  out.wait_timeout = temporal::bounded(task.control.wait_timeout) ? task.control.wait_timeout : kWait;
   out.retries = task.control.retries;
   out.may_skip = task.control.may_skip;
   out.lateness = temporal::LatenessPolicy::push;
@@ -95,6 +95,16 @@ PlanActivity activity_of(const model::Network& network, const model::Values& val
   out.goals_served = frame.goals;
   out.utility = model::utility(task, values);
   return out;
+}
+
+// A link needs the success of the one before, which a timeline of the block's own tells.
+void chain_up(const Block& block, std::size_t link, PlanActivity& activity) {
+  const std::string progress = "block." + std::to_string(block.number);
+  const auto links = static_cast<double>(link);
+  if (link > 0) activity.pre = both(temporal::compare(progress, ConditionOp::eq, links), activity.pre);
+  if (link + 1 < block.links.size())
+    activity.impacts.push_back(
+        {progress, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, links + 1});
 }
 
 using Told = std::unordered_map<std::string, const PlanActivity*>;
@@ -124,6 +134,7 @@ void add_block(const model::Network& network, const flattening::Chain& chain, co
       activity.start_point = start;
       activity.end_point = end;
       if (i == 0) activity.pre = both(activity.pre, condition_of(network, chain.when, std::nullopt));
+      chain_up(block, i, activity);
       plan.activities.push_back(std::move(activity));
     }
     plan.constraints.push_back({temporal::origin_point, start, ConstraintKind::window,
@@ -175,7 +186,7 @@ FlexiblePlan plan_of(const model::Network& network, const flattening::Chains& ch
       remember("parameter." + network.parameters[i].name, past.values[i]);
   for (std::size_t i = 0; i < network.timelines.size(); ++i)
     if (!network.timelines[i].reported)
-      remember("internal." + network.timelines[i].name, past.internal[i]);
+      remember("internal." + network.timelines[i].name, value_of(network.timelines[i], past.internal[i]));
   out.point_count = points.count();
   return out;
 }
@@ -186,7 +197,7 @@ PlanActivity initial_activity(const model::Network& network, const cycle::Past& 
   out.name = "begin";
   out.robot = frame.robot;
   out.lateness = temporal::LatenessPolicy::push;
-  out.wait_timeout = kLongWait;
+  out.wait_timeout = kWait;
   out.failure = temporal::FailureScope::of_activity;
   out.commit = CommitState::committed;
   out.goals_served = frame.goals;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "planner_svc/utility_htn/assessor/subway_assessor.hpp"
-#include "planner_svc/utility_htn/reading/network_text.hpp"
 
 namespace roci::planner::utility_htn::adapter {
 
@@ -23,19 +22,20 @@ const std::string* argument(const Goal& goal, const std::string& name) {
 
 }  // namespace
 
-UtilityEngine::UtilityEngine(const engine::Setup& setup)
+UtilityEngine::UtilityEngine(const engine::Setup& setup, model::Network network, cycle::Settings settings)
     : setup_(setup),
-      network_(reading::read_network(setup.model)),
-      chains_(flattening::flatten(network_)),
-      assessor_(std::make_unique<assessor::SubwayAssessor>()),
-      scheduler_(search::make_scheduler("nearest")) {}
+      network_(std::move(network)),
+      chains_(flattening::flatten(network_, flattening::templates_on_call(network_))),
+      assessor_(std::make_unique<assessor::SubwayAssessor>(network_, chains_)),
+      scheduler_(search::make_scheduler("nearest")),
+      settings_(settings) {}
 
 UtilityEngine::~UtilityEngine() = default;
 
 StepOutput UtilityEngine::step(const StepInputs& inputs) {
   if (cycle_ == nullptr) {
     origin_ = next_cycle_ = inputs.now;
-    cycle_ = std::make_unique<cycle::Cycle>(network_, chains_, *assessor_, *scheduler_, inputs.now);
+    cycle_ = std::make_unique<cycle::Cycle>(network_, chains_, *assessor_, *scheduler_, inputs.now, settings_);
   }
   hear(inputs);
   StepOutput out;

@@ -17,8 +17,8 @@ namespace roci::planner::utility_htn::adapter {
 /// template or not, and is served by it alone; every other goal is served by the whole plan.
 class UtilityEngine final : public engine::SteppedEngine {
  public:
-  /// Throws std::exception with file, line and remedy for a network that cannot be used.
-  explicit UtilityEngine(const engine::Setup& setup);
+  /// The network is checked already.
+  UtilityEngine(const engine::Setup& setup, model::Network network, cycle::Settings settings = {});
   ~UtilityEngine() override;
 
   engine::StepOutput step(const engine::StepInputs& inputs) override;
@@ -33,6 +33,7 @@ class UtilityEngine final : public engine::SteppedEngine {
   void go_on_with(const temporal::FlexiblePlan& executed, temporal::Time now);
   void send(const engine::StepInputs& inputs, engine::StepOutput& out);
   void serve_requests(temporal::FlexiblePlan& plan) const;
+  std::vector<std::string> served_goals() const;
   std::optional<model::TaskIndex> requested_by(const engine::Goal& goal) const;
 
   engine::Setup setup_;
@@ -40,6 +41,7 @@ class UtilityEngine final : public engine::SteppedEngine {
   flattening::Chains chains_;
   std::unique_ptr<assessor::Assessor> assessor_;
   std::unique_ptr<search::Scheduler> scheduler_;
+  cycle::Settings settings_;
   std::unique_ptr<cycle::Cycle> cycle_;  // from the first step on
   std::vector<engine::Goal> goals_;      // open
   std::vector<engine::BlockingGoal> blocking_;

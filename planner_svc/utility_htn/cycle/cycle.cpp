@@ -14,6 +14,9 @@ namespace {
 
 bool waits(const Link& link) { return link.stage == Stage::planned || link.stage == Stage::committed; }
 
+// Returns whether the timelines hold it.
+bool is_placed(const Link& link) { return !is_over(link.stage) && link.stage != Stage::doomed; }
+
 bool is_request(const model::Task& task) { return !task.is_template; }
 
 }  // namespace
@@ -68,18 +71,28 @@ void Cycle::begun(TaskId task, Time at) {
 void Cycle::ended(TaskId task, Time at, bool succeeded, const std::string& cause) {
   Link* const one = link(task);
   if (one == nullptr || is_over(one->stage)) return;
+  const bool placed = is_placed(*one);
   to_optimize_ |= one->end != at || !succeeded;
   one->start = std::min(one->start, at);
   one->end = at;
   one->stage = succeeded ? Stage::succeeded : Stage::failed;
-  if (succeeded) {
-    timelines_.move(task, one->start, at);
-    return;
-  }
+  if (succeeded && placed) timelines_.move(task, one->start, at);
+  if (succeeded || !placed) return;
   timelines_.remove(task);  // what failed has no effect; what it has cost is observed
+  doom(task);
   edit_network(one->task);
   const model::Task& failed = network_.tasks[one->task];
   notes_.push_back(failed.id + " failed" + (cause.empty() ? "" : ": " + cause));
+}
+
+// What follows a link that has failed never gets what it waits for.
+void Cycle::doom(TaskId failed) {
+  Block& of = *block(block_of(failed));
+  for (std::size_t i = link_of(failed) + 1; i < of.links.size(); ++i) {
+    if (of.links[i].stage != Stage::committed) continue;
+    timelines_.remove(task_id(of.number, i));
+    of.links[i].stage = Stage::doomed;
+  }
 }
 
 // A contingency edits the network (R69).
@@ -245,13 +258,13 @@ void Cycle::abandon(Block& begun, const std::string& why, Report& report) {
 
 void Cycle::take_out(const Block& gone) {
   for (std::size_t i = 0; i < gone.links.size(); ++i)
-    if (!is_over(gone.links[i].stage)) timelines_.remove(task_id(gone.number, i));
+    if (is_placed(gone.links[i])) timelines_.remove(task_id(gone.number, i));
 }
 
 void Cycle::put_in(const Block& placed) {
   for (std::size_t i = 0; i < placed.links.size(); ++i) {
     const Link& each = placed.links[i];
-    if (is_over(each.stage)) continue;
+    if (!is_placed(each)) continue;
     timelines_.place(task_id(placed.number, i), footprint(placed, i), each.start);
     timelines_.move(task_id(placed.number, i), each.start, each.end);
   }
@@ -326,8 +339,9 @@ search::Plan Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Re
 }
 
 bool Cycle::schedule(Time now, Report& report) {
-  if (!to_schedule_) return false;
+  if (!to_schedule_ || (scheduled_ && !settings_.schedules_again)) return false;
   to_schedule_ = false;
+  scheduled_ = true;
   const std::set<TaskIndex> waiting_requests = candidates(now);
   if (waiting_requests.empty()) return false;
   const search::Plan plan = plan_for(now, waiting_requests, report);
@@ -350,35 +364,42 @@ void Cycle::adopt(const search::Plan& plan) {
   }
 }
 
+// Returns the block that has to give way to a conflict: the one whose constraint is broken if something of it is only
+// planned; else the last one that has not begun; else the last one of which something is only planned.
+Block* Cycle::culprit(const temporal::timelines::Conflict& conflict) {
+  const auto movable = [](const Block& one) {
+    return std::ranges::any_of(one.links, [](const Link& each) { return each.stage == Stage::planned; });
+  };
+  if (conflict.task) {
+    Block* const own = block(block_of(*conflict.task));
+    if (own != nullptr && movable(*own)) return own;
+  }
+  Block* out = nullptr;
+  const auto rank = [](const Block& one) { return std::pair(!one.begun(), one.links.front().start); };
+  for (Block& one : blocks_)
+    if (movable(one) && (out == nullptr || rank(one) > rank(*out))) out = &one;
+  return out;
+}
+
 // Conflicts behind the commit window are mended by moving what has begun to later, and taking out what has not; the
 // latter is scheduled anew at once.
 bool Cycle::repair(Time now, Report& report) {
   const Time from = now + network_.cycle.commit_window;
   bool changed = false;
-  for (std::size_t rounds = blocks_.size() + 1; rounds > 0; --rounds) {
+  for (std::size_t rounds = 2 * blocks_.size(); rounds > 0; --rounds) {
     const auto conflicts = timelines_.conflicts(from, temporal::no_bound);
-    Block* culprit = nullptr;
-    for (const auto& conflict : conflicts) {
-      if (conflict.task) culprit = block(block_of(*conflict.task));
-      if (culprit != nullptr && std::ranges::none_of(culprit->links, [](const Link& each) {
-            return each.stage == Stage::planned;
-          }))
-        culprit = nullptr;
-      if (culprit == nullptr)
-        for (Block& one : blocks_)
-          if (!one.begun() && (culprit == nullptr || one.links.front().start > culprit->links.front().start))
-            culprit = &one;
-      if (culprit != nullptr) break;
-    }
-    if (culprit == nullptr) break;
+    Block* gives_way = nullptr;
+    for (std::size_t i = 0; i < conflicts.size() && gives_way == nullptr; ++i) gives_way = culprit(conflicts[i]);
+    if (gives_way == nullptr) break;
     changed = true;
-    if (culprit->begun()) {
-      if (!shift(*culprit, from)) abandon(*culprit, "no time is left at which the rest of it fits", report);
+    if (gives_way->begun()) {
+      if (!shift(*gives_way, from))
+        abandon(*gives_way, "no time is left at which the rest of it fits", report);
       continue;
     }
-    report.notes.push_back(chains_.chains[culprit->chain].name + " is taken out: it no longer fits");
-    take_out(*culprit);
-    blocks_.erase(blocks_.begin() + (culprit - blocks_.data()));
+    report.notes.push_back(chains_.chains[gives_way->chain].name + " is taken out: it no longer fits");
+    take_out(*gives_way);
+    blocks_.erase(blocks_.begin() + (gives_way - blocks_.data()));
     to_schedule_ = true;
   }
   if (changed && to_schedule_) schedule(now, report);
@@ -420,7 +441,7 @@ search::Plan Cycle::planned(Time now) const {
   search::Plan out;
   for (const Block* one : by_start()) {
     if (!one->begun()) {
-      const assessor::Context context{network_, past_.values, chains_, newest, {}, before};
+      const assessor::Context context{network_, past_.values, chains_, newest, {}, before, {}};
       out.utility += assessor_.predicted(one->chain, context);
       out.cost += flattening::cost(network_, chains_.chains[one->chain], past_.values);
       out.placed.push_back({one->chain, {}});

@@ -23,6 +23,7 @@ enum class Activity { commit, consolidate, schedule, repair, optimize };
 struct Settings {
   bool repairs = true;
   bool optimizes = true;
+  bool schedules_again = true;  ///< also after the first time; otherwise the first plan is all there is
   /// What was observed must differ from what was foreseen by this share of the timeline's first value before the cycle optimizes anew.
   double noticeable = 0.005;
   /// A request that failed so often is withdrawn.
@@ -81,12 +82,14 @@ class Cycle {
  private:
   Block* block(std::uint32_t number);
   Link* link(TaskId task);
+  void doom(TaskId failed);
   bool commit(temporal::Time now);
   void follow(temporal::Time now);
   bool consolidate(temporal::Time now);
   bool schedule(temporal::Time now, Report& report);
   bool repair(temporal::Time now, Report& report);
   bool optimize(temporal::Time now, Report& report);
+  Block* culprit(const temporal::timelines::Conflict& conflict);
   bool shift(Block& late, temporal::Time from);
   void take_out(const Block& gone);
   void put_in(const Block& placed);
@@ -115,6 +118,7 @@ class Cycle {
   std::uint32_t last_block_ = 0;
   std::vector<std::string> notes_;    // since the cycle before
   bool to_schedule_ = true;           // something waits that was not tried in this situation
+  bool scheduled_ = false;            // ever
   bool to_optimize_ = false;          // the situation is another one
   std::vector<double> deviation_;     // by timeline, of observations, since it was optimized last
 };

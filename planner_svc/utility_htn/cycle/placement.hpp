@@ -13,7 +13,14 @@ namespace roci::planner::utility_htn::cycle {
 using temporal::timelines::TaskId;
 
 /// Says how far a placed task has come. From `committed` on it is the executive's, and is never changed (R78, R81).
-enum class Stage { planned, committed, running, succeeded, failed };
+enum class Stage {
+  planned,
+  committed,
+  doomed,  ///< committed, but it waits for a link that has failed: it fails when its wait timeout is over, and uses nothing
+  running,
+  succeeded,
+  failed,
+};
 
 constexpr bool is_over(Stage stage) { return stage == Stage::succeeded || stage == Stage::failed; }
 

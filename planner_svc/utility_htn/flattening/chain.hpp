@@ -1,6 +1,7 @@
 // Pre-processing (MEXEC, section III.A, R92): the hierarchy of a network becomes chains of primitive tasks, once, before any search.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ inline constexpr std::size_t kMostChains = model::kMostChains;
 /// Flattens all that is requested. Throws std::invalid_argument with the task's id for one with more than kMostChains; the network is
 /// checked already, so parents have no cycle.
 Chains flatten(const model::Network& network);
+/// Flattens these templates, too, so that they can be requested later.
+Chains flatten(const model::Network& network, const std::set<model::TaskIndex>& templates);
+
+/// Returns the templates that contingencies request (R69).
+std::set<model::TaskIndex> templates_on_call(const model::Network& network);
 
 /// Sums over the links (R92).
 double cost(const model::Network& network, const Chain& chain, const model::Values& values);

@@ -60,7 +60,18 @@ class Flattener {
 
 }  // namespace
 
-Chains flatten(const Network& network) {
+Chains flatten(const Network& network) { return flatten(network, {}); }
+
+std::set<TaskIndex> templates_on_call(const Network& network) {
+  std::set<TaskIndex> out;
+  for (const Task& task : network.tasks)
+    if (task.contingency)
+      for (const TaskIndex request : task.contingency->requests)
+        if (network.tasks[request].is_template) out.insert(request);
+  return out;
+}
+
+Chains flatten(const Network& network, const std::set<TaskIndex>& templates) {
   Chains out;
   out.by_batch.resize(std::max<std::size_t>(1, network.batches.size()));
   const std::vector<model::Extent> extents = model::measure(network).extents;
@@ -69,7 +80,7 @@ Chains flatten(const Network& network) {
   Flattener flattener(network);
   for (TaskIndex index = 0; index < network.tasks.size(); ++index) {
     const Task& task = network.tasks[index];
-    if (task.is_template) continue;
+    if (task.is_template && !templates.contains(index)) continue;
     if (extents[index].chains > kMostChains)
       throw std::invalid_argument(
           "task '" + task.id + "' has more than " + std::to_string(kMostChains) +

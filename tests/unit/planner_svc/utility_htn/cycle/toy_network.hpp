@@ -21,9 +21,10 @@ inline model::Network toy_network() {
   out.batches = {"first", "second"};
   out.parameters = {{"dig_s", 100, 10, 400}, {"dig_w", 2, 0, 10}};
   out.timelines = {{"battery", Kind::cumulative_rate, {}, 1000, 0, 1000, true},
-                   {"site", Kind::state, {"closed", "open"}, 0, 0, 1, false},
+                   {"site", Kind::state, {"closed", "open"}},
                    {"arm", Kind::atomic, {}, 0, 0, 1, false},
-                   {"health", Kind::state, {"works", "broken"}, 0, 0, 1, true}};
+                   {"health", Kind::state, {"works", "broken"}}};
+  out.timelines[kSite].reported = false;
   const auto add = [&](const std::string& id, double seconds, double watts) {
     model::Task task;
     task.id = task.name = id;
@@ -42,8 +43,7 @@ inline model::Network toy_network() {
       {kBattery, temporal::ImpactKind::rate, temporal::ImpactWhen::during, {0, 1, -1}},
       {kSite, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {1}},
       {kArm, temporal::ImpactKind::delta, temporal::ImpactWhen::during, {1}}};
-  out.tasks[dig].constraints = {
-      {kHealth, temporal::timelines::Phase::pre, -1e300, 1e300, 1}};
+  out.tasks[dig].constraints = {{.timeline = kHealth, .states = 1}};
   const auto image = add("image", 50, 1);
   out.tasks[image].impacts.push_back(
       {kArm, temporal::ImpactKind::delta, temporal::ImpactWhen::during, {1}});
@@ -67,6 +67,7 @@ inline model::Network toy_network() {
   request("view", 2, {image, send});
   const auto idle = add("idle", 300, 1);
   out.tasks[idle].is_template = false;
+  out.tasks[idle].utility = {{0.1}};
   out.cycle = {10s, 5s, 30s, temporal::no_bound, 3600s};
   return out;
 }

@@ -1,0 +1,129 @@
+// The utility-driven engine and the executive of flight against a world of tasks: whole flights, each strategy, surprises.
+#include "rehearsal/task_level/task_flight.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "planner_svc/utility_htn/adapter/utility_engine.hpp"
+#include "tests/unit/planner_svc/utility_htn/cycle/toy_network.hpp"
+
+namespace roci::rehearsal::task_level {
+namespace {
+
+using namespace std::chrono_literals;
+using planner::utility_htn::adapter::UtilityEngine;
+using planner::utility_htn::testing::task_named;
+using planner::utility_htn::testing::toy_network;
+using ::testing::ElementsAre, ::testing::IsEmpty;
+
+namespace model = planner::utility_htn::model;
+
+/// The toy network with commands, so that what it does can take longer and fail.
+model::Network commanded_network() {
+  model::Network out = toy_network();
+  out.timelines.front().initial = out.timelines.front().highest = 2000;
+  for (model::Task& task : out.tasks) {
+    if (!task.primitive() || task.id == "idle") continue;
+    task.commands.push_back({.owner = "sim_svc", .robot = {}, .subsystem = task.id, .command_name = "do", .arguments = {}});
+    task.control.retries = 1;
+  }
+  return out;
+}
+
+Flown flown(const model::Network& network, Strategy strategy, const Fates& fates, Costs costs = {}) {
+  planner::utility_htn::cycle::Settings settings;
+  if (strategy != Strategy::replanning) settings = {.repairs = false, .optimizes = false, .schedules_again = false};
+  UtilityEngine engine({"utility_htn", "lander", "", ""}, network, settings);
+  return fly({network, engine, fates, strategy, costs, 20000s});
+}
+
+const Fates kAsPlanned = [](const std::string&, std::uint32_t) { return Fate{}; };
+
+Fates failing_once(const std::string& task, Failure failure) {
+  return [=](const std::string& name, std::uint32_t execution) {
+    return Fate{1, 1, name == task && execution == 0 ? failure : Failure::none};
+  };
+}
+
+TEST(TaskFlight, FliesTheWholeNetworkWhereNothingGoesWrong) {
+  const model::Network network = commanded_network();
+  const Flown out = flown(network, Strategy::replanning, kAsPlanned);
+  EXPECT_THAT(out.faults, IsEmpty());
+  EXPECT_EQ(out.utility, (temporal::RankVector{12.1}));
+  EXPECT_NEAR(out.spent, 200 + 50 + 100 + 50 + 100 + 300, 1e-3);
+  EXPECT_EQ(out.ended_by, "nothing left");
+  EXPECT_EQ(out.failures, 0U);
+}
+
+TEST(TaskFlight, WithoutRecoveryTheFirstFailureEndsIt) {
+  const model::Network network = commanded_network();
+  const Flown out = flown(network, Strategy::as_planned, failing_once("dig", Failure::flexible));
+  EXPECT_EQ(out.ended_by, "failure");
+  EXPECT_LT(out.utility, (temporal::RankVector{12}));
+}
+
+TEST(TaskFlight, TheExecutiveRetriesWhatItCanAndNothingIsPlannedAnew) {
+  const model::Network network = commanded_network();
+  const Flown out = flown(network, Strategy::flexible_execution, failing_once("dig", Failure::flexible));
+  EXPECT_THAT(out.faults, IsEmpty());
+  EXPECT_EQ(out.utility, (temporal::RankVector{12.1}));
+  EXPECT_EQ(out.retried, 1U);
+  EXPECT_EQ(out.by_ground, 0U);
+}
+
+TEST(TaskFlight, TheGroundResolvesEverythingAtItsPrice) {
+  const model::Network network = commanded_network();
+  const Costs costs{0, 40, 600s};
+  const Flown out = flown(network, Strategy::ground, failing_once("image", Failure::flexible), costs);
+  EXPECT_THAT(out.faults, IsEmpty());
+  EXPECT_EQ(out.by_ground, 1U);
+  EXPECT_GE(out.spent, 800 + 40);
+  EXPECT_EQ(out.ended_by, "nothing left");
+}
+
+TEST(TaskFlight, WhatFlexibleExecutionCannotResolveIsPlannedAnew) {
+  const model::Network network = commanded_network();
+  const Flown out = flown(network, Strategy::replanning, failing_once("dig", Failure::replanning), {25, 40, 600s});
+  EXPECT_THAT(out.faults, IsEmpty());
+  EXPECT_EQ(out.replanned, 1U);
+  EXPECT_EQ(out.retried, 0U);
+  EXPECT_GE(out.utility, (temporal::RankVector{10})) << "the sample is taken all the same";
+}
+
+TEST(TaskFlight, WhereEnergyRunsOutTheFlightEnds) {
+  model::Network network = commanded_network();
+  network.timelines.front().initial = 360;
+  const Flown out = flown(network, Strategy::replanning,
+                          [](const std::string&, std::uint32_t) { return Fate{1, 1.5, Failure::none}; });
+  EXPECT_THAT(out.faults, IsEmpty());
+  EXPECT_LE(out.spent, 360 + 1e-3);
+}
+
+// Whatever happens, the executive refuses no version, no more is spent than there is, and utility counts once.
+TEST(TaskFlight, RandomWorldsEndWithoutARefusedVersion) {
+  const model::Network network = commanded_network();
+  for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+    for (const Strategy strategy : {Strategy::ground, Strategy::flexible_execution, Strategy::replanning}) {
+      const Fates fates = [&](const std::string& task, std::uint32_t execution) {
+        std::seed_seq mixed{seed, static_cast<std::uint32_t>(task_named(network, task)), execution};
+        std::mt19937 random(mixed);
+        std::normal_distribution<> noise(1, 0.1);
+        const double draw = std::uniform_real_distribution<>(0, 1)(random);
+        const Failure failure = draw < 0.08   ? Failure::flexible
+                                : draw < 0.16 ? Failure::replanning
+                                : draw < 0.22 ? Failure::ground
+                                              : Failure::none;
+        return Fate{std::max(0.5, noise(random)), std::max(0.5, noise(random)), failure};
+      };
+      const Flown out = flown(network, strategy, fates, {5, 40, 300s});
+      EXPECT_THAT(out.faults, IsEmpty()) << seed;
+      EXPECT_LE(out.utility[0], 12.1 + 1e-9) << seed;
+      EXPECT_LE(out.spent, 2000 + 1e-3) << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace roci::rehearsal::task_level
