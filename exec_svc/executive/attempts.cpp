@@ -17,9 +17,9 @@ void Attempts::start(Index activity, Time now) {
   ActivityRun& run = state_->runs[activity];
   run.started = run.attempt_started = now;
   run.maintenance_held = evaluate(planned.maintenance, state_->lookup()) == Truth::yes;
+  state_->store.begin(planned);
   if (planned.owner.empty()) {
     state_->enter(activity, ActivityPhase::running, now);
-    state_->store.begin(planned);
     state_->change(activity, ActivityState::running, "");
   } else {
     ++run.attempt;

@@ -4,6 +4,8 @@
 #include <functional>
 #include <utility>
 
+#include "core/temporal/activity_timeline.hpp"
+
 namespace roci::exec::executive {
 
 using temporal::ActivityState;
@@ -26,7 +28,13 @@ RunState::RunState(temporal::FlexiblePlan flexible_plan, const ExecutiveSettings
 }
 
 temporal::Lookup RunState::lookup() const {
-  return [this](const std::string& timeline) { return store.value_of(timeline); };
+  return [this](const std::string& timeline) {
+    const std::string id = temporal::activity_of(timeline);
+    if (id.empty()) return store.value_of(timeline);
+    const auto activity = index_of.find(id);
+    const bool absent = activity == index_of.end();
+    return std::optional(temporal::state(absent ? "absent" : temporal::to_string(runs[activity->second].state)));
+  };
 }
 
 StepStatus RunState::status(Index activity) const {
@@ -127,8 +135,7 @@ std::vector<TimePoint> RunState::ready_points() const {
 void RunState::close(Index activity, Time now, ActivityState state, const std::string& reason) {
   ActivityRun& run = runs[activity];
   if (run.started) run.ended = now;
-  if (plan.activities[activity].owner.empty() && run.started)
-    store.end(plan.activities[activity], state == ActivityState::succeeded);
+  if (run.started) store.end(plan.activities[activity], state == ActivityState::succeeded);
   enter(activity, ActivityPhase::done, now);
   change(activity, state, reason);
 }

@@ -24,9 +24,14 @@ void TimelineStore::advance(temporal::Time now) {
       if (impact.kind == ImpactKind::rate) add(impact.timeline, impact.amount * elapsed);
 }
 
+bool TimelineStore::is_internal(const temporal::PlanActivity& activity, const Impact& impact) const {
+  return activity.owner.empty() || internal_.contains(impact.timeline);
+}
+
 void TimelineStore::begin(const temporal::PlanActivity& activity) {
   std::vector<Lasting> lasting;
   for (const Impact& impact : activity.impacts) {
+    if (!is_internal(activity, impact)) continue;
     if (impact.moment == ImpactWhen::at_start) apply(impact);
     if (impact.moment != ImpactWhen::during) continue;
     const auto* amount = std::get_if<double>(&impact.amount);
@@ -50,7 +55,7 @@ void TimelineStore::end(const temporal::PlanActivity& activity, bool succeeded) 
   }
   if (!succeeded) return;
   for (const Impact& impact : activity.impacts)
-    if (impact.moment == ImpactWhen::at_end) apply(impact);
+    if (impact.moment == ImpactWhen::at_end && is_internal(activity, impact)) apply(impact);
 }
 
 void TimelineStore::apply(const Impact& impact) {

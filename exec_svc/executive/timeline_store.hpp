@@ -11,9 +11,11 @@
 
 namespace roci::exec::executive {
 
-/// External states are observed; internal states are what activities without a command make of them (R73). A
-/// timeline that was observed once is external for ever: planned impacts are never taken for the world.
-/// Deltas and rates start from 0 where nothing was assigned.
+/// External states are observed; internal states are what activities make of them (R73). A timeline is internal
+/// from the moment at which an activity without a command changes it; then those with commands change it, too.
+/// A timeline that was observed once is external for ever, and what only commands are planned to change stays
+/// unknown until it is observed: planned impacts are never taken for the world. Deltas and rates start from 0
+/// where nothing was assigned.
 class TimelineStore {
  public:
   void observe(const std::string& timeline, const temporal::Value& value);
@@ -36,6 +38,7 @@ class TimelineStore {
     std::optional<temporal::Value> before;
   };
 
+  bool is_internal(const temporal::PlanActivity& activity, const temporal::Impact& impact) const;
   void apply(const temporal::Impact& impact);
   void add(const std::string& timeline, double amount);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "core/temporal/activity_timeline.hpp"
+
 namespace roci::planner::utility_htn::adapter {
 
 using cycle::Block, cycle::Link, cycle::Stage, cycle::TaskId;
@@ -97,14 +99,12 @@ PlanActivity activity_of(const model::Network& network, const model::Values& val
   return out;
 }
 
-// A link needs the success of the one before, which a timeline of the block's own tells.
-void chain_up(const Block& block, std::size_t link, PlanActivity& activity) {
-  const std::string progress = "block." + std::to_string(block.number);
-  const auto links = static_cast<double>(link);
-  if (link > 0) activity.pre = both(temporal::compare(progress, ConditionOp::eq, links), activity.pre);
-  if (link + 1 < block.links.size())
-    activity.impacts.push_back(
-        {progress, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, links + 1});
+// A link that follows one without success is skipped.
+void depend(const std::string& before, PlanActivity& activity) {
+  const Condition failed = temporal::negate(temporal::compare(
+      temporal::activity_timeline(before), ConditionOp::eq,
+      temporal::state(temporal::to_string(temporal::ActivityState::succeeded))));
+  activity.skip_if = activity.skip_if.empty() ? failed : temporal::any_of({failed, activity.skip_if});
 }
 
 using Told = std::unordered_map<std::string, const PlanActivity*>;
@@ -121,7 +121,7 @@ void add_block(const model::Network& network, const flattening::Chain& chain, co
     const auto [start, end] = points.of(id);
     last = end;
     if (link.stage == Stage::failed) {
-      end_before.reset();
+      end_before.reset();  // what is committed behind it is skipped
       continue;
     }
     const std::string name = activity_id(network, link, id);
@@ -134,7 +134,8 @@ void add_block(const model::Network& network, const flattening::Chain& chain, co
       activity.start_point = start;
       activity.end_point = end;
       if (i == 0) activity.pre = both(activity.pre, condition_of(network, chain.when, std::nullopt));
-      chain_up(block, i, activity);
+      if (i > 0)
+        depend(activity_id(network, block.links[i - 1], cycle::task_id(block.number, i - 1)), activity);
       plan.activities.push_back(std::move(activity));
     }
     plan.constraints.push_back({temporal::origin_point, start, ConstraintKind::window,
