@@ -125,6 +125,11 @@ TEST(Guard, InASecureRunTheHandshakePrecedesWhatItMakesReadable) {
   EXPECT_EQ(ordered(with_keys(to(1))), with_keys(to(1)).bytes());
   const auto for_two = with_handshake(with_keys(to(1)).submessage(0x0e, 0, Bytes(12, 2)));
   EXPECT_EQ(ordered(for_two), for_two.bytes());
+  // What is for everybody does not become what is for one.
+  const auto for_all = with_handshake(with_keys(own()).submessage(0x0e, 0, Bytes(12, 2)));
+  EXPECT_EQ(ordered(for_all), for_all.bytes());
+  const auto times = with_keys(with_keys(to(1)).submessage(0x09, 0, Bytes(8)));
+  EXPECT_EQ(ordered(times), times.bytes());
   const auto whole =
       own().submessage(0x33, 0, Bytes(20)).submessage(0x30, 0, encrypted(64)).submessage(0x34, 0, Bytes(20));
   EXPECT_EQ(ordered(whole), whole.bytes());
