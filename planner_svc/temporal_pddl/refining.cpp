@@ -108,25 +108,36 @@ class Refining {
   enum class Candidate { stands, differs, given_up };
 
   // Asks exactly for what the plan stands on, and what the search touched. Beside a better plan that is known
-  // it asks for the first half of the activities first: as no bound is too high, the other half can only make
-  // the plan dearer.
+  // it asks by parts, as long as the plan promises more than that: function by function, durations first, and
+  // each in two halves along the plan. As no bound is too high, what is left can only make the plan dearer.
   Candidate refine(const Plan& plan) {
-    const auto middle = plan.activities.begin() + static_cast<std::ptrdiff_t>(plan.activities.size() / 2);
     std::vector<FunctionCall> calls;
-    const auto collect = [&](auto from, auto to) {
-      for (; from != to; ++from) tuples_.collect(from->name, from->arguments, calls);
-    };
-    collect(plan.activities.begin(), middle);
-    bool differs = false;
-    if (best_ && !is_lazy()) {
-      differs = values_.refine(calls).changed;
-      if (differs && !out_of_time() && !is_promising(timed(plan, false))) return Candidate::given_up;
-      calls.clear();
-    }
-    collect(middle, plan.activities.end());
+    for (const Activity& activity : plan.activities)
+      tuples_.collect(activity.name, activity.arguments, calls);
     for (const ActionInstance& instance : touched_) tuples_.collect(instance, calls);
-    differs = values_.refine(calls).changed || differs;
+    if (!best_ || is_lazy()) return values_.refine(calls).changed ? Candidate::differs : Candidate::stands;
+    bool differs = false;
+    for (const std::span<const FunctionCall> part : parts_of(calls)) {
+      if (!values_.refine(part).changed) continue;
+      differs = true;
+      if (!out_of_time() && !is_promising(timed(plan, false))) return Candidate::given_up;
+    }
     return differs ? Candidate::differs : Candidate::stands;
+  }
+
+  // Sorts the calls by function, in the order in which functions appear, and returns two halves of each.
+  static std::vector<std::span<const FunctionCall>> parts_of(std::vector<FunctionCall>& calls) {
+    std::vector<std::span<const FunctionCall>> parts;
+    for (auto begin = calls.begin(); begin != calls.end();) {
+      const auto end = std::stable_partition(
+          begin, calls.end(),
+          [name = begin->function](const FunctionCall& call) { return call.function == name; });
+      const auto middle = begin + (end - begin) / 2;
+      if (middle != begin) parts.emplace_back(begin, middle);
+      parts.emplace_back(middle, end);
+      begin = end;
+    }
+    return parts;
   }
 
   bool is_promising(const Result& result) const {
