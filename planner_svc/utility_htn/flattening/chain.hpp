@@ -1,0 +1,37 @@
+// Pre-processing (MEXEC, section III.A, R92): the hierarchy of a network becomes chains of primitive tasks, once, before any search.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner_svc/utility_htn/model/network.hpp"
+
+namespace roci::planner::utility_htn::flattening {
+
+/// Is one way to do a requested task: its primitive tasks in order. A requested primitive task is a chain of one.
+struct Chain {
+  model::TaskIndex task = 0;  ///< that is requested
+  std::string name;  ///< "sample_0_1/first/raw": the task and the decompositions chosen, from the top
+  std::vector<model::Subtask> links;  ///< primitive tasks; the gaps count from the link before
+  std::vector<temporal::timelines::Constraint>
+      when;  ///< of all decompositions chosen; hold at the first start
+};
+
+/// Are the chains of one batch, in the order of the network.
+struct Chains {
+  std::vector<Chain> chains;
+  std::vector<std::vector<std::uint32_t>> by_batch;  ///< indices of chains
+};
+
+/// The most chains that one requested task may have, since their number is a product.
+inline constexpr std::size_t kMostChains = 100'000;
+
+/// Flattens all that is requested. Throws std::invalid_argument with the task's id for one with more than kMostChains; the network is
+/// checked already, so parents have no cycle.
+Chains flatten(const model::Network& network);
+
+/// Sums over the links (R92).
+double cost(const model::Network& network, const Chain& chain, const model::Values& values);
+temporal::RankVector utility(const model::Network& network, const Chain& chain, const model::Values& values);
+
+}  // namespace roci::planner::utility_htn::flattening
