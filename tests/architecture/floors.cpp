@@ -23,7 +23,7 @@ const std::vector<House> kHouses = {
       "services/transport/", "services/certificate/", "services/vendors/", "services/topics.hpp",
       "services/health/", "services/node/", "services/rpc/", "services/", "services/owner/",
       "services/security/", "services/process/", "services/launch/"}},
-    {"planner_svc/", {"planner_svc/engine/", "planner_svc/temporal_pddl/", "planner_svc/"}},
+    {"planner_svc/", {"planner_svc/engine/", "planner_svc/temporal_pddl/", "planner_svc/utility_htn/", "planner_svc/"}},
     {"sim_svc/",
      {"sim_svc/world/", "sim_svc/setup/", "sim_svc/components/", "sim_svc/scenario/", "sim_svc/"}},
 };
