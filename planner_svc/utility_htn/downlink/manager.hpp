@@ -35,8 +35,8 @@ struct Window {
   double power_w = 0;  ///< of the transmission
   double energy_limit_j = std::numeric_limits<double>::infinity();
   std::uint32_t sol = 0;
-  double heat_limit_s =
-      std::numeric_limits<double>::infinity();  ///< longest transmission until the temperature limit
+  /// Bounds one transmission until the temperature limit.
+  double heat_limit_s = std::numeric_limits<double>::infinity();
 };
 
 /// Bounds what all downlinks of a sol take together; a sol that is not there has no limit.
@@ -58,7 +58,7 @@ enum class Reason {
 struct LeftOut {
   std::size_t product = 0;
   Reason reason = Reason::no_room;
-  std::string why;
+  std::string why{};
 };
 
 /// Names a Critical or Decisional product that its window cannot take, so that it goes with a later one.
@@ -119,19 +119,18 @@ class Manager {
   /// those, that most products are sent, and then that the windows' numbers add up to least ("earliest"). Residual ones get only what is left
   /// over, by the same rules, and change nothing of the others. Throws std::invalid_argument for a negative or infinite score, two products of
   /// one id, and windows out of order of their starts or with an impossible rate, power or limit.
-  Assignment assign(std::span<const Product> products, std::span<const Window> windows,
-                    const Limits& limits) const;
+  Assignment assign(std::span<const Product> products, std::span<const Window> windows, const Limits& limits);
 
   /// Returns whether the products of one more task have room, each in time, beside all that is sent without them; a Residual candidate is
   /// no reason to refuse as long as others are among the candidates. Throws as assign() does.
   bool admits(std::span<const Product> products, std::span<const Window> windows, const Limits& limits,
-              std::span<const Product> candidates) const;
+              std::span<const Product> candidates);
 
   const Counts& counts() const { return counts_; }
 
  private:
   Effort effort_;
-  mutable Counts counts_{};
+  Counts counts_{};
 };
 
 }  // namespace roci::planner::utility_htn::downlink
