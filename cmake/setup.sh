@@ -18,6 +18,7 @@ packages=(
   libfastrtps-dev libfastcdr-dev fastddsgen default-jre-headless   # Fast DDS and its IDL compiler
   cyclonedds-dev cyclonedds-tools                                  # Cyclone DDS and its IDL compiler
   libeigen3-dev libompl-dev libfcl-dev liburdfdom-dev              # motion
+  coinor-libcbc-dev                                                # integer programs: which data goes with which downlink
   libyaml-cpp-dev libsqlite3-dev libssl-dev                        # missions, journal, trace digest
   libpng-dev                                                       # pictures of the ground tool
   nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev

@@ -86,7 +86,7 @@ class Instance:
         rehearse(programs, folder / "planetary", "known", scenario.seed, folder / "flight")
         call = folder / "flight" / "planner_calls" / "1.pddl"
         self.problem = problem.parse(call.read_text())
-        self.values = problem.read_values(call.with_suffix(".values"))
+        self.values = problem.read_values(call.with_suffix(".values")).exact
         slower = MODEL_SPEED_M_S / (TRUE_SPEED_M_S * (1 - scenario.slip))
         times = self.values.get("traverse_time", {})
         self.values["traverse_time"] = {pair: slower * seconds for pair, seconds in times.items()}
@@ -119,13 +119,17 @@ class Instance:
         return reference.schedule(self.problem, self.values, idle_w, self.outages).solvable
 
 
-def best_subset(instance: Instance, given: list[Goal], soft: list[Goal]) -> tuple[float, frozenset[str]]:
-    """The set of soft goals with the highest utility for which, with the given ones, a schedule exists."""
+def best_subset(
+    instance: Instance, given: list[Goal], soft: list[Goal], flown: frozenset[str] | None = None
+) -> tuple[float, frozenset[str]]:
+    """The set of soft goals with the highest utility for which, with the given ones, a schedule exists; `flown`: ids of a
+    set that was achieved, of which nobody need ask."""
     subsets = [subset for size in range(len(soft) + 1) for subset in itertools.combinations(soft, size)]
     subsets.sort(key=lambda subset: (-sum(goal.utility for goal in subset), len(subset)))
     for subset in subsets:
-        if instance.solvable(given + list(subset)):
-            return sum(goal.utility for goal in subset), frozenset(goal.id for goal in subset)
+        ids = frozenset(goal.id for goal in subset)
+        if ids == flown or instance.solvable(given + list(subset)):
+            return sum(goal.utility for goal in subset), ids
     return 0, frozenset()
 
 

@@ -9,6 +9,7 @@ import resource
 import subprocess
 from dataclasses import dataclass
 
+import problem
 from flights import Call, Programs
 
 MOST = 60  # calls that are repeated
@@ -32,6 +33,7 @@ def processor_time() -> float:
 
 def repeat(programs: Programs, seed: int, call: Call, work: int) -> LongCall:
     command = [programs.plan, programs.mission / "domain.pddl", call.problem, "--functions", call.values]
+    command += ["--functions-mode", "two-accuracy"] if problem.read_values(call.values).bounds else []
     command += ["--evaluations", work, "--improve", IMPROVE, "--memory", 256, "--json"]
     before = processor_time()
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True)

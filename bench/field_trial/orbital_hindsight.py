@@ -12,8 +12,8 @@ from pathlib import Path
 import problem
 from flights import MISSION_WORK, Flight, Programs, lay_out_mission, rehearse
 from hindsight import LARGEST, Hindsight, best_subset
-from orbital_reference import Scheduler
-from orbital_scenarios import UPLOAD_S, Goal, Scenario
+from orbital_reference import Scheduler, read
+from orbital_scenarios import DURATION_S, UPLOAD_S, Goal, Scenario
 
 
 def raised(flight: Flight) -> list[Goal]:
@@ -25,28 +25,53 @@ def raised(flight: Flight) -> list[Goal]:
     ]
 
 
+def told(goals: list[Goal]) -> list[tuple[int, Goal]]:
+    return [(UPLOAD_S, goal) for goal in goals]
+
+
+def first_call(programs: Programs, scenario: Scenario, changes: dict[str, str], folder: Path) -> Path:
+    """Flies to the first planner call: its problem, beside its values. Its plan is not wanted."""
+    shutil.rmtree(folder, ignore_errors=True)
+    lay_out_mission(programs.mission, folder / "orbital", {f"work: {MISSION_WORK}": "work: 1", **changes})
+    text = scenario.yaml().replace(f"duration_s: {DURATION_S}", "duration_s: 14")
+    (folder / "orbital" / "scenarios" / "known.yaml").write_text(text)
+    rehearse(programs, folder / "orbital", "known", scenario.seed, folder / "flight")
+    return folder / "flight" / "planner_calls" / "1.pddl"
+
+
+def constants(programs: Programs, folder: Path) -> problem.Table:
+    """Exact values that hold in every flight. A motion depends on its ends and its load alone (arm_svc/README.md), so
+    between the slots, and from where the arm rests, they are those of any flight; a flight asks for few of them."""
+    goal = Goal("h1", "ground", "install", "hard", 1, (("module", "radar-1"), ("slot", "s3")))
+    call = first_call(programs, Scenario(1, 600000, [], {}, {}, [], told([goal])), {"functions: two_accuracy": "functions: eager"}, folder)
+    values = problem.read_values(call.with_suffix(".values")).exact
+    shutil.rmtree(folder)
+    return {name: {key: value for key, value in some.items() if "arm-here" not in key} for name, some in values.items()}
+
+
+def condition(mission: str, goal: Goal) -> list:
+    """What mission.yaml says under `goal` of the goal's kind: the problem leaves out what holds at the start."""
+    kind = mission[mission.index(f"\n  {goal.kind}:\n", mission.index("\ngoal_kinds:\n")) :]
+    formula = kind[kind.index("\n    goal:") :].split('"')[1]
+    for name, value in goal.arguments:
+        formula = formula.replace(f"{{{name}}}", value)
+    return read(formula)
+
+
 class Instance:
     """One scenario with all that was to come known at the first planner call."""
 
     def __init__(self, programs: Programs, scenario: Scenario, goals: list[Goal], folder: Path):
-        shutil.rmtree(folder, ignore_errors=True)
-        # The values of that call are wanted, not its plan.
-        lay_out_mission(programs.mission, folder / "orbital", {f"work: {MISSION_WORK}": "work: 1"})
-        known = Scenario(scenario.seed, scenario.battery_j, [], {}, {}, scenario.ballast, [(UPLOAD_S, goal) for goal in goals])
-        text = known.yaml().replace("duration_s: 37000", "duration_s: 14")
-        (folder / "orbital" / "scenarios" / "known.yaml").write_text(text)
-        rehearse(programs, folder / "orbital", "known", scenario.seed, folder / "flight")
-        call = folder / "flight" / "planner_calls" / "1.pddl"
+        call = first_call(programs, Scenario(scenario.seed, scenario.battery_j, [], {}, {}, scenario.ballast, told(goals)), {}, folder)
         self.problem = problem.parse(call.read_text())
-        self.values = problem.read_values(call.with_suffix(".values"))
+        self.values = problem.read_values(call.with_suffix(".values")).completed(programs.constants).exact
         for slot in scenario.blocked:
             self.problem.facts -= {("free", slot), ("free-first", slot)}
         for module in scenario.failing:
             self.problem.facts -= {("works", module)}
         self.energy_j = self.problem.numbers["battery"] if scenario.dark else None
-        # One condition for each goal, in the order in which they came.
-        parts = Scheduler(self.problem, self.values, None).goal
-        self.conditions = dict(zip((goal.id for goal in goals), parts[1:] if parts[0] == "and" else [parts]))
+        mission = (programs.mission / "mission.yaml").read_text()
+        self.conditions = {goal.id: condition(mission, goal) for goal in goals}
         shutil.rmtree(folder)
 
     def solvable(self, goals: list[Goal]) -> bool | None:
@@ -63,6 +88,10 @@ def look_back(programs: Programs, scenario: Scenario, flight: Flight, folder: Pa
     soft = [goal for goal in wanted if goal.importance != "hard"]
     failed = [goal for goal in wanted if ends[goal.id].state == "failed"]
     enumerated = 0 < len(soft) <= LARGEST
+    flown = frozenset(goal.id for goal in soft if ends[goal.id].state == "achieved")
+    if enumerated and len(flown) == len(soft):
+        out.oracle = out.achieved = sum(goal.utility for goal in soft)
+        out.best, enumerated = flown, False
     if not failed and not enumerated:
         return out
     instance = Instance(programs, scenario, wanted, folder)
@@ -71,5 +100,5 @@ def look_back(programs: Programs, scenario: Scenario, flight: Flight, folder: Pa
         out.hard[goal.id] = instance.solvable(done + [goal])
     if enumerated:
         out.achieved = sum(goal.utility for goal in soft if ends[goal.id].state == "achieved")
-        out.oracle, out.best = best_subset(instance, done, soft)
+        out.oracle, out.best = best_subset(instance, done, soft, flown)
     return out

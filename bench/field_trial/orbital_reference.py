@@ -1,7 +1,8 @@
 """A scheduler that shares nothing with the planner: decides whether a problem of the orbital domain has a plan, and how short one can be.
 
 One arm does one thing after the other, so a plan is a sequence of transfers: go to a slot, localize, grasp, carry, localize, place; each step as
-early as light and windows allow, which is never worse. Labels (time, energy) that no other label of the same arrangement beats are kept, earliest first.
+early as light and windows allow, which is never worse. Labels (time, energy) that no other label of the same arrangement beats are kept; A* takes first
+what may be ready first (orbital_bound.py).
 Exact up to the separation of 1 ms, with this liberty: it never charges, so where energy is short it leaves the problem undecided. What may be moved, and
 where to, is read as the domain means it (missions/orbital/README.md)."""
 
@@ -10,21 +11,12 @@ from __future__ import annotations
 import heapq
 import itertools
 import re
-from typing import NamedTuple
 
+from orbital_bound import GRASP, LOCALIZE, PLACE, Bound, State, clauses
 from problem import Problem
 from reference import GAP_S, Schedule, step
 
-LOCALIZE, GRASP, PLACE = (30.0, 3000.0), (45.0, 4500.0), (60.0, 6000.0)
-LABEL_LIMIT = 60000  # a problem with more is left undecided
-Arrangement = tuple[tuple[str, str], ...]  # (module, slot), sorted; what is held is left out
-
-
-class State(NamedTuple):
-    where: Arrangement
-    arm: str
-    localized: bool
-    held: str
+LABEL_LIMIT = 10000  # a problem with more is left undecided
 
 
 def read(text: str):
@@ -128,11 +120,16 @@ class Scheduler:
         blocked = set(self.slots) - self.free_first - set(lies.values())  # nothing can be placed there
         if held and not self.free_first and arm not in lies.values():
             blocked.discard(arm)
-        queue: list[tuple[float, int, float, State, frozenset, tuple]] = [(0.0, 0, 0.0, start, frozenset(firm), ())]
+        bound = Bound(clauses(self), self)
+        # Earliest end, number, time, energy, state, what is installed, steps.
+        queue: list[tuple[float, int, float, float, State, frozenset, tuple]] = []
+        rest = bound(start, frozenset(firm), 0.0)
+        if rest is not None:
+            queue.append((rest, 0, 0.0, 0.0, start, frozenset(firm), ()))
         kept: dict[tuple, list[tuple[float, float]]] = {}
-        count = itertools.count(1)
+        count, numbers = itertools.count(1), itertools.count(1)
         while queue:
-            time, _, energy, state, installed, steps = heapq.heappop(queue)
+            _, _, time, energy, state, installed, steps = heapq.heappop(queue)
             key = (state, installed)
             if any(t <= time and e <= energy for t, e in kept.get(key, [])):
                 continue
@@ -142,8 +139,9 @@ class Scheduler:
             if next(count) > LABEL_LIMIT:
                 return Schedule(None)
             for then in self._moves(time, energy, state, installed, steps, blocked):
-                if self.energy_j is None or then[1] <= self.energy_j:
-                    heapq.heappush(queue, (then[0], next(count), *then[1:]))
+                rest = bound(then[2], then[3], then[0])
+                if rest is not None and (self.energy_j is None or then[1] <= self.energy_j):
+                    heapq.heappush(queue, (then[0] + rest, next(numbers), *then))
         return Schedule(False)
 
     @staticmethod

@@ -58,7 +58,7 @@ class Scenario(DrawnScenario):
         lines = [
             f"description: Field trial, seed {self.seed}.",
             f"duration_s: {DURATION_S}",
-            f"start: {{battery: {self.battery_j}, grapple: {{blocked: [{', '.join(self.blocked)}], modules: {{{', '.join(told)}}}}}}}",
+            f"start: {{battery: {self.battery_j}, {'array: jammed, ' if self.dark else ''}grapple: {{blocked: [{', '.join(self.blocked)}], modules: {{{', '.join(told)}}}}}}}",
         ]
         return "\n".join(lines + self.stimuli_yaml()) + "\n"
 

@@ -10,7 +10,7 @@ import problem
 from flights import MISSION_WORK, Call
 from long_calls import LONG_S, LongCall
 from losses import EXPLANATIONS, Loss
-from record import Record
+from record import Range, Record
 from trials import Trial
 
 CLASSES = ["hard", "optional", "opportunistic"]
@@ -230,24 +230,72 @@ def makespan_section(records: list[Record]) -> str:
     )
 
 
-def write(records: list[Record], long: list[LongCall], work: int, target: Path, trial: Trial) -> None:
+def seeds_of(records: list[Record]) -> str:
+    seeds = [record.scenario.seed for record in records]
+    whole = seeds == list(range(seeds[0], seeds[0] + len(seeds)))
+    return f"{seeds[0]} to {seeds[-1]}" if whole and len(seeds) > 1 else ", ".join(str(seed) for seed in seeds)
+
+
+def ranges_section(flown: list[Range]) -> str:
+    """What ranges of seeds have in common, and what not."""
+    if len(flown) < 2:
+        return ""
+    rows: list[list[object]] = []
+    for one in flown:
+        goals = [goal for record in one.records for goal in record.flight.goals]
+        shares = []
+        for importance in CLASSES:
+            kept = [goal for goal in goals if goal.importance == importance and goal.state != "recalled"]
+            shares.append(percent(sum(goal.state == "achieved" for goal in kept), len(kept)))
+        results = Counter(record.flight.result for record in one.records)
+        failed = [loss for record in one.records for loss in record.losses if loss.goal.state == "failed"]
+        seen = [record.back for record in one.records if record.back and record.back.oracle is not None]
+        missed = sum(bool(look.solvable) for record in one.records for look in record.looks)
+        calls = sum(len(record.flight.calls) for record in one.records)
+        most = max((long.cpu_s for long in one.long), default=0)
+        rows.append(
+            [
+                seeds_of(one.records),
+                len(one.records),
+                results["achieved"],
+                *shares,
+                f"{len(failed)} ({sum(loss.possible is not False for loss in failed)})",
+                percent(sum(back.achieved for back in seen), sum(back.oracle for back in seen)),
+                f"{calls} ({missed})",
+                f"{most:.2f}",
+                sum(len(record.flight.faults) for record in one.records),
+            ]
+        )
+    head = ["seeds", "flights", "achieved", *CLASSES, "hard failed (not out of reach)", "utility of hindsight's"]
+    head += ["planner calls (missed)", "longest again, processor s", "broken invariants"]
+    return "\n## Ranges of seeds\n\nThe code was tuned on seeds 1 to 400 alone.\n\n" + table(head, rows)
+
+
+HAND = "\n## Explained one by one\n"  # from here on a page is written by hand, and stays
+
+
+def write(flown: Range, others: list[Range], target: Path, trial: Trial) -> None:
+    records, work = flown.records, flown.work
     target.parent.mkdir(parents=True, exist_ok=True)
     pictures = target.parent / "pictures"
     pictures.mkdir(exist_ok=True)
     kinds = Counter(loss.kind for record in records for loss in record.losses)
     picture = pictures / f"{target.stem}.svg"
     picture.write_text(bars(kinds.most_common()))
-    first, last = records[0].scenario.seed, records[-1].scenario.seed
+    first = records[0].scenario.seed
     named = "" if trial.mission == "planetary" else f"--mission {trial.mission} "
-    head = f"""# Field trial
+    head = f"""# Field trial{"" if trial.mission == "planetary" else ": the " + trial.mission + " mission"}
 
-{len(records)} missions of `missions/{trial.mission}`, seeds {first} to {last}, each drawn at random: {trial.drawn}.
+{len(records)} missions of `missions/{trial.mission}`, seeds {seeds_of(records)}, each drawn at random: {trial.drawn}.
 Written by `bench/field_trial/run.py {named}--runs {len(records)} --seed {first} --work {work} --out FOLDER --report {trial.target}`
 ([how it works](../bench/field_trial/README.md)). One flight again, alone, with all processes:
 
-    bench/field_trial/run.py {named}--runs 1 --seed 17 --work {work} --out FOLDER && ./run FOLDER/{trial.mission} --scenario seed-0017 --seed 17
+    bench/field_trial/run.py {named}--runs 1 --seed {first} --work {work} --out FOLDER && ./run FOLDER/{trial.mission} --scenario seed-{first:04d} --seed {first}
 
 """
     sections = [losses_section(records, f"pictures/{picture.name}"), hard_section(records), calls_section(records, work)]
-    sections += [oracle_section(records), makespan_section(records), goals_section(records), wall_section(records, long)]
-    target.write_text(head + "".join(sections))
+    sections += [oracle_section(records), makespan_section(records), goals_section(records), ranges_section([flown, *others])]
+    sections += [wall_section(records, flown.long)]
+    old = target.read_text() if target.exists() else ""
+    by_hand = old[old.index(HAND) :] if HAND in old else ""
+    target.write_text(head + "".join(sections) + by_hand)

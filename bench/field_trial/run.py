@@ -21,7 +21,7 @@ from drop_order import broken_drop_order
 from flights import MISSION_WORK, Programs, fly, lay_out_mission
 from long_calls import repeat_longest
 from losses import losses_of
-from record import Record
+from record import Range, Record
 from second_look import decide, look_again
 from trials import TRIALS, Trial
 
@@ -60,7 +60,8 @@ def try_seed(
 ) -> Record:
     scenario = draw(seed)
     (mission / "scenarios" / f"{scenario.name}.yaml").write_text(scenario.yaml())
-    flight = fly(programs, mission, scenario.name, seed, arguments.out / "flights" / scenario.name)
+    folder = arguments.out / "flights" / scenario.name
+    flight = fly(programs, mission, scenario.name, seed, folder, arguments.flown)
     flight.faults += broken_drop_order(flight, trial.goal_fact)
     record = Record(scenario, flight)
     if flight.result != "crashed":
@@ -90,6 +91,8 @@ def main() -> int:
     parser.add_argument("--jobs", type=int, default=2, help="flights at the same time (2)")
     parser.add_argument("--longer", type=float, default=30, help="seconds for a planner call's second try (30)")
     parser.add_argument("--work", type=int, default=MISSION_WORK, help="evaluations of a planner call (the mission's)")
+    parser.add_argument("--flown", action="store_true", help="take the flights that lie in OUT already, fly what is missing")
+    parser.add_argument("--beside", type=Path, nargs="+", default=[], help="OUT folders of other ranges, to compare with")
     arguments = parser.parse_args()
     trial = TRIALS[arguments.mission]
     programs = Programs(arguments.bin, ROOT / "missions" / trial.mission, trial.schedule)
@@ -99,14 +102,16 @@ def main() -> int:
     arguments.out = arguments.out.resolve()
     changes = {f"work: {MISSION_WORK}": f"work: {arguments.work}"} if arguments.work != MISSION_WORK else {}
     mission = lay_out_mission(programs.mission, arguments.out / trial.mission, changes)
+    programs.constants = trial.constants(programs, arguments.out / "constants")
     draw = trial.drawer(programs.mission)
     seeds = arguments.seeds or range(arguments.seed, arguments.seed + arguments.runs)
     with ThreadPoolExecutor(arguments.jobs) as workers:
         records = list(workers.map(lambda seed: try_seed(programs, trial, draw, mission, seed, arguments), seeds))
     calls = [(record.scenario.seed, call) for record in records for call in record.flight.calls]
-    long = repeat_longest(programs, calls, arguments.work)
+    flown = Range(records, repeat_longest(programs, calls, arguments.work), arguments.work)
+    flown.save(arguments.out)
     target = arguments.report or arguments.out / "field-trial.md"
-    report.write(records, long, arguments.work, target, trial)
+    report.write(flown, [Range.load(folder) for folder in arguments.beside], target, trial)
     print(f"report: {target}")
     return 1 if any(record.flight.faults for record in records) else 0
 

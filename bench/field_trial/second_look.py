@@ -34,21 +34,38 @@ class SecondLook:
         return self.reference is False and self.longer == "solved"
 
 
+def complete(programs: Programs, call: Call) -> tuple[problem.Values, Path]:
+    """All that is known of the functions' values, and a file that says so."""
+    values = problem.read_values(call.values).completed(programs.constants)
+    file = call.problem.with_suffix(".complete")
+    file.write_text(values.text())
+    return values, file
+
+
 def plan_again(programs: Programs, call: Call, limit_s: float, plain: bool) -> dict:
     """Statistics of roci-plan on the same problem and values, without the evaluations' budget of the flight."""
-    command = [programs.plan, programs.mission / "domain.pddl", call.problem, "--functions", call.values]
+    values, file = complete(programs, call)
+    command = [programs.plan, programs.mission / "domain.pddl", call.problem, "--functions", file]
+    command += ["--functions-mode", "two-accuracy"] if values.bounds else []
     command += ["--time", limit_s, "--memory", 1024, "--json"] + (["--plain-search"] if plain else [])
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=10 * limit_s + 60)
     return json.loads(done.stdout)
 
 
 def decide(programs: Programs, call: Call) -> reference.Schedule:
-    """A schedule counts only if the validator accepts it."""
-    out = programs.schedule(problem.parse(call.problem.read_text()), problem.read_values(call.values))
+    """A schedule counts only if the validator accepts it, on exact values. That there is none counts also on lower bounds."""
+    values, file = complete(programs, call)
+    task = problem.parse(call.problem.read_text())
+    cheapest = values.cheapest()
+    out = programs.schedule(task, cheapest)
+    if out.solvable and cheapest != values.exact:
+        out = programs.schedule(task, values.exact)
+        if not out.solvable:
+            return reference.Schedule(None)
     if out.solvable:
         plan = call.problem.with_suffix(".reference")
         plan.write_text(out.plan)
-        command = [programs.validate, programs.mission / "domain.pddl", call.problem, plan, "--functions", call.values]
+        command = [programs.validate, programs.mission / "domain.pddl", call.problem, plan, "--functions", file]
         done = subprocess.run([str(word) for word in command], capture_output=True)
         if done.returncode != 0:
             return reference.Schedule(None)

@@ -12,9 +12,10 @@ import hindsight
 import orbital_hindsight
 import orbital_reference
 import orbital_scenarios
+import problem
 import reference
 import scenarios
-from flights import GoalEnd
+from flights import GoalEnd, Programs
 
 
 @dataclass(frozen=True)
@@ -23,6 +24,7 @@ class Trial:
     drawer: Callable[[Path], Callable[[int], Any]]  # mission folder → seed → scenario
     schedule: Callable[..., reference.Schedule]
     look_back: Callable[..., hindsight.Hindsight]
+    constants: Callable[[Programs, Path], problem.Table]  # exact values that hold in every flight; a folder to work in
     goal_fact: Callable[[GoalEnd], str]  # a pattern of what a proof says of the goal
     drawn: str  # what is drawn at random, for the report
     target: str  # where the report of the repository stands
@@ -50,6 +52,7 @@ TRIALS = {
         planetary_drawer,
         reference.schedule,
         hindsight.look_back,
+        lambda programs, folder: {},  # ways depend on what the map shows
         planetary_fact,
         "goals of all kinds and classes, some in\nflight, narrow windows, hard terrain, rocks that no map shows, slip, faults of components, lost "
         "communication windows,\nlittle energy",
@@ -60,6 +63,7 @@ TRIALS = {
         lambda mission: orbital_scenarios.draw,
         orbital_reference.schedule,
         orbital_hindsight.look_back,
+        orbital_hindsight.constants,
         orbital_fact,
         "configurations of all kinds and\nclasses, some in flight, windows, modules that fail, are heavier than told or need several tries of their latch, joints that "
         "stick,\nblocked slots, all slots but one taken, faults of components, arrays that give nothing, little energy",

@@ -24,10 +24,11 @@ import time
 import instances
 
 
-def measured(arguments, command, folder, out, err):
-    """Exit status, CPU seconds and peak memory in KiB of a command; killed after twice its CPU limit and 5 s."""
+def measured(arguments, command, folder, out, err, around=()):
+    """Exit status, CPU seconds and peak memory in KiB of a command; killed after twice its CPU limit and 5 s. `around` are words
+    that start it, limits and all, and are not measured."""
     report = pathlib.Path(folder) / "report"
-    limits = [arguments.limited, report, str(arguments.seconds), str(arguments.megabytes)]
+    limits = [*around, arguments.limited, report, str(arguments.seconds), str(arguments.megabytes)]
     process = subprocess.Popen([*limits, *command], stdout=out, stderr=err, cwd=folder, start_new_session=True)
     try:
         process.wait(2 * arguments.seconds + 5)

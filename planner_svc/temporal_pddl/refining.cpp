@@ -73,13 +73,13 @@ class Refining {
         if (best_) return std::move(*best_);
         if (result.verdict != Verdict::unsolvable || values_.is_exact()) return result;
         values_.refine_all();
-      } else if (!values_.refine(wanted(*result.plan)).changed) {
+      } else if (const Candidate candidate = refine(*result.plan); candidate == Candidate::stands) {
         const bool whole = result.statistics.exhausted ||
                            improvement_ >= call_.options.improvement_evaluations || out_of_time();
         keep(std::move(result));
         if (whole) return std::move(*best_);
         improvement_ *= 2;
-      } else if (take_over(*result.plan)) {
+      } else if (candidate == Candidate::given_up ? end_rounds() : take_over(*result.plan)) {
         return std::move(*best_);
       }
       if (cancelled()) return cancelled_result();
@@ -103,33 +103,71 @@ class Refining {
     return result;
   }
 
-  std::vector<FunctionCall> wanted(const Plan& plan) const {
+  // What became of a plan whose values were asked for exactly: they were what they were taken for; some were
+  // not; or the first ones have made it no better than the best plan, so that the others were not asked for.
+  enum class Candidate { stands, differs, given_up };
+
+  // Asks exactly for what the plan stands on, and what the search touched. Beside a better plan that is known
+  // it asks by parts, as long as the plan promises more than that: function by function, durations first, and
+  // each in two halves along the plan. As no bound is too high, what is left can only make the plan dearer.
+  Candidate refine(const Plan& plan) {
     std::vector<FunctionCall> calls;
     for (const Activity& activity : plan.activities)
       tuples_.collect(activity.name, activity.arguments, calls);
     for (const ActionInstance& instance : touched_) tuples_.collect(instance, calls);
-    return calls;
+    if (!best_ || is_lazy()) return values_.refine(calls).changed ? Candidate::differs : Candidate::stands;
+    bool differs = false;
+    for (const std::span<const FunctionCall> part : parts_of(calls)) {
+      if (!values_.refine(part).changed) continue;
+      differs = true;
+      if (!out_of_time() && !is_promising(timed(plan, false))) return Candidate::given_up;
+    }
+    return differs ? Candidate::differs : Candidate::stands;
+  }
+
+  // Sorts the calls by function, in the order in which functions appear, and returns two halves of each.
+  static std::vector<std::span<const FunctionCall>> parts_of(std::vector<FunctionCall>& calls) {
+    std::vector<std::span<const FunctionCall>> parts;
+    for (auto begin = calls.begin(); begin != calls.end();) {
+      const auto end = std::stable_partition(
+          begin, calls.end(),
+          [name = begin->function](const FunctionCall& call) { return call.function == name; });
+      const auto middle = begin + (end - begin) / 2;
+      if (middle != begin) parts.emplace_back(begin, middle);
+      parts.emplace_back(middle, end);
+      begin = end;
+    }
+    return parts;
+  }
+
+  bool is_promising(const Result& result) const {
+    return result.plan && is_better(*result.plan, *best_->plan);
   }
 
   // Times the plan with exact values. Returns whether the call ends with the best plan.
   bool take_over(const Plan& plan) {
+    if (!is_lazy() || out_of_time()) keep(timed(plan, true));
+    return end_rounds();
+  }
+
+  // Returns whether the call ends with the best plan. Makes the next round the last one if there were many.
+  bool end_rounds() {
     const bool last = rounds_ >= kMostRounds;
     const bool accepts = !is_lazy() && (call_.options.improvement_evaluations == 0 || last);
-    if (!is_lazy() || out_of_time()) keep(timed(plan));
     if (best_ && (accepts || out_of_time())) return true;
     if (last) values_.refine_all();
     return false;
   }
 
-  // What this plan, or another one on the values that are known exactly, comes to; without a clock, as it is
-  // little work.
-  Result timed(const Plan& plan) {
+  // What this plan, or another one on the values that are known, or known exactly, comes to; without a clock,
+  // as it is little work.
+  Result timed(const Plan& plan, bool exact_alone) {
     const std::vector<pddl::PlanStep> steps = steps_of(plan);
     Attempt attempt{values_, call_.budget, call_.options, steps};
     attempt.budget.out_of_time = nullptr;
     attempt.budget.evaluations = kEvaluationsForTiming;
     attempt.options.improvement_evaluations = 0;
-    values_.give_exact_alone(true);
+    values_.give_exact_alone(exact_alone);
     Result result = counted(attempt);
     values_.give_exact_alone(false);
     return result;

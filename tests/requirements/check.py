@@ -12,7 +12,7 @@ import re
 import subprocess
 import sys
 
-from rows import (MUTATIONS, NUMBER_OF_READINGS, NUMBER_OF_ROWS, ROOT, STATES, TABLE, find_place, read_mutations,
+from rows import (MUTATIONS, NUMBER_BEYOND, NUMBER_OF_READINGS, NUMBER_OF_ROWS, ROOT, STATES, TABLE, find_place, read_mutations,
                   read_rows)
 
 
@@ -88,12 +88,12 @@ class Tree:
 def check_rows(rows, tree, moved, place_of_row):
     faults = []
     names = [row.name for row in rows]
-    for wanted in [f"R{n}" for n in range(1, NUMBER_OF_ROWS + 1)] + [f"Z{n}" for n in range(1, NUMBER_OF_READINGS + 1)]:
+    for wanted in [f"R{n}" for n in range(1, NUMBER_OF_ROWS + 1)] + [f"B{n}" for n in range(1, NUMBER_BEYOND + 1)] + [f"Z{n}" for n in range(1, NUMBER_OF_READINGS + 1)]:
         if names.count(wanted) != 1:
             faults.append(f"row {wanted} stands {names.count(wanted)} times")
     for row in rows:
         where = f"{TABLE.name}:{row.line_number}: {row.name}"
-        if row.name.startswith("R"):
+        if not row.name.startswith("Z"):
             if row.state not in STATES:
                 faults.append(f"{where}: the state is '{row.state}'; expected one of {', '.join(STATES)}")
             if not row.section or not row.asks:
@@ -148,7 +148,7 @@ def check_mutations(rows, entries, tree):
                 faults.append(f"{where}: there is no test {one}")
     covered = {entry.get("row") for entry in entries}
     for row in rows:
-        if row.state == "built" and row.name.startswith("R") and row.name not in covered:
+        if row.state == "built" and not row.name.startswith("Z") and row.name not in covered:
             faults.append(f"{row.name} is called built, but {MUTATIONS.name} has no mutation of it and no reason for none")
     return faults
 

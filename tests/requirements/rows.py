@@ -12,6 +12,7 @@ TABLE = ROOT / "docs" / "requirements.md"
 MUTATIONS = Path(__file__).with_name("mutations.yaml")
 STATES = ("built", "partly", "open")
 NUMBER_OF_ROWS = 149
+NUMBER_BEYOND = 1
 NUMBER_OF_READINGS = 24
 
 
@@ -31,10 +32,10 @@ class Row:
 
 
 def read_rows(text):
-    """Every line of the form | R<n> | … | or | Z<n> | … |, in the order of the page."""
+    """Every line of the form | R<n> | … |, | B<n> | … | or | Z<n> | … |, in the order of the page."""
     rows = []
     for number, line in enumerate(text.splitlines(), 1):
-        if not re.match(r"\| [RZ]\d+ \|", line):
+        if not re.match(r"\| [RBZ]\d+ \|", line):
             continue
         cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line.strip())[1:-1]]
         if len(cells) != 5:

@@ -202,7 +202,8 @@ void Search::keep_for_others(const Bounds& bounds, Position from, Position to) {
       if (i < out.count) first = out.parts[i].last + 1;
       if (fine.last < fine.first) continue;
       keep_inside(bounds, k, fine);
-      if (out.count == 0) continue;  // the knots on both sides say the same
+      const bool by_knots = out.count == 0 && bounds.admits(knots_[k].after) && bounds.admits(knots_[k + 1].before);
+      if (by_knots) continue;  // they were looked at, and the value runs straight between them
       for (const Micros time : {fine.first, fine.last})
         look_at(bounds, {time, Side::after, base_inside(k, time), knots_[k].reset_after}, window_);
     }

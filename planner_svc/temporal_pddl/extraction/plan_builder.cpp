@@ -68,6 +68,7 @@ class PlanBuilder {
     for (std::size_t i = 0; i < steps_.constraints.size(); ++i) {
       const StepConstraint& source = steps_.constraints[i];
       const auto kind = is_duration(i) ? ConstraintKind::duration : ConstraintKind::ordering;
+      if (kind == ConstraintKind::duration) duration_to_[point(source.to)] = constraints.size();
       constraints.push_back({point(source.from), point(source.to), kind, source.lower, source.upper});
     }
     for (std::size_t i = 0; i < steps_.steps.size(); ++i) {
@@ -113,10 +114,9 @@ class PlanBuilder {
     activity.start = points[activity.start_point].earliest;
     activity.end = points[activity.end_point].earliest;
     activity.max_duration = activity.durative ? no_bound : Duration{0};
-    for (const auto& constraint : plan_.network.constraints) {
-      if (constraint.kind != ConstraintKind::duration || constraint.to_point != activity.end_point) continue;
-      activity.min_duration = constraint.lower;
-      activity.max_duration = constraint.upper;
+    if (const auto duration = duration_to_.find(activity.end_point); duration != duration_to_.end()) {
+      activity.min_duration = plan_.network.constraints[duration->second].lower;
+      activity.max_duration = plan_.network.constraints[duration->second].upper;
     }
     for (const ObjectId object : task_.action_arguments[id]) {
       activity.arguments.push_back(task_.objects[object.index()]);
@@ -159,7 +159,8 @@ class PlanBuilder {
   std::vector<std::vector<std::size_t>> served_;  // by step of a start
   bool describes_;
   TemporalCheck check_;
-  std::vector<TimeWindow> windows_;  // by step: the window in which the schedule puts it
+  std::map<std::size_t, std::size_t> duration_to_;  // by point of an end: index of the constraint
+  std::vector<TimeWindow> windows_;                 // by step: the window in which the schedule puts it
   Plan plan_;
 };
 

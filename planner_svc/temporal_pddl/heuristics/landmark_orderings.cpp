@@ -11,7 +11,8 @@ LandmarkOrderings::LandmarkOrderings(const Task& task, const RelaxedTask& relaxe
     : task_(task),
       relaxed_(relaxed),
       landmarks_(landmarks),
-      precedes_(landmarks.size(), std::vector<bool>(landmarks.size(), false)),
+      rows_(landmarks.size()),
+      columns_(landmarks.size()),
       right_before_(landmarks.size()),
       variable_(task.fact_names.size(), Id<struct VariableTag>::kNone) {
   const auto variables = task.layout.variables();
@@ -26,20 +27,20 @@ LandmarkOrderings::LandmarkOrderings(const Task& task, const RelaxedTask& relaxe
 
 void LandmarkOrderings::add(LandmarkId earlier, LandmarkId later) {
   const std::size_t a = earlier.index(), b = later.index();
-  if (a == b || precedes_[a][b] || precedes_[b][a]) return;
-  for (std::size_t i = 0; i < precedes_.size(); ++i) {
-    if (i != a && !precedes_[i][a]) continue;
-    precedes_[i][b] = true;
-    for (std::size_t j = 0; j < precedes_.size(); ++j) {
-      if (precedes_[b][j]) precedes_[i][j] = true;
-    }
-  }
+  if (a == b || rows_.get(a, b) || rows_.get(b, a)) return;
+  earlier_.assign(1, a);
+  columns_.each_beside(a, columns_.row(b), [&](std::size_t i) { earlier_.push_back(i); });
+  later_.assign(1, b);
+  rows_.each_beside(b, rows_.row(a), [&](std::size_t j) { later_.push_back(j); });
+  // The row of b and the column of a stay as they are: nothing that comes before a comes after b.
+  for (const std::size_t i : earlier_) rows_.add(i, rows_.row(b), b);
+  for (const std::size_t j : later_) columns_.add(j, columns_.row(a), a);
 }
 
 void LandmarkOrderings::add_reasonable() {
-  std::vector<std::vector<bool>> known = precedes_;
+  const Bits known = rows_;
   const auto consider = [&](LandmarkId held, LandmarkId wanted) {
-    if (held != wanted && !precedes_[held.index()][wanted.index()] && undone_for(held, wanted))
+    if (held != wanted && !rows_.get(held.index(), wanted.index()) && undone_for(held, wanted))
       add(wanted, held);
   };
   const auto each = [&](const auto& visit) {
@@ -53,17 +54,18 @@ void LandmarkOrderings::add_reasonable() {
   each([&](LandmarkId common) {
     for (const LandmarkId held : right_before_[common]) {
       each([&](LandmarkId wanted) {
-        if (known[wanted.index()][common.index()]) consider(held, wanted);
+        if (known.get(wanted.index(), common.index())) consider(held, wanted);
       });
     }
   });
 }
 
-std::vector<LandmarkId> LandmarkOrderings::before(LandmarkId later) const {
+std::vector<LandmarkId> LandmarkOrderings::just_before(LandmarkId later) const {
   std::vector<LandmarkId> result;
-  for (std::size_t i = 0; i < precedes_.size(); ++i) {
-    if (precedes_[i][later.index()]) result.push_back(LandmarkId(i));
-  }
+  const std::vector<std::uint64_t> none(columns_.words(), 0);
+  columns_.each_beside(later.index(), none.data(), [&](std::size_t i) {
+    if (!rows_.meets(i, columns_.row(later.index()))) result.push_back(LandmarkId(i));
+  });
   return result;
 }
 

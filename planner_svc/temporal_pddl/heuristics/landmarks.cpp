@@ -243,7 +243,7 @@ class Finder {
     }
     orders.add_reasonable();
     for (std::size_t i = 0; i < found_.size(); ++i)
-      found_[LandmarkId(i)].after = orders.before(LandmarkId(i));
+      found_[LandmarkId(i)].after = orders.just_before(LandmarkId(i));
   }
 
   const Task& task_;

@@ -23,7 +23,7 @@ struct Landmark {
   std::vector<PropositionId> any_of;    ///< one of these must hold
   bool goal = false;                    ///< whether it must hold at the end
   bool initially = false;               ///< whether it holds in the initial state
-  std::vector<LandmarkId> after;        ///< the landmarks that come before it
+  std::vector<LandmarkId> after;        ///< the landmarks that come before it with none in between
   std::vector<LandmarkId> needed_by;    ///< the landmarks right before whose first time it holds
   std::vector<task::SnapId> achievers;  ///< its first achievers; for the end of an action, the start
 };

@@ -18,7 +18,6 @@ PlanReplay::PlanReplay(const Task& task, Duration epsilon)
 
 bool PlanReplay::take(std::span<const SnapId> steps, std::span<const std::uint32_t> dropped, Successor& at) {
   store_.clear();
-  Successor next;
   at.state = task_.initial_state;
   at.prefix.node = store_.add(at.state, NodeId(), {}, {});
   for (std::uint32_t i = 0; i < steps.size(); ++i) {
@@ -29,12 +28,11 @@ bool PlanReplay::take(std::span<const SnapId> steps, std::span<const std::uint32
       continue;
     const bool starts = kind == SnapKind::start || kind == SnapKind::instant;
     if (starts && std::ranges::count(dropped, i) > 0) continue;
-    if (!builder_.applicable(at.prefix, step) || !builder_.extend(at.prefix, step, next)) {
+    if (!builder_.applicable(at.prefix, step) || !builder_.advance_unscheduled(step, at)) {
       if (starts) continue;
       return false;
     }
-    next.prefix.node = store_.add(next.state, at.prefix.node, next.transition, {});
-    std::swap(at, next);
+    at.prefix.node = store_.add(at.state, at.prefix.node, at.transition, {});
   }
   return true;
 }

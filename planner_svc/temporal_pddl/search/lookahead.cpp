@@ -11,7 +11,9 @@ using task::Action, task::FactId, task::SnapId, task::SnapKind, task::StateView;
 bool Lookahead::follow(const PlanPrefix& from, std::span<const SnapId> relaxed_plan, bool careful,
                        Successor& last) {
   careful_ = careful;
-  prefix_ = from;
+  last.prefix = from;
+  const StateView state = space_.store().state(from.node);
+  last.state.assign(state.begin(), state.end());
   failures_left_ = relaxed_plan.size();
   starts_.clear();
   waiting_.clear();
@@ -20,7 +22,7 @@ bool Lookahead::follow(const PlanPrefix& from, std::span<const SnapId> relaxed_p
   for (const SnapId start : starts_) count_uses(start, 1);
   while (take_starts(last) || take_one_harmful_start(last) || take_one_that_waits(last)) {
   }
-  return prefix_.node != from.node;
+  return last.prefix.node != from.node;
 }
 
 bool Lookahead::waits(SnapId snap) const {
@@ -29,13 +31,14 @@ bool Lookahead::waits(SnapId snap) const {
 }
 
 bool Lookahead::take_starts(Successor& last) {
-  return std::erase_if(starts_,
-                       [&](SnapId start) { return !has_to_wait(start) && take_start(start, last); }) > 0;
+  return std::erase_if(starts_, [&](SnapId start) {
+           return !has_to_wait(start, last.prefix) && take_start(start, last);
+         }) > 0;
 }
 
 bool Lookahead::take_one_harmful_start(Successor& last) {
   const auto taken = std::ranges::find_if(
-      starts_, [&](SnapId start) { return has_to_wait(start) && take_start(start, last); });
+      starts_, [&](SnapId start) { return has_to_wait(start, last.prefix) && take_start(start, last); });
   if (taken == starts_.end()) return false;
   starts_.erase(taken);
   return true;
@@ -54,10 +57,10 @@ bool Lookahead::take_start(SnapId start, Successor& last) {
   return true;
 }
 
-bool Lookahead::has_to_wait(SnapId start) const {
+bool Lookahead::has_to_wait(SnapId start, const PlanPrefix& prefix) const {
   if (!careful_) return false;
   const Action& action = action_of(start);
-  const StateView state = space_.store().state(prefix_.node);
+  const StateView state = space_.store().state(prefix.node);
   const auto harmed = [&](FactId fact) {
     return uses_[fact] > 0 && task_.layout.holds(state, fact) && undoes(task_, action, fact);
   };
@@ -75,16 +78,10 @@ void Lookahead::count_uses(SnapId start, int by) {
 }
 
 bool Lookahead::take(SnapId snap, Successor& last) {
-  if (failures_left_ == 0 || !space_.possible(prefix_, snap)) return false;
-  if (space_.build(prefix_, snap, next_) != Rejection::none) {
-    --failures_left_;
-    return false;
-  }
-  if (is_too_long(next_.prefix)) return false;
-  space_.add(prefix_.node, next_);
-  prefix_ = next_.prefix;
-  std::swap(last, next_);
-  return true;
+  if (failures_left_ == 0 || !space_.possible(last.prefix, snap)) return false;
+  const auto advance = space_.advance(snap, last);
+  if (advance == StateSpace::Advance::rejected) --failures_left_;
+  return advance == StateSpace::Advance::done;
 }
 
 }  // namespace roci::planner::temporal_pddl::search

@@ -18,7 +18,7 @@ class Lookahead {
 
   /// Takes from the plan `from`, whose node is stored, what of the relaxed plan can be taken, in its order
   /// and again as long as anything can; ends and timed literals come only where no start can. Every state on
-  /// the way is stored, and the last one is put in `last`. If `careful`, what undoes a fact that holds and
+  /// the way is stored, and the last one is put in `last`, which is not `from`'s own. If `careful`, what undoes a fact that holds and
   /// that another action still to be taken needs, and keeps, waits until nothing else can be taken; so
   /// whoever leaves a place has done what was to be done there. Returns false if nothing can be taken.
   bool follow(const PlanPrefix& from, std::span<const task::SnapId> relaxed_plan, bool careful,
@@ -32,14 +32,12 @@ class Lookahead {
   bool take_start(task::SnapId start, Successor& last);
   bool take(task::SnapId snap, Successor& last);
   const task::Action& action_of(task::SnapId start) const { return task_.actions[task_.snaps[start].action]; }
-  bool has_to_wait(task::SnapId start) const;
+  bool has_to_wait(task::SnapId start, const PlanPrefix& prefix) const;
   void count_uses(task::SnapId start, int by);
 
   const task::Task& task_;
   StateSpace& space_;
   bool careful_ = true;
-  PlanPrefix prefix_;  // so far
-  Successor next_;
   std::size_t failures_left_ = 0;               // steps tried in vain, each as costly as one taken
   std::vector<task::SnapId> starts_, waiting_;  // still to be taken
   task::IdVector<task::FactId, int> uses_;      // how many of starts_ need the fact and do not undo it

@@ -20,6 +20,16 @@ std::span<const SnapId> StateSpace::applicable(const PlanPrefix& prefix) {
   return candidates_;
 }
 
+StateSpace::Advance StateSpace::advance(SnapId snap, Successor& plan) {
+  if (builder_.advance(snap, plan) != Rejection::none) return Advance::rejected;
+  if (is_too_long(plan.prefix)) {
+    builder_.take_back(plan);
+    return Advance::too_long;
+  }
+  add(plan.prefix.node, plan);
+  return Advance::done;
+}
+
 NodeId StateSpace::add(NodeId parent, Successor& successor) {
   code_.clear();
   const auto fresh = std::span(successor.prefix.constraints).last(successor.new_constraints);

@@ -45,6 +45,11 @@ class StateSpace {
   Rejection build(const PlanPrefix& prefix, task::SnapId snap, Successor& successor) {
     return builder_.build(prefix, snap, successor);
   }
+  /// Takes the snap action after a plan whose node is stored, and stores the state that it leads to: `plan`
+  /// becomes its own successor, see SuccessorBuilder::advance(). Rejected, it is as it was; so it is if it
+  /// would be too long (R30).
+  enum class Advance { done, rejected, too_long };
+  Advance advance(task::SnapId snap, Successor& plan);
   /// Stores the successor of `parent` (none for the initial state) and names its node in its prefix.
   NodeId add(NodeId parent, Successor& successor);
 

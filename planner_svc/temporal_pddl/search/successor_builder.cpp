@@ -1,6 +1,7 @@
 #include "planner_svc/temporal_pddl/search/successor_builder.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace roci::planner::temporal_pddl::search {
 
@@ -40,7 +41,11 @@ bool SuccessorBuilder::applicable(const PlanPrefix& prefix, SnapId snap_id) cons
 
 Rejection SuccessorBuilder::build(const PlanPrefix& prefix, SnapId snap, Successor& successor) {
   if (!extend(prefix, snap, successor)) return Rejection::logical;
-  if (!absolute_ && prefix.running.empty() && successor.prefix.running.empty()) {
+  return schedule(prefix.running.empty(), successor);
+}
+
+Rejection SuccessorBuilder::schedule(bool idle_before, Successor& successor) {
+  if (!absolute_ && idle_before && successor.prefix.running.empty()) {
     successor.times.clear();
     return long_enough(successor) ? Rejection::none : Rejection::temporal;
   }
@@ -63,12 +68,58 @@ bool SuccessorBuilder::long_enough(const Successor& successor) {
   return least <= most;
 }
 
-bool SuccessorBuilder::extend(const PlanPrefix& prefix, SnapId snap_id, Successor& successor) {
-  const Snap& snap = task_.snaps[snap_id];
+Rejection SuccessorBuilder::advance(SnapId snap, Successor& plan) {
+  remember(plan);
+  const Rejection rejection =
+      append(snap, plan) ? schedule(before_.running.empty(), plan) : Rejection::logical;
+  if (rejection != Rejection::none) take_back(plan);
+  return rejection;
+}
+
+bool SuccessorBuilder::advance_unscheduled(SnapId snap, Successor& plan) {
+  remember(plan);
+  if (append(snap, plan)) return true;
+  take_back(plan);
+  return false;
+}
+
+void SuccessorBuilder::remember(Successor& plan) {
+  before_.transition = plan.transition;
+  before_.steps = plan.prefix.steps.size();
+  before_.constraints = plan.prefix.constraints.size();
+  before_.new_constraints = plan.new_constraints;
+  before_.running = plan.prefix.running;
+  before_.running_actions = plan.prefix.running_actions;
+  before_.timed_done = plan.prefix.timed_done;
+  std::swap(before_.times, plan.times);
+}
+
+void SuccessorBuilder::take_back(Successor& plan) {
+  const StateView state = store_.state(plan.prefix.node);
+  plan.state.assign(state.begin(), state.end());
+  plan.transition = before_.transition;
+  plan.prefix.steps.resize(before_.steps);
+  plan.prefix.start_of.resize(before_.steps);
+  plan.prefix.constraints.resize(before_.constraints);
+  plan.prefix.running = before_.running;
+  plan.prefix.running_actions = before_.running_actions;
+  plan.prefix.timed_done = before_.timed_done;
+  plan.new_constraints = before_.new_constraints;
+  std::swap(before_.times, plan.times);
+}
+
+bool SuccessorBuilder::extend(const PlanPrefix& prefix, SnapId snap, Successor& successor) {
   const StateView before = store_.state(prefix.node);
-  successor.transition = {snap_id, false};
   successor.state.assign(before.begin(), before.end());
   successor.prefix = prefix;
+  return append(snap, successor);
+}
+
+// Takes the snap action, and if it is compressed its end too, after the plan in `successor`.
+bool SuccessorBuilder::append(SnapId snap_id, Successor& successor) {
+  const Snap& snap = task_.snaps[snap_id];
+  const PlanPrefix& prefix = successor.prefix;
+  successor.transition = {snap_id, false};
   const std::size_t constraints = prefix.constraints.size();
   bool possible = false;
   switch (snap.kind) {
@@ -87,7 +138,7 @@ bool SuccessorBuilder::extend(const PlanPrefix& prefix, SnapId snap_id, Successo
       break;
     }
   }
-  successor.new_constraints = successor.prefix.constraints.size() - constraints;
+  successor.new_constraints = prefix.constraints.size() - constraints;
   return possible;
 }
 

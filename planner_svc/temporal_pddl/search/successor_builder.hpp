@@ -50,7 +50,29 @@ class SuccessorBuilder {
   /// invariant breaks, or no duration is possible.
   bool extend(const PlanPrefix& prefix, task::SnapId snap, Successor& successor);
 
+  /// Builds likewise, but `plan`, which holds the stored state that its node names, becomes its own successor:
+  /// no step of it is copied, so that a step costs the same however long the plan is, unless it has to be
+  /// scheduled. Rejected, the plan is as it was.
+  Rejection advance(task::SnapId snap, Successor& plan);
+  /// Does likewise, but does not ask whether the plan can be scheduled.
+  bool advance_unscheduled(task::SnapId snap, Successor& plan);
+  /// Takes the last advance() of the plan back; nothing may have been done with the plan since.
+  void take_back(Successor& plan);
+
  private:
+  // Is what a plan was before its last advance, but for its steps and constraints, which are only cut off.
+  struct Before {
+    Transition transition;
+    std::size_t steps = 0, constraints = 0, new_constraints = 0;
+    std::vector<Running> running;
+    std::vector<task::ActionId> running_actions;
+    std::uint32_t timed_done = 0;
+    std::vector<temporal::Duration> times;
+  };
+
+  void remember(Successor& plan);
+  bool append(task::SnapId snap, Successor& successor);
+  Rejection schedule(bool idle_before, Successor& successor);
   bool take(task::SnapId snap, double seconds, Successor& successor);
   bool ends_at_once(task::ActionId action, task::StateView before) const;
   bool start(task::ActionId action, NodeId before, Successor& successor);
@@ -66,6 +88,7 @@ class SuccessorBuilder {
   bool absolute_;
   task::Semantics semantics_;
   constraints::Orderings orderings_;
+  Before before_;
 };
 
 }  // namespace roci::planner::temporal_pddl::search

@@ -45,6 +45,7 @@ std::size_t Guard::admit(std::span<std::uint8_t> datagram, const std::optional<S
   }
   if (verdict == Verdict::pass) {
     const std::size_t left = strip_plain_submessages(datagram.first(strip_vendor_submessages(datagram)));
+    if (left > 0) put_plain_submessages_first(datagram.first(left));
     ++counts_[static_cast<std::size_t>(left > 0 ? Verdict::pass : Verdict::plain)];
     return left;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <vector>
 
 #include "services/vendors/guard/submessages.hpp"
 
@@ -12,8 +13,9 @@ constexpr std::size_t kHeaderSize = 20;
 constexpr std::size_t kSubmessageHeaderSize = 4;
 constexpr std::uint8_t kFirstVendorId = 0x80;
 constexpr std::uint8_t kPad = 0x01;
-constexpr std::uint8_t kInfoTimestamp = 0x09;
+constexpr std::uint8_t kInfoTimestamp = 0x09, kInfoDestination = 0x0e;
 constexpr std::uint8_t kEncryptedBody = 0x30, kEncryptionPrefix = 0x33, kEncryptionPostfix = 0x34;
+constexpr std::uint8_t kData = 0x15, kDataFragment = 0x16;
 
 // Where a submessage ends, seen from its own beginning; 0 if it reaches over the end of the message.
 std::size_t size_of_first(std::span<const std::uint8_t> rest) {
@@ -51,6 +53,9 @@ bool is_encrypted(std::span<const std::uint8_t> message) {
   }
   return rest.empty();
 }
+
+// SEC_BODY, SEC_PREFIX and SEC_POSTFIX.
+bool is_one_encrypted(std::span<const std::uint8_t> one) { return one[0] >= 0x30 && one[0] <= 0x32; }
 
 }  // namespace
 
@@ -93,6 +98,29 @@ std::size_t strip_plain_submessages(std::span<std::uint8_t> message) {
     return kind != Plain::refused;
   });
   return speaks ? length : 0;
+}
+
+void put_plain_submessages_first(std::span<std::uint8_t> message) {
+  std::vector<std::uint8_t> encrypted;
+  std::span<const std::uint8_t> destination;
+  bool hidden = false;
+  for (auto rest = message.subspan(kHeaderSize); !rest.empty();) {
+    const auto one = rest.first(size_of_first(rest));
+    rest = rest.subspan(one.size());
+    // What reaches to the end of the message by a length of 0 must stay there.
+    if (one.size() != kSubmessageHeaderSize + ByteView{one, (one[1] & 1) != 0}.u16(2)) return;
+    if (one[0] == kInfoDestination) {
+      const bool another = !encrypted.empty() && !std::ranges::equal(destination, one);
+      if (another) return;
+      destination = one;
+    }
+    if (is_one_encrypted(one)) encrypted.insert(encrypted.end(), one.begin(), one.end());
+    if (one[0] == kData || one[0] == kDataFragment) hidden = hidden || !encrypted.empty();
+  }
+  if (!hidden) return;
+  const std::size_t end =
+      strip(message, [](std::span<const std::uint8_t> one) { return !is_one_encrypted(one); });
+  std::ranges::copy(encrypted, message.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
 }  // namespace roci::services::vendors::guard

@@ -28,4 +28,11 @@ std::size_t strip_vendor_submessages(std::span<std::uint8_t> message);
 /// together with the handshake. Returns the new length; 0 if nothing is left that says something.
 std::size_t strip_plain_submessages(std::span<std::uint8_t> message);
 
+/// Puts what a message of a secure run says in plain before what is encrypted one by one, if it stands behind that. strip_plain_submessages
+/// has left nothing in plain but announcements and handshakes. Cyclone DDS packs the last message of a handshake behind an
+/// acknowledgement that only the end of that handshake makes readable; Fast DDS stops reading where it cannot decrypt
+/// (MessageReceiver::processCDRMsg), and so it never met that last message. A message whose parts are for several
+/// participants stays as it is.
+void put_plain_submessages_first(std::span<std::uint8_t> message);
+
 }  // namespace roci::services::vendors::guard

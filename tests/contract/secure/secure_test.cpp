@@ -79,6 +79,19 @@ TEST_P(Secure, CertifiedParticipantsHearEachOtherAndOutsidersSeeNobody) {
   EXPECT_EQ(writer.finish(), 0);
 }
 
+// Whoever ends the handshake packs that end behind what only the end makes readable, as Cyclone DDS does now and then.
+TEST_P(Secure, AHandshakeEndsWhateverItsEndIsPackedWith) {
+  const auto packing = [&](const std::string& vendor, const std::string& role, const std::string& service) {
+    auto environment = peer_keys(ring_.path(), service);
+    environment.emplace_back("LD_PRELOAD=" ROCI_PACKED_FINAL);
+    return ChildProcess(peer_command(vendor, role, domain_.id()), environment);
+  };
+  ChildProcess reader = packing(GetParam().reader, "goal-reader", "exec_svc");
+  ChildProcess writer = packing(GetParam().writer, "goal-writer", "roci");
+  writer.send("write ground photo 1");
+  EXPECT_TRUE(reader.wait_for("goal ground photo 1", kPatience));
+}
+
 // Its own library refuses it, with the documents that it was given.
 TEST_P(Secure, ACertificateWithTheWrongRightsOpensNoWriter) {
   ChildProcess thief = certified(GetParam().writer, "goal-writer", "pathplan_svc");

@@ -77,6 +77,19 @@ TEST(PlannerService, AnswersWithPlanNetworkVerdictAndStatistics) {
   EXPECT_THAT(planning.events(), IsEmpty());
 }
 
+// What the mission spends on better plans is what a call spends: no number of the planner's own.
+TEST(PlannerService, SpendsOnBetterPlansWhatTheMissionSays) {
+  const auto evaluated = [](const std::string& improvement) {
+    RoadPlanning planning({}, services::next_domain(), true, "eager, budget: {improvement: " + improvement + "}");
+    const v1::PlanReply reply = reply_to(planning, plan_request(kRoadDomain, road_problem()));
+    EXPECT_EQ(reply.verdict_code(), v1::VERDICT_SOLVED) << reply.reason();
+    return reply.statistics().evaluated();
+  };
+  const auto none = evaluated("0"), few = evaluated("3");
+  EXPECT_LT(none, few);
+  EXPECT_LE(few, none + 3);
+}
+
 std::string content_of(const std::filesystem::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), {}};

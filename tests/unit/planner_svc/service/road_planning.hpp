@@ -50,7 +50,7 @@ class RoadPlanning {
   using Answer = std::function<void(const v1::FunctionRequest&, services::Responder<v1::FunctionReply>)>;
 
   // Under the simulated clock: "client" is its master; roads_svc offers module roads if `offered`, with lower
-  // bounds. `functions`: as in mission.yaml.
+  // bounds. `functions`: as in mission.yaml, and what may stand behind it there.
   explicit RoadPlanning(const RoadVendors& vendors = {}, int domain = services::next_domain(),
                         bool offered = true, const std::string& functions = "eager");
   ~RoadPlanning();

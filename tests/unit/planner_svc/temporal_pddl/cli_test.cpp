@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "planner_svc/temporal_pddl/cli/checked_result.hpp"
 #include "planner_svc/temporal_pddl/cli/gantt.hpp"
 #include "planner_svc/temporal_pddl/cli/progress_line.hpp"
@@ -119,6 +121,29 @@ TEST_F(Program, AsksForExactValuesAsItsModeSays) {
   EXPECT_THAT(read("out"), HasSubstr("\"duration\": 10.0"));
   EXPECT_EQ(run("ways trip --functions values --functions-mode none"), 64);
   EXPECT_THAT(read("err"), HasSubstr("two-accuracy"));
+}
+
+// R30: a whole action is two steps, `ring` is one. What a step costs does not grow with the plan before it.
+TEST_F(Program, APlanHas32767StepsAndNotOneMore) {
+  write("clock",
+        "(define (domain clock) (:requirements :durative-actions :numeric-fluents) (:predicates (idle) (rung))"
+        " (:functions (ticks)) (:durative-action tick :parameters () :duration (= ?duration 1)"
+        " :condition (at start (idle)) :effect (and (at start (not (idle))) (at end (idle))"
+        " (at end (increase (ticks) 1)))) (:action ring :parameters () :precondition (idle) :effect (rung)))");
+  const auto goal = [&](const std::string& name, const std::string& wanted) {
+    write(name, "(define (problem p) (:domain clock) (:init (idle) (= (ticks) 0)) (:goal " + wanted + "))");
+  };
+  const auto lines = [](const std::string& text) { return std::ranges::count(text, '\n'); };
+  goal("one-less", "(>= (ticks) 16383)");
+  EXPECT_EQ(run("clock one-less"), 0) << read("err");
+  EXPECT_EQ(lines(read("out")), 16'383);
+  goal("most", "(and (>= (ticks) 16383) (rung))");
+  EXPECT_EQ(run("clock most"), 0) << read("err");
+  EXPECT_EQ(lines(read("out")), 16'384);
+  goal("one-more", "(>= (ticks) 16384)");
+  EXPECT_EQ(run("clock one-more"), 5);
+  EXPECT_THAT(read("out"), IsEmpty());
+  EXPECT_EQ(read("err"), "out_of_memory: a plan may have at most 32767 steps, and none so short was found\n");
 }
 
 TEST_F(Program, AMemoryLimitIsSetWithoutAskingAndIsACleanVerdict) {

@@ -57,7 +57,8 @@ class Landmarks : public ::testing::Test {
     return LandmarkId();
   }
   bool ordered(LandmarkId earlier, LandmarkId later) const {
-    return std::ranges::count(count_.landmarks()[later].after, earlier) > 0;
+    const auto& after = count_.landmarks()[later].after;
+    return std::ranges::any_of(after, [&](LandmarkId id) { return id == earlier || ordered(earlier, id); });
   }
 
   Budget budget_;

@@ -123,6 +123,29 @@ TEST(Refining, SearchedToTheEndEveryModeCostsTheOptimum) {
   EXPECT_LT(two_accuracy, eager / 2);
 }
 
+// The way by p3, p4 and p5 promises 24 s beside 30 s that are known; its first half alone takes more.
+TEST(Refining, APlanThatIsTooDearByHalfIsAskedForNoFurther) {
+  std::string roads;
+  TwoAccuracies owner;
+  for (std::size_t a = 0; a < 6; ++a)
+    for (std::size_t b = 0; b < 6; ++b) owner.set(way(a, b), 100, 100);
+  const auto road = [&](std::size_t a, std::size_t b, double value, double bound) {
+    roads += "(road " + place(a) + " " + place(b) + ")";
+    owner.set(way(a, b), value, bound);
+  };
+  road(0, 2, 15, 10);
+  road(2, 1, 15, 10);
+  for (const auto& [a, b] : {std::pair(0, 3), std::pair(3, 4), std::pair(4, 5), std::pair(5, 1)})
+    road(static_cast<std::size_t>(a), static_cast<std::size_t>(b), 20, 6);
+  const Result result = testing::solved(tour(6, 1, "(at start (road ?a ?b))", roads), owner,
+                                        in_mode(FunctionsMode::two_accuracy, kToTheEnd));
+  EXPECT_EQ(result.verdict, Verdict::solved) << result.reason;
+  EXPECT_TRUE(result.statistics.exhausted);
+  EXPECT_NEAR(seconds(result), 30, 0.1);
+  EXPECT_THAT(owner.asked_exactly,
+              ::testing::ElementsAre("(time p0 p2)", "(time p0 p3)", "(time p2 p1)", "(time p3 p4)"));
+}
+
 TEST(Refining, TheFirstPlanIsTimedWithExactValuesAndTaken) {
   const testing::Model model = tour(6, 2);
   Distances distances = random_distances(6, 1);

@@ -103,6 +103,42 @@ TEST(Guard, AnEncryptedMessageIsNothingElse) {
       << "the body alone, which nobody can decrypt";
 }
 
+// Who cannot decrypt what precedes the end of a handshake reads no further, and can never decrypt it.
+TEST(Guard, InASecureRunTheHandshakePrecedesWhatItMakesReadable) {
+  constexpr std::uint32_t kHandshake = 0x000201c3;
+  const auto with_keys = [](Message message) {
+    return message.submessage(0x31, 0, Bytes(20))
+        .submessage(0x30, 0, encrypted(64))
+        .submessage(0x32, 0, Bytes(20));
+  };
+  const auto with_handshake = [](Message message) {
+    return message.submessage(0x09, 0, Bytes(8)).data(0, kHandshake, 1, kData, {}, kPayload);
+  };
+  const auto to = [](std::uint8_t whom) { return own().submessage(0x0e, 0, Bytes(12, whom)); };
+  const auto ordered = [](const Message& message) {
+    Bytes bytes = message.bytes();
+    put_plain_submessages_first(bytes);
+    return bytes;
+  };
+  EXPECT_EQ(ordered(with_handshake(with_keys(to(1)))), with_keys(with_handshake(to(1))).bytes());
+  EXPECT_EQ(ordered(with_keys(with_handshake(to(1)))), with_keys(with_handshake(to(1))).bytes());
+  EXPECT_EQ(ordered(with_keys(to(1))), with_keys(to(1)).bytes());
+  const auto for_two = with_handshake(with_keys(to(1)).submessage(0x0e, 0, Bytes(12, 2)));
+  EXPECT_EQ(ordered(for_two), for_two.bytes());
+  // What is for everybody does not become what is for one.
+  const auto for_all = with_handshake(with_keys(own()).submessage(0x0e, 0, Bytes(12, 2)));
+  EXPECT_EQ(ordered(for_all), for_all.bytes());
+  const auto times = with_keys(with_keys(to(1)).submessage(0x09, 0, Bytes(8)));
+  EXPECT_EQ(ordered(times), times.bytes());
+  const auto whole =
+      own().submessage(0x33, 0, Bytes(20)).submessage(0x30, 0, encrypted(64)).submessage(0x34, 0, Bytes(20));
+  EXPECT_EQ(ordered(whole), whole.bytes());
+  // Through the guard, as a vendor's parser gets it.
+  Bytes received = with_handshake(with_keys(to(1))).bytes();
+  EXPECT_EQ(Guard({.peers = {}, .secure = true}).admit(received, std::nullopt), received.size());
+  EXPECT_EQ(received, with_keys(with_handshake(to(1))).bytes());
+}
+
 TEST(Guard, LengthsOfWhatIsEncryptedFit) {
   EXPECT_EQ(judge(own().submessage(0x33, 0, Bytes(16))), Verdict::cut);
   Bytes lying = encrypted(8);

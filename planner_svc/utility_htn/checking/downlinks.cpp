@@ -1,0 +1,156 @@
+// Downlinks by the formulas of appendix A.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "planner_svc/utility_htn/checking/course.hpp"
+#include "planner_svc/utility_htn/checking/parts.hpp"
+
+namespace roci::planner::utility_htn::checking {
+namespace {
+
+using model::Tier;
+
+std::string words(Tier tier) {
+  if (tier == Tier::critical) return "Critical";
+  if (tier == Tier::decisional) return "Decisional";
+  return tier == Tier::mandatory ? "Mandatory" : "Residual";
+}
+
+std::string name(const Product& product) { return words(product.tier) + " product '" + product.id + "'"; }
+
+bool more(double value, double limit) { return value > limit * (1 + 1e-9) + 1e-9; }
+
+// Says which limit of a window so many bytes break; empty: none.
+std::string breaks(const Window& window, double bytes) {
+  if (bytes == 0) return "";
+  if (!(window.bytes_per_s > 0)) return "has no rate";
+  const double seconds = bytes / window.bytes_per_s;
+  if (more(seconds, temporal::to_seconds(window.latest_end - window.start)))
+    return "would go on when Earth is no longer in view";
+  if (more(seconds, window.heat_limit_s)) return "would overheat the radio";
+  if (more(seconds * window.power_w, window.energy_limit_j))
+    return "takes more than the energy limit of one downlink";
+  return "";
+}
+
+double joules(const Window& window, double bytes) {
+  return bytes == 0 || !(window.bytes_per_s > 0) ? 0 : bytes / window.bytes_per_s * window.power_w;
+}
+
+std::vector<double> loads(const Downlinks& downlinks, bool with_residual) {
+  std::vector<double> out(downlinks.windows.size(), 0);
+  for (const Product& product : downlinks.products) {
+    if (!product.window || (!with_residual && product.tier == Tier::residual)) continue;
+    out[*product.window] += static_cast<double>(product.bytes);
+  }
+  return out;
+}
+
+double sol_energy(const Downlinks& downlinks, const std::vector<double>& bytes, std::uint32_t sol) {
+  double out = 0;
+  for (std::size_t w = 0; w < bytes.size(); ++w) {
+    if (downlinks.windows[w].sol == sol) out += joules(downlinks.windows[w], bytes[w]);
+  }
+  return out;
+}
+
+void check_limits(const Downlinks& downlinks, Faults& out) {
+  const std::vector<double> bytes = loads(downlinks, true);
+  for (std::size_t w = 0; w < bytes.size(); ++w) {
+    const std::string what = breaks(downlinks.windows[w], bytes[w]);
+    if (!what.empty())
+      out.push_back("downlink '" + downlinks.windows[w].id + "' with " + number(bytes[w]) + " bytes " + what);
+  }
+  for (const auto& [sol, limit] : downlinks.sol_energy_j) {
+    const double total = sol_energy(downlinks, bytes, sol);
+    if (more(total, limit)) {
+      out.push_back("the downlinks of sol " + std::to_string(sol) + " take " + number(total) + " J of the " +
+                    number(limit) + " J that they may");
+    }
+  }
+}
+
+void check_tiers(const Downlinks& downlinks, Faults& out) {
+  const std::vector<double> urgent = loads(downlinks, false);
+  for (const Product& product : downlinks.products) {
+    if (product.window && downlinks.windows[*product.window].start < product.created) {
+      out.push_back(name(product) + " goes with '" + downlinks.windows[*product.window].id +
+                    "', before it is created");
+    }
+    if (product.reported) continue;
+    if (!product.window) out.push_back(name(product) + " is not sent, and nothing says why");
+    if (product.tier != Tier::critical && product.tier != Tier::decisional) continue;
+    for (std::size_t w = 0; product.window && w < *product.window; ++w) {
+      if (downlinks.windows[w].start < product.created) continue;
+      out.push_back(name(product) + " does not go with the first window after its creation, '" +
+                    downlinks.windows[w].id + "', and nothing says why");
+      break;
+    }
+  }
+  for (const Product& product : downlinks.products) {
+    if (product.window || product.tier == Tier::residual) continue;
+    for (std::size_t w = 0; w < downlinks.windows.size(); ++w) {
+      if (downlinks.windows[w].start < product.created) continue;
+      std::vector<double> with = urgent;
+      with[w] += static_cast<double>(product.bytes);
+      const auto limit = downlinks.sol_energy_j.find(downlinks.windows[w].sol);
+      const bool sol_allows = limit == downlinks.sol_energy_j.end() ||
+                              !more(sol_energy(downlinks, with, limit->first), limit->second);
+      if (!breaks(downlinks.windows[w], with[w]).empty() || !sol_allows) continue;
+      out.push_back(name(product) + " is not sent although '" + downlinks.windows[w].id +
+                    "' has room for it" +
+                    (urgent == loads(downlinks, true) ? "" : " but for Residual products"));
+      break;
+    }
+  }
+}
+
+// What planned steps will generate stands in the list as the network says, and has its downlink.
+void check_sources(const Question& question, Faults& out) {
+  const auto& products = question.downlinks.products;
+  std::set<std::string> ids;
+  for (const Product& product : products) {
+    if (!ids.insert(product.id).second)
+      out.push_back("product '" + product.id + "' stands in the downlinks twice");
+  }
+  for (const Block& block : question.plan) {
+    for (const Step& step : block.steps) {
+      if (end_of(question, step) <= question.now) continue;
+      for (const model::Product& promised : question.network.tasks[step.task].products) {
+        const auto count = std::ranges::count_if(products, [&](const Product& product) {
+          return product.step == step.id && product.name == promised.name;
+        });
+        const std::string what = "'" + promised.name + "' of " + name(question, step);
+        if (count != 1) {
+          out.push_back("product " + what + " stands in the downlinks " + std::to_string(count) + " times");
+          continue;
+        }
+        const Product& found = *std::ranges::find_if(products, [&](const Product& product) {
+          return product.step == step.id && product.name == promised.name;
+        });
+        if (found.created != end_of(question, step))
+          out.push_back("product " + what + " is not created when that ends");
+        if (found.tier != promised.tier)
+          out.push_back("product " + what + " has another tier than in the network");
+        const double bytes = std::max(0.0, model::evaluate(promised.bytes, question.values));
+        if (std::abs(static_cast<double>(found.bytes) - bytes) > 1)
+          out.push_back("product " + what + " has another size than in the network");
+        if (!step.committed && !found.window && found.tier != Tier::residual) {
+          out.push_back(name(question, step) + " is planned although its product '" + promised.name +
+                        "' is not sent");
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void check_downlinks(const Question& question, Faults& out) {
+  check_sources(question, out);
+  check_limits(question.downlinks, out);
+  check_tiers(question.downlinks, out);
+}
+
+}  // namespace roci::planner::utility_htn::checking

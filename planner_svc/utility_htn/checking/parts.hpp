@@ -1,0 +1,32 @@
+// The parts of the check, one for each file; each adds its faults.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner_svc/utility_htn/checking/question.hpp"
+
+namespace roci::planner::utility_htn::checking {
+
+using Faults = std::vector<std::string>;
+
+void check_blocks(const Question& question, Faults& out);
+void check_times(const Question& question, Faults& out);
+void check_commitments(const Question& question, Faults& out);
+void check_conditions(const Question& question, Faults& out);
+void check_ranges(const Question& question, Faults& out);
+void check_budget(const Question& question, Faults& out);
+void check_downlinks(const Question& question, Faults& out);
+void check_subway_map(const Question& question, Faults& out);
+
+/// Prints "task 'x' at 12 s".
+std::string name(const Question& question, const Step& step);
+std::string number(double value);
+
+/// Returns whether indices can be followed: everything else is checked only then.
+bool in_range(const Question& question, Faults& out);
+
+/// Returns whether a value is within the bounds, to the last digits of a sum.
+bool within(double value, double lowest, double highest);
+
+}  // namespace roci::planner::utility_htn::checking

@@ -1,0 +1,80 @@
+// What the independent checker is asked: one version of a plan, what was there before, and what was observed. It is told in types of its own,
+// so that no mistake of the planner can hide in a shared one.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/temporal/duration.hpp"
+#include "planner_svc/utility_htn/model/network.hpp"
+
+namespace roci::planner::utility_htn::checking {
+
+/// Is one primitive task in a plan.
+struct Step {
+  std::uint64_t id = 0;  ///< the same in all versions
+  model::TaskIndex task = 0;
+  temporal::Time start{0};
+  /// What it takes; none: what the network says. Downlinks and what is executed have one of their own.
+  std::optional<temporal::Duration> duration{};
+  bool committed = false;
+};
+
+/// Is a requested task with all its primitive ones in order, those that are executed among them.
+struct Block {
+  model::TaskIndex request = 0;
+  std::vector<Step> steps;
+};
+
+struct Window {
+  std::string id;
+  temporal::Time start{0};
+  temporal::Time latest_end{0};
+  double bytes_per_s = 0;
+  double power_w = 0;
+  double energy_limit_j = std::numeric_limits<double>::infinity();
+  std::uint32_t sol = 0;
+  double heat_limit_s = std::numeric_limits<double>::infinity();
+};
+
+struct Product {
+  std::string id;
+  model::Tier tier = model::Tier::mandatory;
+  std::uint64_t bytes = 0;
+  temporal::Time created{0};
+  std::optional<std::uint64_t> step{};    ///< the planned step that will generate it; none: it is on board
+  std::string name{};                     ///< of that task's product in the network
+  std::optional<std::uint32_t> window{};  ///< none: it is not sent
+  bool reported = false;                  ///< the plan names it as left out or late, with the reason
+};
+
+struct Downlinks {
+  std::vector<Product> products{};
+  std::vector<Window> windows{};  ///< in order of their starts
+  std::map<std::uint32_t, double> sol_energy_j{};
+};
+
+struct Observation {
+  temporal::timelines::Index timeline = 0;
+  temporal::Time sampled{0};
+  double value = 0;
+};
+
+struct Question {
+  const model::Network& network;
+  const model::Values& values;
+  std::vector<Block> plan;
+  std::vector<Block> before{};  ///< the version that this one follows
+  Downlinks downlinks{};
+  std::vector<Observation> observations{};
+  temporal::Time now{0};
+  temporal::Time from{0};  ///< end of the commit window: what is not committed starts then or later
+  double budget = 0;       ///< what is left of it
+  std::vector<model::TaskIndex> closed{};  ///< requests that are done, failed for good or withdrawn
+};
+
+}  // namespace roci::planner::utility_htn::checking
