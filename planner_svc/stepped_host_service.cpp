@@ -231,7 +231,7 @@ std::string SteppedHost::refusal_of(Time now, const PlanDelta& delta, FlexiblePl
   for (const auto& [key, heard] : goals_)
     if (heard.told) situation.goals.push_back(*heard.goal);
   const FlexiblePlan* before = history_.version(delta.from_version);
-  return engine::refusal_of(*checker_, {situation, {}, next, before, before ? &progress_ : nullptr});
+  return engine::refusal_of(*checker_, {situation, {}, next, before, before ? &progress_ : nullptr, setup_.model_file});
 }
 
 // The new engine hears again all that still counts, with the next thing that is heard.

@@ -1,6 +1,7 @@
 // The independent check that every plan of an engine passes before it leaves the planner.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct CheckedPlan {
   const temporal::FlexiblePlan* before = nullptr;  ///< the version that it changes; null: there is none
   /// How far the executed version has come; null: none is executed.
   const temporal::Progress* progress = nullptr;
+  std::filesystem::path model_file{};  ///< of the request's model, for what it includes
 };
 
 /// Shares no more with its engine than the reader of the model, so that a fault of the engine cannot hide

@@ -1,0 +1,61 @@
+#include "planner_svc/utility_htn/checking/utility_checker.hpp"
+
+#include <algorithm>
+
+#include "planner_svc/utility_htn/checking/check.hpp"
+#include "planner_svc/utility_htn/checking/version.hpp"
+#include "planner_svc/utility_htn/reading/load.hpp"
+
+namespace roci::planner::utility_htn::checking {
+
+namespace {
+
+std::optional<double> number(const temporal::timelines::Definition& timeline, const temporal::Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* truth = std::get_if<bool>(&value); truth != nullptr && timeline.states.empty()) return *truth;
+  const auto state = std::ranges::find(timeline.states, temporal::to_text(value));
+  if (state == timeline.states.end()) return std::nullopt;
+  return static_cast<double>(state - timeline.states.begin());
+}
+
+}  // namespace
+
+std::vector<std::string> faults_of(const model::Network& network, const engine::CheckedPlan& checked) {
+  const temporal::Time now = checked.request.origin;
+  Version version = version_of(network, checked.plan, checked.progress, now);
+  if (!version.faults.empty()) return version.faults;
+  Question question{.network = network, .values = version.values, .plan = std::move(version.blocks)};
+  if (checked.before != nullptr)
+    question.before = version_of(network, *checked.before, checked.progress, now).blocks;
+  question.observations = std::move(version.internal);
+  question.closed = std::move(version.done);
+  question.now = now;
+  question.from = now + network.cycle.commit_window;
+  const auto& budget = network.timelines[network.budget];
+  question.budget = budget.initial - budget.lowest;
+  for (temporal::timelines::Index i = 0; i < network.timelines.size(); ++i) {
+    const auto& timeline = network.timelines[i];
+    const auto observed = checked.request.state.find(timeline.name);
+    if (!timeline.reported || observed == checked.request.state.end()) continue;
+    const auto value = number(timeline, observed->second);
+    if (!value) continue;
+    question.observations.push_back({i, now, *value});
+    if (i == network.budget) question.budget = *value - timeline.lowest;
+  }
+  return faults(question);
+}
+
+std::vector<std::string> UtilityChecker::faults(const engine::CheckedPlan& checked) const {
+  return faults_of(network(checked.model_file), checked);
+}
+
+const model::Network& UtilityChecker::network(const std::filesystem::path& file) const {
+  const std::scoped_lock lock(mutex_);
+  if (!network_ || file_ != file) {
+    network_ = reading::load_network(file);
+    file_ = file;
+  }
+  return *network_;
+}
+
+}  // namespace roci::planner::utility_htn::checking

@@ -1,0 +1,30 @@
+// The independent checker of the utility-driven engine's plan versions, behind the seam.
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <optional>
+
+#include "planner_svc/engine/checker.hpp"
+#include "planner_svc/utility_htn/model/network.hpp"
+
+namespace roci::planner::utility_htn::checking {
+
+/// Reads blocks, times and commitments off a plan's activities, windows and tokens, and has faults() compute everything anew. Downlinks
+/// are not part of a FlexiblePlan and are not looked at here.
+class UtilityChecker final : public engine::Checker {
+ public:
+  std::vector<std::string> faults(const engine::CheckedPlan& checked) const override;
+
+ private:
+  const model::Network& network(const std::filesystem::path& file) const;
+
+  mutable std::mutex mutex_;
+  mutable std::filesystem::path file_;
+  mutable std::optional<model::Network> network_;  // of that file
+};
+
+/// Checks a version against a network that is read already.
+std::vector<std::string> faults_of(const model::Network& network, const engine::CheckedPlan& checked);
+
+}  // namespace roci::planner::utility_htn::checking

@@ -1,0 +1,137 @@
+#include "planner_svc/utility_htn/checking/version.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
+
+namespace roci::planner::utility_htn::checking {
+
+using temporal::FlexiblePlan, temporal::PlanActivity, temporal::Time, temporal::Token;
+
+namespace {
+
+/// "task#BLOCK.LINK", taken apart.
+struct Name {
+  std::string task;
+  std::uint32_t block = 0;
+  std::uint32_t link = 0;
+};
+
+std::optional<Name> name_of(const std::string& id) {
+  const std::size_t mark = id.rfind('#');
+  const std::size_t dot = id.rfind('.');
+  if (mark == std::string::npos || dot == std::string::npos || dot < mark) return std::nullopt;
+  Name out{id.substr(0, mark), 0, 0};
+  const bool block = std::from_chars(id.data() + mark + 1, id.data() + dot, out.block).ptr == id.data() + dot;
+  const char* const end = id.data() + id.size();
+  return block && std::from_chars(id.data() + dot + 1, end, out.link).ptr == end ? std::optional(out) : std::nullopt;
+}
+
+template <class Items, class Member>
+std::optional<std::uint32_t> index_of(const Items& items, std::string_view name, Member member) {
+  const auto found = std::ranges::find(items, name, member);
+  if (found == items.end()) return std::nullopt;
+  return static_cast<std::uint32_t>(found - items.begin());
+}
+
+class Reader {
+ public:
+  Reader(const model::Network& network, const FlexiblePlan& plan, const temporal::Progress* progress, Time now)
+      : network_(network), plan_(plan), progress_(progress), now_(now) {
+    for (const temporal::TemporalConstraint& one : plan.constraints)
+      if (one.kind == temporal::ConstraintKind::window && one.from_point == temporal::origin_point)
+        starts_[one.to_point] = plan.origin + one.lower;
+    out_.values = model::priors(network);
+  }
+
+  Version run() {
+    for (const Token& token : plan_.tokens)
+      token.start_point == temporal::origin_point ? read_past(token) : read_request(token);
+    for (const PlanActivity& activity : plan_.activities) read_step(activity);
+    for (auto& [number, block] : blocks_) keep(number, block);
+    return std::move(out_);
+  }
+
+ private:
+  void read_request(const Token& token) {
+    const auto* held = std::get_if<temporal::State>(&token.held);
+    const auto task = index_of(network_.tasks, token.timeline, &model::Task::id);
+    std::uint32_t number = 0;
+    const bool numbered = held != nullptr && held->arguments.size() == 1 &&
+                          std::from_chars(held->arguments.front().data(),
+                                          held->arguments.front().data() + held->arguments.front().size(), number)
+                                  .ec == std::errc{};
+    if (!task || !numbered) {
+      out_.faults.push_back("the token of " + token.timeline + " names no block of a request");
+    } else {
+      blocks_[number].request = *task;
+    }
+  }
+
+  void read_past(const Token& token) {
+    const std::string_view name = token.timeline;
+    const std::string_view rest = name.substr(std::min(name.size(), name.find('.') + 1));
+    const auto* number = std::get_if<double>(&token.held);
+    if (name.starts_with("done.")) {
+      if (const auto task = index_of(network_.tasks, rest, &model::Task::id)) out_.done.push_back(*task);
+    } else if (name.starts_with("parameter.") && number != nullptr) {
+      if (const auto parameter = index_of(network_.parameters, rest, &model::Parameter::name))
+        out_.values[*parameter] = *number;
+    } else if (name.starts_with("internal.")) {
+      const auto timeline = index_of(network_.timelines, rest, &temporal::timelines::Definition::name);
+      if (!timeline) return;
+      const auto state = index_of(network_.timelines[*timeline].states, temporal::to_text(token.held), std::identity{});
+      out_.internal.push_back({*timeline, now_, number != nullptr ? *number : state ? *state : 0.0});
+    }
+  }
+
+  void read_step(const PlanActivity& activity) {
+    const auto name = name_of(activity.id);
+    if (!name) return;  // it gives timelines their first values
+    const auto task = index_of(network_.tasks, name->task, &model::Task::id);
+    const auto block = blocks_.find(name->block);
+    if (!task || block == blocks_.end()) {
+      out_.faults.push_back(activity.id + " is no task of a block");
+      return;
+    }
+    Step step{(std::uint64_t{name->block} << 32U) | name->link, *task, starts_[activity.start_point],
+              activity.duration_lower, activity.commit == temporal::CommitState::committed};
+    const auto went = progress_ == nullptr ? temporal::Progress::const_iterator{} : progress_->find(activity.id);
+    const bool known = progress_ != nullptr && went != progress_->end();
+    if (known && went->second.started) {
+      step.start = *went->second.started;
+      const Time end = went->second.ended.value_or(std::max(now_, step.start + *step.duration));
+      step.duration = end - step.start;
+    } else if (step.committed) {
+      step.start = std::max(step.start, now_);
+    }
+    block->second.steps.push_back(step);
+  }
+
+  // A block of which a link has failed is no plan any more: what is committed of it is skipped.
+  void keep(std::uint32_t number, Block& block) {
+    std::ranges::sort(block.steps, {}, &Step::id);
+    for (std::size_t link = 0; link < block.steps.size(); ++link)
+      if (block.steps[link].id != ((std::uint64_t{number} << 32U) | link)) return;
+    if (!block.steps.empty()) out_.blocks.push_back(block);
+  }
+
+  const model::Network& network_;
+  const FlexiblePlan& plan_;
+  const temporal::Progress* progress_;
+  Time now_;
+  std::unordered_map<temporal::TimePoint, Time> starts_;
+  std::map<std::uint32_t, Block> blocks_;
+  Version out_;
+};
+
+}  // namespace
+
+Version version_of(const model::Network& network, const FlexiblePlan& plan, const temporal::Progress* progress,
+                   Time now) {
+  return Reader(network, plan, progress, now).run();
+}
+
+}  // namespace roci::planner::utility_htn::checking

@@ -1,0 +1,26 @@
+// A plan version as the executive is told it, taken apart for the independent checker.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/temporal/projection.hpp"
+#include "planner_svc/utility_htn/checking/question.hpp"
+
+namespace roci::planner::utility_htn::checking {
+
+/// Is what a FlexiblePlan of the utility-driven engine says; planner_svc/utility_htn/README.md has the form.
+struct Version {
+  std::vector<Block> blocks;  ///< those of which no link has failed
+  model::Values values;       ///< of parameters
+  std::vector<Observation> internal;  ///< of timelines that nobody reports, as of the version
+  std::vector<model::TaskIndex> done;
+  std::vector<std::string> faults;  ///< of the form
+};
+
+/// Reads a plan. What has begun or ended has its actual times, and what is late starts at `now`; `progress` may be null.
+Version version_of(const model::Network& network, const temporal::FlexiblePlan& plan, const temporal::Progress* progress,
+                   temporal::Time now);
+
+}  // namespace roci::planner::utility_htn::checking
