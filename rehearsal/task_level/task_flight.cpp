@@ -12,6 +12,7 @@
 #include "exec_svc/reactor/commitment.hpp"
 #include "exec_svc/reactor/recovery_policy.hpp"
 #include "planner_svc/utility_htn/adapter/plan_of.hpp"
+#include "planner_svc/utility_htn/checking/utility_checker.hpp"
 
 namespace roci::rehearsal::task_level {
 
@@ -111,8 +112,8 @@ class TaskFlight {
     std::string fault = temporal::apply(delta, next);
     if (fault.empty())
       if (const auto faults = temporal::check(next); !faults.empty()) fault = faults.front();
-    if (fault.empty())
-      fault = exec::reactor::commitment_violation(plan_, executive_.steps(), next, now_);
+    if (fault.empty()) fault = exec::reactor::commitment_violation(plan_, executive_.steps(), next, now_);
+    if (fault.empty()) fault = checkers_fault(next);
     planner::engine::Receipt receipt{plan_.version, 0, "", "", true};
     if (fault.empty()) {
       plan_ = std::move(next);
@@ -130,6 +131,16 @@ class TaskFlight {
     }
     heard_.receipt = receipt;
     stepped_ = false;
+  }
+
+  // What planner_svc asks before it sends a version.
+  std::string checkers_fault(const FlexiblePlan& next) const {
+    planner::engine::Request situation;
+    situation.origin = now_;
+    situation.state[budget_.name] = left_;
+    const auto faults = planner::utility_htn::checking::faults_of(
+        flight_.network, {situation, {}, next, plan_.version == 0 ? nullptr : &plan_, &progress_});
+    return faults.empty() ? std::string() : faults.front();
   }
 
   // Without flexible execution nothing is tried again by the executive itself; it still waits for what is late, since the
@@ -167,6 +178,7 @@ class TaskFlight {
     step.progress = {status.state, status.started, status.ended};
     step.cause = status.reason;
     heard_.steps.push_back(step);
+    progress_.insert_or_assign(step.activity, step.progress);
     const Task* const task = task_of(status.activity);
     if (task == nullptr) return;
     if (status.state == ActivityState::running && task->commands.empty()) draw(status.activity, *task, 1);
@@ -174,6 +186,7 @@ class TaskFlight {
     settle_draw(status.activity, status.state == ActivityState::succeeded);
     if (status.state == ActivityState::succeeded) {
       ++out_.tasks;
+      if (flight_.succeeded) flight_.succeeded(task->id);
       if (const auto id = adapter::task_of(status.activity)) succeeded_.insert(*id);
       count_blocks(status.activity);
     }
@@ -319,6 +332,7 @@ class TaskFlight {
   Time now_{0};
   Executive executive_{executive_settings()};
   FlexiblePlan plan_;
+  temporal::Progress progress_;
   std::uint32_t last_version_ = 0;
   StepInputs heard_;
   exec::executive::Inputs inputs_;

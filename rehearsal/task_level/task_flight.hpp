@@ -44,6 +44,8 @@ struct Flight {
   Strategy strategy = Strategy::replanning;
   Costs costs{};
   temporal::Time until = temporal::no_bound;
+  /// Is told of every task that has succeeded, before the engine hears of it; may be empty.
+  std::function<void(const std::string& task)> succeeded{};
   /// Is told of everything that happens, for traces; may be empty.
   std::function<void(temporal::Time, const std::string&)> tell{};
 };

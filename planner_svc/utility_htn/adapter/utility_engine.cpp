@@ -28,7 +28,12 @@ UtilityEngine::UtilityEngine(const engine::Setup& setup, model::Network network,
       chains_(flattening::flatten(network_, flattening::templates_on_call(network_))),
       assessor_(std::make_unique<assessor::SubwayAssessor>(network_, chains_)),
       scheduler_(search::make_scheduler("nearest")),
-      settings_(settings) {}
+      settings_(settings) {
+  // The first cycle cannot commit what would have to start at once.
+  for (model::Task& task : network_.tasks)
+    if (task.fixed && temporal::bounded(task.preferred_start))
+      task.preferred_start = std::max(task.preferred_start, network_.cycle.commit_window);
+}
 
 UtilityEngine::~UtilityEngine() = default;
 
@@ -47,6 +52,13 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
   out.blocking = blocking_;
   if (open_ && !goals_.empty()) out.wake = next_cycle_;
   return out;
+}
+
+std::string UtilityEngine::learn(const std::string& parameter, double value) {
+  const auto known = std::ranges::find(network_.parameters, parameter, &model::Parameter::name);
+  if (known == network_.parameters.end()) return "the network has no parameter '" + parameter + "'";
+  if (cycle_ == nullptr) return "nothing is planned yet";
+  return cycle_->set_value(static_cast<model::ParameterIndex>(known - network_.parameters.begin()), value);
 }
 
 void UtilityEngine::hear(const StepInputs& inputs) {

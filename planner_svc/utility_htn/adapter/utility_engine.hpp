@@ -22,6 +22,8 @@ class UtilityEngine final : public engine::SteppedEngine {
   ~UtilityEngine() override;
 
   engine::StepOutput step(const engine::StepInputs& inputs) override;
+  /// Replaces a parameter's value by what was measured or found (R116). Returns why not, if it cannot.
+  std::string learn(const std::string& parameter, double value);
 
  private:
   void hear(const engine::StepInputs& inputs);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <unordered_map>
 
@@ -67,6 +68,7 @@ class Reader {
       out_.faults.push_back("the token of " + token.timeline + " names no block of a request");
     } else {
       blocks_[number].request = *task;
+      ends_[number] = token.end_point;
     }
   }
 
@@ -107,6 +109,7 @@ class Reader {
     } else if (step.committed) {
       step.start = std::max(step.start, now_);
     }
+    if (activity.end_point == ends_[name->block]) whole_.insert(name->block);
     block->second.steps.push_back(step);
   }
 
@@ -115,7 +118,7 @@ class Reader {
     std::ranges::sort(block.steps, {}, &Step::id);
     for (std::size_t link = 0; link < block.steps.size(); ++link)
       if (block.steps[link].id != ((std::uint64_t{number} << 32U) | link)) return;
-    if (!block.steps.empty()) out_.blocks.push_back(block);
+    if (whole_.contains(number)) out_.blocks.push_back(block);
   }
 
   const model::Network& network_;
@@ -124,6 +127,8 @@ class Reader {
   Time now_;
   std::unordered_map<temporal::TimePoint, Time> starts_;
   std::map<std::uint32_t, Block> blocks_;
+  std::map<std::uint32_t, temporal::TimePoint> ends_;  // of the last link
+  std::set<std::uint32_t> whole_;                      // blocks that have it
   Version out_;
 };
 
