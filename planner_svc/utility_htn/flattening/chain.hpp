@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "planner_svc/utility_htn/model/bounds.hpp"
 #include "planner_svc/utility_htn/model/network.hpp"
 
 namespace roci::planner::utility_htn::flattening {
@@ -24,7 +25,7 @@ struct Chains {
 };
 
 /// The most chains that one requested task may have, since their number is a product.
-inline constexpr std::size_t kMostChains = 100'000;
+inline constexpr std::size_t kMostChains = model::kMostChains;
 
 /// Flattens all that is requested. Throws std::invalid_argument with the task's id for one with more than kMostChains; the network is
 /// checked already, so parents have no cycle.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "planner_svc/utility_htn/flattening/chain.hpp"
+#include "planner_svc/utility_htn/model/hierarchy.hpp"
 
 namespace roci::planner::utility_htn::flattening {
 
@@ -19,24 +20,7 @@ struct Piece {
 
 class Flattener {
  public:
-  explicit Flattener(const Network& network) : network_(network), counts_(network.tasks.size(), kUnknown) {}
-
-  // How many chains the task has, at most kMostChains + 1. A parent below itself counts as too many.
-  std::size_t count(TaskIndex index) {
-    std::size_t& known = counts_[index];
-    if (known != kUnknown) return known;
-    const Task& task = network_.tasks[index];
-    if (task.primitive()) return known = 1;
-    known = kMostChains + 1;
-    std::size_t sum = 0;
-    for (const Decomposition& decomposition : task.decompositions) {
-      std::size_t product = 1;
-      for (const Subtask& subtask : decomposition.subtasks)
-        product = std::min(product * count(subtask.task), kMostChains + 1);
-      sum = std::min(sum + product, kMostChains + 1);
-    }
-    return counts_[index] = sum;
-  }
+  explicit Flattener(const Network& network) : network_(network) {}
 
   std::vector<Piece> pieces(TaskIndex index) {
     const Task& task = network_.tasks[index];
@@ -51,8 +35,6 @@ class Flattener {
   }
 
  private:
-  static constexpr std::size_t kUnknown = static_cast<std::size_t>(-1);
-
   // Each begun piece followed by each way to do the subtask; the later choice changes faster.
   std::vector<Piece> each_with(const std::vector<Piece>& begun, const Subtask& subtask) {
     std::vector<Piece> ways = pieces(subtask.task);
@@ -74,7 +56,6 @@ class Flattener {
   }
 
   const Network& network_;
-  std::vector<std::size_t> counts_;
 };
 
 }  // namespace
@@ -82,11 +63,14 @@ class Flattener {
 Chains flatten(const Network& network) {
   Chains out;
   out.by_batch.resize(std::max<std::size_t>(1, network.batches.size()));
+  const std::vector<model::Extent> extents = model::measure(network).extents;
+  if (extents.size() != network.tasks.size())
+    throw std::invalid_argument("a task is a part of itself; check the network before it is flattened");
   Flattener flattener(network);
   for (TaskIndex index = 0; index < network.tasks.size(); ++index) {
     const Task& task = network.tasks[index];
     if (task.is_template) continue;
-    if (flattener.count(index) > kMostChains)
+    if (extents[index].chains > kMostChains)
       throw std::invalid_argument(
           "task '" + task.id + "' has more than " + std::to_string(kMostChains) +
           " chains: the numbers of decompositions of its subtasks multiply; split it into "
