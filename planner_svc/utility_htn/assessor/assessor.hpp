@@ -30,6 +30,7 @@ struct Context {
   std::span<const double> timelines_now;      ///< newest values, by timeline Index
   std::span<const ExistingProduct> products;  ///< of all tasks executed so far
   std::span<const std::uint32_t> planned;     ///< chains of the partial plan, in the order of their starts
+  std::span<const model::TaskIndex> closed;   ///< requests that are done, failed for good or withdrawn
 };
 
 /// Predicts utilities. An Assessor is a pure function of its arguments: equal contexts give equal utilities.

@@ -30,7 +30,9 @@ class SubwayState {
   /// Notes that a sample is planned. As long as its signature is unknown it counts as positive: when it turns out to be negative, the
   /// plan is made again.
   void plan(Stop stop);
-  /// Returns whether the target was sampled or is planned.
+  /// Notes that nobody asks for a sample there any more, as after a failure: the map leads past it.
+  void close(Stop stop);
+  /// Returns whether the target was sampled, is planned or closed.
   bool taken(Stop stop) const;
 
   /// Returns the target that the map leads to: at the site that is begun, as long as all its signatures are positive and fewer than

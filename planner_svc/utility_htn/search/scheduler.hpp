@@ -35,12 +35,16 @@ class Scheduler {
       std::span<const Link> links, temporal::timelines::Timelines& timelines) const = 0;
 };
 
+/// How often EarliestScheduler moves an earlier link to its next valid interval, for a link that has no place at all.
+inline constexpr std::size_t kMostBacktracks = 8;
+
 /// Starts each link as early as it can. Where a link would have to wait longer than its longest gap, the one before is put off just as
 /// far as needed, `attempts` times at most.
 ///
 /// It finds the earliest placement of all links whenever there is one and the attempts suffice, if what permits a link does not depend
-/// on when the links before it run (but for the gaps). Otherwise it may miss a placement: a link that could run only while a passing
-/// effect of an earlier link lasts is tried at that link's valid intervals' beginnings alone.
+/// on when the links before it run (but for the gaps). Without longest gaps it needs no attempts. Where it does depend, a placement
+/// may be missed: of the links before one that has no place, only the beginnings of their next valid intervals are tried,
+/// kMostBacktracks times.
 class EarliestScheduler final : public Scheduler {
  public:
   explicit EarliestScheduler(std::size_t attempts = 256) : attempts_(attempts) {}
