@@ -45,8 +45,8 @@ Entry Entry::load(const std::filesystem::path& file, Findings* findings) {
   }
 }
 
-Entry Entry::parse(const std::string& text, const std::string& name) {
-  auto document = std::make_shared<const Document>(Document{name});
+Entry Entry::parse(const std::string& text, const std::string& name, Findings* findings) {
+  auto document = std::make_shared<const Document>(Document{name, findings});
   try {
     YAML::Node root = YAML::Load(text);
     if (!root.IsMap()) throw FileError(name + ":1:1: it holds no 'key: value' pairs; see docs/missions.md");

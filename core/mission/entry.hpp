@@ -39,7 +39,7 @@ class Entry {
   static Entry load(const std::filesystem::path& file, Findings* findings = nullptr);
   /// Reads a text that came otherwise; `name` stands for the file in what it says of places. Throws FileError
   /// as load() does.
-  static Entry parse(const std::string& text, const std::string& name);
+  static Entry parse(const std::string& text, const std::string& name, Findings* findings = nullptr);
 
   /// Returns the value of a key of a mapping; throws FileError if it is missing.
   Entry at(std::string_view key) const;

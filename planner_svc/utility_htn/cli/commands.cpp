@@ -1,0 +1,130 @@
+#include "planner_svc/utility_htn/cli/commands.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include "core/mission/findings.hpp"
+#include "planner_svc/utility_htn/cli/chain_table.hpp"
+#include "planner_svc/utility_htn/reading/binary.hpp"
+#include "planner_svc/utility_htn/reading/load.hpp"
+#include "planner_svc/utility_htn/reading/yaml.hpp"
+
+namespace roci::planner::utility_htn::cli {
+
+using mission::Finding, mission::Findings, mission::Severity;
+using model::Network;
+
+namespace {
+
+std::string counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+nlohmann::ordered_json to_json(const Findings& findings) {
+  auto out = nlohmann::ordered_json::array();
+  for (const Finding& finding : findings.sorted())
+    out.push_back({{"file", finding.file},
+                   {"line", finding.line},
+                   {"column", finding.column},
+                   {"severity", finding.severity == Severity::error ? "error" : "warning"},
+                   {"what", finding.what},
+                   {"remedy", finding.remedy}});
+  return out;
+}
+
+// As roci-check does: the fault with its place, below it what to do.
+void tell(const Findings& findings, std::ostream& out) {
+  for (const Finding& finding : findings.sorted()) {
+    Finding place = finding;
+    place.what = (finding.severity == Severity::error ? "error: " : "warning: ") + finding.what;
+    out << place.text() << '\n';
+    if (!finding.remedy.empty()) out << "    " << finding.remedy << '\n';
+  }
+}
+
+bool readable(const std::filesystem::path& file, const Output& output) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(file, error) && std::ifstream(file)) return true;
+  output.errors << file.string() << ": cannot be read; check the path and its permissions\n";
+  return false;
+}
+
+ExitCode write(const std::string& bytes, const std::filesystem::path& to, const Output& output) {
+  std::ofstream out(to, std::ios::binary);
+  if (out << bytes && out.flush()) return done;
+  output.errors << to.string() << ": cannot be written; check that the folder exists\n";
+  return wrong_use;
+}
+
+// The network, or nothing after its faults were told.
+std::optional<Network> load(const std::filesystem::path& file, const Output& output) {
+  Findings findings;
+  auto network = reading::load_network(file, findings);
+  tell(findings, output.errors);
+  return network;
+}
+
+}  // namespace
+
+ExitCode check(const std::filesystem::path& file, const Output& output) {
+  if (!readable(file, output)) return wrong_use;
+  Findings findings;
+  const auto network = reading::load_network(file, findings);
+  const std::size_t errors = findings.errors(), warnings = findings.size() - errors;
+  if (output.json) {
+    const nlohmann::ordered_json json = {{"usable", network.has_value()},
+                                         {"errors", errors},
+                                         {"warnings", warnings},
+                                         {"findings", to_json(findings)}};
+    output.out << json.dump(2) << '\n';
+    return network ? done : faulty;
+  }
+  tell(findings, output.out);
+  if (!network) {
+    output.out << counted(errors, "error") << ", " << counted(warnings, "warning") << '\n';
+    return faulty;
+  }
+  std::size_t requested = 0;
+  for (const model::Task& task : network->tasks) requested += task.is_template ? 0 : 1;
+  output.out << "network '" << network->name << "', version " << network->version << ": "
+             << counted(requested, "requested task") << ", "
+             << counted(network->tasks.size() - requested, "template") << ", "
+             << counted(network->timelines.size(), "timeline") << ", "
+             << counted(network->parameters.size(), "parameter") << ", "
+             << counted(flattening::flatten(*network).chains.size(), "chain") << "; no error, "
+             << counted(warnings, "warning") << '\n';
+  return done;
+}
+
+ExitCode chains(const std::filesystem::path& file, const Output& output) {
+  if (!readable(file, output)) return wrong_use;
+  const auto network = load(file, output);
+  if (!network) return faulty;
+  const flattening::Chains all = flattening::flatten(*network);
+  output.out << (output.json ? chain_json(*network, all) + "\n" : chain_table(*network, all));
+  return done;
+}
+
+ExitCode pack(const std::filesystem::path& file, const std::filesystem::path& to, const Output& output) {
+  if (!readable(file, output)) return wrong_use;
+  const auto network = load(file, output);
+  if (!network) return faulty;
+  const std::string bytes = reading::to_binary(*network);
+  const ExitCode code = write(bytes, to, output);
+  if (code == done) output.out << to.string() << ": " << bytes.size() << " bytes\n";
+  return code;
+}
+
+ExitCode unpack(const std::filesystem::path& file, const std::filesystem::path& to, const Output& output) {
+  if (!readable(file, output)) return wrong_use;
+  const auto network = load(file, output);
+  if (!network) return faulty;
+  if (!to.empty()) return write(reading::to_yaml(*network), to, output);
+  output.out << reading::to_yaml(*network);
+  return done;
+}
+
+}  // namespace roci::planner::utility_htn::cli

@@ -1,0 +1,57 @@
+// The names of a network while it is read: what refers to what.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "planner_svc/utility_htn/model/network.hpp"
+#include "planner_svc/utility_htn/reading/expression.hpp"
+#include "planner_svc/utility_htn/reading/source.hpp"
+
+namespace roci::planner::utility_htn::reading {
+
+/// Maps names of one kind to their numbers.
+class Names {
+ public:
+  /// `kind` is the word for it in messages: "timeline".
+  explicit Names(std::string kind) : kind_(std::move(kind)) {}
+
+  /// Adds a name with the next number; fails where it stands already, with the place of the other.
+  void add(const std::string& name, const Source& source);
+  /// Returns the number of a name; fails with the nearest known one.
+  std::uint32_t index(std::string_view name, const Source& source) const;
+  std::uint32_t index(const Source& source) const { return index(source.text(), source); }
+
+ private:
+  struct Known {
+    std::uint32_t index;
+    std::string place;
+  };
+  std::string kind_;
+  std::map<std::string, Known, std::less<>> known_;
+};
+
+/// Holds the names of all kinds, and reads what is made of them.
+struct Vocabulary {
+  Names parameters{"parameter"};
+  Names timelines{"timeline"};
+  Names tasks{"task"};
+  Names ranks{"rank"};
+  Names batches{"batch"};
+  const model::Network* network = nullptr;  ///< whose timelines are read already
+
+  model::Amount amount(const Source& source) const;
+  model::Amount amount_or(const Source& source, std::string_view key, double fallback) const;
+  temporal::timelines::Constraint constraint(const Source& source, temporal::timelines::Phase phase) const;
+  /// Reads a list of constraints, or one alone.
+  std::vector<temporal::timelines::Constraint> constraints(const std::optional<Source>& source,
+                                                           temporal::timelines::Phase phase) const;
+  /// Returns the number of a state of a timeline.
+  std::uint32_t state(const temporal::timelines::Definition& timeline, std::string_view name,
+                      const Source& source) const;
+};
+
+}  // namespace roci::planner::utility_htn::reading
