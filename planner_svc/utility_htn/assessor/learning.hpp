@@ -1,0 +1,30 @@
+// Measured values replace priors (MEXEC, section IV.C.3, R101, R116).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner_svc/utility_htn/model/network.hpp"
+
+namespace roci::planner::utility_htn::assessor {
+
+/// Is what an executed task was measured to take; what was not measured is left out.
+struct Measured {
+  std::optional<double> duration_s{};
+  std::optional<double> energy{};  ///< in the unit of the budget
+  std::optional<double> power{};   ///< energy per second, the mean over the task
+};
+
+struct Learned {
+  std::vector<model::ParameterIndex> replaced{};
+  std::vector<std::string> refused{};  ///< one plain sentence each; these values stay as they were
+};
+
+/// Replaces the parameters that the task learns (Task::learns), and no others, by what gives exactly the measured duration, energy or
+/// power in later predictions of the task; a site's parameters are its own, so other sites' predictions stay. A value that is not finite
+/// or out of the parameter's range is refused. The duration is learned first, since energy depends on it.
+Learned learn(const model::Network& network, model::TaskIndex task, const Measured& measured,
+              model::Values& values);
+
+}  // namespace roci::planner::utility_htn::assessor
