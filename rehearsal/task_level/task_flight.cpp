@@ -113,7 +113,7 @@ class TaskFlight {
     if (fault.empty())
       if (const auto faults = temporal::check(next); !faults.empty()) fault = faults.front();
     if (fault.empty()) fault = exec::reactor::commitment_violation(plan_, executive_.steps(), next, now_);
-    if (fault.empty()) fault = checkers_fault(next);
+    if (fault.empty() && flight_.strategy == Strategy::replanning) fault = checkers_fault(next);
     planner::engine::Receipt receipt{plan_.version, 0, "", "", true};
     if (fault.empty()) {
       plan_ = std::move(next);
@@ -133,7 +133,7 @@ class TaskFlight {
     stepped_ = false;
   }
 
-  // What planner_svc asks before it sends a version.
+  // What planner_svc asks before it sends a version. A plan that is kept whatever happens may come to have conflicts.
   std::string checkers_fault(const FlexiblePlan& next) const {
     planner::engine::Request situation;
     situation.origin = now_;

@@ -25,8 +25,13 @@ std::vector<std::string> faults_of(const model::Network& network, const engine::
   Version version = version_of(network, checked.plan, checked.progress, now);
   if (!version.faults.empty()) return version.faults;
   Question question{.network = network, .values = version.values, .plan = std::move(version.blocks)};
-  if (checked.before != nullptr)
-    question.before = version_of(network, *checked.before, checked.progress, now).blocks;
+  if (checked.before != nullptr) {
+    Version before = version_of(network, *checked.before, checked.progress, now);
+    std::erase_if(before.blocks, [&](const Block& block) {
+      return before.over.contains(number_of(block)) || version.broken.contains(number_of(block));
+    });
+    question.before = std::move(before.blocks);
+  }
   question.observations = std::move(version.internal);
   question.closed = std::move(version.done);
   question.now = now;

@@ -110,15 +110,22 @@ class Reader {
       step.start = std::max(step.start, now_);
     }
     if (activity.end_point == ends_[name->block]) whole_.insert(name->block);
+    if (!known || !temporal::is_over(went->second.state)) ++running_[name->block];
     block->second.steps.push_back(step);
   }
 
   // A block of which a link has failed is no plan any more: what is committed of it is skipped.
   void keep(std::uint32_t number, Block& block) {
     std::ranges::sort(block.steps, {}, &Step::id);
+    bool whole = whole_.contains(number);
     for (std::size_t link = 0; link < block.steps.size(); ++link)
-      if (block.steps[link].id != ((std::uint64_t{number} << 32U) | link)) return;
-    if (whole_.contains(number)) out_.blocks.push_back(block);
+      whole = whole && block.steps[link].id == ((std::uint64_t{number} << 32U) | link);
+    if (!whole) {
+      out_.broken.insert(number);
+      return;
+    }
+    if (running_[number] == 0) out_.over.insert(number);
+    out_.blocks.push_back(block);
   }
 
   const model::Network& network_;
@@ -128,11 +135,14 @@ class Reader {
   std::unordered_map<temporal::TimePoint, Time> starts_;
   std::map<std::uint32_t, Block> blocks_;
   std::map<std::uint32_t, temporal::TimePoint> ends_;  // of the last link
+  std::map<std::uint32_t, std::size_t> running_;       // steps that are not over
   std::set<std::uint32_t> whole_;                      // blocks that have it
   Version out_;
 };
 
 }  // namespace
+
+std::uint32_t number_of(const Block& block) { return static_cast<std::uint32_t>(block.steps.front().id >> 32U); }
 
 Version version_of(const model::Network& network, const FlexiblePlan& plan, const temporal::Progress* progress,
                    Time now) {

@@ -177,7 +177,8 @@ Report Cycle::run(Time now) {
   does(Activity::consolidate, consolidate(now));
   forget_over(report);
   does(Activity::schedule, schedule(now, report));
-  if (settings_.repairs) does(Activity::repair, repair(now, report));
+  const bool reordered = keep_order(now, report);
+  does(Activity::repair, (settings_.repairs && repair(now, report)) || reordered);
   if (settings_.optimizes) does(Activity::optimize, optimize(now, report));
   return report;
 }
@@ -386,6 +387,7 @@ Block* Cycle::culprit(const temporal::timelines::Conflict& conflict) {
 bool Cycle::repair(Time now, Report& report) {
   const Time from = now + network_.cycle.commit_window;
   bool changed = false;
+  std::set<std::uint32_t> shifted;
   for (std::size_t rounds = 2 * blocks_.size(); rounds > 0; --rounds) {
     const auto conflicts = timelines_.conflicts(from, temporal::no_bound);
     Block* gives_way = nullptr;
@@ -393,7 +395,7 @@ bool Cycle::repair(Time now, Report& report) {
     if (gives_way == nullptr) break;
     changed = true;
     if (gives_way->begun()) {
-      if (!shift(*gives_way, from))
+      if (!shifted.insert(gives_way->number).second || !shift(*gives_way, from))
         abandon(*gives_way, "no time is left at which the rest of it fits", report);
       continue;
     }
@@ -404,6 +406,47 @@ bool Cycle::repair(Time now, Report& report) {
   }
   if (changed && to_schedule_) schedule(now, report);
   return changed;
+}
+
+// Returns whether some planned link no longer stands between the gaps behind the one before.
+bool Cycle::out_of_order(const Block& one) const {
+  const auto& gaps = chains_.chains[one.chain].links;
+  for (std::size_t i = 1; i < one.links.size(); ++i) {
+    if (one.links[i].stage != Stage::planned) continue;
+    const Duration gap = one.links[i].start - one.links[i - 1].end;
+    if (gap < gaps[i].shortest_gap || gap > gaps[i].longest_gap) return true;
+  }
+  return false;
+}
+
+// What follows a link that is late is late itself, whether or not the cycle repairs conflicts (task push, R98).
+bool Cycle::keep_order(Time now, Report& report) {
+  const Time from = now + network_.cycle.commit_window;
+  bool changed = false;
+  for (Block& one : blocks_) {
+    if (!one.begun() || one.failed() || !out_of_order(one)) continue;
+    changed = true;
+    if (shift(one, from)) continue;
+    if (settings_.repairs) {
+      abandon(one, "no time is left at which the rest of it fits", report);
+    } else {
+      push(one, from);
+    }
+  }
+  return changed;
+}
+
+// Puts what is only planned of a block off, whatever conflicts follow.
+void Cycle::push(Block& late, Time from) {
+  const auto& gaps = chains_.chains[late.chain].links;
+  for (std::size_t i = 1; i < late.links.size(); ++i) {
+    Link& each = late.links[i];
+    if (each.stage != Stage::planned) continue;
+    const Duration length = each.end - each.start;
+    each.planned = each.start = std::max(from, late.links[i - 1].end + gaps[i].shortest_gap);
+    each.end = each.start + length;
+    timelines_.move(task_id(late.number, i), each.start, each.end);
+  }
 }
 
 // Places what is only planned of a block anew, each link as early as it can be.

@@ -90,6 +90,9 @@ class Cycle {
   bool repair(temporal::Time now, Report& report);
   bool optimize(temporal::Time now, Report& report);
   Block* culprit(const temporal::timelines::Conflict& conflict);
+  bool out_of_order(const Block& one) const;
+  bool keep_order(temporal::Time now, Report& report);
+  void push(Block& late, temporal::Time from);
   bool shift(Block& late, temporal::Time from);
   void take_out(const Block& gone);
   void put_in(const Block& placed);
