@@ -1,0 +1,72 @@
+// A mission whose plans come from a task network (MEXEC): no PDDL, no map. The utility-driven engine plans all the time, through
+// the programs that users start.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tests/scenario/flight.hpp"
+
+namespace roci::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::Contains, ::testing::Not, ::testing::UnorderedElementsAre;
+
+class Lander : public ::testing::TestWithParam<const char*> {
+ protected:
+  ~Lander() override { fs::remove_all(folder_); }
+
+  Flight launch(const std::string& scenario) const {
+    return fly(ROCI_SOURCE_DIR "/tests/missions/lander", GetParam(), 1,
+               "--scenario " + scenario + " --run-folder " + folder_.string());
+  }
+
+  // What was really done, in its order: "dig near" (effects.jsonl).
+  std::vector<std::string> deeds() const {
+    std::vector<std::string> out;
+    std::ifstream in(folder_ / "effects.jsonl");
+    for (std::string line; std::getline(in, line);) {
+      const json deed = json::parse(line);
+      out.push_back(deed.value("kind", "") + " " + deed.value("object", ""));
+    }
+    return out;
+  }
+
+ private:
+  const fs::path folder_ = fs::temp_directory_path() / ("roci_lander_" + std::to_string(::getpid()));
+};
+
+TEST_P(Lander, DoesAllThatItsBatteryAllows) {
+  const Flight flight = launch("nominal");
+  ASSERT_EQ(flight.exit_code, 0) << flight.summary.dump();
+  EXPECT_EQ(flight.summary["expected"].value("fault", "no report"), "");
+  EXPECT_THAT(deeds(), UnorderedElementsAre("dig near", "image near", "send near", "dig far", "image far", "send far",
+                                            "image horizon", "send view", "farewell "));
+}
+
+TEST_P(Lander, ChoosesTheBetterSiteWhereTheBatteryAllowsOne) {
+  const Flight flight = launch("low");
+  ASSERT_EQ(flight.exit_code, 0) << flight.summary.dump();
+  EXPECT_THAT(deeds(), Contains("send near"));
+  EXPECT_THAT(deeds(), Not(Contains("dig far")));
+  EXPECT_THAT(deeds(), Contains("farewell "));
+}
+
+TEST_P(Lander, TriesAgainWhatFailed) {
+  const Flight flight = launch("broken");
+  ASSERT_EQ(flight.exit_code, 0) << flight.summary.dump();
+  EXPECT_THAT(deeds(), Contains("send near"));
+  EXPECT_THAT(deeds(), Contains("send far"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Transports, Lander, ::testing::Values("inproc", "fastdds", "mixed"),
+                         [](const auto& dds) { return std::string(dds.param); });
+
+}  // namespace
+}  // namespace roci::scenario
