@@ -1,0 +1,169 @@
+// The experiments of MEXEC, section V.A (R103–R106, R121–R123): four strategies under noise on the energy of tasks, whole flights at the level
+// of tasks. One JSON object to standard output.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "bench/europa/fates.hpp"
+#include "core/mission/mission_file.hpp"
+#include "planner_svc/utility_htn/adapter/utility_engine.hpp"
+#include "planner_svc/utility_htn/reading/load.hpp"
+#include "planner_svc/utility_htn/strategies/equations.hpp"
+
+namespace roci::bench::europa {
+namespace {
+
+using nlohmann::json;
+using rehearsal::task_level::Flight, rehearsal::task_level::Flown, rehearsal::task_level::Strategy;
+
+namespace model = planner::utility_htn::model;
+namespace strategies = planner::utility_htn::strategies;
+
+struct Setting {
+  Odds odds;
+  int runs = 50;
+  std::vector<double> biases;
+  rehearsal::task_level::Costs costs;
+  double discovery_share = 0;
+  double discovery_utility = 0;
+};
+
+Setting read(const std::filesystem::path& file) {
+  const auto root = mission::Entry::load(file);
+  const auto number = [&](const char* key) { return root.at(key).at("value").number(); };
+  Setting out;
+  out.runs = static_cast<int>(number("runs"));
+  out.odds = {0, number("noise"), number("fail"), number("flexible_share"), number("replanning_share_of_rest")};
+  for (const auto& bias : root.at("biases").at("value").items()) out.biases.push_back(bias.number());
+  out.costs = {number("replanning_j"), number("ground_j"), temporal::seconds(number("ground_wait_s"))};
+  out.discovery_share = number("discovery_share");
+  out.discovery_utility = number("discovery_utility");
+  return out;
+}
+
+constexpr struct {
+  Strategy strategy;
+  const char* name;
+} kStrategies[] = {{Strategy::as_planned, "static"},
+                   {Strategy::ground, "ground"},
+                   {Strategy::flexible_execution, "fe"},
+                   {Strategy::replanning, "replan"}};
+
+class Experiment {
+ public:
+  Experiment(const model::Network& network, const Setting& setting) : network_(network), setting_(setting) {}
+
+  Flown flown(Strategy strategy, double bias, std::uint64_t seed) const {
+    planner::utility_htn::cycle::Settings settings;
+    if (strategy != Strategy::replanning)
+      settings = {.repairs = false, .optimizes = false, .schedules_again = false};
+    planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network_, settings);
+    Odds odds = setting_.odds;
+    odds.bias = bias;
+    Flight flight{.network = network_, .engine = engine, .fates = {}, .strategy = strategy, .costs = setting_.costs};
+    flight.fates = [&](const std::string& task, std::uint32_t execution) { return fate(odds, seed, task, execution); };
+    flight.until = network_.cycle.plan_end;
+    if (strategy == Strategy::replanning)
+      flight.succeeded = [&](const std::string& task) { discover(engine, seed, task); };
+    return fly(flight);
+  }
+
+  // A flight in which everything goes as the network has it, on a battery that bears the bias.
+  Flown prescient(double bias) const {
+    model::Network network = network_;
+    auto& battery = network.timelines[network.budget];
+    battery.initial = battery.highest = battery.initial / (1 + bias);
+    planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network, {});
+    Flight flight{.network = network, .engine = engine, .fates = {}, .strategy = Strategy::replanning};
+    flight.fates = [](const std::string&, std::uint32_t) { return rehearsal::task_level::Fate{}; };
+    flight.until = network.cycle.plan_end;
+    return fly(flight);
+  }
+
+ private:
+  // An analysis may show that a target of the same site is worth more than it looked; only an engine that plans anew hears of it.
+  void discover(planner::utility_htn::adapter::UtilityEngine& engine, std::uint64_t seed, const std::string& task) const {
+    if (!task.starts_with("science_analyze") || draw(seed, task, 0) >= setting_.discovery_share) return;
+    const std::string site = task.substr(task.size() - 3, 1);
+    const int from = static_cast<int>(draw(seed, task, 1) * 3);
+    for (int i = 0; i < 3; ++i) {
+      const std::string target = "worth_" + site + "_" + std::to_string((from + i) % 3);
+      for (const model::Parameter& parameter : network_.parameters)
+        if (parameter.name == target && task.substr(task.size() - 3) != target.substr(6)) {
+          engine.learn(target, std::min(parameter.highest, parameter.prior + setting_.discovery_utility));
+          return;
+        }
+    }
+  }
+
+  const model::Network& network_;
+  const Setting& setting_;
+};
+
+json summary_of(const Flown& flown) {
+  json course = json::array();
+  for (const auto& point : flown.course) course.push_back({point.spent, point.utility[0]});
+  return {{"utility", flown.utility[0]}, {"spent", flown.spent},           {"ended_by", flown.ended_by},
+          {"tasks", flown.tasks},        {"failures", flown.failures},     {"retried", flown.retried},
+          {"replanned", flown.replanned}, {"by_ground", flown.by_ground},  {"versions", flown.versions},
+          {"faults", flown.faults},      {"end_s", temporal::to_seconds(flown.end)}, {"course", course}};
+}
+
+json expected(const model::Network& network, const Setting& setting, const Flown& prescient, double bias) {
+  const auto& battery = network.timelines[network.budget];
+  const double spent = prescient.spent * (1 + bias);
+  const double tasks = prescient.tasks;
+  const strategies::PlanFigures plan{battery.initial, tasks, prescient.utility[0] / spent, spent / tasks};
+  const auto odds =
+      strategies::split(setting.odds.fail, setting.odds.flexible_share, setting.odds.replanning_share_of_rest);
+  const strategies::RecoveryCosts costs{setting.costs.ground_j, setting.costs.replanning_j};
+  const strategies::Discoveries found{9 * setting.discovery_share, setting.discovery_utility};
+  return {{"u_avg_per_mj", plan.utility_per_cost * 1e6},
+          {"tasks", tasks},
+          {"static", strategies::static_utility(plan, odds)},
+          {"ground", strategies::ground_utility(plan, odds, costs)},
+          {"fe", strategies::flexible_utility(plan, odds, costs)},
+          {"replan", strategies::replanning_utility(plan, odds, costs, found)}};
+}
+
+}  // namespace
+}  // namespace roci::bench::europa
+
+int main(int argc, char** argv) {
+  using namespace roci::bench::europa;
+  CLI::App app{"Flies the experiments of MEXEC, section V.A"};
+  std::string network_file = "missions/europa/network.yaml", settings_file = "bench/europa/experiments.yaml";
+  int runs = 0;
+  std::uint64_t first = 1;
+  app.add_option("--network", network_file, "the network that is flown")->capture_default_str();
+  app.add_option("--settings", settings_file, "probabilities and costs")->capture_default_str();
+  app.add_option("--runs", runs, "flights of each strategy and bias (default: those of the settings)");
+  app.add_option("--seed", first, "of the first flight")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const auto network = roci::planner::utility_htn::reading::load_network(std::filesystem::path(network_file));
+    Setting setting = read(settings_file);
+    if (runs > 0) setting.runs = runs;
+    const Experiment experiment(network, setting);
+    json out{{"network", network_file}, {"runs", setting.runs}, {"first_seed", first}, {"variants", json::array()}};
+    for (const double bias : setting.biases) {
+      const Flown prescient = experiment.prescient(bias);
+      json variant{{"bias", bias}, {"prescient", summary_of(prescient)}, {"expected", expected(network, setting, prescient, bias)}};
+      for (const auto& [strategy, name] : kStrategies) {
+        json flights = json::array();
+        for (int run = 0; run < setting.runs; ++run) {
+          std::fprintf(stderr, "\r%+.0f %% %-7s %d of %d ", 100 * bias, name, run + 1, setting.runs);
+          flights.push_back(summary_of(experiment.flown(strategy, bias, first + static_cast<std::uint64_t>(run))));
+        }
+        variant[name] = flights;
+      }
+      out["variants"].push_back(variant);
+    }
+    std::fprintf(stderr, "\n");
+    std::cout << out.dump(1) << '\n';
+  } catch (const std::exception& error) {
+    std::cerr << "bench_europa: " << error.what() << '\n';
+    return 1;
+  }
+}
