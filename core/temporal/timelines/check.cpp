@@ -1,6 +1,7 @@
 #include "core/temporal/timelines/check.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "core/temporal/timelines/exact.hpp"
 
@@ -9,6 +10,12 @@ namespace {
 
 constexpr std::size_t kMostStates = 64;
 
+std::string joined(const std::vector<std::string>& faults) {
+  std::string text;
+  for (const std::string& fault : faults) text += (text.empty() ? "" : "; ") + fault;
+  return text;
+}
+
 std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
 bool is_state(const Definition& definition, double value) {
@@ -16,13 +23,16 @@ bool is_state(const Definition& definition, double value) {
 }
 
 bool countable(double number, double most) { return std::isfinite(number) && std::abs(number) <= most; }
-bool is_bound(double bound) { return !std::isnan(bound) && (std::isinf(bound) || std::abs(bound) <= kMostAmount); }
+bool is_bound(double bound) {
+  return !std::isnan(bound) && (std::isinf(bound) || std::abs(bound) <= kMostAmount);
+}
 
 /// Returns nothing, or what follows "the impact on timeline 'x' ".
 const char* fault_of(const Definition& definition, const Impact& impact) {
   const bool during = impact.moment == ImpactWhen::during;
   if (impact.kind == ImpactKind::rate) {
-    if (definition.kind != Kind::cumulative_rate) return "is a rate, which only a cumulative-rate timeline has";
+    if (definition.kind != Kind::cumulative_rate)
+      return "is a rate, which only a cumulative-rate timeline has";
     return countable(impact.amount, kMostRate) ? nullptr : "is no finite rate of at most 1e9 per second";
   }
   if (!countable(impact.amount, kMostAmount)) return "is no finite number of at most 1e15";
@@ -34,7 +44,8 @@ const char* fault_of(const Definition& definition, const Impact& impact) {
         return "is not a delta of 1 during the task, the only one that an atomic timeline has";
       return nullptr;
     case Kind::state:
-      if (impact.kind != ImpactKind::assign) return "is not an assignment, the only one that a state timeline has";
+      if (impact.kind != ImpactKind::assign)
+        return "is not an assignment, the only one that a state timeline has";
       return is_state(definition, impact.amount) ? nullptr : "assigns none of the timeline's states";
     case Kind::claimable:
       if (impact.kind != ImpactKind::delta || !during)
@@ -50,8 +61,8 @@ const char* fault_of(const Definition& definition, const Impact& impact) {
 /// Returns nothing, or what follows "the constraint on timeline 'x' ".
 const char* fault_of(const Definition& definition, const Constraint& constraint) {
   if (definition.kind == Kind::state) {
-    if (std::isfinite(constraint.lowest) || std::isfinite(constraint.highest) || std::isnan(constraint.lowest) ||
-        std::isnan(constraint.highest))
+    if (std::isfinite(constraint.lowest) || std::isfinite(constraint.highest) ||
+        std::isnan(constraint.lowest) || std::isnan(constraint.highest))
       return "has bounds, though the timeline has states";
     if (constraint.states == 0) return "permits no state, and so never holds";
     if (definition.states.size() < kMostStates && constraint.states >> definition.states.size() != 0)
@@ -61,7 +72,9 @@ const char* fault_of(const Definition& definition, const Constraint& constraint)
   if (constraint.states != 0) return "names states, though the timeline has numbers";
   if (!is_bound(constraint.lowest) || !is_bound(constraint.highest))
     return "has a bound that is neither a number of at most 1e15 nor infinite";
-  return constraint.lowest <= constraint.highest ? nullptr : "has its lowest value above its highest, and so never holds";
+  return constraint.lowest <= constraint.highest
+             ? nullptr
+             : "has its lowest value above its highest, and so never holds";
 }
 
 /// Calls `found` with each fault until it returns false.
@@ -83,9 +96,11 @@ void each_fault(std::span<const Definition> definitions, const Footprint& footpr
   }
 }
 
-void check_states(const Definition& definition, const std::string& timeline, std::vector<std::string>& faults) {
+void check_states(const Definition& definition, const std::string& timeline,
+                  std::vector<std::string>& faults) {
   if (definition.states.empty() || definition.states.size() > kMostStates)
-    faults.push_back(timeline + " has " + std::to_string(definition.states.size()) + " states; 1 to 64 are possible");
+    faults.push_back(timeline + " has " + std::to_string(definition.states.size()) +
+                     " states; 1 to 64 are possible");
   else if (!is_state(definition, definition.initial))
     faults.push_back(timeline + " starts in a state that it does not have");
   if (std::isfinite(definition.lowest) || std::isfinite(definition.highest))
@@ -100,11 +115,16 @@ void check_states(const Definition& definition, const std::string& timeline, std
 
 const char* to_string(Kind kind) {
   switch (kind) {
-    case Kind::atomic: return "atomic";
-    case Kind::state: return "state";
-    case Kind::claimable: return "claimable";
-    case Kind::cumulative: return "cumulative";
-    case Kind::cumulative_rate: return "cumulative rate";
+    case Kind::atomic:
+      return "atomic";
+    case Kind::state:
+      return "state";
+    case Kind::claimable:
+      return "claimable";
+    case Kind::cumulative:
+      return "cumulative";
+    case Kind::cumulative_rate:
+      return "cumulative rate";
   }
   return "unknown";
 }
@@ -120,13 +140,15 @@ std::vector<std::string> check(const Definition& definition) {
   if (!definition.states.empty())
     faults.push_back(timeline + " has states, though it is " + to_string(definition.kind));
   if (!is_bound(definition.lowest) || !is_bound(definition.highest)) {
-    faults.push_back(timeline + " has a range with a bound that is neither a number of at most 1e15 nor infinite");
+    faults.push_back(timeline +
+                     " has a range with a bound that is neither a number of at most 1e15 nor infinite");
   } else if (definition.lowest > definition.highest) {
     faults.push_back(timeline + " has a range whose lowest value is above its highest");
   } else if (!countable(definition.initial, kMostAmount)) {
     faults.push_back(timeline + " has an initial value that is no finite number of at most 1e15");
   } else if (definition.kind == Kind::atomic) {
-    if (definition.initial != 0) faults.push_back(timeline + " is atomic and does not start at 0, which is free");
+    if (definition.initial != 0)
+      faults.push_back(timeline + " is atomic and does not start at 0, which is free");
     if ((std::isfinite(definition.lowest) && definition.lowest != 0) ||
         (std::isfinite(definition.highest) && definition.highest != 1))
       faults.push_back(timeline + " is atomic and has another range than 0 to 1");
@@ -147,8 +169,17 @@ std::vector<std::string> check(std::span<const Definition> definitions, const Fo
 
 bool permitted(std::span<const Definition> definitions, const Footprint& footprint) {
   bool fine = true;
-  each_fault(definitions, footprint, [&](const char*, const Definition*, const char*) { return fine = false; });
+  each_fault(definitions, footprint,
+             [&](const char*, const Definition*, const char*) { return fine = false; });
   return fine;
+}
+
+void refuse_faults(const Definition& definition) {
+  if (const auto faults = check(definition); !faults.empty()) throw std::invalid_argument(joined(faults));
+}
+
+void refuse_faults(std::span<const Definition> definitions, const Footprint& footprint) {
+  if (!permitted(definitions, footprint)) throw std::invalid_argument(joined(check(definitions, footprint)));
 }
 
 }  // namespace roci::temporal::timelines

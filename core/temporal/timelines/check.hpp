@@ -25,6 +25,10 @@ std::vector<std::string> check(std::span<const Definition> definitions, const Fo
 /// Returns whether check() finds nothing, without making sentences.
 bool permitted(std::span<const Definition> definitions, const Footprint& footprint);
 
+/// Throws std::invalid_argument with all sentences, if there are any.
+void refuse_faults(const Definition& definition);
+void refuse_faults(std::span<const Definition> definitions, const Footprint& footprint);
+
 /// Returns "cumulative rate" and so on.
 const char* to_string(Kind kind);
 

@@ -1,5 +1,6 @@
 // The course of timelines: where bounds are broken, and the corners to draw.
 #include <algorithm>
+#include <tuple>
 
 #include "core/temporal/timelines/placement.hpp"
 #include "core/temporal/timelines/timelines.hpp"
@@ -7,61 +8,74 @@
 namespace roci::temporal::timelines {
 namespace {
 
-/// Collects stretches in the order of time; those that touch become one.
-class Stretches {
- public:
-  void add(Stretch stretch) {
-    if (!all_.empty() && stretch.first <= all_.back().last + 1) {
-      all_.back().last = std::max(all_.back().last, stretch.last);
-    } else {
-      all_.push_back(stretch);
-    }
-  }
-  const std::vector<Stretch>& all() const { return all_; }
-
- private:
-  std::vector<Stretch> all_;
-};
-
-/// Returns where the bounds are broken between the two positions, at which knots stand.
-std::vector<Stretch> broken(std::span<const Knot> knots, const Bounds& bounds, Position from, Position to) {
-  Stretches stretches;
+/// Calls `add` with the stretches between the two positions, at which knots stand, in which the bounds are broken; of the last knot only
+/// if `closed`.
+template <class Add>
+void find_broken(std::span<const Knot> knots, bool closed, const Bounds& bounds, Position from, Position to,
+                 Add add) {
+  const std::size_t count = knots.size() - (closed ? 0 : 1);
   const auto first = std::ranges::lower_bound(knots, from.time, {}, &Knot::time);
-  for (auto knot = first; knot != knots.end() && knot->time <= to.time; ++knot) {
+  for (auto k = static_cast<std::size_t>(first - knots.begin()); k < count && knots[k].time <= to.time; ++k) {
+    const Knot& knot = knots[k];
     for (const Side side : {Side::before, Side::between, Side::after}) {
-      const Position here{knot->time, side};
-      if (here >= from && here <= to && !bounds.admits(knot->at(side))) stretches.add({knot->time, knot->time});
+      const Position here{knot.time, side};
+      if (here >= from && here <= to && !bounds.admits(knot.at(side))) add({knot.time, knot.time});
     }
-    if (knot->time >= to.time || std::next(knot) == knots.end()) continue;
-    const Stretch inside{knot->time + 1, std::next(knot)->time - 1};
+    if (knot.time >= to.time || k + 1 == knots.size()) continue;
+    const Stretch inside{knot.time + 1, knots[k + 1].time - 1};
     if (inside.last < inside.first) continue;
-    const Outside out = outside(bounds, knot->after + knot->rate, knot->rate, inside);
-    for (std::size_t i = 0; i < out.count; ++i) stretches.add(out.parts[i]);
+    const Outside out = outside(bounds, knot.after + knot.rate, knot.rate, inside);
+    for (std::size_t i = 0; i < out.count; ++i) add(out.parts[i]);
   }
-  return stretches.all();
+}
+
+/// Makes one of those that follow each other without a gap.
+void join(std::vector<Conflict>& conflicts) {
+  const auto whose = [](const Conflict& it) {
+    return std::tie(it.timeline, it.task, it.constraint, it.from);
+  };
+  std::ranges::sort(conflicts, {}, whose);
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < conflicts.size(); ++i) {
+    Conflict& last = conflicts[kept];
+    const Conflict& next = conflicts[i];
+    const bool same =
+        last.timeline == next.timeline && last.task == next.task && last.constraint == next.constraint;
+    if (same && next.from.count() <= last.to.count() + 1) {
+      last.to = std::max(last.to, next.to);
+    } else {
+      conflicts[++kept] = next;
+    }
+  }
+  if (!conflicts.empty()) conflicts.resize(kept + 1);
 }
 
 }  // namespace
 
 std::vector<Conflict> Timelines::conflicts(Time from, Time to) const {
   std::vector<Conflict> conflicts;
+  std::vector<Knot> knots;
   for (Index timeline = 0; timeline < lines_.size(); ++timeline) {
     const Line& line = lines_[timeline];
-    const std::vector<Knot> knots = line.knots();
-    const auto begin = static_cast<std::ptrdiff_t>(conflicts.size());
-    const auto add = [&](const Bounds& bounds, Position first, Position last, std::optional<TaskId> task,
-                         std::size_t constraint) {
-      if (last.time < from.count() || first.time > to.count()) return;
-      for (const Stretch& stretch : broken(knots, bounds, first, last))
-        if (stretch.last >= from.count() && stretch.first <= to.count())
-          conflicts.push_back({timeline, task, constraint, Time{stretch.first}, Time{stretch.last}});
-    };
-    add(line.range(), {line.past(), Side::before}, {line.end(), Side::after}, std::nullopt, 0);
-    for (const Ask& ask : line.asks()) add(ask.bounds, ask.from, ask.to, ask.task, ask.constraint);
-    std::sort(conflicts.begin() + begin, conflicts.end(), [](const Conflict& a, const Conflict& b) {
-      return std::tie(a.from, a.task, a.constraint) < std::tie(b.from, b.task, b.constraint);
-    });
+    for (std::size_t i = 0; i < line.blocks(); ++i) {
+      if (line.summary(i).fine) continue;
+      line.knots(i, i, knots);
+      const bool closed = i + 1 == line.blocks();
+      find_broken(knots, closed, line.range(), {line.past(), Side::before}, {line.end(), Side::after},
+                  [&](Stretch it) {
+                    conflicts.push_back({timeline, std::nullopt, 0, Time{it.first}, Time{it.last}});
+                  });
+      for (const Ask& ask : line.block(i).asks())
+        find_broken(knots, closed, ask.bounds, ask.from, ask.to, [&](Stretch it) {
+          conflicts.push_back({timeline, ask.task, ask.constraint, Time{it.first}, Time{it.last}});
+        });
+    }
   }
+  join(conflicts);
+  std::erase_if(conflicts, [&](const Conflict& it) { return it.to < from || it.from > to; });
+  std::ranges::sort(conflicts, {}, [](const Conflict& it) {
+    return std::tie(it.timeline, it.from, it.task, it.constraint);
+  });
   return conflicts;
 }
 
@@ -75,7 +89,10 @@ std::vector<Vertex> Timelines::trajectory(Index timeline, Time from, Time to) co
     if (corners.empty() || corners.back() != corner) corners.push_back(corner);
   };
   add(first, value(timeline, Time{first}), false);
-  for (const Knot& knot : line.knots()) {
+  std::vector<Knot> knots;
+  line.knots(line.block_of(first), line.block_of(last), knots);
+  const bool closed = line.block_of(last) + 1 == line.blocks();
+  for (const Knot& knot : std::span(knots).first(knots.size() - (closed ? 0 : 1))) {
     if (knot.time < first || knot.time > last) continue;
     const bool observed = knot.reset_after.time == knot.time && knot.reset_after.turn == Turn::observed;
     if (knot.time > first) add(knot.time, to_number(knot.before), false);

@@ -9,7 +9,7 @@
 
 namespace roci::temporal::timelines {
 
-/// Counts 1e-15 of a timeline's unit. A rate counts 1e-15 per microsecond, that is 1e-9 per second. Sums of 10,000 of the greatest
+/// Counts 1e-15 of a timeline's unit. A rate counts 1e-15 per microsecond, that is 1e-9 per second. Sums of 1,000 of the greatest
 /// amounts and rates over all of time fit.
 __extension__ typedef __int128 Exact;
 
@@ -17,8 +17,8 @@ inline constexpr Exact kUnit = 1'000'000'000'000'000;
 /// Is more than any sum can be, and stands for a bound that is not there.
 inline constexpr Exact kBeyond = kUnit * kUnit * 100'000'000;
 
-inline constexpr double kMostAmount = 1e15;          ///< of an impact, a bound or a value
-inline constexpr double kMostRate = 1e9;             ///< per second
+inline constexpr double kMostAmount = 1e15;                             ///< of an impact, a bound or a value
+inline constexpr double kMostRate = 1e9;                                ///< per second
 inline constexpr Time kLastTime{std::int64_t{10'000'000'000'000'000}};  ///< 317 years
 
 /// Returns the number in billionths. Above a million it is taken as a decimal of six digits after the point, above 1e9 of three, above

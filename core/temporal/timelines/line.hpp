@@ -1,128 +1,70 @@
-// One timeline: what happens on it in the order of time, and what is asked of it.
+// One timeline: what happens on it in the order of time, and what is asked of it, in blocks.
 #pragma once
 
-#include <cstdint>
-#include <span>
+#include <cstddef>
 #include <vector>
 
-#include "core/temporal/timelines/definition.hpp"
-#include "core/temporal/timelines/exact.hpp"
+#include "core/temporal/timelines/block.hpp"
+#include "core/temporal/timelines/event.hpp"
 
 namespace roci::temporal::timelines {
 
-/// Is a task's number, chosen by the caller.
-using TaskId = std::uint64_t;
-
-/// Says which of the values at one instant is meant: tasks that end there act before those that start there.
-enum class Side { before, between, after };
-
-using Micros = std::int64_t;
-
-/// Says in what order things act at one instant.
-enum class Turn { ends, starts, observed };
-
-/// Is a change of a timeline at an instant. Of one turn assignments act before deltas, in the order of task and `order`.
-struct Event {
-  Micros time = 0;
-  Turn turn = Turn::ends;
-  ImpactKind kind = ImpactKind::delta;
-  TaskId task = 0;
-  std::uint32_t order = 0;  ///< among the changes of one task
-  Exact amount = 0;         ///< of a rate: per microsecond
-};
-
-/// Are the values that are asked for: between two numbers, or one of the states whose bits are set.
-struct Bounds {
-  Exact lowest = -kBeyond;
-  Exact highest = kBeyond;
-  std::uint64_t states = 0;
-  bool admits(Exact value) const {
-    if (states == 0) return lowest <= value && value <= highest;
-    return value >= 0 && value < 64 * kUnit && (states >> static_cast<int>(value / kUnit) & 1) != 0;
-  }
-};
-
-/// Is a place in the order of time.
-struct Position {
-  Micros time = 0;
-  Side side = Side::before;
-  friend auto operator<=>(const Position&, const Position&) = default;
-};
-
-/// Asks for bounds over a stretch of a timeline, both ends included.
-struct Ask {
-  TaskId task = 0;
-  std::uint32_t constraint = 0;
-  Position from{};
-  Position to{};
-  Bounds bounds{};
-};
-
-/// Is an assignment or an observation, after which earlier changes no longer count.
-struct Reset {
-  Micros time = std::numeric_limits<Micros>::min() / 2;
-  Turn turn = Turn::ends;
-};
-
-/// Is an instant at which something happens or begins or ends to be asked, with the values there. Until the next one the value runs
-/// straight.
-struct Knot {
-  Micros time = 0;
-  Exact before = 0;
-  Exact ends_assigned = 0;  ///< after the assignments of what ends, before its deltas
-  Exact between = 0;
-  Exact starts_assigned = 0;  ///< after the assignments of what starts, before its deltas
-  Exact after = 0;
-  Exact rate = 0;        ///< from here on
-  Reset reset_before{};  ///< the newest that acts on `before`, and so on
-  Reset reset_between{};
-  Reset reset_after{};
-
-  Exact at(Side side) const {
-    return side == Side::before ? before : side == Side::between ? between : after;
-  }
-  const Reset& reset(Side side) const {
-    return side == Side::before ? reset_before : side == Side::between ? reset_between : reset_after;
-  }
-};
-
-/// Holds the changes and the asks of one timeline from its `past` on; what was before is in one value and one rate.
+/// Holds the changes and the asks of one timeline from its past on; what was before is in one value and one rate. Courses and summaries
+/// of blocks are found when they are asked for and kept until something before them changes: so also what is const must not be called
+/// from two threads at once.
 class Line {
  public:
-  Line(Bounds range, Exact initial, Micros past, Micros end)
-      : range_(range), base_(initial), past_(past), end_(end) {}
+  /// Blocks have at most `block` changes and asks, but for those of one instant.
+  Line(Bounds range, Exact initial, Micros past, Micros end, std::size_t block);
 
   const Bounds& range() const { return range_; }
   Micros past() const { return past_; }
   Micros end() const { return end_; }
-  std::span<const Event> events() const { return events_; }
-  std::span<const Ask> asks() const { return asks_; }
+  std::size_t events() const { return events_; }
+  std::size_t asks() const { return asks_; }
 
+  /// O(log n) to find the block, and the size of a block.
   void add(const Event& event);
   void erase(const Event& event);
+  /// As above, for each block that the ask reaches into.
   void add(const Ask& ask);
-  void erase(TaskId task, std::uint32_t constraint);
+  void erase(const Ask& ask);
 
   /// Changes what the folded past has left.
   void amend(Exact value, Exact rate);
   /// Sets an observation; another of the same instant goes.
   void observe(Micros time, Exact value);
-  /// Folds what happens before `now`; asks that end before go, those that began before begin at `now`.
+  /// Folds what happens before `now`; asks that end before go, those that began before begin at `now`. O(n).
   void fold(Micros now);
 
   /// Returns the projected value; before the past it is the value that the past has left.
   Exact value(Position at) const;
-  /// Returns all knots, in order; the first stands at past(), the last at end().
-  std::vector<Knot> knots() const;
+
+  std::size_t blocks() const { return blocks_.size(); }
+  const Block& block(std::size_t i) const { return blocks_[i]; }
+  /// Returns the block that holds the instant; the first one for an instant in the past.
+  std::size_t block_of(Micros time) const;
+  /// Returns the instant of the next block, or the end of the timeline.
+  Micros closing(std::size_t i) const { return i + 1 < blocks_.size() ? blocks_[i + 1].first() : end_; }
+  const Summary& summary(std::size_t i) const;
+  /// Replaces `knots` by those of the blocks from `first` to `last`: the first stands at the beginning of the first block, the last at the
+  /// closing of the last one, with what acts before that instant alone unless it is the end of the timeline.
+  void knots(std::size_t first, std::size_t last, std::vector<Knot>& knots) const;
 
  private:
+  const Course& course(std::size_t i) const;
+  void changed(std::size_t i);
+  void split(std::size_t i);
+
   Bounds range_;
-  Exact base_;
-  Exact base_rate_ = 0;
   Micros past_;
   Micros end_;
-  std::vector<Event> events_;  ///< in the order in which they act
-  std::vector<Ask> asks_;
+  std::size_t block_;
+  std::size_t events_ = 0;
+  std::size_t asks_ = 0;
+  std::vector<Block> blocks_;
+  mutable std::vector<Course> courses_;  ///< at the beginning of each block
+  mutable std::size_t known_ = 1;        ///< so many of them hold
 };
 
 }  // namespace roci::temporal::timelines

@@ -12,16 +12,6 @@
 namespace roci::temporal::timelines {
 namespace {
 
-std::string joined(const std::vector<std::string>& faults) {
-  std::string text;
-  for (const std::string& fault : faults) text += (text.empty() ? "" : "; ") + fault;
-  return text;
-}
-
-void refuse_faults(std::span<const Definition> definitions, const Footprint& footprint) {
-  if (!permitted(definitions, footprint)) throw std::invalid_argument(joined(check(definitions, footprint)));
-}
-
 Bounds range_of(const Definition& definition) {
   if (definition.kind == Kind::atomic) return {0, kUnit, 0};
   if (definition.kind != Kind::state)
@@ -47,16 +37,16 @@ Timelines::Timelines(std::vector<Definition> definitions, const Extent& extent)
   if (extent.origin < -kLastTime || extent.end > kLastTime || extent.origin >= extent.end)
     throw std::invalid_argument("timelines end after their origin, both within 317 years of the epoch");
   for (const Definition& definition : definitions_) {
-    if (const auto faults = check(definition); !faults.empty()) throw std::invalid_argument(joined(faults));
-    lines_.emplace_back(range_of(definition), exact_amount(definition.initial), past_, end_);
+    refuse_faults(definition);
+    lines_.emplace_back(range_of(definition), exact_amount(definition.initial), past_, end_, extent.block);
   }
 }
 
 Kept Timelines::kept() const {
   Kept kept{.tasks = tasks_.size(), .undoable = log_.size()};
   for (const Line& line : lines_) {
-    kept.events += line.events().size();
-    kept.asks += line.asks().size();
+    kept.events += line.events();
+    kept.asks += line.asks();
   }
   return kept;
 }
@@ -82,13 +72,14 @@ void Timelines::each_event(TaskId id, const Task& task, Do change) const {
   }
 }
 
-void Timelines::put(TaskId id, const Task& task) {
-  each_event(id, task, [&](Index timeline, const Event& event) { lines_[timeline].add(event); });
+/// Calls `change` with the timeline and each ask that the task still has to come.
+template <class Do>
+void Timelines::each_ask(TaskId id, const Task& task, Do change) const {
   const bool point = !task.started && task.start == task.end;
-  for (std::size_t i = 0; i < task.footprint.constraints.size(); ++i) {
-    const Constraint& constraint = task.footprint.constraints[i];
-    Ask ask{id, static_cast<std::uint32_t>(i), {}, {}, bounds_of(constraint)};
-    switch (constraint.phase) {
+  const std::vector<Constraint>& constraints = task.footprint.constraints;
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    Ask ask{id, static_cast<std::uint32_t>(i), {}, {}, bounds_of(constraints[i])};
+    switch (constraints[i].phase) {
       case Phase::pre:
         if (task.started) continue;
         ask.from = ask.to = {task.start, Side::between};
@@ -102,14 +93,18 @@ void Timelines::put(TaskId id, const Task& task) {
         ask.from = ask.to = {task.end, point ? Side::after : Side::between};
         break;
     }
-    lines_[constraint.timeline].add(ask);
+    change(constraints[i].timeline, ask);
   }
+}
+
+void Timelines::put(TaskId id, const Task& task) {
+  each_event(id, task, [&](Index timeline, const Event& event) { lines_[timeline].add(event); });
+  each_ask(id, task, [&](Index timeline, const Ask& ask) { lines_[timeline].add(ask); });
 }
 
 void Timelines::take(TaskId id, const Task& task) {
   each_event(id, task, [&](Index timeline, const Event& event) { lines_[timeline].erase(event); });
-  for (std::size_t i = 0; i < task.footprint.constraints.size(); ++i)
-    lines_[task.footprint.constraints[i].timeline].erase(id, static_cast<std::uint32_t>(i));
+  each_ask(id, task, [&](Index timeline, const Ask& ask) { lines_[timeline].erase(ask); });
 }
 
 /// Gives back at the edge of the past what a task that is removed has taken `during` itself.
@@ -125,8 +120,7 @@ void Timelines::amend_for_removed(const Task& task, int sign) {
 
 Timelines::Task& Timelines::find(TaskId id) {
   const auto found = tasks_.find(id);
-  if (found == tasks_.end())
-    throw std::invalid_argument("task " + std::to_string(id) + " is not placed");
+  if (found == tasks_.end()) throw std::invalid_argument("task " + std::to_string(id) + " is not placed");
   return found->second;
 }
 
@@ -198,12 +192,13 @@ void Timelines::forget_log() {
 }
 
 bool Timelines::observe(Index timeline, Time sampled, double value) {
-  if (timeline >= lines_.size()) throw std::invalid_argument("an observation is of a timeline that is not there");
+  if (timeline >= lines_.size())
+    throw std::invalid_argument("an observation is of a timeline that is not there");
   const Definition& definition = definitions_[timeline];
   const bool state = definition.kind == Kind::state;
   if (!std::isfinite(value) || std::abs(value) > kMostAmount ||
-      (state && (value != std::floor(value) || value < 0 ||
-                 value >= static_cast<double>(definition.states.size()))))
+      (state &&
+       (value != std::floor(value) || value < 0 || value >= static_cast<double>(definition.states.size()))))
     throw std::invalid_argument("an observed value of the timeline '" + definition.name + "' is no " +
                                 (state ? "state of it" : "finite number of at most 1e15"));
   if (sampled.count() > end_)

@@ -46,13 +46,15 @@ struct Extent {
   Time origin{0};        ///< timelines have their initial values from here on
   Time end = kLastTime;  ///< nothing is looked at behind it, and no task is placed beyond
   std::size_t most_impacts = std::size_t{1} << 20;  ///< of all placed tasks together, constraints counted too
+  std::size_t block =
+      64;  ///< changes that are kept together: more make changes dearer, and questions over all of time cheaper
 };
 
 /// Says how much is kept.
 struct Kept {
   std::size_t tasks = 0;
-  std::size_t events = 0;  ///< starts and ends of impacts, and observations
-  std::size_t asks = 0;    ///< constraints
+  std::size_t events = 0;    ///< starts and ends of impacts, and observations
+  std::size_t asks = 0;      ///< constraints
   std::size_t undoable = 0;  ///< changes that undo() could take back
   friend bool operator==(const Kept&, const Kept&) = default;
 };
@@ -135,6 +137,10 @@ class Timelines {
   void amend_for_removed(const Task& task, int sign);
   template <class Do>
   void each_event(TaskId id, const Task& task, Do change) const;
+  template <class Do>
+  void each_ask(TaskId id, const Task& task, Do change) const;
+  std::vector<Stretch> bad_starts(const Footprint& footprint, Stretch window) const;
+  Stretch possible_starts(const Footprint& footprint, Interval window) const;
   void forget_log();
   Task& find(TaskId id);
 

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 #include "core/temporal/timelines/check.hpp"
 #include "core/temporal/timelines/placement.hpp"
@@ -34,30 +32,44 @@ std::vector<Interval> without(Stretch window, std::vector<Stretch>& bad) {
 
 }  // namespace
 
-std::vector<Interval> Timelines::valid_starts(const Footprint& footprint, Interval window) const {
-  if (!permitted(definitions_, footprint)) {
-    std::string text;
-    for (const std::string& fault : check(definitions_, footprint)) text += (text.empty() ? "" : "; ") + fault;
-    throw std::invalid_argument(text);
-  }
-  const Stretch starts{std::max(window.earliest.count(), past_),
-                       std::min(window.latest.count(), end_ - footprint.duration.count())};
-  if (starts.last < starts.first) return {};
+/// Returns the starts within `window` at which the task would break something, in no order.
+std::vector<Stretch> Timelines::bad_starts(const Footprint& footprint, Stretch window) const {
   std::vector<Stretch> bad;
   std::vector<const Constraint*> own;
   for (const Index timeline : touched_by(footprint)) {
     own.clear();
     for (const Constraint& constraint : footprint.constraints)
       if (constraint.timeline == timeline) own.push_back(&constraint);
-    find_bad_starts(lines_[timeline], effect_on(timeline, footprint), own, starts, bad);
+    find_bad_starts(lines_[timeline], effect_on(timeline, footprint), own, window, bad);
   }
+  return bad;
+}
+
+/// Returns the part of the window in which the task lies between the past and the end; it may be empty.
+Stretch Timelines::possible_starts(const Footprint& footprint, Interval window) const {
+  refuse_faults(definitions_, footprint);
+  return {std::max(window.earliest.count(), past_),
+          std::min(window.latest.count(), end_ - footprint.duration.count())};
+}
+
+std::vector<Interval> Timelines::valid_starts(const Footprint& footprint, Interval window) const {
+  const Stretch starts = possible_starts(footprint, window);
+  if (starts.last < starts.first) return {};
+  std::vector<Stretch> bad = bad_starts(footprint, starts);
   return without(starts, bad);
 }
 
 std::optional<Time> Timelines::first_valid_start(const Footprint& footprint, Interval window) const {
-  const std::vector<Interval> starts = valid_starts(footprint, window);
-  if (starts.empty()) return std::nullopt;
-  return starts.front().earliest;
+  const Stretch starts = possible_starts(footprint, window);
+  // Parts of the window that grow: most tasks find their place in the first, and the last cost no more than the whole.
+  Micros length = std::max<Micros>((starts.last - starts.first) / 64, 1);
+  for (Micros first = starts.first; first <= starts.last; first += length + 1, length *= 4) {
+    const Stretch part{first, std::min(first + length, starts.last)};
+    std::vector<Stretch> bad = bad_starts(footprint, part);
+    const std::vector<Interval> valid = without(part, bad);
+    if (!valid.empty()) return valid.front().earliest;
+  }
+  return std::nullopt;
 }
 
 }  // namespace roci::temporal::timelines

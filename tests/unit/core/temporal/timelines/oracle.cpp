@@ -38,9 +38,12 @@ bool breaks(const Definition& definition, const Constraint& constraint, std::int
 bool asked(const Constraint& constraint, const Placed& task, std::int64_t t, Side side) {
   const bool point = task.start == task.end;
   switch (constraint.phase) {
-    case Phase::pre: return t == task.start && side == Side::between;
-    case Phase::post: return t == task.end && side == (point ? Side::after : Side::between);
-    case Phase::maintenance: break;
+    case Phase::pre:
+      return t == task.start && side == Side::between;
+    case Phase::post:
+      return t == task.end && side == (point ? Side::after : Side::between);
+    case Phase::maintenance:
+      break;
   }
   if (point || t < task.start || t > task.end) return false;
   return (t > task.start || side == Side::after) && (t < task.end || side == Side::before);
@@ -61,15 +64,16 @@ std::vector<std::array<std::int64_t, 3>> World::values(Index timeline) const {
         const Impact& impact = task.footprint.impacts[i];
         if (impact.timeline != timeline) continue;
         // In the world's unit of time, the microsecond, a rate of 1e6 per second is 1.
-        const std::int64_t amount = impact.kind == ImpactKind::rate ? std::llround(impact.amount)
-                                                                    : millionths(impact.amount);
+        const std::int64_t amount =
+            impact.kind == ImpactKind::rate ? std::llround(impact.amount) : millionths(impact.amount);
         const int rank = impact.kind == ImpactKind::assign ? 0 : 1;
         const bool during = impact.moment == ImpactWhen::during;
         if (during && point) continue;
         if (impact.moment != ImpactWhen::at_end && t == task.start)
           starts.push_back({rank, id, i, impact.kind, amount});
         if (impact.moment != ImpactWhen::at_start && t == task.end)
-          (point ? starts : ends).push_back({rank, id, i + (point ? 1000 : 0), impact.kind, during ? -amount : amount});
+          (point ? starts : ends)
+              .push_back({rank, id, i + (point ? 1000 : 0), impact.kind, during ? -amount : amount});
       }
     }
     std::array<std::int64_t, 3> now{value, 0, 0};
@@ -130,9 +134,10 @@ std::vector<Interval> World::valid_starts(const Footprint& footprint, Interval w
 std::vector<Conflict> World::conflicts(Time from, Time to) const {
   std::vector<Conflict> stretches;
   for (const auto& [line, task, constraint, t, side] : breaches()) {
-    const auto same = std::ranges::find_if(stretches, [&, l = line, k = task, c = constraint, at = t](const Conflict& it) {
-      return it.timeline == l && it.task == k && it.constraint == c && it.to.count() + 1 >= at;
-    });
+    const auto same =
+        std::ranges::find_if(stretches, [&, l = line, k = task, c = constraint, at = t](const Conflict& it) {
+          return it.timeline == l && it.task == k && it.constraint == c && it.to.count() + 1 >= at;
+        });
     if (same != stretches.end()) {
       same->to = Time{t};
     } else {
@@ -141,7 +146,8 @@ std::vector<Conflict> World::conflicts(Time from, Time to) const {
   }
   std::erase_if(stretches, [&](const Conflict& it) { return it.to < from || it.from > to; });
   std::ranges::sort(stretches, [](const Conflict& a, const Conflict& b) {
-    return std::tie(a.timeline, a.from, a.task, a.constraint) < std::tie(b.timeline, b.from, b.task, b.constraint);
+    return std::tie(a.timeline, a.from, a.task, a.constraint) <
+           std::tie(b.timeline, b.from, b.task, b.constraint);
   });
   return stretches;
 }
@@ -161,8 +167,8 @@ Definition Draw::definition(Kind kind) {
 }
 
 std::vector<Definition> Draw::definitions() {
-  constexpr std::array kinds{Kind::atomic, Kind::state, Kind::claimable, Kind::cumulative, Kind::cumulative_rate,
-                             Kind::cumulative_rate};
+  constexpr std::array kinds{Kind::atomic,     Kind::state,           Kind::claimable,
+                             Kind::cumulative, Kind::cumulative_rate, Kind::cumulative_rate};
   std::vector<Definition> all;
   const int count = between(1, 3);
   for (int i = 0; i < count; ++i) all.push_back(definition(kinds[static_cast<std::size_t>(between(0, 5))]));
@@ -170,7 +176,8 @@ std::vector<Definition> Draw::definitions() {
 }
 
 double Draw::observed(const Definition& definition) {
-  return definition.kind == Kind::state || definition.kind == Kind::atomic ? between(0, 1) : between(-1, 7) / 2.0;
+  return definition.kind == Kind::state || definition.kind == Kind::atomic ? between(0, 1)
+                                                                           : between(-1, 7) / 2.0;
 }
 
 Impact Draw::impact(const std::vector<Definition>& definitions, Index timeline) {
@@ -195,7 +202,8 @@ Constraint Draw::constraint(const std::vector<Definition>& definitions, Index ti
     return constraint;
   }
   if (chance(60)) constraint.lowest = between(-2, 3);
-  if (chance(60)) constraint.highest = std::max(between(0, 6), static_cast<int>(std::max(-9.0, constraint.lowest)));
+  if (chance(60))
+    constraint.highest = std::max(between(0, 6), static_cast<int>(std::max(-9.0, constraint.lowest)));
   return constraint;
 }
 

@@ -13,13 +13,17 @@ using oracle::kEnd;
 using oracle::Placed;
 using oracle::World;
 
-constexpr int kWorlds = 3000;
+constexpr int kWorlds = 2000;
 constexpr Interval kAll{Time{0}, Time{kEnd}};
 
 /// Is a random world and the timelines that should hold the same.
 struct Pair {
-  explicit Pair(std::uint64_t seed) : draw(seed), world{draw.definitions(), {}, {}}, lines(world.definitions, Extent{.end = Time{kEnd}}) {
-    const int tasks = draw.between(0, 7);
+  explicit Pair(std::uint64_t seed)
+      : draw(seed),
+        world{draw.definitions(), {}, {}},
+        lines(world.definitions,
+              Extent{.end = Time{kEnd}, .block = static_cast<std::size_t>(draw.between(1, 8))}) {
+    const int tasks = draw.between(0, 8);
     for (int i = 0; i < tasks; ++i) place();
     while (draw.chance(30)) observe(0);
   }
@@ -74,8 +78,9 @@ void expect_values(const World& world, const Timelines& lines, std::int64_t from
     const auto expected = world.values(line);
     for (std::int64_t t = from; t <= kEnd; ++t)
       for (const Side side : {Side::before, Side::between, Side::after})
-        ASSERT_EQ(lines.value(line, Time{t}, side),
-                  static_cast<double>(expected[static_cast<std::size_t>(t)][static_cast<std::size_t>(side)]) / 1e6)
+        ASSERT_EQ(
+            lines.value(line, Time{t}, side),
+            static_cast<double>(expected[static_cast<std::size_t>(t)][static_cast<std::size_t>(side)]) / 1e6)
             << "timeline " << line << " at " << t << ", side " << static_cast<int>(side);
   }
 }
@@ -99,6 +104,15 @@ TEST(TimelineProperties, ConflictsAreThoseOfASweepOverAllMicroseconds) {
   }
 }
 
+std::vector<Interval> common(const std::vector<Interval>& intervals, Interval window) {
+  std::vector<Interval> all;
+  for (const Interval& it : intervals) {
+    const Interval part{std::max(it.earliest, window.earliest), std::min(it.latest, window.latest)};
+    if (part.earliest <= part.latest) all.push_back(part);
+  }
+  return all;
+}
+
 TEST(TimelineProperties, ValidStartsAreThoseOfTryingEveryMicrosecond) {
   int some = 0;
   for (int seed = 0; seed < kWorlds && !testing::Test::HasFatalFailure(); ++seed) {
@@ -109,7 +123,7 @@ TEST(TimelineProperties, ValidStartsAreThoseOfTryingEveryMicrosecond) {
     ASSERT_EQ(valid, pair.world.valid_starts(footprint, kAll));
     const Time from{pair.draw.between(0, kEnd)};
     const Interval window{from, Time{pair.draw.between(static_cast<int>(from.count()), kEnd)}};
-    const auto within = pair.world.valid_starts(footprint, window);
+    const auto within = common(valid, window);
     ASSERT_EQ(pair.lines.valid_starts(footprint, window), within);
     ASSERT_EQ(pair.lines.first_valid_start(footprint, window),
               within.empty() ? std::nullopt : std::optional(within.front().earliest));
@@ -147,7 +161,8 @@ TEST(TimelineProperties, UndoGoesBackToEachMark) {
     for (; !marks.empty(); marks.pop_back()) {
       pair.lines.undo(marks.back().first);
       expect_values(marks.back().second, pair.lines);
-      ASSERT_EQ(pair.lines.conflicts(Time{0}, Time{kEnd}), marks.back().second.conflicts(Time{0}, Time{kEnd}));
+      ASSERT_EQ(pair.lines.conflicts(Time{0}, Time{kEnd}),
+                marks.back().second.conflicts(Time{0}, Time{kEnd}));
     }
   }
 }
@@ -157,7 +172,8 @@ TEST(TimelineProperties, TheOrderOfPlacementsDoesNotMatter) {
     SCOPED_TRACE(seed);
     const Pair pair(static_cast<std::uint64_t>(seed));
     Timelines reversed(pair.world.definitions, Extent{.end = Time{kEnd}});
-    for (const auto& [at, value] : pair.world.observations) reversed.observe(at.first, Time{at.second}, value);
+    for (const auto& [at, value] : pair.world.observations)
+      reversed.observe(at.first, Time{at.second}, value);
     for (auto task = pair.world.tasks.rbegin(); task != pair.world.tasks.rend(); ++task)
       reversed.place(task->first, task->second.footprint, Time{task->second.start});
     expect_values(pair.world, reversed);
@@ -168,7 +184,8 @@ TEST(TimelineProperties, TheOrderOfPlacementsDoesNotMatter) {
 std::vector<Conflict> from_now(std::vector<Conflict> conflicts, Time now) {
   for (Conflict& conflict : conflicts) conflict.from = std::max(conflict.from, now);
   std::ranges::sort(conflicts, [](const Conflict& a, const Conflict& b) {
-    return std::tie(a.timeline, a.from, a.task, a.constraint) < std::tie(b.timeline, b.from, b.task, b.constraint);
+    return std::tie(a.timeline, a.from, a.task, a.constraint) <
+           std::tie(b.timeline, b.from, b.task, b.constraint);
   });
   return conflicts;
 }
