@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
 #include "planner_svc/temporal_pddl/call/planning_failure.hpp"
 #include "planner_svc/temporal_pddl/grounding/lifted/model_failure.hpp"
@@ -117,7 +116,6 @@ void ConstantFunctions::load_external(FunctionSource& source, const std::functio
     external_[function] = true;
     const auto tuples = all_tuples(symbol.parameters);
     std::vector<FunctionCall> calls;
-    calls.reserve(tuples.size());
     for (const auto& tuple : tuples) {
       FunctionCall call{symbol.module, symbol.name, {}};
       for (const ObjectId object : tuple) call.arguments.push_back(symbols.name(object));
@@ -127,19 +125,15 @@ void ConstantFunctions::load_external(FunctionSource& source, const std::functio
     if (cancelled())
       throw PlanningFailure(Verdict::cancelled, "cancelled while waiting for external functions");
     if (answers.size() != calls.size()) answers.assign(calls.size(), FunctionValue{});
-    // These are the largest lists of a call with many places: nothing of them is held twice.
-    const std::size_t first = used.size();
-    used.reserve(first + calls.size());
     for (std::size_t k = 0; k < calls.size(); ++k) {
       FunctionValue& answer = answers[k];
       if (answer.outcome == FunctionOutcome::value && !std::isfinite(answer.value)) {
         answer.outcome = FunctionOutcome::not_a_number;
       }
+      used.push_back({calls[k], answer});
       if (answer.outcome == FunctionOutcome::value) define(function, tuples[k], answer.value);
-      used.push_back({std::move(calls[k]), std::move(answer)});
     }
-    for (std::size_t k = first; k < used.size(); ++k)
-      require_usable(used[k].call, used[k].answer, symbols, symbol);
+    for (std::size_t k = 0; k < calls.size(); ++k) require_usable(calls[k], answers[k], symbols, symbol);
   }
 }
 
