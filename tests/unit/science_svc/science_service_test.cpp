@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "science_svc/detector.hpp"
+#include "science_svc/limits.hpp"
 #include "services/publisher.hpp"
 #include "tests/unit/science_svc/photos.hpp"
 #include "tests/unit/services/sim_run.hpp"
@@ -76,7 +78,8 @@ class ScienceService : public testing::Test {
     std::vector<v1::DataProduct> out;
     for (std::uint64_t i = 0; i < 4; ++i)
       out.push_back(image("plain-" + std::to_string(i), 150, 150, made_ground(i)));
-    for (v1::DataProduct& one : out) one.created_us(-1);  // older than the service: they teach it, and raise nothing
+    for (v1::DataProduct& one : out)
+      one.created_us(-1);  // older than the service: they teach it, and raise nothing
     return out;
   }
   static std::vector<v1::DataProduct> plain_and(std::vector<v1::DataProduct> more) {
@@ -162,6 +165,22 @@ TEST_F(ScienceService, AnUnreadableImageIsAnEventAndTheNextOneIsLookedAt) {
   EXPECT_NE(told[0].find("broken:"), std::string::npos) << told[0];
   EXPECT_NE(told[1].find("empty: the image has no pixels"), std::string::npos) << told[1];
   EXPECT_EQ(said.goals.size(), 1u);
+}
+
+TEST_F(ScienceService, TellsOfABoundedNumberOfUnreadableImages) {
+  v1::DataProduct broken = image("broken", 50, 60);
+  broken.preview().resize(100);
+  std::vector<v1::DataProduct> products;
+  for (std::size_t i = 0; i < kUnreadableTold + 5; ++i) {
+    products.push_back(broken);
+    products.back().id("broken-" + std::to_string(i));
+  }
+  products.push_back(image("one", 50, 60));
+  const Said said = said_to(plain_and(products));
+  const auto told = std::ranges::count_if(
+      said.events, [](const v1::Event& event) { return event.code() == "image.unreadable"; });
+  EXPECT_EQ(told, static_cast<std::ptrdiff_t>(kUnreadableTold));
+  EXPECT_EQ(said.goals.size(), 1u) << "what can be read is looked at";
 }
 
 // What an earlier process of this service has raised is known from what became of it.

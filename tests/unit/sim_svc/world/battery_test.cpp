@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 #include "tests/unit/sim_svc/world_fixture.hpp"
 
 namespace roci::sim::world {
@@ -37,6 +40,22 @@ TEST(Battery, SunIsHighestAtNoonAndGoneAtNight) {
   power.solar_peak_w = 40;
   EXPECT_DOUBLE_EQ(solar_power_w(power, seconds(power.solar_noon_s)), 40);
   EXPECT_EQ(solar_power_w(power, seconds(power.solar_noon_s + power.day_s / 2)), 0);
+}
+
+TEST(Battery, InOrbitThePanelWorksInSunlightAlone) {
+  PowerParameters power;
+  power.orbit = Orbit{600, 200, 300, 500, "sun.window"};
+  const auto joules = [&power](double from, double to) {
+    return solar_energy_j(power, seconds(from), seconds(to));
+  };
+  EXPECT_DOUBLE_EQ(joules(0, 300), 300 * 500) << "before the first eclipse";
+  EXPECT_DOUBLE_EQ(joules(300, 500), 0);
+  EXPECT_DOUBLE_EQ(joules(400, 600), 100 * 500) << "an eclipse ends";
+  EXPECT_DOUBLE_EQ(joules(800, 1000), 100 * 500) << "the next one begins, an orbit after the first";
+  EXPECT_DOUBLE_EQ(joules(0, 1200), 800 * 500) << "two orbits";
+  const std::vector<std::pair<Time, Time>> lit{
+      {Time{}, seconds(300)}, {seconds(500), seconds(900)}, {seconds(1100), seconds(1500)}};
+  EXPECT_EQ(sunlight(*power.orbit, seconds(1200)), lit);
 }
 
 TEST(WorldEnergy, NeverRisesWithoutSun) {
