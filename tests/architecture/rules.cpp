@@ -97,6 +97,22 @@ void check_libraries(const SourceFile& file, Complaints& out) {
   }
 }
 
+// The checker of the utility-driven engine shares the network with the planner, and nothing that computes.
+void check_independent_checker(const SourceFile& file, Complaints& out) {
+  const std::string engine = "planner_svc/utility_htn/";
+  if (!file.under("planner_svc/utility_htn/checking")) return;
+  for (const std::string& include : file.includes) {
+    const bool allowed = !include.starts_with(engine) ||
+                         any_prefix(include, {engine + "model/", engine + "reading/", engine + "checking/"});
+    const bool computes = include.starts_with("core/temporal/timelines/") &&
+                          include != "core/temporal/timelines/definition.hpp";
+    if (!allowed || computes) {
+      out.push_back(file.path + ": includes " + include +
+                    "; the checker sees the network and how it is read alone");
+    }
+  }
+}
+
 // The simulator must not be right by construction.
 void check_simulator(const SourceFile& file, Complaints& out) {
   if (!file.under("sim_svc")) return;
@@ -178,6 +194,7 @@ std::vector<std::string> broken_rules(const std::vector<SourceFile>& files) {
     check_floors(file, out);
     check_vendors(file, out);
     check_libraries(file, out);
+    check_independent_checker(file, out);
     check_simulator(file, out);
     check_clock(file, out);
     check_size_and_names(file, out);

@@ -52,23 +52,42 @@ Order densest_first(const Packing& packing) {
   });
 }
 
+// Within each sol the bins that send most for its energy come first.
+Choices cheapest_first(const Packing& packing, Choices allowed) {
+  for (std::vector<std::uint32_t>& bins : allowed) {
+    for (auto begin = bins.begin(); begin != bins.end();) {
+      const auto sol = packing.bins[*begin].sol;
+      const auto end = std::find_if(begin, bins.end(),
+                                    [&](std::uint32_t bin) { return !sol || packing.bins[bin].sol != sol; });
+      const auto next = end == begin ? begin + 1 : end;
+      std::stable_sort(begin, next, [&](std::uint32_t a, std::uint32_t b) {
+        return packing.bins[a].joules_per_byte < packing.bins[b].joules_per_byte;
+      });
+      begin = next;
+    }
+  }
+  return allowed;
+}
+
 std::vector<Placement> greedy_placements(const Packing& packing, const Choices& allowed) {
   const auto bytes = [&](std::size_t i) { return packing.items[i].bytes; };
   const auto first = [&](std::size_t i) { return packing.items[i].first; };
   const std::size_t count = packing.items.size();
-  return {
-      first_fit(packing, allowed, densest_first(packing)),
-      first_fit(packing, allowed, ordered(count, [&](auto a, auto b) { return bytes(a) < bytes(b); })),
-      first_fit(packing, allowed, ordered(count, [&](auto a, auto b) { return bytes(a) > bytes(b); })),
-      first_fit(packing, allowed,
-                ordered(count,
-                        [&](auto a, auto b) {
-                          return first(a) != first(b) ? first(a) > first(b) : bytes(a) > bytes(b);
-                        })),
-      first_fit(
-          packing, allowed,
-          ordered(count, [&](auto a, auto b) { return packing.items[a].values > packing.items[b].values; })),
+  const std::vector<Order> orders = {
+      densest_first(packing),
+      ordered(count, [&](auto a, auto b) { return bytes(a) < bytes(b); }),
+      ordered(count, [&](auto a, auto b) { return bytes(a) > bytes(b); }),
+      ordered(
+          count,
+          [&](auto a, auto b) { return first(a) != first(b) ? first(a) > first(b) : bytes(a) > bytes(b); }),
+      ordered(count, [&](auto a, auto b) { return packing.items[a].values > packing.items[b].values; }),
   };
+  std::vector<Placement> out;
+  for (const Order& order : orders) out.push_back(first_fit(packing, allowed, order));
+  if (packing.sol_joules.empty()) return out;
+  const Choices cheapest = cheapest_first(packing, allowed);
+  for (const Order& order : orders) out.push_back(first_fit(packing, cheapest, order));
+  return out;
 }
 
 // Within the sol the cheapest bins are filled first, which is the most that its energy can carry.

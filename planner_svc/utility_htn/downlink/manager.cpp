@@ -141,6 +141,12 @@ class Question {
   Assignment answer_;
 };
 
+// A node of a large question takes longer.
+int nodes(const Effort& effort, std::size_t variables) {
+  return variables <= 500 ? effort.most_nodes
+                          : static_cast<int>(static_cast<std::size_t>(effort.most_nodes) * 500 / variables);
+}
+
 struct Settled {
   Placement placement;
   Proof proof;
@@ -157,7 +163,7 @@ Settled settle(const Packing& packing, const Effort& effort, Counts& counts) {
     return {std::move(certified.placement),
             {.by = Proof::By::bound, .gap = certified.gap, .rank = certified.rank}};
   }
-  Solved solved = solve(packing, certified.placement, effort.most_nodes);
+  Solved solved = solve(packing, certified.placement, nodes(effort, variables(packing)));
   ++(solved.best && solved.earliest ? counts.solver : counts.open);
   return {std::move(solved.placement),
           {.by = solved.best ? Proof::By::solver : Proof::By::bound,
@@ -185,7 +191,7 @@ Fit fit(const std::vector<Product>& products, std::span<const Window> windows, c
   const AllFit quick = all_fit(packing);
   if (quick != AllFit::unknown) return {.all = quick == AllFit::yes};
   if (variables(packing) > effort.most_variables) return {};
-  return {.all = solve_all_fit(packing, effort.most_nodes), .solver = true};
+  return {.all = solve_all_fit(packing, nodes(effort, variables(packing))), .solver = true};
 }
 
 }  // namespace
