@@ -34,7 +34,9 @@ Fate fate(const Odds& odds, std::uint64_t seed, const std::string& task, std::ui
   if (draw(seed, task + "/fails", execution) >= odds.fail) return out;
   const double how = draw(seed, task + "/how", execution);
   const double replanned = odds.flexible_share + (1 - odds.flexible_share) * odds.replanning_share_of_rest;
-  out.failure = how < odds.flexible_share ? Failure::flexible : how < replanned ? Failure::replanning : Failure::ground;
+  out.failure = how < odds.flexible_share ? Failure::flexible
+                : how < replanned         ? Failure::replanning
+                                          : Failure::ground;
   return out;
 }
 

@@ -34,7 +34,8 @@ Setting read(const std::filesystem::path& file) {
   const auto number = [&](const char* key) { return root.at(key).at("value").number(); };
   Setting out;
   out.runs = static_cast<int>(number("runs"));
-  out.odds = {0, number("noise"), number("fail"), number("flexible_share"), number("replanning_share_of_rest")};
+  out.odds = {0, number("noise"), number("fail"), number("flexible_share"),
+              number("replanning_share_of_rest")};
   for (const auto& bias : root.at("biases").at("value").items()) out.biases.push_back(bias.number());
   out.costs = {number("replanning_j"), number("ground_j"), temporal::seconds(number("ground_wait_s"))};
   out.discovery_share = number("discovery_share");
@@ -58,11 +59,15 @@ class Experiment {
     planner::utility_htn::cycle::Settings settings;
     if (strategy != Strategy::replanning)
       settings = {.repairs = false, .optimizes = false, .schedules_again = false};
-    planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network_, settings);
+    planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network_,
+                                                        settings);
     Odds odds = setting_.odds;
     odds.bias = bias;
-    Flight flight{.network = network_, .engine = engine, .fates = {}, .strategy = strategy, .costs = setting_.costs};
-    flight.fates = [&](const std::string& task, std::uint32_t execution) { return fate(odds, seed, task, execution); };
+    Flight flight{
+        .network = network_, .engine = engine, .fates = {}, .strategy = strategy, .costs = setting_.costs};
+    flight.fates = [&](const std::string& task, std::uint32_t execution) {
+      return fate(odds, seed, task, execution);
+    };
     flight.until = network_.cycle.plan_end;
     if (strategy == Strategy::replanning)
       flight.succeeded = [&](const std::string& task) { discover(engine, seed, task); };
@@ -83,7 +88,8 @@ class Experiment {
 
  private:
   // An analysis may show that a target of the same site is worth more than it looked; only an engine that plans anew hears of it.
-  void discover(planner::utility_htn::adapter::UtilityEngine& engine, std::uint64_t seed, const std::string& task) const {
+  void discover(planner::utility_htn::adapter::UtilityEngine& engine, std::uint64_t seed,
+                const std::string& task) const {
     if (!task.starts_with("science_analyze") || draw(seed, task, 0) >= setting_.discovery_share) return;
     const std::string site = task.substr(task.size() - 3, 1);
     const int from = static_cast<int>(draw(seed, task, 1) * 3);
@@ -104,10 +110,18 @@ class Experiment {
 json summary_of(const Flown& flown) {
   json course = json::array();
   for (const auto& point : flown.course) course.push_back({point.spent, point.utility[0]});
-  return {{"utility", flown.utility[0]}, {"spent", flown.spent},           {"ended_by", flown.ended_by},
-          {"tasks", flown.tasks},        {"failures", flown.failures},     {"retried", flown.retried},
-          {"replanned", flown.replanned}, {"by_ground", flown.by_ground},  {"versions", flown.versions},
-          {"faults", flown.faults},      {"end_s", temporal::to_seconds(flown.end)}, {"course", course}};
+  return {{"utility", flown.utility[0]},
+          {"spent", flown.spent},
+          {"ended_by", flown.ended_by},
+          {"tasks", flown.tasks},
+          {"failures", flown.failures},
+          {"retried", flown.retried},
+          {"replanned", flown.replanned},
+          {"by_ground", flown.by_ground},
+          {"versions", flown.versions},
+          {"faults", flown.faults},
+          {"end_s", temporal::to_seconds(flown.end)},
+          {"course", course}};
 }
 
 json expected(const model::Network& network, const Setting& setting, const Flown& prescient, double bias) {
@@ -115,8 +129,8 @@ json expected(const model::Network& network, const Setting& setting, const Flown
   const double spent = prescient.spent * (1 + bias);
   const double tasks = prescient.tasks;
   const strategies::PlanFigures plan{battery.initial, tasks, prescient.utility[0] / spent, spent / tasks};
-  const auto odds =
-      strategies::split(setting.odds.fail, setting.odds.flexible_share, setting.odds.replanning_share_of_rest);
+  const auto odds = strategies::split(setting.odds.fail, setting.odds.flexible_share,
+                                      setting.odds.replanning_share_of_rest);
   const strategies::RecoveryCosts costs{setting.costs.ground_j, setting.costs.replanning_j};
   const strategies::Discoveries found{9 * setting.discovery_share, setting.discovery_utility};
   return {{"u_avg_per_mj", plan.utility_per_cost * 1e6},
@@ -142,19 +156,26 @@ int main(int argc, char** argv) {
   app.add_option("--seed", first, "of the first flight")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
-    const auto network = roci::planner::utility_htn::reading::load_network(std::filesystem::path(network_file));
+    const auto network =
+        roci::planner::utility_htn::reading::load_network(std::filesystem::path(network_file));
     Setting setting = read(settings_file);
     if (runs > 0) setting.runs = runs;
     const Experiment experiment(network, setting);
-    json out{{"network", network_file}, {"runs", setting.runs}, {"first_seed", first}, {"variants", json::array()}};
+    json out{{"network", network_file},
+             {"runs", setting.runs},
+             {"first_seed", first},
+             {"variants", json::array()}};
     for (const double bias : setting.biases) {
       const Flown prescient = experiment.prescient(bias);
-      json variant{{"bias", bias}, {"prescient", summary_of(prescient)}, {"expected", expected(network, setting, prescient, bias)}};
+      json variant{{"bias", bias},
+                   {"prescient", summary_of(prescient)},
+                   {"expected", expected(network, setting, prescient, bias)}};
       for (const auto& [strategy, name] : kStrategies) {
         json flights = json::array();
         for (int run = 0; run < setting.runs; ++run) {
           std::fprintf(stderr, "\r%+.0f %% %-7s %d of %d ", 100 * bias, name, run + 1, setting.runs);
-          flights.push_back(summary_of(experiment.flown(strategy, bias, first + static_cast<std::uint64_t>(run))));
+          flights.push_back(
+              summary_of(experiment.flown(strategy, bias, first + static_cast<std::uint64_t>(run))));
         }
         variant[name] = flights;
       }

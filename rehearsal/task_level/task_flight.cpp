@@ -154,7 +154,8 @@ class TaskFlight {
     std::vector<CommandAck> acks;
     for (auto end = ends_.begin(); end != ends_.end() && end->first <= now_; end = ends_.erase(end))
       acks.push_back(end->second);
-    if (stepped_ && !due && acks.empty() && inputs_.observations.empty() && inputs_.acks.empty()) return false;
+    if (stepped_ && !due && acks.empty() && inputs_.observations.empty() && inputs_.acks.empty())
+      return false;
     stepped_ = true;
     inputs_.acks.insert(inputs_.acks.end(), acks.begin(), acks.end());
     const exec::executive::Outputs outputs = executive_.step(now_, std::exchange(inputs_, {}));
@@ -167,7 +168,8 @@ class TaskFlight {
   }
 
   const Task* task_of(const std::string& activity) const {
-    const auto found = std::ranges::find(flight_.network.tasks, activity.substr(0, activity.rfind('#')), &Task::id);
+    const auto found =
+        std::ranges::find(flight_.network.tasks, activity.substr(0, activity.rfind('#')), &Task::id);
     return found == flight_.network.tasks.end() ? nullptr : &*found;
   }
 
@@ -254,7 +256,8 @@ class TaskFlight {
 
   // What was resolved once works: the next attempt of the same activity, and the next execution of the task, do not fail.
   Fate fate_of(const Task& task, const Command& command) {
-    if (command.attempt == 1) activity_fates_[command.activity] = flight_.fates(task.id, executions_[task.id]++);
+    if (command.attempt == 1)
+      activity_fates_[command.activity] = flight_.fates(task.id, executions_[task.id]++);
     Fate fate = activity_fates_[command.activity];
     if (resolved_.erase(task.id) > 0) fate.failure = Failure::none;
     return fate;

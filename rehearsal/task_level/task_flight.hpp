@@ -59,12 +59,12 @@ struct Reached {
 /// Says how a flight went.
 struct Flown {
   temporal::Time end{0};
-  std::string ended_by;           ///< "budget", "failure", "nothing left", "time"
-  double spent = 0;               ///< from the budget
-  temporal::RankVector utility;   ///< of what was executed to its end (R90)
-  std::vector<Reached> course;    ///< after each block that was completed
-  std::uint32_t tasks = 0;        ///< executions that succeeded
-  std::uint32_t failures = 0;     ///< by what resolved them:
+  std::string ended_by;          ///< "budget", "failure", "nothing left", "time"
+  double spent = 0;              ///< from the budget
+  temporal::RankVector utility;  ///< of what was executed to its end (R90)
+  std::vector<Reached> course;   ///< after each block that was completed
+  std::uint32_t tasks = 0;       ///< executions that succeeded
+  std::uint32_t failures = 0;    ///< by what resolved them:
   std::uint32_t retried = 0;
   std::uint32_t replanned = 0;
   std::uint32_t by_ground = 0;

@@ -9,8 +9,8 @@
 namespace roci::planner::utility_htn::adapter {
 
 using cycle::Block, cycle::Link, cycle::Stage, cycle::TaskId;
-using temporal::CommitState, temporal::Condition, temporal::ConditionOp, temporal::ConstraintKind, temporal::Duration,
-    temporal::FlexiblePlan, temporal::PlanActivity, temporal::TimePoint;
+using temporal::CommitState, temporal::Condition, temporal::ConditionOp, temporal::ConstraintKind,
+    temporal::Duration, temporal::FlexiblePlan, temporal::PlanActivity, temporal::TimePoint;
 using temporal::timelines::Constraint, temporal::timelines::Definition, temporal::timelines::Kind,
     temporal::timelines::Phase;
 
@@ -101,9 +101,9 @@ PlanActivity activity_of(const model::Network& network, const model::Values& val
 
 // A link that follows one without success is skipped.
 void depend(const std::string& before, PlanActivity& activity) {
-  const Condition failed = temporal::negate(temporal::compare(
-      temporal::activity_timeline(before), ConditionOp::eq,
-      temporal::state(temporal::to_string(temporal::ActivityState::succeeded))));
+  const Condition failed = temporal::negate(
+      temporal::compare(temporal::activity_timeline(before), ConditionOp::eq,
+                        temporal::state(temporal::to_string(temporal::ActivityState::succeeded))));
   activity.skip_if = activity.skip_if.empty() ? failed : temporal::any_of({failed, activity.skip_if});
 }
 
@@ -114,14 +114,14 @@ void add_block(const model::Network& network, const flattening::Chain& chain, co
                FlexiblePlan& plan) {
   const TimePoint first = points.of(cycle::task_id(block.number, 0)).first;
   TimePoint last = first;
-  std::optional<TimePoint> end_before;
+  TimePoint end_before = temporal::origin_point;  // none
   for (std::size_t i = 0; i < block.links.size(); ++i) {
     const Link& link = block.links[i];
     const TaskId id = cycle::task_id(block.number, i);
     const auto [start, end] = points.of(id);
     last = end;
     if (link.stage == Stage::failed) {
-      end_before.reset();  // what is committed behind it is skipped
+      end_before = temporal::origin_point;  // what is committed behind it is skipped
       continue;
     }
     const std::string name = activity_id(network, link, id);
@@ -140,13 +140,13 @@ void add_block(const model::Network& network, const flattening::Chain& chain, co
     }
     plan.constraints.push_back({temporal::origin_point, start, ConstraintKind::window,
                                 std::max(link.planned - frame.origin, Duration{0}), temporal::no_bound});
-    if (end_before)
-      plan.constraints.push_back({*end_before, start, ConstraintKind::ordering, chain.links[i].shortest_gap,
-                                  temporal::no_bound});
+    if (end_before != temporal::origin_point)
+      plan.constraints.push_back(
+          {end_before, start, ConstraintKind::ordering, chain.links[i].shortest_gap, temporal::no_bound});
     end_before = end;
   }
-  plan.tokens.push_back(
-      {network.tasks[chain.task].id, temporal::state(chain.name, {std::to_string(block.number)}), first, last});
+  plan.tokens.push_back({network.tasks[chain.task].id,
+                         temporal::state(chain.name, {std::to_string(block.number)}), first, last});
 }
 
 }  // namespace
@@ -167,7 +167,8 @@ void Points::set(TaskId task, TimePoint start, TimePoint end) {
 }
 
 FlexiblePlan plan_of(const model::Network& network, const flattening::Chains& chains,
-                     const cycle::Cycle& cycle, const Frame& frame, const FlexiblePlan& told, Points& points) {
+                     const cycle::Cycle& cycle, const Frame& frame, const FlexiblePlan& told,
+                     Points& points) {
   FlexiblePlan out;
   out.id = frame.engine;
   out.version = frame.version;
@@ -205,7 +206,8 @@ PlanActivity initial_activity(const model::Network& network, const cycle::Past& 
   for (std::size_t i = 0; i < network.timelines.size(); ++i)
     if (!network.timelines[i].reported)
       out.impacts.push_back({network.timelines[i].name, temporal::ImpactKind::assign,
-                             temporal::ImpactWhen::at_start, value_of(network.timelines[i], past.internal[i])});
+                             temporal::ImpactWhen::at_start,
+                             value_of(network.timelines[i], past.internal[i])});
   return out;
 }
 

@@ -40,12 +40,14 @@ class Points {
 /// Returns the plan: blocks that are not over with all their links, each not before its planned start, pushed for as long as its wait
 /// timeout; a token for each block, which holds its chain's name and number; and from the origin to Points::kPast one token for each
 /// thing of the past that is needed to go on after a restart. What was committed in `told` stands as it does there (R78).
-temporal::FlexiblePlan plan_of(const model::Network& network, const flattening::Chains& chains, const cycle::Cycle& cycle,
-                               const Frame& frame, const temporal::FlexiblePlan& told, Points& points);
+temporal::FlexiblePlan plan_of(const model::Network& network, const flattening::Chains& chains,
+                               const cycle::Cycle& cycle, const Frame& frame,
+                               const temporal::FlexiblePlan& told, Points& points);
 
 /// Returns an activity without a command that gives internal timelines the values they have (R73); a plan that comes whole begins
 /// with it.
-temporal::PlanActivity initial_activity(const model::Network& network, const cycle::Past& past, const Frame& frame);
+temporal::PlanActivity initial_activity(const model::Network& network, const cycle::Past& past,
+                                        const Frame& frame);
 
 /// Is what a plan tells of the cycle that made it.
 struct Recovered {
@@ -57,14 +59,16 @@ struct Recovered {
 
 /// Reads a plan of plan_of() for the same network. Times are the planned ones, stages planned or committed. Throws
 /// std::invalid_argument for one that is of another network.
-Recovered recover(const model::Network& network, const flattening::Chains& chains, const temporal::FlexiblePlan& plan);
+Recovered recover(const model::Network& network, const flattening::Chains& chains,
+                  const temporal::FlexiblePlan& plan);
 
 /// Returns the id of an activity, e.g. "collect_1_2#12.3", and back.
 std::string activity_id(const model::Network& network, const cycle::Link& link, cycle::TaskId id);
 std::optional<cycle::TaskId> task_of(const std::string& activity);
 
 /// Returns the value as a number of the timeline; nothing if it is none of its values.
-std::optional<double> number_of(const temporal::timelines::Definition& timeline, const temporal::Value& value);
+std::optional<double> number_of(const temporal::timelines::Definition& timeline,
+                                const temporal::Value& value);
 temporal::Value value_of(const temporal::timelines::Definition& timeline, double number);
 
 }  // namespace roci::planner::utility_htn::adapter

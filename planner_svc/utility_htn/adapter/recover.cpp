@@ -39,7 +39,7 @@ class Recovery {
   }
 
   template <class Items, class Name>
-  static std::size_t index(const Items& items, std::string_view name, Name Items::value_type::* member,
+  static std::size_t index(const Items& items, std::string_view name, Name Items::value_type::*member,
                            const char* what) {
     const auto found = std::ranges::find(items, name, member);
     if (found == items.end()) foreign(what + std::string(" ") + std::string(name));
@@ -72,10 +72,11 @@ class Recovery {
     const std::string& number = chain->arguments.front();
     if (std::from_chars(number.data(), number.data() + number.size(), block.number).ec != std::errc{})
       foreign("number of a block in the token of " + token.timeline);
-    block.chain = static_cast<std::uint32_t>(
-        index(chains_.chains, chain->name, &flattening::Chain::name, "chain"));
+    block.chain =
+        static_cast<std::uint32_t>(index(chains_.chains, chain->name, &flattening::Chain::name, "chain"));
     const auto& links = chains_.chains[block.chain].links;
-    for (std::size_t i = 0; i < links.size(); ++i) block.links.push_back(link(block.number, i, links[i].task));
+    for (std::size_t i = 0; i < links.size(); ++i)
+      block.links.push_back(link(block.number, i, links[i].task));
     out_.last_block = std::max(out_.last_block, block.number);
     out_.blocks.push_back(std::move(block));
   }
@@ -89,8 +90,7 @@ class Recovery {
     const PlanActivity& activity = *found->second;
     out.planned = out.start = plan_.origin + starts_[activity.start_point];
     out.end = out.start + activity.duration_lower;
-    out.stage =
-        activity.commit == temporal::CommitState::committed ? Stage::committed : Stage::planned;
+    out.stage = activity.commit == temporal::CommitState::committed ? Stage::committed : Stage::planned;
     out_.points.set(id, activity.start_point, activity.end_point);
     return out;
   }

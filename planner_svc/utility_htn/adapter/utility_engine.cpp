@@ -40,7 +40,8 @@ UtilityEngine::~UtilityEngine() = default;
 StepOutput UtilityEngine::step(const StepInputs& inputs) {
   if (cycle_ == nullptr) {
     origin_ = next_cycle_ = inputs.now;
-    cycle_ = std::make_unique<cycle::Cycle>(network_, chains_, *assessor_, *scheduler_, inputs.now, settings_);
+    cycle_ =
+        std::make_unique<cycle::Cycle>(network_, chains_, *assessor_, *scheduler_, inputs.now, settings_);
   }
   hear(inputs);
   StepOutput out;
@@ -101,13 +102,12 @@ void UtilityEngine::hear_end(const engine::EndedGoal& ended) {
   const auto task = requested_by(*known);
   if (task && ended.state != engine::GoalState::achieved) cycle_->withdraw(*task);
   goals_.erase(known);
-  std::erase_if(blocking_,
-                [&](const auto& one) { return one.issuer == ended.issuer && one.id == ended.id; });
+  std::erase_if(blocking_, [&](const auto& one) { return one.issuer == ended.issuer && one.id == ended.id; });
 }
 
 void UtilityEngine::hear_observation(const engine::Observation& observation) {
-  const auto timeline = std::ranges::find(network_.timelines, observation.timeline,
-                                          &temporal::timelines::Definition::name);
+  const auto timeline =
+      std::ranges::find(network_.timelines, observation.timeline, &temporal::timelines::Definition::name);
   if (timeline == network_.timelines.end() || !timeline->reported) return;
   if (const auto number = number_of(*timeline, observation.value))
     cycle_->observe(static_cast<temporal::timelines::Index>(timeline - network_.timelines.begin()),

@@ -48,8 +48,8 @@ class UtilityEngine final : public engine::SteppedEngine {
   std::vector<engine::Goal> goals_;      // open
   std::vector<engine::BlockingGoal> blocking_;
   Points points_;
-  temporal::FlexiblePlan told_;      // newest version
-  temporal::FlexiblePlan accepted_;  // newest that the executive has taken
+  temporal::FlexiblePlan told_;                    // newest version
+  temporal::FlexiblePlan accepted_;                // newest that the executive has taken
   std::optional<temporal::PlanActivity> initial_;  // until it is over
   temporal::Time origin_{0};
   temporal::Time next_cycle_{0};

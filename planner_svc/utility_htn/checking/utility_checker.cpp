@@ -12,7 +12,8 @@ namespace {
 
 std::optional<double> number(const temporal::timelines::Definition& timeline, const temporal::Value& value) {
   if (const auto* number = std::get_if<double>(&value)) return *number;
-  if (const auto* truth = std::get_if<bool>(&value); truth != nullptr && timeline.states.empty()) return *truth;
+  if (const auto* truth = std::get_if<bool>(&value); truth != nullptr && timeline.states.empty())
+    return *truth;
   const auto state = std::ranges::find(timeline.states, temporal::to_text(value));
   if (state == timeline.states.end()) return std::nullopt;
   return static_cast<double>(state - timeline.states.begin());

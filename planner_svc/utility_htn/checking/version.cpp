@@ -27,7 +27,8 @@ std::optional<Name> name_of(const std::string& id) {
   Name out{id.substr(0, mark), 0, 0};
   const bool block = std::from_chars(id.data() + mark + 1, id.data() + dot, out.block).ptr == id.data() + dot;
   const char* const end = id.data() + id.size();
-  return block && std::from_chars(id.data() + dot + 1, end, out.link).ptr == end ? std::optional(out) : std::nullopt;
+  return block && std::from_chars(id.data() + dot + 1, end, out.link).ptr == end ? std::optional(out)
+                                                                                 : std::nullopt;
 }
 
 template <class Items, class Member>
@@ -39,7 +40,8 @@ std::optional<std::uint32_t> index_of(const Items& items, std::string_view name,
 
 class Reader {
  public:
-  Reader(const model::Network& network, const FlexiblePlan& plan, const temporal::Progress* progress, Time now)
+  Reader(const model::Network& network, const FlexiblePlan& plan, const temporal::Progress* progress,
+         Time now)
       : network_(network), plan_(plan), progress_(progress), now_(now) {
     for (const temporal::TemporalConstraint& one : plan.constraints)
       if (one.kind == temporal::ConstraintKind::window && one.from_point == temporal::origin_point)
@@ -60,10 +62,11 @@ class Reader {
     const auto* held = std::get_if<temporal::State>(&token.held);
     const auto task = index_of(network_.tasks, token.timeline, &model::Task::id);
     std::uint32_t number = 0;
-    const bool numbered = held != nullptr && held->arguments.size() == 1 &&
-                          std::from_chars(held->arguments.front().data(),
-                                          held->arguments.front().data() + held->arguments.front().size(), number)
-                                  .ec == std::errc{};
+    const bool numbered =
+        held != nullptr && held->arguments.size() == 1 &&
+        std::from_chars(held->arguments.front().data(),
+                        held->arguments.front().data() + held->arguments.front().size(), number)
+                .ec == std::errc{};
     if (!task || !numbered) {
       out_.faults.push_back("the token of " + token.timeline + " names no block of a request");
     } else {
@@ -84,7 +87,8 @@ class Reader {
     } else if (name.starts_with("internal.")) {
       const auto timeline = index_of(network_.timelines, rest, &temporal::timelines::Definition::name);
       if (!timeline) return;
-      const auto state = index_of(network_.timelines[*timeline].states, temporal::to_text(token.held), std::identity{});
+      const auto state =
+          index_of(network_.timelines[*timeline].states, temporal::to_text(token.held), std::identity{});
       out_.internal.push_back({*timeline, now_, number != nullptr ? *number : state ? *state : 0.0});
     }
   }
@@ -100,7 +104,8 @@ class Reader {
     }
     Step step{(std::uint64_t{name->block} << 32U) | name->link, *task, starts_[activity.start_point],
               activity.duration_lower, activity.commit == temporal::CommitState::committed};
-    const auto went = progress_ == nullptr ? temporal::Progress::const_iterator{} : progress_->find(activity.id);
+    const auto went =
+        progress_ == nullptr ? temporal::Progress::const_iterator{} : progress_->find(activity.id);
     const bool known = progress_ != nullptr && went != progress_->end();
     if (known && went->second.started) {
       step.start = *went->second.started;
@@ -142,10 +147,12 @@ class Reader {
 
 }  // namespace
 
-std::uint32_t number_of(const Block& block) { return static_cast<std::uint32_t>(block.steps.front().id >> 32U); }
+std::uint32_t number_of(const Block& block) {
+  return static_cast<std::uint32_t>(block.steps.front().id >> 32U);
+}
 
-Version version_of(const model::Network& network, const FlexiblePlan& plan, const temporal::Progress* progress,
-                   Time now) {
+Version version_of(const model::Network& network, const FlexiblePlan& plan,
+                   const temporal::Progress* progress, Time now) {
   return Reader(network, plan, progress, now).run();
 }
 

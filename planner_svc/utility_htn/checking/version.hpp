@@ -13,10 +13,10 @@ namespace roci::planner::utility_htn::checking {
 
 /// Is what a FlexiblePlan of the utility-driven engine says; planner_svc/utility_htn/README.md has the form.
 struct Version {
-  std::vector<Block> blocks;  ///< those of which no link has failed
-  std::set<std::uint32_t> broken;  ///< numbers of the others: what is committed of them is skipped
-  std::set<std::uint32_t> over;    ///< numbers of those that have ended
-  model::Values values;       ///< of parameters
+  std::vector<Block> blocks;          ///< those of which no link has failed
+  std::set<std::uint32_t> broken;     ///< numbers of the others: what is committed of them is skipped
+  std::set<std::uint32_t> over;       ///< numbers of those that have ended
+  model::Values values;               ///< of parameters
   std::vector<Observation> internal;  ///< of timelines that nobody reports, as of the version
   std::vector<model::TaskIndex> done;
   std::vector<std::string> faults;  ///< of the form
@@ -26,7 +26,7 @@ struct Version {
 std::uint32_t number_of(const Block& block);
 
 /// Reads a plan. What has begun or ended has its actual times, and what is late starts at `now`; `progress` may be null.
-Version version_of(const model::Network& network, const temporal::FlexiblePlan& plan, const temporal::Progress* progress,
-                   temporal::Time now);
+Version version_of(const model::Network& network, const temporal::FlexiblePlan& plan,
+                   const temporal::Progress* progress, temporal::Time now);
 
 }  // namespace roci::planner::utility_htn::checking

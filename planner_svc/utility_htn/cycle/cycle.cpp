@@ -22,7 +22,8 @@ bool is_request(const model::Task& task) { return !task.is_template; }
 }  // namespace
 
 Cycle::Cycle(const model::Network& network, const flattening::Chains& chains,
-             const assessor::Assessor& assessor, const search::Scheduler& scheduler, Time origin, Settings settings)
+             const assessor::Assessor& assessor, const search::Scheduler& scheduler, Time origin,
+             Settings settings)
     : network_(network),
       chains_(chains),
       assessor_(assessor),
@@ -333,7 +334,8 @@ search::Plan Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Re
     placed.insert(chains_.chains[one->chain].task);
   }
   for (const flattening::Chain& chain : chains_.chains)
-    if (!candidates.contains(chain.task) && !placed.contains(chain.task)) problem.closed.push_back(chain.task);
+    if (!candidates.contains(chain.task) && !placed.contains(chain.task))
+      problem.closed.push_back(chain.task);
   const search::Outcome outcome = search::search(problem);
   report.explored += outcome.statistics.entries;
   return outcome.plan;
@@ -355,8 +357,7 @@ void Cycle::adopt(const search::Plan& plan) {
     Block added{++last_block_, placed.chain, {}};
     const auto& links = chains_.chains[placed.chain].links;
     for (std::size_t i = 0; i < links.size(); ++i) {
-      const Duration length =
-          model::footprint(network_.tasks[links[i].task], past_.values).duration;
+      const Duration length = model::footprint(network_.tasks[links[i].task], past_.values).duration;
       added.links.push_back(
           {links[i].task, placed.starts[i], placed.starts[i], placed.starts[i] + length, Stage::planned});
     }
@@ -391,7 +392,8 @@ bool Cycle::repair(Time now, Report& report) {
   for (std::size_t rounds = 2 * blocks_.size(); rounds > 0; --rounds) {
     const auto conflicts = timelines_.conflicts(from, temporal::no_bound);
     Block* gives_way = nullptr;
-    for (std::size_t i = 0; i < conflicts.size() && gives_way == nullptr; ++i) gives_way = culprit(conflicts[i]);
+    for (std::size_t i = 0; i < conflicts.size() && gives_way == nullptr; ++i)
+      gives_way = culprit(conflicts[i]);
     if (gives_way == nullptr) break;
     changed = true;
     if (gives_way->begun()) {
@@ -465,7 +467,7 @@ bool Cycle::shift(Block& late, Time from) {
       const Time latest = i == 0 ? temporal::no_bound : temporal::plus(before, gaps[i].longest_gap);
       start = timelines_.first_valid_start(
           seen, {std::max(from, before + (i == 0 ? Duration{0} : gaps[i].shortest_gap)),
-                      std::min(latest, network_.cycle.plan_end)});
+                 std::min(latest, network_.cycle.plan_end)});
     }
     fits = start.has_value();
     if (start) {
@@ -506,7 +508,8 @@ bool Cycle::optimize(Time now, Report& report) {
   for (const Block& one : before) take_out(one);
   std::erase_if(blocks_, [](const Block& one) { return !one.begun(); });
   const search::Plan plan = plan_for(now, candidates(now), report);
-  const bool better = plan.utility > old.utility || (plan.utility == old.utility && plan.cost < old.cost - 1e-6);
+  const bool better =
+      plan.utility > old.utility || (plan.utility == old.utility && plan.cost < old.cost - 1e-6);
   if (better) {
     adopt(plan);
     return true;

@@ -119,11 +119,11 @@ class Cycle {
   std::map<model::TaskIndex, std::uint32_t> failures_;
   std::vector<Block> blocks_;  // by number
   std::uint32_t last_block_ = 0;
-  std::vector<std::string> notes_;    // since the cycle before
-  bool to_schedule_ = true;           // something waits that was not tried in this situation
-  bool scheduled_ = false;            // ever
-  bool to_optimize_ = false;          // the situation is another one
-  std::vector<double> deviation_;     // by timeline, of observations, since it was optimized last
+  std::vector<std::string> notes_;  // since the cycle before
+  bool to_schedule_ = true;         // something waits that was not tried in this situation
+  bool scheduled_ = false;          // ever
+  bool to_optimize_ = false;        // the situation is another one
+  std::vector<double> deviation_;   // by timeline, of observations, since it was optimized last
 };
 
 }  // namespace roci::planner::utility_htn::cycle

@@ -37,7 +37,7 @@ RankVector judged(const std::vector<RankVector>& scores, Judgement judgement) {
   return rounded(sum * (1.0 / static_cast<double>(scores.size())));
 }
 
-std::string number(double value) { return temporal::to_text(temporal::Value{value}); }
+std::string decimal(double value) { return temporal::to_text(temporal::Value{value}); }
 
 }  // namespace
 
@@ -50,7 +50,7 @@ RobustOutcome search_robust(const Problem& problem, const RobustSettings& settin
     throw std::invalid_argument("a robust search needs at least one factor of energy, as 1");
   for (const double factor : settings.factors) {
     if (!(factor > 0))
-      throw std::invalid_argument("a factor of energy is above 0, and not " + number(factor));
+      throw std::invalid_argument("a factor of energy is above 0, and not " + decimal(factor));
   }
   const ChainTable table(problem);
   RobustOutcome out;
@@ -69,11 +69,11 @@ RobustOutcome search_robust(const Problem& problem, const RobustSettings& settin
   }
   const Candidate& chosen = out.candidates[out.chosen];
   out.outcome = std::move(outcomes[out.chosen]);
-  out.reason = "the plan made for " + number(chosen.made_for) +
+  out.reason = "the plan made for " + decimal(chosen.made_for) +
                " times the predicted energy was chosen by its " +
                (settings.judgement == Judgement::worst ? "worst" : "mean") + " score under";
   for (std::size_t index = 0; index < settings.factors.size(); ++index)
-    out.reason += (index == 0 ? " " : ", ") + number(settings.factors[index]);
+    out.reason += (index == 0 ? " " : ", ") + decimal(settings.factors[index]);
   out.reason += " times that energy: " + to_text(chosen.judged);
   return out;
 }

@@ -26,7 +26,8 @@ model::Network commanded_network() {
   out.timelines.front().initial = out.timelines.front().highest = 2000;
   for (model::Task& task : out.tasks) {
     if (!task.primitive() || task.id == "idle") continue;
-    task.commands.push_back({.owner = "sim_svc", .robot = {}, .subsystem = task.id, .command_name = "do", .arguments = {}});
+    task.commands.push_back(
+        {.owner = "sim_svc", .robot = {}, .subsystem = task.id, .command_name = "do", .arguments = {}});
     task.control.retries = 1;
   }
   return out;
@@ -34,7 +35,8 @@ model::Network commanded_network() {
 
 Flown flown(const model::Network& network, Strategy strategy, const Fates& fates, Costs costs = {}) {
   planner::utility_htn::cycle::Settings settings;
-  if (strategy != Strategy::replanning) settings = {.repairs = false, .optimizes = false, .schedules_again = false};
+  if (strategy != Strategy::replanning)
+    settings = {.repairs = false, .optimizes = false, .schedules_again = false};
   UtilityEngine engine({"utility_htn", "lander", "", ""}, network, settings);
   return fly({network, engine, fates, strategy, costs, 20000s});
 }
@@ -85,7 +87,8 @@ TEST(TaskFlight, TheGroundResolvesEverythingAtItsPrice) {
 
 TEST(TaskFlight, WhatFlexibleExecutionCannotResolveIsPlannedAnew) {
   const model::Network network = commanded_network();
-  const Flown out = flown(network, Strategy::replanning, failing_once("dig", Failure::replanning), {25, 40, 600s});
+  const Flown out =
+      flown(network, Strategy::replanning, failing_once("dig", Failure::replanning), {25, 40, 600s});
   EXPECT_THAT(out.faults, IsEmpty());
   EXPECT_EQ(out.replanned, 1U);
   EXPECT_EQ(out.retried, 0U);
@@ -95,8 +98,9 @@ TEST(TaskFlight, WhatFlexibleExecutionCannotResolveIsPlannedAnew) {
 TEST(TaskFlight, WhereEnergyRunsOutTheFlightEnds) {
   model::Network network = commanded_network();
   network.timelines.front().initial = 360;
-  const Flown out = flown(network, Strategy::replanning,
-                          [](const std::string&, std::uint32_t) { return Fate{1, 1.5, Failure::none}; });
+  const Flown out = flown(network, Strategy::replanning, [](const std::string&, std::uint32_t) {
+    return Fate{1, 1.5, Failure::none};
+  });
   EXPECT_THAT(out.faults, IsEmpty());
   EXPECT_LE(out.spent, 360 + 1e-3);
 }

@@ -17,8 +17,9 @@ using ::testing::ElementsAre, ::testing::IsEmpty;
 class PlanOf : public ::testing::Test {
  protected:
   FlexiblePlan plan(std::uint32_t version) {
-    FlexiblePlan out = plan_of(network_, chains_, cycle_, {"utility_htn", "lander", version, Time{0}, {"ground/mission"}},
-                               told_, points_);
+    FlexiblePlan out =
+        plan_of(network_, chains_, cycle_, {"utility_htn", "lander", version, Time{0}, {"ground/mission"}},
+                told_, points_);
     told_ = out;
     return out;
   }
@@ -73,8 +74,10 @@ TEST_F(PlanOf, RemembersWhatIsDoneAndLearned) {
       for (std::size_t i = 0; i < one.links.size(); ++i) {
         const cycle::Link& link = one.links[i];
         const bool ready = i == 0 || one.links[i - 1].stage == Stage::succeeded;
-        if (link.stage == Stage::committed && link.planned <= now && ready) cycle_.begun(task_id(one.number, i), now);
-        else if (link.stage == Stage::running && link.end <= now) cycle_.ended(task_id(one.number, i), now, true);
+        if (link.stage == Stage::committed && link.planned <= now && ready)
+          cycle_.begun(task_id(one.number, i), now);
+        else if (link.stage == Stage::running && link.end <= now)
+          cycle_.ended(task_id(one.number, i), now, true);
       }
   }
   ASSERT_GE(cycle_.past().done.size(), 2U);
@@ -109,7 +112,8 @@ TEST_F(PlanOf, APlanOfAnotherNetworkIsRefused) {
 }
 
 TEST_F(PlanOf, ANewPlanBeginsWithTheValuesThatNobodyReports) {
-  const PlanActivity initial = initial_activity(network_, cycle_.past(), {"utility_htn", "lander", 7, Time{0}, {}});
+  const PlanActivity initial =
+      initial_activity(network_, cycle_.past(), {"utility_htn", "lander", 7, Time{0}, {}});
   EXPECT_EQ(initial.id, "network#7");
   EXPECT_TRUE(initial.owner.empty());
   ASSERT_EQ(initial.impacts.size(), 2U);
@@ -119,12 +123,14 @@ TEST_F(PlanOf, ANewPlanBeginsWithTheValuesThatNobodyReports) {
 
 TEST(ActivityIds, GoThereAndBack) {
   EXPECT_EQ(task_of("collect_1_2#12.3"), task_id(12, 3));
-  for (const char* foreign : {"", "collect", "collect#", "collect#1", "collect#1.", "collect#.1", "a#1.2x", "network#7"})
+  for (const char* foreign :
+       {"", "collect", "collect#", "collect#1", "collect#1.", "collect#.1", "a#1.2x", "network#7"})
     EXPECT_EQ(task_of(foreign), std::nullopt) << foreign;
 }
 
 TEST(TimelineValues, GoThereAndBack) {
-  const temporal::timelines::Definition place{"nav", temporal::timelines::Kind::state, {"idle-at(wp-1)", "true", "on"}};
+  const temporal::timelines::Definition place{
+      "nav", temporal::timelines::Kind::state, {"idle-at(wp-1)", "true", "on"}};
   for (const double number : {0.0, 1.0, 2.0}) EXPECT_EQ(number_of(place, value_of(place, number)), number);
   EXPECT_EQ(number_of(place, temporal::state("elsewhere")), std::nullopt);
   const temporal::timelines::Definition battery{"battery"};

@@ -13,8 +13,8 @@ namespace {
 
 using namespace std::chrono_literals;
 using temporal::Duration, temporal::Time;
-using testing::task_named, testing::toy_network;
 using ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not;
+using testing::task_named, testing::toy_network;
 
 class CycleTest : public ::testing::Test {
  protected:
@@ -59,8 +59,7 @@ TEST_F(CycleTest, CommitsWhatStartsBeforeTheEndOfTheWindowAndFirst) {
   ASSERT_THAT(report.done, Not(IsEmpty()));
   EXPECT_EQ(report.done.front(), Activity::commit);
   for (const Block& one : cycle.blocks())
-    for (const Link& link : one.links)
-      EXPECT_EQ(link.stage == Stage::committed, link.start < 40s);
+    for (const Link& link : one.links) EXPECT_EQ(link.stage == Stage::committed, link.start < 40s);
 }
 
 TEST_F(CycleTest, WhereNothingHasChangedNothingIsSearched) {
@@ -184,7 +183,8 @@ TEST_F(CycleTest, RandomWorldsNeverMoveWhatIsCommitted) {
           const TaskId id = task_id(one.number, i);
           const bool bound = link.stage == Stage::committed || link.stage == Stage::running;
           EXPECT_TRUE(one.number <= last || link.planned >= now + 30s) << seed;
-          EXPECT_TRUE(!bound || committed.try_emplace(id, link.planned).first->second == link.planned) << seed;
+          EXPECT_TRUE(!bound || committed.try_emplace(id, link.planned).first->second == link.planned)
+              << seed;
           EXPECT_TRUE(link.stage != Stage::planned || !committed.contains(id)) << seed;
           const bool ready = i == 0 || one.links[i - 1].stage == Stage::succeeded;
           if (link.stage == Stage::committed && link.planned <= now && ready && chance(0.8)) {
@@ -208,8 +208,7 @@ TEST_F(CycleTest, GoesOnWhereAnotherStood) {
   EXPECT_EQ(second.blocks(), first.blocks());
   second.run(20s);
   EXPECT_EQ(requests(second), requests(first));
-  for (const Block& one : second.blocks())
-    EXPECT_LE(one.number, second.last_block());
+  for (const Block& one : second.blocks()) EXPECT_LE(one.number, second.last_block());
 }
 
 }  // namespace

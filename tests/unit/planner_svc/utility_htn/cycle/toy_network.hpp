@@ -30,8 +30,7 @@ inline model::Network toy_network() {
     task.id = task.name = id;
     task.duration = {seconds};
     if (watts != 0)
-      task.impacts.push_back(
-          {kBattery, temporal::ImpactKind::rate, temporal::ImpactWhen::during, {-watts}});
+      task.impacts.push_back({kBattery, temporal::ImpactKind::rate, temporal::ImpactWhen::during, {-watts}});
     task.is_template = true;
     task.control.wait_timeout = 1000s;
     out.tasks.push_back(task);
@@ -39,14 +38,12 @@ inline model::Network toy_network() {
   };
   const auto dig = add("dig", 0, 0);
   out.tasks[dig].duration = {0, 0, 1};
-  out.tasks[dig].impacts = {
-      {kBattery, temporal::ImpactKind::rate, temporal::ImpactWhen::during, {0, 1, -1}},
-      {kSite, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {1}},
-      {kArm, temporal::ImpactKind::delta, temporal::ImpactWhen::during, {1}}};
+  out.tasks[dig].impacts = {{kBattery, temporal::ImpactKind::rate, temporal::ImpactWhen::during, {0, 1, -1}},
+                            {kSite, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {1}},
+                            {kArm, temporal::ImpactKind::delta, temporal::ImpactWhen::during, {1}}};
   out.tasks[dig].constraints = {{.timeline = kHealth, .states = 1}};
   const auto image = add("image", 50, 1);
-  out.tasks[image].impacts.push_back(
-      {kArm, temporal::ImpactKind::delta, temporal::ImpactWhen::during, {1}});
+  out.tasks[image].impacts.push_back({kArm, temporal::ImpactKind::delta, temporal::ImpactWhen::during, {1}});
   const auto send = add("send", 20, 5);
   const auto request = [&](const std::string& id, double utility, std::vector<model::TaskIndex> steps) {
     model::Task task;
