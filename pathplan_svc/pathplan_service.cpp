@@ -1,7 +1,10 @@
 #include "pathplan_svc/pathplan_service.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <utility>
@@ -27,8 +30,10 @@ namespace topics = services::topics;
 // so each answer stands on the map as it was when the question came.
 class PathplanService : public services::Service {
  public:
-  PathplanService(services::Node& node, const terrain::Site& site, const Rover& rover)
+  PathplanService(services::Node& node, const terrain::Site& site, const Rover& rover,
+                  const std::filesystem::path& run_folder)
       : node_(node),
+        hazard_file_(run_folder.empty() ? run_folder : run_folder / (node.options().name + ".hazards")),
         keep_out_(rover.keep_out),
         planner_(site, rover.limits, rover.drive, {}, rover.keep_out_polygons),
         offers_(services::advertise(node, topics::function_offer)),
@@ -125,7 +130,7 @@ class PathplanService : public services::Service {
         },
         [this, count](std::pair<bool, std::uint64_t> update) {
           const auto [changed, version] = update;
-          --map_changes_;
+          if (--map_changes_ == 0 && !hazard_file_.empty()) write_hazards();  // once for a burst of them
           if (!changed) return;
           reported_.clear();
           offers_.write(function_offer(node_.options().name, version));
@@ -136,12 +141,28 @@ class PathplanService : public services::Service {
         });
   }
 
+  // For who looks at the run when it is over; a file that cannot be written stops no drive.
+  void write_hazards() const {
+    nlohmann::json hazards = nlohmann::json::array();
+    for (const auto& [key, disc] : hazards_)
+      hazards.push_back({{"found_by", key.first},
+                         {"id", key.second},
+                         {"x_m", disc.centre.x},
+                         {"y_m", disc.centre.y},
+                         {"radius_m", disc.radius}});
+    const std::filesystem::path next = std::filesystem::path(hazard_file_) += ".next";
+    std::ofstream(next) << hazards.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+    std::error_code error;
+    std::filesystem::rename(next, hazard_file_, error);
+  }
+
   void report(v1::Severity severity, const std::string& code, const std::string& text,
               const std::vector<std::pair<std::string, std::string>>& properties) {
     events_.write(services::node::make_event(severity, code, text, properties));
   }
 
   services::Node& node_;
+  const std::filesystem::path hazard_file_;  // docs/formats.md; empty: none is kept
   std::vector<Disc> keep_out_;
   std::map<std::pair<std::string, std::string>, Disc> hazards_;  // by finder and id
   std::set<std::string> reported_;
@@ -160,7 +181,7 @@ std::unique_ptr<services::Service> make_service(services::Node& node, const serv
   const mission::Entry site = mission.at("site");
   const auto rover = mission.find("rover");
   return std::make_unique<PathplanService>(node, terrain::load_site(site.resolve(site.text())),
-                                           rover ? read_rover(*rover) : Rover{});
+                                           rover ? read_rover(*rover) : Rover{}, settings.run_folder);
 }
 
 }  // namespace roci::pathplan

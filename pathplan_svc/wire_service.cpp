@@ -47,6 +47,12 @@ std::string explain(const PathOutcome& outcome) {
   return "";
 }
 
+// The origin of a drive is where the rover stands: no other place can be chosen for it.
+std::string explain_start(const PathOutcome& outcome) {
+  return std::string("the rover stands where nothing may stand (") + to_string(outcome.blocked_by) +
+         "), and no way leads out; clear the hazard if it is not there, or correct the map";
+}
+
 v1::Pose2 pose(Point p, double heading_rad) {
   v1::Pose2 pose;
   pose.x_m(p.x);
@@ -120,7 +126,7 @@ v1::PathReply find_path(PathPlanner& planner, const v1::PathRequest& request) {
   const PathOutcome outcome = planner.path(from, to);
   v1::PathReply reply;
   reply.outcome(motion_outcome(outcome.status));
-  reply.reason(explain(outcome));
+  reply.reason(outcome.status == PathStatus::start_blocked ? explain_start(outcome) : explain(outcome));
   reply.map_version(planner.map().version());
   reply.waypoints(poses(outcome.waypoints, request.origin().heading_rad()));
   reply.length_m(outcome.length);

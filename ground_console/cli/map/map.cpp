@@ -152,6 +152,28 @@ void add_view(const lib::MissionView& view, MissionMap& map) {
   map.subtitle = "now " + lib::clock_text(view.now_us());
 }
 
+std::optional<double> number_at(const json& object, const char* key) {
+  const bool there = object.is_object() && object.contains(key) && object[key].is_number();
+  return there ? std::optional(object[key].get<double>()) : std::nullopt;
+}
+
+// Adds the obstacles that path planners knew when the run ended: NAME.hazards in its folder (docs/formats.md).
+void add_hazards(const fs::path& run, MissionMap& map) {
+  if (!fs::is_directory(run)) return;
+  for (const auto& file : fs::directory_iterator(run)) {
+    if (file.path().extension() != ".hazards") continue;
+    const json hazards = read_json(file.path());
+    if (!hazards.is_array()) continue;
+    for (const json& hazard : hazards) {
+      const auto x = number_at(hazard, "x_m"), y = number_at(hazard, "y_m"),
+                 radius = number_at(hazard, "radius_m");
+      if (!x || !y || !radius || *radius < 0) continue;
+      const Circle circle{{*x, *y}, *radius};
+      if (std::ranges::find(map.hazards, circle) == map.hazards.end()) map.hazards.push_back(circle);
+    }
+  }
+}
+
 MissionMap map_of_live_run(const services::process::ConnectionFlags& flags, const std::string& mission) {
   const auto run = lib::local_run(flags);
   const services::process::Connection connection = lib::choose_run(flags);
@@ -194,6 +216,7 @@ MissionMap map_of(const MapArguments& arguments, const services::process::Connec
                                   ": roci-trace cannot read this run; roci-trace print FOLDER says why");
     std::istringstream lines(*trace);
     add_trace(lines, map);
+    add_hazards(run, map);
     map.subtitle = words_of_summary(run);
     return map;
   }

@@ -20,6 +20,7 @@ struct NamedPlace {
 struct Circle {
   terrain::Point centre;
   double radius = 0;
+  bool operator==(const Circle&) const = default;
 };
 
 using Way = std::vector<terrain::Point>;

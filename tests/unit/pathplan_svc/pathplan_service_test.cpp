@@ -24,8 +24,9 @@ using services::rpc::CallStatus;
 using testing::ElementsAre;
 namespace topics = services::topics;
 
-services::RunSettings planetary() {
+services::RunSettings planetary(const std::filesystem::path& run_folder = {}) {
   services::RunSettings settings;
+  settings.run_folder = run_folder;
   settings.mission = std::string(ROCI_SOURCE_DIR) + "/missions/planetary";
   return settings;
 }
@@ -80,6 +81,7 @@ class PathplanService : public testing::Test {
     services::subscribe(master_, topics::event,
                         [this](const v1::Event& event) { events_.push_back(event.code()); });
   }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   // Runs until `end` of mission time.
   void run(temporal::Duration end) {
@@ -104,9 +106,17 @@ class PathplanService : public testing::Test {
     });
   }
 
+  std::filesystem::path made_folder() const {
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("roci_pathplan_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder);
+    return folder;
+  }
+
+  const std::filesystem::path folder_ = made_folder();
   services::SimRun run_{{"master", "pathplan_svc"}};
   services::Node& master_ = run_.add("master");
-  std::unique_ptr<services::Service> service_ = make_service(run_.add("pathplan_svc"), planetary());
+  std::unique_ptr<services::Service> service_ = make_service(run_.add("pathplan_svc"), planetary(folder_));
   services::Client<v1::PathRequest, v1::PathReply> paths_{master_, topics::path_request};
   services::Client<v1::FunctionRequest, v1::FunctionReply> functions_{master_, topics::function_call};
   services::Publisher<v1::Hazard> hazards_ = services::advertise(master_, topics::hazard);
@@ -115,6 +125,20 @@ class PathplanService : public testing::Test {
   std::vector<v1::PathReply> path_replies_;
   std::vector<CallResult<v1::FunctionReply>> function_results_;
 };
+
+// Who looks at the run when it is over finds the obstacles that were there at its end.
+TEST_F(PathplanService, KeepsTheHazardsThatItKnowsInTheRunFolder) {
+  master_.after(1s, [this] {
+    hazards_.write(hazard("rock-1", 50, 50, 2));
+    hazards_.write(hazard("rock-2", 60, 50, 1));
+  });
+  master_.after(2s, [this] { hazards_.write(hazard("rock-1", 50, 50, 2, true)); });
+  run(3s);
+  std::ostringstream text;
+  text << std::ifstream(folder_ / "pathplan_svc.hazards").rdbuf();
+  EXPECT_THAT(text.str(), testing::HasSubstr("rock-2"));
+  EXPECT_THAT(text.str(), testing::Not(testing::HasSubstr("rock-1")));
+}
 
 TEST_F(PathplanService, OffersItsFunctions) {
   run(1s);
