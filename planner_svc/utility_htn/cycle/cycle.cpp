@@ -178,8 +178,9 @@ Report Cycle::run(Time now) {
   does(Activity::consolidate, consolidate(now));
   forget_over(report);
   does(Activity::schedule, schedule(now, report));
-  const bool reordered = keep_order(now, report);
-  does(Activity::repair, (settings_.repairs && repair(now, report)) || reordered);
+  const bool surprised = to_optimize_ || report.changed;
+  const bool reordered = surprised && keep_order(now, report);
+  does(Activity::repair, (settings_.repairs && surprised && repair(now, report)) || reordered);
   if (settings_.optimizes) does(Activity::optimize, optimize(now, report));
   return report;
 }
