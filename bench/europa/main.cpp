@@ -1,11 +1,12 @@
 // The experiments of MEXEC, section V.A (R103–R106, R121–R123): four strategies under noise on the energy of tasks, whole flights at the level
 // of tasks. One JSON object to standard output.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "bench/europa/fates.hpp"
+#include "bench/europa/task_world.hpp"
 #include "core/mission/mission_file.hpp"
 #include "planner_svc/utility_htn/adapter/utility_engine.hpp"
 #include "planner_svc/utility_htn/reading/load.hpp"
@@ -15,13 +16,15 @@ namespace roci::bench::europa {
 namespace {
 
 using nlohmann::json;
-using rehearsal::task_level::Flight, rehearsal::task_level::Flown, rehearsal::task_level::Strategy;
+using rehearsal::task_level::Failure, rehearsal::task_level::Flight, rehearsal::task_level::Flown,
+    rehearsal::task_level::Strategy;
 
 namespace model = planner::utility_htn::model;
 namespace strategies = planner::utility_htn::strategies;
 
 struct Setting {
-  Odds odds;
+  double noise = 0;
+  strategies::FailureProbabilities failures;
   int runs = 50;
   std::vector<double> biases;
   rehearsal::task_level::Costs costs;
@@ -34,8 +37,9 @@ Setting read(const std::filesystem::path& file) {
   const auto number = [&](const char* key) { return root.at(key).at("value").number(); };
   Setting out;
   out.runs = static_cast<int>(number("runs"));
-  out.odds = {0, number("noise"), number("fail"), number("flexible_share"),
-              number("replanning_share_of_rest")};
+  out.noise = number("noise");
+  out.failures =
+      strategies::split(number("fail"), number("flexible_share"), number("replanning_share_of_rest"));
   for (const auto& bias : root.at("biases").at("value").items()) out.biases.push_back(bias.number());
   out.costs = {number("replanning_j"), number("ground_j"), temporal::seconds(number("ground_wait_s"))};
   out.discovery_share = number("discovery_share");
@@ -61,12 +65,12 @@ class Experiment {
       settings = {.repairs = false, .optimizes = false, .schedules_again = false};
     planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network_,
                                                         settings);
-    Odds odds = setting_.odds;
-    odds.bias = bias;
+    const TaskWorld world{seed, bias, setting_.noise, setting_.failures};
     Flight flight{
         .network = network_, .engine = engine, .fates = {}, .strategy = strategy, .costs = setting_.costs};
     flight.fates = [&](const std::string& task, std::uint32_t execution) {
-      return fate(odds, seed, task, execution);
+      const Fate drawn = fate(world, task, execution);
+      return rehearsal::task_level::Fate{1, drawn.energy, static_cast<Failure>(drawn.failure)};
     };
     flight.until = network_.cycle.plan_end;
     if (strategy == Strategy::replanning)
@@ -87,19 +91,21 @@ class Experiment {
   }
 
  private:
-  // An analysis may show that a target of the same site is worth more than it looked; only an engine that plans anew hears of it.
+  // An analysis may show that another target of the same site is worth more than it looked; only an engine that plans anew
+  // hears of it. The draws are those of tasks that no network has.
   void discover(planner::utility_htn::adapter::UtilityEngine& engine, std::uint64_t seed,
                 const std::string& task) const {
-    if (!task.starts_with("science_analyze") || draw(seed, task, 0) >= setting_.discovery_share) return;
-    const std::string site = task.substr(task.size() - 3, 1);
-    const int from = static_cast<int>(draw(seed, task, 1) * 3);
-    for (int i = 0; i < 3; ++i) {
-      const std::string target = "worth_" + site + "_" + std::to_string((from + i) % 3);
-      for (const model::Parameter& parameter : network_.parameters)
-        if (parameter.name == target && task.substr(task.size() - 3) != target.substr(6)) {
-          engine.learn(target, std::min(parameter.highest, parameter.prior + setting_.discovery_utility));
-          return;
-        }
+    if (!task.starts_with("science_analyze")) return;
+    const std::string target = task.substr(task.size() - 3);  // "0_2"
+    const TaskWorld world{seed, 0, 0, {setting_.discovery_share, setting_.discovery_share, 0, 0}};
+    if (fate(world, "discovery/" + target, 0).failure == Resolution::none) return;
+    const auto site = "worth_" + target.substr(0, 2);
+    for (int i = 1; i < 3; ++i) {
+      const std::string other = site + std::to_string((target.back() - '0' + i) % 3);
+      const auto parameter = std::ranges::find(network_.parameters, other, &model::Parameter::name);
+      if (parameter == network_.parameters.end()) continue;
+      engine.learn(other, std::min(parameter->highest, parameter->prior + setting_.discovery_utility));
+      return;
     }
   }
 
@@ -129,8 +135,7 @@ json expected(const model::Network& network, const Setting& setting, const Flown
   const double spent = prescient.spent * (1 + bias);
   const double tasks = prescient.tasks;
   const strategies::PlanFigures plan{battery.initial, tasks, prescient.utility[0] / spent, spent / tasks};
-  const auto odds = strategies::split(setting.odds.fail, setting.odds.flexible_share,
-                                      setting.odds.replanning_share_of_rest);
+  const auto& odds = setting.failures;
   const strategies::RecoveryCosts costs{setting.costs.ground_j, setting.costs.replanning_j};
   const strategies::Discoveries found{9 * setting.discovery_share, setting.discovery_utility};
   return {{"u_avg_per_mj", plan.utility_per_cost * 1e6},

@@ -141,10 +141,10 @@ class Question {
   Assignment answer_;
 };
 
-// A node of a large question takes longer.
+// A node of a large question takes longer, and more of them are needed for the same gain.
 int nodes(const Effort& effort, std::size_t variables) {
-  return variables <= 500 ? effort.most_nodes
-                          : static_cast<int>(static_cast<std::size_t>(effort.most_nodes) * 500 / variables);
+  const double share = std::min(1.0, 500 / static_cast<double>(std::max<std::size_t>(variables, 1)));
+  return std::max(1, static_cast<int>(effort.most_nodes * share * share));
 }
 
 struct Settled {

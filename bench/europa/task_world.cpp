@@ -1,0 +1,47 @@
+#include "bench/europa/task_world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace roci::bench::europa {
+namespace {
+
+// SplitMix64 (Steele, Lea, Flood 2014): the same numbers on every machine, which the distributions of the standard library do not promise.
+std::uint64_t mixed(std::uint64_t state) {
+  state += 0x9e3779b97f4a7c15U;
+  state = (state ^ (state >> 30U)) * 0xbf58476d1ce4e5b9U;
+  state = (state ^ (state >> 27U)) * 0x94d049bb133111ebU;
+  return state ^ (state >> 31U);
+}
+
+std::uint64_t hash(std::string_view text) {
+  std::uint64_t out = 0xcbf29ce484222325U;  // FNV-1a
+  for (const char letter : text) out = (out ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
+  return out;
+}
+
+// Returns a number in (0, 1).
+double uniform(const TaskWorld& world, std::string_view task, std::uint32_t execution, std::uint64_t stream) {
+  const std::uint64_t key =
+      mixed(mixed(mixed(world.seed) ^ hash(task)) ^ (std::uint64_t{execution} << 8U | stream));
+  return (static_cast<double>(key >> 11U) + 0.5) * 0x1p-53;
+}
+
+}  // namespace
+
+Fate fate(const TaskWorld& world, std::string_view task, std::uint32_t execution) {
+  // Box and Muller (1958).
+  const double radius = std::sqrt(-2 * std::log(uniform(world, task, execution, 0)));
+  const double normal = radius * std::cos(2 * std::numbers::pi * uniform(world, task, execution, 1));
+  Fate out{.energy = std::max(0.0, 1 + world.bias + world.deviation * normal)};
+  const double draw = uniform(world, task, execution, 2);
+  const auto& failures = world.failures;
+  if (draw >= failures.fail) return out;
+  out.failure = draw < failures.flexible                         ? Resolution::flexible
+                : draw < failures.flexible + failures.replanning ? Resolution::replanning
+                                                                 : Resolution::ground;
+  return out;
+}
+
+}  // namespace roci::bench::europa
