@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <vector>
@@ -123,11 +124,11 @@ class Caller {
       EXPECT_LE(valid[i].earliest, valid[i].latest);
       EXPECT_GE(valid[i].earliest, std::max(from, timelines_.past()));
       EXPECT_LE(valid[i].latest, to);
-      if (i > 0) EXPECT_GT(valid[i].earliest, valid[i - 1].latest + Duration{1});
+      const Time nearest = i > 0 ? valid[i - 1].latest + Duration{1} : Time::min();
+      EXPECT_GT(valid[i].earliest, nearest);
     }
     const auto first = timelines_.first_valid_start(footprint, {from, to});
-    EXPECT_EQ(first.has_value(), !valid.empty());
-    if (first) EXPECT_EQ(*first, valid.front().earliest);
+    EXPECT_EQ(first, valid.empty() ? std::nullopt : std::optional(valid.front().earliest));
   }
 
   std::mt19937_64 random_;

@@ -140,6 +140,8 @@ TEST(TimelineCheck, PlacementsAreRefused) {
   EXPECT_THROW(static_cast<void>(lines.value(9, seconds(1))), std::out_of_range);
   EXPECT_EQ(lines.kept(), (Kept{.tasks = 1, .events = 1, .asks = 1, .undoable = 1}))
       << "nothing is left of what was refused";
+  lines.remove(1);
+  EXPECT_NO_THROW(lines.place(2, fine, seconds(0))) << "what is removed makes room";
 }
 
 }  // namespace
