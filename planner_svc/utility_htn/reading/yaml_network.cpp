@@ -222,6 +222,7 @@ class Reader {
       const Named& task = named_[index];
       const std::string place = task.source.entry().place();
       if (place == faulty) continue;
+      expansion_.stop_at_many_findings();
       const std::size_t before = findings_.errors();
       task.source.entry().attempt([&] {
         network_.tasks[index] = read_task(task.id, task.source, vocabulary_, expansion_, task.is_template);
