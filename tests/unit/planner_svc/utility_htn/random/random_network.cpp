@@ -6,7 +6,8 @@
 
 namespace roci::planner::utility_htn {
 
-using namespace model;
+using model::Amount, model::Contingency, model::Decomposition, model::Impact, model::Measure, model::Network,
+    model::ParameterIndex, model::Subtask, model::Task, model::TaskIndex, model::Tier;
 using temporal::ImpactKind, temporal::ImpactWhen;
 using temporal::timelines::Constraint, temporal::timelines::Definition, temporal::timelines::Kind,
     temporal::timelines::Phase;
