@@ -34,9 +34,9 @@ std::string seconds(temporal::Duration duration) {
   return (duration.count() < 0 && out == "0" ? "-0" : out) + "." + digits;
 }
 
-class Writer {
+class YamlWriter {
  public:
-  explicit Writer(const Network& network) : network_(network) {}
+  explicit YamlWriter(const Network& network) : network_(network) {}
 
   std::string take() {
     out_ = "format: " + std::to_string(kYamlFormat) + "\nnetwork: " + in_quotes(network_.name) +
@@ -262,6 +262,6 @@ class Writer {
 
 }  // namespace
 
-std::string to_yaml(const Network& network) { return Writer(network).take(); }
+std::string to_yaml(const Network& network) { return YamlWriter(network).take(); }
 
 }  // namespace roci::planner::utility_htn::reading

@@ -18,7 +18,7 @@ namespace {
 using model::Network;
 using testing::HasSubstr;
 
-std::string sound() {
+std::string packed() {
   mission::Findings findings;
   return to_binary(*parse_yaml(kSound, "n.yaml", findings).network);
 }
@@ -54,14 +54,14 @@ std::string body_of(const std::string& bytes) {
 TEST(NetworkBinary, TheChecksumIsThatOfZlib) { EXPECT_EQ(crc32("123456789"), 0xcbf43926U); }
 
 TEST(NetworkBinary, EveryEndThatIsCutOffIsRefused) {
-  const std::string bytes = sound();
+  const std::string bytes = packed();
   for (std::size_t size = 0; size < bytes.size(); ++size)
     ASSERT_THAT(refusal(bytes.substr(0, size)), HasSubstr("at byte ")) << size;
   EXPECT_THAT(refusal(bytes + "x"), HasSubstr("at byte 8: the head speaks of"));
 }
 
 TEST(NetworkBinary, EveryBitThatIsFlippedIsRefused) {
-  const std::string bytes = sound();
+  const std::string bytes = packed();
   for (std::size_t bit = 0; bit < bytes.size() * 8; ++bit) {
     std::string flipped = bytes;
     flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
@@ -70,17 +70,17 @@ TEST(NetworkBinary, EveryBitThatIsFlippedIsRefused) {
 }
 
 TEST(NetworkBinary, SaysWhatIsWrongAndWhatToDo) {
-  std::string newer = sound();
+  std::string newer = packed();
   newer[7] = 2;
   EXPECT_EQ(
       refusal(newer),
       "at byte 7: version 2 of the form; version 1 is read here; pack it with the program of this build");
   EXPECT_THAT(refusal("format: 1"), HasSubstr("at byte 0: no network in binary form"));
-  std::string changed = sound();
+  std::string changed = packed();
   changed[40] = static_cast<char>(changed[40] + 1);
   EXPECT_THAT(refusal(changed),
               HasSubstr("the checksum is another: some of the bytes were changed; have it sent again"));
-  EXPECT_THAT(refusal(sealed(body_of(sound()) + "x")), HasSubstr("1 bytes too many"));
+  EXPECT_THAT(refusal(sealed(body_of(packed()) + "x")), HasSubstr("1 bytes too many"));
 }
 
 TEST(NetworkBinary, ACountIsHeldAgainstWhatIsLeftBeforeAnythingIsMade) {
@@ -106,7 +106,7 @@ TEST(NetworkBinary, WhatIsReadIsCheckedBeforeItIsUsed) {
 
 // Half of the damages are sealed again, so that they come as far as the fields.
 TEST(NetworkBinary, AHundredThousandDamagesAreTakenOrRefused) {
-  const std::string whole = sound(), body = body_of(whole);
+  const std::string whole = packed(), body = body_of(whole);
   std::mt19937_64 random(5);
   std::size_t taken = 0;
   for (int round = 0; round < 100'000; ++round) {

@@ -21,7 +21,7 @@ using model::Network, model::Task;
 using temporal::ImpactKind, temporal::ImpactWhen, temporal::seconds;
 using testing::ElementsAre, testing::HasSubstr;
 
-Network sound() {
+Network lander() {
   mission::Findings findings;
   auto read = parse_yaml(kSound, "n.yaml", findings);
   EXPECT_EQ(faults_of(kSound), "");
@@ -36,7 +36,7 @@ std::vector<std::string> ids(const Network& network) {
 }
 
 TEST(NetworkYaml, EntriesAreRepeatedForEachCombination) {
-  const Network network = sound();
+  const Network network = lander();
   EXPECT_THAT(ids(network), ElementsAre("dig_0", "dig_1", "stow", "hotel_load", "site_0", "site_1",
                                         "uplink_1", "uplink_2"));
   EXPECT_EQ(network.parameters.at(1).name, "dig_s_1");
@@ -47,7 +47,7 @@ TEST(NetworkYaml, EntriesAreRepeatedForEachCombination) {
 }
 
 TEST(NetworkYaml, ATaskHasAllThatTheFileSays) {
-  const Network network = sound();
+  const Network network = lander();
   const Task& dig = network.tasks.at(0);
   EXPECT_TRUE(dig.is_template);
   EXPECT_EQ(dig.batch, 0U);
