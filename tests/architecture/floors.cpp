@@ -23,7 +23,16 @@ const std::vector<House> kHouses = {
       "services/transport/", "services/certificate/", "services/vendors/", "services/topics.hpp",
       "services/health/", "services/node/", "services/rpc/", "services/", "services/owner/",
       "services/security/", "services/process/", "services/launch/"}},
-    {"planner_svc/", {"planner_svc/engine/", "planner_svc/temporal_pddl/", "planner_svc/utility_htn/", "planner_svc/"}},
+    {"planner_svc/",
+     {"planner_svc/engine/", "planner_svc/temporal_pddl/", "planner_svc/utility_htn/", "planner_svc/"}},
+    // The checker shares the readers alone with what it checks.
+    {"planner_svc/utility_htn/",
+     {"planner_svc/utility_htn/model/", "planner_svc/utility_htn/reading/",
+      "planner_svc/utility_htn/checking/", "planner_svc/utility_htn/flattening/",
+      "planner_svc/utility_htn/assessor/", "planner_svc/utility_htn/downlink/",
+      "planner_svc/utility_htn/search/", "planner_svc/utility_htn/strategies/",
+      "planner_svc/utility_htn/cycle/", "planner_svc/utility_htn/adapter/", "planner_svc/utility_htn/cli/",
+      "planner_svc/utility_htn/"}},
     {"sim_svc/",
      {"sim_svc/world/", "sim_svc/setup/", "sim_svc/components/", "sim_svc/scenario/", "sim_svc/"}},
 };

@@ -29,7 +29,7 @@ std::string forbidden(const Impact& impact, Kind kind) {
   return "";
 }
 
-void check_impact(const Impact& impact, const Values& priors, Complaints& complaints) {
+void check_impact(const Impact& impact, Complaints& complaints) {
   const Network& network = complaints.network;
   if (impact.timeline >= network.timelines.size())
     return complaints.error("an impact names timeline number " + std::to_string(impact.timeline) + " of " +
@@ -57,8 +57,8 @@ void check_impact(const Impact& impact, const Values& priors, Complaints& compla
   complaints.amount(kind, impact.amount, assign ? timeline.lowest : -kHuge,
                     assign ? timeline.highest : kHuge);
   if (impact.kind != ImpactKind::delta) return;
-  if (impact.amount.parameter && *impact.amount.parameter >= priors.size()) return;
-  const double amount = std::abs(evaluate(impact.amount, priors));
+  if (impact.amount.parameter && *impact.amount.parameter >= complaints.known.size()) return;
+  const double amount = std::abs(evaluate(impact.amount, complaints.known));
   if (amount > timeline.highest - timeline.lowest)
     complaints.error(kind + " is out of range: " + to_text(amount) +
                          ", and from one end of the range to the other it is " +
@@ -81,7 +81,7 @@ void check_command(const temporal::PlanCommand& command, Complaints& complaints)
                      "give the owner time, or leave it out");
 }
 
-void check_times(const Task& task, const Values& priors, Complaints& complaints) {
+void check_times(const Task& task, Complaints& complaints) {
   const temporal::Duration none{0};
   const bool preferred = temporal::bounded(task.preferred_start);
   if (task.fixed && !preferred) complaints.error("it is fixed without a time", "say when it starts");
@@ -98,8 +98,9 @@ void check_times(const Task& task, const Values& priors, Complaints& complaints)
     complaints.error("its start is no time", "mend it");
   complaints.amount("its duration in seconds", task.duration, 0, temporal::to_seconds(kLongestDuration));
   if (!temporal::bounded(task.closes)) return;
-  if (task.duration.parameter && *task.duration.parameter >= priors.size()) return;
-  if (temporal::to_seconds(task.opens) + evaluate(task.duration, priors) > temporal::to_seconds(task.closes))
+  if (task.duration.parameter && *task.duration.parameter >= complaints.known.size()) return;
+  if (temporal::to_seconds(task.opens) + evaluate(task.duration, complaints.known) >
+      temporal::to_seconds(task.closes))
     complaints.error("it does not fit into its window", "mend the duration or the window");
 }
 
@@ -161,15 +162,14 @@ void check_products(const Task& task, Complaints& complaints) {
 }
 
 void check_primitive(const Task& task, Complaints& complaints) {
-  Values known = priors(complaints.network);
   complaints.more_than("commands", task.commands.size(), kMostInList);
   complaints.more_than("impacts", task.impacts.size(), kMostInList);
   complaints.more_than("constraints", task.constraints.size(), kMostInList);
   for (const temporal::PlanCommand& command : task.commands) check_command(command, complaints);
   if (task.response) check_command(*task.response, complaints);
-  for (const Impact& impact : task.impacts) check_impact(impact, known, complaints);
+  for (const Impact& impact : task.impacts) check_impact(impact, complaints);
   for (const auto& constraint : task.constraints) complaints.constraint("a constraint", constraint);
-  check_times(task, known, complaints);
+  check_times(task, complaints);
   check_control(task, complaints);
   if (task.contingency) check_contingency(*task.contingency, complaints);
   if (task.utility.size() > complaints.network.ranks.size())
@@ -199,7 +199,7 @@ void check_parent(const Task& task, Complaints& complaints) {
     complaints.error(
         "it has decompositions, and duration, commands, impacts, constraints or the like of its own",
         "give those to one of its subtasks");
-  check_times(bare, {}, complaints);
+  check_times(bare, complaints);
   complaints.more_than("decompositions", task.decompositions.size(), kMostInList);
   std::set<std::string_view> names;
   for (const Decomposition& decomposition : task.decompositions) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "planner_svc/utility_htn/model/bounds.hpp"
@@ -92,11 +93,11 @@ void Complaints::constraint(const std::string& kind, const temporal::timelines::
   const bool bounded = constraint.lowest > -std::numeric_limits<double>::infinity() ||
                        constraint.highest < std::numeric_limits<double>::infinity();
   if (timeline.kind == Kind::state) {
-    const std::uint64_t known = timeline.states.size() >= 64 ? ~0ULL : (1ULL << timeline.states.size()) - 1;
+    const std::uint64_t declared = timeline.states.size() >= 64 ? ~0ULL : (1ULL << timeline.states.size()) - 1;
     if (bounded)
       error(kind + " compares '" + timeline.name + "', which has named states, with a number",
             "name one of its states");
-    else if (constraint.states == 0 || (constraint.states & ~known) != 0)
+    else if (constraint.states == 0 || (constraint.states & ~declared) != 0)
       error(kind + " permits no state of '" + timeline.name + "', or one that it does not have",
             "name one of its states");
     return;

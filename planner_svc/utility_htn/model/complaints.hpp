@@ -13,7 +13,8 @@ namespace roci::planner::utility_htn::model {
 /// Collects faults of one part of a network.
 class Complaints {
  public:
-  Complaints(const Network& checked, std::vector<Fault>& out) : network(checked), out_(out) {}
+  Complaints(const Network& checked, std::vector<Fault>& out)
+      : network(checked), known(priors(checked)), out_(out) {}
 
   void about(Part part, std::size_t index) {
     part_ = part;
@@ -36,6 +37,7 @@ class Complaints {
   void amount(const std::string& kind, const Amount& amount, double lowest, double highest);
 
   const Network& network;
+  const Values known;  ///< the priors
 
  private:
   std::vector<Fault>& out_;

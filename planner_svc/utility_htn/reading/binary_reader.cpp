@@ -21,13 +21,13 @@ std::int64_t unzigzag(std::uint64_t value) {
   return static_cast<std::int64_t>(value >> 1U) ^ -static_cast<std::int64_t>(value & 1U);
 }
 
-class Reader {
+class ByteReader {
  public:
   template <typename T>
   using Of = T&;
 
   // `start` is the offset of the bytes in the file.
-  Reader(std::string_view bytes, std::size_t start) : bytes_(bytes), start_(start) {}
+  ByteReader(std::string_view bytes, std::size_t start) : bytes_(bytes), start_(start) {}
 
   [[noreturn]] void fail(const std::string& what) const { fail_at(start_ + at_, what + kAgain); }
   std::size_t left() const { return bytes_.size() - at_; }
@@ -179,7 +179,7 @@ model::Network parse_binary(std::string_view bytes) {
     fail_at(kHead - 1, "version " + std::to_string(version) + " of the form; version " +
                            std::to_string(kBinaryFormat) +
                            " is read here; pack it with the program of this build");
-  Reader head(bytes.substr(kHead), kHead);
+  ByteReader head(bytes.substr(kHead), kHead);
   const std::uint64_t length = head.varint();
   const std::size_t body = head.offset();
   if (bytes.size() - body < kCrc || length != bytes.size() - body - kCrc)
@@ -190,7 +190,7 @@ model::Network parse_binary(std::string_view bytes) {
     crc |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[body + length + byte])) << (8 * byte);
   if (crc != crc32(bytes.substr(0, body + length)))
     fail_at(body + length, "the checksum is another: some of the bytes were changed" + kAgain);
-  Reader reader(bytes.substr(body, length), body);
+  ByteReader reader(bytes.substr(body, length), body);
   reader.read_texts();
   model::Network out;
   fields(reader, out);

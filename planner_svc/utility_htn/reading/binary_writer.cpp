@@ -22,7 +22,7 @@ std::uint64_t zigzag(std::int64_t value) {
   return static_cast<std::uint64_t>(value) << 1U ^ static_cast<std::uint64_t>(value >> 63);
 }
 
-class Writer {
+class ByteWriter {
  public:
   template <typename T>
   using Of = const T&;
@@ -116,7 +116,7 @@ std::uint32_t crc32(std::string_view bytes) {
 }
 
 std::string to_binary(const model::Network& network) {
-  Writer writer;
+  ByteWriter writer;
   fields(writer, network);
   const std::string body = std::move(writer).take();
   std::string out(kBinaryMagic);

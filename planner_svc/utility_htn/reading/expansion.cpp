@@ -62,9 +62,13 @@ std::vector<Bindings> Expansion::combinations(const Source& repeated) {
 
 void Expansion::spend(const Source& list, std::size_t items) {
   items_ += items;
-  if (items_ > 2 * model::kMostItems)
-    stop(list, "more than " + std::to_string(2 * model::kMostItems) +
+  if (items_ > model::kMostItems)
+    stop(list, "more than " + std::to_string(model::kMostItems) +
                    " items in the lists of all tasks; make the network smaller");
+}
+
+void Expansion::stop_at_many_findings() const {
+  if (findings_ != nullptr && findings_->errors() >= kMostFindings) throw Enough();
 }
 
 void Expansion::stop(const Source& at, const std::string& what) {
@@ -74,7 +78,7 @@ void Expansion::stop(const Source& at, const std::string& what) {
 }
 
 void Expansion::repeat(const Source& value, const std::function<void(const Source&)>& read) {
-  if (findings_ != nullptr && findings_->errors() >= kMostFindings) throw Enough();
+  stop_at_many_findings();
   const auto repeated = value.entry().is_mapping() ? value.find("for") : std::nullopt;
   if (!repeated) return read(value);
   const std::vector<Bindings> all = combinations(*repeated);

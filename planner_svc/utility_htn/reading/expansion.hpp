@@ -35,6 +35,8 @@ class Expansion {
   std::vector<std::string> values(const Source& source);
   /// Counts items of lists that are read, as often as they are: aliases of YAML may stand for many. Throws Enough beyond the bounds.
   void spend(const Source& list, std::size_t items);
+  /// Throws Enough where so many faults are noted that nobody reads more.
+  void stop_at_many_findings() const;
 
  private:
   [[noreturn]] void stop(const Source& at, const std::string& what);

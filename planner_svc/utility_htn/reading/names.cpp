@@ -14,6 +14,17 @@ using temporal::timelines::Constraint, temporal::timelines::Definition, temporal
 
 namespace {
 
+constexpr std::size_t kFew = 12;
+
+// What is known, where it is little enough to read; else what to do.
+template <typename Words>
+std::string listed(const Words& known) {
+  if (known.empty() || known.size() > kFew) return "declare it";
+  std::string out;
+  for (const std::string& one : known) out += (out.empty() ? "known: " : ", ") + one;
+  return out;
+}
+
 double number_of(const std::string& operand, const Source& source) {
   const Expression expression = parse_expression(operand);
   if (!expression.fault.empty()) source.fail(expression.fault);
@@ -55,9 +66,10 @@ void Names::add(const std::string& name, const Source& source) {
 
 std::uint32_t Names::index(std::string_view name, const Source& source) const {
   if (const auto found = known_.find(name); found != known_.end()) return found->second.index;
-  words::NearestWord nearest(name);
-  for (const auto& [known, entry] : known_) nearest.offer(known);
-  source.fail("unknown " + kind_ + " '" + std::string(name) + "'; " + nearest.remedy("declare it"));
+  std::vector<std::string> all;
+  for (const auto& [known, entry] : known_) all.push_back(known);
+  source.fail("unknown " + kind_ + " '" + std::string(name) + "'; " +
+              words::nearest(name, all).remedy(listed(all)));
 }
 
 Amount Vocabulary::amount(const Source& source) const {
@@ -81,7 +93,7 @@ std::uint32_t Vocabulary::state(const Definition& timeline, std::string_view nam
   const auto found = std::ranges::find(timeline.states, name);
   if (found == timeline.states.end())
     source.fail("'" + timeline.name + "' has no state '" + std::string(name) + "'; " +
-                words::nearest(name, timeline.states).remedy("declare it"));
+                words::nearest(name, timeline.states).remedy(listed(timeline.states)));
   return static_cast<std::uint32_t>(found - timeline.states.begin());
 }
 

@@ -118,9 +118,11 @@ std::string Source::filled(const std::string& text) const {
       if (found == bindings_->end()) {
         std::vector<std::string> known;
         for (const auto& [name, value] : *bindings_) known.push_back(name);
-        fail("nothing stands for '{" + word + "}'" +
-             (known.empty() ? std::string("; say so with 'for' or under 'constants'")
-                            : words::did_you_mean(word, known)));
+        std::string listed;
+        for (const std::string& name : known) listed += (listed.empty() ? "" : ", ") + name;
+        fail("nothing stands for '{" + word + "}'; " +
+             words::nearest(word, known)
+                 .remedy(known.empty() ? "say so with 'for' or under 'constants'" : "known here: " + listed));
       }
       out += found->second;
       if (out.size() > model::kLongestText * 4)

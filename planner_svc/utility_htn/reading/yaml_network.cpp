@@ -28,9 +28,9 @@ Entry load_bounded(const std::filesystem::path& file, Findings* findings) {
 }
 
 // Reads the sections of a file and of those that it includes, each kind before what refers to it.
-class NetworkReader {
+class YamlReader {
  public:
-  NetworkReader(const Entry& root, Findings& findings, bool may_include) : findings_(findings), root_(root) {
+  YamlReader(const Entry& root, Findings& findings, bool may_include) : findings_(findings), root_(root) {
     root_.entry().allow_only({"format", "network", "version", "include", "constants", "sets", "ranks",
                               "batches", "budget", "exploration_bound", "cycle", "parameters", "timelines",
                               "templates", "tasks", "subway"});
@@ -222,6 +222,7 @@ class NetworkReader {
       const Named& task = named_[index];
       const std::string place = task.source.entry().place();
       if (place == faulty) continue;
+      expansion_.stop_at_many_findings();
       const std::size_t before = findings_.errors();
       task.source.entry().attempt([&] {
         network_.tasks[index] = read_task(task.id, task.source, vocabulary_, expansion_, task.is_template);
@@ -295,7 +296,7 @@ Read read(const std::function<Entry()>& open, Findings& findings, bool may_inclu
   const std::size_t before = findings.errors();
   Read out;
   try {
-    out = NetworkReader(open(), findings, may_include).take();
+    out = YamlReader(open(), findings, may_include).take();
   } catch (const FileError& error) {
     findings.add(error.what());
   } catch (const Enough&) {  // noted
