@@ -107,6 +107,7 @@ class NameCheck {
     kinds->each_field([&](const std::string&, const Entry& kind) {
       objects(kind);
       facts(kind, "facts");
+      facts(kind, "facts_while_open");
       goals(kind);
       fact(kind, "window");
       if (const auto unobserved = kind.find("unobserved"))

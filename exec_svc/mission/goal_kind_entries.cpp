@@ -125,7 +125,7 @@ std::vector<ObjectModel> read_objects(const Entry& parent, bool has_domain) {
 
 GoalKind read_goal_kind(const std::string& name, const Entry& entry, const MissionModel& mission) {
   entry.allow_only(
-      {"help", "arguments", "example", "objects", "facts", "unobserved", "window", "goal", "achieved"});
+      {"help", "arguments", "example", "objects", "facts", "facts_while_open", "unobserved", "window", "goal", "achieved"});
   GoalKind out;
   out.name = name;
   out.help = entry.text_or("help", "");
@@ -145,11 +145,12 @@ GoalKind read_goal_kind(const std::string& name, const Entry& entry, const Missi
     if (!mission.role.robot.empty()) out.achieved = fill_names(out.achieved, {{"robot", mission.role.robot}});
   }
   if (!mission.has_domain()) {
-    refuse_without_domain(entry, {"facts", "unobserved", "window", "goal"});
+    refuse_without_domain(entry, {"facts", "facts_while_open", "unobserved", "window", "goal"});
     if (out.achieved.empty()) entry.at("achieved");
     return out;
   }
   out.facts = texts_or_none(entry, "facts");
+  out.facts_while_open = texts_or_none(entry, "facts_while_open");
   if (const auto unobserved = entry.find("unobserved")) {
     for (const Entry& item : unobserved->items()) {
       item.allow_only({"timeline", "facts"});

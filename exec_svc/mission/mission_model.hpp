@@ -90,6 +90,7 @@ struct GoalKind {
   std::map<std::string, std::string> object_types;  ///< of the arguments that are objects: their type in the domain
   std::vector<ObjectModel> objects;
   std::vector<std::string> facts;
+  std::vector<std::string> facts_while_open;  ///< hold only until the goal has ended
   /// Timeline → facts that hold until it is seen.
   std::vector<std::pair<std::string, std::vector<std::string>>> unobserved;
   std::string window_fact;  ///< empty: the kind has no window

@@ -103,6 +103,7 @@ class Draft {
       for (const std::string& fact : kind.facts) facts_.insert(fill_names(fact, values));
       if (!kind.window_fact.empty()) add_goal_window(fill_names(kind.window_fact, values), goal);
       if (is_final(record->state)) continue;
+      for (const std::string& fact : kind.facts_while_open) facts_.insert(fill_names(fact, values));
       GoalPart part{goal.key, {}};
       for (const std::string& fact : goal_facts(situation_.mission, goal)) {
         if (kind.formula) {

@@ -68,6 +68,19 @@ TEST_F(OrbitalGoals, ComeWithWhatNeverChanges) {
   EXPECT_TRUE(problem.left_out.empty());
 }
 
+// What a goal has wanted binds no module once the goal has ended: a later goal may move it.
+TEST_F(OrbitalGoals, LeaveNothingBehindWhenTheyHaveEnded) {
+  beliefs::Beliefs beliefs(mission);
+  beliefs.observe("walker.arm", state("idle-pose", {"home"}));
+  goals.submit(install("radar-1", "s3"), temporal::Time{0});
+  goals.submit(install("camera-1", "s4"), temporal::Time{0});
+  goals.set_state(install("radar-1", "s3").key, goals::GoalState::achieved, "");
+  const problem::Problem problem =
+      problem::write_problem(mission, beliefs, goals, "p", temporal::Time{0}, temporal::Time{0});
+  EXPECT_THAT(problem.text, ::testing::Not(HasSubstr("(wanted radar-1 s3)")));
+  EXPECT_THAT(problem.text, HasSubstr("(wanted camera-1 s4)"));
+}
+
 // The mission's files with one text of one of them changed; what reading them says.
 std::string fault_with(const std::string& right, const std::string& wrong) {
   const fs::path folder = fs::temp_directory_path() / ("roci_orbital_" + std::to_string(::getpid()));
