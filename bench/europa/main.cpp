@@ -11,6 +11,7 @@
 #include "planner_svc/utility_htn/adapter/utility_engine.hpp"
 #include "planner_svc/utility_htn/reading/load.hpp"
 #include "planner_svc/utility_htn/strategies/equations.hpp"
+#include "rehearsal/task_level/task_flight.hpp"
 
 namespace roci::bench::europa {
 namespace {
