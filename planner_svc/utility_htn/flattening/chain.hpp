@@ -15,8 +15,8 @@ struct Chain {
   model::TaskIndex task = 0;  ///< that is requested
   std::string name;  ///< "sample_0_1/first/raw": the task and the decompositions chosen, from the top
   std::vector<model::Subtask> links;  ///< primitive tasks; the gaps count from the link before
-  std::vector<temporal::timelines::Constraint>
-      when;  ///< of all decompositions chosen; hold at the first start
+  /// Are those of all decompositions chosen; they hold at the first start.
+  std::vector<temporal::timelines::Constraint> when;
 };
 
 /// Are the chains of one batch, in the order of the network.

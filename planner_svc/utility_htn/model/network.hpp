@@ -22,8 +22,8 @@ using ParameterIndex = std::uint32_t;
 struct Parameter {
   std::string name;  ///< e.g. "excavate_s.site_0"
   double prior = 0;
-  double lowest =
-      -std::numeric_limits<double>::infinity();  ///< what is measured or told outside of it is refused
+  /// What is measured or told below this or above `highest` is refused.
+  double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
   std::string source{};  ///< where the prior comes from, or why it was chosen
   friend bool operator==(const Parameter&, const Parameter&) = default;
