@@ -6,20 +6,17 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "bench/europa/task_flight.hpp"
 #include "bench/europa/task_world.hpp"
 #include "core/mission/mission_file.hpp"
 #include "planner_svc/utility_htn/adapter/utility_engine.hpp"
 #include "planner_svc/utility_htn/reading/load.hpp"
 #include "planner_svc/utility_htn/strategies/equations.hpp"
-#include "rehearsal/task_level/task_flight.hpp"
 
 namespace roci::bench::europa {
 namespace {
 
 using nlohmann::json;
-using rehearsal::task_level::Failure, rehearsal::task_level::Flight, rehearsal::task_level::Flown,
-    rehearsal::task_level::Strategy;
-
 namespace model = planner::utility_htn::model;
 namespace strategies = planner::utility_htn::strategies;
 
@@ -28,7 +25,7 @@ struct Setting {
   strategies::FailureProbabilities failures;
   int runs = 50;
   std::vector<double> biases;
-  rehearsal::task_level::Costs costs;
+  Costs costs;
   double discovery_share = 0;
   double discovery_utility = 0;
 };
@@ -68,10 +65,10 @@ class Experiment {
                                                         settings);
     const TaskWorld world{seed, bias, setting_.noise, setting_.failures};
     Flight flight{
-        .network = network_, .engine = engine, .fates = {}, .strategy = strategy, .costs = setting_.costs};
-    flight.fates = [&](const std::string& task, std::uint32_t execution) {
+        .network = network_, .engine = engine, .courses = {}, .strategy = strategy, .costs = setting_.costs};
+    flight.courses = [&](const std::string& task, std::uint32_t execution) {
       const Fate drawn = fate(world, task, execution);
-      return rehearsal::task_level::Fate{1, drawn.energy, static_cast<Failure>(drawn.failure)};
+      return Course{1, drawn.energy, drawn.failure};
     };
     flight.until = network_.cycle.plan_end;
     if (strategy == Strategy::replanning)
@@ -85,8 +82,8 @@ class Experiment {
     auto& battery = network.timelines[network.budget];
     battery.initial = battery.highest = battery.initial / (1 + bias);
     planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network, {});
-    Flight flight{.network = network, .engine = engine, .fates = {}, .strategy = Strategy::replanning};
-    flight.fates = [](const std::string&, std::uint32_t) { return rehearsal::task_level::Fate{}; };
+    Flight flight{.network = network, .engine = engine, .courses = {}, .strategy = Strategy::replanning};
+    flight.courses = [](const std::string&, std::uint32_t) { return Course{}; };
     flight.until = network.cycle.plan_end;
     return fly(flight);
   }

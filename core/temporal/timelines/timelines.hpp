@@ -46,8 +46,8 @@ struct Extent {
   Time origin{0};        ///< timelines have their initial values from here on
   Time end = kLastTime;  ///< nothing is looked at behind it, and no task is placed beyond
   std::size_t most_impacts = std::size_t{1} << 20;  ///< of all placed tasks together, constraints counted too
-  std::size_t block =
-      64;  ///< changes that are kept together: more make changes dearer, and questions over all of time cheaper
+  /// Changes that are kept together: more make changes dearer, and questions over all of time cheaper.
+  std::size_t block = 64;
 };
 
 /// Says how much is kept.

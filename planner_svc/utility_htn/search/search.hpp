@@ -72,12 +72,12 @@ struct Plan {
 
 /// Counts what a search did.
 struct Statistics {
-  std::uint64_t first_pairs =
-      0;                         ///< pairs of the empty plan and a chain in the queues at the beginning (R93)
-  std::uint64_t entries = 0;     ///< pairs taken from the queues
-  std::uint64_t nodes = 0;       ///< partial plans, the first one of each batch among them
-  std::uint64_t duplicates = 0;  ///< partial plans met again
-  std::uint64_t unplaced = 0;    ///< chains that found no place in their plan
+  /// Pairs of the empty plan and a chain in the queues at the beginning (R93).
+  std::uint64_t first_pairs = 0;
+  std::uint64_t entries = 0;           ///< pairs taken from the queues
+  std::uint64_t nodes = 0;             ///< partial plans, the first one of each batch among them
+  std::uint64_t duplicates = 0;        ///< partial plans met again
+  std::uint64_t unplaced = 0;          ///< chains that found no place in their plan
   std::uint64_t broken_rules = 0;      ///< placed chains that would break a rule of the mission
   std::uint64_t without_downlink = 0;  ///< placed chains whose data would not get home
   std::size_t bytes = 0;               ///< of the largest batch: nodes, queue and what recognises duplicates

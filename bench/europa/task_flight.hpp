@@ -7,24 +7,22 @@
 #include <string>
 #include <vector>
 
+#include "bench/europa/task_world.hpp"
 #include "core/temporal/rank_vector.hpp"
 #include "planner_svc/engine/stepped_engine.hpp"
 #include "planner_svc/utility_htn/model/network.hpp"
 
-namespace roci::rehearsal::task_level {
-
-/// Says which mechanism can resolve a failure (MEXEC, section II.C): each is dearer than the one before.
-enum class Failure { none, flexible, replanning, ground };
+namespace roci::bench::europa {
 
 /// Says how one execution of a task goes, relative to the network's values.
-struct Fate {
+struct Course {
   double duration = 1;  ///< factor
   double energy = 1;    ///< factor of all that the task draws from the budget
-  Failure failure = Failure::none;
+  Resolution failure = Resolution::none;
 };
 
-/// Returns the fate of the n-th execution of a task, counted from 0. It depends on nothing else, so that strategies meet the same world.
-using Fates = std::function<Fate(const std::string& task, std::uint32_t execution)>;
+/// Returns the course of the n-th execution of a task, counted from 0. It depends on nothing else, so that strategies meet the same world.
+using Courses = std::function<Course(const std::string& task, std::uint32_t execution)>;
 
 /// Names the strategies of section III.D (R102).
 enum class Strategy { as_planned, ground, flexible_execution, replanning };
@@ -40,7 +38,7 @@ struct Costs {
 struct Flight {
   const planner::utility_htn::model::Network& network;
   planner::engine::SteppedEngine& engine;
-  Fates fates;
+  Courses courses;
   Strategy strategy = Strategy::replanning;
   Costs costs{};
   temporal::Time until = temporal::no_bound;
@@ -75,4 +73,4 @@ struct Flown {
 /// Flies until the budget is spent, nothing is left to do, a failure ends it (as_planned), or `until`.
 Flown fly(const Flight& flight);
 
-}  // namespace roci::rehearsal::task_level
+}  // namespace roci::bench::europa

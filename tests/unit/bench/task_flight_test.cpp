@@ -1,5 +1,5 @@
 // The utility-driven engine and the executive of flight against a world of tasks: whole flights, each strategy, surprises.
-#include "rehearsal/task_level/task_flight.hpp"
+#include "bench/europa/task_flight.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include "planner_svc/utility_htn/adapter/utility_engine.hpp"
 #include "tests/unit/planner_svc/utility_htn/cycle/toy_network.hpp"
 
-namespace roci::rehearsal::task_level {
+namespace roci::bench::europa {
 namespace {
 
 using namespace std::chrono_literals;
@@ -33,19 +33,19 @@ model::Network commanded_network() {
   return out;
 }
 
-Flown flown(const model::Network& network, Strategy strategy, const Fates& fates, Costs costs = {}) {
+Flown flown(const model::Network& network, Strategy strategy, const Courses& courses, Costs costs = {}) {
   planner::utility_htn::cycle::Settings settings;
   if (strategy != Strategy::replanning)
     settings = {.repairs = false, .optimizes = false, .schedules_again = false};
   UtilityEngine engine({"utility_htn", "lander", "", ""}, network, settings);
-  return fly({network, engine, fates, strategy, costs, 20000s});
+  return fly({network, engine, courses, strategy, costs, 20000s});
 }
 
-const Fates kAsPlanned = [](const std::string&, std::uint32_t) { return Fate{}; };
+const Courses kAsPlanned = [](const std::string&, std::uint32_t) { return Course{}; };
 
-Fates failing_once(const std::string& task, Failure failure) {
+Courses failing_once(const std::string& task, Resolution failure) {
   return [=](const std::string& name, std::uint32_t execution) {
-    return Fate{1, 1, name == task && execution == 0 ? failure : Failure::none};
+    return Course{1, 1, name == task && execution == 0 ? failure : Resolution::none};
   };
 }
 
@@ -61,14 +61,14 @@ TEST(TaskFlight, FliesTheWholeNetworkWhereNothingGoesWrong) {
 
 TEST(TaskFlight, WithoutRecoveryTheFirstFailureEndsIt) {
   const model::Network network = commanded_network();
-  const Flown out = flown(network, Strategy::as_planned, failing_once("dig", Failure::flexible));
+  const Flown out = flown(network, Strategy::as_planned, failing_once("dig", Resolution::flexible));
   EXPECT_EQ(out.ended_by, "failure");
   EXPECT_LT(out.utility, (temporal::RankVector{12}));
 }
 
 TEST(TaskFlight, TheExecutiveRetriesWhatItCanAndNothingIsPlannedAnew) {
   const model::Network network = commanded_network();
-  const Flown out = flown(network, Strategy::flexible_execution, failing_once("dig", Failure::flexible));
+  const Flown out = flown(network, Strategy::flexible_execution, failing_once("dig", Resolution::flexible));
   EXPECT_THAT(out.faults, IsEmpty());
   EXPECT_EQ(out.utility, (temporal::RankVector{12.1}));
   EXPECT_EQ(out.retried, 1U);
@@ -78,7 +78,7 @@ TEST(TaskFlight, TheExecutiveRetriesWhatItCanAndNothingIsPlannedAnew) {
 TEST(TaskFlight, TheGroundResolvesEverythingAtItsPrice) {
   const model::Network network = commanded_network();
   const Costs costs{0, 40, 600s};
-  const Flown out = flown(network, Strategy::ground, failing_once("image", Failure::flexible), costs);
+  const Flown out = flown(network, Strategy::ground, failing_once("image", Resolution::flexible), costs);
   EXPECT_THAT(out.faults, IsEmpty());
   EXPECT_EQ(out.by_ground, 1U);
   EXPECT_GE(out.spent, 800 + 40);
@@ -88,7 +88,7 @@ TEST(TaskFlight, TheGroundResolvesEverythingAtItsPrice) {
 TEST(TaskFlight, WhatFlexibleExecutionCannotResolveIsPlannedAnew) {
   const model::Network network = commanded_network();
   const Flown out =
-      flown(network, Strategy::replanning, failing_once("dig", Failure::replanning), {25, 40, 600s});
+      flown(network, Strategy::replanning, failing_once("dig", Resolution::replanning), {25, 40, 600s});
   EXPECT_THAT(out.faults, IsEmpty());
   EXPECT_EQ(out.replanned, 1U);
   EXPECT_EQ(out.retried, 0U);
@@ -99,7 +99,7 @@ TEST(TaskFlight, WhereEnergyRunsOutTheFlightEnds) {
   model::Network network = commanded_network();
   network.timelines.front().initial = 360;
   const Flown out = flown(network, Strategy::replanning, [](const std::string&, std::uint32_t) {
-    return Fate{1, 1.5, Failure::none};
+    return Course{1, 1.5, Resolution::none};
   });
   EXPECT_THAT(out.faults, IsEmpty());
   EXPECT_LE(out.spent, 360 + 1e-3);
@@ -110,18 +110,18 @@ TEST(TaskFlight, RandomWorldsEndWithoutARefusedVersion) {
   const model::Network network = commanded_network();
   for (std::uint32_t seed = 1; seed <= 40; ++seed) {
     for (const Strategy strategy : {Strategy::ground, Strategy::flexible_execution, Strategy::replanning}) {
-      const Fates fates = [&](const std::string& task, std::uint32_t execution) {
+      const Courses courses = [&](const std::string& task, std::uint32_t execution) {
         std::seed_seq mixed{seed, static_cast<std::uint32_t>(task_named(network, task)), execution};
         std::mt19937 random(mixed);
         std::normal_distribution<> noise(1, 0.1);
         const double draw = std::uniform_real_distribution<>(0, 1)(random);
-        const Failure failure = draw < 0.08   ? Failure::flexible
-                                : draw < 0.16 ? Failure::replanning
-                                : draw < 0.22 ? Failure::ground
-                                              : Failure::none;
-        return Fate{std::max(0.5, noise(random)), std::max(0.5, noise(random)), failure};
+        const Resolution failure = draw < 0.08   ? Resolution::flexible
+                                   : draw < 0.16 ? Resolution::replanning
+                                   : draw < 0.22 ? Resolution::ground
+                                                 : Resolution::none;
+        return Course{std::max(0.5, noise(random)), std::max(0.5, noise(random)), failure};
       };
-      const Flown out = flown(network, strategy, fates, {5, 40, 300s});
+      const Flown out = flown(network, strategy, courses, {5, 40, 300s});
       EXPECT_THAT(out.faults, IsEmpty()) << seed;
       EXPECT_LE(out.utility[0], 12.1 + 1e-9) << seed;
       EXPECT_LE(out.spent, 2000 + 1e-3) << seed;
@@ -130,4 +130,4 @@ TEST(TaskFlight, RandomWorldsEndWithoutARefusedVersion) {
 }
 
 }  // namespace
-}  // namespace roci::rehearsal::task_level
+}  // namespace roci::bench::europa

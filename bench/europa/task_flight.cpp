@@ -1,4 +1,4 @@
-#include "rehearsal/task_level/task_flight.hpp"
+#include "bench/europa/task_flight.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include "planner_svc/utility_htn/adapter/plan_of.hpp"
 #include "planner_svc/utility_htn/checking/utility_checker.hpp"
 
-namespace roci::rehearsal::task_level {
+namespace roci::bench::europa {
 
 using exec::executive::Command, exec::executive::CommandAck, exec::executive::CommandAction,
     exec::executive::CommandStage, exec::executive::Executive, exec::executive::OutcomeKind;
@@ -242,36 +242,36 @@ class TaskFlight {
     const Task* const task = task_of(command.activity);
     if (task == nullptr) return;
     inputs_.acks.push_back({command.activity, command.attempt, CommandStage::accepted, "", ""});
-    const Fate fate = fate_of(*task, command);
-    draw(command.activity, *task, fate.energy);
-    const double length = fate.duration * model::evaluate(task->duration, values_);
+    const Course course = course_of(*task, command);
+    draw(command.activity, *task, course.energy);
+    const double length = course.duration * model::evaluate(task->duration, values_);
     Time end = now_ + temporal::seconds(length);
     CommandStage stage = CommandStage::completed;
-    if (fate.failure != Failure::none) {
+    if (course.failure != Resolution::none) {
       ++out_.failures;
-      stage = resolve(*task, fate.failure, end);
+      stage = resolve(*task, course.failure, end);
     }
     ends_.emplace(end, CommandAck{command.activity, command.attempt, stage, "", ""});
   }
 
   // What was resolved once works: the next attempt of the same activity, and the next execution of the task, do not fail.
-  Fate fate_of(const Task& task, const Command& command) {
+  Course course_of(const Task& task, const Command& command) {
     if (command.attempt == 1)
-      activity_fates_[command.activity] = flight_.fates(task.id, executions_[task.id]++);
-    Fate fate = activity_fates_[command.activity];
-    if (resolved_.erase(task.id) > 0) fate.failure = Failure::none;
-    return fate;
+      activity_courses_[command.activity] = flight_.courses(task.id, executions_[task.id]++);
+    Course course = activity_courses_[command.activity];
+    if (resolved_.erase(task.id) > 0) course.failure = Resolution::none;
+    return course;
   }
 
-  CommandStage resolve(const Task& task, Failure failure, Time& end) {
+  CommandStage resolve(const Task& task, Resolution failure, Time& end) {
     const Strategy strategy = flight_.strategy;
     resolved_.insert(task.id);
     if (strategy == Strategy::as_planned) {
       fails_at_ = end;
-    } else if (failure == Failure::flexible && strategy >= Strategy::flexible_execution) {
+    } else if (failure == Resolution::flexible && strategy >= Strategy::flexible_execution) {
       ++out_.retried;
       return CommandStage::failed;
-    } else if (failure != Failure::ground && strategy == Strategy::replanning) {
+    } else if (failure != Resolution::ground && strategy == Strategy::replanning) {
       ++out_.replanned;
       spend(flight_.costs.replanning_j);
       return task.control.retries > 0 ? fail_again(task) : CommandStage::failed;
@@ -344,7 +344,7 @@ class TaskFlight {
   std::multimap<Time, CommandAck> ends_;
   std::map<std::string, Draw> draws_;  // by activity
   std::map<std::string, std::uint32_t> executions_;
-  std::map<std::string, Fate> activity_fates_;
+  std::map<std::string, Course> activity_courses_;
   std::set<std::string> resolved_;
   std::set<planner::utility_htn::cycle::TaskId> succeeded_;
   std::map<temporal::TimePoint, temporal::Token> blocks_;  // by the end of the last link
@@ -357,4 +357,4 @@ class TaskFlight {
 
 Flown fly(const Flight& flight) { return TaskFlight(flight).run(); }
 
-}  // namespace roci::rehearsal::task_level
+}  // namespace roci::bench::europa
