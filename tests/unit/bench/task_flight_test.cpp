@@ -29,6 +29,7 @@ model::Network commanded_network() {
     task.commands.push_back(
         {.owner = "sim_svc", .robot = {}, .subsystem = task.id, .command_name = "do", .arguments = {}});
     task.control.retries = 1;
+    task.products = {{"data of " + task.id, model::Tier::mandatory, {1000}, {}}};
   }
   return out;
 }
