@@ -160,7 +160,7 @@ class TaskFlight {
     inputs_.acks.insert(inputs_.acks.end(), acks.begin(), acks.end());
     const exec::executive::Outputs outputs = executive_.step(now_, std::exchange(inputs_, {}));
     executive_wake_ = outputs.next_wake;
-    if (executive_wake_ && *executive_wake_ <= now_) executive_wake_.reset();
+    if (executive_wake_) executive_wake_ = std::max(*executive_wake_, now_ + std::chrono::microseconds(1));
     for (const auto& status : outputs.changes) take(status);
     for (const Command& command : outputs.commands) begin(command);
     finished_ = outputs.outcome.kind == OutcomeKind::finished;
@@ -191,6 +191,7 @@ class TaskFlight {
       if (flight_.succeeded) flight_.succeeded(task->id);
       if (const auto id = adapter::task_of(status.activity)) succeeded_.insert(*id);
       count_blocks(status.activity);
+      report_effects(*task, temporal::ImpactWhen::at_end);
     }
     observe(budget_, left_);
   }
@@ -227,6 +228,19 @@ class TaskFlight {
     draws_[activity] = out;
   }
 
+  // What a task does to the lander is seen on the timelines that are reported; the budget is told by itself.
+  void report_effects(const Task& task, temporal::ImpactWhen moment) {
+    for (const model::Impact& impact : task.impacts) {
+      const auto& timeline = flight_.network.timelines[impact.timeline];
+      const bool lasts = impact.kind != temporal::ImpactKind::rate && impact.moment == moment;
+      if (!timeline.reported || impact.timeline == flight_.network.budget || !lasts) continue;
+      double& value = world_.try_emplace(impact.timeline, timeline.initial).first->second;
+      const double amount = model::evaluate(impact.amount, values_);
+      value = impact.kind == temporal::ImpactKind::assign ? amount : value + amount;
+      observe(timeline, value);
+    }
+  }
+
   void settle_draw(const std::string& activity, bool succeeded) {
     const auto found = draws_.find(activity);
     if (found == draws_.end()) return;
@@ -244,6 +258,7 @@ class TaskFlight {
     inputs_.acks.push_back({command.activity, command.attempt, CommandStage::accepted, "", ""});
     const Course course = course_of(*task, command);
     draw(command.activity, *task, course.energy);
+    report_effects(*task, temporal::ImpactWhen::at_start);
     const double length = course.duration * model::evaluate(task->duration, values_);
     Time end = now_ + temporal::seconds(length);
     CommandStage stage = CommandStage::completed;
@@ -342,7 +357,8 @@ class TaskFlight {
   bool stepped_ = true;
   std::optional<Time> engine_wake_, executive_wake_, fails_at_;
   std::multimap<Time, CommandAck> ends_;
-  std::map<std::string, Draw> draws_;  // by activity
+  std::map<std::string, Draw> draws_;                   // by activity
+  std::map<temporal::timelines::Index, double> world_;  // true values of reported timelines that were changed
   std::map<std::string, std::uint32_t> executions_;
   std::map<std::string, Course> activity_courses_;
   std::set<std::string> resolved_;

@@ -367,8 +367,21 @@ void Cycle::adopt(const search::Plan& plan) {
   }
 }
 
+// Returns whether something of the block that is only planned moves the timeline before or while the conflict lasts.
+bool Cycle::contributes(const Block& one, const temporal::timelines::Conflict& conflict) const {
+  return std::ranges::any_of(one.links, [&](const Link& each) {
+    if (each.stage != Stage::planned || each.start > conflict.to) return false;
+    return std::ranges::any_of(network_.tasks[each.task].impacts, [&](const model::Impact& impact) {
+      const bool passes =
+          impact.moment == temporal::ImpactWhen::during && impact.kind == temporal::ImpactKind::delta;
+      return impact.timeline == conflict.timeline && (!passes || each.end >= conflict.from);
+    });
+  });
+}
+
 // Returns the block that has to give way to a conflict: the one whose constraint is broken if something of it is only
-// planned; else the last one that has not begun; else the last one of which something is only planned.
+// planned; else, of those that contribute to it, the last one that has not begun, or the last one of which something is
+// only planned. There is none where what is committed is in conflict with itself.
 Block* Cycle::culprit(const temporal::timelines::Conflict& conflict) {
   const auto movable = [](const Block& one) {
     return std::ranges::any_of(one.links, [](const Link& each) { return each.stage == Stage::planned; });
@@ -380,7 +393,7 @@ Block* Cycle::culprit(const temporal::timelines::Conflict& conflict) {
   Block* out = nullptr;
   const auto rank = [](const Block& one) { return std::pair(!one.begun(), one.links.front().start); };
   for (Block& one : blocks_)
-    if (movable(one) && (out == nullptr || rank(one) > rank(*out))) out = &one;
+    if (contributes(one, conflict) && (out == nullptr || rank(one) > rank(*out))) out = &one;
   return out;
 }
 

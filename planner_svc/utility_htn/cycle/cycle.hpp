@@ -89,6 +89,7 @@ class Cycle {
   bool schedule(temporal::Time now, Report& report);
   bool repair(temporal::Time now, Report& report);
   bool optimize(temporal::Time now, Report& report);
+  bool contributes(const Block& one, const temporal::timelines::Conflict& conflict) const;
   Block* culprit(const temporal::timelines::Conflict& conflict);
   bool out_of_order(const Block& one) const;
   bool keep_order(temporal::Time now, Report& report);
