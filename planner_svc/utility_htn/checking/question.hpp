@@ -70,8 +70,8 @@ struct Question {
   std::vector<Block> plan;
   std::vector<Block> before{};  ///< the version that this one follows
   Downlinks downlinks{};
-  bool downlinks_told =
-      true;  ///< otherwise the plan does not say what goes with which downlink, and that is not checked
+  /// Otherwise the plan does not say what goes with which downlink, and that is not checked.
+  bool downlinks_told = true;
   std::vector<Observation> observations{};
   temporal::Time now{0};
   temporal::Time from{0};  ///< end of the commit window: what is not committed starts then or later
