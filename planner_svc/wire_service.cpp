@@ -238,6 +238,7 @@ engine::Observation from_wire(const v1::Observation& in) {
 
 engine::StepStatus from_wire(const v1::StepStatus& in) {
   engine::StepStatus out;
+  out.attempt = in.attempt();
   out.plan_version = in.plan_version();
   out.activity = in.activity();
   out.progress.state =

@@ -17,9 +17,9 @@ namespace roci::planner::engine {
 
 /// What an engine that plans all the time is made with.
 struct Setup {
-  std::string engine;  ///< its name in the table, to be given in FlexiblePlan::engine
-  std::string robot;   ///< whose plan it is; empty: the only one
-  std::string model;   ///< of the mission, in the engine's own language; empty: it needs none
+  std::string engine;                  ///< its name in the table, to be given in FlexiblePlan::engine
+  std::string robot;                   ///< whose plan it is; empty: the only one
+  std::string model;                   ///< of the mission, in the engine's own language; empty: it needs none
   std::filesystem::path model_file{};  ///< from which that was read; what the model includes lies beside it
 };
 
@@ -35,7 +35,8 @@ struct StepStatus {
   std::uint32_t plan_version = 0;
   std::string activity;
   temporal::ActivityProgress progress;
-  std::string cause;  ///< of a failure
+  std::string cause;          ///< of a failure
+  std::uint32_t attempt = 0;  ///< counts from 1; 0: no command was sent
 };
 
 /// What became of a goal in the end: in the order of GoalState in idl/goal.idl.

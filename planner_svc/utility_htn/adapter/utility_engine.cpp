@@ -67,7 +67,7 @@ void UtilityEngine::hear(const StepInputs& inputs) {
   for (const Goal& goal : inputs.goals) hear_goal(goal);
   for (const engine::EndedGoal& ended : inputs.ended_goals) hear_end(ended);
   for (const engine::Observation& observation : inputs.observations) hear_observation(observation);
-  for (const engine::StepStatus& step : inputs.steps) hear_step(step);
+  for (const engine::StepStatus& step : inputs.steps) hear_step(step, inputs.now);
   if (inputs.receipt) hear_receipt(*inputs.receipt, inputs.now);
 }
 
@@ -114,12 +114,17 @@ void UtilityEngine::hear_observation(const engine::Observation& observation) {
                     observation.sampled, *number);
 }
 
-void UtilityEngine::hear_step(const engine::StepStatus& step) {
+void UtilityEngine::hear_step(const engine::StepStatus& step, Time now) {
   if (initial_ && step.activity == initial_->id && temporal::is_over(step.progress.state)) initial_.reset();
   const auto task = task_of(step.activity);
   if (!task) return;
   if (step.progress.started) cycle_->begun(*task, *step.progress.started);
-  if (!temporal::is_over(step.progress.state)) return;
+  if (!temporal::is_over(step.progress.state)) {
+    if (std::exchange(attempts_[*task], step.attempt) < step.attempt && step.attempt > 1)
+      cycle_->tried_again(*task, now);
+    return;
+  }
+  attempts_.erase(*task);
   const Time at = step.progress.ended.value_or(step.progress.started.value_or(origin_));
   cycle_->ended(*task, at, step.progress.state == ActivityState::succeeded, step.cause);
 }

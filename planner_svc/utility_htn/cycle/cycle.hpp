@@ -56,6 +56,8 @@ class Cycle {
   void observe(temporal::timelines::Index timeline, temporal::Time sampled, double value);
   /// Takes the times at which a task really began and ended (R76).
   void begun(TaskId task, temporal::Time at);
+  /// Takes that the executive tries a running task again by itself (R99): it will take its whole duration once more.
+  void tried_again(TaskId task, temporal::Time at);
   void ended(TaskId task, temporal::Time at, bool succeeded, const std::string& cause = {});
   /// Asks for a template, or for something that was withdrawn; forgets its failures.
   void request(model::TaskIndex task);
@@ -84,7 +86,9 @@ class Cycle {
   Link* link(TaskId task);
   void doom(TaskId failed);
   bool commit(temporal::Time now);
-  void follow(temporal::Time now);
+  bool follow(temporal::Time now);
+  temporal::Time expected(temporal::Time due, temporal::Time now) const;
+  void await_start(Block& of, std::size_t index, temporal::Time now);
   bool consolidate(temporal::Time now);
   bool schedule(temporal::Time now, Report& report);
   bool repair(temporal::Time now, Report& report);
@@ -106,6 +110,7 @@ class Cycle {
   std::vector<const Block*> by_start() const;
   search::Plan planned(temporal::Time now) const;
   temporal::timelines::Footprint footprint(const Block& block, std::size_t link) const;
+  temporal::Duration duration(model::TaskIndex task) const;
   double budget() const;
   std::vector<double> values_now(temporal::Time now) const;
 

@@ -60,7 +60,7 @@ std::vector<Link> ChainTable::make_links(std::uint32_t index) const {
     const Task& task = problem_.network.tasks[subtask.task];
     Link& link = out.emplace_back();
     link.id = problem_.first_id + task_id(index, out.size() - 1);
-    link.footprint = model::footprint(task, problem_.values);
+    link.footprint = flattening::footprint(problem_.network, chain(index), out.size() - 1, problem_.values);
     link.shortest_gap = subtask.shortest_gap;
     link.longest_gap = subtask.longest_gap;
     const Time latest_end = std::min({task.closes, asked.closes, problem_.until});
@@ -72,11 +72,6 @@ std::vector<Link> ChainTable::make_links(std::uint32_t index) const {
     if (timed.fixed && bounded(timed.preferred_start))
       link.starts = {std::max(link.starts.earliest, timed.preferred_start),
                      std::min(link.starts.latest, timed.preferred_start)};
-    if (!first) continue;
-    for (temporal::timelines::Constraint constraint : chain(index).when) {
-      constraint.phase = temporal::timelines::Phase::pre;
-      link.footprint.constraints.push_back(constraint);
-    }
   }
   return out;
 }
