@@ -88,7 +88,7 @@ RankVector ChainTable::predicted(std::uint32_t index, std::span<const std::uint3
   return rounded(problem_.assessor.predicted(index, context));
 }
 
-void ChainTable::add_products(const Placed& placed, std::vector<PredictedProduct>& out) const {
+void ChainTable::add_products(const Placed& placed, std::vector<model::DataProduct>& out) const {
   const Chain& links = chain(placed.chain);
   for (std::size_t index = 0; index < links.links.size(); ++index) {
     const Task& task = problem_.network.tasks[links.links[index].task];

@@ -35,7 +35,7 @@ class ChainTable {
   /// Returns the prediction of a chain after what is planned, rounded.
   temporal::RankVector predicted(std::uint32_t index, std::span<const std::uint32_t> planned) const;
   /// Adds what a placed chain would generate.
-  void add_products(const Placed& placed, std::vector<PredictedProduct>& out) const;
+  void add_products(const Placed& placed, std::vector<model::DataProduct>& out) const;
 
   std::size_t bytes() const { return link_bytes_; }
 

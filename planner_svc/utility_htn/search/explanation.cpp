@@ -176,7 +176,7 @@ class WhyNotAsked {
 
   bool gets_downlink(const Placed& added) const {
     if (!problem_.downlink) return true;
-    std::vector<PredictedProduct> products;
+    std::vector<model::DataProduct> products;
     for (const Placed& placed : problem_.committed) table_.add_products(placed, products);
     for (const Placed& placed : outcome_.plan.placed) table_.add_products(placed, products);
     table_.add_products(added, products);

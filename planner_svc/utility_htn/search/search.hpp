@@ -12,6 +12,7 @@
 #include "core/temporal/timelines/timelines.hpp"
 #include "planner_svc/utility_htn/assessor/assessor.hpp"
 #include "planner_svc/utility_htn/flattening/chain.hpp"
+#include "planner_svc/utility_htn/model/data_product.hpp"
 #include "planner_svc/utility_htn/model/network.hpp"
 #include "planner_svc/utility_htn/search/scheduler.hpp"
 
@@ -24,17 +25,8 @@ struct Placed {
   friend bool operator==(const Placed&, const Placed&) = default;
 };
 
-/// Is data that a partial plan would generate.
-struct PredictedProduct {
-  std::string id;  ///< "request/task/product"
-  model::Tier tier = model::Tier::mandatory;
-  std::uint64_t bytes = 0;
-  temporal::Time created{0};  ///< when the task that generates it ends
-  temporal::RankVector utility{};
-};
-
 /// Says whether everything that a partial plan would generate gets its downlink (R127).
-using DownlinkQuestion = std::function<bool(std::span<const PredictedProduct>)>;
+using DownlinkQuestion = std::function<bool(std::span<const model::DataProduct>)>;
 
 /// Is what is to be planned. All that it refers to outlives it.
 struct Problem {
