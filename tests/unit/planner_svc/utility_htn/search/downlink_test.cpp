@@ -24,9 +24,9 @@ Toy three_products() {
 TEST(DownlinkQuestion, ABranchWhoseDataGetNoDownlinkIsPruned) {
   Toy toy = three_products();
   Problem problem = toy.problem(100);
-  problem.downlink = [](std::span<const DataProduct> products) {
+  problem.downlink = [](const search::PlannedData& data) {
     std::uint64_t bytes = 0;
-    for (const DataProduct& product : products) bytes += product.bytes;
+    for (const DataProduct& product : data.products) bytes += product.bytes;
     return bytes <= 500;
   };
   const Outcome found = search::search(problem);
@@ -38,8 +38,8 @@ TEST(DownlinkQuestion, IsAskedForAllThatThePartialPlanGenerates) {
   Toy toy = three_products();
   Problem problem = toy.problem(100);
   std::vector<DataProduct> longest;
-  problem.downlink = [&](std::span<const DataProduct> products) {
-    if (products.size() > longest.size()) longest.assign(products.begin(), products.end());
+  problem.downlink = [&](const search::PlannedData& data) {
+    if (data.products.size() > longest.size()) longest = data.products;
     return true;
   };
   search::search(problem);
