@@ -44,7 +44,7 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
     origin_ = next_cycle_ = inputs.now;
     cycle_ =
         std::make_unique<cycle::Cycle>(network_, chains_, *assessor_, *scheduler_, inputs.now, settings_);
-    cycle_->deliver_by(delivery_);
+    if (settings_.downlinks) cycle_->deliver_by(delivery_);
   }
   hear(inputs);
   StepOutput out;
