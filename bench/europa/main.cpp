@@ -61,6 +61,7 @@ class Experiment {
     planner::utility_htn::cycle::Settings settings;
     if (strategy != Strategy::replanning)
       settings = {.repairs = false, .optimizes = false, .schedules_again = false};
+    settings.downlinks = false;
     planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network_,
                                                         settings);
     const TaskWorld world{seed, bias, setting_.noise, setting_.failures};
@@ -81,7 +82,8 @@ class Experiment {
     model::Network network = network_;
     auto& battery = network.timelines[network.budget];
     battery.initial = battery.highest = battery.initial / (1 + bias);
-    planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network, {});
+    planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network,
+                                                        {.downlinks = false});
     Flight flight{.network = network, .engine = engine, .courses = {}, .strategy = Strategy::replanning};
     flight.courses = [](const std::string&, std::uint32_t) { return Course{}; };
     flight.until = network.cycle.plan_end;

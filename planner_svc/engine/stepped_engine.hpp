@@ -39,6 +39,23 @@ struct StepStatus {
   std::uint32_t attempt = 0;  ///< counts from 1; 0: no command was sent
 };
 
+/// How soon data must reach the ground, in the order of DataTier in idl/command.idl.
+enum class DataTier { critical, decisional, mandatory, residual };
+/// What has become of data, in the order of ProductFate in idl/command.idl.
+enum class DataFate { stored, sent, received, discarded, left_behind, lost };
+
+/// Data that were generated, as they stand now.
+struct DataProduct {
+  std::string id;
+  std::string source;  ///< activity that made it
+  DataTier tier = DataTier::mandatory;
+  std::uint64_t bytes = 0;
+  temporal::Time created{0};
+  temporal::RankVector utility;  ///< as computed from the data; none: it was not
+  DataFate fate = DataFate::stored;
+  friend bool operator==(const DataProduct&, const DataProduct&) = default;
+};
+
 /// What became of a goal in the end: in the order of GoalState in idl/goal.idl.
 enum class GoalState { rejected, pending, planned, achieved, dropped, failed, recalled };
 
@@ -66,6 +83,7 @@ struct StepInputs {
   std::vector<EndedGoal> ended_goals;
   std::vector<Observation> observations;
   std::vector<StepStatus> steps;
+  std::vector<DataProduct> products;
   std::optional<Receipt> receipt;  ///< the newest
   /// The version that is executed if this engine did not send it: it was made before a restart, and an engine
   /// whose memory is gone goes on with it.

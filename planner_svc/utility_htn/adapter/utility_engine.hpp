@@ -31,6 +31,7 @@ class UtilityEngine final : public engine::SteppedEngine {
   void hear_goal(const engine::Goal& goal);
   void hear_end(const engine::EndedGoal& ended);
   void hear_observation(const engine::Observation& observation);
+  void hear_product(const engine::DataProduct& product);
   void hear_step(const engine::StepStatus& step, temporal::Time now);
   void hear_receipt(const engine::Receipt& receipt, temporal::Time now);
   void go_on_with(const temporal::FlexiblePlan& executed, temporal::Time now);
@@ -45,6 +46,7 @@ class UtilityEngine final : public engine::SteppedEngine {
   std::unique_ptr<assessor::Assessor> assessor_;
   std::unique_ptr<search::Scheduler> scheduler_;
   cycle::Settings settings_;
+  delivery::Delivery delivery_;
   std::unique_ptr<cycle::Cycle> cycle_;  // from the first step on
   std::vector<engine::Goal> goals_;      // open
   std::vector<engine::BlockingGoal> blocking_;

@@ -195,6 +195,21 @@ Report Cycle::run(Time now) {
   return report;
 }
 
+search::PlannedData Cycle::data() const {
+  search::PlannedData out;
+  for (const Block* one : by_start()) {
+    for (const Link& each : one->links) {
+      if (each.stage == Stage::doomed || each.stage == Stage::failed) continue;
+      const model::Task& task = network_.tasks[each.task];
+      if (task.downlinks) out.downlinks.push_back({each.task, each.start, each.end});
+      for (const model::Product& product : task.products)
+        out.products.push_back(search::predicted(network_.tasks[chains_.chains[one->chain].task], task,
+                                                 product, each.end, past_.values));
+    }
+  }
+  return out;
+}
+
 // What starts before the end of the commit window is the executive's from now on (R78).
 bool Cycle::commit(Time now) {
   bool any = false;
@@ -361,6 +376,7 @@ search::Plan Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Re
   for (const flattening::Chain& chain : chains_.chains)
     if (!candidates.contains(chain.task) && !placed.contains(chain.task))
       problem.closed.push_back(chain.task);
+  if (delivery_ != nullptr) delivery_->join(problem, now);
   const search::Outcome outcome = search::search(problem);
   report.explored += outcome.statistics.entries;
   return outcome.plan;
@@ -520,11 +536,13 @@ bool Cycle::shift(Block& late, Time from) {
 // Returns what has not begun as a plan, assessed as a search assesses its own.
 search::Plan Cycle::planned(Time now) const {
   const std::vector<double> newest = values_now(now);
+  const auto existing =
+      delivery_ != nullptr ? delivery_->products() : std::span<const assessor::ExistingProduct>{};
   std::vector<std::uint32_t> before;
   search::Plan out;
   for (const Block* one : by_start()) {
     if (!one->begun()) {
-      const assessor::Context context{network_, past_.values, chains_, newest, {}, before, {}};
+      const assessor::Context context{network_, past_.values, chains_, newest, existing, before, {}};
       out.utility += assessor_.predicted(one->chain, context);
       out.cost += flattening::cost(network_, chains_.chains[one->chain], past_.values);
       out.placed.push_back({one->chain, {}});

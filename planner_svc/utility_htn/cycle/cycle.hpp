@@ -12,6 +12,7 @@
 #include "core/temporal/timelines/timelines.hpp"
 #include "planner_svc/utility_htn/assessor/assessor.hpp"
 #include "planner_svc/utility_htn/cycle/placement.hpp"
+#include "planner_svc/utility_htn/delivery/delivery.hpp"
 #include "planner_svc/utility_htn/search/search.hpp"
 
 namespace roci::planner::utility_htn::cycle {
@@ -23,6 +24,7 @@ enum class Activity { commit, consolidate, schedule, repair, optimize };
 struct Settings {
   bool repairs = true;
   bool optimizes = true;
+  bool downlinks = true;  ///< data without a downlink are not generated (R127); otherwise all get home
   bool schedules_again = true;  ///< also after the first time; otherwise the first plan is all there is
   /// What was observed must differ from what was foreseen by this share of the timeline's first value before the cycle optimizes anew.
   double noticeable = 0.005;
@@ -65,6 +67,8 @@ class Cycle {
   void withdraw(model::TaskIndex task);
   /// Replaces a parameter's value (R116, R118). Returns why not, if it is out of range.
   std::string set_value(model::ParameterIndex parameter, double value);
+  /// Lets data that exist be assessed, and data without a downlink not be planned (R115, R127). It outlives this.
+  void deliver_by(delivery::Delivery& delivery) { delivery_ = &delivery; }
   /// Lets the next cycle look for a better plan, whatever it knows.
   void doubt() { to_optimize_ = true; }
   /// Takes in that the executive has no plan any more: what ran has failed, what was committed is only planned.
@@ -78,6 +82,8 @@ class Cycle {
   const Past& past() const { return past_; }
   const temporal::timelines::Timelines& timelines() const { return timelines_; }
   std::uint32_t last_block() const { return last_block_; }
+  /// Returns what all that is placed will generate and send, as planned or as it turned out so far.
+  search::PlannedData data() const;
   /// Returns the requests that wait for a place, in the order of the network.
   std::vector<model::TaskIndex> waiting() const;
 
@@ -118,6 +124,7 @@ class Cycle {
   const flattening::Chains& chains_;
   const assessor::Assessor& assessor_;
   const search::Scheduler& scheduler_;
+  delivery::Delivery* delivery_ = nullptr;  // none: all data get home, and none exist
   Settings settings_;
   temporal::timelines::Timelines timelines_;
   Past past_;
