@@ -11,6 +11,7 @@
 
 #include "planner_svc/engine/plan_history.hpp"
 #include "planner_svc/engine/table.hpp"
+#include "planner_svc/network_orders_service.hpp"
 #include "planner_svc/settings.hpp"
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
@@ -28,7 +29,9 @@ namespace roci::planner {
 class SteppedHost {
  public:
   /// All outlive this. `entry` makes an engine that plans all the time. Throws what it throws.
-  SteppedHost(services::Node& node, const Settings& settings, const engine::TableEntry& entry);
+  /// `networks`: where what the ground changes of the engine's model is kept; empty: nothing is taken of it.
+  SteppedHost(services::Node& node, const Settings& settings, const engine::TableEntry& entry,
+              const std::filesystem::path& networks);
   SteppedHost(const SteppedHost&) = delete;
   SteppedHost& operator=(const SteppedHost&) = delete;
 
@@ -61,12 +64,14 @@ class SteppedHost {
   void send(temporal::Time now, const temporal::PlanDelta& delta);
   std::string refusal_of(temporal::Time now, const temporal::PlanDelta& delta,
                          temporal::FlexiblePlan& next) const;
+  std::shared_ptr<engine::SteppedEngine> make_engine();
   void make_anew();
   void tell_blocking(std::vector<engine::BlockingGoal> blocking);
   void report(v1::Severity severity, const std::string& code, const std::string& text);
 
   services::Node& node_;
   const engine::TableEntry& entry_;
+  NetworkOrders orders_;
   engine::Setup setup_;
   std::shared_ptr<engine::SteppedEngine> engine_;
   std::unique_ptr<engine::Checker> checker_;

@@ -20,7 +20,7 @@ struct Setup {
   std::string engine;                  ///< its name in the table, to be given in FlexiblePlan::engine
   std::string robot;                   ///< whose plan it is; empty: the only one
   std::string model;                   ///< of the mission, in the engine's own language; empty: it needs none
-  std::filesystem::path model_file{};  ///< from which that was read; what the model includes lies beside it
+  std::filesystem::path model_file{};  ///< from which that was read, or the newest of the ground; what the model includes lies beside it
 };
 
 /// The newest value of a timeline, as its owner measured it.
@@ -74,6 +74,31 @@ struct Receipt {
   bool open = false;          ///< a plan would be taken now
 };
 
+/// What the ground changes of the engine's model, under its key (R83, R118). It is obeyed whole or not at all, between two cycles.
+struct ModelChange {
+  std::string issuer;
+  std::string id;
+  std::optional<std::string>
+      model;  ///< the whole new one, in the engine's own binary form; nothing: a parameter gets a value
+  std::string parameter;
+  double value = 0;
+};
+
+/// What has become of a change.
+struct ModelAnswer {
+  std::string issuer;
+  std::string id;
+  std::vector<std::string>
+      refused;  ///< all that is wrong, each with place and remedy; nothing has changed; empty: it is taken
+};
+
+/// Names a model: of its versions the greater is the newer.
+struct ModelName {
+  std::string name;
+  std::uint64_t version = 0;
+  friend bool operator==(const ModelName&, const ModelName&) = default;
+};
+
 /// All that was heard since the step before, each list in the order in which it was heard. After a restart
 /// of the process everything that still counts is heard again.
 struct StepInputs {
@@ -84,6 +109,7 @@ struct StepInputs {
   std::vector<Observation> observations;
   std::vector<StepStatus> steps;
   std::vector<DataProduct> products;
+  std::vector<ModelChange> model_changes;
   std::optional<Receipt> receipt;  ///< the newest
   /// The version that is executed if this engine did not send it: it was made before a restart, and an engine
   /// whose memory is gone goes on with it.
@@ -97,6 +123,11 @@ struct StepOutput {
   std::optional<temporal::PlanDelta> delta;
   /// Goals that cannot be planned as things stand; told to operators when they change.
   std::vector<BlockingGoal> blocking;
+  /// One for each change of the model that was heard; a change without an answer is told to be none of the engine's.
+  std::vector<ModelAnswer> model_answers;
+  ModelName model;  ///< with which it plans; empty: it has none
+  /// What was measured and is not believed, with the reason; told to operators.
+  std::vector<std::string> doubted;
   /// Mission time of the next step if nothing is heard before; a past one counts as none.
   std::optional<temporal::Time> wake;
 };

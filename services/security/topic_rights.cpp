@@ -76,6 +76,9 @@ std::vector<TopicRights> make_table() {
       row(topics::decision_answer, {resolver},                               {executive}),
       row(topics::decision_receipt,{executive},                              {resolver}),
 
+      row(topics::network_order,   {world, console},                         {planner}),
+      row(topics::network_status,  {planner},                                {console}),
+
       row(topics::plan_delta,      {planner},                                {executive}),
       row(topics::plan_receipt,    {executive},                              {planner}),
       row(topics::call_cancel,     {executive, planner, owner, console},     {planner, path_planner, arm_planner, functions}),

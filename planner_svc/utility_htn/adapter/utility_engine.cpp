@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "planner_svc/utility_htn/adapter/fit.hpp"
 #include "planner_svc/utility_htn/adapter/products.hpp"
 #include "planner_svc/utility_htn/assessor/subway_assessor.hpp"
 
@@ -48,12 +49,16 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
   }
   hear(inputs);
   StepOutput out;
+  for (const engine::ModelChange& one : inputs.model_changes)
+    out.model_answers.push_back(change(one, inputs.now));
+  out.model = {network_.name, network_.version};
   if (open_ && !goals_.empty() && inputs.now >= next_cycle_) {
     const cycle::Report report = cycle_->run(inputs.now);
     while (next_cycle_ <= inputs.now) next_cycle_ += network_.cycle.process_interval;
-    if (report.changed || told_.version == 0) send(inputs, out);
+    if (report.changed || told_.version == 0 || to_tell_) send(inputs, out);
   }
   out.blocking = blocking_;
+  out.doubted = std::exchange(doubted_, {});
   if (open_ && !goals_.empty()) out.wake = next_cycle_;
   return out;
 }
@@ -110,6 +115,7 @@ void UtilityEngine::hear_end(const engine::EndedGoal& ended) {
 }
 
 void UtilityEngine::hear_observation(const engine::Observation& observation) {
+  newest_.insert_or_assign(observation.timeline, observation.value);
   const auto timeline =
       std::ranges::find(network_.timelines, observation.timeline, &temporal::timelines::Definition::name);
   if (timeline == network_.timelines.end() || !timeline->reported) return;
@@ -138,6 +144,7 @@ void UtilityEngine::hear_step(const engine::StepStatus& step, Time now) {
       index < network_.tasks.size() && step.progress.started)
     delivery_.executed(*task, index, *step.progress.started, at, cycle_->past().values);
   cycle_->ended(*task, at, step.progress.state == ActivityState::succeeded, step.cause);
+  measure(*task, step.progress);
 }
 
 void UtilityEngine::hear_receipt(const engine::Receipt& receipt, Time now) {
@@ -153,7 +160,14 @@ void UtilityEngine::hear_receipt(const engine::Receipt& receipt, Time now) {
 
 // A process that was started again takes up the plan that is executed.
 void UtilityEngine::go_on_with(const FlexiblePlan& executed, Time now) {
-  Recovered recovered = recover(network_, chains_, executed);
+  // It may have been made with the network before the one in force.
+  const Fitted fitted = fit(network_, chains_, executed);
+  Recovered recovered = recover(network_, chains_, fitted.plan);
+  recovered.last_block = std::max(recovered.last_block, fitted.last_block);
+  for (const temporal::PlanActivity& gone : fitted.gone)
+    recovered.points.set(*task_of(gone.id), gone.start_point, gone.end_point);
+  to_tell_ = to_tell_ || fitted.foreign;
+  taken_up_ = now;
   origin_ = executed.origin;
   points_ = recovered.points;
   cycle_->resume(recovered.past, std::move(recovered.blocks), recovered.last_block, now);
@@ -198,11 +212,18 @@ void UtilityEngine::send(const StepInputs& inputs, StepOutput& out) {
     initial_ = initial_activity(network_, cycle_->past(), frame);
     std::tie(initial_->start_point, initial_->end_point) = points_.fresh();
     if (initial_->impacts.empty()) initial_.reset();
+  } else if (!initial_ && !unannounced_.empty()) {
+    initial_ = initial_activity(network_, cycle_->past(), frame);
+    std::tie(initial_->start_point, initial_->end_point) = points_.fresh();
+    std::erase_if(initial_->impacts,
+                  [&](const auto& impact) { return !unannounced_.contains(impact.timeline); });
   }
+  if (initial_) unannounced_.clear();
   if (initial_) plan.activities.insert(plan.activities.begin(), *initial_);
   plan.point_count = points_.count();
   out.delta = temporal::difference(told_, plan);
   told_ = std::move(plan);
+  to_tell_ = false;
 }
 
 }  // namespace roci::planner::utility_htn::adapter

@@ -71,6 +71,19 @@ bool Delivery::hear(Existing product) {
   return true;
 }
 
+void Delivery::replaced(const model::Network& before) {
+  rules_ = Rules(network_);
+  const auto same = [&](model::TaskIndex task) {
+    if (task >= before.tasks.size()) return static_cast<model::TaskIndex>(network_.tasks.size());
+    const auto found = std::ranges::find(network_.tasks, before.tasks[task].id, &model::Task::id);
+    return static_cast<model::TaskIndex>(found - network_.tasks.begin());
+  };
+  for (std::size_t i = 0; i < existing_.size(); ++i) {
+    products_[i].task = existing_[i].task = same(existing_[i].task);
+    products_[i].request = existing_[i].request = same(existing_[i].request);
+  }
+}
+
 void Delivery::executed(std::uint64_t activity, model::TaskIndex task, Time start, Time end,
                         const model::Values& values) {
   if (!rules_.has_rate() || !network_.tasks[task].downlinks || !executed_.insert(activity).second) return;

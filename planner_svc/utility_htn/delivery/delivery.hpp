@@ -70,6 +70,8 @@ class Delivery {
   /// The network outlives this.
   explicit Delivery(const model::Network& network) : network_(network), rules_(network) {}
 
+  /// Takes in that another network stands where `before` stood. What a task generated that it does not have waits all the same.
+  void replaced(const model::Network& before);
   /// Takes in a product's newest state; returns whether anything is new. A score that is negative or not finite counts as 0, one above a
   /// million as a million.
   bool hear(Existing product);
