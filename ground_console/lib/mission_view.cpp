@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <tuple>
 
+#include "core/temporal/activity_timeline.hpp"
 #include "ground_console/lib/limits.hpp"
 
 namespace roci::console::lib {
@@ -228,8 +229,8 @@ const char* name_of(v1::GoalClass importance) {
 const char* name_of(v1::AckStage stage) { return name_in(std::array{"journaled", "held by both"}, stage); }
 
 const char* name_of(v1::ActivityState state) {
-  return name_in(
-      std::array{"waiting", "dispatched", "running", "succeeded", "failed", "skipped", "cancelled"}, state);
+  if (state > v1::ACTIVITY_CANCELLED) return "unknown";
+  return temporal::to_string(static_cast<temporal::ActivityState>(state));
 }
 
 const char* name_of(v1::Severity severity) {

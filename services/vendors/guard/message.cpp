@@ -57,6 +57,27 @@ bool is_encrypted(std::span<const std::uint8_t> message) {
 // SEC_BODY, SEC_PREFIX and SEC_POSTFIX.
 bool is_one_encrypted(std::span<const std::uint8_t> one) { return one[0] >= 0x30 && one[0] <= 0x32; }
 
+// Returns whether data in plain stand behind what is encrypted one by one, in a message whose parts may change places.
+bool hides_plain_data(std::span<const std::uint8_t> message) {
+  std::span<const std::uint8_t> destination;
+  bool encrypted = false;
+  bool hidden = false;
+  for (auto rest = message.subspan(kHeaderSize); !rest.empty();) {
+    const auto one = rest.first(size_of_first(rest));
+    rest = rest.subspan(one.size());
+    // What reaches to the end of the message by a length of 0 must stay there.
+    if (one.size() != kSubmessageHeaderSize + ByteView{one, (one[1] & 1) != 0}.u16(2)) return false;
+    if (one[0] == kInfoDestination) {
+      const bool another = encrypted && !std::ranges::equal(destination, one);
+      if (another) return false;
+      destination = one;
+    }
+    encrypted = encrypted || is_one_encrypted(one);
+    hidden = hidden || (encrypted && (one[0] == kData || one[0] == kDataFragment));
+  }
+  return hidden;
+}
+
 }  // namespace
 
 Verdict examine(std::span<const std::uint8_t> datagram) {
@@ -101,25 +122,13 @@ std::size_t strip_plain_submessages(std::span<std::uint8_t> message) {
 }
 
 void put_plain_submessages_first(std::span<std::uint8_t> message) {
+  if (!hides_plain_data(message)) return;
   std::vector<std::uint8_t> encrypted;
-  std::span<const std::uint8_t> destination;
-  bool hidden = false;
-  for (auto rest = message.subspan(kHeaderSize); !rest.empty();) {
-    const auto one = rest.first(size_of_first(rest));
-    rest = rest.subspan(one.size());
-    // What reaches to the end of the message by a length of 0 must stay there.
-    if (one.size() != kSubmessageHeaderSize + ByteView{one, (one[1] & 1) != 0}.u16(2)) return;
-    if (one[0] == kInfoDestination) {
-      const bool another = !encrypted.empty() && !std::ranges::equal(destination, one);
-      if (another) return;
-      destination = one;
-    }
-    if (is_one_encrypted(one)) encrypted.insert(encrypted.end(), one.begin(), one.end());
-    if (one[0] == kData || one[0] == kDataFragment) hidden = hidden || !encrypted.empty();
-  }
-  if (!hidden) return;
-  const std::size_t end =
-      strip(message, [](std::span<const std::uint8_t> one) { return !is_one_encrypted(one); });
+  const std::size_t end = strip(message, [&encrypted](std::span<const std::uint8_t> one) {
+    if (!is_one_encrypted(one)) return true;
+    encrypted.insert(encrypted.end(), one.begin(), one.end());
+    return false;
+  });
   std::ranges::copy(encrypted, message.begin() + static_cast<std::ptrdiff_t>(end));
 }
 

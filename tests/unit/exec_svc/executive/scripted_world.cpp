@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "core/temporal/activity_timeline.hpp"
+
 namespace roci::exec::testing {
 
 using executive::Breakage;
@@ -29,12 +31,6 @@ using temporal::to_text;
 std::string clock_text(Time time) {
   std::string text = to_text(time);
   return text.substr(0, text.size() - 2);
-}
-
-std::string name_of(temporal::ActivityState state) {
-  static constexpr std::array names{"waiting", "dispatched", "running",  "succeeded",
-                                    "failed",  "skipped",    "cancelled"};
-  return names.at(static_cast<std::size_t>(state));
 }
 
 std::string name_of(OutcomeKind kind) {
@@ -106,7 +102,7 @@ void ScriptedWorld::note(const Outputs& outputs) {
   const std::string at = clock_text(now_) + " ";
   for (const StepStatus& change : outputs.changes)
     if (change.state != temporal::ActivityState::dispatched)
-      trace.push_back(at + change.activity + " " + name_of(change.state) +
+      trace.push_back(at + change.activity + " " + to_string(change.state) +
                       (change.reason.empty() ? "" : " (" + change.reason + ")"));
   for (const Command& command : outputs.commands) {
     const bool execute = command.action == CommandAction::execute;
