@@ -17,7 +17,7 @@ std::optional<model::ParameterIndex> parameter_named(const model::Network& netwo
 }  // namespace
 
 Rules::Rules(const model::Network& network)
-    : network_(network),
+    : network_(&network),
       rate_(parameter_named(network, "rate_bytes_per_s")),
       downlink_limit_(parameter_named(network, "downlink_limit_j")),
       sol_limit_(parameter_named(network, "sol_limit_j")),
@@ -34,10 +34,10 @@ std::uint32_t Rules::sol_of(temporal::Time time, const model::Values& values) co
 }
 
 downlink::Window Rules::window(const search::PlannedDownlink& planned, const model::Values& values) const {
-  const model::Task& task = network_.tasks[planned.task];
+  const model::Task& task = network_->tasks[planned.task];
   double watts = 0;
   for (const model::Impact& impact : task.impacts)
-    if (impact.timeline == network_.budget && impact.kind == temporal::ImpactKind::rate)
+    if (impact.timeline == network_->budget && impact.kind == temporal::ImpactKind::rate)
       watts -= model::evaluate(impact.amount, values);
   downlink::Window out;
   out.start = planned.start;

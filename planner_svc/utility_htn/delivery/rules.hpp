@@ -34,7 +34,7 @@ class Rules {
   static double value(std::optional<model::ParameterIndex> parameter, const model::Values& values,
                       double otherwise);
 
-  const model::Network& network_;
+  const model::Network* network_;
   std::optional<model::ParameterIndex> rate_, downlink_limit_, sol_limit_, sol_length_;
 };
 
