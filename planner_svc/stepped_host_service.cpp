@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <string_view>
+#include <unordered_set>
 
 #include "planner_svc/engine/checked_answer.hpp"
 #include "planner_svc/limits.hpp"
@@ -146,10 +148,18 @@ void SteppedHost::take_receipt() {
   heard_.receipt = newest_;
   if (newest_->version != 0) {
     history_.forget_before(newest_->version);
+    forget_steps_of_others(*history_.version(newest_->version));
   } else {
     progress_.clear();
   }
   step_soon();
+}
+
+// What has left the plan never comes again by its id, and a long mission has no end of it.
+void SteppedHost::forget_steps_of_others(const FlexiblePlan& plan) {
+  std::unordered_set<std::string_view> ids;
+  for (const temporal::PlanActivity& activity : plan.activities) ids.insert(activity.id);
+  std::erase_if(progress_, [&](const auto& step) { return !ids.contains(step.first); });
 }
 
 void SteppedHost::step_soon() {
@@ -189,6 +199,7 @@ void SteppedHost::end_step(Time now, StepResult result) {
            "engine '" + setup_.engine + "' failed and is made anew: " + result.error);
     make_anew();
   } else {
+    tell_account(result.output);
     if (result.output.delta) send(now, *result.output.delta);
     tell_blocking(std::move(result.output.blocking));
     const auto wake = result.output.wake;
@@ -231,7 +242,8 @@ std::string SteppedHost::refusal_of(Time now, const PlanDelta& delta, FlexiblePl
   for (const auto& [key, heard] : goals_)
     if (heard.told) situation.goals.push_back(*heard.goal);
   const FlexiblePlan* before = history_.version(delta.from_version);
-  return engine::refusal_of(*checker_, {situation, {}, next, before, before ? &progress_ : nullptr, setup_.model_file});
+  return engine::refusal_of(*checker_,
+                            {situation, {}, next, before, before ? &progress_ : nullptr, setup_.model_file});
 }
 
 // The new engine hears again all that still counts, with the next thing that is heard.
@@ -246,6 +258,18 @@ void SteppedHost::make_anew() {
     if (const FlexiblePlan* executed = history_.version(newest_->version)) heard_.executed = *executed;
   for (const auto& [activity, progress] : progress_)
     heard_.steps.push_back({newest_ ? newest_->version : 0, activity, progress, ""});
+}
+
+// Before the version goes out: whoever sees both reads what led to it first.
+void SteppedHost::tell_account(const engine::StepOutput& output) {
+  const engine::StepAccount& account = output.account;
+  if (account.empty()) return;
+  std::string text;
+  for (const std::string& part : account.parts) text += (text.empty() ? "" : ", ") + part;
+  text += (text.empty() ? "" : "; ") + std::to_string(account.explored) + " explored";
+  if (output.delta) text += "; " + version_text(output.delta->added.version);
+  for (const std::string& note : account.notes) text += "; " + note;
+  report(v1::SEVERITY_INFO, "planner.cycle", text);
 }
 
 void SteppedHost::tell_blocking(std::vector<BlockingGoal> blocking) {

@@ -55,6 +55,7 @@ class SteppedHost {
   void hear_plan(const v1::Plan& plan);
   void hear_receipt(const engine::Receipt& receipt);
   void take_receipt();
+  void forget_steps_of_others(const temporal::FlexiblePlan& plan);
   void step_soon();
   void begin_step();
   void end_step(temporal::Time now, StepResult result);
@@ -62,6 +63,7 @@ class SteppedHost {
   std::string refusal_of(temporal::Time now, const temporal::PlanDelta& delta,
                          temporal::FlexiblePlan& next) const;
   void make_anew();
+  void tell_account(const engine::StepOutput& output);
   void tell_blocking(std::vector<engine::BlockingGoal> blocking);
   void report(v1::Severity severity, const std::string& code, const std::string& text);
 

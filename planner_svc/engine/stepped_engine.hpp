@@ -17,9 +17,9 @@ namespace roci::planner::engine {
 
 /// What an engine that plans all the time is made with.
 struct Setup {
-  std::string engine;  ///< its name in the table, to be given in FlexiblePlan::engine
-  std::string robot;   ///< whose plan it is; empty: the only one
-  std::string model;   ///< of the mission, in the engine's own language; empty: it needs none
+  std::string engine;                  ///< its name in the table, to be given in FlexiblePlan::engine
+  std::string robot;                   ///< whose plan it is; empty: the only one
+  std::string model;                   ///< of the mission, in the engine's own language; empty: it needs none
   std::filesystem::path model_file{};  ///< from which that was read; what the model includes lies beside it
 };
 
@@ -73,11 +73,21 @@ struct StepInputs {
   std::uint32_t last_version = 0;
 };
 
+/// Says what a step did, in the engine's own words; who reads the events of a run sees it.
+struct StepAccount {
+  std::vector<std::string> parts;  ///< of the step that had something to do, in their order
+  std::uint64_t explored = 0;      ///< possibilities that searches looked at
+  std::vector<std::string> notes;  ///< what was given up, and why
+  bool empty() const { return parts.empty() && explored == 0 && notes.empty(); }
+};
+
 struct StepOutput {
   /// At most one change of the plan; it is checked before it is sent.
   std::optional<temporal::PlanDelta> delta;
   /// Goals that cannot be planned as things stand; told to operators when they change.
   std::vector<BlockingGoal> blocking;
+  /// Told as the event planner.cycle where it is not empty.
+  StepAccount account;
   /// Mission time of the next step if nothing is heard before; a past one counts as none.
   std::optional<temporal::Time> wake;
 };

@@ -38,6 +38,7 @@ class ScriptedEngine final : public engine::SteppedEngine {
       heard_.push_back("refused " + std::to_string(inputs.receipt->refused));
     for (const engine::Goal& goal : inputs.goals) {
       heard_.push_back("goal " + goal.id);
+      if (goal.kind == "told") out.account = {{"commit", "schedule"}, 12, {"the view is taken out"}};
       if (goal.kind == "throw" && std::exchange(throws_, false)) throw std::runtime_error("out of ideas");
       out.delta.emplace();
       out.delta->added.engine = "scripted";
@@ -153,6 +154,14 @@ TEST_F(SteppedService, AnEngineThatFailsIsMadeAnewAndHearsWhatStillCounts) {
               ElementsAre("planner.defect: engine 'scripted' failed and is made anew: out of ideas"));
   EXPECT_THAT(heard_, ElementsAre("goal first", "goal gone", "end of gone", "goal trap", "goal first",
                                   "goal trap", "goal next"));
+}
+
+TEST_F(SteppedService, WhatAStepDidIsToldPartByPartWithTheVersionThatCameOfIt) {
+  tell(1s, "plain", v1::GOAL_PENDING);
+  tell(2s, "watched", v1::GOAL_PENDING, "told");
+  run_until(5s);
+  EXPECT_THAT(events_,
+              ElementsAre("planner.cycle: commit, schedule; 12 explored; version 2; the view is taken out"));
 }
 
 // Beyond its bounds the service says so once, and ten times fewer for each further factor of ten.
