@@ -2,6 +2,7 @@
 // cycle at the process interval, and sends versions of its plan.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,9 +49,10 @@ class UtilityEngine final : public engine::SteppedEngine {
   std::vector<engine::Goal> goals_;      // open
   std::vector<engine::BlockingGoal> blocking_;
   Points points_;
-  temporal::FlexiblePlan told_;                    // newest version
-  temporal::FlexiblePlan accepted_;                // newest that the executive has taken
-  std::optional<temporal::PlanActivity> initial_;  // until it is over
+  temporal::FlexiblePlan told_;                           // newest version
+  temporal::FlexiblePlan accepted_;                       // newest that the executive has taken
+  std::map<std::uint32_t, temporal::FlexiblePlan> sent_;  // by version, of which no receipt has come
+  std::optional<temporal::PlanActivity> initial_;         // until it is over
   temporal::Time origin_{0};
   temporal::Time next_cycle_{0};
   bool open_ = false;
