@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <string_view>
+#include <unordered_set>
 
 #include "planner_svc/engine/checked_answer.hpp"
 #include "planner_svc/limits.hpp"
@@ -175,10 +177,18 @@ void SteppedHost::take_receipt() {
   if (newest_->version != 0) {
     orders_.executed(newest_->version);
     history_.forget_before(newest_->version);
+    forget_steps_of_others(*history_.version(newest_->version));
   } else {
     progress_.clear();
   }
   step_soon();
+}
+
+// What has left the plan never comes again by its id, and a long mission has no end of it.
+void SteppedHost::forget_steps_of_others(const FlexiblePlan& plan) {
+  std::unordered_set<std::string_view> ids;
+  for (const temporal::PlanActivity& activity : plan.activities) ids.insert(activity.id);
+  std::erase_if(progress_, [&](const auto& step) { return !ids.contains(step.first); });
 }
 
 void SteppedHost::step_soon() {
@@ -227,6 +237,7 @@ void SteppedHost::end_step(Time now, StepResult result) {
     if (model == NetworkOrders::Model::replaced) setup_.model_file = orders_.model_file();
     for (const std::string& doubt : result.output.doubted)
       report(v1::SEVERITY_WARNING, "planner.measured", doubt);
+    tell_account(result.output);
     if (result.output.delta) send(now, *result.output.delta);
     tell_blocking(std::move(result.output.blocking));
     const auto wake = result.output.wake;
@@ -286,6 +297,18 @@ void SteppedHost::make_anew() {
     if (const FlexiblePlan* executed = history_.version(newest_->version)) heard_.executed = *executed;
   for (const auto& [activity, progress] : progress_)
     heard_.steps.push_back({newest_ ? newest_->version : 0, activity, progress, ""});
+}
+
+// Before the version goes out: whoever sees both reads what led to it first.
+void SteppedHost::tell_account(const engine::StepOutput& output) {
+  const engine::StepAccount& account = output.account;
+  if (account.empty()) return;
+  std::string text;
+  for (const std::string& part : account.parts) text += (text.empty() ? "" : ", ") + part;
+  text += (text.empty() ? "" : "; ") + std::to_string(account.explored) + " explored";
+  if (output.delta) text += "; " + version_text(output.delta->added.version);
+  for (const std::string& note : account.notes) text += "; " + note;
+  report(v1::SEVERITY_INFO, "planner.cycle", text);
 }
 
 void SteppedHost::tell_blocking(std::vector<BlockingGoal> blocking) {

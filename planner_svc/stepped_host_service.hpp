@@ -58,6 +58,7 @@ class SteppedHost {
   void hear_plan(const v1::Plan& plan);
   void hear_receipt(const engine::Receipt& receipt);
   void take_receipt();
+  void forget_steps_of_others(const temporal::FlexiblePlan& plan);
   void step_soon();
   void begin_step();
   void end_step(temporal::Time now, StepResult result);
@@ -66,6 +67,7 @@ class SteppedHost {
                          temporal::FlexiblePlan& next) const;
   std::shared_ptr<engine::SteppedEngine> make_engine();
   void make_anew();
+  void tell_account(const engine::StepOutput& output);
   void tell_blocking(std::vector<engine::BlockingGoal> blocking);
   void report(v1::Severity severity, const std::string& code, const std::string& text);
 

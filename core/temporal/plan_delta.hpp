@@ -10,8 +10,8 @@
 
 namespace roci::temporal {
 
-/// Holds the change. Time points keep their numbers from version to version; those of removed activities stay
-/// unused until the plan comes as a whole again.
+/// Holds the change. The time points of what stays keep their numbers from version to version; those of removed activities may be
+/// given to new ones, in the same change or later, so that a plan that never ends needs no more points than it holds at once.
 struct PlanDelta {
   std::uint32_t from_version = 0;  ///< is that of the plan that changes; 0: none, `added` is the whole plan
   /// Holds id, version, engine, origin, number of points and function values as they become, and activities,

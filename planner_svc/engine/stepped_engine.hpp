@@ -20,7 +20,8 @@ struct Setup {
   std::string engine;                  ///< its name in the table, to be given in FlexiblePlan::engine
   std::string robot;                   ///< whose plan it is; empty: the only one
   std::string model;                   ///< of the mission, in the engine's own language; empty: it needs none
-  std::filesystem::path model_file{};  ///< from which that was read, or the newest of the ground; what the model includes lies beside it
+  /// Is the file from which that was read, or the newest of the ground; what the model includes lies beside it.
+  std::filesystem::path model_file{};
 };
 
 /// The newest value of a timeline, as its owner measured it.
@@ -118,6 +119,14 @@ struct StepInputs {
   std::uint32_t last_version = 0;
 };
 
+/// Says what a step did, in the engine's own words; who reads the events of a run sees it.
+struct StepAccount {
+  std::vector<std::string> parts;  ///< of the step that had something to do, in their order
+  std::uint64_t explored = 0;      ///< possibilities that searches looked at
+  std::vector<std::string> notes;  ///< what was given up, and why
+  bool empty() const { return parts.empty() && explored == 0 && notes.empty(); }
+};
+
 struct StepOutput {
   /// At most one change of the plan; it is checked before it is sent.
   std::optional<temporal::PlanDelta> delta;
@@ -128,6 +137,8 @@ struct StepOutput {
   ModelName model;  ///< with which it plans; empty: it has none
   /// What was measured and is not believed, with the reason; told to operators.
   std::vector<std::string> doubted;
+  /// Told as the event planner.cycle where it is not empty.
+  StepAccount account;
   /// Mission time of the next step if nothing is heard before; a past one counts as none.
   std::optional<temporal::Time> wake;
 };

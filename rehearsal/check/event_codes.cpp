@@ -15,7 +15,7 @@ const std::vector<std::string>& event_codes() {
       "network.accepted", "network.in_force", "network.refused", "observation.malformed", "order.accepted", "order.malformed", "order.no_room", "order.refused",
       "place.unusable", "plan.adopted", "plan.broken", "plan.conflict", "plan.finished", "plan.kept",
       "plan.malformed", "plan.outdated", "plan.refused", "plan.relaunched", "plan.retry", "plan.wanted",
-      "planner.blocked", "planner.defect", "planner.measured", "planner.network_damaged",
+      "planner.blocked", "planner.cycle", "planner.defect", "planner.measured", "planner.network_damaged",
       "planner.network_unwritten", "planner.no_room", "planner.verdict", "planner.warning", "pose.unusable",
       "reserve.spent", "robot.safe", "robot.safing", "robot.unsafe", "run.foreign", "sample.refused",
       "scenario.as_expected", "scenario.over", "scenario.time-up", "scenario.unexpected", "science.find",

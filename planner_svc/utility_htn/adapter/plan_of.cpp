@@ -153,18 +153,30 @@ void add_block(const model::Network& network, const flattening::Chain& chain, co
 
 std::pair<TimePoint, TimePoint> Points::of(TaskId task) {
   const auto found = of_.find(task);
-  return found != of_.end() ? found->second : of_.emplace(task, fresh()).first->second;
-}
-
-std::pair<TimePoint, TimePoint> Points::fresh() {
-  count_ += 2;
-  return {count_ - 2, count_ - 1};
+  if (found != of_.end()) return found->second;
+  TimePoint free = kPast + 1;
+  for (auto taken = taken_.begin(); taken != taken_.end() && *taken == free; ++taken) free += 2;
+  set(task, free, free + 1);
+  return {free, free + 1};
 }
 
 void Points::set(TaskId task, TimePoint start, TimePoint end) {
   of_[task] = {start, end};
-  count_ = std::max({count_, start + 1, end + 1});
+  for (const TimePoint point : {start, end}) taken_.insert(point & ~TimePoint{1});
 }
+
+void Points::keep_only(const std::vector<Block>& blocks, bool initial) {
+  const auto number = [](const Block& block) { return block.number; };
+  std::erase_if(of_, [&](const auto& entry) {
+    if (entry.first == kInitial) return !initial;
+    return !std::ranges::binary_search(blocks, cycle::block_of(entry.first), {}, number);
+  });
+  taken_.clear();
+  for (const auto& [task, points] : of_)
+    for (const TimePoint point : {points.first, points.second}) taken_.insert(point & ~TimePoint{1});
+}
+
+std::uint32_t Points::count() const { return taken_.empty() ? kPast + 1 : *taken_.rbegin() + 2; }
 
 FlexiblePlan plan_of(const model::Network& network, const flattening::Chains& chains,
                      const cycle::Cycle& cycle, const Frame& frame, const FlexiblePlan& told,

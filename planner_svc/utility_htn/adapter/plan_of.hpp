@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,21 +21,25 @@ struct Frame {
   std::vector<std::string> goals;  ///< keys of those that every activity serves
 };
 
-/// Gives time points to links; they keep them as long as they are in the plan.
+/// Gives time points to links; they keep them as long as they are in the plan, and then others may have them. So the number of points is
+/// bounded by what plans hold at once, and not by what the mission has ever held (R82).
 class Points {
  public:
   /// Point 1 bounds what holds from the origin on: values of internal timelines, and what is done.
   static constexpr temporal::TimePoint kPast = 1;
+  /// Stands for the activity that a whole plan begins with; blocks count from 1.
+  static constexpr cycle::TaskId kInitial = cycle::task_id(0, 0);
 
+  /// Returns the two of the link, which gets the lowest that are free if it has none.
   std::pair<temporal::TimePoint, temporal::TimePoint> of(cycle::TaskId task);
   void set(cycle::TaskId task, temporal::TimePoint start, temporal::TimePoint end);
-  /// Returns two that no link has.
-  std::pair<temporal::TimePoint, temporal::TimePoint> fresh();
-  std::uint32_t count() const { return count_; }
+  /// Frees the points of all but the links of these blocks, and of the initial activity unless it is kept.
+  void keep_only(const std::vector<cycle::Block>& blocks, bool initial);
+  std::uint32_t count() const;
 
  private:
   std::map<cycle::TaskId, std::pair<temporal::TimePoint, temporal::TimePoint>> of_;
-  std::uint32_t count_ = 2;
+  std::set<temporal::TimePoint> taken_;  // even ones, each with the one that follows
 };
 
 /// Returns the plan: blocks that are not over with all their links, each not before its planned start, pushed for as long as its wait

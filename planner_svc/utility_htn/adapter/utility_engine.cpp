@@ -17,6 +17,9 @@ namespace {
 
 constexpr char kRequest[] = "request";
 
+/// So many versions are kept for a receipt that comes late.
+constexpr std::size_t kUnanswered = 4;
+
 const std::string* argument(const Goal& goal, const std::string& name) {
   const auto found = std::ranges::find(goal.arguments, name, &temporal::Property::name);
   return found == goal.arguments.end() ? nullptr : &found->value;
@@ -53,9 +56,15 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
     out.model_answers.push_back(change(one, inputs.now));
   out.model = {network_.name, network_.version};
   if (open_ && !goals_.empty() && inputs.now >= next_cycle_) {
+    const bool lost = told_.version != accepted_.version;
+    // Nobody has answered for a whole interval: the executive died before it took that version.
+    if (lost) told_ = accepted_;
     const cycle::Report report = cycle_->run(inputs.now);
+    for (const cycle::Activity part : report.done) out.account.parts.emplace_back(to_string(part));
+    out.account.explored = report.explored;
+    out.account.notes = report.notes;
     while (next_cycle_ <= inputs.now) next_cycle_ += network_.cycle.process_interval;
-    if (report.changed || told_.version == 0 || to_tell_) send(inputs, out);
+    if (report.changed || lost || told_.version == 0 || to_tell_) send(inputs, out);
   }
   out.blocking = blocking_;
   out.doubted = std::exchange(doubted_, {});
@@ -152,10 +161,14 @@ void UtilityEngine::hear_receipt(const engine::Receipt& receipt, Time now) {
   if (!receipt.conflict.empty()) cycle_->doubt();
   if (receipt.version == 0 && told_.version != 0 && receipt.refused != told_.version) {
     cycle_->nothing_runs(now);
-    told_ = {};
+    told_ = accepted_ = {};
+    sent_.clear();
+  }
+  if (const auto taken = sent_.find(receipt.version); taken != sent_.end()) {
+    accepted_ = std::move(taken->second);
+    sent_.erase(sent_.begin(), std::next(taken));
   }
   if (receipt.refused != 0 && receipt.refused == told_.version) told_ = accepted_;
-  if (receipt.version != 0 && receipt.version == told_.version) accepted_ = told_;
 }
 
 // A process that was started again takes up the plan that is executed.
@@ -205,16 +218,17 @@ void UtilityEngine::send(const StepInputs& inputs, StepOutput& out) {
     points_ = {};
   }
   const Frame frame{setup_.engine, setup_.robot, inputs.last_version + 1, origin_, served_goals()};
+  points_.keep_only(cycle_->blocks(), initial_.has_value());
   FlexiblePlan plan = plan_of(network_, chains_, *cycle_, frame, told_, points_);
   serve_requests(plan);
   if (plan.activities.empty()) return;
   if (whole) {
     initial_ = initial_activity(network_, cycle_->past(), frame);
-    std::tie(initial_->start_point, initial_->end_point) = points_.fresh();
+    std::tie(initial_->start_point, initial_->end_point) = points_.of(Points::kInitial);
     if (initial_->impacts.empty()) initial_.reset();
   } else if (!initial_ && !unannounced_.empty()) {
     initial_ = initial_activity(network_, cycle_->past(), frame);
-    std::tie(initial_->start_point, initial_->end_point) = points_.fresh();
+    std::tie(initial_->start_point, initial_->end_point) = points_.of(Points::kInitial);
     std::erase_if(initial_->impacts,
                   [&](const auto& impact) { return !unannounced_.contains(impact.timeline); });
   }
@@ -224,6 +238,8 @@ void UtilityEngine::send(const StepInputs& inputs, StepOutput& out) {
   out.delta = temporal::difference(told_, plan);
   told_ = std::move(plan);
   to_tell_ = false;
+  sent_[told_.version] = told_;
+  if (sent_.size() > kUnanswered) sent_.erase(sent_.begin());
 }
 
 }  // namespace roci::planner::utility_htn::adapter

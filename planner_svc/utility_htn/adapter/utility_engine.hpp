@@ -68,9 +68,10 @@ class UtilityEngine final : public engine::SteppedEngine {
   bool to_tell_ = false;               // the next cycle sends a version, whatever it does
   temporal::Time taken_up_{0};         // what ended before was measured by another process
   Points points_;
-  temporal::FlexiblePlan told_;                    // newest version
-  temporal::FlexiblePlan accepted_;                // newest that the executive has taken
-  std::optional<temporal::PlanActivity> initial_;  // until it is over
+  temporal::FlexiblePlan told_;                           // newest version
+  temporal::FlexiblePlan accepted_;                       // newest that the executive has taken
+  std::map<std::uint32_t, temporal::FlexiblePlan> sent_;  // by version, of which no receipt has come
+  std::optional<temporal::PlanActivity> initial_;         // until it is over
   temporal::Time origin_{0};
   temporal::Time next_cycle_{0};
   bool open_ = false;

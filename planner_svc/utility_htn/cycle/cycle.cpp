@@ -24,6 +24,11 @@ bool is_request(const model::Task& task) { return !task.is_template; }
 
 }  // namespace
 
+const char* to_string(Activity part) {
+  constexpr const char* kNames[] = {"commit", "consolidate", "schedule", "repair", "optimize"};
+  return kNames[static_cast<std::size_t>(part)];
+}
+
 Cycle::Cycle(const model::Network& network, const flattening::Chains& chains,
              const assessor::Assessor& assessor, const search::Scheduler& scheduler, Time origin,
              Settings settings)
@@ -115,9 +120,9 @@ void Cycle::edit_network(TaskIndex task) {
 }
 
 void Cycle::request(TaskIndex task) {
-  past_.done.erase(task);
+  const bool again = past_.done.erase(task) != 0;
   failures_.erase(task);
-  to_schedule_ |= requested_.insert(task).second;
+  to_schedule_ |= requested_.insert(task).second || again;
 }
 
 void Cycle::withdraw(TaskIndex task) {
@@ -185,7 +190,7 @@ Report Cycle::run(Time now) {
     report.changed = true;
   };
   does(Activity::commit, commit(now));
-  does(Activity::consolidate, consolidate(now));
+  if (consolidate(now)) report.done.push_back(Activity::consolidate);  // the plan is the same
   forget_over(report);
   does(Activity::schedule, schedule(now, report));
   const bool surprised = to_optimize_ || report.changed;
@@ -259,12 +264,15 @@ void Cycle::await_start(Block& of, std::size_t index, Time now) {
   }
 }
 
+// Returns whether anything was folded that had been kept.
 bool Cycle::consolidate(Time now) {
   to_optimize_ |= follow(now);
+  const temporal::timelines::Kept before = timelines_.kept();
   timelines_.consolidate(now);
+  const temporal::timelines::Kept after = timelines_.kept();
   for (Index i = 0; i < network_.timelines.size(); ++i)
     if (!network_.timelines[i].reported) past_.internal[i] = timelines_.value(i, now);
-  return false;
+  return after.tasks != before.tasks || after.events != before.events || after.asks != before.asks;
 }
 
 // Blocks that are over leave; their requests are done, or wait for another try.

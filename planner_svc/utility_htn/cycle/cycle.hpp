@@ -20,6 +20,9 @@ namespace roci::planner::utility_htn::cycle {
 /// Names the parts of a cycle in their order (R77).
 enum class Activity { commit, consolidate, schedule, repair, optimize };
 
+/// Returns the part's name, as above.
+const char* to_string(Activity part);
+
 /// Says what a mission may choose (R82, R102).
 struct Settings {
   bool repairs = true;

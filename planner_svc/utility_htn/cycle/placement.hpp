@@ -16,7 +16,7 @@ using temporal::timelines::TaskId;
 enum class Stage {
   planned,
   committed,
-  doomed,  ///< committed, but it waits for a link that has failed: it fails when its wait timeout is over, and uses nothing
+  doomed,  ///< committed, but behind a link that has failed: it is skipped when its turn comes, and uses nothing
   running,
   succeeded,
   failed,

@@ -42,6 +42,7 @@ class ScriptedEngine final : public engine::SteppedEngine {
       heard_.push_back("refused " + std::to_string(inputs.receipt->refused));
     for (const engine::Goal& goal : inputs.goals) {
       heard_.push_back("goal " + goal.id);
+      if (goal.kind == "told") out.account = {{"commit", "schedule"}, 12, {"the view is taken out"}};
       if (goal.kind == "throw" && std::exchange(throws_, false)) throw std::runtime_error("out of ideas");
       out.delta.emplace();
       out.delta->added.engine = "scripted";
@@ -181,6 +182,14 @@ TEST_F(SteppedService, DataProductsAreHeardWhenTheyChangeAndAgainByAnEngineThatI
   const std::string image = "product image of look#1.0, 60 bytes, fate ";
   EXPECT_THAT(heard_,
               ElementsAre(image + "0", image + "2", "goal trap", image + "2", "goal trap", "goal next"));
+}
+
+TEST_F(SteppedService, WhatAStepDidIsToldPartByPartWithTheVersionThatCameOfIt) {
+  tell(1s, "plain", v1::GOAL_PENDING);
+  tell(2s, "watched", v1::GOAL_PENDING, "told");
+  run_until(5s);
+  EXPECT_THAT(events_,
+              ElementsAre("planner.cycle: commit, schedule; 12 explored; version 2; the view is taken out"));
 }
 
 // Beyond its bounds the service says so once, and ten times fewer for each further factor of ten.

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <set>
 
 #include "tests/unit/planner_svc/utility_htn/cycle/toy_network.hpp"
 
@@ -60,6 +62,33 @@ TEST_F(CycleTest, CommitsWhatStartsBeforeTheEndOfTheWindowAndFirst) {
   EXPECT_EQ(report.done.front(), Activity::commit);
   for (const Block& one : cycle.blocks())
     for (const Link& link : one.links) EXPECT_EQ(link.stage == Stage::committed, link.start < 40s);
+}
+
+TEST_F(CycleTest, NamesItsPartsInTheirOrderAndConsolidationWhereItFoldsSomething) {
+  Cycle cycle = make();
+  std::set<Activity> seen;
+  for (Time now{0}; now < 1500s; now += 10s) {
+    const std::size_t before = cycle.timelines().kept().events;
+    const Report report = cycle.run(now);
+    EXPECT_TRUE(std::ranges::is_sorted(report.done)) << now.count();
+    EXPECT_EQ(std::ranges::adjacent_find(report.done), report.done.end());
+    if (std::ranges::find(report.done, Activity::schedule) == report.done.end() &&
+        cycle.timelines().kept().events < before) {
+      EXPECT_THAT(report.done, Contains(Activity::consolidate));
+    }
+    seen.insert(report.done.begin(), report.done.end());
+    for (const Block& one : std::vector<Block>(cycle.blocks()))
+      for (std::size_t i = 0; i < one.links.size(); ++i) {
+        const Link& link = one.links[i];
+        const bool ready = i == 0 || one.links[i - 1].stage == Stage::succeeded;
+        if (link.stage == Stage::committed && link.planned <= now && ready)
+          cycle.begun(task_id(one.number, i), now);
+        else if (link.stage == Stage::running && link.end <= now)
+          cycle.ended(task_id(one.number, i), now, true);
+      }
+  }
+  EXPECT_THAT(seen, ::testing::IsSupersetOf({Activity::commit, Activity::consolidate, Activity::schedule}));
+  EXPECT_STREQ(to_string(Activity::optimize), "optimize");
 }
 
 TEST_F(CycleTest, WhereNothingHasChangedNothingIsSearched) {
