@@ -65,10 +65,9 @@ class Experiment {
                                                         settings);
     const TaskWorld world{seed, bias, setting_.noise, setting_.failures};
     Flight flight{
-        .network = network_, .engine = engine, .courses = {}, .strategy = strategy, .costs = setting_.costs};
-    flight.courses = [&](const std::string& task, std::uint32_t execution) {
-      const Fate drawn = fate(world, task, execution);
-      return Course{1, drawn.energy, drawn.failure};
+        .network = network_, .engine = engine, .fates = {}, .strategy = strategy, .costs = setting_.costs};
+    flight.fates = [&](const std::string& task, std::uint32_t execution) {
+      return fate(world, task, execution);
     };
     flight.until = network_.cycle.plan_end;
     if (strategy == Strategy::replanning)
@@ -82,8 +81,8 @@ class Experiment {
     auto& battery = network.timelines[network.budget];
     battery.initial = battery.highest = battery.initial / (1 + bias);
     planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network, {});
-    Flight flight{.network = network, .engine = engine, .courses = {}, .strategy = Strategy::replanning};
-    flight.courses = [](const std::string&, std::uint32_t) { return Course{}; };
+    Flight flight{.network = network, .engine = engine, .fates = {}, .strategy = Strategy::replanning};
+    flight.fates = [](const std::string&, std::uint32_t) { return Fate{}; };
     flight.until = network.cycle.plan_end;
     return fly(flight);
   }
