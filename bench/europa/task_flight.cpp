@@ -206,7 +206,7 @@ class TaskFlight {
       const auto other = adapter::task_of(link.id);
       if (other && planner::utility_htn::cycle::block_of(*other) == block) out_.utility += link.utility;
     }
-    out_.course.push_back({budget_.initial - left_, out_.utility});
+    out_.course.push_back({budget_.initial - left_, out_.utility, token->second.timeline});
     blocks_.erase(token);
   }
 

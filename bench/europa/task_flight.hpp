@@ -43,6 +43,7 @@ struct Flight {
 struct Reached {
   double spent = 0;
   temporal::RankVector utility;
+  std::string chain;  ///< that was completed
 };
 
 /// Says how a flight went.
