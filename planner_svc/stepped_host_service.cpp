@@ -57,6 +57,15 @@ void SteppedHost::subscribe_all() {
     progress_.insert_or_assign(step.activity(), heard_.steps.back().progress);
     step_soon();
   });
+  services::subscribe(node_, topics::data_product, [this](const v1::DataProduct& product) {
+    if (!is_ours(product.header()) || !has_room(products_, product.id(), kProducts, "data product")) return;
+    engine::DataProduct heard = from_wire(product);
+    engine::DataProduct& known = products_[product.id()];
+    if (known == heard) return;
+    known = std::move(heard);
+    heard_.products.push_back(known);
+    step_soon();
+  });
   services::subscribe(node_, topics::observation, [this](const v1::Observation& observation) {
     if (!has_room(state_, observation.timeline(), kTimelines, "timeline")) return;
     try {
@@ -182,8 +191,8 @@ void SteppedHost::begin_step() {
 void SteppedHost::end_step(Time now, StepResult result) {
   stepping_ = false;
   const bool heard_more = !heard_.goals.empty() || !heard_.ended_goals.empty() ||
-                          !heard_.observations.empty() || !heard_.steps.empty() || heard_.receipt ||
-                          heard_.executed;
+                          !heard_.observations.empty() || !heard_.steps.empty() || !heard_.products.empty() ||
+                          heard_.receipt || heard_.executed;
   if (!result.error.empty()) {
     report(v1::SEVERITY_ERROR, "planner.defect",
            "engine '" + setup_.engine + "' failed and is made anew: " + result.error);
@@ -231,7 +240,8 @@ std::string SteppedHost::refusal_of(Time now, const PlanDelta& delta, FlexiblePl
   for (const auto& [key, heard] : goals_)
     if (heard.told) situation.goals.push_back(*heard.goal);
   const FlexiblePlan* before = history_.version(delta.from_version);
-  return engine::refusal_of(*checker_, {situation, {}, next, before, before ? &progress_ : nullptr, setup_.model_file});
+  return engine::refusal_of(*checker_,
+                            {situation, {}, next, before, before ? &progress_ : nullptr, setup_.model_file});
 }
 
 // The new engine hears again all that still counts, with the next thing that is heard.
@@ -241,6 +251,7 @@ void SteppedHost::make_anew() {
   for (const auto& [key, heard] : goals_)
     if (heard.told) heard_.goals.push_back(*heard.goal);
   for (const auto& [timeline, value] : state_) heard_.observations.push_back({timeline, value, node_.now()});
+  for (const auto& [id, product] : products_) heard_.products.push_back(product);
   heard_.receipt = newest_;
   if (newest_ && newest_->version != 0)
     if (const FlexiblePlan* executed = history_.version(newest_->version)) heard_.executed = *executed;

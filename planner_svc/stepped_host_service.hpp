@@ -73,11 +73,12 @@ class SteppedHost {
   services::Publisher<v1::PlanDelta> deltas_;
   services::Publisher<v1::Event> events_;
 
-  engine::StepInputs heard_;               // since the step before
-  std::map<Key, HeardGoal> goals_;         // all of this run
-  engine::Timelines state_;                // newest observations
-  temporal::Progress progress_;            // of the executed version
-  std::optional<engine::Receipt> newest_;  // receipt
+  engine::StepInputs heard_;                             // since the step before
+  std::map<Key, HeardGoal> goals_;                       // all of this run
+  engine::Timelines state_;                              // newest observations
+  std::map<std::string, engine::DataProduct> products_;  // by id
+  temporal::Progress progress_;                          // of the executed version
+  std::optional<engine::Receipt> newest_;                // receipt
   engine::PlanHistory history_;
   std::uint32_t last_version_ = 0;
   std::vector<engine::BlockingGoal> blocking_;  // as told

@@ -65,6 +65,7 @@ class Experiment {
     if (strategy != Strategy::replanning)
       settings = {.repairs = false, .optimizes = false, .schedules_again = false};
     if (setting_.without.contains("repair")) settings.repairs = false;
+    settings.downlinks = false;
     planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network_,
                                                         settings);
     const TaskWorld world{seed, bias, setting_.noise, setting_.failures};
@@ -87,7 +88,8 @@ class Experiment {
     model::Network network = network_;
     auto& battery = network.timelines[network.budget];
     battery.initial = battery.highest = battery.initial / (1 + bias);
-    planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network, {});
+    planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network,
+                                                        {.downlinks = false});
     Flight flight{.network = network, .engine = engine, .fates = {}, .strategy = Strategy::replanning};
     flight.fates = [](const std::string&, std::uint32_t) { return Fate{}; };
     flight.until = network.cycle.plan_end;

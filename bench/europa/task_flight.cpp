@@ -134,6 +134,10 @@ class TaskFlight {
     planner::engine::Request situation;
     situation.origin = now_;
     situation.state[budget_.name] = left_;
+    for (const auto& [index, value] : world_) {
+      const auto& timeline = flight_.network.timelines[index];
+      situation.state[timeline.name] = adapter::value_of(timeline, value);
+    }
     const auto faults = planner::utility_htn::checking::faults_of(
         flight_.network, {situation, {}, next, plan_.version == 0 ? nullptr : &plan_, &progress_});
     return faults.empty() ? std::string() : faults.front();
@@ -175,6 +179,7 @@ class TaskFlight {
     step.activity = status.activity;
     step.progress = {status.state, status.started, status.ended};
     step.cause = status.reason;
+    step.attempt = status.attempt;
     heard_.steps.push_back(step);
     progress_.insert_or_assign(step.activity, step.progress);
     const Task* const task = task_of(status.activity);

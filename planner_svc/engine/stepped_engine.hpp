@@ -17,9 +17,9 @@ namespace roci::planner::engine {
 
 /// What an engine that plans all the time is made with.
 struct Setup {
-  std::string engine;  ///< its name in the table, to be given in FlexiblePlan::engine
-  std::string robot;   ///< whose plan it is; empty: the only one
-  std::string model;   ///< of the mission, in the engine's own language; empty: it needs none
+  std::string engine;                  ///< its name in the table, to be given in FlexiblePlan::engine
+  std::string robot;                   ///< whose plan it is; empty: the only one
+  std::string model;                   ///< of the mission, in the engine's own language; empty: it needs none
   std::filesystem::path model_file{};  ///< from which that was read; what the model includes lies beside it
 };
 
@@ -35,7 +35,25 @@ struct StepStatus {
   std::uint32_t plan_version = 0;
   std::string activity;
   temporal::ActivityProgress progress;
-  std::string cause;  ///< of a failure
+  std::string cause;          ///< of a failure
+  std::uint32_t attempt = 0;  ///< counts from 1; 0: no command was sent
+};
+
+/// How soon data must reach the ground, in the order of DataTier in idl/command.idl.
+enum class DataTier { critical, decisional, mandatory, residual };
+/// What has become of data, in the order of ProductFate in idl/command.idl.
+enum class DataFate { stored, sent, received, discarded, left_behind, lost };
+
+/// Data that were generated, as they stand now.
+struct DataProduct {
+  std::string id;
+  std::string source;  ///< activity that made it
+  DataTier tier = DataTier::mandatory;
+  std::uint64_t bytes = 0;
+  temporal::Time created{0};
+  temporal::RankVector utility;  ///< as computed from the data; none: it was not
+  DataFate fate = DataFate::stored;
+  friend bool operator==(const DataProduct&, const DataProduct&) = default;
 };
 
 /// What became of a goal in the end: in the order of GoalState in idl/goal.idl.
@@ -65,6 +83,7 @@ struct StepInputs {
   std::vector<EndedGoal> ended_goals;
   std::vector<Observation> observations;
   std::vector<StepStatus> steps;
+  std::vector<DataProduct> products;
   std::optional<Receipt> receipt;  ///< the newest
   /// The version that is executed if this engine did not send it: it was made before a restart, and an engine
   /// whose memory is gone goes on with it.

@@ -63,7 +63,7 @@ std::vector<TopicRights> make_table() {
       row(topics::command,         {executive},                              {listener, owner}),
       row(topics::command_ack,     {owner},                                  {executive, listener}),
       row(topics::observation,     {owner, executive},                       {executive, planner, analyst, listener, console}),
-      row(topics::data_product,    {owner, analyst},                         {analyst, listener, console}),
+      row(topics::data_product,    {owner, analyst},                         {planner, analyst, listener, console}),
       row(topics::hazard,          {owner},                                  {path_planner, listener, console}),
       row(topics::plan,            {executive},                              {planner, listener, console}),
       row(topics::step_status,     {executive},                              {planner, listener, console}),

@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "planner_svc/utility_htn/adapter/products.hpp"
 #include "planner_svc/utility_htn/assessor/subway_assessor.hpp"
 
 namespace roci::planner::utility_htn::adapter {
@@ -28,7 +29,8 @@ UtilityEngine::UtilityEngine(const engine::Setup& setup, model::Network network,
       chains_(flattening::flatten(network_, flattening::templates_on_call(network_))),
       assessor_(std::make_unique<assessor::SubwayAssessor>(network_, chains_)),
       scheduler_(search::make_scheduler("nearest")),
-      settings_(settings) {
+      settings_(settings),
+      delivery_(network_) {
   // The first cycle cannot commit what would have to start at once.
   for (model::Task& task : network_.tasks)
     if (task.fixed && temporal::bounded(task.preferred_start))
@@ -42,6 +44,7 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
     origin_ = next_cycle_ = inputs.now;
     cycle_ =
         std::make_unique<cycle::Cycle>(network_, chains_, *assessor_, *scheduler_, inputs.now, settings_);
+    if (settings_.downlinks) cycle_->deliver_by(delivery_);
   }
   hear(inputs);
   StepOutput out;
@@ -67,7 +70,8 @@ void UtilityEngine::hear(const StepInputs& inputs) {
   for (const Goal& goal : inputs.goals) hear_goal(goal);
   for (const engine::EndedGoal& ended : inputs.ended_goals) hear_end(ended);
   for (const engine::Observation& observation : inputs.observations) hear_observation(observation);
-  for (const engine::StepStatus& step : inputs.steps) hear_step(step);
+  for (const engine::StepStatus& step : inputs.steps) hear_step(step, inputs.now);
+  for (const engine::DataProduct& product : inputs.products) hear_product(product);
   if (inputs.receipt) hear_receipt(*inputs.receipt, inputs.now);
 }
 
@@ -114,13 +118,25 @@ void UtilityEngine::hear_observation(const engine::Observation& observation) {
                     observation.sampled, *number);
 }
 
-void UtilityEngine::hear_step(const engine::StepStatus& step) {
+void UtilityEngine::hear_product(const engine::DataProduct& product) {
+  if (delivery_.hear(existing(network_, chains_, *cycle_, product))) cycle_->doubt();
+}
+
+void UtilityEngine::hear_step(const engine::StepStatus& step, Time now) {
   if (initial_ && step.activity == initial_->id && temporal::is_over(step.progress.state)) initial_.reset();
   const auto task = task_of(step.activity);
   if (!task) return;
   if (step.progress.started) cycle_->begun(*task, *step.progress.started);
-  if (!temporal::is_over(step.progress.state)) return;
+  if (!temporal::is_over(step.progress.state)) {
+    if (std::exchange(attempts_[*task], step.attempt) < step.attempt && step.attempt > 1)
+      cycle_->tried_again(*task, now);
+    return;
+  }
+  attempts_.erase(*task);
   const Time at = step.progress.ended.value_or(step.progress.started.value_or(origin_));
+  if (const auto index = task_of_activity(network_, step.activity);
+      index < network_.tasks.size() && step.progress.started)
+    delivery_.executed(*task, index, *step.progress.started, at, cycle_->past().values);
   cycle_->ended(*task, at, step.progress.state == ActivityState::succeeded, step.cause);
 }
 

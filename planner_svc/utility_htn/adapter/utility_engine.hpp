@@ -2,6 +2,7 @@
 // cycle at the process interval, and sends versions of its plan.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,7 +31,8 @@ class UtilityEngine final : public engine::SteppedEngine {
   void hear_goal(const engine::Goal& goal);
   void hear_end(const engine::EndedGoal& ended);
   void hear_observation(const engine::Observation& observation);
-  void hear_step(const engine::StepStatus& step);
+  void hear_product(const engine::DataProduct& product);
+  void hear_step(const engine::StepStatus& step, temporal::Time now);
   void hear_receipt(const engine::Receipt& receipt, temporal::Time now);
   void go_on_with(const temporal::FlexiblePlan& executed, temporal::Time now);
   void send(const engine::StepInputs& inputs, engine::StepOutput& out);
@@ -44,9 +46,11 @@ class UtilityEngine final : public engine::SteppedEngine {
   std::unique_ptr<assessor::Assessor> assessor_;
   std::unique_ptr<search::Scheduler> scheduler_;
   cycle::Settings settings_;
+  delivery::Delivery delivery_;
   std::unique_ptr<cycle::Cycle> cycle_;  // from the first step on
   std::vector<engine::Goal> goals_;      // open
   std::vector<engine::BlockingGoal> blocking_;
+  std::map<cycle::TaskId, std::uint32_t> attempts_;  // of what runs
   Points points_;
   temporal::FlexiblePlan told_;                    // newest version
   temporal::FlexiblePlan accepted_;                // newest that the executive has taken
