@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -96,23 +97,46 @@ class Experiment {
     return fly(flight);
   }
 
+  // All that the seed's analyses can show. No planner, however much it knows beforehand, brings home more than the worth of the whole
+  // network and this.
+  double discoverable(std::uint64_t seed) const {
+    std::map<std::string, double> found;  // an analysis for each form of its data shows the same
+    for (const auto& task : network_.tasks)
+      if (const auto here = discovery(seed, task.id)) found[here->parameter] = here->more;
+    double sum = 0;
+    for (const auto& [parameter, more] : found) sum += more;
+    return sum;
+  }
+
  private:
-  // An analysis may show that another target of the same site is worth more than it looked; only an engine that plans anew
-  // hears of it. The draws are those of tasks that no network has.
-  void discover(planner::utility_htn::adapter::UtilityEngine& engine, std::uint64_t seed,
-                const std::string& task) const {
-    if (!task.starts_with("science_analyze")) return;
+  struct Discovery {
+    std::string parameter;
+    double value = 0;
+    double more = 0;  // than the prior
+  };
+
+  // An analysis may show that another target of the same site is worth more than it looked. The draws are those of tasks that no
+  // network has.
+  std::optional<Discovery> discovery(std::uint64_t seed, const std::string& task) const {
+    if (!task.starts_with("science_analyze")) return {};
     const std::string target = task.substr(task.size() - 3);  // "0_2"
     const TaskWorld world{seed, 0, 0, {setting_.discovery_share, setting_.discovery_share, 0, 0}};
-    if (fate(world, "discovery/" + target, 0).failure == Resolution::none) return;
+    if (fate(world, "discovery/" + target, 0).failure == Resolution::none) return {};
     const auto site = "worth_" + target.substr(0, 2);
     for (int i = 1; i < 3; ++i) {
       const std::string other = site + std::to_string((target.back() - '0' + i) % 3);
       const auto parameter = std::ranges::find(network_.parameters, other, &model::Parameter::name);
       if (parameter == network_.parameters.end()) continue;
-      engine.learn(other, std::min(parameter->highest, parameter->prior + setting_.discovery_utility));
-      return;
+      const double value = std::min(parameter->highest, parameter->prior + setting_.discovery_utility);
+      return Discovery{other, value, value - parameter->prior};
     }
+    return {};
+  }
+
+  // Only an engine that plans anew hears of it.
+  void discover(planner::utility_htn::adapter::UtilityEngine& engine, std::uint64_t seed,
+                const std::string& task) const {
+    if (const auto found = discovery(seed, task)) engine.learn(found->parameter, found->value);
   }
 
   const model::Network& network_;
@@ -222,8 +246,9 @@ int main(int argc, char** argv) {
         json flights = json::array();
         for (int run = 0; run < setting.runs; ++run) {
           std::fprintf(stderr, "\r%+.0f %% %-7s %d of %d ", 100 * bias, name, run + 1, setting.runs);
-          flights.push_back(
-              summary_of(experiment.flown(strategy, bias, first + static_cast<std::uint64_t>(run))));
+          const std::uint64_t seed = first + static_cast<std::uint64_t>(run);
+          flights.push_back(summary_of(experiment.flown(strategy, bias, seed)));
+          flights.back()["discoverable"] = experiment.discoverable(seed);
         }
         variant[name] = flights;
       }

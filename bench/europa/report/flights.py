@@ -42,6 +42,12 @@ class Results:
     def expected(self, bias: float, strategy: str) -> float:
         return self.variants[bias]["expected"][strategy]
 
+    def bounds(self, bias: float) -> list[float]:
+        """For each flight of Replan what no planner exceeds, however much it knows beforehand: the flight without failures, and
+        all that its seed's analyses can show. It pays for no failure, so shares of it are shares of less than can be had."""
+        most = self.variants[bias]["prescient"]["utility"]
+        return [most + flight["discoverable"] for flight in self.flights(bias, "replan")]
+
     def faults(self) -> int:
         return sum(len(flight["faults"]) for bias in self.variants for strategy in STRATEGIES
                    for flight in self.variants[bias].get(strategy, []))

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 import shlex
 import subprocess
 import sys
@@ -17,6 +18,7 @@ import page
 from flights import Results
 
 ROOT = Path(__file__).resolve().parents[3]
+SETTINGS = ROOT / "bench/europa/experiments.yaml"
 CAUSES = Path(__file__).with_name("causes.json")
 BIASES = ["0", "0.1", "-0.1"]
 # What is swept, as bench_europa names it: factors of the values of the settings would hide what was flown.
@@ -29,6 +31,14 @@ def flown(bench: Path, options: list[str]) -> dict:
     if done.returncode != 0:
         raise SystemExit(f"bench_europa {' '.join(options)} failed: {done.stderr.splitlines()[-1] if done.stderr else done.returncode}")
     return json.loads(done.stdout)
+
+
+def forecast() -> float:
+    """The share of a prescient planner's utility that was registered before the experiments."""
+    found = re.search(r"^forecast_replan_share: \{value: ([0-9.]+)", SETTINGS.read_text(), re.MULTILINE)
+    if not found:
+        raise SystemExit(f"{SETTINGS}: forecast_replan_share is missing")
+    return float(found[1])
 
 
 def main() -> int:
@@ -63,7 +73,7 @@ def main() -> int:
     causes = json.loads(CAUSES.read_text()) if CAUSES.exists() else {}
     command = shlex.join(["bench/europa/report/run.py", *sys.argv[1:]])
     (args.out / "pictures").mkdir(parents=True, exist_ok=True)
-    (args.out / "europa-experiments.md").write_text(page.page(results, swept, causes, command))
+    (args.out / "europa-experiments.md").write_text(page.page(results, swept, causes, command, forecast()))
     for name, picture in page.pictures(results).items():
         (args.out / "pictures" / f"europa-{name}.svg").write_text(picture)
     return 0

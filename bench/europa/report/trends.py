@@ -43,10 +43,15 @@ def jumps(results: Results) -> Trend:
 
 
 def beside_model(results: Results, strategy: str) -> list[Trend]:
-    """Where the mean of the flights lies above and below the model's line, each by its interval at some energy."""
-    curve = results.variants[0]["expected"]["curve"]
+    """Where the mean of the flights lies above and below the model's line, each by its interval at some energy. Beyond what an average
+    flight spends there is nothing to compare: it has ended."""
+    spent = mean([flight["spent"] for flight in results.flights(0, strategy)]).mean
+    curve = [point for point in results.variants[0]["expected"]["curve"] if 0 < point["spent"] <= spent]
+    if not curve:
+        return [Trend(f"{strategy}-{side}-model", f"{strategy} lies {side} the model somewhere", False, "hardly any energy was spent")
+                for side in ("above", "below")]
     gaps = [(point["spent"], mean([utility_at(flight, point["spent"]) - point[strategy]
-                                   for flight in results.flights(0, strategy)])) for point in curve[1:]]
+                                   for flight in results.flights(0, strategy)])) for point in curve]
     over = max(gaps, key=lambda gap: gap[1].low)
     under = min(gaps, key=lambda gap: gap[1].high)
     return [Trend(f"{strategy}-above-model", f"{strategy} lies above the model while an open site is sampled", over[1].low > 0,
