@@ -17,7 +17,8 @@ struct House {
 
 const std::vector<House> kHouses = {
     {"core/",
-     {"core/temporal/", "core/words/", "core/mission/", "core/pddl/", "core/kinematics/", "core/terrain/"}},
+     {"core/temporal/", "core/words/", "core/pseudorandom/", "core/mission/", "core/pddl/",
+      "core/kinematics/", "core/terrain/"}},
     {"services/",
      {"services/bounds/", "services/clock/", "services/link/", "services/log/", "services/wire/",
       "services/transport/", "services/certificate/", "services/vendors/", "services/topics.hpp",
