@@ -89,20 +89,21 @@ std::optional<KeptNetworks> NetworkStore::load() const {
 void NetworkStore::keep(KeptNetworks& kept, const std::string* model) const {
   if (folder_.empty()) throw std::runtime_error("the run has no folder to keep it in");
   fs::create_directories(folder_);
-  KeptNetworks next = kept;
+  std::string name = kept.model;
+  std::uint32_t checksum = kept.checksum;
   if (model != nullptr) {
-    next.checksum = checksum_of(*model);
-    next.model = "network-" + std::to_string(next.checksum) + ".htn";
-    services::process::replace_file(file(next.model), *model);
+    checksum = checksum_of(*model);
+    name = "network-" + std::to_string(checksum) + ".htn";
+    services::process::replace_file(file(name), *model);
   }
-  json list{
-      {"format", kFormat}, {"model", next.model}, {"checksum", next.checksum}, {"orders", json::array()}};
-  for (const NetworkRecord& one : next.orders) list["orders"].push_back(to_json(one));
+  json list{{"format", kFormat}, {"model", name}, {"checksum", checksum}, {"orders", json::array()}};
+  for (const NetworkRecord& one : kept.orders) list["orders"].push_back(to_json(one));
   services::process::replace_file(file(kList),
                                   list.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
   std::error_code ignored;
-  if (!kept.model.empty() && kept.model != next.model) fs::remove(file(kept.model), ignored);
-  kept = std::move(next);
+  if (!kept.model.empty() && kept.model != name) fs::remove(file(kept.model), ignored);
+  kept.model = std::move(name);
+  kept.checksum = checksum;
 }
 
 void NetworkStore::clear() const {

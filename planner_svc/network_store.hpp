@@ -45,7 +45,7 @@ class NetworkStore {
 
   /// Returns nothing where nothing was kept. Throws std::runtime_error that names the damaged file.
   std::optional<KeptNetworks> load() const;
-  /// Puts a list in the place of the one before. With `model`, the bytes of the new model, names it in the list. When it returns all is on the
+  /// Puts a list in the place of the one before. With `model`, the bytes of the new one, names its file in `kept`, too. When it returns all is on the
   /// disk. Throws std::runtime_error; then what was kept before is.
   void keep(KeptNetworks& kept, const std::string* model = nullptr) const;
   /// Forgets what another run left here.
