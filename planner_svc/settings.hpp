@@ -15,7 +15,7 @@ namespace roci::planner {
 struct Settings {
   std::string engine;  ///< that the mission names; empty: none
   std::string model;   ///< text of the mission's model in that engine's language; empty: the mission has none
-  std::filesystem::path model_file{};  ///< from which that was read
+  std::filesystem::path model_file{};                           ///< from which that was read
   temporal::Duration function_timeout = temporal::seconds(20);  ///< for one batch of values
   /// Evaluations that a call may spend on better plans once it has one; see engine::Request.
   std::uint64_t improvement = engine::kImprovement;

@@ -17,9 +17,9 @@ namespace roci::planner::engine {
 
 /// What an engine that plans all the time is made with.
 struct Setup {
-  std::string engine;                  ///< its name in the table, to be given in FlexiblePlan::engine
-  std::string robot;                   ///< whose plan it is; empty: the only one
-  std::string model;                   ///< of the mission, in the engine's own language; empty: it needs none
+  std::string engine;  ///< its name in the table, to be given in FlexiblePlan::engine
+  std::string robot;   ///< whose plan it is; empty: the only one
+  std::string model;   ///< of the mission, in the engine's own language; empty: it needs none
   /// Is the file from which that was read, or the newest of the ground; what the model includes lies beside it.
   std::filesystem::path model_file{};
 };
@@ -79,8 +79,8 @@ struct Receipt {
 struct ModelChange {
   std::string issuer;
   std::string id;
-  std::optional<std::string>
-      model;  ///< the whole new one, in the engine's own binary form; nothing: a parameter gets a value
+  /// Is the whole new one, in the engine's own binary form; nothing: a parameter gets a value.
+  std::optional<std::string> model;
   std::string parameter;
   double value = 0;
 };
@@ -89,8 +89,8 @@ struct ModelChange {
 struct ModelAnswer {
   std::string issuer;
   std::string id;
-  std::vector<std::string>
-      refused;  ///< all that is wrong, each with place and remedy; nothing has changed; empty: it is taken
+  /// Tells all that is wrong, each with place and remedy, and nothing has changed; empty: it is taken.
+  std::vector<std::string> refused;
 };
 
 /// Names a model: of its versions the greater is the newer.

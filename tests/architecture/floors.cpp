@@ -32,8 +32,8 @@ const std::vector<House> kHouses = {
       "planner_svc/utility_htn/checking/", "planner_svc/utility_htn/flattening/",
       "planner_svc/utility_htn/assessor/", "planner_svc/utility_htn/downlink/",
       "planner_svc/utility_htn/search/", "planner_svc/utility_htn/strategies/",
-      "planner_svc/utility_htn/cycle/", "planner_svc/utility_htn/adapter/", "planner_svc/utility_htn/cli/",
-      "planner_svc/utility_htn/"}},
+      "planner_svc/utility_htn/delivery/", "planner_svc/utility_htn/cycle/",
+      "planner_svc/utility_htn/adapter/", "planner_svc/utility_htn/cli/", "planner_svc/utility_htn/"}},
     {"sim_svc/",
      {"sim_svc/world/", "sim_svc/setup/", "sim_svc/components/", "sim_svc/scenario/", "sim_svc/"}},
 };

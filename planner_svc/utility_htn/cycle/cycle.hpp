@@ -27,7 +27,7 @@ const char* to_string(Activity part);
 struct Settings {
   bool repairs = true;
   bool optimizes = true;
-  bool downlinks = true;  ///< data without a downlink are not generated (R127); otherwise all get home
+  bool downlinks = true;        ///< data without a downlink are not generated (R127); otherwise all get home
   bool schedules_again = true;  ///< also after the first time; otherwise the first plan is all there is
   /// What was observed must differ from what was foreseen by this share of the timeline's first value before the cycle optimizes anew.
   double noticeable = 0.005;

@@ -15,8 +15,8 @@ struct DataProduct {
   std::string id;  ///< unique among those of a question; of a planned task "request/task/product"
   Tier tier = Tier::mandatory;
   std::uint64_t bytes = 0;
-  temporal::Time created{
-      0};  ///< when the task that generates it ends; no downlink that starts before takes it
+  /// Is when the task that generates it ends; no downlink that starts before takes it.
+  temporal::Time created{0};
   temporal::RankVector utility{};  ///< scores ≥ 0
   friend bool operator==(const DataProduct&, const DataProduct&) = default;
 };

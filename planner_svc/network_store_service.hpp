@@ -30,8 +30,8 @@ struct NetworkRecord {
 
 struct KeptNetworks {
   std::vector<NetworkRecord> orders;
-  std::string
-      model;  ///< name of the file that holds the newest model of the ground; empty: the mission's is in force
+  /// Names the file that holds the newest model of the ground; empty: the mission's is in force.
+  std::string model;
   std::uint32_t checksum = 0;  ///< of that file
   friend bool operator==(const KeptNetworks&, const KeptNetworks&) = default;
 };
