@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <map>
 #include <set>
-#include <vector>
 #include <string>
-#include <filesystem>
+#include <vector>
 
 #include "rehearsal/flight.hpp"
 #include "services/clock/wall.hpp"
@@ -132,7 +132,8 @@ TEST(TopicRightsOfServices, GiveNoMoreThanWhatIsUsed) {
       "roci/exec/member",   "roci/exec/journal",    "roci/exec/goal",       "roci/lease/request",
       "roci/lease/state",   "roci/decision",        "roci/decision/answer", "roci/decision/receipt",
       "roci/planner/delta", "roci/planner/receipt", "roci/goal/status",     "roci/plan",
-      "roci/plan/step",     "roci/order",           "roci/order/status"};
+      "roci/plan/step",     "roci/order",           "roci/order/status",    "roci/network/order",
+      "roci/network/status"};
   for (const mission::ServiceEntry& entry : rehearsal::crew_of(kMissions.front())) {
     const Used used = used_by_program(entry.program);
     std::set<Role> own = roles_of(entry);
@@ -141,7 +142,8 @@ TEST(TopicRightsOfServices, GiveNoMoreThanWhatIsUsed) {
     for (const security::TopicRights& row : security::topic_rights()) {
       if (elsewhere.contains(row.topic)) continue;
       const bool continuous =
-          entry.program == "planner_svc" && (row.topic == "roci/goal" || row.topic == "roci/observation");
+          entry.program == "planner_svc" &&
+          (row.topic == "roci/goal" || row.topic == "roci/observation" || row.topic == "roci/product");
       const bool paired = entry.program == "exec_svc" && row.topic == "roci/goal";
       if (any_of(row.writers, own) && !paired) {
         EXPECT_TRUE(used.written.contains(row.topic)) << entry.name << " may write " << row.topic;
