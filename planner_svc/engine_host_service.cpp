@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/mission/service_list.hpp"
 #include "planner_svc/answering_host_service.hpp"
 #include "planner_svc/settings.hpp"
 #include "planner_svc/stepped_host_service.hpp"
@@ -9,12 +10,20 @@
 namespace roci::planner {
 namespace {
 
+// Of several planners of a mission each has a folder of its own.
+std::filesystem::path networks_folder(const services::Node& node, const services::RunSettings& run) {
+  if (run.run_folder.empty()) return {};
+  const auto list =
+      run.mission.empty() ? mission::ServiceList{} : mission::load_service_list_if_any(run.mission);
+  return run.run_folder / list.file_name(node.options().name, "networks");
+}
+
 class EngineHost final : public services::Service {
  public:
   EngineHost(services::Node& node, const services::RunSettings& run, const engine::Table& table)
       : settings_(read_settings(run.mission_file())), answering_(node, run, settings_, table) {
     if (engine::stepped_named(table, settings_.engine) != nullptr)
-      stepped_.emplace(node, settings_, table.at(settings_.engine));
+      stepped_.emplace(node, settings_, table.at(settings_.engine), networks_folder(node, run));
   }
 
  private:

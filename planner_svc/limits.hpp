@@ -11,8 +11,17 @@ inline constexpr std::size_t kGoals = 10'000;
 inline constexpr std::size_t kTimelines = 10'000;
 /// Activities of the executed version whose progress is kept: those of the largest plan that the wire carries.
 inline constexpr std::size_t kActivities = 100'000;
+/// Data products that such an engine hears of.
+inline constexpr std::size_t kProducts = 2'000;
 /// Offers of functions: a module for each of 256 owners.
 inline constexpr std::size_t kOffers = 256;
+/// Orders of the ground about the network, in a run; bytes of one network; how many wait for a cycle; reasons of a refusal, and bytes of
+/// one.
+inline constexpr std::size_t kNetworkOrders = 1'000;
+inline constexpr std::size_t kNetworkBytes = 8U << 20U;
+inline constexpr std::size_t kNetworksWaiting = 4;
+inline constexpr std::size_t kReasons = 50;
+inline constexpr std::size_t kReasonBytes = 2'000;
 /// Bytes of a name that is kept.
 inline constexpr std::size_t kNameBytes = 1'024;
 

@@ -24,6 +24,8 @@ Settings read_settings(const std::filesystem::path& mission) {
     out.model = text_of(*model);
     out.model_file = model->resolve(model->text());
   }
+  if (const auto ground = root.find("ground"))
+    if (const auto uploads = ground->find("uploads")) out.uploads = uploads->texts();
   const auto planner = root.find("planner");
   if (!planner) return out;
   out.engine = planner->text_or("engine", "");

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/temporal/duration.hpp"
 #include "planner_svc/engine/function_source.hpp"
@@ -14,12 +15,14 @@ namespace roci::planner {
 struct Settings {
   std::string engine;  ///< that the mission names; empty: none
   std::string model;   ///< text of the mission's model in that engine's language; empty: the mission has none
-  std::filesystem::path model_file{};  ///< from which that was read
+  std::filesystem::path model_file{};                           ///< from which that was read
   temporal::Duration function_timeout = temporal::seconds(20);  ///< for one batch of values
   /// Evaluations that a call may spend on better plans once it has one; see engine::Request.
   std::uint64_t improvement = engine::kImprovement;
   /// Which values of external functions are asked for: `functions: eager`, `lazy` or `two_accuracy`.
   engine::FunctionsMode functions = engine::FunctionsMode::eager;
+  /// What the ground may change of it in flight: `network`, `parameters`, of the mission's `ground: {uploads: …}`.
+  std::vector<std::string> uploads{};
   /// Mission time that a call takes under the simulated clock.
   double simulated_base_s = 0.5;
   double simulated_per_evaluation_s = 0.0005;

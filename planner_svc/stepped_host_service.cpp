@@ -31,17 +31,36 @@ std::string version_text(std::uint32_t version) { return "version " + std::to_st
 
 }  // namespace
 
-SteppedHost::SteppedHost(services::Node& node, const Settings& settings, const engine::TableEntry& entry)
+SteppedHost::SteppedHost(services::Node& node, const Settings& settings, const engine::TableEntry& entry,
+                         const std::filesystem::path& networks)
     : node_(node),
       entry_(entry),
+      orders_(node, settings, networks, [this] { step_soon(); }),
       setup_{settings.engine, node.options().robot, settings.model, settings.model_file},
-      engine_(std::get<MakeStepped>(entry.make)(setup_)),
+      engine_(make_engine()),
       checker_(entry.make_checker()),
       deltas_(services::advertise(node, topics::plan_delta)),
       events_(services::advertise(node, topics::event)),
       worker_(node) {
   subscribe_all();
   step_soon();
+}
+
+// A model of the ground that was kept is in force; one that cannot be used is told and forgotten.
+std::shared_ptr<engine::SteppedEngine> SteppedHost::make_engine() {
+  const MakeStepped& make = std::get<MakeStepped>(entry_.make);
+  const std::filesystem::path kept = orders_.model_file();
+  if (kept.empty()) return make(setup_);
+  engine::Setup with_kept = setup_;
+  with_kept.model_file = kept;
+  try {
+    std::shared_ptr<engine::SteppedEngine> out = make(with_kept);
+    setup_ = with_kept;
+    return out;
+  } catch (const std::exception& error) {
+    orders_.give_up_kept(error.what());
+    return make(setup_);
+  }
 }
 
 void SteppedHost::subscribe_all() {
@@ -57,6 +76,15 @@ void SteppedHost::subscribe_all() {
     if (!has_room(progress_, step.activity(), kActivities, "step")) return;
     heard_.steps.push_back(from_wire(step));
     progress_.insert_or_assign(step.activity(), heard_.steps.back().progress);
+    step_soon();
+  });
+  services::subscribe(node_, topics::data_product, [this](const v1::DataProduct& product) {
+    if (!is_ours(product.header()) || !has_room(products_, product.id(), kProducts, "data product")) return;
+    engine::DataProduct heard = from_wire(product);
+    engine::DataProduct& known = products_[product.id()];
+    if (known == heard) return;
+    known = std::move(heard);
+    heard_.products.push_back(known);
     step_soon();
   });
   services::subscribe(node_, topics::observation, [this](const v1::Observation& observation) {
@@ -147,6 +175,7 @@ void SteppedHost::take_receipt() {
   if (!newest_ || (newest_->version != 0 && history_.version(newest_->version) == nullptr)) return;
   heard_.receipt = newest_;
   if (newest_->version != 0) {
+    orders_.executed(newest_->version);
     history_.forget_before(newest_->version);
     forget_steps_of_others(*history_.version(newest_->version));
   } else {
@@ -176,6 +205,7 @@ void SteppedHost::begin_step() {
   StepInputs inputs = std::exchange(heard_, {});
   inputs.now = node_.now();
   inputs.last_version = last_version_;
+  inputs.model_changes = orders_.take();
   worker_.compute(
       [engine = engine_, inputs = std::move(inputs)](const std::stop_token&) {
         StepResult result;
@@ -192,13 +222,21 @@ void SteppedHost::begin_step() {
 void SteppedHost::end_step(Time now, StepResult result) {
   stepping_ = false;
   const bool heard_more = !heard_.goals.empty() || !heard_.ended_goals.empty() ||
-                          !heard_.observations.empty() || !heard_.steps.empty() || heard_.receipt ||
-                          heard_.executed;
+                          !heard_.observations.empty() || !heard_.steps.empty() || !heard_.products.empty() ||
+                          heard_.receipt || heard_.executed || orders_.waiting();
   if (!result.error.empty()) {
     report(v1::SEVERITY_ERROR, "planner.defect",
            "engine '" + setup_.engine + "' failed and is made anew: " + result.error);
+    orders_.fail(result.error);
+    make_anew();
+  } else if (const auto model =
+                 orders_.answer(result.output.model_answers, result.output.model, last_version_);
+             model == NetworkOrders::Model::unkept) {
     make_anew();
   } else {
+    if (model == NetworkOrders::Model::replaced) setup_.model_file = orders_.model_file();
+    for (const std::string& doubt : result.output.doubted)
+      report(v1::SEVERITY_WARNING, "planner.measured", doubt);
     tell_account(result.output);
     if (result.output.delta) send(now, *result.output.delta);
     tell_blocking(std::move(result.output.blocking));
@@ -248,11 +286,12 @@ std::string SteppedHost::refusal_of(Time now, const PlanDelta& delta, FlexiblePl
 
 // The new engine hears again all that still counts, with the next thing that is heard.
 void SteppedHost::make_anew() {
-  engine_ = std::get<MakeStepped>(entry_.make)(setup_);
+  engine_ = std::get<MakeStepped>(entry_.make)(setup_);  // its model was taken before
   heard_ = {};
   for (const auto& [key, heard] : goals_)
     if (heard.told) heard_.goals.push_back(*heard.goal);
   for (const auto& [timeline, value] : state_) heard_.observations.push_back({timeline, value, node_.now()});
+  for (const auto& [id, product] : products_) heard_.products.push_back(product);
   heard_.receipt = newest_;
   if (newest_ && newest_->version != 0)
     if (const FlexiblePlan* executed = history_.version(newest_->version)) heard_.executed = *executed;

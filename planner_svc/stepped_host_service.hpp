@@ -11,6 +11,7 @@
 
 #include "planner_svc/engine/plan_history.hpp"
 #include "planner_svc/engine/table.hpp"
+#include "planner_svc/network_orders_service.hpp"
 #include "planner_svc/settings.hpp"
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
@@ -28,7 +29,9 @@ namespace roci::planner {
 class SteppedHost {
  public:
   /// All outlive this. `entry` makes an engine that plans all the time. Throws what it throws.
-  SteppedHost(services::Node& node, const Settings& settings, const engine::TableEntry& entry);
+  /// `networks`: where what the ground changes of the engine's model is kept; empty: nothing is taken of it.
+  SteppedHost(services::Node& node, const Settings& settings, const engine::TableEntry& entry,
+              const std::filesystem::path& networks);
   SteppedHost(const SteppedHost&) = delete;
   SteppedHost& operator=(const SteppedHost&) = delete;
 
@@ -62,6 +65,7 @@ class SteppedHost {
   void send(temporal::Time now, const temporal::PlanDelta& delta);
   std::string refusal_of(temporal::Time now, const temporal::PlanDelta& delta,
                          temporal::FlexiblePlan& next) const;
+  std::shared_ptr<engine::SteppedEngine> make_engine();
   void make_anew();
   void tell_account(const engine::StepOutput& output);
   void tell_blocking(std::vector<engine::BlockingGoal> blocking);
@@ -69,17 +73,19 @@ class SteppedHost {
 
   services::Node& node_;
   const engine::TableEntry& entry_;
+  NetworkOrders orders_;
   engine::Setup setup_;
   std::shared_ptr<engine::SteppedEngine> engine_;
   std::unique_ptr<engine::Checker> checker_;
   services::Publisher<v1::PlanDelta> deltas_;
   services::Publisher<v1::Event> events_;
 
-  engine::StepInputs heard_;               // since the step before
-  std::map<Key, HeardGoal> goals_;         // all of this run
-  engine::Timelines state_;                // newest observations
-  temporal::Progress progress_;            // of the executed version
-  std::optional<engine::Receipt> newest_;  // receipt
+  engine::StepInputs heard_;                             // since the step before
+  std::map<Key, HeardGoal> goals_;                       // all of this run
+  engine::Timelines state_;                              // newest observations
+  std::map<std::string, engine::DataProduct> products_;  // by id
+  temporal::Progress progress_;                          // of the executed version
+  std::optional<engine::Receipt> newest_;                // receipt
   engine::PlanHistory history_;
   std::uint32_t last_version_ = 0;
   std::vector<engine::BlockingGoal> blocking_;  // as told

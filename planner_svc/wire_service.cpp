@@ -236,8 +236,21 @@ engine::Observation from_wire(const v1::Observation& in) {
   return {in.timeline(), services::wire::from_wire(in.observed()), temporal::Time(in.sampled_us())};
 }
 
+engine::DataProduct from_wire(const v1::DataProduct& in) {
+  engine::DataProduct out;
+  out.id = in.id();
+  out.source = in.source();
+  out.tier = static_cast<engine::DataTier>(std::min<std::uint32_t>(in.tier(), v1::TIER_RESIDUAL));
+  out.bytes = in.bytes();
+  out.created = std::clamp(temporal::Time(in.created_us()), temporal::Time{0}, temporal::Time(kLatest));
+  out.utility = temporal::RankVector(in.utility());
+  out.fate = static_cast<engine::DataFate>(std::min<std::uint32_t>(in.fate(), v1::PRODUCT_LOST));
+  return out;
+}
+
 engine::StepStatus from_wire(const v1::StepStatus& in) {
   engine::StepStatus out;
+  out.attempt = in.attempt();
   out.plan_version = in.plan_version();
   out.activity = in.activity();
   out.progress.state =

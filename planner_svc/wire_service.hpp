@@ -38,6 +38,7 @@ std::vector<engine::FunctionValue> values_of(const std::vector<engine::FunctionC
 engine::Goal from_wire(const v1::Goal&);
 /// Throws services::wire::WireError.
 engine::Observation from_wire(const v1::Observation&);
+engine::DataProduct from_wire(const v1::DataProduct&);
 engine::StepStatus from_wire(const v1::StepStatus&);
 engine::Receipt from_wire(const v1::PlanReceipt&);
 

@@ -9,6 +9,7 @@
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
 #include "roci_idl/motion.h"
+#include "roci_idl/network.h"
 #include "roci_idl/order.h"
 #include "roci_idl/plan.h"
 #include "roci_idl/planner.h"
@@ -70,6 +71,10 @@ inline constexpr Topic<v1::OrderStatus>   order_status  {"roci/order/status",   
 inline constexpr Topic<v1::Decision>      decision      {"roci/decision",         "roci::v1::Decision",      Qos::state, clocked, robot, PayloadLimit::page};
 inline constexpr Topic<v1::DecisionAnswer>  decision_answer {"roci/decision/answer",  "roci::v1::DecisionAnswer",  Qos::state, clocked, robot, PayloadLimit::word};
 inline constexpr Topic<v1::DecisionReceipt> decision_receipt{"roci/decision/receipt", "roci::v1::DecisionReceipt", Qos::state, clocked, robot, PayloadLimit::page};
+
+// Task networks and values of their parameters from the ground, for an engine that plans all the time.
+inline constexpr Topic<v1::NetworkOrder>  network_order {"roci/network/order",    "roci::v1::NetworkOrder",  Qos::state, clocked, robot, PayloadLimit::batch};
+inline constexpr Topic<v1::NetworkStatus> network_status{"roci/network/status",   "roci::v1::NetworkStatus", Qos::state, clocked, robot, PayloadLimit::page};
 
 // An engine that plans all the time uses these.
 inline constexpr Topic<v1::PlanDelta>     plan_delta    {"roci/planner/delta",    "roci::v1::PlanDelta",     Qos::request, clocked, robot, PayloadLimit::plan};

@@ -17,6 +17,7 @@ namespace roci::sim {
 
 using scenario::GoalStimulus;
 using scenario::HazardStimulus;
+using scenario::NetworkStimulus;
 using scenario::RecallStimulus;
 using scenario::RunSetup;
 using scenario::Scenario;
@@ -65,6 +66,7 @@ class SimService final : public services::Service, private owner::Driver {
         products_(services::advertise(node, topics::data_product)),
         hazards_(services::advertise(node, topics::hazard)),
         goals_(services::advertise(node, topics::goal)),
+        network_orders_(services::advertise(node, topics::network_order)),
         events_(services::advertise(node, topics::event)) {
     commands_.leave_stops_to_driver();  // the world knows its components
     // A live robot outlives the process that speaks for it. A simulated clock ends with its process.
@@ -199,6 +201,7 @@ class SimService final : public services::Service, private owner::Driver {
                        hazards_.write(wire::to_wire(
                            RockSeen{hazard.id, "", rock.x, rock.y, rock.radius, node_.now()}, kGround));
                      },
+                     [this](const NetworkStimulus& order) { network_orders_.write(wire::to_wire(order)); },
                      [this, &stimulus](const world::Disturbance& disturbance) {
                        // An earlier process has lost this energy already; a fall of rocks is no part of its memory.
                        const bool lost = std::holds_alternative<world::EnergyLoss>(disturbance);
@@ -269,15 +272,12 @@ class SimService final : public services::Service, private owner::Driver {
   // What was really done, for whoever asks after the run whether anything was done twice: one array, written as it grows.
   void record_begun() {
     for (const world::Begun& one : world_.take_begun()) {
-      const nlohmann::json entry{{"time_us", one.at.count()},
-                                 {"robot", one.robot},
-                                 {"component", one.component},
-                                 {"commander", one.task.key.commander},
-                                 {"activity", one.task.key.activity},
-                                 {"attempt", one.task.key.attempt},
-                                 {"command", one.task.command},
-                                 {"arguments", one.task.arguments}};
-      begun_ << std::exchange(begun_separator_, ",\n") << entry.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+      const nlohmann::json entry{{"time_us", one.at.count()},         {"robot", one.robot},
+                                 {"component", one.component},        {"commander", one.task.key.commander},
+                                 {"activity", one.task.key.activity}, {"attempt", one.task.key.attempt},
+                                 {"command", one.task.command},       {"arguments", one.task.arguments}};
+      begun_ << std::exchange(begun_separator_, ",\n")
+             << entry.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     }
   }
 
@@ -293,7 +293,8 @@ class SimService final : public services::Service, private owner::Driver {
                       ? wire::event(v1::SEVERITY_INFO, "scenario.as_expected", "every event came as expected")
                       : wire::event(v1::SEVERITY_WARNING, "scenario.unexpected", fault));
     const nlohmann::json report{{"events", order_.expected()}, {"met", fault.empty()}, {"fault", fault}};
-    std::ofstream(run_folder_ / services::kExpectedFile) << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+    std::ofstream(run_folder_ / services::kExpectedFile)
+        << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
   }
 
   services::Node& node_;
@@ -313,6 +314,7 @@ class SimService final : public services::Service, private owner::Driver {
   services::Publisher<v1::DataProduct> products_;
   services::Publisher<v1::Hazard> hazards_;
   services::Publisher<v1::Goal> goals_;
+  services::Publisher<v1::NetworkOrder> network_orders_;
   services::Publisher<v1::Event> events_;
   std::map<std::pair<std::string, std::string>, const GoalStimulus*> uploaded_;  // by issuer and id
   std::size_t stimuli_done_ = 0;

@@ -1,5 +1,7 @@
 #include "sim_svc/wire_service.hpp"
 
+#include <boost/crc.hpp>
+
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::sim::wire {
@@ -123,6 +125,22 @@ v1::ArmMotionRequest to_wire(const world::MotionWanted& motion) {
   out.to_pose(motion.to);
   out.payload_kg(motion.payload_kg);
   out.payload_size_m(motion.payload_size_m);
+  return out;
+}
+
+v1::NetworkOrder to_wire(const scenario::NetworkStimulus& network) {
+  v1::NetworkOrder out;
+  out.issuer(network.issuer);
+  out.id(network.id);
+  out.robot(network.robot);
+  out.order_kind(network.content.empty() ? v1::NETWORK_SET_PARAMETER : v1::NETWORK_REPLACE);
+  out.content().assign(network.content.begin(), network.content.end());
+  out.content_size(network.content.size());
+  boost::crc_32_type crc;
+  crc.process_bytes(network.content.data(), network.content.size());
+  out.checksum(crc.checksum());
+  out.parameter(network.parameter);
+  out.amount(network.value);
   return out;
 }
 

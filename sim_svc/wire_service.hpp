@@ -8,6 +8,7 @@
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
 #include "roci_idl/motion.h"
+#include "roci_idl/network.h"
 #include "services/owner/command.hpp"
 #include "sim_svc/scenario/scenario.hpp"
 #include "sim_svc/world/world.hpp"
@@ -30,6 +31,8 @@ v1::Hazard to_wire(const world::RockSeen&, const std::string& finder);
 v1::PathRequest to_wire(const world::PathWanted&);
 v1::ArmMotionRequest to_wire(const world::MotionWanted&);
 v1::Goal to_wire(const scenario::GoalStimulus&, bool recalled);
+/// The content goes as it is in the file, damaged or not.
+v1::NetworkOrder to_wire(const scenario::NetworkStimulus&);
 v1::Event event(v1::Severity, const std::string& code, const std::string& text);
 
 }  // namespace roci::sim::wire

@@ -10,7 +10,6 @@
 #include "core/temporal/plan_delta.hpp"
 #include "exec_svc/executive/executive.hpp"
 #include "exec_svc/reactor/commitment.hpp"
-#include "exec_svc/reactor/recovery_policy.hpp"
 #include "planner_svc/utility_htn/adapter/plan_of.hpp"
 #include "planner_svc/utility_htn/checking/utility_checker.hpp"
 
@@ -70,10 +69,6 @@ class TaskFlight {
     return out;
   }
 
-  void tell(const std::string& what) const {
-    if (flight_.tell) flight_.tell(now_, what);
-  }
-
   void observe(const temporal::timelines::Definition& timeline, double value) {
     const temporal::Value seen = adapter::value_of(timeline, value);
     heard_.observations.push_back({timeline.name, seen, now_});
@@ -110,6 +105,7 @@ class TaskFlight {
     last_version_ = delta.added.version;
     FlexiblePlan next = plan_;
     std::string fault = temporal::apply(delta, next);
+    // Before the executive checks it again: what looks for violations trusts the plan's form.
     if (fault.empty())
       if (const auto faults = temporal::check(next); !faults.empty()) fault = faults.front();
     if (fault.empty()) fault = exec::reactor::commitment_violation(plan_, executive_.steps(), next, now_);
@@ -138,6 +134,10 @@ class TaskFlight {
     planner::engine::Request situation;
     situation.origin = now_;
     situation.state[budget_.name] = left_;
+    for (const auto& [index, value] : world_) {
+      const auto& timeline = flight_.network.timelines[index];
+      situation.state[timeline.name] = adapter::value_of(timeline, value);
+    }
     const auto faults = planner::utility_htn::checking::faults_of(
         flight_.network, {situation, {}, next, plan_.version == 0 ? nullptr : &plan_, &progress_});
     return faults.empty() ? std::string() : faults.front();
@@ -179,6 +179,7 @@ class TaskFlight {
     step.activity = status.activity;
     step.progress = {status.state, status.started, status.ended};
     step.cause = status.reason;
+    step.attempt = status.attempt;
     heard_.steps.push_back(step);
     progress_.insert_or_assign(step.activity, step.progress);
     const Task* const task = task_of(status.activity);
@@ -210,8 +211,7 @@ class TaskFlight {
       const auto other = adapter::task_of(link.id);
       if (other && planner::utility_htn::cycle::block_of(*other) == block) out_.utility += link.utility;
     }
-    out_.course.push_back({budget_.initial - left_, out_.utility});
-    tell(token->second.timeline + " is completed: utility " + temporal::to_text(out_.utility));
+    out_.course.push_back({budget_.initial - left_, out_.utility, token->second.timeline});
     blocks_.erase(token);
   }
 
@@ -256,26 +256,26 @@ class TaskFlight {
     const Task* const task = task_of(command.activity);
     if (task == nullptr) return;
     inputs_.acks.push_back({command.activity, command.attempt, CommandStage::accepted, "", ""});
-    const Course course = course_of(*task, command);
-    draw(command.activity, *task, course.energy);
+    const Fate fate = fate_of(*task, command);
+    draw(command.activity, *task, fate.energy);
     report_effects(*task, temporal::ImpactWhen::at_start);
-    const double length = course.duration * model::evaluate(task->duration, values_);
+    const double length = fate.duration * model::evaluate(task->duration, values_);
     Time end = now_ + temporal::seconds(length);
     CommandStage stage = CommandStage::completed;
-    if (course.failure != Resolution::none) {
+    if (fate.failure != Resolution::none) {
       ++out_.failures;
-      stage = resolve(*task, course.failure, end);
+      stage = resolve(*task, fate.failure, end);
     }
     ends_.emplace(end, CommandAck{command.activity, command.attempt, stage, "", ""});
   }
 
   // What was resolved once works: the next attempt of the same activity, and the next execution of the task, do not fail.
-  Course course_of(const Task& task, const Command& command) {
+  Fate fate_of(const Task& task, const Command& command) {
     if (command.attempt == 1)
-      activity_courses_[command.activity] = flight_.courses(task.id, executions_[task.id]++);
-    Course course = activity_courses_[command.activity];
-    if (resolved_.erase(task.id) > 0) course.failure = Resolution::none;
-    return course;
+      activity_fates_[command.activity] = flight_.fates(task.id, executions_[task.id]++);
+    Fate fate = activity_fates_[command.activity];
+    if (resolved_.erase(task.id) > 0) fate.failure = Resolution::none;
+    return fate;
   }
 
   CommandStage resolve(const Task& task, Resolution failure, Time& end) {
@@ -289,7 +289,8 @@ class TaskFlight {
     } else if (failure != Resolution::ground && strategy == Strategy::replanning) {
       ++out_.replanned;
       spend(flight_.costs.replanning_j);
-      return task.control.retries > 0 ? fail_again(task) : CommandStage::failed;
+      // Retries would not help: the executive gives up, and the engine plans anew.
+      return task.control.retries > 0 ? CommandStage::rejected : CommandStage::failed;
     } else {
       ++out_.by_ground;
       spend(flight_.costs.ground_j);
@@ -298,9 +299,6 @@ class TaskFlight {
     }
     return CommandStage::failed;
   }
-
-  // Retries do not help: the executive gives up, and the engine plans anew.
-  static CommandStage fail_again(const Task&) { return CommandStage::rejected; }
 
   void spend(double amount) { left_ = std::max(budget_.lowest, left_ - amount); }
 
@@ -360,7 +358,7 @@ class TaskFlight {
   std::map<std::string, Draw> draws_;                   // by activity
   std::map<temporal::timelines::Index, double> world_;  // true values of reported timelines that were changed
   std::map<std::string, std::uint32_t> executions_;
-  std::map<std::string, Course> activity_courses_;
+  std::map<std::string, Fate> activity_fates_;
   std::set<std::string> resolved_;
   std::set<planner::utility_htn::cycle::TaskId> succeeded_;
   std::map<temporal::TimePoint, temporal::Token> blocks_;  // by the end of the last link

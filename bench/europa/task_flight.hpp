@@ -14,15 +14,8 @@
 
 namespace roci::bench::europa {
 
-/// Says how one execution of a task goes, relative to the network's values.
-struct Course {
-  double duration = 1;  ///< factor
-  double energy = 1;    ///< factor of all that the task draws from the budget
-  Resolution failure = Resolution::none;
-};
-
-/// Returns the course of the n-th execution of a task, counted from 0. It depends on nothing else, so that strategies meet the same world.
-using Courses = std::function<Course(const std::string& task, std::uint32_t execution)>;
+/// Returns the fate of the n-th execution of a task, counted from 0. It depends on nothing else, so that strategies meet the same world.
+using Fates = std::function<Fate(const std::string& task, std::uint32_t execution)>;
 
 /// Names the strategies of section III.D (R102).
 enum class Strategy { as_planned, ground, flexible_execution, replanning };
@@ -38,20 +31,19 @@ struct Costs {
 struct Flight {
   const planner::utility_htn::model::Network& network;
   planner::engine::SteppedEngine& engine;
-  Courses courses;
+  Fates fates;
   Strategy strategy = Strategy::replanning;
   Costs costs{};
   temporal::Time until = temporal::no_bound;
   /// Is told of every task that has succeeded, before the engine hears of it; may be empty.
   std::function<void(const std::string& task)> succeeded{};
-  /// Is told of everything that happens, for traces; may be empty.
-  std::function<void(temporal::Time, const std::string&)> tell{};
 };
 
 /// Is the utility that was reached when so much was spent (figures 10 and 11).
 struct Reached {
   double spent = 0;
   temporal::RankVector utility;
+  std::string chain;  ///< that was completed
 };
 
 /// Says how a flight went.

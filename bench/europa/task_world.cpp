@@ -4,16 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/pseudorandom/split_mix.hpp"
+
 namespace roci::bench::europa {
 namespace {
 
-// SplitMix64 (Steele, Lea, Flood 2014): the same numbers on every machine, which the distributions of the standard library do not promise.
-std::uint64_t mixed(std::uint64_t state) {
-  state += 0x9e3779b97f4a7c15U;
-  state = (state ^ (state >> 30U)) * 0xbf58476d1ce4e5b9U;
-  state = (state ^ (state >> 27U)) * 0x94d049bb133111ebU;
-  return state ^ (state >> 31U);
-}
+std::uint64_t mixed(std::uint64_t bits) { return pseudorandom::SplitMix64(bits).next(); }
 
 std::uint64_t hash(std::string_view text) {
   std::uint64_t out = 0xcbf29ce484222325U;  // FNV-1a

@@ -11,9 +11,10 @@ namespace roci::bench::europa {
 /// Names the cheapest mechanism that can resolve a failure (section II.C); each can resolve what those before it can, too.
 enum class Resolution { none, flexible, replanning, ground };
 
-/// Says how one execution of a task goes.
+/// Says how one execution of a task goes, relative to what the network has of it.
 struct Fate {
-  double energy = 1;  ///< factor of what the model says
+  double duration = 1;  ///< factor
+  double energy = 1;    ///< factor of all that the task draws from the budget
   Resolution failure = Resolution::none;
 };
 
@@ -27,7 +28,8 @@ struct TaskWorld {
       planner::utility_htn::strategies::split(0.1, 0.3, 0.6);
 };
 
-/// Returns the fate of a task's n-th execution, counted from 0. Energy and failure are independent of each other and of all other executions.
+/// Returns the fate of a task's n-th execution, counted from 0. Its duration is that of the network; energy and
+/// failure are independent of each other and of all other executions.
 Fate fate(const TaskWorld& world, std::string_view task, std::uint32_t execution);
 
 }  // namespace roci::bench::europa

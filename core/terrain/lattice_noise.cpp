@@ -1,21 +1,20 @@
 #include "core/terrain/lattice_noise.hpp"
 
+#include "core/pseudorandom/split_mix.hpp"
+
 namespace roci::terrain {
+
+using pseudorandom::finalized;
+
 namespace {
 
 constexpr std::int64_t kOne = 1 << 16;  // fixed point: 16 bits behind the point
-
-std::uint64_t mix(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
 
 // Returns the value at a lattice point, from -kOne to kOne.
 std::int64_t value_at(std::uint64_t seed, std::int64_t column, std::int64_t row) {
   const std::uint64_t place =
       (static_cast<std::uint64_t>(column) << 32) ^ (static_cast<std::uint64_t>(row) & 0xffffffff);
-  const std::uint64_t hash = mix(mix(seed) ^ mix(place + 0x9e3779b97f4a7c15ULL));
+  const std::uint64_t hash = finalized(finalized(seed) ^ finalized(place + 0x9e3779b97f4a7c15ULL));
   return static_cast<std::int64_t>(hash >> 47) - kOne;
 }
 
@@ -28,15 +27,6 @@ std::int64_t blend(std::int64_t a, std::int64_t b, std::int64_t weight) {
 }
 
 }  // namespace
-
-std::uint64_t SplitMix64::next() {
-  state_ += 0x9e3779b97f4a7c15ULL;
-  return mix(state_);
-}
-
-std::int64_t SplitMix64::below(std::int64_t bound) {
-  return static_cast<std::int64_t>((next() >> 32) * static_cast<std::uint64_t>(bound) >> 32);
-}
 
 std::int64_t lattice_noise(std::uint64_t seed, std::int64_t x, std::int64_t y, std::int64_t wavelength,
                            std::int64_t amplitude) {

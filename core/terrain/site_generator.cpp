@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "core/pseudorandom/split_mix.hpp"
 #include "core/terrain/lattice_noise.hpp"
 
 namespace roci::terrain {
@@ -79,7 +80,7 @@ void add_crater(Layer& ground, const Crater& crater) {
 }
 
 void add_craters(Layer& ground, const SiteRecipe& recipe) {
-  SplitMix64 random(recipe.seed ^ 0xc2a7e25);
+  pseudorandom::SplitMix64 random(recipe.seed ^ 0xc2a7e25);
   const std::int64_t side = recipe.cells_per_side * recipe.resolution;
   for (int i = 0; i < recipe.crater_count; ++i) {
     Crater crater{random.below(side), random.below(side), 8000 + random.below(24000), 0};
@@ -103,7 +104,7 @@ void scatter_rocks(Layer& rocks, const SiteRecipe& recipe) {
   const double site_area = static_cast<double>(side) * static_cast<double>(side) / 1e6;
   const double q = 1.79 + 0.152 / recipe.rock_abundance;
   const auto covered = [&](double d) { return recipe.rock_abundance * std::exp(-q * d); };
-  SplitMix64 random(recipe.seed ^ 0x20c5);
+  pseudorandom::SplitMix64 random(recipe.seed ^ 0x20c5);
   constexpr std::int64_t kClass = 50;
   for (std::int64_t d = 200; d < 2000; d += kClass) {
     const double diameter = static_cast<double>(d + kClass / 2) / 1000;

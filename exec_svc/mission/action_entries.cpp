@@ -126,8 +126,11 @@ GroundModel read_ground(const Entry& entry, const std::map<std::string, Continge
     static constexpr std::string_view prefix = "contingencies.";
     for (const Entry& item : uploads->items()) {
       const std::string target = item.text();
+      if (target == "network" || target == "parameters") continue;  // the planner's
       if (!target.starts_with(prefix) || !contingencies.contains(target.substr(prefix.size())))
-        item.fail("'" + target + "' is no contingency of this mission; name one as contingencies.NAME");
+        item.fail("'" + target +
+                  "' is no contingency of this mission; name one as contingencies.NAME, or "
+                  "write network or parameters");
       out.uploads.push_back(target);
     }
   }

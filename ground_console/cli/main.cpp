@@ -9,6 +9,7 @@
 #include "core/mission/entry.hpp"
 #include "ground_console/cli/map/map.hpp"
 #include "ground_console/cli/mission_words.hpp"
+#include "ground_console/cli/network.hpp"
 #include "ground_console/cli/orders.hpp"
 #include "ground_console/cli/reach.hpp"
 #include "ground_console/cli/report.hpp"
@@ -30,6 +31,7 @@ struct Line {
   bool waits = false;  // for a mission to run
   cli::GoalArguments goal;
   cli::OrderArguments order;
+  cli::NetworkArguments network;
   std::size_t count = 0;
   std::string activity;  // whose values are asked for
   std::vector<std::string> timelines;
@@ -179,6 +181,31 @@ void add_order_verbs(CLI::App& app, Line& line) {
            [](lib::Client& client, const Line& l) { return cli::list_decisions(client, l.json); });
 }
 
+void add_network_verbs(CLI::App& app, Line& line) {
+  CLI::App* network =
+      app.add_subcommand("network", "The task network that the planner has, and its parameters");
+  network->require_subcommand(1);
+  const auto add = [&](const char* name, const char* help) {
+    CLI::App* verb = add_verb(*network, line, name, help, [](lib::Client& client, const Line& l) {
+      return cli::order_network(client, l.network, l.json);
+    });
+    verb->add_option("--id", line.network.id, "A name of your choice, so that a repetition is recognised");
+    verb->add_option("--issuer", line.network.issuer, "Who gives the order")->capture_default_str();
+    verb->add_option("--robot", line.network.robot, "Whose planner (default: the only one)");
+    return verb;
+  };
+  CLI::App* upload = add("upload", "Replace the network, whole or not at all");
+  upload
+      ->add_option("file", line.network.file,
+                   "A network, as YAML or in binary form; it is checked here first")
+      ->required();
+  CLI::App* set = add("set", "Set a parameter of the network, e.g. a duration");
+  set->add_option("parameter", line.network.parameter, "Its name in the network")->required();
+  set->add_option("value", line.network.value, "A number within the parameter's range")->required();
+  add_verb(*network, line, "status", "Which network is in force, and where orders about it stand",
+           [](lib::Client& client, const Line& l) { return cli::show_networks(client, l.json); });
+}
+
 void tell_waiting() {
   std::cerr << "roci: no mission runs on this machine yet; waiting for one (Ctrl-C ends, ./run starts one)\n";
 }
@@ -215,6 +242,7 @@ int main(int argc, char** argv) {
                  "Whose mission and plan, where several fly (default: the first by name)");
   add_goal_verbs(app, line);
   add_order_verbs(app, line);
+  add_network_verbs(app, line);
   add_verb(app, line, "status", "Mission, goals, services, newest values",
            [](lib::Client& client, const Line& l) { return cli::show_status(client, l.json); });
   add_verb(app, line, "plan", "The running plan and the state of each activity",

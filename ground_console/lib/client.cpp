@@ -117,7 +117,14 @@ Client::Client(const services::process::Connection& connection)
     : node_(observer(connection), services::transport::open_transport(
                                       connection.dds, services::process::admitted(connection, "roci"))),
       goals_(services::advertise(node_, topics::goal)),
-      orders_(services::advertise(node_, topics::order)) {
+      orders_(services::advertise(node_, topics::order)),
+      network_orders_(services::advertise(node_, topics::network_order)) {
+  services::subscribe(node_, topics::network_status, [this](const v1::NetworkStatus& status) {
+    constexpr std::size_t kMost = 10'000;
+    const std::tuple key{status.planner(), status.issuer(), status.id()};
+    if (networks_.size() < kMost || networks_.contains(key)) networks_[key] = status;
+    if (status.answers().sender() == name()) network_stages_.push_back(status);
+  });
   follow(topics::mission_status);
   follow(topics::goal);
   follow(topics::goal_status);
@@ -183,6 +190,22 @@ std::optional<v1::OrderStatus> Client::send_order(const v1::Order& order,
     }
     if (last && (last->stage() == v1::ORDER_REFUSED || last->stage() == v1::ORDER_APPLIED)) return last;
   } while (wait([&] { return stages().size() > seen; }, limit));
+  return last;
+}
+
+std::optional<v1::NetworkStatus> Client::send_network_order(
+    const v1::NetworkOrder& order, const std::function<void(const v1::NetworkStatus&)>& tell,
+    milliseconds limit) {
+  wait_for_mission(limit);
+  network_stages_.clear();
+  network_orders_.write(order);
+  std::optional<v1::NetworkStatus> last;
+  std::size_t seen = 0;
+  while (wait([&] { return network_stages_.size() > seen; }, limit)) {
+    last = network_stages_[seen++];
+    tell(*last);
+    if (last->stage() == v1::NETWORK_REFUSED || last->stage() == v1::NETWORK_IN_FORCE) break;
+  }
   return last;
 }
 

@@ -8,6 +8,9 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "ground_console/lib/mission_view.hpp"
 #include "services/node.hpp"
@@ -64,6 +67,15 @@ class Client {
   std::optional<v1::OrderStatus> send_order(const v1::Order& order,
                                             const std::function<void(const v1::OrderStatus&)>& tell,
                                             std::chrono::milliseconds limit);
+  /// Sends an order about the task network and tells each stage that this very sample reaches, until it is refused or in force; what takes
+  /// longer than `limit` after its last stage is not waited for. Returns the last stage; nothing if no planner answered.
+  std::optional<v1::NetworkStatus> send_network_order(
+      const v1::NetworkOrder& order, const std::function<void(const v1::NetworkStatus&)>& tell,
+      std::chrono::milliseconds limit);
+  /// By planner, issuer and id the newest; without issuer and id which network is in force.
+  const std::map<std::tuple<std::string, std::string, std::string>, v1::NetworkStatus>& networks() const {
+    return networks_;
+  }
   /// Asks a path planner of the mission for a way, in wall time; nothing if none answered, and why. It changes nothing.
   std::optional<v1::PathReply> find_path(Place from, Place to, const std::string& service,
                                          std::chrono::milliseconds limit, std::string& why);
@@ -83,6 +95,9 @@ class Client {
   services::Node node_;
   services::Publisher<v1::Goal> goals_;
   services::Publisher<v1::Order> orders_;
+  services::Publisher<v1::NetworkOrder> network_orders_;
+  std::map<std::tuple<std::string, std::string, std::string>, v1::NetworkStatus> networks_;
+  std::vector<v1::NetworkStatus> network_stages_;  // of what this console sent, as they came
 };
 
 }  // namespace roci::console::lib

@@ -17,10 +17,11 @@ namespace roci::planner::engine {
 
 /// What an engine that plans all the time is made with.
 struct Setup {
-  std::string engine;                  ///< its name in the table, to be given in FlexiblePlan::engine
-  std::string robot;                   ///< whose plan it is; empty: the only one
-  std::string model;                   ///< of the mission, in the engine's own language; empty: it needs none
-  std::filesystem::path model_file{};  ///< from which that was read; what the model includes lies beside it
+  std::string engine;  ///< its name in the table, to be given in FlexiblePlan::engine
+  std::string robot;   ///< whose plan it is; empty: the only one
+  std::string model;   ///< of the mission, in the engine's own language; empty: it needs none
+  /// Is the file from which that was read, or the newest of the ground; what the model includes lies beside it.
+  std::filesystem::path model_file{};
 };
 
 /// The newest value of a timeline, as its owner measured it.
@@ -35,7 +36,25 @@ struct StepStatus {
   std::uint32_t plan_version = 0;
   std::string activity;
   temporal::ActivityProgress progress;
-  std::string cause;  ///< of a failure
+  std::string cause;          ///< of a failure
+  std::uint32_t attempt = 0;  ///< counts from 1; 0: no command was sent
+};
+
+/// How soon data must reach the ground, in the order of DataTier in idl/command.idl.
+enum class DataTier { critical, decisional, mandatory, residual };
+/// What has become of data, in the order of ProductFate in idl/command.idl.
+enum class DataFate { stored, sent, received, discarded, left_behind, lost };
+
+/// Data that were generated, as they stand now.
+struct DataProduct {
+  std::string id;
+  std::string source;  ///< activity that made it
+  DataTier tier = DataTier::mandatory;
+  std::uint64_t bytes = 0;
+  temporal::Time created{0};
+  temporal::RankVector utility;  ///< as computed from the data; none: it was not
+  DataFate fate = DataFate::stored;
+  friend bool operator==(const DataProduct&, const DataProduct&) = default;
 };
 
 /// What became of a goal in the end: in the order of GoalState in idl/goal.idl.
@@ -56,6 +75,31 @@ struct Receipt {
   bool open = false;          ///< a plan would be taken now
 };
 
+/// What the ground changes of the engine's model, under its key (R83, R118). It is obeyed whole or not at all, between two cycles.
+struct ModelChange {
+  std::string issuer;
+  std::string id;
+  /// Is the whole new one, in the engine's own binary form; nothing: a parameter gets a value.
+  std::optional<std::string> model;
+  std::string parameter;
+  double value = 0;
+};
+
+/// What has become of a change.
+struct ModelAnswer {
+  std::string issuer;
+  std::string id;
+  /// Tells all that is wrong, each with place and remedy, and nothing has changed; empty: it is taken.
+  std::vector<std::string> refused;
+};
+
+/// Names a model: of its versions the greater is the newer.
+struct ModelName {
+  std::string name;
+  std::uint64_t version = 0;
+  friend bool operator==(const ModelName&, const ModelName&) = default;
+};
+
 /// All that was heard since the step before, each list in the order in which it was heard. After a restart
 /// of the process everything that still counts is heard again.
 struct StepInputs {
@@ -65,6 +109,8 @@ struct StepInputs {
   std::vector<EndedGoal> ended_goals;
   std::vector<Observation> observations;
   std::vector<StepStatus> steps;
+  std::vector<DataProduct> products;
+  std::vector<ModelChange> model_changes;
   std::optional<Receipt> receipt;  ///< the newest
   /// The version that is executed if this engine did not send it: it was made before a restart, and an engine
   /// whose memory is gone goes on with it.
@@ -86,6 +132,11 @@ struct StepOutput {
   std::optional<temporal::PlanDelta> delta;
   /// Goals that cannot be planned as things stand; told to operators when they change.
   std::vector<BlockingGoal> blocking;
+  /// One for each change of the model that was heard; a change without an answer is told to be none of the engine's.
+  std::vector<ModelAnswer> model_answers;
+  ModelName model;  ///< with which it plans; empty: it has none
+  /// What was measured and is not believed, with the reason; told to operators.
+  std::vector<std::string> doubted;
   /// Told as the event planner.cycle where it is not empty.
   StepAccount account;
   /// Mission time of the next step if nothing is heard before; a past one counts as none.

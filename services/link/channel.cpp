@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/pseudorandom/split_mix.hpp"
+
 namespace roci::services::link {
 
 using temporal::Duration;
@@ -21,13 +23,8 @@ class Hash {
     add(text.size());
     for (const char c : text) add_byte(static_cast<unsigned char>(c));
   }
-  // The finalizer of SplitMix64 (Steele, Lea, Flood, 2014): FNV's high bits alone are not uniform.
-  std::uint64_t mixed() const {
-    std::uint64_t z = value_ + 0x9e3779b97f4a7c15ULL;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31);
-  }
+  // FNV's high bits alone are not uniform.
+  std::uint64_t mixed() const { return pseudorandom::SplitMix64(value_).next(); }
 
  private:
   void add_byte(unsigned char byte) { value_ = (value_ ^ byte) * 1099511628211ULL; }

@@ -8,9 +8,10 @@
 namespace roci::services::node {
 namespace {
 
-// A scenario's goals and orders are published by a service of no robot, in the ground's place.
+// What a scenario sends up is published by a service of no robot, in the ground's place.
 bool sent_up(std::string_view topic) {
-  return topic == topics::goal.name || topic == topics::order.name || topic == topics::decision_answer.name;
+  return topic == topics::goal.name || topic == topics::order.name || topic == topics::decision_answer.name ||
+         topic == topics::network_order.name;
 }
 
 link::Passenger passenger_of(const TopicSpec& topic, const link::Link& link,

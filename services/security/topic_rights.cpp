@@ -63,7 +63,7 @@ std::vector<TopicRights> make_table() {
       row(topics::command,         {executive},                              {listener, owner}),
       row(topics::command_ack,     {owner},                                  {executive, listener}),
       row(topics::observation,     {owner, executive},                       {executive, planner, analyst, listener, console}),
-      row(topics::data_product,    {owner, analyst},                         {analyst, listener, console}),
+      row(topics::data_product,    {owner, analyst},                         {planner, analyst, listener, console}),
       row(topics::hazard,          {owner},                                  {path_planner, listener, console}),
       row(topics::plan,            {executive},                              {planner, listener, console}),
       row(topics::step_status,     {executive},                              {planner, listener, console}),
@@ -75,6 +75,9 @@ std::vector<TopicRights> make_table() {
       row(topics::decision,        {executive},                              {resolver, console}),
       row(topics::decision_answer, {resolver},                               {executive}),
       row(topics::decision_receipt,{executive},                              {resolver}),
+
+      row(topics::network_order,   {world, console},                         {planner}),
+      row(topics::network_status,  {planner},                                {console}),
 
       row(topics::plan_delta,      {planner},                                {executive}),
       row(topics::plan_receipt,    {executive},                              {planner}),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/pseudorandom/split_mix.hpp"
 #include "core/terrain/lattice_noise.hpp"
 
 namespace roci::sim::components {
@@ -26,12 +27,14 @@ struct Ripple {
 };
 constexpr std::array<Ripple, 3> kRipples{{{0.9, 0.030}, {0.28, 0.011}, {0.09, 0.0035}}};
 
-double uniform(terrain::SplitMix64& random) { return static_cast<double>(random.next() >> 11) * 0x1p-53; }
+double uniform(pseudorandom::SplitMix64& random) {
+  return static_cast<double>(random.next() >> 11) * 0x1p-53;
+}
 
-terrain::SplitMix64 random_at(std::uint64_t seed, std::int64_t column, std::int64_t row) {
+pseudorandom::SplitMix64 random_at(std::uint64_t seed, std::int64_t column, std::int64_t row) {
   const std::uint64_t place =
       (static_cast<std::uint64_t>(column) << 32) ^ (static_cast<std::uint64_t>(row) & 0xffffffff);
-  return terrain::SplitMix64(terrain::SplitMix64(seed).next() ^ place);
+  return pseudorandom::SplitMix64(pseudorandom::SplitMix64(seed).next() ^ place);
 }
 
 std::int64_t floored(double v) { return static_cast<std::int64_t>(std::floor(v)); }
@@ -81,7 +84,7 @@ void Relief::add_rocks() {
     for (int column = column_of(centre_.x - reach_); column <= column_of(centre_.x + reach_); ++column) {
       const double height = site.rock_height(terrain::Cell{column, row});
       if (height < kLeastRock) continue;
-      terrain::SplitMix64 random = random_at(ground_.surface.seed + 1, column, row);
+      pseudorandom::SplitMix64 random = random_at(ground_.surface.seed + 1, column, row);
       const Point middle = grid.centre({column, row});
       const double off = 0.4 * grid.resolution;
       const Point at{middle.x + off * (uniform(random) - 0.5), middle.y + off * (uniform(random) - 0.5)};
@@ -101,7 +104,7 @@ void Relief::add_pebbles() {
        row <= floored((centre_.y + reach) / kPebbleTile); ++row) {
     for (std::int64_t column = floored((centre_.x - reach) / kPebbleTile);
          column <= floored((centre_.x + reach) / kPebbleTile); ++column) {
-      terrain::SplitMix64 random = random_at(ground_.surface.seed + 2, column, row);
+      pseudorandom::SplitMix64 random = random_at(ground_.surface.seed + 2, column, row);
       if (uniform(random) >= kPebbleShare) continue;
       // Few are large: the size falls with the power of the draw.
       const double radius = 0.02 + 0.1 * std::pow(uniform(random), 3);

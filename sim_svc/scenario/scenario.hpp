@@ -47,10 +47,20 @@ struct HazardStimulus {
   world::Rock rock;
 };
 
+/// The ground replaces the network of a planner, or sets a parameter of it.
+struct NetworkStimulus {
+  std::string issuer;
+  std::string id;
+  std::string robot;    ///< whose planner; empty: the only one
+  std::string content;  ///< of the file in binary form, as it is; empty: a parameter is set
+  std::string parameter;
+  double value = 0;
+};
+
 /// Is something that the scenario lets happen at a time.
 struct Stimulus {
   temporal::Time at{};
-  std::variant<GoalStimulus, RecallStimulus, HazardStimulus, world::Disturbance> what;
+  std::variant<GoalStimulus, RecallStimulus, HazardStimulus, NetworkStimulus, world::Disturbance> what;
   std::optional<mission::Entry> entry{};  ///< is where a ComponentMishap stands in the file
 };
 

@@ -1,6 +1,7 @@
 #include "sim_svc/scenario/stimuli_file.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 #include <utility>
 
@@ -69,6 +70,28 @@ GoalStimulus read_goal(const Entry& entry) {
 RecallStimulus read_recall(const Entry& entry) {
   entry.allow_only({"issuer", "id"});
   return {entry.text_or("issuer", "ground"), entry.at("id").text()};
+}
+
+NetworkStimulus read_network(const Entry& entry) {
+  entry.allow_only({"issuer", "id", "robot", "file"});
+  NetworkStimulus out{
+      entry.text_or("issuer", "ground"), entry.at("id").text(), entry.text_or("robot", ""), {}, {}, 0};
+  const Entry file = entry.at("file");
+  std::ifstream in(file.resolve(file.text()), std::ios::binary);
+  if (!in) file.fail("'" + file.text() + "' cannot be read; name a file that roci-network pack has written");
+  constexpr std::size_t kMost = 15U << 20U;  // what the wire carries
+  out.content.resize(kMost + 1);
+  in.read(out.content.data(), static_cast<std::streamsize>(out.content.size()));
+  out.content.resize(static_cast<std::size_t>(in.gcount()));
+  if (out.content.size() > kMost) file.fail("more than " + std::to_string(kMost) + " bytes; make it smaller");
+  if (out.content.empty()) file.fail("the file is empty; name one that roci-network pack has written");
+  return out;
+}
+
+NetworkStimulus read_parameter(const Entry& entry) {
+  entry.allow_only({"issuer", "id", "robot", "name", "value"});
+  return {entry.text_or("issuer", "ground"), entry.at("id").text(),     entry.text_or("robot", ""), {},
+          entry.at("name").text(),           entry.at("value").number()};
 }
 
 HazardStimulus read_hazard(const Entry& entry) {
@@ -150,18 +173,20 @@ const RobotEntry& robot_of(const Entry& entry, const Roster& roster) {
 
 Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
   entry.allow_only({"at_s", "robot", "goal", "recall", "hazard", "fault", "rock", "battery_loss_j",
-                    "module_fails", "slot_blocked", "slow_joint", "eclipse"});
+                    "module_fails", "slot_blocked", "slow_joint", "eclipse", "network", "parameter"});
   const std::size_t frame = entry.find("robot") ? 2 : 1;
   if (entry.fields().size() != frame + 1) {
     entry.fail(
         "a stimulus is at_s (and robot) and one of goal, recall, hazard, fault, rock, battery_loss_j, "
-        "module_fails, slot_blocked, slow_joint, eclipse; split it into several");
+        "module_fails, slot_blocked, slow_joint, eclipse, network, parameter; split it into several");
   }
   Stimulus out;
   out.at = time_of(entry.at("at_s"));
   if (const auto goal = entry.find("goal")) out.what = read_goal(*goal);
   if (const auto recall = entry.find("recall")) out.what = read_recall(*recall);
   if (const auto hazard = entry.find("hazard")) out.what = read_hazard(*hazard);
+  if (const auto network = entry.find("network")) out.what = read_network(*network);
+  if (const auto parameter = entry.find("parameter")) out.what = read_parameter(*parameter);
   if (const auto fault = entry.find("fault")) {
     out.what = Disturbance{read_fault(*fault, robot_of(entry, roster), out.at)};
   }

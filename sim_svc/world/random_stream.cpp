@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/pseudorandom/split_mix.hpp"
+
 namespace roci::sim::world {
 namespace {
 
@@ -11,9 +13,7 @@ namespace {
 std::uint64_t mixed(std::uint64_t seed, std::string_view name) {
   std::uint64_t hash = 14695981039346656037ull ^ seed;
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9ull;
-  hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebull;
-  return hash ^ (hash >> 31);
+  return pseudorandom::finalized(hash);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/terrain/lattice_noise.hpp"
+#include "core/pseudorandom/split_mix.hpp"
 
 namespace roci::sim::world {
 namespace {
@@ -15,7 +15,9 @@ constexpr std::uint64_t kSalt = 0x0dd17a26e75;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-double uniform(terrain::SplitMix64& random) { return static_cast<double>(random.next() >> 11) * 0x1p-53; }
+double uniform(pseudorandom::SplitMix64& random) {
+  return static_cast<double>(random.next() >> 11) * 0x1p-53;
+}
 
 }  // namespace
 
@@ -43,7 +45,7 @@ std::vector<Oddity> oddities_near(const Surface& surface, terrain::Point p, doub
     for (std::int64_t column = tile(p.x - reach); column <= tile(p.x + reach); ++column) {
       const std::uint64_t place =
           (static_cast<std::uint64_t>(column) << 32) ^ (static_cast<std::uint64_t>(row) & 0xffffffff);
-      terrain::SplitMix64 random(terrain::SplitMix64(surface.seed ^ kSalt).next() ^ place);
+      pseudorandom::SplitMix64 random(pseudorandom::SplitMix64(surface.seed ^ kSalt).next() ^ place);
       if (uniform(random) * kTilesPerHectare >= surface.odd_per_hectare) continue;
       Oddity one;
       one.x = (static_cast<double>(column) + 0.2 + 0.6 * uniform(random)) * kTile;

@@ -17,7 +17,8 @@ struct House {
 
 const std::vector<House> kHouses = {
     {"core/",
-     {"core/temporal/", "core/words/", "core/mission/", "core/pddl/", "core/kinematics/", "core/terrain/"}},
+     {"core/temporal/", "core/words/", "core/pseudorandom/", "core/mission/", "core/pddl/",
+      "core/kinematics/", "core/terrain/"}},
     {"services/",
      {"services/bounds/", "services/clock/", "services/link/", "services/log/", "services/wire/",
       "services/transport/", "services/certificate/", "services/vendors/", "services/topics.hpp",
@@ -31,8 +32,8 @@ const std::vector<House> kHouses = {
       "planner_svc/utility_htn/checking/", "planner_svc/utility_htn/flattening/",
       "planner_svc/utility_htn/assessor/", "planner_svc/utility_htn/downlink/",
       "planner_svc/utility_htn/search/", "planner_svc/utility_htn/strategies/",
-      "planner_svc/utility_htn/cycle/", "planner_svc/utility_htn/adapter/", "planner_svc/utility_htn/cli/",
-      "planner_svc/utility_htn/"}},
+      "planner_svc/utility_htn/delivery/", "planner_svc/utility_htn/cycle/",
+      "planner_svc/utility_htn/adapter/", "planner_svc/utility_htn/cli/", "planner_svc/utility_htn/"}},
     {"sim_svc/",
      {"sim_svc/world/", "sim_svc/setup/", "sim_svc/components/", "sim_svc/scenario/", "sim_svc/"}},
 };

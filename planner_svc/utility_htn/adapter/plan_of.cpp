@@ -81,7 +81,7 @@ PlanActivity activity_of(const model::Network& network, const model::Values& val
   out.robot = frame.robot;
   command(task, out);
   impacts(network, task, values, out);
-  out.duration_lower = model::footprint(task, values).duration;
+  out.duration_lower = temporal::seconds(model::duration_s(task, values));
   out.preferred_start = link.start - frame.origin;
   out.pre = condition_of(network, task.constraints, Phase::pre);
   out.maintenance = condition_of(network, task.constraints, Phase::maintenance);

@@ -4,6 +4,8 @@
 #include <tuple>
 #include <utility>
 
+#include "planner_svc/utility_htn/adapter/fit.hpp"
+#include "planner_svc/utility_htn/adapter/products.hpp"
 #include "planner_svc/utility_htn/assessor/subway_assessor.hpp"
 
 namespace roci::planner::utility_htn::adapter {
@@ -31,7 +33,8 @@ UtilityEngine::UtilityEngine(const engine::Setup& setup, model::Network network,
       chains_(flattening::flatten(network_, flattening::templates_on_call(network_))),
       assessor_(std::make_unique<assessor::SubwayAssessor>(network_, chains_)),
       scheduler_(search::make_scheduler("nearest")),
-      settings_(settings) {
+      settings_(settings),
+      delivery_(network_) {
   // The first cycle cannot commit what would have to start at once.
   for (model::Task& task : network_.tasks)
     if (task.fixed && temporal::bounded(task.preferred_start))
@@ -45,9 +48,13 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
     origin_ = next_cycle_ = inputs.now;
     cycle_ =
         std::make_unique<cycle::Cycle>(network_, chains_, *assessor_, *scheduler_, inputs.now, settings_);
+    if (settings_.downlinks) cycle_->deliver_by(delivery_);
   }
   hear(inputs);
   StepOutput out;
+  for (const engine::ModelChange& one : inputs.model_changes)
+    out.model_answers.push_back(change(one, inputs.now));
+  out.model = {network_.name, network_.version};
   if (open_ && !goals_.empty() && inputs.now >= next_cycle_) {
     const bool lost = told_.version != accepted_.version;
     // Nobody has answered for a whole interval: the executive died before it took that version.
@@ -57,9 +64,10 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
     out.account.explored = report.explored;
     out.account.notes = report.notes;
     while (next_cycle_ <= inputs.now) next_cycle_ += network_.cycle.process_interval;
-    if (report.changed || lost || told_.version == 0) send(inputs, out);
+    if (report.changed || lost || told_.version == 0 || to_tell_) send(inputs, out);
   }
   out.blocking = blocking_;
+  out.doubted = std::exchange(doubted_, {});
   if (open_ && !goals_.empty()) out.wake = next_cycle_;
   return out;
 }
@@ -76,7 +84,8 @@ void UtilityEngine::hear(const StepInputs& inputs) {
   for (const Goal& goal : inputs.goals) hear_goal(goal);
   for (const engine::EndedGoal& ended : inputs.ended_goals) hear_end(ended);
   for (const engine::Observation& observation : inputs.observations) hear_observation(observation);
-  for (const engine::StepStatus& step : inputs.steps) hear_step(step);
+  for (const engine::StepStatus& step : inputs.steps) hear_step(step, inputs.now);
+  for (const engine::DataProduct& product : inputs.products) hear_product(product);
   if (inputs.receipt) hear_receipt(*inputs.receipt, inputs.now);
 }
 
@@ -115,6 +124,7 @@ void UtilityEngine::hear_end(const engine::EndedGoal& ended) {
 }
 
 void UtilityEngine::hear_observation(const engine::Observation& observation) {
+  newest_.insert_or_assign(observation.timeline, observation.value);
   const auto timeline =
       std::ranges::find(network_.timelines, observation.timeline, &temporal::timelines::Definition::name);
   if (timeline == network_.timelines.end() || !timeline->reported) return;
@@ -123,14 +133,27 @@ void UtilityEngine::hear_observation(const engine::Observation& observation) {
                     observation.sampled, *number);
 }
 
-void UtilityEngine::hear_step(const engine::StepStatus& step) {
+void UtilityEngine::hear_product(const engine::DataProduct& product) {
+  if (delivery_.hear(existing(network_, chains_, *cycle_, product))) cycle_->doubt();
+}
+
+void UtilityEngine::hear_step(const engine::StepStatus& step, Time now) {
   if (initial_ && step.activity == initial_->id && temporal::is_over(step.progress.state)) initial_.reset();
   const auto task = task_of(step.activity);
   if (!task) return;
   if (step.progress.started) cycle_->begun(*task, *step.progress.started);
-  if (!temporal::is_over(step.progress.state)) return;
+  if (!temporal::is_over(step.progress.state)) {
+    if (std::exchange(attempts_[*task], step.attempt) < step.attempt && step.attempt > 1)
+      cycle_->tried_again(*task, now);
+    return;
+  }
+  attempts_.erase(*task);
   const Time at = step.progress.ended.value_or(step.progress.started.value_or(origin_));
+  if (const auto index = task_of_activity(network_, step.activity);
+      index < network_.tasks.size() && step.progress.started)
+    delivery_.executed(*task, index, *step.progress.started, at, cycle_->past().values);
   cycle_->ended(*task, at, step.progress.state == ActivityState::succeeded, step.cause);
+  measure(*task, step.progress);
 }
 
 void UtilityEngine::hear_receipt(const engine::Receipt& receipt, Time now) {
@@ -150,7 +173,14 @@ void UtilityEngine::hear_receipt(const engine::Receipt& receipt, Time now) {
 
 // A process that was started again takes up the plan that is executed.
 void UtilityEngine::go_on_with(const FlexiblePlan& executed, Time now) {
-  Recovered recovered = recover(network_, chains_, executed);
+  // It may have been made with the network before the one in force.
+  const Fitted fitted = fit(network_, chains_, executed);
+  Recovered recovered = recover(network_, chains_, fitted.plan);
+  recovered.last_block = std::max(recovered.last_block, fitted.last_block);
+  for (const temporal::PlanActivity& gone : fitted.gone)
+    recovered.points.set(*task_of(gone.id), gone.start_point, gone.end_point);
+  to_tell_ = to_tell_ || fitted.foreign;
+  taken_up_ = now;
   origin_ = executed.origin;
   points_ = recovered.points;
   cycle_->resume(recovered.past, std::move(recovered.blocks), recovered.last_block, now);
@@ -196,11 +226,18 @@ void UtilityEngine::send(const StepInputs& inputs, StepOutput& out) {
     initial_ = initial_activity(network_, cycle_->past(), frame);
     std::tie(initial_->start_point, initial_->end_point) = points_.of(Points::kInitial);
     if (initial_->impacts.empty()) initial_.reset();
+  } else if (!initial_ && !unannounced_.empty()) {
+    initial_ = initial_activity(network_, cycle_->past(), frame);
+    std::tie(initial_->start_point, initial_->end_point) = points_.of(Points::kInitial);
+    std::erase_if(initial_->impacts,
+                  [&](const auto& impact) { return !unannounced_.contains(impact.timeline); });
   }
+  if (initial_) unannounced_.clear();
   if (initial_) plan.activities.insert(plan.activities.begin(), *initial_);
   plan.point_count = points_.count();
   out.delta = temporal::difference(told_, plan);
   told_ = std::move(plan);
+  to_tell_ = false;
   sent_[told_.version] = told_;
   if (sent_.size() > kUnanswered) sent_.erase(sent_.begin());
 }

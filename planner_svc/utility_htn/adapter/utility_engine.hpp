@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,11 +28,21 @@ class UtilityEngine final : public engine::SteppedEngine {
   std::string learn(const std::string& parameter, double value);
 
  private:
+  // model_change.cpp
+  engine::ModelAnswer change(const engine::ModelChange& change, temporal::Time now);
+  std::vector<std::string> replace_network(const engine::ModelChange& change, temporal::Time now);
+  std::vector<std::string> in_the_way_of(const model::Network& next, const flattening::Chains& chains) const;
+  void go_on_with(model::Network next, temporal::Time now);
+  // measuring.cpp
+  void measure(cycle::TaskId task, const temporal::ActivityProgress& progress);
+  std::optional<model::TaskIndex> primitive_of(cycle::TaskId id) const;
+
   void hear(const engine::StepInputs& inputs);
   void hear_goal(const engine::Goal& goal);
   void hear_end(const engine::EndedGoal& ended);
   void hear_observation(const engine::Observation& observation);
-  void hear_step(const engine::StepStatus& step);
+  void hear_product(const engine::DataProduct& product);
+  void hear_step(const engine::StepStatus& step, temporal::Time now);
   void hear_receipt(const engine::Receipt& receipt, temporal::Time now);
   void go_on_with(const temporal::FlexiblePlan& executed, temporal::Time now);
   void send(const engine::StepInputs& inputs, engine::StepOutput& out);
@@ -45,9 +56,17 @@ class UtilityEngine final : public engine::SteppedEngine {
   std::unique_ptr<assessor::Assessor> assessor_;
   std::unique_ptr<search::Scheduler> scheduler_;
   cycle::Settings settings_;
+  delivery::Delivery delivery_;
   std::unique_ptr<cycle::Cycle> cycle_;  // from the first step on
   std::vector<engine::Goal> goals_;      // open
   std::vector<engine::BlockingGoal> blocking_;
+  std::map<cycle::TaskId, std::uint32_t> attempts_;  // of what runs
+  std::map<std::string, temporal::Value>
+      newest_;  // of all timelines, also those that the network does not have
+  std::vector<std::string> doubted_;
+  std::set<std::string> unannounced_;  // internal timelines of which the executive does not know yet
+  bool to_tell_ = false;               // the next cycle sends a version, whatever it does
+  temporal::Time taken_up_{0};         // what ended before was measured by another process
   Points points_;
   temporal::FlexiblePlan told_;                           // newest version
   temporal::FlexiblePlan accepted_;                       // newest that the executive has taken

@@ -27,7 +27,7 @@ const char* word(Measure measure) {
 std::string number(double value) { return temporal::to_text(temporal::Value{value}); }
 
 double predicted(const Network& network, const Task& task, Measure measure, const Values& values) {
-  const double duration = std::max(0.0, model::evaluate(task.duration, values));
+  const double duration = model::duration_s(task, values);
   if (measure == Measure::duration_s) return duration;
   const double energy = model::cost(network, task, values);
   return measure == Measure::energy ? energy : energy / duration;

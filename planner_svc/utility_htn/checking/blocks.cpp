@@ -27,7 +27,8 @@ std::set<std::size_t> ends_of(const Question& question, const Block& block, mode
     if (step > 0) {
       const Duration gap = block.steps[step].start - end_of(question, block.steps[step - 1]);
       // What was executed comes as it comes; the bounds are the plan's.
-      if (!block.steps[step].committed && (gap < shortest || gap > longest)) return {};
+      const bool too_long = gap > longest && !block.steps[step - 1].overdue;
+      if (!block.steps[step].committed && (gap < shortest || too_long)) return {};
     }
     return {step + 1};
   }

@@ -30,26 +30,29 @@ Course::Course(const Question& question, temporal::timelines::Index timeline, bo
     anchor_ = observation.sampled;
     initial_ = observation.value;
   }
-  for (const Block& block : question.plan) {
-    for (const Step& step : block.steps) {
-      if (committed_only && !step.committed) continue;
-      for (const model::Impact& impact : question.network.tasks[step.task].impacts) {
-        if (impact.timeline != timeline) continue;
-        const double amount = model::evaluate(impact.amount, question.values);
-        const bool at_end = impact.moment == ImpactWhen::at_end;
-        const Time end = end_of(question, step);
-        all_.push_back({at_end ? end : step.start, !at_end, impact.kind, step.id, amount});
-        if (impact.moment == ImpactWhen::during && impact.kind != ImpactKind::assign) {
-          all_.push_back({end, false, impact.kind, step.id, -amount});
-        }
-      }
-    }
-  }
+  for (const Step& step : question.rests) add(question, timeline, step);
+  for (const Block& block : question.plan)
+    for (const Step& step : block.steps)
+      if (!committed_only || step.committed) add(question, timeline, step);
   std::ranges::stable_sort(all_, {}, [](const Change& change) {
     return std::tuple(change.at, change.starts, turn(change.kind), change.step);
   });
   for (const Change& change : all_) changes_.push_back(change.at);
   changes_.erase(std::unique(changes_.begin(), changes_.end()), changes_.end());
+}
+
+void Course::add(const Question& question, temporal::timelines::Index timeline, const Step& step) {
+  // What is due just now the network's own timelines hold already; a reported one does when it is told.
+  const bool late = step.overdue || (step.due && question.network.timelines[timeline].reported);
+  for (const model::Impact& impact : question.network.tasks[step.task].impacts) {
+    if (impact.timeline != timeline) continue;
+    const double amount = model::evaluate(impact.amount, question.values);
+    const bool at_end = impact.moment == ImpactWhen::at_end;
+    const Time end = end_of(question, step);
+    all_.push_back({at_end ? end : step.start, !at_end, impact.kind, step.id, amount, late});
+    if (impact.moment == ImpactWhen::during && impact.kind != ImpactKind::assign)
+      all_.push_back({end, false, impact.kind, step.id, -amount, late});
+  }
 }
 
 double Course::value(Time at, Moment moment) const {
@@ -60,7 +63,7 @@ double Course::value(Time at, Moment moment) const {
     const bool is_now = change.at == at;
     if (change.at > at || (is_now && moment == Moment::before)) break;
     if (is_now && change.starts && moment == Moment::between) break;
-    const bool counts = !observed_ || change.at > anchor_;
+    const bool counts = !observed_ || change.at > anchor_ || (change.late && change.at == anchor_);
     if (counts && change.at > reached) {
       value += rate * temporal::to_seconds(change.at - reached);
       reached = change.at;

@@ -22,12 +22,15 @@ class Course {
   const std::vector<temporal::Time>& changes() const { return changes_; }
 
  private:
+  void add(const Question& question, temporal::timelines::Index timeline, const Step& step);
+
   struct Change {
     temporal::Time at{0};
     bool starts = false;  // what ends at an instant acts before what starts
     temporal::ImpactKind kind = temporal::ImpactKind::delta;
     std::uint64_t step = 0;
     double amount = 0;
+    bool late = false;  // the newest observation does not know of it
   };
 
   double initial_ = 0;

@@ -22,6 +22,8 @@ struct Step {
   /// What it takes; none: what the network says. Downlinks and what is executed have one of their own.
   std::optional<temporal::Duration> duration{};
   bool committed = false;
+  bool due = false;      ///< it should begin or end by now and is not known to have
+  bool overdue = false;  ///< it should have before now: its times are the soonest ones
 };
 
 /// Is a requested task with all its primitive ones in order, those that are executed among them.
@@ -69,6 +71,8 @@ struct Question {
   const model::Values& values;
   std::vector<Block> plan;
   std::vector<Block> before{};  ///< the version that this one follows
+  /// What runs or has succeeded of chains that were broken off: it counts on timelines, and is no decomposition any more.
+  std::vector<Step> rests{};
   Downlinks downlinks{};
   /// Otherwise the plan does not say what goes with which downlink, and that is not checked.
   bool downlinks_told = true;

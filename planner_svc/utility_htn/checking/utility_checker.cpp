@@ -33,6 +33,7 @@ std::vector<std::string> faults_of(const model::Network& network, const engine::
     });
     question.before = std::move(before.blocks);
   }
+  question.rests = std::move(version.rests);
   question.downlinks_told = false;
   question.observations = std::move(version.internal);
   question.closed = std::move(version.done);

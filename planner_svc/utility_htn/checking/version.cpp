@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -110,8 +111,15 @@ class Reader {
     if (known && went->second.started) {
       step.start = *went->second.started;
       const Time end = went->second.ended.value_or(std::max(now_, step.start + *step.duration));
+      step.due = !went->second.ended && end == now_;
+      step.overdue = step.due && step.start + *step.duration < now_;
       step.duration = end - step.start;
+      const auto state = went->second.state;
+      if (!temporal::is_over(state) || state == temporal::ActivityState::succeeded)
+        effective_.insert(step.id);
     } else if (step.committed) {
+      step.due = step.start <= now_;
+      step.overdue = step.start < now_;
       step.start = std::max(step.start, now_);
     }
     if (activity.end_point == ends_[name->block]) whole_.insert(name->block);
@@ -127,6 +135,8 @@ class Reader {
       whole = whole && block.steps[link].id == ((std::uint64_t{number} << 32U) | link);
     if (!whole) {
       out_.broken.insert(number);
+      std::ranges::copy_if(block.steps, std::back_inserter(out_.rests),
+                           [&](const Step& step) { return effective_.contains(step.id); });
       return;
     }
     if (running_[number] == 0) out_.over.insert(number);
@@ -141,6 +151,7 @@ class Reader {
   std::map<std::uint32_t, Block> blocks_;
   std::map<std::uint32_t, temporal::TimePoint> ends_;  // of the last link
   std::map<std::uint32_t, std::size_t> running_;       // steps that are not over
+  std::set<std::uint64_t> effective_;                  // steps that have begun and have not failed
   std::set<std::uint32_t> whole_;                      // blocks that have it
   Version out_;
 };

@@ -15,6 +15,7 @@ namespace roci::planner::utility_htn::checking {
 struct Version {
   std::vector<Block> blocks;          ///< those of which no link has failed
   std::set<std::uint32_t> broken;     ///< numbers of the others: what is committed of them is skipped
+  std::vector<Step> rests;            ///< what runs or has succeeded of those
   std::set<std::uint32_t> over;       ///< numbers of those that have ended
   model::Values values;               ///< of parameters
   std::vector<Observation> internal;  ///< of timelines that nobody reports, as of the version
@@ -25,7 +26,7 @@ struct Version {
 /// Returns the number of a block.
 std::uint32_t number_of(const Block& block);
 
-/// Reads a plan. What has begun or ended has its actual times, and what is late starts at `now`; `progress` may be null.
+/// Reads a plan. What has begun or ended has its actual times, and what is late begins or ends at `now`; `progress` may be null.
 Version version_of(const model::Network& network, const temporal::FlexiblePlan& plan,
                    const temporal::Progress* progress, temporal::Time now);
 

@@ -17,6 +17,9 @@ bool waits(const Link& link) { return link.stage == Stage::planned || link.stage
 // Returns whether the timelines hold it.
 bool is_placed(const Link& link) { return !is_over(link.stage) && link.stage != Stage::doomed; }
 
+// Nothing is expected to be later than it is by more than this.
+constexpr Duration kFarthestExpectation = std::chrono::hours(1);
+
 bool is_request(const model::Task& task) { return !task.is_template; }
 
 }  // namespace
@@ -68,10 +71,17 @@ Link* Cycle::link(TaskId task) {
 void Cycle::begun(TaskId task, Time at) {
   Link* const one = link(task);
   if (one == nullptr || !waits(*one)) return;
-  const Duration length = one->end - one->start;
   to_optimize_ |= one->start != at;
-  *one = {one->task, one->planned, at, at + length, Stage::running};
+  *one = {one->task, one->planned, at, at + duration(one->task), Stage::running};
   timelines_.move(task, at, one->end);
+}
+
+void Cycle::tried_again(TaskId task, Time at) {
+  Link* const one = link(task);
+  if (one == nullptr || one->stage != Stage::running) return;
+  one->end = std::max(one->start, at) + duration(one->task);
+  timelines_.move(task, one->start, one->end);
+  to_optimize_ = true;
 }
 
 void Cycle::ended(TaskId task, Time at, bool succeeded, const std::string& cause) {
@@ -190,6 +200,21 @@ Report Cycle::run(Time now) {
   return report;
 }
 
+search::PlannedData Cycle::data() const {
+  search::PlannedData out;
+  for (const Block* one : by_start()) {
+    for (const Link& each : one->links) {
+      if (each.stage == Stage::doomed || each.stage == Stage::failed) continue;
+      const model::Task& task = network_.tasks[each.task];
+      if (task.downlinks) out.downlinks.push_back({each.task, each.start, each.end});
+      for (const model::Product& product : task.products)
+        out.products.push_back(search::predicted(network_.tasks[chains_.chains[one->chain].task], task,
+                                                 product, each.end, past_.values));
+    }
+  }
+  return out;
+}
+
 // What starts before the end of the commit window is the executive's from now on (R78).
 bool Cycle::commit(Time now) {
   bool any = false;
@@ -204,27 +229,44 @@ bool Cycle::commit(Time now) {
   return any;
 }
 
-// What should have begun or ended and has not does so now at the earliest (R76).
-void Cycle::follow(Time now) {
+// What should have begun or ended by now and has not is expected to be late by as much again, an hour more at most (R76). So what is
+// long overdue moves the plan a few times and not in every cycle. Returns whether what is expected has changed.
+bool Cycle::follow(Time now) {
+  bool changed = false;
   for (Block& one : blocks_)
     for (std::size_t i = 0; i < one.links.size(); ++i) {
-      Link& each = one.links[i];
-      if (each.stage == Stage::committed && each.start < now) {
-        each.end += now - each.start;
-        each.start = now;
-      } else if (each.stage == Stage::running && each.end < now) {
-        each.end = now;
-      } else {
-        continue;
-      }
-      to_optimize_ = true;
-      timelines_.move(task_id(one.number, i), each.start, each.end);
+      const Link before = one.links[i];
+      if (before.stage == Stage::committed) await_start(one, i, now);
+      if (before.stage == Stage::running && before.end < now)
+        one.links[i].end = expected(before.start + duration(before.task), now);
+      if (one.links[i] == before) continue;
+      changed |= one.links[i].end != before.end;
+      timelines_.move(task_id(one.number, i), one.links[i].start, one.links[i].end);
     }
+  return changed;
+}
+
+Time Cycle::expected(Time due, Time now) const {
+  return now + std::clamp(now - due, network_.cycle.process_interval, kFarthestExpectation);
+}
+
+// A link starts behind the one before it. The first that is late may begin at any time, and holds what it needs until then.
+void Cycle::await_start(Block& of, std::size_t index, Time now) {
+  Link& late = of.links[index];
+  const Duration length = duration(late.task);
+  if (index > 0 && !is_over(of.links[index - 1].stage)) {
+    const Duration gap = chains_.chains[of.chain].links[index].shortest_gap;
+    late.start = std::max({late.start, now, of.links[index - 1].end + gap});
+    late.end = late.start + length;
+  } else if (late.start < now) {
+    late.start = now;
+    if (late.end - length < now) late.end = expected(late.planned, now) + length;
+  }
 }
 
 // Returns whether anything was folded that had been kept.
 bool Cycle::consolidate(Time now) {
-  follow(now);
+  to_optimize_ |= follow(now);
   const temporal::timelines::Kept before = timelines_.kept();
   timelines_.consolidate(now);
   const temporal::timelines::Kept after = timelines_.kept();
@@ -281,21 +323,18 @@ void Cycle::put_in(const Block& placed) {
   }
 }
 
+Duration Cycle::duration(TaskIndex task) const {
+  return temporal::seconds(model::duration_s(network_.tasks[task], past_.values));
+}
+
 std::vector<double> Cycle::values_now(Time now) const {
   std::vector<double> out;
   for (Index i = 0; i < network_.timelines.size(); ++i) out.push_back(timelines_.value(i, now));
   return out;
 }
 
-// Returns what a link asks of timelines and does to them; the first one moreover asks for what selects its decompositions.
 temporal::timelines::Footprint Cycle::footprint(const Block& block, std::size_t link) const {
-  auto out = model::footprint(network_.tasks[block.links[link].task], past_.values);
-  if (link > 0) return out;
-  for (auto constraint : chains_.chains[block.chain].when) {
-    constraint.phase = temporal::timelines::Phase::pre;
-    out.constraints.push_back(constraint);
-  }
-  return out;
+  return flattening::footprint(network_, chains_.chains[block.chain], link, past_.values);
 }
 
 // Returns the requests that wait and whose preferred start lies within the scheduling window (R79).
@@ -345,6 +384,7 @@ search::Plan Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Re
   for (const flattening::Chain& chain : chains_.chains)
     if (!candidates.contains(chain.task) && !placed.contains(chain.task))
       problem.closed.push_back(chain.task);
+  if (delivery_ != nullptr) delivery_->join(problem, now);
   const search::Outcome outcome = search::search(problem);
   report.explored += outcome.statistics.entries;
   return outcome.plan;
@@ -366,7 +406,7 @@ void Cycle::adopt(const search::Plan& plan) {
     Block added{++last_block_, placed.chain, {}};
     const auto& links = chains_.chains[placed.chain].links;
     for (std::size_t i = 0; i < links.size(); ++i) {
-      const Duration length = model::footprint(network_.tasks[links[i].task], past_.values).duration;
+      const Duration length = duration(links[i].task);
       added.links.push_back(
           {links[i].task, placed.starts[i], placed.starts[i], placed.starts[i] + length, Stage::planned});
     }
@@ -504,11 +544,13 @@ bool Cycle::shift(Block& late, Time from) {
 // Returns what has not begun as a plan, assessed as a search assesses its own.
 search::Plan Cycle::planned(Time now) const {
   const std::vector<double> newest = values_now(now);
+  const auto existing =
+      delivery_ != nullptr ? delivery_->products() : std::span<const assessor::ExistingProduct>{};
   std::vector<std::uint32_t> before;
   search::Plan out;
   for (const Block* one : by_start()) {
     if (!one->begun()) {
-      const assessor::Context context{network_, past_.values, chains_, newest, {}, before, {}};
+      const assessor::Context context{network_, past_.values, chains_, newest, existing, before, {}};
       out.utility += assessor_.predicted(one->chain, context);
       out.cost += flattening::cost(network_, chains_.chains[one->chain], past_.values);
       out.placed.push_back({one->chain, {}});

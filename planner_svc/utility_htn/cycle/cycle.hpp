@@ -12,6 +12,7 @@
 #include "core/temporal/timelines/timelines.hpp"
 #include "planner_svc/utility_htn/assessor/assessor.hpp"
 #include "planner_svc/utility_htn/cycle/placement.hpp"
+#include "planner_svc/utility_htn/delivery/delivery.hpp"
 #include "planner_svc/utility_htn/search/search.hpp"
 
 namespace roci::planner::utility_htn::cycle {
@@ -26,6 +27,7 @@ const char* to_string(Activity part);
 struct Settings {
   bool repairs = true;
   bool optimizes = true;
+  bool downlinks = true;        ///< data without a downlink are not generated (R127); otherwise all get home
   bool schedules_again = true;  ///< also after the first time; otherwise the first plan is all there is
   /// What was observed must differ from what was foreseen by this share of the timeline's first value before the cycle optimizes anew.
   double noticeable = 0.005;
@@ -59,6 +61,8 @@ class Cycle {
   void observe(temporal::timelines::Index timeline, temporal::Time sampled, double value);
   /// Takes the times at which a task really began and ended (R76).
   void begun(TaskId task, temporal::Time at);
+  /// Takes that the executive tries a running task again by itself (R99): it will take its whole duration once more.
+  void tried_again(TaskId task, temporal::Time at);
   void ended(TaskId task, temporal::Time at, bool succeeded, const std::string& cause = {});
   /// Asks for a template, or for something that was withdrawn; forgets its failures.
   void request(model::TaskIndex task);
@@ -66,6 +70,8 @@ class Cycle {
   void withdraw(model::TaskIndex task);
   /// Replaces a parameter's value (R116, R118). Returns why not, if it is out of range.
   std::string set_value(model::ParameterIndex parameter, double value);
+  /// Lets data that exist be assessed, and data without a downlink not be planned (R115, R127). It outlives this.
+  void deliver_by(delivery::Delivery& delivery) { delivery_ = &delivery; }
   /// Lets the next cycle look for a better plan, whatever it knows.
   void doubt() { to_optimize_ = true; }
   /// Takes in that the executive has no plan any more: what ran has failed, what was committed is only planned.
@@ -79,6 +85,8 @@ class Cycle {
   const Past& past() const { return past_; }
   const temporal::timelines::Timelines& timelines() const { return timelines_; }
   std::uint32_t last_block() const { return last_block_; }
+  /// Returns what all that is placed will generate and send, as planned or as it turned out so far.
+  search::PlannedData data() const;
   /// Returns the requests that wait for a place, in the order of the network.
   std::vector<model::TaskIndex> waiting() const;
 
@@ -87,7 +95,9 @@ class Cycle {
   Link* link(TaskId task);
   void doom(TaskId failed);
   bool commit(temporal::Time now);
-  void follow(temporal::Time now);
+  bool follow(temporal::Time now);
+  temporal::Time expected(temporal::Time due, temporal::Time now) const;
+  void await_start(Block& of, std::size_t index, temporal::Time now);
   bool consolidate(temporal::Time now);
   bool schedule(temporal::Time now, Report& report);
   bool repair(temporal::Time now, Report& report);
@@ -109,6 +119,7 @@ class Cycle {
   std::vector<const Block*> by_start() const;
   search::Plan planned(temporal::Time now) const;
   temporal::timelines::Footprint footprint(const Block& block, std::size_t link) const;
+  temporal::Duration duration(model::TaskIndex task) const;
   double budget() const;
   std::vector<double> values_now(temporal::Time now) const;
 
@@ -116,6 +127,7 @@ class Cycle {
   const flattening::Chains& chains_;
   const assessor::Assessor& assessor_;
   const search::Scheduler& scheduler_;
+  delivery::Delivery* delivery_ = nullptr;  // none: all data get home, and none exist
   Settings settings_;
   temporal::timelines::Timelines timelines_;
   Past past_;

@@ -12,19 +12,12 @@
 #include <vector>
 
 #include "core/temporal/duration.hpp"
-#include "core/temporal/rank_vector.hpp"
-#include "planner_svc/utility_htn/model/network.hpp"
+#include "planner_svc/utility_htn/model/data_product.hpp"
 
 namespace roci::planner::utility_htn::downlink {
 
-/// Is data that waits on board, or that a planned task is predicted to generate. It is sent whole, with one downlink.
-struct Product {
-  std::string id;  ///< unique among the products of a question
-  model::Tier tier = model::Tier::mandatory;
-  std::uint64_t bytes = 0;
-  temporal::Time created{0};       ///< only a window that starts then or later can take it
-  temporal::RankVector utility{};  ///< scores ≥ 0; differences below kScoreStep do not count
-};
+/// Only a window that starts when it is created or later can take it. Differences of scores below kScoreStep do not count.
+using Product = model::DataProduct;
 
 /// Is a downlink opportunity: Earth is in view, and the uplink that belongs to it is already taken off.
 struct Window {

@@ -37,6 +37,10 @@ Chains flatten(const model::Network& network, const std::set<model::TaskIndex>& 
 /// Returns the templates that contingencies request (R69).
 std::set<model::TaskIndex> templates_on_call(const model::Network& network);
 
+/// Returns what timelines see of a chain's link. The first one moreover asks at its start for what selects its decompositions (R89).
+temporal::timelines::Footprint footprint(const model::Network& network, const Chain& chain, std::size_t link,
+                                         const model::Values& values);
+
 /// Sums over the links (R92).
 double cost(const model::Network& network, const Chain& chain, const model::Values& values);
 temporal::RankVector utility(const model::Network& network, const Chain& chain, const model::Values& values);

@@ -94,6 +94,17 @@ Chains flatten(const Network& network, const std::set<TaskIndex>& templates) {
   return out;
 }
 
+temporal::timelines::Footprint footprint(const Network& network, const Chain& chain, std::size_t link,
+                                         const model::Values& values) {
+  temporal::timelines::Footprint out = model::footprint(network.tasks[chain.links[link].task], values);
+  if (link > 0) return out;
+  for (temporal::timelines::Constraint constraint : chain.when) {
+    constraint.phase = temporal::timelines::Phase::pre;
+    out.constraints.push_back(constraint);
+  }
+  return out;
+}
+
 double cost(const Network& network, const Chain& chain, const model::Values& values) {
   double sum = 0;
   for (const Subtask& link : chain.links) sum += model::cost(network, network.tasks[link.task], values);

@@ -186,6 +186,8 @@ using Values = std::vector<double>;
 Values priors(const Network& network);
 
 double evaluate(const Amount& amount, const Values& values);
+/// Returns how long a primitive task takes, in seconds; never below 0.
+double duration_s(const Task& task, const Values& values);
 /// Returns what timelines see of a primitive task.
 temporal::timelines::Footprint footprint(const Task& task, const Values& values);
 /// Returns what a primitive task takes from the budget, in its unit: deltas and rates over the duration (R87).

@@ -6,14 +6,6 @@ namespace roci::planner::utility_htn::model {
 
 using temporal::ImpactKind, temporal::ImpactWhen;
 
-namespace {
-
-double duration_s(const Task& task, const Values& values) {
-  return std::max(0.0, evaluate(task.duration, values));
-}
-
-}  // namespace
-
 Values priors(const Network& network) {
   Values out;
   out.reserve(network.parameters.size());
@@ -23,6 +15,10 @@ Values priors(const Network& network) {
 
 double evaluate(const Amount& amount, const Values& values) {
   return amount.parameter ? amount.constant + amount.factor * values.at(*amount.parameter) : amount.constant;
+}
+
+double duration_s(const Task& task, const Values& values) {
+  return std::max(0.0, evaluate(task.duration, values));
 }
 
 temporal::timelines::Footprint footprint(const Task& task, const Values& values) {

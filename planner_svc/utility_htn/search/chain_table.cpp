@@ -60,7 +60,7 @@ std::vector<Link> ChainTable::make_links(std::uint32_t index) const {
     const Task& task = problem_.network.tasks[subtask.task];
     Link& link = out.emplace_back();
     link.id = problem_.first_id + task_id(index, out.size() - 1);
-    link.footprint = model::footprint(task, problem_.values);
+    link.footprint = flattening::footprint(problem_.network, chain(index), out.size() - 1, problem_.values);
     link.shortest_gap = subtask.shortest_gap;
     link.longest_gap = subtask.longest_gap;
     const Time latest_end = std::min({task.closes, asked.closes, problem_.until});
@@ -72,11 +72,6 @@ std::vector<Link> ChainTable::make_links(std::uint32_t index) const {
     if (timed.fixed && bounded(timed.preferred_start))
       link.starts = {std::max(link.starts.earliest, timed.preferred_start),
                      std::min(link.starts.latest, timed.preferred_start)};
-    if (!first) continue;
-    for (temporal::timelines::Constraint constraint : chain(index).when) {
-      constraint.phase = temporal::timelines::Phase::pre;
-      link.footprint.constraints.push_back(constraint);
-    }
   }
   return out;
 }
@@ -88,19 +83,32 @@ RankVector ChainTable::predicted(std::uint32_t index, std::span<const std::uint3
   return rounded(problem_.assessor.predicted(index, context));
 }
 
-void ChainTable::add_products(const Placed& placed, std::vector<PredictedProduct>& out) const {
+void ChainTable::add_data(const Placed& placed, PlannedData& out) const {
   const Chain& links = chain(placed.chain);
   for (std::size_t index = 0; index < links.links.size(); ++index) {
     const Task& task = problem_.network.tasks[links.links[index].task];
-    if (task.products.empty()) continue;
+    if (task.products.empty() && !task.downlinks) continue;
     const Time end = plus(placed.starts[index],
                           temporal::seconds(std::max(0.0, model::evaluate(task.duration, problem_.values))));
-    for (const model::Product& product : task.products) {
-      const double bytes = std::ceil(std::max(0.0, model::evaluate(product.bytes, problem_.values)));
-      out.push_back({request(placed.chain).id + "/" + task.id + "/" + product.name, product.tier,
-                     static_cast<std::uint64_t>(bytes), end, product.utility});
-    }
+    if (task.downlinks) out.downlinks.push_back({links.links[index].task, placed.starts[index], end});
+    for (const model::Product& product : task.products)
+      out.products.push_back(search::predicted(request(placed.chain), task, product, end, problem_.values));
   }
+}
+
+model::DataProduct predicted(const Task& request, const Task& task, const model::Product& product, Time end,
+                             const model::Values& values) {
+  const double bytes = std::ceil(std::max(0.0, model::evaluate(product.bytes, values)));
+  return {request.id + "/" + task.id + "/" + product.name, product.tier, static_cast<std::uint64_t>(bytes),
+          end, product.utility};
+}
+
+PlannedData ChainTable::committed_data() const {
+  PlannedData out;
+  for (const Placed& placed : problem_.committed) add_data(placed, out);
+  out.committed_products = out.products.size();
+  out.committed_downlinks = out.downlinks.size();
+  return out;
 }
 
 std::vector<std::uint32_t> by_start(std::span<const Placed> committed, std::span<const Placed> placed) {

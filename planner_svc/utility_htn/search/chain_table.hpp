@@ -34,8 +34,10 @@ class ChainTable {
   std::span<const Link> links(std::uint32_t index);
   /// Returns the prediction of a chain after what is planned, rounded.
   temporal::RankVector predicted(std::uint32_t index, std::span<const std::uint32_t> planned) const;
-  /// Adds what a placed chain would generate.
-  void add_products(const Placed& placed, std::vector<PredictedProduct>& out) const;
+  /// Adds what a placed chain would generate and send.
+  void add_data(const Placed& placed, PlannedData& out) const;
+  /// Returns what all that is committed would generate and send.
+  PlannedData committed_data() const;
 
   std::size_t bytes() const { return link_bytes_; }
 

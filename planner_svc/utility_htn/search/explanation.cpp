@@ -176,11 +176,10 @@ class WhyNotAsked {
 
   bool gets_downlink(const Placed& added) const {
     if (!problem_.downlink) return true;
-    std::vector<PredictedProduct> products;
-    for (const Placed& placed : problem_.committed) table_.add_products(placed, products);
-    for (const Placed& placed : outcome_.plan.placed) table_.add_products(placed, products);
-    table_.add_products(added, products);
-    return problem_.downlink(products);
+    PlannedData data = table_.committed_data();
+    for (const Placed& placed : outcome_.plan.placed) table_.add_data(placed, data);
+    table_.add_data(added, data);
+    return problem_.downlink(data);
   }
 
   std::string task(std::size_t link) const {

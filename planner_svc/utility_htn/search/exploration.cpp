@@ -174,10 +174,9 @@ bool Exploration::utility_of(const Placed& added, const Entry& entry, RankVector
 
 bool Exploration::gets_downlink(const Placed& added) const {
   if (!problem_.downlink) return true;
-  std::vector<PredictedProduct> products;
-  for (const Placed& placed : problem_.committed) table_.add_products(placed, products);
-  for (const Placed& placed : all_placed(&added)) table_.add_products(placed, products);
-  return problem_.downlink(products);
+  PlannedData data = table_.committed_data();
+  for (const Placed& placed : all_placed(&added)) table_.add_data(placed, data);
+  return problem_.downlink(data);
 }
 
 // Lists what is held fixed, the plan here, and perhaps one chain more.

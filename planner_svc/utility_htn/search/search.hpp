@@ -12,6 +12,7 @@
 #include "core/temporal/timelines/timelines.hpp"
 #include "planner_svc/utility_htn/assessor/assessor.hpp"
 #include "planner_svc/utility_htn/flattening/chain.hpp"
+#include "planner_svc/utility_htn/model/data_product.hpp"
 #include "planner_svc/utility_htn/model/network.hpp"
 #include "planner_svc/utility_htn/search/scheduler.hpp"
 
@@ -24,17 +25,27 @@ struct Placed {
   friend bool operator==(const Placed&, const Placed&) = default;
 };
 
-/// Is data that a partial plan would generate.
-struct PredictedProduct {
-  std::string id;  ///< "request/task/product"
-  model::Tier tier = model::Tier::mandatory;
-  std::uint64_t bytes = 0;
-  temporal::Time created{0};  ///< when the task that generates it ends
-  temporal::RankVector utility{};
+/// Is a placed task that sends data (Task::downlinks).
+struct PlannedDownlink {
+  model::TaskIndex task = 0;
+  temporal::Time start{0};
+  temporal::Time end{0};
 };
 
+/// Is what a partial plan would generate and send. What is committed comes first in both lists.
+struct PlannedData {
+  std::vector<model::DataProduct> products{};
+  std::vector<PlannedDownlink> downlinks{};
+  std::size_t committed_products = 0;
+  std::size_t committed_downlinks = 0;
+};
+
+/// Returns what a task of a request will have generated when it has ended; bytes are rounded up.
+model::DataProduct predicted(const model::Task& request, const model::Task& task,
+                             const model::Product& product, temporal::Time end, const model::Values& values);
+
 /// Says whether everything that a partial plan would generate gets its downlink (R127).
-using DownlinkQuestion = std::function<bool(std::span<const PredictedProduct>)>;
+using DownlinkQuestion = std::function<bool(const PlannedData&)>;
 
 /// Is what is to be planned. All that it refers to outlives it.
 struct Problem {

@@ -39,6 +39,8 @@ void for_each_topic(Use use) {
   use(topics::decision);
   use(topics::decision_answer);
   use(topics::decision_receipt);
+  use(topics::network_order);
+  use(topics::network_status);
   use(topics::plan_delta);
   use(topics::plan_receipt);
   use(topics::call_cancel);

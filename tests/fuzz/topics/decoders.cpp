@@ -45,6 +45,8 @@ const std::vector<Decoder>& decoders() {
                                         decoder(topics::decision),
                                         decoder(topics::decision_answer),
                                         decoder(topics::decision_receipt),
+                                        decoder(topics::network_order),
+                                        decoder(topics::network_status),
                                         decoder(topics::plan_delta),
                                         decoder(topics::plan_receipt),
                                         decoder(topics::call_cancel),

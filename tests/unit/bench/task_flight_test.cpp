@@ -34,19 +34,19 @@ model::Network commanded_network() {
   return out;
 }
 
-Flown flown(const model::Network& network, Strategy strategy, const Courses& courses, Costs costs = {}) {
+Flown flown(const model::Network& network, Strategy strategy, const Fates& fates, Costs costs = {}) {
   planner::utility_htn::cycle::Settings settings;
   if (strategy != Strategy::replanning)
     settings = {.repairs = false, .optimizes = false, .schedules_again = false};
   UtilityEngine engine({"utility_htn", "lander", "", ""}, network, settings);
-  return fly({network, engine, courses, strategy, costs, 20000s});
+  return fly({network, engine, fates, strategy, costs, 20000s});
 }
 
-const Courses kAsPlanned = [](const std::string&, std::uint32_t) { return Course{}; };
+const Fates kAsPlanned = [](const std::string&, std::uint32_t) { return Fate{}; };
 
-Courses failing_once(const std::string& task, Resolution failure) {
+Fates failing_once(const std::string& task, Resolution failure) {
   return [=](const std::string& name, std::uint32_t execution) {
-    return Course{1, 1, name == task && execution == 0 ? failure : Resolution::none};
+    return Fate{1, 1, name == task && execution == 0 ? failure : Resolution::none};
   };
 }
 
@@ -100,7 +100,7 @@ TEST(TaskFlight, WhereEnergyRunsOutTheFlightEnds) {
   model::Network network = commanded_network();
   network.timelines.front().initial = 360;
   const Flown out = flown(network, Strategy::replanning, [](const std::string&, std::uint32_t) {
-    return Course{1, 1.5, Resolution::none};
+    return Fate{1, 1.5, Resolution::none};
   });
   EXPECT_THAT(out.faults, IsEmpty());
   EXPECT_LE(out.spent, 360 + 1e-3);
@@ -111,7 +111,7 @@ TEST(TaskFlight, RandomWorldsEndWithoutARefusedVersion) {
   const model::Network network = commanded_network();
   for (std::uint32_t seed = 1; seed <= 40; ++seed) {
     for (const Strategy strategy : {Strategy::ground, Strategy::flexible_execution, Strategy::replanning}) {
-      const Courses courses = [&](const std::string& task, std::uint32_t execution) {
+      const Fates fates = [&](const std::string& task, std::uint32_t execution) {
         std::seed_seq mixed{seed, static_cast<std::uint32_t>(task_named(network, task)), execution};
         std::mt19937 random(mixed);
         std::normal_distribution<> noise(1, 0.1);
@@ -120,9 +120,9 @@ TEST(TaskFlight, RandomWorldsEndWithoutARefusedVersion) {
                                    : draw < 0.16 ? Resolution::replanning
                                    : draw < 0.22 ? Resolution::ground
                                                  : Resolution::none;
-        return Course{std::max(0.5, noise(random)), std::max(0.5, noise(random)), failure};
+        return Fate{std::max(0.5, noise(random)), std::max(0.5, noise(random)), failure};
       };
-      const Flown out = flown(network, strategy, courses, {5, 40, 300s});
+      const Flown out = flown(network, strategy, fates, {5, 40, 300s});
       EXPECT_THAT(out.faults, IsEmpty()) << seed;
       EXPECT_LE(out.utility[0], 12.1 + 1e-9) << seed;
       EXPECT_LE(out.spent, 2000 + 1e-3) << seed;

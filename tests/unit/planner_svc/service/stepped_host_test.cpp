@@ -33,6 +33,10 @@ class ScriptedEngine final : public engine::SteppedEngine {
 
   StepOutput step(const StepInputs& inputs) override {
     StepOutput out;
+    for (const engine::DataProduct& product : inputs.products)
+      heard_.push_back("product " + product.id + " of " + product.source + ", " +
+                       std::to_string(product.bytes) + " bytes, fate " +
+                       std::to_string(static_cast<int>(product.fate)));
     for (const engine::EndedGoal& goal : inputs.ended_goals) heard_.push_back("end of " + goal.id);
     if (inputs.receipt && inputs.receipt->refused != 0)
       heard_.push_back("refused " + std::to_string(inputs.receipt->refused));
@@ -96,6 +100,17 @@ class SteppedService : public ::testing::Test {
       statuses_.write(status);
     });
   }
+  void tell_product(Time time, v1::ProductFate fate) {
+    executive_.at(time, [this, fate] {
+      v1::DataProduct product;
+      product.id("image");
+      product.source("look#1.0");
+      product.bytes(60);
+      product.tier(v1::TIER_DECISIONAL);
+      product.fate(fate);
+      products_.write(product);
+    });
+  }
   void run_until(Time end) {
     executive_.at(end, [this] { executive_.stop(); });
     run_.run();
@@ -116,6 +131,7 @@ class SteppedService : public ::testing::Test {
   services::Node& executive_ = run_.add("exec_svc");
   services::Publisher<v1::Goal> goals_ = services::advertise(executive_, topics::goal);
   services::Publisher<v1::GoalStatus> statuses_ = services::advertise(executive_, topics::goal_status);
+  services::Publisher<v1::DataProduct> products_ = services::advertise(executive_, topics::data_product);
   std::unique_ptr<services::Service> service_;
   std::vector<std::string> versions_;
   std::vector<std::string> events_;
@@ -154,6 +170,18 @@ TEST_F(SteppedService, AnEngineThatFailsIsMadeAnewAndHearsWhatStillCounts) {
               ElementsAre("planner.defect: engine 'scripted' failed and is made anew: out of ideas"));
   EXPECT_THAT(heard_, ElementsAre("goal first", "goal gone", "end of gone", "goal trap", "goal first",
                                   "goal trap", "goal next"));
+}
+
+TEST_F(SteppedService, DataProductsAreHeardWhenTheyChangeAndAgainByAnEngineThatIsMadeAnew) {
+  tell_product(1s, v1::PRODUCT_STORED);
+  tell_product(2s, v1::PRODUCT_STORED);
+  tell_product(3s, v1::PRODUCT_RECEIVED);
+  tell(4s, "trap", v1::GOAL_PENDING, "throw");
+  tell(5s, "next", v1::GOAL_PENDING);
+  run_until(10s);
+  const std::string image = "product image of look#1.0, 60 bytes, fate ";
+  EXPECT_THAT(heard_,
+              ElementsAre(image + "0", image + "2", "goal trap", image + "2", "goal trap", "goal next"));
 }
 
 TEST_F(SteppedService, WhatAStepDidIsToldPartByPartWithTheVersionThatCameOfIt) {

@@ -56,7 +56,7 @@ TEST_F(RociNetwork, ListsChainsForPeopleAndPrograms) {
   out_.str("");
   EXPECT_EQ(chains(kNetwork, json_), done);
   const auto json = nlohmann::json::parse(out_.str());
-  EXPECT_EQ(json["budget"], "battery");
+  EXPECT_EQ(json["budget"], "lander.battery");
   EXPECT_EQ(json["chains"].size(), 132U);
   for (const char* key : {"chain", "task", "batch", "utility", "cost", "duration_s", "links", "when"})
     EXPECT_TRUE(json["chains"][0].contains(key)) << key;

@@ -102,13 +102,47 @@ TEST_F(CycleTest, WhereNothingHasChangedNothingIsSearched) {
 
 TEST_F(CycleTest, OnlyWhatPrefersToStartWithinTheSchedulingWindowIsScheduled) {
   network_.cycle.scheduling_window = 100s;
-  network_.tasks[task_named(network_, "idle")].preferred_start = 500s;
+  network_.tasks[task_named(network_, "idle")].preferred_start = 110s;
   Cycle cycle = make();
   cycle.run(Time{0});
   EXPECT_THAT(requests(cycle), Not(Contains("idle")));
   cycle.doubt();
-  cycle.run(401s);
+  cycle.run(11s);
   EXPECT_THAT(requests(cycle), Contains("idle"));
+}
+
+TEST_F(CycleTest, WhatIsOverdueIsExpectedLaterByAsMuchAgainAndMovesThePlanAFewTimes) {
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  cycle.run(10s);
+  const Block first = block_of_request(cycle, "sample");
+  const TaskId task = task_id(first.number, 0);
+  ASSERT_EQ(first.links.front().stage, Stage::committed);
+  cycle.begun(task, first.links.front().start);
+  const Time due = first.links.front().end;
+  const Duration interval = network_.cycle.process_interval;
+  int searches = 0;
+  for (Time now = due + interval; now < due + 64 * interval; now += interval) {
+    searches += cycle.run(now).explored > 0 ? 1 : 0;
+    const Link& late = block_of_request(cycle, "sample").links.front();
+    EXPECT_GE(late.end, now) << "it has not ended";
+    EXPECT_LE(late.end - due, 2 * (now - due) + interval);
+  }
+  EXPECT_LE(searches, 8) << "one each time that the delay has doubled, and not 63";
+}
+
+TEST_F(CycleTest, ATaskThatIsTriedAgainTakesItsWholeDurationOnceMore) {
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  cycle.run(10s);
+  const Block first = block_of_request(cycle, "sample");
+  const TaskId task = task_id(first.number, 0);
+  const Link planned = first.links.front();
+  cycle.begun(task, planned.start);
+  cycle.tried_again(task, planned.end);
+  const Link& again = block_of_request(cycle, "sample").links.front();
+  EXPECT_EQ(again.start, planned.start);
+  EXPECT_EQ(again.end, planned.end + (planned.end - planned.start));
 }
 
 TEST_F(CycleTest, AFailureIsTriedAgainAndThenWithdrawn) {

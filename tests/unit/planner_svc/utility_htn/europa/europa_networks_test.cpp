@@ -128,13 +128,14 @@ TEST(EuropaNetworks, ThePhaseOnATimelineSelectsTheDecomposition) {
   };
   EXPECT_EQ(when("preamble/once"), std::set<std::string>{"phase = landed"});
   EXPECT_EQ(when("sample_1_1/first/with_ground/raw"),
-            (std::set<std::string>{"phase = sampling", "site_1 = excavated", "samples_1 = 0",
+            (std::set<std::string>{"phase = sampling", "lander.site.1 = excavated", "samples_1 = 0",
                                    "fully_autonomous = no"}));
   EXPECT_EQ(when("sample_1_1/next/autonomous/raw"),
-            (std::set<std::string>{"phase = sampling", "site_1 = excavated", "samples_1 >= 1",
+            (std::set<std::string>{"phase = sampling", "lander.site.1 = excavated", "samples_1 >= 1",
                                    "fully_autonomous = yes"}));
-  EXPECT_EQ(when("site_block_2/excavate/autonomous"),
-            (std::set<std::string>{"phase = sampling", "site_2 = untouched", "fully_autonomous = yes"}));
+  EXPECT_EQ(
+      when("site_block_2/excavate/autonomous"),
+      (std::set<std::string>{"phase = sampling", "lander.site.2 = untouched", "fully_autonomous = yes"}));
 }
 
 // R89: figure 8.

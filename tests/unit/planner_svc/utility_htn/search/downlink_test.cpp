@@ -7,8 +7,8 @@ namespace {
 
 namespace search = roci::planner::utility_htn::search;
 namespace model = roci::planner::utility_htn::model;
+using model::DataProduct, search::Outcome, search::Problem, search::Toy;
 using roci::temporal::seconds;
-using search::Outcome, search::PredictedProduct, search::Problem, search::Toy;
 using testing::ElementsAre;
 
 Toy three_products() {
@@ -24,9 +24,9 @@ Toy three_products() {
 TEST(DownlinkQuestion, ABranchWhoseDataGetNoDownlinkIsPruned) {
   Toy toy = three_products();
   Problem problem = toy.problem(100);
-  problem.downlink = [](std::span<const PredictedProduct> products) {
+  problem.downlink = [](const search::PlannedData& data) {
     std::uint64_t bytes = 0;
-    for (const PredictedProduct& product : products) bytes += product.bytes;
+    for (const DataProduct& product : data.products) bytes += product.bytes;
     return bytes <= 500;
   };
   const Outcome found = search::search(problem);
@@ -37,9 +37,9 @@ TEST(DownlinkQuestion, ABranchWhoseDataGetNoDownlinkIsPruned) {
 TEST(DownlinkQuestion, IsAskedForAllThatThePartialPlanGenerates) {
   Toy toy = three_products();
   Problem problem = toy.problem(100);
-  std::vector<PredictedProduct> longest;
-  problem.downlink = [&](std::span<const PredictedProduct> products) {
-    if (products.size() > longest.size()) longest.assign(products.begin(), products.end());
+  std::vector<DataProduct> longest;
+  problem.downlink = [&](const search::PlannedData& data) {
+    if (data.products.size() > longest.size()) longest = data.products;
     return true;
   };
   search::search(problem);

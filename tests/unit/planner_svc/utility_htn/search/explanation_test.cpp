@@ -100,7 +100,7 @@ TEST_F(WhyNotTest, TellsDataWithoutDownlinkWorthlessnessAndAnEarlyEnd) {
   toy.task("other", 10, 2, {0.5});
   toy.close();
   Problem problem = toy.problem(100);
-  problem.downlink = [](auto products) { return products.empty(); };
+  problem.downlink = [](const search::PlannedData& data) { return data.products.empty(); };
   EXPECT_EQ(ask(problem, "photo").reason, WhyNot::no_downlink);
   EXPECT_EQ(ask(toy.problem(100), "idle").text,
             "'idle' is not planned, since it would bring nothing and cost 1");

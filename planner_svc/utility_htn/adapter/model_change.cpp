@@ -1,0 +1,166 @@
+// What the ground changes of the network in force (R83, R118).
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "planner_svc/utility_htn/adapter/fit.hpp"
+#include "planner_svc/utility_htn/adapter/utility_engine.hpp"
+#include "planner_svc/utility_htn/assessor/subway_assessor.hpp"
+#include "planner_svc/utility_htn/reading/load.hpp"
+
+namespace roci::planner::utility_htn::adapter {
+
+using cycle::Block, cycle::Link;
+using model::Network;
+using temporal::Time;
+
+namespace {
+
+// Returns the chain that is done for the same request in the same way; null: the network has none.
+const flattening::Chain* counterpart(const Network& network, const flattening::Chain& chain,
+                                     const Network& next, const flattening::Chains& chains) {
+  const auto task_id = [](const Network& of) {
+    return [&of](const model::Subtask& link) -> const std::string& { return of.tasks[link.task].id; };
+  };
+  const auto found = std::ranges::find_if(chains.chains, [&](const flattening::Chain& other) {
+    return other.name == chain.name && next.tasks[other.task].id == network.tasks[chain.task].id &&
+           std::ranges::equal(other.links, chain.links, {}, task_id(next), task_id(network));
+  });
+  return found == chains.chains.end() ? nullptr : &*found;
+}
+
+template <class Items, class Member>
+std::optional<std::uint32_t> index_of(const Items& items, const std::string& name, Member member) {
+  const auto found = std::ranges::find(items, name, member);
+  if (found == items.end()) return std::nullopt;
+  return static_cast<std::uint32_t>(found - items.begin());
+}
+
+flattening::Chains chains_of(const Network& network) {
+  return flattening::flatten(network, flattening::templates_on_call(network));
+}
+
+// Takes over what was found out: what is done, values that are no priors, and timelines as they are now.
+cycle::Past past_for(const Network& next, const Network& before, const cycle::Cycle& cycle, Time now) {
+  cycle::Past out{{}, model::priors(next), {}};
+  for (const model::TaskIndex task : cycle.past().done)
+    if (const auto same = index_of(next.tasks, before.tasks[task].id, &model::Task::id))
+      out.done.insert(*same);
+  for (std::size_t i = 0; i < before.parameters.size(); ++i) {
+    const double value = cycle.past().values[i];
+    const auto same = index_of(next.parameters, before.parameters[i].name, &model::Parameter::name);
+    if (!same || value == before.parameters[i].prior) continue;
+    if (value >= next.parameters[*same].lowest && value <= next.parameters[*same].highest)
+      out.values[*same] = value;
+  }
+  for (const auto& timeline : next.timelines) {
+    const auto same = index_of(before.timelines, timeline.name, &temporal::timelines::Definition::name);
+    const auto value =
+        same ? number_of(timeline, value_of(before.timelines[*same], cycle.timelines().value(*same, now)))
+             : std::nullopt;
+    out.internal.push_back(value.value_or(timeline.initial));
+  }
+  return out;
+}
+
+}  // namespace
+
+engine::ModelAnswer UtilityEngine::change(const engine::ModelChange& change, Time now) {
+  engine::ModelAnswer out{change.issuer, change.id, {}};
+  if (change.model) {
+    out.refused = replace_network(change, now);
+  } else if (std::string fault = learn(change.parameter, change.value); !fault.empty()) {
+    out.refused.push_back(std::move(fault));
+  }
+  if (out.refused.empty()) {
+    to_tell_ = true;
+    next_cycle_ = now;
+  }
+  return out;
+}
+
+std::vector<std::string> UtilityEngine::replace_network(const engine::ModelChange& change, Time now) {
+  mission::Findings findings;
+  std::optional<Network> next =
+      reading::take_network(*change.model, "network of " + change.issuer + "/" + change.id, findings);
+  std::vector<std::string> out;
+  for (const mission::Finding& finding : findings.sorted())
+    if (finding.severity == mission::Severity::error)
+      out.push_back(finding.text() + (finding.remedy.empty() ? "" : "; " + finding.remedy));
+  if (!next) return out;
+  if (next->version <= network_.version)
+    return {"version " + std::to_string(next->version) + " of '" + next->name +
+            "' is not newer than version " + std::to_string(network_.version) + " of '" + network_.name +
+            "', which is in force; raise 'version'"};
+  try {
+    out = in_the_way_of(*next, chains_of(*next));
+  } catch (const std::invalid_argument& error) {
+    return {error.what()};
+  }
+  if (out.empty()) go_on_with(std::move(*next), now);
+  return out;
+}
+
+// What is committed stands (R78): a network that does not have it comes too early.
+std::vector<std::string> UtilityEngine::in_the_way_of(const Network& next,
+                                                      const flattening::Chains& chains) const {
+  std::vector<std::string> out;
+  for (const Block& block : cycle_->blocks()) {
+    if (!block.begun() || block.over()) continue;
+    const flattening::Chain& chain = chains_.chains[block.chain];
+    if (counterpart(network_, chain, next, chains) != nullptr) continue;
+    std::string committed;
+    for (const Link& link : block.links)
+      if (link.stage == cycle::Stage::committed || link.stage == cycle::Stage::running)
+        committed += (committed.empty() ? "'" : ", '") + network_.tasks[link.task].id + "'";
+    out.push_back("'" + chain.name + "' has begun and is not in the network" +
+                  (committed.empty() ? "" : " (committed: " + committed + ")") +
+                  "; leave it in, or send the network when it has ended");
+  }
+  return out;
+}
+
+// Blocks that have begun go on as they are; all others are planned anew.
+void UtilityEngine::go_on_with(Network next, Time now) {
+  const std::vector<model::TaskIndex> waiting = cycle_->waiting();
+  const Network before = std::exchange(network_, std::move(next));
+  const flattening::Chains old_chains = std::exchange(chains_, chains_of(network_));
+  const std::unique_ptr<cycle::Cycle> old = std::move(cycle_);
+  assessor_ = std::make_unique<assessor::SubwayAssessor>(network_, chains_);
+  cycle_ = std::make_unique<cycle::Cycle>(network_, chains_, *assessor_, *scheduler_, now, settings_);
+  delivery_.replaced(before);
+  if (settings_.downlinks) cycle_->deliver_by(delivery_);
+  std::vector<Block> blocks;
+  for (Block block : old->blocks()) {
+    if (!block.begun()) continue;
+    const auto* const same = counterpart(before, old_chains.chains[block.chain], network_, chains_);
+    if (same == nullptr) continue;  // it is over
+    block.chain = static_cast<std::uint32_t>(same - chains_.chains.data());
+    for (std::size_t i = 0; i < block.links.size(); ++i) block.links[i].task = same->links[i].task;
+    blocks.push_back(std::move(block));
+  }
+  const cycle::Past past = past_for(network_, before, *old, now);
+  cycle_->resume(past, std::move(blocks), old->last_block(), now);
+  for (std::uint32_t i = 0; i < network_.timelines.size(); ++i) {
+    const auto& timeline = network_.timelines[i];
+    if (!timeline.reported) continue;
+    const auto newest = newest_.find(timeline.name);
+    if (newest == newest_.end()) continue;
+    const auto heard = number_of(timeline, newest->second);
+    if (!heard) continue;
+    const bool known =
+        index_of(before.timelines, timeline.name, &temporal::timelines::Definition::name).has_value();
+    cycle_->observe(i, now, known ? past.internal[i] : *heard);
+  }
+  for (const model::TaskIndex task : waiting)
+    if (const auto same = index_of(network_.tasks, before.tasks[task].id, &model::Task::id);
+        same && network_.tasks[*same].is_template)
+      cycle_->request(*same);
+  for (const engine::Goal& goal : std::vector(goals_)) hear_goal(goal);
+  for (const auto& timeline : network_.timelines)
+    if (!timeline.reported &&
+        !index_of(before.timelines, timeline.name, &temporal::timelines::Definition::name))
+      unannounced_.insert(timeline.name);
+}
+
+}  // namespace roci::planner::utility_htn::adapter

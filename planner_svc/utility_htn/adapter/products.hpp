@@ -1,0 +1,18 @@
+// Data products as planner_svc hears them, in the words of the network (R115).
+#pragma once
+
+#include "planner_svc/engine/stepped_engine.hpp"
+#include "planner_svc/utility_htn/cycle/cycle.hpp"
+#include "planner_svc/utility_htn/delivery/delivery.hpp"
+
+namespace roci::planner::utility_htn::adapter {
+
+/// Returns the primitive task of an activity of ours; as many as the network has tasks if it is none.
+model::TaskIndex task_of_activity(const model::Network& network, const std::string& activity);
+
+/// Returns what a product is in the network. One that no task of ours made waits for a downlink like all others. One whose worth was not
+/// computed counts its share of what the network predicts of its task.
+delivery::Existing existing(const model::Network& network, const flattening::Chains& chains,
+                            const cycle::Cycle& cycle, const engine::DataProduct& product);
+
+}  // namespace roci::planner::utility_htn::adapter

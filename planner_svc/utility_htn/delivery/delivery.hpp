@@ -1,0 +1,112 @@
+// Joins the search, the products that exist and the Downlink Manager (MEXEC, section IV.C.2 and appendix A; R110, R111, R115, R127).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "planner_svc/utility_htn/assessor/assessor.hpp"
+#include "planner_svc/utility_htn/delivery/rules.hpp"
+#include "planner_svc/utility_htn/downlink/manager.hpp"
+#include "planner_svc/utility_htn/search/search.hpp"
+
+namespace roci::planner::utility_htn::delivery {
+
+/// Says what has become of data, in the order of ProductFate in idl/command.idl. Only what is stored waits for a downlink.
+enum class Fate { stored, sent, received, discarded, left_behind, lost };
+
+/// Is data that was generated on board.
+struct Existing {
+  model::DataProduct data;
+  model::TaskIndex task = 0;     ///< the primitive task that generated it
+  model::TaskIndex request = 0;  ///< the requested task of which that was part
+  Fate fate = Fate::stored;
+  friend bool operator==(const Existing&, const Existing&) = default;
+};
+
+/// Is what one planned downlink carries.
+struct Downlink {
+  model::TaskIndex task = 0;
+  temporal::Time start{0};
+  temporal::Time end{0};
+  std::uint64_t bytes = 0;
+  temporal::Duration takes{0};  ///< the transmission alone, as much of the window as is needed
+  double energy_j = 0;          ///< of the transmission
+  std::vector<std::string> products{};
+  friend bool operator==(const Downlink&, const Downlink&) = default;
+};
+
+/// Names a product that is not sent, or later than its tier asks for.
+struct Unsent {
+  std::string product;
+  std::string why;
+  friend bool operator==(const Unsent&, const Unsent&) = default;
+};
+
+struct Schedule {
+  std::vector<Downlink> downlinks{};  ///< by start
+  std::vector<Unsent> left_out{};
+  std::vector<Unsent> late{};
+  friend bool operator==(const Schedule&, const Schedule&) = default;
+};
+
+/// Counts what has answered the search's questions.
+struct Counts {
+  std::uint64_t nothing_to_send = 0;
+  std::uint64_t limits = 0;     ///< refused by a limit of energy, before anything was assigned
+  std::uint64_t first_fit = 0;  ///< one assignment was found at once
+  downlink::Counts manager{};   ///< the others
+};
+
+/// Knows what is on board and what planned downlinks can carry. The same history and question always give the same answer.
+///
+/// A downlink lasts as long as the network's parameter says, whatever it carries: so it stands on the timelines with its whole energy, and
+/// the limits of a downlink and of a sol (R111) hold for that. It can carry rate × duration. What of it is needed, the schedule tells.
+class Delivery {
+ public:
+  /// The network outlives this.
+  explicit Delivery(const model::Network& network) : network_(network), rules_(network) {}
+
+  /// Takes in that another network stands where `before` stood. What a task generated that it does not have waits all the same.
+  void replaced(const model::Network& before);
+  /// Takes in a product's newest state; returns whether anything is new. A score that is negative or not finite counts as 0, one above a
+  /// million as a million.
+  bool hear(Existing product);
+  /// Takes in what an executed downlink took, for the limit of its sol. `activity` is unique; what is told again counts once.
+  void executed(std::uint64_t activity, model::TaskIndex task, temporal::Time start, temporal::Time end,
+                const model::Values& values);
+
+  /// Gives the search the existing products, and the question that it asks of each candidate. `this` outlives the problem.
+  void join(search::Problem& problem, temporal::Time now);
+  /// Returns all data that were generated, whatever became of them, with what they are worth (R115).
+  std::span<const assessor::ExistingProduct> products() const { return products_; }
+  /// Returns what was received on Earth with its last byte: executed utility, of which nothing is predicted.
+  temporal::RankVector received() const;
+
+  /// Returns whether the data that are not standing yet have room, each in time, beside all that stands.
+  bool admits(const search::PlannedData& planned, const model::Values& values, temporal::Time now);
+  /// Returns which data go with which downlink.
+  Schedule schedule(const search::PlannedData& planned, const model::Values& values,
+                    temporal::Time now) const;
+
+  const Counts& counts() const { return counts_; }
+
+ private:
+  struct Question;
+  Question question(const search::PlannedData& planned, const model::Values& values,
+                    temporal::Time now) const;
+  bool keeps_limits(const search::PlannedData& planned, const model::Values& values) const;
+
+  const model::Network& network_;
+  Rules rules_;
+  std::vector<Existing> existing_;                   // by data.id
+  std::vector<assessor::ExistingProduct> products_;  // the same
+  std::map<std::uint32_t, double> spent_;            // joules, by sol
+  std::set<std::uint64_t> executed_;
+  Counts counts_;
+};
+
+}  // namespace roci::planner::utility_htn::delivery

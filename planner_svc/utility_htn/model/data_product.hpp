@@ -1,0 +1,24 @@
+// Data that a mission generates, as the search, the Downlink Manager and what joins them speak of it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/temporal/duration.hpp"
+#include "core/temporal/rank_vector.hpp"
+#include "planner_svc/utility_htn/model/network.hpp"
+
+namespace roci::planner::utility_htn::model {
+
+/// Is data that waits on board, or that a planned task is predicted to generate. It is sent whole, with one downlink.
+struct DataProduct {
+  std::string id;  ///< unique among those of a question; of a planned task "request/task/product"
+  Tier tier = Tier::mandatory;
+  std::uint64_t bytes = 0;
+  /// Is when the task that generates it ends; no downlink that starts before takes it.
+  temporal::Time created{0};
+  temporal::RankVector utility{};  ///< scores ≥ 0
+  friend bool operator==(const DataProduct&, const DataProduct&) = default;
+};
+
+}  // namespace roci::planner::utility_htn::model

@@ -1,0 +1,235 @@
+// Downlinks as the planning cycle asks for them: data without a downlink are not generated, tiers go in their order, limits are kept.
+#include "planner_svc/utility_htn/delivery/delivery.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "planner_svc/utility_htn/cycle/cycle.hpp"
+#include "planner_svc/utility_htn/delivery/first_fit.hpp"
+#include "tests/unit/planner_svc/utility_htn/cycle/toy_network.hpp"
+
+namespace roci::planner::utility_htn::delivery {
+namespace {
+
+using namespace std::chrono_literals;
+using model::Tier;
+using temporal::Time;
+using ::testing::Contains, ::testing::ElementsAre, ::testing::IsEmpty, ::testing::Not, ::testing::SizeIs;
+using testing::kBattery, testing::task_named, testing::toy_network;
+
+// The toy lander with a radio: `send_sample` and `send_view` take 20 s at 5 W, and 10 bytes go in each second.
+class DeliveryTest : public ::testing::Test {
+ protected:
+  DeliveryTest() {
+    add_parameter("rate_bytes_per_s", 10);
+    for (const char* id : {"send_sample", "send_view"}) task(id).downlinks = true;
+    task("dig").products = {{"trench", Tier::mandatory, {150}, {0.5}}};
+  }
+
+  void add_parameter(const std::string& name, double value) {
+    network_.parameters.push_back({name, value, 0, 1e9});
+  }
+  model::Task& task(const std::string& id) { return network_.tasks[task_named(network_, id)]; }
+
+  void start() {
+    chains_ = flattening::flatten(network_, flattening::templates_on_call(network_));
+    cycle_ = std::make_unique<cycle::Cycle>(network_, chains_, assessor_, *scheduler_, Time{0});
+    delivery_ = std::make_unique<Delivery>(network_);
+    cycle_->deliver_by(*delivery_);
+  }
+
+  std::vector<std::string> planned(Time now = Time{0}) {
+    if (cycle_ == nullptr) start();
+    cycle_->run(now);
+    std::vector<std::string> out;
+    for (const cycle::Block& one : cycle_->blocks())
+      out.push_back(network_.tasks[chains_.chains[one.chain].task].id);
+    std::ranges::sort(out);
+    return out;
+  }
+
+  Schedule schedule(Time now = Time{0}) const {
+    return delivery_->schedule(cycle_->data(), cycle_->past().values, now);
+  }
+  const Downlink& downlink(const Schedule& schedule, const std::string& id) {
+    return *std::ranges::find(schedule.downlinks, task_named(network_, id), &Downlink::task);
+  }
+  Existing stored(const std::string& id, Tier tier, std::uint64_t bytes, double utility = 1) {
+    return {
+        {id, tier, bytes, Time{0}, {utility}}, task_named(network_, "image"), task_named(network_, "view")};
+  }
+
+  model::Network network_ = toy_network();
+  flattening::Chains chains_;
+  assessor::NetworkAssessor assessor_;
+  std::unique_ptr<search::Scheduler> scheduler_ = search::make_scheduler("earliest");
+  std::unique_ptr<cycle::Cycle> cycle_;
+  std::unique_ptr<Delivery> delivery_;
+};
+
+TEST_F(DeliveryTest, WhatADownlinkCanCarryIsPlanned) {
+  EXPECT_THAT(planned(), ElementsAre("idle", "sample", "view"));
+  EXPECT_GT(delivery_->counts().first_fit, 0U);
+  const Schedule plan = schedule();
+  ASSERT_THAT(plan.downlinks, SizeIs(2));
+  EXPECT_THAT(plan.left_out, IsEmpty());
+  std::uint64_t bytes = 0;
+  for (const Downlink& one : plan.downlinks) bytes += one.bytes;
+  EXPECT_EQ(bytes, 150U);
+}
+
+TEST_F(DeliveryTest, DataForWhichNoDownlinkHasRoomAreNotGenerated) {
+  task("dig").products.front().bytes = {201};
+  EXPECT_THAT(planned(), ElementsAre("idle", "view"));
+}
+
+TEST_F(DeliveryTest, WithoutARateAllDataGetHome) {
+  network_.parameters.pop_back();
+  task("dig").products.front().bytes = {1e9};
+  EXPECT_THAT(planned(), ElementsAre("idle", "sample", "view"));
+}
+
+TEST_F(DeliveryTest, ResidualDataAreNoReasonNotToPlan) {
+  task("dig").products = {{"summary", Tier::decisional, {100}, {1}}, {"raw", Tier::residual, {1000}, {1}}};
+  EXPECT_THAT(planned(), ElementsAre("idle", "sample", "view"));
+  const Schedule plan = schedule();
+  ASSERT_THAT(plan.left_out, SizeIs(1));
+  EXPECT_EQ(plan.left_out.front().product, "sample/dig/raw");
+  EXPECT_THAT(plan.left_out.front().why, Not(IsEmpty()));
+}
+
+TEST_F(DeliveryTest, TiersGoInTheirOrderWhenThereIsTooLittleRoom) {
+  network_.parameters.back().prior = 5;  // 100 bytes in each of the two downlinks
+  task("dig").products.clear();
+  start();
+  delivery_->hear(stored("left over", Tier::residual, 60, 9));
+  delivery_->hear(stored("until the end", Tier::mandatory, 60, 5));
+  delivery_->hear(stored("for a decision", Tier::decisional, 60));
+  delivery_->hear(stored("at once", Tier::critical, 40));
+  EXPECT_THAT(planned(), ElementsAre("idle", "sample", "view"));
+  const Schedule plan = schedule();
+  ASSERT_THAT(plan.downlinks, SizeIs(2));
+  EXPECT_THAT(plan.downlinks[0].products, ::testing::UnorderedElementsAre("at once", "for a decision"));
+  EXPECT_THAT(plan.downlinks[1].products, ElementsAre("until the end"));
+  ASSERT_THAT(plan.left_out, SizeIs(1));
+  EXPECT_EQ(plan.left_out.front().product, "left over");
+}
+
+TEST_F(DeliveryTest, WhatIsOnEarthOrGoneTakesNoRoom) {
+  task("dig").products.front().bytes = {200};
+  start();
+  for (const Fate fate : {Fate::sent, Fate::received, Fate::discarded, Fate::left_behind, Fate::lost}) {
+    Existing gone = stored("gone " + std::to_string(static_cast<int>(fate)), Tier::critical, 200);
+    gone.fate = fate;
+    delivery_->hear(gone);
+  }
+  EXPECT_THAT(planned(), Contains("sample"));
+}
+
+TEST_F(DeliveryTest, DataThatWaitKeepTheirRoomBesideNewOnes) {
+  task("dig").products = {{"trench", Tier::mandatory, {200}, {0.5}}};
+  start();
+  delivery_->hear(stored("first", Tier::mandatory, 200));
+  delivery_->hear(stored("second", Tier::mandatory, 200));
+  EXPECT_THAT(planned(), Not(Contains("sample"))) << "two downlinks carry what waits";
+}
+
+TEST_F(DeliveryTest, TheLimitOfADownlinkIsNeverExceeded) {
+  add_parameter("downlink_limit_j", 99);  // each takes 100 J
+  EXPECT_THAT(planned(), ElementsAre("idle"));
+  EXPECT_GT(delivery_->counts().limits, 0U);
+}
+
+TEST_F(DeliveryTest, TheLimitOfASolIsNeverExceeded) {
+  add_parameter("sol_limit_j", 199);
+  EXPECT_THAT(planned(), ElementsAre("idle", "sample")) << "the better of the two";
+}
+
+TEST_F(DeliveryTest, WhatWasExecutedInASolCountsForItsLimit) {
+  add_parameter("sol_limit_j", 200);
+  start();
+  const auto send = task_named(network_, "send_view");
+  delivery_->executed(1, send, Time{0}, 10s, cycle_->past().values);
+  delivery_->executed(1, send, Time{0}, 10s, cycle_->past().values);
+  EXPECT_THAT(planned(), ElementsAre("idle", "sample"));
+}
+
+TEST_F(DeliveryTest, RandomPlansKeepBothLimits) {
+  std::mt19937 random(17);
+  for (int round = 0; round < 40; ++round) {
+    network_ = toy_network();
+    for (const char* id : {"send_sample", "send_view"}) {
+      task(id).downlinks = true;
+      task(id).duration = {static_cast<double>(5 + random() % 40)};
+    }
+    const double one = 50 + random() % 150, all = 80 + random() % 250, sol = 40 + random() % 300;
+    add_parameter("rate_bytes_per_s", 10);
+    add_parameter("downlink_limit_j", one);
+    add_parameter("sol_limit_j", all);
+    add_parameter("sol_s", sol);
+    task("image").products = {{"image", Tier::decisional, {static_cast<double>(random() % 300)}, {1}}};
+    start();
+    planned();
+    std::map<std::int64_t, double> joules;
+    for (const search::PlannedDownlink& each : cycle_->data().downlinks) {
+      const double takes = 5 * temporal::to_seconds(each.end - each.start);
+      EXPECT_LE(takes, one);
+      joules[static_cast<std::int64_t>(temporal::to_seconds(each.start) / sol)] += takes;
+    }
+    for (const auto& [number, sum] : joules) EXPECT_LE(sum, all) << "sol " << number << ", round " << round;
+    EXPECT_THAT(schedule().left_out, IsEmpty());
+    EXPECT_THAT(schedule().late, IsEmpty());
+  }
+}
+
+TEST_F(DeliveryTest, FirstFitFindsNothingThatTheManagerRefuses) {
+  std::mt19937 random(127);
+  int found = 0;
+  for (int round = 0; round < 2000; ++round) {
+    std::vector<downlink::Window> windows;
+    for (std::uint32_t w = 0; w < 1 + random() % 4; ++w) {
+      const Time start = temporal::seconds(100.0 * w);
+      windows.push_back(
+          {"w" + std::to_string(w), start, start + temporal::seconds(1.0 + random() % 50), 2.0, 1.0});
+    }
+    std::vector<model::DataProduct> products;
+    for (std::uint32_t p = 0; p < 1 + random() % 8; ++p)
+      products.push_back({"p" + std::to_string(p),
+                          static_cast<Tier>(random() % 3),
+                          random() % 60,
+                          temporal::seconds(static_cast<double>(random() % 350)),
+                          {1}});
+    if (!first_fit({}, products, windows)) continue;
+    ++found;
+    EXPECT_TRUE(downlink::Manager().admits({}, windows, {}, products)) << "round " << round;
+  }
+  EXPECT_GT(found, 100);
+}
+
+TEST_F(DeliveryTest, ExistingProductsAreToldWithWhatTheyAreWorth) {
+  start();
+  EXPECT_TRUE(delivery_->hear(stored("image", Tier::decisional, 60, 0.7)));
+  EXPECT_FALSE(delivery_->hear(stored("image", Tier::decisional, 60, 0.7))) << "nothing new";
+  ASSERT_THAT(delivery_->products(), SizeIs(1));
+  EXPECT_EQ(delivery_->products().front().utility, temporal::RankVector{0.7});
+  EXPECT_EQ(delivery_->received(), temporal::RankVector{}) << "it counts when it is on Earth";
+  Existing home = stored("image", Tier::decisional, 60, 0.7);
+  home.fate = Fate::received;
+  EXPECT_TRUE(delivery_->hear(home));
+  EXPECT_EQ(delivery_->received(), temporal::RankVector{0.7});
+  EXPECT_THAT(delivery_->products(), SizeIs(1));
+}
+
+TEST_F(DeliveryTest, ScoresThatAreNoneCountNothing) {
+  start();
+  Existing odd = stored("odd", Tier::mandatory, 60);
+  odd.data.utility = temporal::RankVector{-1, std::numeric_limits<double>::quiet_NaN(), 0.5};
+  delivery_->hear(odd);
+  EXPECT_EQ(delivery_->products().front().utility, (temporal::RankVector{0, 0, 0.5}));
+  EXPECT_NO_THROW(planned());
+}
+
+}  // namespace
+}  // namespace roci::planner::utility_htn::delivery
