@@ -33,6 +33,18 @@ def flown(bench: Path, options: list[str]) -> dict:
     return json.loads(done.stdout)
 
 
+def fly(bench: Path, network: str, runs: int, sweep_runs: int) -> dict:
+    """All that the page is made of, and the command that makes it again."""
+    points = [(name, option, value) for name, (option, values) in SWEPT.items() for value in values] if sweep_runs else []
+    orders = [["--network", network, "--runs", str(runs), f"--bias={bias}"] for bias in BIASES]
+    orders += [["--network", network, "--runs", str(sweep_runs), "--bias=0", option, str(value)] for _, option, value in points]
+    with ThreadPoolExecutor(2) as two:
+        documents = list(two.map(lambda options: flown(bench, options), orders))
+    swept = [[name, value, document] for (name, _, value), document in zip(points, documents[len(BIASES):])]
+    command = ["bench/europa/report/run.py", "--network", network, "--runs", str(runs), "--sweep-runs", str(sweep_runs)]
+    return {"command": command, "variants": documents[:len(BIASES)], "swept": swept}
+
+
 def forecast() -> float:
     """The share of a prescient planner's utility that was registered before the experiments."""
     found = re.search(r"^forecast_replan_share: \{value: ([0-9.]+)", SETTINGS.read_text(), re.MULTILINE)
@@ -47,31 +59,19 @@ def main() -> int:
     parser.add_argument("--network", default="missions/europa/network.yaml", help="the network that is flown")
     parser.add_argument("--runs", type=int, default=50, help="flights of each strategy and variant")
     parser.add_argument("--sweep-runs", type=int, default=0, help="flights of each strategy and swept value; 0 sweeps nothing")
-    parser.add_argument("--results", type=Path, nargs="+", help="what bench_europa printed, instead of flying")
-    parser.add_argument("--keep", type=Path, help="where to keep what it printed")
+    parser.add_argument("--results", type=Path, help="what --keep has written, instead of flying: for a cause that was added")
+    parser.add_argument("--keep", type=Path, help="the file that keeps what was flown")
     parser.add_argument("--out", type=Path, default=ROOT / "docs", help="the folder of the page; pictures/ stands in it")
     args = parser.parse_args()
     if args.runs < 2 or args.sweep_runs == 1:
         parser.error("an interval needs two runs at least")
-    swept: list[tuple[str, float, Results]] = []
-    if args.results:
-        results = Results.load(*args.results)
-    else:
-        base = ["--network", args.network, "--runs", str(args.runs)]
-        points = [(name, option, value) for name, (option, values) in SWEPT.items() for value in values] if args.sweep_runs else []
-        orders = [[*base, f"--bias={bias}"] for bias in BIASES]
-        orders += [["--network", args.network, "--runs", str(args.sweep_runs), "--bias=0", option, str(value)]
-                   for _, option, value in points]
-        with ThreadPoolExecutor(2) as two:
-            documents = list(two.map(lambda options: flown(args.bench, options), orders))
-        results = Results(*documents[:len(BIASES)])
-        swept = [(name, value, Results(document)) for (name, _, value), document in zip(points, documents[len(BIASES):])]
-        if args.keep:
-            args.keep.mkdir(parents=True, exist_ok=True)
-            for bias, document in zip(BIASES, documents):
-                (args.keep / f"bias{bias}.json").write_text(json.dumps(document))
+    flights = json.loads(args.results.read_text()) if args.results else fly(args.bench, args.network, args.runs, args.sweep_runs)
+    if args.keep:
+        args.keep.write_text(json.dumps(flights))
+    results = Results(*flights["variants"])
+    swept = [(name, value, Results(document)) for name, value, document in flights["swept"]]
     causes = json.loads(CAUSES.read_text()) if CAUSES.exists() else {}
-    command = shlex.join(["bench/europa/report/run.py", *sys.argv[1:]])
+    command = shlex.join(flights["command"])
     (args.out / "pictures").mkdir(parents=True, exist_ok=True)
     (args.out / "europa-experiments.md").write_text(page.page(results, swept, causes, command, forecast()))
     for name, picture in page.pictures(results).items():
