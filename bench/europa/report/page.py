@@ -43,9 +43,9 @@ def upper_bound(results: Results) -> str:
     for bias in results.biases():
         prescient, expected = results.variants[bias]["prescient"], results.variants[bias]["expected"]
         rows.append([percent(bias), f"{expected['u_avg_per_mj']:.4f}", f"{expected['tasks']:.0f}", f"{prescient['utility']:.2f}",
-                     f"{prescient['spent'] / 1e6:.0f}"])
+                     f"{prescient['spent'] * (1 + bias) / 1e6:.0f}"])
     out = table(["energy", "u_avg per MJ", "n", "utility without failures", "MJ spent"], rows)
-    spare = results.budget - max(results.variants[bias]["prescient"]["spent"] for bias in results.biases())
+    spare = results.budget - max(results.variants[bias]["prescient"]["spent"] * (1 + bias) for bias in results.biases())
     if spare > 0.05 * results.budget:
         out += (f"\nWithout failures the battery still holds {spare / 1e6:.0f} MJ when nothing is left to do. The equations take "
                 "u_avg · b for a plan that fills b, so they expect more than there is to be had; the flight without failures is "
