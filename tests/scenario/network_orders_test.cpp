@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "services/process/domain_claim.hpp"
 #include "tests/scenario/flight.hpp"
 
 namespace roci::scenario {
@@ -108,6 +109,15 @@ TEST_P(NetworkOrders, WhatIsWrongIsRefusedWholeAndTheOneInForceGoesOn) {
   EXPECT_THAT(deeds(), Contains("send far"));
 }
 
+TEST_P(NetworkOrders, AParameterIsInForceAndWhatHasNotBegunIsPlacedAnew) {
+  scenario("  - {at_s: 600, parameter: {id: far, name: dig_s_far, value: 1000}}\n",
+           "  - network.accepted: ground/far\n  - network.in_force: ground/far\n");
+  const Flight flight = launch();
+  ASSERT_EQ(flight.exit_code, 0) << flight.summary.dump();
+  EXPECT_EQ(fault(flight), "");
+  EXPECT_THAT(deeds(), Contains("send far"));
+}
+
 TEST_P(NetworkOrders, WhatIsGivenTwiceIsTakenOnce) {
   scenario(
       "  - {at_s: 600, network: {id: n2, file: ../near.htn}}\n"
@@ -131,21 +141,21 @@ TEST_P(NetworkOrders, WithoutTheMissionsLeaveNothingIsTaken) {
   EXPECT_THAT(deeds(), Contains("dig far"));
 }
 
-// The goal is heard at 310 s, and the far site dug 300 s later than without the link.
+// The first is heard at 1000 s and comes in time; so would the second, were it heard when it is sent.
 TEST_P(NetworkOrders, TakeEffectOneLightTimeLater) {
   const std::string link = "links:\n  - {name: uplink, ends: [ground, lander], light_time_s: 300}\n";
-  scenario("  - {at_s: 1000, network: {id: early, file: ../near.htn}}\n",
+  scenario("  - {at_s: 700, network: {id: early, file: ../near.htn}}\n",
            "  - network.accepted: ground/early\n  - network.in_force: ground/early\n", link);
   const Flight early = launch();
   ASSERT_EQ(early.exit_code, 0) << early.summary.dump();
   EXPECT_EQ(fault(early), "");
   EXPECT_THAT(deeds(), Not(Contains("dig far")));
   fs::remove_all(run_);
-  scenario("  - {at_s: 1300, network: {id: late, file: ../near.htn}}\n",
+  scenario("  - {at_s: 1000, network: {id: late, file: ../near.htn}}\n",
            "  - network.refused: has begun and is not in the network\n", link);
   const Flight late = launch();
   ASSERT_EQ(late.exit_code, 0) << late.summary.dump();
-  EXPECT_EQ(fault(late), "") << "sent before the far site is begun, heard after";
+  EXPECT_EQ(fault(late), "") << "the far site is committed when it is heard";
   EXPECT_THAT(deeds(), Contains("dig far"));
 }
 
@@ -167,6 +177,40 @@ TEST_P(NetworkOrders, ANetworkOutlivesThePlanner) {
   EXPECT_EQ(summary["expected"].value("fault", "no report"), "");
   EXPECT_THAT(deeds(), Not(Contains("dig far"))) << "the mission's own network would have it dug";
   EXPECT_THAT(deeds(), Contains("send near"));
+}
+
+// What people do, with `roci`: each of the three classes of R118 is one action. Without the value the farewell waits for ever.
+TEST_P(NetworkOrders, EachClassOfTheGroundIsOneActionOfTheConsole) {
+  edit(mission_ / "mission.yaml", "ground: {", "ground: {values: [lander.go], ");
+  edit(mission_ / "network.yaml", "  hand: {kind: atomic}\n",
+       "  hand: {kind: atomic}\n  lander.go: {kind: state, states: [wait, go], initial: wait}\n");
+  edit(mission_ / "network.yaml", "    window_s: [7200, none]\n",
+       "    window_s: [7200, none]\n    pre: \"lander.go = go\"\n");
+  fs::copy_file(mission_ / "network.yaml", mission_ / "changed.yaml", fs::copy_options::overwrite_existing);
+  edit(mission_ / "changed.yaml", "version: 1\n", "version: 2\n");
+  edit(mission_ / "changed.yaml", "worth: 0.1", "worth: 0.15");
+  fs::copy_file(mission_ / "changed.yaml", mission_ / "broken.yaml");
+  edit(mission_ / "broken.yaml", "[look, send_view]", "[look, send_everything]");
+  scenario("", "");
+  const services::process::DomainClaim domain;
+  const Ended ended = run("timeout 120 " ROCI_SOURCE_DIR "/tests/scenario/network_orders.sh ${PATH%%:*} " +
+                          mission_.string() + " " + GetParam() + " " + std::to_string(domain.id()));
+  auto steps = steps_of(ended.output);
+  EXPECT_EQ(steps["upload"].exit_code, 0) << ended.output;
+  EXPECT_EQ(steps["upload"].printed.value("stage", ""), "in force");
+  EXPECT_EQ(steps["upload"].printed.value("network_version", 0), 2);
+  EXPECT_EQ(steps["stale"].exit_code, 1) << ended.output;
+  EXPECT_EQ(steps["stale"].printed.value("stage", ""), "refused");
+  EXPECT_EQ(steps["broken"].exit_code, 2) << "it is checked before it is sent\n" << ended.output;
+  EXPECT_EQ(steps["repeated"].exit_code, 0) << ended.output;
+  EXPECT_EQ(steps["repeated"].printed.value("stage", ""), "in force");
+  EXPECT_EQ(steps["set"].exit_code, 0) << ended.output;
+  EXPECT_EQ(steps["out-of-range"].exit_code, 1) << ended.output;
+  EXPECT_EQ(steps["status"].exit_code, 0) << ended.output;
+  EXPECT_EQ(steps["status"].printed.size(), 5U) << "the network in force and four orders\n" << ended.output;
+  EXPECT_EQ(steps["value"].exit_code, 0) << ended.output;
+  EXPECT_EQ(steps["launch"].exit_code, 0) << ended.output;
+  EXPECT_EQ(steps["launch"].printed.value("result", ""), "achieved");
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, NetworkOrders, ::testing::Values("fastdds", "cyclonedds", "mixed"),

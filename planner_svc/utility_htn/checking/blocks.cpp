@@ -87,9 +87,10 @@ void check_times(const Question& question, Faults& out) {
         out.push_back(who + " starts before the end of the commit window, " +
                       temporal::to_text(question.from) + ", and is not committed");
       }
-      if (task.fixed && step.start != task.preferred_start) {
-        out.push_back(who + " does not start at its fixed time, " + temporal::to_text(task.preferred_start));
-      }
+      // What is fixed at the very beginning starts when the first commit window has ended.
+      const Time fixed = std::max(task.preferred_start, Time{question.network.cycle.commit_window});
+      if (task.fixed && step.start != fixed)
+        out.push_back(who + " does not start at its fixed time, " + temporal::to_text(fixed));
       if (step.start < task.opens)
         out.push_back(who + " starts before its window opens at " + temporal::to_text(task.opens));
       if (end > task.closes)

@@ -142,11 +142,13 @@ std::string Cycle::set_value(model::ParameterIndex parameter, double value) {
            " and " + std::to_string(known.highest) + "; the value before stays";
   if (past_.values[parameter] == value) return {};
   past_.values[parameter] = value;
+  // What has not begun is placed anew: its starts are those of the value before.
   for (Block& one : blocks_) {
     if (one.begun()) continue;
     take_out(one);
-    put_in(one);
+    if (!settings_.schedules_again) put_in(one);
   }
+  if (settings_.schedules_again) std::erase_if(blocks_, [](const Block& one) { return !one.begun(); });
   to_schedule_ = to_optimize_ = true;
   return {};
 }
