@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner_svc/network_store.hpp"
+#include "planner_svc/network_store_service.hpp"
 #include "planner_svc/settings.hpp"
 #include "roci_idl/health.h"
 #include "roci_idl/network.h"

@@ -1,4 +1,4 @@
-#include "planner_svc/network_store.hpp"
+#include "planner_svc/network_store_service.hpp"
 
 #include <boost/crc.hpp>
 #include <fstream>
