@@ -118,8 +118,9 @@ class TaskFlight {
       FlexiblePlan loaded = plan_;
       if (flight_.strategy == Strategy::as_planned || flight_.strategy == Strategy::ground) rigid(loaded);
       executive_.load(std::move(loaded), now_);
+      blocks_.clear();  // points are given again
       for (const temporal::Token& token : plan_.tokens)
-        if (token.start_point != temporal::origin_point) blocks_.try_emplace(token.end_point, token);
+        if (token.start_point != temporal::origin_point) blocks_.emplace(token.end_point, token);
     } else {
       receipt.refused = delta.added.version;
       receipt.reason = fault;

@@ -460,15 +460,12 @@ bool Cycle::repair(Time now, Report& report) {
       gives_way = culprit(conflicts[i]);
     if (gives_way == nullptr) break;
     changed = true;
-    if (gives_way->begun()) {
-      if (!shifted.insert(gives_way->number).second || !shift(*gives_way, from))
-        abandon(*gives_way, "no time is left at which the rest of it fits", report);
-      continue;
+    if (!gives_way->begun()) {
+      drop(*gives_way, report);
+    } else if (const std::uint32_t number = gives_way->number;
+               !shifted.insert(number).second || !make_room(number, from, report)) {
+      abandon(*block(number), "no time is left at which the rest of it fits", report);
     }
-    report.notes.push_back(chains_.chains[gives_way->chain].name + " is taken out: it no longer fits");
-    take_out(*gives_way);
-    blocks_.erase(blocks_.begin() + (gives_way - blocks_.data()));
-    to_schedule_ = true;
   }
   if (changed && to_schedule_) schedule(now, report);
   return changed;
@@ -485,21 +482,42 @@ bool Cycle::out_of_order(const Block& one) const {
   return false;
 }
 
+// Takes out a block that has not begun; its request waits for another place.
+void Cycle::drop(const Block& waiting, Report& report) {
+  report.notes.push_back(chains_.chains[waiting.chain].name + " is taken out: it no longer fits");
+  take_out(waiting);
+  blocks_.erase(blocks_.begin() + (&waiting - blocks_.data()));
+  to_schedule_ = true;
+}
+
+// What has begun goes before what has not: where its rest finds no place, others are taken out, the last one first.
+bool Cycle::make_room(std::uint32_t number, Time from, Report& report) {
+  while (!shift(*block(number), from)) {
+    const Block* last = nullptr;
+    for (const Block& one : blocks_)
+      if (!one.begun() && (last == nullptr || one.links.front().start > last->links.front().start))
+        last = &one;
+    if (last == nullptr) return false;
+    drop(*last, report);
+  }
+  return true;
+}
+
 // What follows a link that is late is late itself, whether or not the cycle repairs conflicts (task push, R98).
 bool Cycle::keep_order(Time now, Report& report) {
   const Time from = now + network_.cycle.commit_window;
-  bool changed = false;
-  for (Block& one : blocks_) {
-    if (!one.begun() || one.failed() || !out_of_order(one)) continue;
-    changed = true;
-    if (shift(one, from)) continue;
+  std::vector<std::uint32_t> late;
+  for (const Block& one : blocks_)
+    if (one.begun() && !one.failed() && out_of_order(one)) late.push_back(one.number);
+  for (const std::uint32_t number : late) {
     if (settings_.repairs) {
-      abandon(one, "no time is left at which the rest of it fits", report);
-    } else {
-      push(one, from);
+      if (!make_room(number, from, report))
+        abandon(*block(number), "no time is left at which the rest of it fits", report);
+    } else if (!shift(*block(number), from)) {
+      push(*block(number), from);
     }
   }
-  return changed;
+  return !late.empty();
 }
 
 // Puts what is only planned of a block off, whatever conflicts follow.
@@ -529,9 +547,10 @@ bool Cycle::shift(Block& late, Time from) {
     if (fits) {
       const Time before = i == 0 ? from : late.links[i - 1].end;
       const Time latest = i == 0 ? temporal::no_bound : temporal::plus(before, gaps[i].longest_gap);
+      const Time latest_end = std::min(network_.cycle.plan_end, network_.tasks[each.task].closes);
       start = timelines_.first_valid_start(
           seen, {std::max(from, before + (i == 0 ? Duration{0} : gaps[i].shortest_gap)),
-                 std::min(latest, network_.cycle.plan_end)});
+                 std::min(latest, temporal::plus(latest_end, -seen.duration))});
     }
     fits = start.has_value();
     if (start) {

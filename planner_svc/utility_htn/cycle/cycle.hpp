@@ -105,6 +105,8 @@ class Cycle {
   bool contributes(const Block& one, const temporal::timelines::Conflict& conflict) const;
   Block* culprit(const temporal::timelines::Conflict& conflict);
   bool out_of_order(const Block& one) const;
+  void drop(const Block& waiting, Report& report);
+  bool make_room(std::uint32_t number, temporal::Time from, Report& report);
   bool keep_order(temporal::Time now, Report& report);
   void push(Block& late, temporal::Time from);
   bool shift(Block& late, temporal::Time from);
