@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "planner_svc/limits.hpp"
 #include "services/process/durable_file.hpp"
 
 namespace roci::planner {
@@ -17,10 +18,15 @@ namespace {
 
 constexpr char kList[] = "orders.json";
 constexpr int kFormat = 1;
+// As many orders as are kept, each with all its reasons, or the largest network.
+constexpr std::uintmax_t kMostBytes =
+    std::uintmax_t{kNetworkOrders} * kReasons * kReasonBytes + kNetworkBytes;
 
 std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw std::runtime_error(file.string() + ": cannot be read");
+  if (fs::file_size(file) > kMostBytes)
+    throw std::runtime_error(file.string() + ": is larger than anything that is kept here");
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

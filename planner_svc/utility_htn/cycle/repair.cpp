@@ -1,0 +1,170 @@
+// What gives way where the plan does not hold any more: what is late moves what follows it, and what conflicts is moved or taken out (R76, R81).
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "planner_svc/utility_htn/cycle/cycle.hpp"
+
+namespace roci::planner::utility_htn::cycle {
+
+using temporal::Duration, temporal::Time;
+
+// Takes what is only planned out of a block that cannot be finished; what is committed ends by itself.
+void Cycle::abandon(Block& begun, const std::string& why, Report& report) {
+  for (std::size_t i = 0; i < begun.links.size(); ++i) {
+    if (begun.links[i].stage != Stage::planned) continue;
+    timelines_.remove(task_id(begun.number, i));
+    begun.links[i].stage = Stage::failed;
+    report.changed = true;
+  }
+  if (!why.empty())
+    report.notes.push_back(network_.tasks[chains_.chains[begun.chain].task].id + " is broken off: " + why);
+}
+
+// Returns whether something of the block that is only planned moves the timeline before or while the conflict lasts.
+bool Cycle::contributes(const Block& one, const temporal::timelines::Conflict& conflict) const {
+  return std::ranges::any_of(one.links, [&](const Link& each) {
+    if (each.stage != Stage::planned || each.start > conflict.to) return false;
+    return std::ranges::any_of(network_.tasks[each.task].impacts, [&](const model::Impact& impact) {
+      const bool passes =
+          impact.moment == temporal::ImpactWhen::during && impact.kind == temporal::ImpactKind::delta;
+      return impact.timeline == conflict.timeline && (!passes || each.end >= conflict.from);
+    });
+  });
+}
+
+// Returns the block that has to give way to a conflict: the one whose constraint is broken if something of it is only
+// planned; else, of those that contribute to it, the last one that has not begun, or the last one of which something is
+// only planned. There is none where what is committed is in conflict with itself.
+Block* Cycle::culprit(const temporal::timelines::Conflict& conflict) {
+  const auto movable = [](const Block& one) {
+    return std::ranges::any_of(one.links, [](const Link& each) { return each.stage == Stage::planned; });
+  };
+  if (conflict.task) {
+    Block* const own = block(block_of(*conflict.task));
+    if (own != nullptr && movable(*own)) return own;
+  }
+  Block* out = nullptr;
+  const auto rank = [](const Block& one) { return std::pair(!one.begun(), one.links.front().start); };
+  for (Block& one : blocks_)
+    if (contributes(one, conflict) && (out == nullptr || rank(one) > rank(*out))) out = &one;
+  return out;
+}
+
+// Conflicts behind the commit window are mended by moving what has begun to later, and taking out what has not; the
+// latter is scheduled anew at once.
+bool Cycle::repair(Time now, Report& report) {
+  const Time from = now + network_.cycle.commit_window;
+  bool changed = false;
+  std::set<std::uint32_t> shifted;
+  for (std::size_t rounds = 2 * blocks_.size(); rounds > 0; --rounds) {
+    const auto conflicts = timelines_.conflicts(from, temporal::no_bound);
+    Block* gives_way = nullptr;
+    for (std::size_t i = 0; i < conflicts.size() && gives_way == nullptr; ++i)
+      gives_way = culprit(conflicts[i]);
+    if (gives_way == nullptr) break;
+    changed = true;
+    if (!gives_way->begun()) {
+      drop(*gives_way, report);
+    } else if (const std::uint32_t number = gives_way->number;
+               !shifted.insert(number).second || !make_room(number, from, report)) {
+      abandon(*block(number), "no time is left at which the rest of it fits", report);
+    }
+  }
+  if (changed && to_schedule_) schedule(now, report);
+  return changed;
+}
+
+// Returns whether some planned link no longer stands between the gaps behind the one before.
+bool Cycle::out_of_order(const Block& one) const {
+  const auto& gaps = chains_.chains[one.chain].links;
+  for (std::size_t i = 1; i < one.links.size(); ++i) {
+    if (one.links[i].stage != Stage::planned) continue;
+    const Duration gap = one.links[i].start - one.links[i - 1].end;
+    if (gap < gaps[i].shortest_gap || gap > gaps[i].longest_gap) return true;
+  }
+  return false;
+}
+
+// Takes out a block that has not begun; its request waits for another place.
+void Cycle::drop(const Block& waiting, Report& report) {
+  report.notes.push_back(chains_.chains[waiting.chain].name + " is taken out: it no longer fits");
+  take_out(waiting);
+  blocks_.erase(blocks_.begin() + (&waiting - blocks_.data()));
+  to_schedule_ = true;
+}
+
+// What has begun goes before what has not: where its rest finds no place, others are taken out, the last one first.
+bool Cycle::make_room(std::uint32_t number, Time from, Report& report) {
+  while (!shift(*block(number), from)) {
+    const Block* last = nullptr;
+    for (const Block& one : blocks_)
+      if (!one.begun() && (last == nullptr || one.links.front().start > last->links.front().start))
+        last = &one;
+    if (last == nullptr) return false;
+    drop(*last, report);
+  }
+  return true;
+}
+
+// What follows a link that is late is late itself, whether or not the cycle repairs conflicts (task push, R98).
+bool Cycle::keep_order(Time now, Report& report) {
+  const Time from = now + network_.cycle.commit_window;
+  std::vector<std::uint32_t> late;
+  for (const Block& one : blocks_)
+    if (one.begun() && !one.failed() && out_of_order(one)) late.push_back(one.number);
+  for (const std::uint32_t number : late) {
+    if (settings_.repairs) {
+      if (!make_room(number, from, report))
+        abandon(*block(number), "no time is left at which the rest of it fits", report);
+    } else if (!shift(*block(number), from)) {
+      push(*block(number), from);
+    }
+  }
+  return !late.empty();
+}
+
+// Puts what is only planned of a block off, whatever conflicts follow.
+void Cycle::push(Block& late, Time from) {
+  const auto& gaps = chains_.chains[late.chain].links;
+  for (std::size_t i = 1; i < late.links.size(); ++i) {
+    Link& each = late.links[i];
+    if (each.stage != Stage::planned) continue;
+    const Duration length = each.end - each.start;
+    each.planned = each.start = std::max(from, late.links[i - 1].end + gaps[i].shortest_gap);
+    each.end = each.start + length;
+    timelines_.move(task_id(late.number, i), each.start, each.end);
+  }
+}
+
+// Places what is only planned of a block anew, each link as early as it can be.
+bool Cycle::shift(Block& late, Time from) {
+  for (std::size_t i = 0; i < late.links.size(); ++i)
+    if (late.links[i].stage == Stage::planned) timelines_.remove(task_id(late.number, i));
+  const auto& gaps = chains_.chains[late.chain].links;
+  bool fits = true;
+  for (std::size_t i = 0; i < late.links.size(); ++i) {
+    Link& each = late.links[i];
+    if (each.stage != Stage::planned) continue;
+    const auto seen = footprint(late, i);
+    std::optional<Time> start;
+    if (fits) {
+      const Time before = i == 0 ? from : late.links[i - 1].end;
+      const Time latest = i == 0 ? temporal::no_bound : temporal::plus(before, gaps[i].longest_gap);
+      const Time latest_end = std::min(network_.cycle.plan_end, network_.tasks[each.task].closes);
+      start = timelines_.first_valid_start(
+          seen, {std::max(from, before + (i == 0 ? Duration{0} : gaps[i].shortest_gap)),
+                 std::min(latest, temporal::plus(latest_end, -seen.duration))});
+    }
+    fits = start.has_value();
+    if (start) {
+      each.planned = each.start = *start;
+      each.end = *start + seen.duration;
+    }
+    timelines_.place(task_id(late.number, i), seen, each.start);
+  }
+  return fits;
+}
+
+}  // namespace roci::planner::utility_htn::cycle
