@@ -27,8 +27,7 @@ bool remembers(const model::Network& network, const Token& token) {
   if (name.starts_with("parameter.")) {
     const auto known = std::ranges::find(network.parameters, rest, &model::Parameter::name);
     const auto* const value = std::get_if<double>(&token.held);
-    return known != network.parameters.end() && value != nullptr && *value >= known->lowest &&
-           *value <= known->highest;
+    return known != network.parameters.end() && value != nullptr && known->permits(*value);
   }
   if (!name.starts_with("internal.")) return true;
   const auto known = std::ranges::find(network.timelines, rest, &temporal::timelines::Definition::name);

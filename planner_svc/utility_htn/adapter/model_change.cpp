@@ -36,10 +36,6 @@ std::optional<std::uint32_t> index_of(const Items& items, const std::string& nam
   return static_cast<std::uint32_t>(found - items.begin());
 }
 
-flattening::Chains chains_of(const Network& network) {
-  return flattening::flatten(network, flattening::templates_on_call(network));
-}
-
 // Takes over what was found out: what is done, values that are no priors, and timelines as they are now.
 cycle::Past past_for(const Network& next, const Network& before, const cycle::Cycle& cycle, Time now) {
   cycle::Past out{{}, model::priors(next), {}};
@@ -50,8 +46,7 @@ cycle::Past past_for(const Network& next, const Network& before, const cycle::Cy
     const double value = cycle.past().values[i];
     const auto same = index_of(next.parameters, before.parameters[i].name, &model::Parameter::name);
     if (!same || value == before.parameters[i].prior) continue;
-    if (value >= next.parameters[*same].lowest && value <= next.parameters[*same].highest)
-      out.values[*same] = value;
+    if (next.parameters[*same].permits(value)) out.values[*same] = value;
   }
   for (const auto& timeline : next.timelines) {
     const auto same = index_of(before.timelines, timeline.name, &temporal::timelines::Definition::name);
@@ -93,7 +88,7 @@ std::vector<std::string> UtilityEngine::replace_network(const engine::ModelChang
             "' is not newer than version " + std::to_string(network_.version) + " of '" + network_.name +
             "', which is in force; raise 'version'"};
   try {
-    out = in_the_way_of(*next, chains_of(*next));
+    out = in_the_way_of(*next, flattening::flatten_all(*next));
   } catch (const std::invalid_argument& error) {
     return {error.what()};
   }
@@ -124,7 +119,7 @@ std::vector<std::string> UtilityEngine::in_the_way_of(const Network& next,
 void UtilityEngine::go_on_with(Network next, Time now) {
   const std::vector<model::TaskIndex> waiting = cycle_->waiting();
   const Network before = std::exchange(network_, std::move(next));
-  const flattening::Chains old_chains = std::exchange(chains_, chains_of(network_));
+  const flattening::Chains old_chains = std::exchange(chains_, flattening::flatten_all(network_));
   const std::unique_ptr<cycle::Cycle> old = std::move(cycle_);
   assessor_ = std::make_unique<assessor::SubwayAssessor>(network_, chains_);
   cycle_ = std::make_unique<cycle::Cycle>(network_, chains_, *assessor_, *scheduler_, now, settings_);

@@ -30,7 +30,7 @@ const std::string* argument(const Goal& goal, const std::string& name) {
 UtilityEngine::UtilityEngine(const engine::Setup& setup, model::Network network, cycle::Settings settings)
     : setup_(setup),
       network_(std::move(network)),
-      chains_(flattening::flatten(network_, flattening::templates_on_call(network_))),
+      chains_(flattening::flatten_all(network_)),
       assessor_(std::make_unique<assessor::SubwayAssessor>(network_, chains_)),
       scheduler_(search::make_scheduler("nearest")),
       settings_(settings),

@@ -82,7 +82,7 @@ Learned learn(const Network& network, model::TaskIndex index, const Measured& me
         out.refused.push_back(what +
                               " is not taken over: what is predicted of the task does not depend on '" +
                               parameter.name + "'");
-      } else if (!(*value >= parameter.lowest && *value <= parameter.highest)) {
+      } else if (!parameter.permits(*value)) {
         out.refused.push_back(what + " is not taken over: '" + parameter.name + "' would be " +
                               number(*value) + ", outside of " + number(parameter.lowest) + " to " +
                               number(parameter.highest));

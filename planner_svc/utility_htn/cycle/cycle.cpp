@@ -137,7 +137,7 @@ void Cycle::withdraw(TaskIndex task) {
 
 std::string Cycle::set_value(model::ParameterIndex parameter, double value) {
   const model::Parameter& known = network_.parameters[parameter];
-  if (!(value >= known.lowest && value <= known.highest))
+  if (!known.permits(value))
     return known.name + " = " + std::to_string(value) + " is not between " + std::to_string(known.lowest) +
            " and " + std::to_string(known.highest) + "; the value before stays";
   if (past_.values[parameter] == value) return {};

@@ -127,13 +127,16 @@ Delivery::Question Delivery::question(const search::PlannedData& planned, const 
   }
   const double limit = rules_.sol_limit_j(values);
   if (std::isfinite(limit)) {
-    for (const downlink::Window& window : out.windows) {
-      const auto spent = spent_.find(window.sol);
-      out.limits.sol_energy_j[window.sol] =
-          std::max(0.0, limit - (spent == spent_.end() ? 0.0 : spent->second));
-    }
+    for (const downlink::Window& window : out.windows)
+      out.limits.sol_energy_j[window.sol] = std::max(0.0, limit - spent_in(window.sol));
   }
   return out;
+}
+
+// Returns the joules of what was executed in a sol.
+double Delivery::spent_in(std::uint32_t sol) const {
+  const auto spent = spent_.find(sol);
+  return spent == spent_.end() ? 0.0 : spent->second;
 }
 
 // A limit that is broken already, since it was lowered, only refuses what would add to it.
@@ -150,10 +153,7 @@ bool Delivery::keeps_limits(const search::PlannedData& planned, const model::Val
     if (Rules::joules(window) > one) return false;
     added.insert(window.sol);
   }
-  return std::ranges::all_of(added, [&](std::uint32_t sol) {
-    const auto spent = spent_.find(sol);
-    return joules[sol] + (spent == spent_.end() ? 0.0 : spent->second) <= all;
-  });
+  return std::ranges::all_of(added, [&](std::uint32_t sol) { return joules[sol] + spent_in(sol) <= all; });
 }
 
 bool Delivery::admits(const search::PlannedData& planned, const model::Values& values, Time now) {

@@ -98,6 +98,7 @@ class Delivery {
   struct Question;
   Question question(const search::PlannedData& planned, const model::Values& values,
                     temporal::Time now) const;
+  double spent_in(std::uint32_t sol) const;
   bool keeps_limits(const search::PlannedData& planned, const model::Values& values) const;
 
   const model::Network& network_;

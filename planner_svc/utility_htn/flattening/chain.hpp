@@ -34,6 +34,9 @@ Chains flatten(const model::Network& network);
 /// Flattens these templates, too, so that they can be requested later.
 Chains flatten(const model::Network& network, const std::set<model::TaskIndex>& templates);
 
+/// Flattens all that is requested or may come to be: the templates that contingencies request, too.
+Chains flatten_all(const model::Network& network);
+
 /// Returns the templates that contingencies request (R69).
 std::set<model::TaskIndex> templates_on_call(const model::Network& network);
 

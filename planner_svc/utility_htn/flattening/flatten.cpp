@@ -62,6 +62,8 @@ class Flattener {
 
 Chains flatten(const Network& network) { return flatten(network, {}); }
 
+Chains flatten_all(const Network& network) { return flatten(network, templates_on_call(network)); }
+
 std::set<TaskIndex> templates_on_call(const Network& network) {
   std::set<TaskIndex> out;
   for (const Task& task : network.tasks)

@@ -65,7 +65,7 @@ void check_parameters(Complaints& complaints) {
       complaints.error("its range " + to_text(parameter.lowest) + " .. " + to_text(parameter.highest) +
                            " is none that a measured value could be held against",
                        "give it two numbers, the lower first");
-    } else if (!(parameter.prior >= parameter.lowest && parameter.prior <= parameter.highest)) {
+    } else if (!parameter.permits(parameter.prior)) {
       complaints.error("its value " + to_text(parameter.prior) + " is not within its range " +
                            to_text(parameter.lowest) + " .. " + to_text(parameter.highest),
                        "mend the value or widen the range");

@@ -26,6 +26,8 @@ struct Parameter {
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
   std::string source{};  ///< where the prior comes from, or why it was chosen
+  /// Returns whether the value lies in the range; what is no number does not.
+  bool permits(double value) const { return value >= lowest && value <= highest; }
   friend bool operator==(const Parameter&, const Parameter&) = default;
 };
 

@@ -16,6 +16,7 @@ Exploration::Exploration(const Problem& problem, ChainTable& table, const Plan& 
       table_(table),
       fixed_(fixed),
       nodes_(table, problem.anchored, fixed.utility, fixed.cost) {
+  if (problem.downlink) committed_ = table.committed_data();
   for (const std::uint32_t chain : batch) {
     if (!table.open(chain) || table.fixed(chain)) continue;
     if (table.contextual(chain)) {
@@ -174,7 +175,7 @@ bool Exploration::utility_of(const Placed& added, const Entry& entry, RankVector
 
 bool Exploration::gets_downlink(const Placed& added) const {
   if (!problem_.downlink) return true;
-  PlannedData data = table_.committed_data();
+  PlannedData data = committed_;
   for (const Placed& placed : all_placed(&added)) table_.add_data(placed, data);
   return problem_.downlink(data);
 }

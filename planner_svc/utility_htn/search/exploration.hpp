@@ -52,6 +52,7 @@ class Exploration {
   std::vector<Placed> all_placed(const Placed* added) const;
 
   const Problem& problem_;
+  PlannedData committed_;  // which no candidate changes
   ChainTable& table_;
   const Plan& fixed_;
   std::vector<Prospect> edges_;            // not contextual, the best first

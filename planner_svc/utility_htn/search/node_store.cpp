@@ -4,6 +4,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/pseudorandom/split_mix.hpp"
+
 namespace roci::planner::utility_htn::search {
 
 using temporal::RankVector, temporal::Time;
@@ -11,13 +13,7 @@ using temporal::timelines::Timelines;
 
 namespace {
 
-// Mixes all bits of a number (the finalizer of SplitMix64, Steele, Lea and Flood 2014).
-std::uint64_t mixed(std::uint64_t bits) {
-  bits += 0x9e3779b97f4a7c15ULL;
-  bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-  bits = (bits ^ (bits >> 27U)) * 0x94d049bb133111ebULL;
-  return bits ^ (bits >> 31U);
-}
+std::uint64_t mixed(std::uint64_t bits) { return pseudorandom::SplitMix64(bits).next(); }
 
 std::uint64_t key_of(const Placed& placed) {
   std::uint64_t key = mixed(placed.chain);

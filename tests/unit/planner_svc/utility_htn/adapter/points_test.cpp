@@ -96,7 +96,7 @@ class LongRun {
 
   std::mt19937 random_;
   model::Network network_ = network();
-  flattening::Chains chains_ = flattening::flatten(network_, flattening::templates_on_call(network_));
+  flattening::Chains chains_ = flattening::flatten_all(network_);
   assessor::NetworkAssessor assessor_;
   std::unique_ptr<search::Scheduler> scheduler_ = search::make_scheduler("earliest");
   cycle::Cycle cycle_{network_, chains_, assessor_, *scheduler_, Time{0}};

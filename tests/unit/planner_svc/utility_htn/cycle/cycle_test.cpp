@@ -21,7 +21,7 @@ using testing::task_named, testing::toy_network;
 class CycleTest : public ::testing::Test {
  protected:
   Cycle make(Settings settings = {}) {
-    chains_ = flattening::flatten(network_, flattening::templates_on_call(network_));
+    chains_ = flattening::flatten_all(network_);
     return {network_, chains_, assessor_, *scheduler_, Time{0}, settings};
   }
 

@@ -34,7 +34,7 @@ class DeliveryTest : public ::testing::Test {
   model::Task& task(const std::string& id) { return network_.tasks[task_named(network_, id)]; }
 
   void start() {
-    chains_ = flattening::flatten(network_, flattening::templates_on_call(network_));
+    chains_ = flattening::flatten_all(network_);
     cycle_ = std::make_unique<cycle::Cycle>(network_, chains_, assessor_, *scheduler_, Time{0});
     delivery_ = std::make_unique<Delivery>(network_);
     cycle_->deliver_by(*delivery_);
