@@ -68,6 +68,16 @@ void edit(const std::filesystem::path& file, const std::string& right, const std
   std::ofstream(file, std::ios::binary) << text;
 }
 
+std::vector<std::string> deeds_of(const std::filesystem::path& run_folder) {
+  std::vector<std::string> out;
+  std::ifstream in(run_folder / "effects.jsonl");
+  for (std::string line; std::getline(in, line);) {
+    const auto deed = nlohmann::json::parse(line);
+    out.push_back(deed.value("kind", "") + " " + deed.value("object", ""));
+  }
+  return out;
+}
+
 std::vector<std::string> journaled_events(const std::filesystem::path& journal) {
   std::vector<std::string> out;
   exec::journal::Journal(journal, exec::journal::Durability::process)

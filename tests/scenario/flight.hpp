@@ -41,6 +41,9 @@ std::string text_of(const std::filesystem::path& file);
 // Replaces the first place of `right` in a file; a test fails where it does not stand there.
 void edit(const std::filesystem::path& file, const std::string& right, const std::string& wrong);
 
+// What was really done in a run, in its order: "dig near" for each line of its effects.jsonl.
+std::vector<std::string> deeds_of(const std::filesystem::path& run_folder);
+
 // "code text" of each event of an executive, as its journal has them.
 std::vector<std::string> journaled_events(const std::filesystem::path& journal);
 

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -32,16 +31,7 @@ class LanderKills : public ::testing::TestWithParam<const char*> {
         " --scenario nominal --speed 2000");
   }
 
-  // "dig near" for each effect, in the order in which the robot had them.
-  std::vector<std::string> deeds() const {
-    std::vector<std::string> out;
-    std::ifstream in(folder_ / "effects.jsonl");
-    for (std::string line; std::getline(in, line);) {
-      const json deed = json::parse(line);
-      out.push_back(deed.value("kind", "") + " " + deed.value("object", ""));
-    }
-    return out;
-  }
+  std::vector<std::string> deeds() const { return deeds_of(folder_); }
 
   void expect_all_done_once(const Ended& ended) const {
     EXPECT_THAT(ended.output, StartsWith("killed "));

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,6 @@ namespace roci::scenario {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 using ::testing::Contains, ::testing::Not, ::testing::UnorderedElementsAre;
 
 class Lander : public ::testing::TestWithParam<const char*> {
@@ -27,16 +25,7 @@ class Lander : public ::testing::TestWithParam<const char*> {
                "--scenario " + scenario + " --run-folder " + folder_.string());
   }
 
-  // What was really done, in its order: "dig near" (effects.jsonl).
-  std::vector<std::string> deeds() const {
-    std::vector<std::string> out;
-    std::ifstream in(folder_ / "effects.jsonl");
-    for (std::string line; std::getline(in, line);) {
-      const json deed = json::parse(line);
-      out.push_back(deed.value("kind", "") + " " + deed.value("object", ""));
-    }
-    return out;
-  }
+  std::vector<std::string> deeds() const { return deeds_of(folder_); }
 
  private:
   const fs::path folder_ = fs::temp_directory_path() / ("roci_lander_" + std::to_string(::getpid()));

@@ -56,15 +56,7 @@ class NetworkOrders : public ::testing::TestWithParam<const char*> {
   Flight launch() const {
     return fly(mission_.string(), GetParam(), 1, "--scenario ground --run-folder " + run_.string());
   }
-  std::vector<std::string> deeds() const {
-    std::vector<std::string> out;
-    std::ifstream in(run_ / "effects.jsonl");
-    for (std::string line; std::getline(in, line);) {
-      const json deed = json::parse(line);
-      out.push_back(deed.value("kind", "") + " " + deed.value("object", ""));
-    }
-    return out;
-  }
+  std::vector<std::string> deeds() const { return deeds_of(run_); }
   static std::string fault(const Flight& flight) {
     return flight.summary["expected"].value("fault", "no report");
   }

@@ -38,6 +38,15 @@ class CycleTest : public ::testing::Test {
     throw std::logic_error("no block of " + id);
   }
 
+  // Its first link is committed.
+  Block sample_in(Cycle& cycle) const {
+    cycle.run(Time{0});
+    cycle.run(10s);
+    const Block& out = block_of_request(cycle, "sample");
+    EXPECT_EQ(out.links.front().stage, Stage::committed);
+    return out;
+  }
+
   model::Network network_ = toy_network();
   flattening::Chains chains_;
   assessor::NetworkAssessor assessor_;
@@ -113,11 +122,8 @@ TEST_F(CycleTest, OnlyWhatPrefersToStartWithinTheSchedulingWindowIsScheduled) {
 
 TEST_F(CycleTest, WhatIsOverdueIsExpectedLaterByAsMuchAgainAndMovesThePlanAFewTimes) {
   Cycle cycle = make();
-  cycle.run(Time{0});
-  cycle.run(10s);
-  const Block first = block_of_request(cycle, "sample");
+  const Block first = sample_in(cycle);
   const TaskId task = task_id(first.number, 0);
-  ASSERT_EQ(first.links.front().stage, Stage::committed);
   cycle.begun(task, first.links.front().start);
   const Time due = first.links.front().end;
   const Duration interval = network_.cycle.process_interval;
@@ -133,9 +139,7 @@ TEST_F(CycleTest, WhatIsOverdueIsExpectedLaterByAsMuchAgainAndMovesThePlanAFewTi
 
 TEST_F(CycleTest, ATaskThatIsTriedAgainTakesItsWholeDurationOnceMore) {
   Cycle cycle = make();
-  cycle.run(Time{0});
-  cycle.run(10s);
-  const Block first = block_of_request(cycle, "sample");
+  const Block first = sample_in(cycle);
   const TaskId task = task_id(first.number, 0);
   const Link planned = first.links.front();
   cycle.begun(task, planned.start);
