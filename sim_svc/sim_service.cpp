@@ -203,9 +203,9 @@ class SimService final : public services::Service, private owner::Driver {
                      },
                      [this](const NetworkStimulus& order) { network_orders_.write(wire::to_wire(order)); },
                      [this, &stimulus](const world::Disturbance& disturbance) {
-                       // An earlier process has lost this energy already; a fall of rocks is no part of its memory.
-                       const bool lost = std::holds_alternative<world::EnergyLoss>(disturbance);
-                       if (lost && goes_on_from_ && stimulus.at <= *goes_on_from_) return;
+                       // An earlier process has suffered this already; a fall of rocks is no part of its memory.
+                       if (world::adds_up(disturbance) && goes_on_from_ && stimulus.at <= *goes_on_from_)
+                         return;
                        tell(world_.disturb(node_.now(), disturbance));
                      }},
                stimulus.what);

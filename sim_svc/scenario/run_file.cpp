@@ -81,6 +81,20 @@ void check_mishap(const world::ComponentMishap& mishap, const Entry& entry, cons
   entry.complain(why);
 }
 
+// A success can be hollow only of a command that the component has.
+void check_hollow(const world::HollowSuccess& hollow, const Entry& entry, const world::WorldSetup& world) {
+  const auto robot = std::ranges::find(world.robots, hollow.robot, &world::RobotSetup::name);
+  if (robot == world.robots.end()) return;
+  const auto part = std::ranges::find(robot->components, hollow.component, &world::ComponentSetup::name);
+  if (part == robot->components.end()) return;
+  std::vector<std::string> known;
+  for (const auto& form : part->make(world::RandomStream(0, part->type))->commands())
+    known.push_back(form.name);
+  if (std::ranges::find(known, hollow.command) == known.end())
+    entry.at("command").complain("'" + hollow.component + "' has no command '" + hollow.command +
+                                 "'; known: " + setup::known_names(hollow.command, known));
+}
+
 void check_on_map(const Start& start, const std::string& robot, const world::Ground& ground) {
   if (!start.pose || !ground.site) return;
   if (ground.site->grid().contains(terrain::Point{start.pose->x, start.pose->y})) return;
@@ -142,7 +156,9 @@ RunSetup load_run(const std::filesystem::path& mission_folder, const std::string
   for (const Stimulus& stimulus : run.scenario.stimuli) {
     const auto* disturbance = std::get_if<world::Disturbance>(&stimulus.what);
     const auto* mishap = disturbance ? std::get_if<world::ComponentMishap>(disturbance) : nullptr;
+    const auto* hollow = disturbance ? std::get_if<world::HollowSuccess>(disturbance) : nullptr;
     if (mishap && stimulus.entry) check_mishap(*mishap, *stimulus.entry, run.world);
+    if (hollow && stimulus.entry) check_hollow(*hollow, *stimulus.entry, run.world);
   }
   return run;
 }

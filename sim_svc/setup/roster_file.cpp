@@ -11,18 +11,6 @@ using mission::Entry;
 
 namespace {
 
-// Returns a number of the section that is no less than `least`, or the fallback where it is not given.
-double number(const Entry& section, std::string_view key, double fallback, double least = 0) {
-  const auto entry = section.find(key);
-  if (!entry) return fallback;
-  const double value = entry->number();
-  if (value < least) {
-    entry->fail("'" + std::string(key) + "' must be at least " + std::to_string(least) +
-                "; correct the number");
-  }
-  return value;
-}
-
 constexpr double kShortestOrbit = 60;  // s
 
 world::Orbit read_orbit(const Entry& entry) {
@@ -67,10 +55,8 @@ world::TelemetryParameters read_telemetry(const Entry& entry) {
 
 // Reads a name, which becomes part of a timeline's.
 std::string read_name(const Entry& entry) {
-  const std::string name = entry.text();
-  if (name.empty() || name.find_first_of(". *{}") != std::string::npos) {
-    entry.fail("'" + name + "' is no name for a timeline; use letters, digits, - and _");
-  }
+  std::string name = entry.text();
+  check_name(name, entry);
   return name;
 }
 
@@ -87,7 +73,8 @@ ComponentEntry read_component(const Entry& entry, const Registry& registry) {
   if (std::find(kTaken.begin(), kTaken.end(), name.text()) != kTaken.end()) {
     name.fail("'" + name.text() + "' is taken by the robot itself; choose another name");
   }
-  return {read_name(name), type.text(), entry, registry.find(type.text())->can_be_slowed};
+  const ComponentType& known = *registry.find(type.text());
+  return {read_name(name), type.text(), entry, known.can_be_slowed, known.can_be_hollow};
 }
 
 RobotEntry read_robot(const Entry& entry, const Registry& registry) {

@@ -14,6 +14,7 @@ struct ComponentEntry {
   std::string type;
   mission::Entry entry;
   bool can_be_slowed = false;
+  bool can_be_hollow = false;
 };
 
 /// Is a robot as `simulation.robots` of mission.yaml lists it.

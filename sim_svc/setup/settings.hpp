@@ -42,6 +42,11 @@ class Settings {
   bool start_read_ = false;
 };
 
+/// Returns a number of the section that is no less than `least`, or the fallback where it is not given. Throws
+/// mission::FileError.
+double number(const mission::Entry& section, std::string_view key, double fallback, double least = 0);
+/// Throws mission::FileError for a name that cannot be part of a timeline's.
+void check_name(const std::string& name, const mission::Entry& where);
 /// Throws mission::FileError when a field's key is not among the known ones.
 void refuse_unknown_keys(const mission::Entry&, const std::set<std::string, std::less<>>& known);
 

@@ -107,6 +107,9 @@ class Component {
   /// Lets its tasks get on at this share of their usual speed until then; a component that cannot be slowed
   /// (ComponentType::can_be_slowed) does not hear of it.
   virtual void slow_down(double /*pace*/, temporal::Time /*until*/, temporal::Time /*now*/, Surroundings&) {}
+  /// Lets the next success of the command be told without being true: time and energy are used, and nothing else has changed;
+  /// a component that cannot do so (ComponentType::can_be_hollow) does not hear of it.
+  virtual void hollow_next(const std::string& /*command*/) {}
   /// Breaks the running task off at once.
   virtual void halt(temporal::Time now, Surroundings&) = 0;
 

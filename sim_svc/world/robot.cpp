@@ -193,6 +193,10 @@ void Robot::slow_component(const std::string& component, double pace, Time until
   one->component->slow_down(pace, until, now, surroundings);
 }
 
+void Robot::hollow_success(const std::string& component, const std::string& command) {
+  if (Part* one = part(component)) one->component->hollow_next(command);
+}
+
 void Robot::ground_changed(Time now, Environment& environment, Outputs& out) {
   Surroundings surroundings = around(environment, out);
   for (Part& one : parts_) one.component->ground_changed(now, surroundings);

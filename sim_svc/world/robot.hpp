@@ -103,6 +103,7 @@ class Robot {
                        Outputs& out);
   void slow_component(const std::string& component, double pace, temporal::Time until, temporal::Time now,
                       Environment&, Outputs& out);
+  void hollow_success(const std::string& component, const std::string& command);
   void ground_changed(temporal::Time now, Environment&, Outputs& out);
   void lose_energy(double joules);
   /// The panel gives this share of its told power until then.

@@ -1,0 +1,93 @@
+// A laboratory on board, whose instruments look at a sample one after the other and say whether it has a signature of life.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim_svc/components/hollow_commands.hpp"
+#include "sim_svc/components/phased_task.hpp"
+#include "sim_svc/world/capabilities.hpp"
+#include "sim_svc/world/component.hpp"
+#include "sim_svc/world/random_stream.hpp"
+
+namespace roci::sim::components {
+
+/// Is what one instrument takes for a sample.
+struct Instrument {
+  std::string name;
+  double duration_s = 0;
+  double power_w = 0;
+  double heat_w = 0;  ///< of it, left in the laboratory's zone
+};
+
+/// Says what is truly in a sample.
+enum class Signature { negative, positive, drawn };
+
+/// Holds the settings of a laboratory (README.md); noise is a standard deviation, as a share.
+struct LaboratorySettings {
+  std::string zone;  ///< thermal zone of the robot in which it works; empty: it is always warm
+  std::vector<Instrument> instruments{{"mass-spectrometer", 5400, 120, 40},
+                                      {"microscope", 1800, 30, 15},
+                                      {"raman-spectrometer", 2700, 60, 20}};
+  double duration_noise = 0.05;
+  double duration_factor = 1;
+  double power_noise = 0.05;
+  std::map<std::string, Signature> signatures;  ///< <site>_<target> → the truth
+  double positive_share = 0.5;                  ///< of those that are drawn by the seed
+};
+
+/// Is a laboratory. It takes analyze (site, target, form) of the sample that a SampleCarrier has brought to its inlet; another
+/// sample, or none, is refused as `no-sample`, and one that it has no truth of as `unknown-sample`.
+class Laboratory final : public world::Component {
+ public:
+  Laboratory(LaboratorySettings, world::RandomStream noise);
+
+  std::vector<world::CommandForm> commands() const override {
+    return {{"analyze", {"site", "target", "form"}}};
+  }
+  std::vector<world::StateForm> state_forms() const override { return {{"idle"}, {"analyzing", 3}}; }
+  std::vector<world::ThingForm> thing_forms() const override {
+    return {{"signature", {{"unknown"}, {"negative"}, {"positive"}}}};
+  }
+  /// Returns idle or analyzing (site, target, instrument).
+  temporal::State state() const override;
+  bool busy() const override { return run_.has_value(); }
+
+  world::Ending begin(const world::Task&, temporal::Time now, world::Surroundings&) override;
+  std::optional<temporal::Time> next_change() const override { return phases_.next_change(); }
+  world::Ending finish(world::Surroundings&) override;
+  void slow_down(double pace, temporal::Time until, temporal::Time now, world::Surroundings&) override {
+    phases_.slow_down(pace, until, now);
+  }
+  void hollow_next(const std::string& command) override { hollow_.add(command); }
+  void halt(temporal::Time now, world::Surroundings&) override;
+  void settle(temporal::Time now, world::Body& body) override { phases_.settle(now, body); }
+
+  double energy_j(temporal::Time from, temporal::Time to) const override {
+    return phases_.energy_j(from, to);
+  }
+  double peak_power_w() const override { return phases_.peak_power_w(); }
+  /// Returns signature.<site>_<target> (unknown, negative, positive) of all samples of which it has the truth.
+  std::vector<world::NamedState> states() const override;
+  world::Memory memory() const override;
+  void restore(const world::Memory&) override;
+
+ private:
+  struct Run {
+    world::TaskKey key;
+    world::SampleOrigin sample;
+    std::string form;
+  };
+
+  LaboratorySettings settings_;
+  world::RandomStream noise_;
+  PhasedTask phases_;
+  std::optional<Run> run_;
+  HollowCommands hollow_;
+  std::map<std::string, bool> positive_;  // the truth, by <site>_<target>
+  std::map<std::string, bool> found_;     // what is known of it
+};
+
+}  // namespace roci::sim::components
