@@ -1,6 +1,7 @@
 // A laboratory on board, whose instruments look at a sample one after the other and say whether it has a signature of life.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -71,6 +72,7 @@ class Laboratory final : public world::Component {
   double peak_power_w() const override { return phases_.peak_power_w(); }
   /// Returns signature.<site>_<target> (unknown, negative, positive) of all samples of which it has the truth.
   std::vector<world::NamedState> states() const override;
+  std::optional<std::uint64_t> states_version() const override { return found_.size(); }
   world::Memory memory() const override;
   void restore(const world::Memory&) override;
 

@@ -161,7 +161,10 @@ Ending SamplingArm::end_of_cutting() {
   return std::nullopt;
 }
 
+bool SamplingArm::moves() const { return run_ && phases_.phase() <= kMove; }
+
 Ending SamplingArm::finish(Surroundings& around) {
+  ++version_;
   const Time now = *next_change();
   if (phases_.phase() == kMove) joints_ = run_->to;
   Ending failure;
@@ -227,6 +230,7 @@ void SamplingArm::suffer(const world::Mishap& mishap, Time now, Surroundings& ar
   const auto& collapse = std::get<world::TrenchCollapse>(mishap);
   Trench& trench = trenches_.at(collapse.site);
   trench.depth_m *= collapse.share;
+  ++version_;
   if (!run_ || run_->where.site != collapse.site || !run_->cut_phase) return;
   if (run_->cut_phase == phases_.phase()) run_->jam_in_s -= phases_.done_s(now);
   phases_.change_rest(cutting(), now, around.body);
@@ -275,6 +279,7 @@ void SamplingArm::restore(const world::Memory& memory) {
     if (!state || state->arguments.size() != 2) return std::nullopt;
     return SampleOrigin{state->arguments[0], state->arguments[1]};
   };
+  ++version_;
   held_ = sample("held");
   delivered_ = sample("delivered");
 }

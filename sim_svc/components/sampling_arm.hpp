@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -99,9 +100,10 @@ class SamplingArm final : public world::Component, public world::SampleCarrier {
   double peak_power_w() const override { return phases_.peak_power_w(); }
   /// Returns site.<site> (untouched, excavated) of all sites, and sample (none, held, delivered).
   std::vector<world::NamedState> states() const override;
+  std::optional<std::uint64_t> states_version() const override { return version_; }
   /// Returns q0 … q4 in rad, and depth_<site> in m.
   std::vector<world::NamedNumber> numbers() const override;
-  bool moves() const override { return busy(); }
+  bool moves() const override;
   /// Returns depth_m of the trench that was dug or sampled, as it was told.
   std::map<std::string, temporal::Value> results() const override { return results_; }
   world::Memory memory() const override;
@@ -143,6 +145,7 @@ class SamplingArm final : public world::Component, public world::SampleCarrier {
   bool prepared_ = false;
   ArmJoints joints_;
   std::optional<world::SampleOrigin> held_, delivered_;
+  std::uint64_t version_ = 0;  // of states()
 };
 
 }  // namespace roci::sim::components
