@@ -10,6 +10,10 @@
 
 namespace roci::sim::setup {
 
+/// Returns a number of the section that is no less than `least`, or the fallback where it is not given; throws
+/// mission::FileError.
+double number(const mission::Entry& section, std::string_view key, double fallback, double least = 0);
+
 /// Holds what the files say of one component. A setting is looked up in the scenario's `world` first, then in
 /// the component's entry of mission.yaml; keys that nobody asked for are errors, so that a misspelt one is no
 /// silent default. All reading throws mission::FileError with place and remedy.
