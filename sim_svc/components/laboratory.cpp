@@ -39,6 +39,9 @@ Ending Laboratory::begin(const world::Task& task, Time now, Surroundings& around
   const SampleOrigin sample{task.arguments.at("site"), task.arguments.at("target")};
   if (!positive_.contains(id_of(sample)))
     return Failure{"unknown-sample", "there is no sample " + id_of(sample)};
+  const std::string& form = task.arguments.at("form");
+  if (!settings_.products.empty() && !settings_.products.contains(form))
+    return Failure{"unknown-form", "there is no form '" + form + "' of what an analysis brings"};
   const auto* carrier = around.components.find<world::SampleCarrier>();
   if (!carrier || carrier->delivered() != sample)
     return Failure{"no-sample",
@@ -51,24 +54,33 @@ Ending Laboratory::begin(const world::Task& task, Time now, Surroundings& around
   for (const Instrument& one : settings_.instruments)
     phases.push_back(
         {Phase::Until::over, duration * one.duration_s, power * one.power_w, power * one.heat_w});
-  run_ = Run{task.key, sample, task.arguments.at("form")};
-  phases_.begin(std::move(phases), now, around.body);
+  if (Ending cold = phases_.begin(std::move(phases), now, around.body)) return cold;
+  run_ = Run{task, sample};
   around.deeds.push_back({task.command, id_of(sample)});
   return std::nullopt;
 }
 
 Ending Laboratory::finish(Surroundings& around) {
+  const Time now = *next_change();
   if (phases_.go_on(around.body)) return std::nullopt;
   const Run done = *std::exchange(run_, std::nullopt);
   if (hollow_.take("analyze")) return std::nullopt;
   const std::string sample = id_of(done.sample);
-  found_[sample] = positive_.at(sample);
-  return std::nullopt;
+  const bool positive = found_[sample] = positive_.at(sample);
+  const auto forms = settings_.products.find(done.task.arguments.at("form"));
+  if (forms == settings_.products.end()) return std::nullopt;
+  return make_products(forms->second, done.task.key, done.task.arguments,
+                       positive ? settings_.positive_content : 1, now, noise_, around);
 }
 
 void Laboratory::halt(Time now, Surroundings& around) {
   phases_.halt(now, around.body);
   run_.reset();
+}
+
+std::vector<std::string> Laboratory::zones() const {
+  if (phases_.zone().empty()) return {};
+  return {phases_.zone()};
 }
 
 std::vector<world::NamedState> Laboratory::states() const {

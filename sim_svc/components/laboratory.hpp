@@ -9,6 +9,7 @@
 
 #include "sim_svc/components/hollow_commands.hpp"
 #include "sim_svc/components/phased_task.hpp"
+#include "sim_svc/components/products.hpp"
 #include "sim_svc/world/capabilities.hpp"
 #include "sim_svc/world/component.hpp"
 #include "sim_svc/world/random_stream.hpp"
@@ -37,10 +38,14 @@ struct LaboratorySettings {
   double power_noise = 0.05;
   std::map<std::string, Signature> signatures;  ///< <site>_<target> → the truth
   double positive_share = 0.5;                  ///< of those that are drawn by the seed
+  std::map<std::string, std::vector<ProductForm>>
+      products;                   ///< of an analysis, by its form; empty: none, in any form
+  double positive_content = 1.2;  ///< bytes of what holds a signature, as against what holds none
 };
 
 /// Is a laboratory. It takes analyze (site, target, form) of the sample that a SampleCarrier has brought to its inlet; another
-/// sample, or none, is refused as `no-sample`, and one that it has no truth of as `unknown-sample`.
+/// sample, or none, is refused as `no-sample`, and one that it has no truth of as `unknown-sample`; so is an `unknown-form`.
+/// When it ends, the signature is known and the form's products are on board; it fails `data-full` for those without room there.
 class Laboratory final : public world::Component {
  public:
   Laboratory(LaboratorySettings, world::RandomStream noise);
@@ -65,6 +70,11 @@ class Laboratory final : public world::Component {
   void hollow_next(const std::string& command) override { hollow_.add(command); }
   void halt(temporal::Time now, world::Surroundings&) override;
   void settle(temporal::Time now, world::Body& body) override { phases_.settle(now, body); }
+  std::vector<std::string> zones() const override;
+  std::string held_zone() const override { return busy() ? phases_.zone() : ""; }
+  void surroundings_changed(temporal::Time now, world::Surroundings& around) override {
+    phases_.settle(now, around.body);
+  }
 
   double energy_j(temporal::Time from, temporal::Time to) const override {
     return phases_.energy_j(from, to);
@@ -78,9 +88,8 @@ class Laboratory final : public world::Component {
 
  private:
   struct Run {
-    world::TaskKey key;
+    world::Task task;
     world::SampleOrigin sample;
-    std::string form;
   };
 
   LaboratorySettings settings_;

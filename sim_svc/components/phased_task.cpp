@@ -7,10 +7,14 @@ namespace roci::sim::components {
 
 using temporal::Time;
 
-void PhasedTask::begin(std::vector<Phase> phases, Time now, world::Body& body) {
+world::Ending PhasedTask::begin(std::vector<Phase> phases, Time now, world::Body& body) {
   phases_ = std::move(phases);
   at_ = 0;
+  if (world::Thermal* thermal = heat(body)) thermal->hold(zone_, this, now);
   enter(now, body);
+  if (next_change()) return std::nullopt;
+  leave(now, body);
+  return world::Failure{"too-cold", "the heater cannot make '" + zone_ + "' warm enough for work"};
 }
 
 void PhasedTask::change_rest(std::vector<Phase> rest, Time now, world::Body& body) {
@@ -23,10 +27,12 @@ void PhasedTask::enter(Time now, world::Body& body) {
   const Phase& phase = phases_[at_];
   work_.start(temporal::seconds(phase.work_s), now);
   warm_ = now;
+  if (world::Thermal* thermal = heat(body)) thermal->set_waste(zone_, this, phase.heat_w, now);
   settle(now, body);
 }
 
-void PhasedTask::leave(Time, world::Body&) {
+void PhasedTask::leave(Time now, world::Body& body) {
+  if (world::Thermal* thermal = heat(body)) thermal->release(zone_, this, now);
   phases_.clear();
   at_ = 0;
 }
@@ -51,7 +57,10 @@ void PhasedTask::halt(Time now, world::Body& body) {
   if (busy()) leave(now, body);
 }
 
-void PhasedTask::settle(Time, world::Body&) {}
+void PhasedTask::settle(Time now, world::Body& body) {
+  const world::Thermal* thermal = heat(body);
+  if (thermal && busy() && phases_[at_].until == Phase::Until::warm) warm_ = thermal->ready_at(zone_, now);
+}
 
 double PhasedTask::energy_j(Time from, Time to) const {
   return busy() ? phases_[at_].power_w * temporal::to_seconds(to - from) : 0;

@@ -123,12 +123,14 @@ Ending SamplingArm::begin(const world::Task& task, Time now, Surroundings& aroun
                                                : std::numeric_limits<double>::infinity();
     if (task.command == "excavate" && excavated(trench)) {
       run_ = run;
-      phases_.begin({Phase{}}, now, around.body);
-      return std::nullopt;
+      return phases_.begin({Phase{}}, now, around.body);
     }
   }
   run_ = run;
-  phases_.begin(phases_of(run, duration_noise), now, around.body);
+  if (Ending cold = phases_.begin(phases_of(run, duration_noise), now, around.body)) {
+    run_.reset();
+    return cold;
+  }
   around.deeds.push_back(
       {task.command, run.where.site + (run.where.target.empty() ? "" : " " + run.where.target)});
   return std::nullopt;
@@ -234,6 +236,11 @@ void SamplingArm::suffer(const world::Mishap& mishap, Time now, Surroundings& ar
   if (!run_ || run_->where.site != collapse.site || !run_->cut_phase) return;
   if (run_->cut_phase == phases_.phase()) run_->jam_in_s -= phases_.done_s(now);
   phases_.change_rest(cutting(), now, around.body);
+}
+
+std::vector<std::string> SamplingArm::zones() const {
+  if (phases_.zone().empty()) return {};
+  return {phases_.zone()};
 }
 
 std::vector<world::NamedState> SamplingArm::states() const {

@@ -55,7 +55,7 @@ struct SamplingArmSettings {
 /// Is a sampling arm. It takes prepare, excavate (site), collect (site, target), transport and discard; each warms the zone
 /// first, moves the arm and works. What is dug stays dug, whatever becomes of the task; a trench that has its depth already is
 /// done at once. It fails `stuck` where the cutter jams and `too-hard` where the ice gives way no more, and refuses what makes
-/// no sense: `not-prepared unknown-site unknown-target not-excavated not-empty no-sample`.
+/// no sense: `not-prepared unknown-site unknown-target not-excavated not-empty no-sample too-cold`.
 class SamplingArm final : public world::Component, public world::SampleCarrier {
  public:
   SamplingArm(SamplingArmSettings, world::RandomStream noise);
@@ -93,6 +93,11 @@ class SamplingArm final : public world::Component, public world::SampleCarrier {
   /// A trench under the cutter goes on from the depth that is left.
   void suffer(const world::Mishap&, temporal::Time now, world::Surroundings&) override;
   void settle(temporal::Time now, world::Body&) override;
+  std::vector<std::string> zones() const override;
+  std::string held_zone() const override { return busy() ? phases_.zone() : ""; }
+  void surroundings_changed(temporal::Time now, world::Surroundings& around) override {
+    phases_.settle(now, around.body);
+  }
 
   double energy_j(temporal::Time from, temporal::Time to) const override {
     return phases_.energy_j(from, to);

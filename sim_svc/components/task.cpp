@@ -5,6 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "sim_svc/components/argument_slots.hpp"
+
 namespace roci::sim::components {
 
 using temporal::State;
@@ -15,19 +17,9 @@ using world::Surroundings;
 
 namespace {
 
-std::string filled(std::string text, const std::map<std::string, std::string>& arguments) {
-  for (const auto& [name, value] : arguments) {
-    const std::string slot = "{" + name + "}";
-    for (auto at = text.find(slot); at != std::string::npos; at = text.find(slot, at + value.size())) {
-      text.replace(at, slot.size(), value);
-    }
-  }
-  return text;
-}
-
 State filled(const StateTemplate& form, const std::map<std::string, std::string>& arguments) {
-  State out{filled(form.name, arguments), {}};
-  for (const std::string& argument : form.arguments) out.arguments.push_back(filled(argument, arguments));
+  State out{fill_slots(form.name, arguments), {}};
+  for (const std::string& argument : form.arguments) out.arguments.push_back(fill_slots(argument, arguments));
   return out;
 }
 
@@ -98,7 +90,7 @@ Ending TaskComponent::begin(const world::Task& task, Time now, Surroundings& aro
              values_,
              {}};
   for (const auto& [thing, state] : command.leaves)
-    run_->leaves[filled(thing, task.arguments)] = filled(state, task.arguments);
+    run_->leaves[fill_slots(thing, task.arguments)] = filled(state, task.arguments);
   work_.start(temporal::seconds(duration), now);
   std::string object;
   for (const auto& [name, value] : task.arguments) object += (object.empty() ? "" : " ") + value;

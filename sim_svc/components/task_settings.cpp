@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim_svc/components/argument_slots.hpp"
 #include "sim_svc/world/robot.hpp"
 
 namespace roci::sim::components {
@@ -36,22 +37,12 @@ StateTemplate read_state(const Entry& entry) {
   return out;
 }
 
-// Braces in the word must name arguments of the command.
-void check_slots(const Entry& entry, std::string word, const TaskCommand& command) {
-  for (const std::string& argument : command.arguments) {
-    const auto at = word.find("{" + argument + "}");
-    if (at != std::string::npos) word.erase(at, argument.size() + 2);
-  }
-  if (word.find_first_of("{}") != std::string::npos) {
-    entry.fail("'" + word + "' names no argument of '" + command.name + "'; add it to its arguments");
-  }
-}
-
 // Reads a state in which braces name arguments of the command.
 StateTemplate read_state_of(const Entry& entry, const TaskCommand& command) {
   StateTemplate out = read_state(entry);
-  check_slots(entry, out.name, command);
-  for (const std::string& argument : out.arguments) check_slots(entry, argument, command);
+  check_slots(entry, out.name, command.name, command.arguments);
+  for (const std::string& argument : out.arguments)
+    check_slots(entry, argument, command.name, command.arguments);
   return out;
 }
 
@@ -83,7 +74,7 @@ std::map<std::string, StateTemplate> read_leaves(const Entry& entry, const TaskC
   std::map<std::string, StateTemplate> out;
   for (const auto& [thing, state] : entry.fields()) {
     check_thing(thing, state);
-    check_slots(state, thing, command);
+    check_slots(state, thing, command.name, command.arguments);
     out[thing] = read_state_of(state, command);
   }
   return out;

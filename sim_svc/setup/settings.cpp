@@ -24,7 +24,7 @@ std::optional<Entry> Settings::find(std::string_view key) {
 
 namespace {
 
-double number_of(const std::optional<Entry>& entry, std::string_view key, double fallback, double least) {
+double checked(const std::optional<Entry>& entry, std::string_view key, double fallback, double least) {
   if (!entry) return fallback;
   const double value = entry->number();
   if (value < least) {
@@ -36,17 +36,17 @@ double number_of(const std::optional<Entry>& entry, std::string_view key, double
 
 }  // namespace
 
-double Settings::number(std::string_view key, double fallback, double least) {
-  return number_of(find(key), key, fallback, least);
-}
-
 double number(const Entry& section, std::string_view key, double fallback, double least) {
-  return number_of(section.find(key), key, fallback, least);
+  return checked(section.find(key), key, fallback, least);
 }
 
 void check_name(const std::string& name, const Entry& where) {
   if (name.empty() || name.find_first_of(". *{}") != std::string::npos)
     where.fail("'" + name + "' is no name for a timeline; use letters, digits, - and _");
+}
+
+double Settings::number(std::string_view key, double fallback, double least) {
+  return checked(find(key), key, fallback, least);
 }
 
 std::string Settings::text(std::string_view key, std::string fallback) {

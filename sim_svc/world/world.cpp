@@ -59,7 +59,7 @@ bool World::runs(const TaskKey& key) const {
 
 WorldMemory World::memory() const {
   WorldMemory out{now_, {}, environment_.samples};
-  for (const Robot& one : robots_) out.robots[one.name()] = one.memory();
+  for (const Robot& one : robots_) out.robots[one.name()] = one.memory(now_);
   return out;
 }
 
