@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "planner_svc/utility_htn/search/robust.hpp"
+
 namespace roci::planner::utility_htn::cycle {
 
 using model::TaskIndex;
@@ -395,7 +397,8 @@ double Cycle::budget() const {
   return timelines_.value(network_.budget, end) - network_.timelines[network_.budget].lowest;
 }
 
-search::Plan Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Report& report) {
+Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Report& report,
+                             const search::Plan* known) {
   const std::vector<double> newest = values_now(now);
   search::Problem problem{network_, past_.values, chains_, assessor_, scheduler_, timelines_};
   problem.from = now + network_.cycle.commit_window;
@@ -414,9 +417,23 @@ search::Plan Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Re
     if (!candidates.contains(chain.task) && !placed.contains(chain.task))
       problem.closed.push_back(chain.task);
   if (delivery_ != nullptr) delivery_->join(problem, now);
-  const search::Outcome outcome = search::search(problem);
-  report.explored += outcome.statistics.entries;
-  return outcome.plan;
+  const auto beats = [](const auto& worth, double cost, const auto& known_worth, double known_cost) {
+    return worth > known_worth || (worth == known_worth && cost < known_cost - 1e-6);
+  };
+  if (!settings_.robust) {
+    search::Outcome outcome = search::search(problem);
+    report.explored += outcome.statistics.entries;
+    const search::Plan& plan = outcome.plan;
+    const bool better = known == nullptr || beats(plan.utility, plan.cost, known->utility, known->cost);
+    return {std::move(outcome.plan), better};
+  }
+  const search::RobustSettings judging;
+  search::RobustOutcome robust = search::search_robust(problem, judging, network_.exploration_bound);
+  report.explored += robust.explored;
+  const search::Candidate& chosen = robust.candidates[robust.chosen];
+  const bool better = known == nullptr || beats(chosen.judged, chosen.plan.cost,
+                                                search::judged(problem, *known, judging), known->cost);
+  return {std::move(robust.outcome.plan), better};
 }
 
 bool Cycle::schedule(Time now, Report& report) {
@@ -425,7 +442,7 @@ bool Cycle::schedule(Time now, Report& report) {
   scheduled_ = true;
   const std::set<TaskIndex> waiting_requests = candidates(now);
   if (waiting_requests.empty()) return false;
-  const search::Plan plan = plan_for(now, waiting_requests, report);
+  const search::Plan plan = plan_for(now, waiting_requests, report).plan;
   adopt(plan);
   return !plan.placed.empty();
 }
@@ -456,7 +473,9 @@ search::Plan Cycle::planned(Time now) const {
       const assessor::Context context{network_, past_.values, chains_, newest, existing, before, {}};
       out.utility += assessor_.predicted(one->chain, context);
       out.cost += flattening::cost(network_, chains_.chains[one->chain], past_.values);
-      out.placed.push_back({one->chain, {}});
+      search::Placed standing{one->chain, {}};
+      for (const Link& each : one->links) standing.starts.push_back(each.start);
+      out.placed.push_back(std::move(standing));
     }
     before.push_back(one->chain);
   }
@@ -474,11 +493,9 @@ bool Cycle::optimize(Time now, Report& report) {
     if (!one.begun()) before.push_back(one);
   for (const Block& one : before) take_out(one);
   std::erase_if(blocks_, [](const Block& one) { return !one.begun(); });
-  const search::Plan plan = plan_for(now, candidates(now), report);
-  const bool better =
-      plan.utility > old.utility || (plan.utility == old.utility && plan.cost < old.cost - 1e-6);
-  if (better) {
-    adopt(plan);
+  const Found found = plan_for(now, candidates(now), report, &old);
+  if (found.better) {
+    adopt(found.plan);
     return true;
   }
   for (Block& one : before) {

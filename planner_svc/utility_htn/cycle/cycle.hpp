@@ -29,6 +29,7 @@ struct Settings {
   bool optimizes = true;
   bool downlinks = true;        ///< data without a downlink are not generated (R127); otherwise all get home
   bool schedules_again = true;  ///< also after the first time; otherwise the first plan is all there is
+  bool robust = false;          ///< plans are judged by the worst of more, less and predicted energy
   /// What was observed must differ from what was foreseen by this share of the timeline's first value before the cycle optimizes anew.
   double noticeable = 0.005;
   /// A request that failed so often is withdrawn.
@@ -117,7 +118,12 @@ class Cycle {
   void abandon(Block& begun, const std::string& why, Report& report);
   void forget_over(Report& report);
   void edit_network(model::TaskIndex task);
-  search::Plan plan_for(temporal::Time now, const std::set<model::TaskIndex>& candidates, Report& report);
+  struct Found {
+    search::Plan plan;
+    bool better = true;  // than the plan that was held against it
+  };
+  Found plan_for(temporal::Time now, const std::set<model::TaskIndex>& candidates, Report& report,
+                 const search::Plan* known = nullptr);
   void adopt(const search::Plan& plan);
   std::set<model::TaskIndex> candidates(temporal::Time now) const;
   std::vector<const Block*> by_start() const;
