@@ -208,10 +208,11 @@ Report Cycle::run(Time now) {
 search::PlannedData Cycle::data() const {
   search::PlannedData out;
   for (const Block* one : by_start()) {
-    for (const Link& each : one->links) {
+    for (std::size_t i = 0; i < one->links.size(); ++i) {
+      const Link& each = one->links[i];
       if (each.stage == Stage::doomed || each.stage == Stage::failed) continue;
       const model::Task& task = network_.tasks[each.task];
-      if (task.downlinks) out.downlinks.push_back({each.task, each.start, each.end});
+      if (task.downlinks) out.downlinks.push_back({each.task, each.start, each.end, task_id(one->number, i)});
       for (const model::Product& product : task.products)
         out.products.push_back(search::predicted(network_.tasks[chains_.chains[one->chain].task], task,
                                                  product, each.end, past_.values));
