@@ -18,10 +18,12 @@ using world::ComponentMishap;
 using world::Disturbance;
 using world::EnergyLoss;
 using world::GenerationLoss;
+using world::HollowSuccess;
 using world::JointWear;
 using world::ModuleFailure;
 using world::RockFall;
 using world::SlotBlock;
+using world::TrenchCollapse;
 
 namespace {
 
@@ -100,22 +102,25 @@ HazardStimulus read_hazard(const Entry& entry) {
           {entry.at("x").number(), entry.at("y").number(), at_least(entry.at("radius"), 0.01)}};
 }
 
+// Returns the component that the entry names.
+const setup::ComponentEntry& component_of(const Entry& name, const RobotEntry& robot) {
+  const auto found = std::ranges::find(robot.components, name.text(), &setup::ComponentEntry::name);
+  if (found != robot.components.end()) return *found;
+  name.fail("unknown component '" + name.text() +
+            "'; known: " + setup::known_names(name.text(), robot.component_names()));
+}
+
 ComponentFault read_fault(const Entry& entry, const RobotEntry& robot, Time at) {
   entry.allow_only({"component", "for_s", "slow", "stuck"});
-  const Entry name = entry.at("component");
-  const auto component = std::ranges::find(robot.components, name.text(), &setup::ComponentEntry::name);
-  if (component == robot.components.end()) {
-    name.fail("unknown component '" + name.text() +
-              "'; known: " + setup::known_names(name.text(), robot.component_names()));
-  }
-  ComponentFault out{robot.name, name.text(), at + time_of(entry.at("for_s"))};
+  const setup::ComponentEntry& component = component_of(entry.at("component"), robot);
+  ComponentFault out{robot.name, component.name, at + time_of(entry.at("for_s"))};
   const auto slow = entry.find("slow");
   const bool stuck = entry.truth_or("stuck", false);
   if (slow && stuck) entry.fail("it is either slow or stuck; keep one");
   if (slow) out.pace = 1 / at_least(*slow, 1);
   if (stuck) out.pace = 0;
-  if (out.pace && !component->can_be_slowed)
-    entry.fail("a component of type " + component->type +
+  if (out.pace && !component.can_be_slowed)
+    entry.fail("a component of type " + component.type +
                " can only fail; drop slow and stuck, or model it as a task");
   return out;
 }
@@ -151,6 +156,22 @@ JointWear read_joint_wear(const Entry& entry) {
   return out;
 }
 
+TrenchCollapse read_collapse(const Entry& entry) {
+  entry.allow_only({"site", "share"});
+  TrenchCollapse out{entry.at("site").text()};
+  if (const auto share = entry.find("share")) out.share = share_of(*share);
+  return out;
+}
+
+HollowSuccess read_hollow(const Entry& entry, const RobotEntry& robot) {
+  entry.allow_only({"component", "command"});
+  const setup::ComponentEntry& component = component_of(entry.at("component"), robot);
+  if (!component.can_be_hollow)
+    entry.fail("a component of type " + component.type +
+               " cannot succeed without effect; drop the stimulus, or model it as a task");
+  return {robot.name, component.name, entry.at("command").text()};
+}
+
 GenerationLoss read_eclipse(const Entry& entry, const RobotEntry& robot, Time at) {
   entry.allow_only({"generation", "for_s"});
   if (!robot.power ||
@@ -173,12 +194,15 @@ const RobotEntry& robot_of(const Entry& entry, const Roster& roster) {
 
 Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
   entry.allow_only({"at_s", "robot", "goal", "recall", "hazard", "fault", "rock", "battery_loss_j",
-                    "module_fails", "slot_blocked", "slow_joint", "eclipse", "network", "parameter"});
+                    "module_fails", "slot_blocked", "slow_joint", "eclipse", "network", "parameter",
+                    "trench_collapses", "hollow"});
   const std::size_t frame = entry.find("robot") ? 2 : 1;
   if (entry.fields().size() != frame + 1) {
     entry.fail(
         "a stimulus is at_s (and robot) and one of goal, recall, hazard, fault, rock, battery_loss_j, "
-        "module_fails, slot_blocked, slow_joint, eclipse, network, parameter; split it into several");
+        "module_fails, slot_blocked, slow_joint, eclipse, network, parameter, trench_collapses, hollow; "
+        "split it "
+        "into several");
   }
   Stimulus out;
   out.at = time_of(entry.at("at_s"));
@@ -201,6 +225,11 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
   if (const auto failure = entry.find("module_fails")) befalls(*failure, read_module_failure(*failure));
   if (const auto block = entry.find("slot_blocked")) befalls(*block, read_slot_block(*block));
   if (const auto wear = entry.find("slow_joint")) befalls(*wear, read_joint_wear(*wear));
+  if (const auto collapse = entry.find("trench_collapses")) befalls(*collapse, read_collapse(*collapse));
+  if (const auto hollow = entry.find("hollow")) {
+    out.what = Disturbance{read_hollow(*hollow, robot_of(entry, roster))};
+    out.entry = *hollow;
+  }
   if (const auto eclipse = entry.find("eclipse"))
     out.what = Disturbance{read_eclipse(*eclipse, robot_of(entry, roster), out.at)};
   return out;

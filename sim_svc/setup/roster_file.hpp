@@ -14,6 +14,7 @@ struct ComponentEntry {
   std::string type;
   mission::Entry entry;
   bool can_be_slowed = false;
+  bool can_be_hollow = false;
 };
 
 /// Is a robot as `simulation.robots` of mission.yaml lists it.
@@ -22,7 +23,9 @@ struct RobotEntry {
   std::vector<ComponentEntry> components;
   std::optional<world::PowerParameters> power;  ///< empty: it has no battery
   world::TelemetryParameters telemetry;
-  bool on_ground = false;  ///< one of its components is
+  std::optional<world::ThermalParameters> thermal{};  ///< empty: it is warm enough everywhere
+  std::optional<double> data_bytes{};                 ///< room for data products; empty: it makes none
+  bool on_ground = false;                             ///< one of its components is
 
   bool has(std::string_view component) const;
   std::vector<std::string> component_names() const;

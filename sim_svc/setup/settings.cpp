@@ -22,8 +22,9 @@ std::optional<Entry> Settings::find(std::string_view key) {
   return component_.find(key);
 }
 
-double Settings::number(std::string_view key, double fallback, double least) {
-  const auto entry = find(key);
+namespace {
+
+double checked(const std::optional<Entry>& entry, std::string_view key, double fallback, double least) {
   if (!entry) return fallback;
   const double value = entry->number();
   if (value < least) {
@@ -31,6 +32,21 @@ double Settings::number(std::string_view key, double fallback, double least) {
                 "; correct the number");
   }
   return value;
+}
+
+}  // namespace
+
+double number(const Entry& section, std::string_view key, double fallback, double least) {
+  return checked(section.find(key), key, fallback, least);
+}
+
+void check_name(const std::string& name, const Entry& where) {
+  if (name.empty() || name.find_first_of(". *{}") != std::string::npos)
+    where.fail("'" + name + "' is no name for a timeline; use letters, digits, - and _");
+}
+
+double Settings::number(std::string_view key, double fallback, double least) {
+  return checked(find(key), key, fallback, least);
 }
 
 std::string Settings::text(std::string_view key, std::string fallback) {

@@ -59,7 +59,7 @@ bool World::runs(const TaskKey& key) const {
 
 WorldMemory World::memory() const {
   WorldMemory out{now_, {}, environment_.samples};
-  for (const Robot& one : robots_) out.robots[one.name()] = one.memory();
+  for (const Robot& one : robots_) out.robots[one.name()] = one.memory(now_);
   return out;
 }
 
@@ -124,6 +124,8 @@ Outputs World::disturb(Time now, const Disturbance& disturbance) {
     settle(now);
   } else if (const auto* dim = std::get_if<GenerationLoss>(&disturbance)) {
     if (Robot* one = robot(dim->robot)) one->lose_generation(dim->share, dim->until);
+  } else if (const auto* hollow = std::get_if<HollowSuccess>(&disturbance)) {
+    if (Robot* one = robot(hollow->robot)) one->hollow_success(hollow->component, hollow->command);
   } else {
     const auto& mishap = std::get<ComponentMishap>(disturbance);
     if (Robot* one = robot(mishap.robot)) one->suffer(mishap.what, now, environment_, out_);
