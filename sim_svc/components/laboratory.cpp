@@ -21,7 +21,7 @@ State to_state(bool positive) { return {positive ? "positive" : "negative", {}};
 }  // namespace
 
 Laboratory::Laboratory(LaboratorySettings settings, world::RandomStream noise)
-    : settings_(std::move(settings)), noise_(std::move(noise)), phases_(settings_.zone) {
+    : PhasedComponent(settings.zone), settings_(std::move(settings)), noise_(std::move(noise)) {
   for (const auto& [sample, truth] : settings_.signatures) {
     const double drawn = noise_.branch("signature " + sample).uniform();
     positive_[sample] =
@@ -76,11 +76,6 @@ Ending Laboratory::finish(Surroundings& around) {
 void Laboratory::halt(Time now, Surroundings& around) {
   phases_.halt(now, around.body);
   run_.reset();
-}
-
-std::vector<std::string> Laboratory::zones() const {
-  if (phases_.zone().empty()) return {};
-  return {phases_.zone()};
 }
 
 std::vector<world::NamedState> Laboratory::states() const {

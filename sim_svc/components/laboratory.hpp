@@ -7,11 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "sim_svc/components/hollow_commands.hpp"
-#include "sim_svc/components/phased_task.hpp"
+#include "sim_svc/components/phased_component.hpp"
 #include "sim_svc/components/products.hpp"
 #include "sim_svc/world/capabilities.hpp"
-#include "sim_svc/world/component.hpp"
 #include "sim_svc/world/random_stream.hpp"
 
 namespace roci::sim::components {
@@ -38,15 +36,15 @@ struct LaboratorySettings {
   double power_noise = 0.05;
   std::map<std::string, Signature> signatures;  ///< <site>_<target> → the truth
   double positive_share = 0.5;                  ///< of those that are drawn by the seed
-  std::map<std::string, std::vector<ProductForm>>
-      products;                   ///< of an analysis, by its form; empty: none, in any form
+  /// Of an analysis, by its form; empty: none, in any form.
+  std::map<std::string, std::vector<ProductForm>> products;
   double positive_content = 1.2;  ///< bytes of what holds a signature, as against what holds none
 };
 
 /// Is a laboratory. It takes analyze (site, target, form) of the sample that a SampleCarrier has brought to its inlet; another
 /// sample, or none, is refused as `no-sample`, and one that it has no truth of as `unknown-sample`; so is an `unknown-form`.
 /// When it ends, the signature is known and the form's products are on board; it fails `data-full` for those without room there.
-class Laboratory final : public world::Component {
+class Laboratory final : public PhasedComponent {
  public:
   Laboratory(LaboratorySettings, world::RandomStream noise);
 
@@ -59,27 +57,11 @@ class Laboratory final : public world::Component {
   }
   /// Returns idle or analyzing (site, target, instrument).
   temporal::State state() const override;
-  bool busy() const override { return run_.has_value(); }
 
   world::Ending begin(const world::Task&, temporal::Time now, world::Surroundings&) override;
-  std::optional<temporal::Time> next_change() const override { return phases_.next_change(); }
   world::Ending finish(world::Surroundings&) override;
-  void slow_down(double pace, temporal::Time until, temporal::Time now, world::Surroundings&) override {
-    phases_.slow_down(pace, until, now);
-  }
-  void hollow_next(const std::string& command) override { hollow_.add(command); }
   void halt(temporal::Time now, world::Surroundings&) override;
-  void settle(temporal::Time now, world::Body& body) override { phases_.settle(now, body); }
-  std::vector<std::string> zones() const override;
-  std::string held_zone() const override { return busy() ? phases_.zone() : ""; }
-  void surroundings_changed(temporal::Time now, world::Surroundings& around) override {
-    phases_.settle(now, around.body);
-  }
 
-  double energy_j(temporal::Time from, temporal::Time to) const override {
-    return phases_.energy_j(from, to);
-  }
-  double peak_power_w() const override { return phases_.peak_power_w(); }
   /// Returns signature.<site>_<target> (unknown, negative, positive) of all samples of which it has the truth.
   std::vector<world::NamedState> states() const override;
   std::optional<std::uint64_t> states_version() const override { return found_.size(); }
@@ -94,9 +76,7 @@ class Laboratory final : public world::Component {
 
   LaboratorySettings settings_;
   world::RandomStream noise_;
-  PhasedTask phases_;
   std::optional<Run> run_;
-  HollowCommands hollow_;
   std::map<std::string, bool> positive_;  // the truth, by <site>_<target>
   std::map<std::string, bool> found_;     // what is known of it
 };

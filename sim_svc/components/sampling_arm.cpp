@@ -32,9 +32,9 @@ std::string argument(const world::Task& task, const std::string& name) {
 }  // namespace
 
 SamplingArm::SamplingArm(SamplingArmSettings settings, world::RandomStream noise)
-    : settings_(std::move(settings)),
+    : PhasedComponent(settings.zone),
+      settings_(std::move(settings)),
       noise_(std::move(noise)),
-      phases_(settings_.zone),
       joints_(settings_.rest) {
   for (const auto& [name, site] : settings_.sites)
     trenches_.emplace(name, Trench{IceColumn(site.ice, settings_.depth_m, noise_.branch("ice " + name))});
@@ -207,7 +207,7 @@ void SamplingArm::halt(Time now, Surroundings& around) {
 }
 
 void SamplingArm::settle(Time now, world::Body& body) {
-  phases_.settle(now, body);
+  PhasedComponent::settle(now, body);
   if (!run_) return;
   if (run_->cut_phase == phases_.phase()) {
     Trench& trench = trenches_.at(run_->where.site);
@@ -236,11 +236,6 @@ void SamplingArm::suffer(const world::Mishap& mishap, Time now, Surroundings& ar
   if (!run_ || run_->where.site != collapse.site || !run_->cut_phase) return;
   if (run_->cut_phase == phases_.phase()) run_->jam_in_s -= phases_.done_s(now);
   phases_.change_rest(cutting(), now, around.body);
-}
-
-std::vector<std::string> SamplingArm::zones() const {
-  if (phases_.zone().empty()) return {};
-  return {phases_.zone()};
 }
 
 std::vector<world::NamedState> SamplingArm::states() const {

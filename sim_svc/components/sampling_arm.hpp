@@ -9,10 +9,8 @@
 #include <vector>
 
 #include "sim_svc/components/excavation.hpp"
-#include "sim_svc/components/hollow_commands.hpp"
-#include "sim_svc/components/phased_task.hpp"
+#include "sim_svc/components/phased_component.hpp"
 #include "sim_svc/world/capabilities.hpp"
-#include "sim_svc/world/component.hpp"
 #include "sim_svc/world/random_stream.hpp"
 
 namespace roci::sim::components {
@@ -56,7 +54,7 @@ struct SamplingArmSettings {
 /// first, moves the arm and works. What is dug stays dug, whatever becomes of the task; a trench that has its depth already is
 /// done at once. It fails `stuck` where the cutter jams and `too-hard` where the ice gives way no more, and refuses what makes
 /// no sense: `not-prepared unknown-site unknown-target not-excavated not-empty no-sample too-cold`.
-class SamplingArm final : public world::Component, public world::SampleCarrier {
+class SamplingArm final : public PhasedComponent, public world::SampleCarrier {
  public:
   SamplingArm(SamplingArmSettings, world::RandomStream noise);
 
@@ -78,31 +76,16 @@ class SamplingArm final : public world::Component, public world::SampleCarrier {
     return {{"sample", {{"none"}, {"held", 2}, {"delivered", 2}}}};
   }
   temporal::State state() const override;
-  bool busy() const override { return run_.has_value(); }
   std::optional<world::SampleOrigin> delivered() const override { return delivered_; }
 
   world::Ending begin(const world::Task&, temporal::Time now, world::Surroundings&) override;
-  std::optional<temporal::Time> next_change() const override { return phases_.next_change(); }
   world::Ending finish(world::Surroundings&) override;
-  void slow_down(double pace, temporal::Time until, temporal::Time now, world::Surroundings&) override {
-    phases_.slow_down(pace, until, now);
-  }
-  void hollow_next(const std::string& command) override { hollow_.add(command); }
   void halt(temporal::Time now, world::Surroundings&) override;
   std::optional<std::string> spared_from(const world::Mishap&) const override;
   /// A trench under the cutter goes on from the depth that is left.
   void suffer(const world::Mishap&, temporal::Time now, world::Surroundings&) override;
   void settle(temporal::Time now, world::Body&) override;
-  std::vector<std::string> zones() const override;
-  std::string held_zone() const override { return busy() ? phases_.zone() : ""; }
-  void surroundings_changed(temporal::Time now, world::Surroundings& around) override {
-    phases_.settle(now, around.body);
-  }
 
-  double energy_j(temporal::Time from, temporal::Time to) const override {
-    return phases_.energy_j(from, to);
-  }
-  double peak_power_w() const override { return phases_.peak_power_w(); }
   /// Returns site.<site> (untouched, excavated) of all sites, and sample (none, held, delivered).
   std::vector<world::NamedState> states() const override;
   std::optional<std::uint64_t> states_version() const override { return version_; }
@@ -143,9 +126,7 @@ class SamplingArm final : public world::Component, public world::SampleCarrier {
   SamplingArmSettings settings_;
   std::map<std::string, Trench> trenches_;
   world::RandomStream noise_;
-  PhasedTask phases_;
   std::optional<Run> run_;
-  HollowCommands hollow_;
   std::map<std::string, temporal::Value> results_;
   bool prepared_ = false;
   ArmJoints joints_;

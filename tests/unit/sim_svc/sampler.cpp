@@ -25,10 +25,29 @@ Sampler::Sampler() {
                            {"1_1", Signature::drawn}};
 }
 
+void Sampler::make_cold() {
+  arm.zone = "arm";
+  laboratory.zone = "laboratory";
+  thermal.emplace();
+  thermal->surroundings_k = 100;
+  for (const char* name : {"arm", "laboratory"}) {
+    world::ZoneParameters zone;
+    zone.name = name;
+    zone.start_k = zone.keep_k = 150;
+    zone.work_k = 220;
+    zone.capacity_j_k = 20000;
+    zone.loss_w_k = 0.5;
+    zone.heater_w = 200;
+    thermal->zones.push_back(zone);
+  }
+}
+
 world::WorldSetup Sampler::build() const {
   world::RobotSetup robot;
   robot.name = "lander";
   robot.power = world::PowerSetup{power, battery_j};
+  robot.thermal = thermal;
+  robot.data_bytes = data_bytes;
   robot.components = {part<components::SamplingArm>("arm", "sampling_arm", arm),
                       part<components::Laboratory>("laboratory", "laboratory", laboratory)};
   return {{}, {}, {robot}};

@@ -19,7 +19,11 @@ struct Sampler {
   components::LaboratorySettings laboratory;
   world::PowerParameters power;
   double battery_j = 50e6;
+  std::optional<world::ThermalParameters> thermal{};
+  double data_bytes = 1e9;
 
+  /// Puts arm and laboratory into zones of their names, both at 150 K in surroundings of 100 K.
+  void make_cold();
   world::WorldSetup build() const;
 };
 

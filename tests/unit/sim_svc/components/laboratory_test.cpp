@@ -88,6 +88,63 @@ TEST(Laboratory, AStoppedAnalysisFindsNothingAndAHollowOneNeither) {
   EXPECT_EQ(run.state("lander.signature.0_0"), (State{"positive", {}}));
 }
 
+// Sizes of the products that were said to be on board, by kind.
+std::map<std::string, std::uint64_t> stored(const SamplerFlight& run) {
+  std::map<std::string, std::uint64_t> out;
+  for (const world::Output& one : run.said)
+    if (const auto* product = std::get_if<world::Product>(&one)) out[product->kind] = product->bytes;
+  return out;
+}
+
+Sampler with_products() {
+  Sampler out;
+  const ProductForm summary{"summary_{site}_{target}", world::Tier::decisional, 1e6, 0, {0.1}};
+  out.laboratory.products = {
+      {"raw", {summary, {"raw_{site}_{target}", world::Tier::mandatory, 30e6, 0, {}}}},
+      {"compressed", {summary, {"compressed_{site}_{target}", world::Tier::mandatory, 8e6, 0, {}}}}};
+  return out;
+}
+
+TEST(Laboratory, MakesTheProductsOfTheFormAndMoreOfWhatHoldsASignature) {
+  SamplerFlight run = delivered(with_products(), "0", "0");
+  EXPECT_EQ(run.analyze("0", "0", "cooked"), "unknown-form");
+  EXPECT_EQ(run.analyze("0", "0", "raw"), "done");
+  EXPECT_EQ(stored(run),
+            (std::map<std::string, std::uint64_t>{{"summary_0_0", 1200000}, {"raw_0_0", 36000000}}));
+  run.arm("collect", {{"site", "0"}, {"target", "1"}});
+  run.arm("transport");
+  EXPECT_EQ(run.analyze("0", "1", "compressed"), "done");
+  EXPECT_EQ(stored(run).at("summary_0_1"), 1000000u);
+  EXPECT_EQ(stored(run).at("compressed_0_1"), 8000000u);
+  EXPECT_FALSE(stored(run).contains("raw_0_1"));
+}
+
+TEST(Laboratory, WithoutRoomOnBoardTheSignatureIsKnownAndTheProductLost) {
+  Sampler sampler = with_products();
+  sampler.data_bytes = 5e6;
+  SamplerFlight run = delivered(sampler, "0", "0");
+  EXPECT_EQ(run.analyze("0", "0", "raw"), "data-full");
+  EXPECT_EQ(run.state("lander.signature.0_0"), (State{"positive", {}}));
+  EXPECT_TRUE(stored(run).contains("summary_0_0")) << "the more urgent one had room";
+  EXPECT_FALSE(stored(run).contains("raw_0_0"));
+}
+
+TEST(Laboratory, AHollowAnalysisBringsNoProduct) {
+  SamplerFlight run = delivered(with_products(), "0", "0");
+  run.disturb(run.now, world::HollowSuccess{"lander", "laboratory", "analyze"});
+  EXPECT_EQ(run.analyze("0", "0", "raw"), "done");
+  EXPECT_TRUE(stored(run).empty());
+}
+
+TEST(Laboratory, WarmsItsZoneFirst) {
+  Sampler sampler;
+  sampler.make_cold();
+  SamplerFlight run = delivered(sampler, "0", "0");
+  EXPECT_EQ(run.analyze("0", "0"), "done");
+  EXPECT_GT(run.seconds_taken(), 9900 + 7000) << "20 kJ/K through 70 K at less than 200 W";
+  EXPECT_GT(run.joules_taken(), 5400 * 120 + 1800 * 30 + 2700 * 60 + 20000 * 70);
+}
+
 TEST(Laboratory, RemembersWhatItFoundWhenItsProcessIsStartedAgain) {
   SamplerFlight run = delivered({}, "0", "0");
   run.analyze("0", "0");

@@ -251,17 +251,67 @@ TEST(SamplingArm, OutlivesTheProcessThatSpeaksForIt) {
   EXPECT_NEAR(last_number(said, "lander.arm.depth_1"), 0.05, 1e-3);
 }
 
+// Newton's law by small steps: how long the heater at full power needs from 150 K to 220 K.
+double integrated_warming_s() {
+  double kelvin = 150, s = 0;
+  for (; kelvin < 220; s += 0.01) kelvin += 0.01 * (200 - 0.5 * (kelvin - 100)) / 20000;
+  return s;
+}
+
+TEST(SamplingArm, WarmsItsZoneFirstAndLeavesWasteHeatInIt) {
+  Sampler sampler;
+  sampler.make_cold();
+  SamplerFlight run(sampler);
+  run.start("arm", "prepare");
+  EXPECT_EQ(run.state("lander.arm"), (State{"preparing", {}}));
+  run.pass(60000);
+  EXPECT_EQ(run.code(run.newest), "done");
+  EXPECT_NEAR(run.seconds_taken(), integrated_warming_s() + 1200, 1);
+  EXPECT_GT(run.joules_taken(), 200 * integrated_warming_s() + 1200 * 60)
+      << "the heater counts as the task's";
+  EXPECT_NEAR(last_number(run.said, "lander.heat.arm"), 150, 1.1) << "nobody holds it warm any more";
+  run.start("arm", "discard");
+  run.pass(integrated_warming_s() + 100);
+  const double before = run.world.memory().robots.at("lander").energy_j.value();
+  run.pass(500);
+  const double used = before - run.world.memory().robots.at("lander").energy_j.value();
+  // Of the arm's 60 W 18 W stay in the zone, which loses 60 W at 220 K; the laboratory's loses 25 W at 150 K.
+  EXPECT_NEAR(used, 500 * (60 + 60 - 0.3 * 60 + 25), 50);
+}
+
+TEST(SamplingArm, WhereTheHeaterIsTooWeakItRefuses) {
+  Sampler sampler;
+  sampler.make_cold();
+  sampler.thermal->zones[0].heater_w = 50;  // 60 W hold 220 K
+  SamplerFlight run(sampler);
+  EXPECT_EQ(run.arm("prepare"), "too-cold");
+  EXPECT_EQ(run.state("lander.arm"), (State{"rests", {}}));
+}
+
+TEST(SamplingArm, AStoppedTaskHoldsItsZoneNoLonger) {
+  Sampler sampler;
+  sampler.make_cold();
+  SamplerFlight run(sampler);
+  run.start("arm", "prepare");
+  run.pass(3000);
+  EXPECT_GT(last_number(run.said, "lander.heat.arm"), 160);
+  run.command(run.now, execute("halt", "arm", "stop"));
+  run.pass(400000);
+  EXPECT_NEAR(last_number(run.said, "lander.heat.arm"), 150, 1.1);
+}
+
 // One world is advanced all at once, one minute by minute.
 TEST(SamplingArm, DoesNotDependOnHowTimeIsSliced) {
   Sampler sampler;
   sampler.arm.sites["0"].ice.layer_noise = 0.3;
   sampler.arm.sites["0"].joints = {1, 0, 0, 0, 0};
   sampler.arm.duration_noise = 0.1;
+  sampler.make_cold();
   SamplerFlight whole = prepared(sampler), sliced = prepared(sampler);
   whole.start("arm", "excavate", kSite);
   sliced.start("arm", "excavate", kSite);
-  whole.pass(40000);
-  for (int i = 0; i < 4000; ++i) sliced.pass(10);
+  whole.pass(60000);
+  for (int i = 0; i < 6000; ++i) sliced.pass(10);
   EXPECT_EQ(whole.time_of(whole.newest), sliced.time_of(sliced.newest));
   EXPECT_NEAR(whole.joules_taken(), sliced.joules_taken(), 1e-3);
 }

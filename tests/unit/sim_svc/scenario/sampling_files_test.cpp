@@ -133,6 +133,33 @@ TEST_F(SamplingFiles, AScenarioSaysWhatIsInTheSamples) {
   EXPECT_EQ(found("{positive_share: 0}", "1_a"), "negative");
 }
 
+// The block of the README that begins so, without its fence.
+std::string readme_block(const std::string& first) {
+  std::ifstream in(std::filesystem::path(ROCI_SOURCE_DIR) / "sim_svc/README.md");
+  const std::string readme(std::istreambuf_iterator<char>(in), {});
+  const auto begin = readme.find(first);
+  std::istringstream lines(readme.substr(begin, readme.find("```", begin) - begin));
+  std::string out;
+  for (std::string line; std::getline(lines, line);) out += "        " + line + "\n";
+  return out;
+}
+
+TEST_F(SamplingFiles, TheReadmesArmAndLaboratoryFly) {
+  write("mission.yaml",
+        "simulation:\n  robots:\n    - name: lander\n      thermal: {zones: {arm: {}, vault: {}}}\n      "
+        "data: {}\n"
+        "      components:\n" +
+            readme_block("- name: arm\n  type: sampling_arm") + readme_block("- name: laboratory"));
+  write("scenarios/s.yaml", "duration_s: 1000000\nworld: {surroundings_k: 140}\n");
+  Flight run(load_run(folder_, "s").world);
+  run.command(seconds(1), execute("p", "arm", "prepare"));
+  run.command(seconds(50000), execute("e", "arm", "excavate", {{"site", "2"}}));
+  run.advance(seconds(100000));
+  EXPECT_EQ(run.code("e"), "too-hard");
+  EXPECT_NEAR(last_number(run.said, "lander.arm.depth_2"), 0.06, 1e-9);
+  EXPECT_EQ(run.state("lander.signature.0_2"), (State{"unknown", {}}));
+}
+
 TEST_F(SamplingFiles, RefuseAnArmThatCannotBe) {
   EXPECT_THAT(error_of_arm("targets: [a]"), HasSubstr("sites"));
   EXPECT_THAT(error_of_arm("sites: {}"), HasSubstr("list one, as in sites: {\"0\": {}}"));
