@@ -46,6 +46,7 @@ class UtilityEngine final : public engine::SteppedEngine {
   void hear_product(const engine::DataProduct& product);
   void hear_step(const engine::StepStatus& step, temporal::Time now);
   void hear_receipt(const engine::Receipt& receipt, temporal::Time now);
+  void begin_fixed(temporal::Time origin);
   void go_on_with(const temporal::FlexiblePlan& executed, temporal::Time now);
   void send(const engine::StepInputs& inputs, engine::StepOutput& out);
   void tell_outlook(const cycle::Report& report, const std::vector<cycle::Block>& begun_before,
@@ -75,6 +76,7 @@ class UtilityEngine final : public engine::SteppedEngine {
   temporal::FlexiblePlan told_;                           // newest version
   temporal::FlexiblePlan accepted_;                       // newest that the executive has taken
   std::map<std::uint32_t, temporal::FlexiblePlan> sent_;  // by version, of which no receipt has come
+  bool has_begun_ = false;                                // fixed tasks stand as the first cycle can place them
   std::optional<temporal::PlanActivity> initial_;         // until it is over
   Outlooks outlooks_;
   engine::DownlinkSchedule told_schedule_;
