@@ -85,6 +85,9 @@ class SimService final : public services::Service, private owner::Driver {
     services::subscribe(node, topics::event, [this](const v1::Event& event) {
       if (event.header().sender() != node_.options().name) order_.note(event.code(), event.text());
     });
+    services::subscribe(node, topics::downlink_schedule, [this](const v1::DownlinkSchedule& schedule) {
+      tell(world_.heed(node_.now(), wire::schedule_of(schedule)));
+    });
     node.at(Time{}, [this] { tell(world_.advance(node_.now())); });
     for (const Stimulus& stimulus : scenario_.stimuli) {
       node.at(stimulus.at, [this, &stimulus] { stimulate(stimulus); });
