@@ -191,7 +191,10 @@ Ending SamplingArm::finish(Surroundings& around) {
 
 // A trench has grown by and by.
 void SamplingArm::take_effect(const Run& done) {
-  if (done.command == "prepare") prepared_ = true;
+  if (done.command == "prepare") {
+    prepared_ = true;
+    held_.reset();
+  }
   if (done.command == "collect") held_ = done.where;
   if (done.command == "transport") delivered_ = std::exchange(held_, std::nullopt);
   if (done.command == "discard") {

@@ -79,6 +79,18 @@ TEST(SamplingArm, RefusesWhatMakesNoSense) {
   EXPECT_EQ(run.state("lander.sample"), (State{"held", {"0", "0"}}));
 }
 
+TEST(SamplingArm, PreparedAnewItHasAnEmptyTool) {
+  SamplerFlight run = prepared();
+  run.arm("excavate", kSite);
+  run.arm("collect", kTarget);
+  EXPECT_EQ(run.arm("prepare"), "done");
+  EXPECT_EQ(run.state("lander.sample"), (State{"none", {}}));
+  EXPECT_EQ(run.arm("collect", {{"site", "0"}, {"target", "1"}}), "done");
+  EXPECT_EQ(run.arm("transport"), "done");
+  EXPECT_EQ(run.arm("prepare"), "done");
+  EXPECT_EQ(run.state("lander.sample"), (State{"delivered", {"0", "1"}})) << "the inlet is not the tool";
+}
+
 TEST(SamplingArm, MovesItsJointsToWhereItWorks) {
   Sampler sampler;
   sampler.arm.sites["0"].joints = {0, 0.5, -1, 0, 0};
