@@ -185,6 +185,25 @@ TEST(SamplingArm, ATrenchThatCollapsesUnderTheCutterTakesLonger) {
   EXPECT_NEAR(run.seconds_taken(), 6000 + 7000, 1e-3);
 }
 
+TEST(SamplingArm, ACutterJamsAfterAsMuchCuttingWhateverCollapses) {
+  Sampler sampler;
+  sampler.arm.sites["0"].jams_per_h = 1;
+  int jams = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SamplerFlight calm = prepared(sampler, seed);
+    if (calm.arm("excavate", kSite) != "stuck" || calm.seconds_taken() < 500) continue;
+    SamplerFlight shaken = prepared(sampler, seed);
+    shaken.start("arm", "excavate", kSite);
+    shaken.pass(300);
+    shaken.disturb(shaken.now, ComponentMishap{"lander", TrenchCollapse{"0", 0.5}});
+    shaken.pass(20000);
+    EXPECT_EQ(shaken.code(shaken.newest), "stuck");
+    EXPECT_NEAR(shaken.seconds_taken(), calm.seconds_taken(), 1e-3) << "seed " << seed;
+    ++jams;
+  }
+  EXPECT_GT(jams, 0);
+}
+
 TEST(SamplingArm, ACollapseNeedsASiteThatIsThere) {
   const SamplingArm arm(Sampler().arm, world::RandomStream(1, "arm"));
   EXPECT_EQ(arm.spared_from(TrenchCollapse{"0", 0}), "");
