@@ -73,6 +73,7 @@ LaboratorySettings read_laboratory_settings(Settings& in) {
   if (const auto products = in.find("products"))
     products->each_field([&](const std::string& form, const Entry& entry) {
       out.products[form] = read_products(entry, "analyze", {"site", "target", "form"});
+      apply_data_factor(in, out.products[form]);
     });
   read_signatures(in, out);
   return out;

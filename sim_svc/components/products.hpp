@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mission/entry.hpp"
+#include "sim_svc/setup/settings.hpp"
 #include "sim_svc/world/component.hpp"
 #include "sim_svc/world/random_stream.hpp"
 
@@ -25,9 +26,13 @@ struct ProductForm {
 std::vector<ProductForm> read_products(const mission::Entry&, const std::string& command,
                                        const std::vector<std::string>& arguments);
 
-/// Reads `products: {<command>: {<kind>: {…}}}` for a component with these commands.
+/// Reads `products: {<command>: {<kind>: {…}}}` for a component with these commands, and `data_factor`.
 std::map<std::string, std::vector<ProductForm>> read_products_by_command(
-    const mission::Entry&, const std::vector<world::CommandForm>& commands);
+    setup::Settings&, const std::vector<world::CommandForm>& commands);
+
+/// Multiplies the sizes by the setting `data_factor`, a number for all tiers or {<tier>: number}, which a scenario's world may give for
+/// all components with products.
+void apply_data_factor(setup::Settings&, std::vector<ProductForm>&);
 
 /// Makes the products of a task at `now` and stores them on board, the more urgent tiers first; each size is drawn from the noise
 /// and multiplied by `content`. Fails `no-store` on a robot without a store, and `data-full`, naming what found no room; the

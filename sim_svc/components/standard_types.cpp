@@ -7,6 +7,7 @@
 #include "sim_svc/components/arm.hpp"
 #include "sim_svc/components/arm_settings.hpp"
 #include "sim_svc/components/camera.hpp"
+#include "sim_svc/components/direct_radio_settings.hpp"
 #include "sim_svc/components/drive.hpp"
 #include "sim_svc/components/dynamic_arm.hpp"
 #include "sim_svc/components/dynamic_arm_settings.hpp"
@@ -18,11 +19,14 @@
 #include "sim_svc/components/radio.hpp"
 #include "sim_svc/components/sampling_arm.hpp"
 #include "sim_svc/components/sampling_arm_settings.hpp"
+#include "sim_svc/components/seismometer_settings.hpp"
+#include "sim_svc/components/survey_camera_settings.hpp"
 #include "sim_svc/components/task.hpp"
 #include "sim_svc/components/task_settings.hpp"
 
 namespace roci::sim::components {
 
+using setup::ComponentType;
 using setup::Settings;
 
 namespace {
@@ -134,6 +138,14 @@ setup::Registry standard_types() {
           {[](Settings& in) { return making<Laboratory>(read_laboratory_settings(in)); }, false, true, true});
   out.add("task",
           {[](Settings& in) { return making<TaskComponent>(read_task_settings(in)); }, false, true, true});
+  ComponentType radio{[](Settings& in) { return making<DirectRadio>(read_direct_radio_settings(in)); }};
+  radio.can_be_hollow = radio.has_rate = true;
+  out.add("direct_radio", radio);
+  out.add("survey_camera",
+          {[](Settings& in) { return making<SurveyCamera>(read_survey_camera_settings(in)); }, false, true,
+           true});
+  out.add("seismometer", {[](Settings& in) { return making<Seismometer>(read_seismometer_settings(in)); },
+                          false, true, true});
   return out;
 }
 

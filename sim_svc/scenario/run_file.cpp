@@ -110,6 +110,14 @@ void check_zones(const world::ComponentSetup& component, const Entry& entry, con
                      "; name another, or add it to thermal");
 }
 
+void check_block(const world::ViewBlock& block, const Entry& entry, const world::WorldSetup& world) {
+  std::vector<std::string> known;
+  for (const Window& window : world.windows) known.push_back(window.timeline);
+  if (std::ranges::find(known, block.window) == known.end())
+    entry.at("window").complain("no window '" + block.window +
+                                "'; known: " + setup::known_names(block.window, known));
+}
+
 void check_on_map(const Start& start, const std::string& robot, const world::Ground& ground) {
   if (!start.pose || !ground.site) return;
   if (ground.site->grid().contains(terrain::Point{start.pose->x, start.pose->y})) return;
@@ -178,6 +186,8 @@ RunSetup load_run(const std::filesystem::path& mission_folder, const std::string
     const auto* mishap = disturbance ? std::get_if<world::ComponentMishap>(disturbance) : nullptr;
     const auto* hollow = disturbance ? std::get_if<world::HollowSuccess>(disturbance) : nullptr;
     if (mishap && stimulus.entry) check_mishap(*mishap, *stimulus.entry, run.world);
+    const auto* block = disturbance ? std::get_if<world::ViewBlock>(disturbance) : nullptr;
+    if (block && stimulus.entry) check_block(*block, *stimulus.entry, run.world);
     if (hollow && stimulus.entry) check_hollow(*hollow, *stimulus.entry, run.world);
   }
   return run;

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "sim_svc/scenario/body_stimuli_file.hpp"
 #include "sim_svc/scenario/file_values.hpp"
 
 namespace roci::sim::scenario {
@@ -16,7 +17,6 @@ using temporal::Time;
 using world::ComponentFault;
 using world::ComponentMishap;
 using world::Disturbance;
-using world::EnergyLoss;
 using world::GenerationLoss;
 using world::HollowSuccess;
 using world::JointWear;
@@ -102,14 +102,6 @@ HazardStimulus read_hazard(const Entry& entry) {
           {entry.at("x").number(), entry.at("y").number(), at_least(entry.at("radius"), 0.01)}};
 }
 
-// Returns the component that the entry names.
-const setup::ComponentEntry& component_of(const Entry& name, const RobotEntry& robot) {
-  const auto found = std::ranges::find(robot.components, name.text(), &setup::ComponentEntry::name);
-  if (found != robot.components.end()) return *found;
-  name.fail("unknown component '" + name.text() +
-            "'; known: " + setup::known_names(name.text(), robot.component_names()));
-}
-
 ComponentFault read_fault(const Entry& entry, const RobotEntry& robot, Time at) {
   entry.allow_only({"component", "for_s", "slow", "stuck"});
   const setup::ComponentEntry& component = component_of(entry.at("component"), robot);
@@ -123,11 +115,6 @@ ComponentFault read_fault(const Entry& entry, const RobotEntry& robot, Time at) 
     entry.fail("a component of type " + component.type +
                " can only fail; drop slow and stuck, or model it as a task");
   return out;
-}
-
-EnergyLoss read_loss(const Entry& entry, const RobotEntry& robot) {
-  if (!robot.power) entry.fail("'" + robot.name + "' has no battery to lose energy from; drop the stimulus");
-  return {robot.name, at_least(entry, 0)};
 }
 
 double share_of(const Entry& entry) {
@@ -174,8 +161,7 @@ HollowSuccess read_hollow(const Entry& entry, const RobotEntry& robot) {
 
 GenerationLoss read_eclipse(const Entry& entry, const RobotEntry& robot, Time at) {
   entry.allow_only({"generation", "for_s"});
-  if (!robot.power ||
-      (robot.power->solar_peak_w <= 0 && (!robot.power->orbit || robot.power->orbit->solar_w <= 0)))
+  if (!robot.power || !has_panel(*robot.power))
     entry.fail("'" + robot.name + "' has no panel that could give less; drop the stimulus");
   return {robot.name, share_of(entry.at("generation")), at + time_of(entry.at("for_s"))};
 }
@@ -193,16 +179,18 @@ const RobotEntry& robot_of(const Entry& entry, const Roster& roster) {
 }
 
 Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
-  entry.allow_only({"at_s", "robot", "goal", "recall", "hazard", "fault", "rock", "battery_loss_j",
-                    "module_fails", "slot_blocked", "slow_joint", "eclipse", "network", "parameter",
-                    "trench_collapses", "hollow"});
+  entry.allow_only(
+      {"at_s",    "robot",          "goal",         "recall",           "hazard",       "fault",
+       "rock",    "battery_loss_j", "battery_to_j", "module_fails",     "slot_blocked", "slow_joint",
+       "eclipse", "network",        "parameter",    "trench_collapses", "hollow",       "surroundings",
+       "heat",    "rate",           "blocked_view"});
   const std::size_t frame = entry.find("robot") ? 2 : 1;
   if (entry.fields().size() != frame + 1) {
     entry.fail(
         "a stimulus is at_s (and robot) and one of goal, recall, hazard, fault, rock, battery_loss_j, "
-        "module_fails, slot_blocked, slow_joint, eclipse, network, parameter, trench_collapses, hollow; "
-        "split it "
-        "into several");
+        "battery_to_j, "
+        "module_fails, slot_blocked, slow_joint, eclipse, network, parameter, trench_collapses, hollow, "
+        "surroundings, heat, rate, blocked_view; split it into several");
   }
   Stimulus out;
   out.at = time_of(entry.at("at_s"));
@@ -216,7 +204,19 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
   }
   if (const auto rock = entry.find("rock")) out.what = Disturbance{RockFall{read_rock(*rock)}};
   if (const auto loss = entry.find("battery_loss_j")) {
-    out.what = Disturbance{read_loss(*loss, robot_of(entry, roster))};
+    out.what = Disturbance{read_energy_loss(*loss, robot_of(entry, roster))};
+  }
+  if (const auto drop = entry.find("battery_to_j"))
+    out.what = Disturbance{read_energy_drop(*drop, robot_of(entry, roster))};
+  if (const auto change = entry.find("surroundings"))
+    out.what = Disturbance{read_surroundings_change(*change, roster)};
+  if (const auto heat = entry.find("heat"))
+    out.what = Disturbance{read_sudden_heat(*heat, robot_of(entry, roster))};
+  if (const auto rate = entry.find("rate"))
+    out.what = Disturbance{read_rate_change(*rate, robot_of(entry, roster))};
+  if (const auto block = entry.find("blocked_view")) {
+    out.what = Disturbance{read_view_block(*block, out.at)};
+    out.entry = *block;
   }
   const auto befalls = [&](const Entry& where, world::Mishap what) {
     out.what = Disturbance{ComponentMishap{robot_of(entry, roster).name, std::move(what)}};

@@ -44,7 +44,7 @@ ComponentEntry read_component(const Entry& entry, const Registry& registry) {
     name.fail("'" + name.text() + "' is taken by the robot itself; choose another name");
   }
   const ComponentType& known = *registry.find(type.text());
-  return {read_name(name), type.text(), entry, known.can_be_slowed, known.can_be_hollow};
+  return {read_name(name), type.text(), entry, known.can_be_slowed, known.can_be_hollow, known.has_rate};
 }
 
 RobotEntry read_robot(const Entry& entry, const Registry& registry) {
@@ -115,6 +115,13 @@ std::vector<std::string> robot_names(const Roster& roster) {
   std::vector<std::string> out;
   for (const RobotEntry& one : roster) out.push_back(one.name);
   return out;
+}
+
+const ComponentEntry& component_of(const Entry& name, const RobotEntry& robot) {
+  const auto found = std::ranges::find(robot.components, name.text(), &ComponentEntry::name);
+  if (found != robot.components.end()) return *found;
+  name.fail("unknown component '" + name.text() +
+            "'; known: " + known_names(name.text(), robot.component_names()));
 }
 
 std::string known_names(std::string_view word, const std::vector<std::string>& known) {

@@ -15,6 +15,7 @@ struct ComponentEntry {
   mission::Entry entry;
   bool can_be_slowed = false;
   bool can_be_hollow = false;
+  bool has_rate = false;
 };
 
 /// Is a robot as `simulation.robots` of mission.yaml lists it.
@@ -41,6 +42,8 @@ Roster read_roster(const mission::Entry& simulation, const Registry&);
 /// Returns the robot of that name, or the only one when the name is empty. Returns null if there is none.
 const RobotEntry* robot_named(const Roster&, std::string_view name);
 std::vector<std::string> robot_names(const Roster&);
+/// Returns the component that the entry names; throws mission::FileError if the robot has none of that name.
+const ComponentEntry& component_of(const mission::Entry& name, const RobotEntry&);
 /// "rover, scout; did you mean 'scout'?", to be put behind "known: ".
 std::string known_names(std::string_view word, const std::vector<std::string>& known);
 

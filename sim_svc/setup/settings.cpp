@@ -49,6 +49,12 @@ double Settings::number(std::string_view key, double fallback, double least) {
   return checked(find(key), key, fallback, least);
 }
 
+double Settings::share(std::string_view key, double fallback) {
+  const double value = number(key, fallback);
+  if (value > 1) find(key)->fail("'" + std::string(key) + "' is a share, at most 1; correct the number");
+  return value;
+}
+
 std::string Settings::text(std::string_view key, std::string fallback) {
   const auto entry = find(key);
   return entry ? entry->text() : fallback;

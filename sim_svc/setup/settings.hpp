@@ -25,6 +25,8 @@ class Settings {
            const std::map<std::string, mission::Entry>& conditions);
 
   double number(std::string_view key, double fallback, double least = 0);
+  /// Returns a number from 0 to 1.
+  double share(std::string_view key, double fallback);
   std::string text(std::string_view key, std::string fallback);
   /// Returns a setting of any form, or nothing if it is not given.
   std::optional<mission::Entry> find(std::string_view key);

@@ -13,6 +13,7 @@
 #include "sim_svc/world/body.hpp"
 #include "sim_svc/world/component_set.hpp"
 #include "sim_svc/world/disturbance.hpp"
+#include "sim_svc/world/downlink_schedule.hpp"
 #include "sim_svc/world/environment.hpp"
 #include "sim_svc/world/values.hpp"
 
@@ -110,6 +111,11 @@ class Component {
   /// Lets the next success of the command be told without being true: time and energy are used, and nothing else has changed;
   /// a component that cannot do so (ComponentType::can_be_hollow) does not hear of it.
   virtual void hollow_next(const std::string& /*command*/) {}
+  /// Takes in which data are to go with which downlink from now on.
+  virtual void heed(const DownlinkSchedule&) {}
+  /// Lets data go at this share of the usual rate from now on; a component without a rate (ComponentType::has_rate) does not hear of
+  /// it.
+  virtual void change_rate(double /*factor*/, temporal::Time /*now*/) {}
   /// Breaks the running task off at once.
   virtual void halt(temporal::Time now, Surroundings&) = 0;
 

@@ -73,8 +73,40 @@ struct HollowSuccess {
   std::string command;
 };
 
+/// Leaves no more than this in the robot's battery.
+struct EnergyDrop {
+  std::string robot;
+  double to_j = 0;
+};
+
+/// Lets it be so warm around all robots from now on.
+struct SurroundingsChange {
+  double kelvin = 0;
+};
+
+/// Heats a thermal zone at once, or, negative, cools it.
+struct SuddenHeat {
+  std::string robot;
+  std::string zone;
+  double joules = 0;
+};
+
+/// Lets a component send at this share of its usual rate from now on.
+struct RateChange {
+  std::string robot;
+  std::string component;
+  double factor = 1;  ///< above 0
+};
+
+/// Shuts a window until then, as an object before the antenna would.
+struct ViewBlock {
+  std::string window;
+  temporal::Time until{};
+};
+
 using Disturbance =
-    std::variant<ComponentFault, RockFall, EnergyLoss, GenerationLoss, ComponentMishap, HollowSuccess>;
+    std::variant<ComponentFault, RockFall, EnergyLoss, GenerationLoss, ComponentMishap, HollowSuccess,
+                 EnergyDrop, SurroundingsChange, SuddenHeat, RateChange, ViewBlock>;
 
 /// Returns whether it would be another one if it came twice. What has happened to a robot is part of its world's memory, so
 /// that such a disturbance does not come again when the process that simulates it is started again.

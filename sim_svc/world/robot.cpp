@@ -212,6 +212,36 @@ void Robot::lose_energy(double joules) {
   if (body_.battery) body_.battery->add(-joules);
 }
 
+void Robot::drop_energy(double to_j) {
+  if (body_.battery) body_.battery->add(std::min(0.0, to_j - body_.battery->energy_j()));
+}
+
+void Robot::set_surroundings(double kelvin, Time now, Environment& environment, Outputs& out) {
+  if (!body_.thermal) return;
+  body_.thermal->set_surroundings(kelvin, now);
+  surroundings_changed(now, environment, out);
+}
+
+void Robot::add_heat(const std::string& zone, double joules, Time now, Environment& environment,
+                     Outputs& out) {
+  if (!body_.thermal || !body_.thermal->has(zone)) return;
+  body_.thermal->add_heat(zone, joules, now);
+  surroundings_changed(now, environment, out);
+}
+
+void Robot::change_rate(const std::string& component, double factor, Time now) {
+  if (Part* one = part(component)) one->component->change_rate(factor, now);
+}
+
+void Robot::surroundings_changed(Time now, Environment& environment, Outputs& out) {
+  Surroundings surroundings = around(environment, out);
+  for (Part& one : parts_) one.component->surroundings_changed(now, surroundings);
+}
+
+void Robot::heed(const DownlinkSchedule& schedule) {
+  for (Part& one : parts_) one.component->heed(schedule);
+}
+
 void Robot::lose_generation(double share, Time until) {
   generation_ = share;
   dim_until_ = until;

@@ -111,6 +111,14 @@ class Robot {
   void hollow_success(const std::string& component, const std::string& command);
   void ground_changed(temporal::Time now, Environment&, Outputs& out);
   void lose_energy(double joules);
+  /// Leaves no more than this in the battery.
+  void drop_energy(double to_j);
+  void set_surroundings(double kelvin, temporal::Time now, Environment&, Outputs& out);
+  void add_heat(const std::string& zone, double joules, temporal::Time now, Environment&, Outputs& out);
+  void change_rate(const std::string& component, double factor, temporal::Time now);
+  /// Says that windows or heat are otherwise than was to be foreseen.
+  void surroundings_changed(temporal::Time now, Environment&, Outputs& out);
+  void heed(const DownlinkSchedule&);
   /// The panel gives this share of its told power until then.
   void lose_generation(double share, temporal::Time until);
   void suffer(const Mishap&, temporal::Time now, Environment&, Outputs& out);

@@ -61,9 +61,6 @@ TEST(Products, RefuseWhatCannotBe) {
   EXPECT_THAT(error_of("a: {bytes: 0}\n"), HasSubstr("at least"));
   EXPECT_THAT(error_of("a: {bytes: 1e99}\n"), HasSubstr("more than anybody could send"));
   EXPECT_THAT(error_of("a: {size: 3}\n"), HasSubstr("m.yaml:1:"));
-  const auto commands = std::vector<world::CommandForm>{{"look", {"site"}}};
-  EXPECT_THROW(read_products_by_command(mission::Entry::parse("lok: {}\n", "m.yaml"), commands),
-               mission::FileError);
 }
 
 TEST(Products, AreStoredAndTold) {
