@@ -89,8 +89,10 @@ std::vector<Phase> SamplingArm::phases_of(const Run& run, double noise) const {
   Phase warming;
   warming.until = Phase::Until::warm;
   std::vector<Phase> out{warming, lasting(travel / settings_.joint_speed_rad_s, settings_.arm_w)};
-  if (run.command == "prepare") out.push_back(lasting(settings_.prepare_s, settings_.arm_w));
-  if (run.command == "transport") out.push_back(lasting(settings_.transport_s, settings_.arm_w));
+  if (run.command == "prepare")
+    out.push_back(lasting(settings_.prepare_s, settings_.arm_w + settings_.prepare_w));
+  if (run.command == "transport")
+    out.push_back(lasting(settings_.transport_s, settings_.arm_w + settings_.transfer_w));
   if (run.command == "discard") out.push_back(lasting(settings_.discard_s, settings_.arm_w));
   if (run.command == "excavate")
     out.push_back(work(0, cutting_w()));  // how long, is known when it begins to cut

@@ -41,6 +41,8 @@ struct SamplingArmSettings {
   double duration_noise = 0.05;
   double duration_factor = 1;  ///< of all durations but the cutting
   double arm_w = 60;           ///< joints and electronics
+  double prepare_w = 0;        ///< beside the arm, while it calibrates: heaters of the links
+  double transfer_w = 0;       ///< beside the arm, while it hands over
   double drill_w = 110;        ///< beside the arm, while it drills
   double power_noise = 0.05;
   double waste_share = 0.3;  ///< of what it draws, left as heat in its zone
