@@ -11,6 +11,7 @@
 #include "services/rpc.hpp"
 #include "sim_svc/scenario/run_file.hpp"
 #include "sim_svc/wire_service.hpp"
+#include "sim_svc/world/match.hpp"
 #include "sim_svc/world_file_service.hpp"
 
 namespace roci::sim {
@@ -46,11 +47,6 @@ constexpr std::size_t kExecutives = 256;
 constexpr char kGround[] = "ground";  // who tells of hazards that the scenario states
 constexpr Duration kCallDeadline = std::chrono::seconds(30);
 constexpr Duration kFarewell = std::chrono::seconds(1);  // from the mission's outcome to the end of the run
-
-template <class... Cases>
-struct Match : Cases... {
-  using Cases::operator()...;
-};
 
 class SimService final : public services::Service, private owner::Driver {
  public:

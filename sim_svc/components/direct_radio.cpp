@@ -50,7 +50,8 @@ Ending DirectRadio::begin(const world::Task& task, Time now, Surroundings& aroun
   run.latest_end = task.latest_end.value_or(kNoBound);
   run.look_at = now;
   const double usual_s = task.command == "prepare" ? settings_.prepare_s : settings_.receive_s;
-  if (task.command != "send") run.work_s = usual_s * noise_.factor(settings_.duration_noise);
+  if (task.command != "send")
+    run.work_s = usual_s * settings_.duration_factor * noise_.factor(settings_.duration_noise);
   run.hollow = hollow_.take(task.command);
   run_ = std::move(run);
   if (around.body.thermal && !settings_.zone.empty()) around.body.thermal->hold(settings_.zone, this, now);
