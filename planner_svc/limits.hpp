@@ -26,6 +26,8 @@ inline constexpr std::size_t kNetworkBytes = 8U << 20U;
 inline constexpr std::size_t kNetworksWaiting = 4;
 inline constexpr std::size_t kReasons = 50;
 inline constexpr std::size_t kReasonBytes = 2'000;
+/// Bytes of a downlink schedule or a mission outlook, well below what their topics carry: what has no room is counted in them.
+inline constexpr std::size_t kOutlookBytes = 8U << 20U;
 /// Bytes of a name that is kept.
 inline constexpr std::size_t kNameBytes = 1'024;
 

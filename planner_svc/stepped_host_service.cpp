@@ -7,6 +7,7 @@
 
 #include "planner_svc/engine/checked_answer.hpp"
 #include "planner_svc/limits.hpp"
+#include "planner_svc/outlook_wire_service.hpp"
 #include "planner_svc/wire_service.hpp"
 #include "services/node/make_event.hpp"
 #include "services/wire/plan_wire.hpp"
@@ -43,6 +44,8 @@ SteppedHost::SteppedHost(services::Node& node, const Settings& settings, const e
       engine_(make_engine()),
       checker_(entry.make_checker()),
       deltas_(services::advertise(node, topics::plan_delta)),
+      schedules_(services::advertise(node, topics::downlink_schedule)),
+      outlooks_(services::advertise(node, topics::mission_outlook)),
       events_(services::advertise(node, topics::event)),
       worker_(node) {
   subscribe_all();
@@ -269,6 +272,7 @@ void SteppedHost::end_step(Time now, StepResult result) {
       report(v1::SEVERITY_WARNING, "planner.measured", doubt);
     tell_account(result.output);
     if (result.output.delta) send(now, *result.output.delta);
+    tell_outlook(now, result.output);
     tell_blocking(std::move(result.output.blocking));
     const auto wake = result.output.wake;
     if (wake && *wake > node_.now())
@@ -328,6 +332,20 @@ void SteppedHost::tell_account(const engine::StepOutput& output) {
   if (output.delta) text += "; " + version_text(output.delta->added.version);
   for (const std::string& note : account.notes) text += "; " + note;
   report(v1::SEVERITY_INFO, "planner.cycle", text);
+}
+
+void SteppedHost::tell_outlook(Time now, const engine::StepOutput& output) {
+  const auto tell = [&](auto sample, const auto& publisher) {
+    sample.robot(setup_.robot);
+    sample.version(publisher.written() + 1);
+    sample.plan_version(last_version_);
+    sample.made_us(now.count());
+    sample.network(output.model.name);
+    sample.network_version(output.model.version);
+    publisher.write(std::move(sample));
+  };
+  if (output.schedule) tell(to_wire(*output.schedule), schedules_);
+  if (output.outlook) tell(to_wire(*output.outlook), outlooks_);
 }
 
 void SteppedHost::tell_blocking(std::vector<BlockingGoal> blocking) {

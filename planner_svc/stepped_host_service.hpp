@@ -16,6 +16,7 @@
 #include "planner_svc/settings.hpp"
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
+#include "roci_idl/outlook.h"
 #include "roci_idl/plan.h"
 #include "roci_idl/planner.h"
 #include "services/bounds/tally.hpp"
@@ -73,6 +74,7 @@ class SteppedHost {
   std::shared_ptr<engine::SteppedEngine> make_engine();
   void make_anew();
   void tell_account(const engine::StepOutput& output);
+  void tell_outlook(temporal::Time now, const engine::StepOutput& output);
   void tell_blocking(std::vector<engine::BlockingGoal> blocking);
   void report(v1::Severity severity, const std::string& code, const std::string& text);
 
@@ -83,6 +85,8 @@ class SteppedHost {
   std::shared_ptr<engine::SteppedEngine> engine_;
   std::unique_ptr<engine::Checker> checker_;
   services::Publisher<v1::PlanDelta> deltas_;
+  services::Publisher<v1::DownlinkSchedule> schedules_;
+  services::Publisher<v1::MissionOutlook> outlooks_;
   services::Publisher<v1::Event> events_;
 
   engine::StepInputs heard_;                             // since the step before

@@ -239,6 +239,7 @@ engine::Observation from_wire(const v1::Observation& in) {
 engine::DataProduct from_wire(const v1::DataProduct& in) {
   engine::DataProduct out;
   out.id = in.id();
+  out.kind = in.product_kind();
   out.source = in.source();
   out.tier = static_cast<engine::DataTier>(std::min<std::uint32_t>(in.tier(), v1::TIER_RESIDUAL));
   out.bytes = in.bytes();

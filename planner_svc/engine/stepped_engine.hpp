@@ -12,6 +12,8 @@
 #include "core/temporal/plan_delta.hpp"
 #include "core/temporal/projection.hpp"
 #include "planner_svc/engine/answer.hpp"
+#include "planner_svc/engine/data_product.hpp"
+#include "planner_svc/engine/outlook.hpp"
 #include "planner_svc/engine/request.hpp"
 
 namespace roci::planner::engine {
@@ -49,23 +51,6 @@ struct CommandResult {
   std::optional<double> energy_j{};        ///< drawn by it alone; nothing: not measured
   std::map<std::string, double> values{};  ///< numbers that it brought, all finite
   friend bool operator==(const CommandResult&, const CommandResult&) = default;
-};
-
-/// How soon data must reach the ground, in the order of DataTier in idl/command.idl.
-enum class DataTier { critical, decisional, mandatory, residual };
-/// What has become of data, in the order of ProductFate in idl/command.idl.
-enum class DataFate { stored, sent, received, discarded, left_behind, lost };
-
-/// Data that were generated, as they stand now.
-struct DataProduct {
-  std::string id;
-  std::string source;  ///< activity that made it
-  DataTier tier = DataTier::mandatory;
-  std::uint64_t bytes = 0;
-  temporal::Time created{0};
-  temporal::RankVector utility;  ///< as computed from the data; none: it was not
-  DataFate fate = DataFate::stored;
-  friend bool operator==(const DataProduct&, const DataProduct&) = default;
 };
 
 /// What became of a goal in the end: in the order of GoalState in idl/goal.idl.
@@ -153,6 +138,9 @@ struct StepOutput {
   std::vector<std::string> doubted;
   /// Told as the event planner.cycle where it is not empty.
   StepAccount account;
+  /// Each whole, and only where it is another one than was told before; at most once a cycle.
+  std::optional<DownlinkSchedule> schedule;
+  std::optional<MissionOutlook> outlook;
   /// Mission time of the next step if nothing is heard before; a past one counts as none.
   std::optional<temporal::Time> wake;
 };

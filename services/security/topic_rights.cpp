@@ -78,6 +78,8 @@ std::vector<TopicRights> make_table() {
 
       row(topics::network_order,   {world, console},                         {planner}),
       row(topics::network_status,  {planner},                                {console}),
+      row(topics::downlink_schedule,{planner},                               {world, console}),
+      row(topics::mission_outlook, {planner},                                {world, console}),
 
       row(topics::plan_delta,      {planner},                                {executive}),
       row(topics::plan_receipt,    {executive},                              {planner}),

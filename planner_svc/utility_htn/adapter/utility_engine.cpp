@@ -58,6 +58,8 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
   await_ends(inputs.now);
   if (open_ && !goals_.empty() && inputs.now >= next_cycle_ && !plan_ended_) {
     const bool lost = versions_.give_up();  // for a whole interval nobody has answered
+    std::vector<cycle::Block> begun;
+    std::ranges::copy_if(cycle_->blocks(), std::back_inserter(begun), &cycle::Block::begun);
     const cycle::Report report = cycle_->run(inputs.now);
     for (const cycle::Activity part : report.done) out.account.parts.emplace_back(to_string(part));
     out.account.explored = report.explored;
@@ -65,6 +67,7 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
     while (next_cycle_ <= inputs.now) next_cycle_ += network_.cycle.process_interval;
     const bool again = refused_in_turn_ != 0 && inputs.now >= again_at_;
     if (report.changed || lost || versions_.base().version == 0 || to_tell_ || again) send(inputs, out);
+    tell_outlook(report, begun, inputs.now, out);
   }
   out.blocking = blocking_;
   out.doubted = std::exchange(doubted_, {});
@@ -149,7 +152,22 @@ void UtilityEngine::hear_observation(const engine::Observation& observation) {
 }
 
 void UtilityEngine::hear_product(const engine::DataProduct& product) {
-  if (delivery_.hear(existing(network_, chains_, *cycle_, product))) cycle_->doubt();
+  if (!delivery_.hear(existing(network_, chains_, *cycle_, product))) return;
+  cycle_->doubt();
+  to_look_ = true;
+}
+
+// Only where something has changed: what is observed while all goes as foreseen moves no outlook.
+void UtilityEngine::tell_outlook(const cycle::Report& report, const std::vector<cycle::Block>& begun_before,
+                                 Time now, StepOutput& out) {
+  const Situation situation{network_, chains_, *assessor_, *cycle_, delivery_, now};
+  outlooks_.forgotten(situation, begun_before);
+  if (!report.changed && report.explored == 0 && !std::exchange(to_look_, false)) return;
+  to_look_ = false;
+  if (engine::DownlinkSchedule schedule = schedule_of(situation); schedule != told_schedule_)
+    out.schedule = told_schedule_ = std::move(schedule);
+  if (engine::MissionOutlook outlook = outlooks_.make(situation); outlook != told_outlook_)
+    out.outlook = told_outlook_ = std::move(outlook);
 }
 
 void UtilityEngine::hear_step(const engine::StepStatus& step, Time now) {

@@ -11,6 +11,7 @@
 
 #include "planner_svc/engine/stepped_engine.hpp"
 #include "planner_svc/utility_htn/adapter/measurements.hpp"
+#include "planner_svc/utility_htn/adapter/outlook.hpp"
 #include "planner_svc/utility_htn/adapter/plan_of.hpp"
 #include "planner_svc/utility_htn/adapter/versions.hpp"
 #include "planner_svc/utility_htn/cycle/cycle.hpp"
@@ -49,6 +50,8 @@ class UtilityEngine final : public engine::SteppedEngine {
   void await_ends(temporal::Time now);
   void go_on_with(const temporal::FlexiblePlan& executed, temporal::Time now);
   void send(const engine::StepInputs& inputs, engine::StepOutput& out);
+  void tell_outlook(const cycle::Report& report, const std::vector<cycle::Block>& begun_before,
+                    temporal::Time now, engine::StepOutput& out);
   void serve_requests(temporal::FlexiblePlan& plan) const;
   std::vector<std::string> served_goals() const;
   std::optional<model::TaskIndex> requested_by(const engine::Goal& goal) const;
@@ -77,6 +80,10 @@ class UtilityEngine final : public engine::SteppedEngine {
   std::optional<temporal::Time> plan_ended_;  // until it is known how all of it ended
   bool goes_on_ = false;  // it has planned before, so it knows the past better than an executed version does
   std::optional<temporal::PlanActivity> initial_;  // until it is over
+  Outlooks outlooks_;
+  engine::DownlinkSchedule told_schedule_;
+  engine::MissionOutlook told_outlook_;
+  bool to_look_ = true;  // something was heard that an outlook tells
   temporal::Time origin_{0};
   temporal::Time next_cycle_{0};
   bool open_ = false;
