@@ -338,7 +338,7 @@ void SteppedHost::tell_outlook(Time now, const engine::StepOutput& output) {
   const auto tell = [&](auto sample, const auto& publisher) {
     sample.robot(setup_.robot);
     sample.version(publisher.written() + 1);
-    sample.plan_version(last_version_);
+    sample.plan_version(versions_.last_version());
     sample.made_us(now.count());
     sample.network(output.model.name);
     sample.network_version(output.model.version);
