@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -37,7 +38,8 @@ class SteppedHost {
   SteppedHost& operator=(const SteppedHost&) = delete;
 
  private:
-  using Key = std::pair<std::string, std::string>;  // issuer, id
+  using Key = std::pair<std::string, std::string>;                        // issuer, id
+  using ResultKey = std::tuple<std::string, std::string, std::uint32_t>;  // commander, activity, attempt
   struct HeardGoal {
     std::optional<engine::Goal> goal;
     std::optional<engine::GoalState> state;  // as the executive says
@@ -57,6 +59,8 @@ class SteppedHost {
   void hear_status(const v1::GoalStatus& status);
   void note_goal(const Key& key, HeardGoal& heard, bool changed);
   void hear_plan(const v1::Plan& plan);
+  void note_executive(const std::string& executive);
+  void hear_result(const v1::CommandAck& ack);
   void hear_receipt(const engine::Receipt& receipt);
   void take_receipt();
   void forget_steps_of_others(const temporal::FlexiblePlan& plan);
@@ -85,10 +89,12 @@ class SteppedHost {
   services::Publisher<v1::Event> events_;
 
   engine::StepInputs heard_;                             // since the step before
+  std::string executive_;                                // whose plan it is; empty: not known yet
   std::map<Key, HeardGoal> goals_;                       // all of this run
   engine::Timelines state_;                              // newest observations
   std::map<std::string, engine::DataProduct> products_;  // by id
   temporal::Progress progress_;                          // of the executed version
+  std::map<ResultKey, engine::CommandResult> results_;   // likewise, of completed commands
   std::optional<engine::Receipt> newest_;                // receipt
   engine::PlanHistory history_;
   std::uint32_t last_version_ = 0;

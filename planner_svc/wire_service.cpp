@@ -262,6 +262,19 @@ engine::StepStatus from_wire(const v1::StepStatus& in) {
   return out;
 }
 
+engine::CommandResult from_wire(const v1::CommandAck& in) {
+  engine::CommandResult out;
+  out.activity = in.activity();
+  out.attempt = in.attempt();
+  if (std::isfinite(in.outcome().energy_j())) out.energy_j = in.outcome().energy_j();
+  for (const v1::NamedValue& one : in.outcome().measured()) {
+    if (out.values.size() == kResultValues) break;
+    if (one.name().size() > kNameBytes || one.held().kind() != v1::VALUE_NUMBER) continue;
+    if (std::isfinite(one.held().number())) out.values.insert_or_assign(one.name(), one.held().number());
+  }
+  return out;
+}
+
 engine::Receipt from_wire(const v1::PlanReceipt& in) {
   return {in.version(), in.refused(), in.reason(), in.conflict(), in.open()};
 }

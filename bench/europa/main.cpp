@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
+#include <string>
+#include <vector>
 
-#include "bench/europa/task_flight.hpp"
-#include "bench/europa/task_world.hpp"
-#include "core/mission/mission_file.hpp"
-#include "planner_svc/utility_htn/adapter/utility_engine.hpp"
+#include "bench/europa/experiment.hpp"
 #include "planner_svc/utility_htn/reading/load.hpp"
 #include "planner_svc/utility_htn/strategies/equations.hpp"
 
@@ -23,31 +20,13 @@ using nlohmann::json;
 namespace model = planner::utility_htn::model;
 namespace strategies = planner::utility_htn::strategies;
 
-struct Setting {
-  double noise = 0;
-  strategies::FailureProbabilities failures;
-  int runs = 50;
-  std::vector<double> biases;
-  Costs costs;
-  double discovery_share = 0;
-  double discovery_utility = 0;
-  std::set<std::string> without;  // "retry", "repair": what replanning has to do without
+// What is flown and told.
+struct Wanted {
+  std::uint64_t first = 1;
+  std::vector<std::string> strategies;  // none: all
+  bool prescient = true;
+  bool executions = false;
 };
-
-Setting read(const std::filesystem::path& file) {
-  const auto root = mission::Entry::load(file);
-  const auto number = [&](const char* key) { return root.at(key).at("value").number(); };
-  Setting out;
-  out.runs = static_cast<int>(number("runs"));
-  out.noise = number("noise");
-  out.failures =
-      strategies::split(number("fail"), number("flexible_share"), number("replanning_share_of_rest"));
-  for (const auto& bias : root.at("biases").at("value").items()) out.biases.push_back(bias.number());
-  out.costs = {number("replanning_j"), number("ground_j"), temporal::seconds(number("ground_wait_s"))};
-  out.discovery_share = number("discovery_share");
-  out.discovery_utility = number("discovery_utility");
-  return out;
-}
 
 constexpr struct {
   Strategy strategy;
@@ -57,114 +36,59 @@ constexpr struct {
                    {Strategy::flexible_execution, "fe"},
                    {Strategy::replanning, "replan"}};
 
-class Experiment {
- public:
-  Experiment(const model::Network& network, const Setting& setting) : network_(network), setting_(setting) {}
-
-  Flown flown(Strategy strategy, double bias, std::uint64_t seed) const {
-    planner::utility_htn::cycle::Settings settings;
-    if (strategy != Strategy::replanning)
-      settings = {.repairs = false, .optimizes = false, .schedules_again = false};
-    if (setting_.without.contains("repair")) settings.repairs = false;
-    settings.downlinks = false;
-    planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network_,
-                                                        settings);
-    const TaskWorld world{seed, bias, setting_.noise, setting_.failures};
-    Flight flight{
-        .network = network_, .engine = engine, .fates = {}, .strategy = strategy, .costs = setting_.costs};
-    flight.fates = [&](const std::string& task, std::uint32_t execution) {
-      Fate out = fate(world, task, execution);
-      if (out.failure == Resolution::flexible && setting_.without.contains("retry"))
-        out.failure = Resolution::replanning;
-      return out;
-    };
-    flight.until = network_.cycle.plan_end;
-    if (strategy == Strategy::replanning)
-      flight.succeeded = [&](const std::string& task) { discover(engine, seed, task); };
-    return fly(flight);
-  }
-
-  // A flight in which everything goes as the network has it, on a battery that bears the bias.
-  Flown prescient(double bias) const {
-    model::Network network = network_;
-    auto& battery = network.timelines[network.budget];
-    battery.initial = battery.highest = battery.initial / (1 + bias);
-    planner::utility_htn::adapter::UtilityEngine engine({"utility_htn", "lander", "", ""}, network,
-                                                        {.downlinks = false});
-    Flight flight{.network = network, .engine = engine, .fates = {}, .strategy = Strategy::replanning};
-    flight.fates = [](const std::string&, std::uint32_t) { return Fate{}; };
-    flight.until = network.cycle.plan_end;
-    return fly(flight);
-  }
-
-  // All that the seed's analyses can show. No planner, however much it knows beforehand, brings home more than the worth of the whole
-  // network and this.
-  double discoverable(std::uint64_t seed) const {
-    std::map<std::string, double> found;  // an analysis for each form of its data shows the same
-    for (const auto& task : network_.tasks)
-      if (const auto here = discovery(seed, task.id)) found[here->parameter] = here->more;
-    double sum = 0;
-    for (const auto& [parameter, more] : found) sum += more;
-    return sum;
-  }
-
- private:
-  struct Discovery {
-    std::string parameter;
-    double value = 0;
-    double more = 0;  // than the prior
-  };
-
-  // An analysis may show that another target of the same site is worth more than it looked. The draws are those of tasks that no
-  // network has.
-  std::optional<Discovery> discovery(std::uint64_t seed, const std::string& task) const {
-    if (!task.starts_with("science_analyze")) return {};
-    const std::string target = task.substr(task.size() - 3);  // "0_2"
-    const TaskWorld world{seed, 0, 0, {setting_.discovery_share, setting_.discovery_share, 0, 0}};
-    if (fate(world, "discovery/" + target, 0).failure == Resolution::none) return {};
-    const auto site = "worth_" + target.substr(0, 2);
-    for (int i = 1; i < 3; ++i) {
-      const std::string other = site + std::to_string((target.back() - '0' + i) % 3);
-      const auto parameter = std::ranges::find(network_.parameters, other, &model::Parameter::name);
-      if (parameter == network_.parameters.end()) continue;
-      const double value = std::min(parameter->highest, parameter->prior + setting_.discovery_utility);
-      return Discovery{other, value, value - parameter->prior};
-    }
-    return {};
-  }
-
-  // Only an engine that plans anew hears of it.
-  void discover(planner::utility_htn::adapter::UtilityEngine& engine, std::uint64_t seed,
-                const std::string& task) const {
-    if (const auto found = discovery(seed, task)) engine.learn(found->parameter, found->value);
-  }
-
-  const model::Network& network_;
-  const Setting& setting_;
-};
-
-json summary_of(const Flown& flown) {
-  json course = json::array();
-  for (const auto& point : flown.course) course.push_back({point.spent, point.utility[0], point.chain});
-  return {{"utility", flown.utility[0]},
-          {"spent", flown.spent},
-          {"ended_by", flown.ended_by},
-          {"tasks", flown.tasks},
-          {"failures", flown.failures},
-          {"retried", flown.retried},
-          {"replanned", flown.replanned},
-          {"by_ground", flown.by_ground},
-          {"versions", flown.versions},
-          {"faults", flown.faults},
-          {"end_s", temporal::to_seconds(flown.end)},
-          {"course", course}};
+json energy_of(const Energy& energy) {
+  return {{"completed", energy.completed},
+          {"recovering", energy.recovering},
+          {"broken_off", energy.broken_off},
+          {"fixed", energy.fixed}};
 }
 
-json expected(const model::Network& network, const Setting& setting, const Flown& prescient, double bias) {
-  const auto& battery = network.timelines[network.budget];
-  const double spent = prescient.spent * (1 + bias);
-  const double tasks = prescient.tasks;
-  const strategies::PlanFigures plan{battery.initial, tasks, prescient.utility[0] / spent, spent / tasks};
+json summary_of(const Flown& flown, bool executions) {
+  json course = json::array();
+  for (const auto& point : flown.course) course.push_back({point.spent, point.utility[0], point.chain});
+  json out{{"utility", flown.utility[0]},
+           {"spent", flown.spent},
+           {"ended_by", flown.ended_by},
+           {"tasks", flown.tasks},
+           {"failures", flown.failures},
+           {"retried", flown.retried},
+           {"replanned", flown.replanned},
+           {"by_ground", flown.by_ground},
+           {"versions", flown.versions},
+           {"faults", flown.faults},
+           {"end_s", temporal::to_seconds(flown.end)},
+           {"energy", energy_of(flown.energy)},
+           {"course", course}};
+  if (!executions) return out;
+  out["decisions"] = flown.decisions;
+  for (const Execution& one : flown.executions)
+    out["executions"].push_back({{"task", one.task},
+                                 {"chain", one.chain},
+                                 {"block", one.block},
+                                 {"start_s", temporal::to_seconds(one.start)},
+                                 {"end_s", temporal::to_seconds(one.end)},
+                                 {"spent", one.spent},
+                                 {"result", one.result}});
+  return out;
+}
+
+json summary_of(const Prescience& known) {
+  return {{"utility", known.utility},   {"discovered", known.discovered}, {"energy", known.energy},
+          {"recovery", known.recovery}, {"fixed", known.fixed},           {"tasks", known.tasks},
+          {"chains", known.chains},     {"proven", known.proven}};
+}
+
+// The figures of the equations: u_avg and c_avg over all that prescient plans do, and as many tasks as b pays for (section V.A).
+json expected(const model::Network& network, const Setting& setting,
+              const std::vector<Prescience>& prescients) {
+  double utility = 0, cost = 0, tasks = 0;
+  for (const Prescience& one : prescients) {
+    utility += one.utility - one.discovered;
+    cost += one.energy + one.fixed;
+    tasks += one.tasks;
+  }
+  const double budget = network.timelines[network.budget].initial;
+  const strategies::PlanFigures plan{budget, budget * tasks / cost, utility / cost, cost / tasks};
   const auto& odds = setting.failures;
   const strategies::RecoveryCosts costs{setting.costs.ground_j, setting.costs.replanning_j};
   const strategies::Discoveries found{9 * setting.discovery_share, setting.discovery_utility};
@@ -178,12 +102,50 @@ json expected(const model::Network& network, const Setting& setting, const Flown
   };
   json out = utilities(plan, 1);
   out["u_avg_per_mj"] = plan.utility_per_cost * 1e6;
-  out["tasks"] = tasks;
+  out["tasks"] = plan.tasks;
   out["curve"] = json::array();
   constexpr int kPoints = 50;
   for (int i = 0; i <= kPoints; ++i) {
     const double share = static_cast<double>(i) / kPoints;
     out["curve"].push_back(utilities(strategies::until_spent(plan, share * plan.budget), share));
+  }
+  return out;
+}
+
+// What the same planner would bring home without the energy that the flight put into chains which it did not complete, and without
+// that which it did not spend.
+json ladder(const Experiment& experiment, const model::Network& network, const Flown& flown, double bias,
+            std::uint64_t seed) {
+  const double unspent = network.timelines[network.budget].initial - flown.spent;
+  const double broken = flown.energy.broken_off;
+  return {experiment.prescient(bias, seed, broken).utility,
+          experiment.prescient(bias, seed, broken + unspent).utility};
+}
+
+json variant(const Experiment& experiment, const model::Network& network, const Setting& setting,
+             const Wanted& wanted, double bias) {
+  const auto seeds = [&](auto each) {
+    for (int run = 0; run < setting.runs; ++run) each(wanted.first + static_cast<std::uint64_t>(run));
+  };
+  json out{{"bias", bias}, {"without_failures", summary_of(experiment.without_failures(bias), false)}};
+  std::vector<Prescience> prescients;
+  if (wanted.prescient) {
+    seeds([&](std::uint64_t seed) { prescients.push_back(experiment.prescient(bias, seed)); });
+    for (const Prescience& one : prescients) out["prescient"].push_back(summary_of(one));
+    out["expected"] = expected(network, setting, prescients);
+  }
+  for (const auto& [strategy, name] : kStrategies) {
+    if (!wanted.strategies.empty() && std::ranges::find(wanted.strategies, name) == wanted.strategies.end())
+      continue;
+    json flights = json::array();
+    seeds([&](std::uint64_t seed) {
+      std::fprintf(stderr, "\r%+.0f %% %-7s seed %d ", 100 * bias, name, static_cast<int>(seed));
+      const Flown flown = experiment.flown(strategy, bias, seed);
+      flights.push_back(summary_of(flown, wanted.executions));
+      if (wanted.prescient && strategy == Strategy::replanning)
+        flights.back()["ladder"] = ladder(experiment, network, flown, bias, seed);
+    });
+    out[name] = flights;
   }
   return out;
 }
@@ -196,17 +158,18 @@ int main(int argc, char** argv) {
   CLI::App app{"Flies the experiments of MEXEC, section V.A"};
   std::string network_file = "missions/europa/network.yaml", settings_file = "bench/europa/experiments.yaml";
   int runs = 0;
-  std::uint64_t first = 1;
+  Wanted wanted;
   std::vector<double> biases;
-  std::vector<std::string> strategies, without;
+  std::vector<std::string> without;
+  bool robust = false, downlinks = false, no_prescient = false;
   std::optional<double> ground_j, replanning_j, discovery_share, discovery_utility;
   app.add_option("--network", network_file, "the network that is flown")->capture_default_str();
   app.add_option("--settings", settings_file, "probabilities and costs")->capture_default_str();
   app.add_option("--runs", runs, "flights of each strategy and bias (default: those of the settings)");
-  app.add_option("--seed", first, "of the first flight")->capture_default_str();
+  app.add_option("--seed", wanted.first, "of the first flight")->capture_default_str();
   app.add_option("--bias", biases,
                  "share by which tasks take more than the network says (default: those of the settings)");
-  app.add_option("--strategy", strategies, "those that are flown (default: all)")
+  app.add_option("--strategy", wanted.strategies, "those that are flown (default: all)")
       ->check(CLI::IsMember({"static", "ground", "fe", "replan"}));
   app.add_option("--ground-j", ground_j, "c_g, instead of that of the settings")
       ->check(CLI::NonNegativeNumber);
@@ -215,13 +178,19 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--discovery-utility", discovery_utility, "u_d")->check(CLI::NonNegativeNumber);
   app.add_option("--without", without,
-                 "what replanning does without: retry (what it resolves is planned anew), repair, discovery")
-      ->check(CLI::IsMember({"retry", "repair", "discovery"}));
+                 "what replanning does without: retry (what it resolves is planned anew), repair, optimize, "
+                 "learning, "
+                 "discovery")
+      ->check(CLI::IsMember({"retry", "repair", "optimize", "learning", "discovery"}));
+  app.add_flag("--robust", robust, "replanning judges plans by the worst of more, less and predicted energy");
+  app.add_flag("--downlinks", downlinks, "the Downlink Manager is asked");
+  app.add_flag("--no-prescient", no_prescient, "leaves out what a planner brings home that knows everything");
+  app.add_flag("--executions", wanted.executions, "tells every attempt of every task");
   CLI11_PARSE(app, argc, argv);
   try {
     const auto network =
         roci::planner::utility_htn::reading::load_network(std::filesystem::path(network_file));
-    Setting setting = read(settings_file);
+    Setting setting = read_setting(settings_file);
     if (runs > 0) setting.runs = runs;
     if (!biases.empty()) setting.biases = biases;
     setting.costs.ground_j = ground_j.value_or(setting.costs.ground_j);
@@ -229,31 +198,17 @@ int main(int argc, char** argv) {
     setting.discovery_share = discovery_share.value_or(setting.discovery_share);
     setting.discovery_utility = discovery_utility.value_or(setting.discovery_utility);
     setting.without.insert(without.begin(), without.end());
-    if (setting.without.contains("discovery")) setting.discovery_share = 0;
+    setting.robust = robust;
+    setting.downlinks = downlinks;
+    wanted.prescient = !no_prescient;
     const Experiment experiment(network, setting);
     json out{{"network", network_file},
              {"runs", setting.runs},
-             {"first_seed", first},
+             {"first_seed", wanted.first},
              {"budget", network.timelines[network.budget].initial},
              {"variants", json::array()}};
-    for (const double bias : setting.biases) {
-      const Flown prescient = experiment.prescient(bias);
-      json variant{{"bias", bias},
-                   {"prescient", summary_of(prescient)},
-                   {"expected", expected(network, setting, prescient, bias)}};
-      for (const auto& [strategy, name] : kStrategies) {
-        if (!strategies.empty() && std::ranges::find(strategies, name) == strategies.end()) continue;
-        json flights = json::array();
-        for (int run = 0; run < setting.runs; ++run) {
-          std::fprintf(stderr, "\r%+.0f %% %-7s %d of %d ", 100 * bias, name, run + 1, setting.runs);
-          const std::uint64_t seed = first + static_cast<std::uint64_t>(run);
-          flights.push_back(summary_of(experiment.flown(strategy, bias, seed)));
-          flights.back()["discoverable"] = experiment.discoverable(seed);
-        }
-        variant[name] = flights;
-      }
-      out["variants"].push_back(variant);
-    }
+    for (const double bias : setting.biases)
+      out["variants"].push_back(variant(experiment, network, setting, wanted, bias));
     std::fprintf(stderr, "\n");
     std::cout << out.dump(1) << '\n';
   } catch (const std::exception& error) {

@@ -36,7 +36,36 @@ exec::executive::ExecutiveSettings executive_settings() {
 struct Draw {
   double power = 0;   // per second, positive takes
   double at_end = 0;  // at once
+  std::size_t execution = 0;
+  bool rests = false;  // it waits for the ground and draws nothing
 };
+
+/// Is a moment at which an activity begins or ends to wait for the ground.
+struct Rest {
+  std::string activity;
+  bool begins = false;
+};
+
+// FNV-1a over all that an executive would act on.
+void add(std::string_view text, std::uint64_t& hash) {
+  for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
+}
+
+void add(const temporal::PlanDelta& delta, std::uint64_t& hash) {
+  const auto number = [&](auto value) { add(std::to_string(value) + ";", hash); };
+  number(delta.added.version);
+  for (const PlanActivity& activity : delta.added.activities) {
+    add(activity.id, hash);
+    number(activity.start_point);
+    number(activity.preferred_start.count());
+    number(activity.duration_lower.count());
+    number(static_cast<int>(activity.commit));
+  }
+  for (const auto& constraint : delta.added.constraints) {
+    number(constraint.to_point);
+    number(constraint.lower.count());
+  }
+}
 
 class TaskFlight {
  public:
@@ -57,6 +86,12 @@ class TaskFlight {
     }
     out_.end = now_;
     out_.spent = budget_.initial - left_;
+    for (Execution& one : out_.executions)
+      if (one.result.empty()) {
+        one.end = now_;
+        one.result = "cut off";
+      }
+    settle_energy();
     return std::move(out_);
   }
 
@@ -94,14 +129,21 @@ class TaskFlight {
     StepInputs inputs = std::exchange(heard_, {});
     inputs.now = now_;
     inputs.last_version = last_version_;
+    const double before = seconds();
     const StepOutput output = flight_.engine.step(inputs);
-    engine_wake_ = output.wake;
+    if (flight_.processor_time)
+      out_.steps.push_back({now_, seconds() - before, output.wake != told_wake_, output.account.parts.size(),
+                            output.account.explored, output.delta.has_value()});
+    told_wake_ = engine_wake_ = output.wake;
     if (engine_wake_ && *engine_wake_ <= now_) engine_wake_.reset();
     if (output.delta) take(*output.delta);
     return output.delta.has_value();
   }
 
+  double seconds() const { return flight_.processor_time ? flight_.processor_time() : 0; }
+
   void take(const temporal::PlanDelta& delta) {
+    add(delta, out_.decisions);
     last_version_ = delta.added.version;
     FlexiblePlan next = plan_;
     std::string fault = temporal::apply(delta, next);
@@ -159,7 +201,9 @@ class TaskFlight {
       return false;
     stepped_ = true;
     inputs_.acks.insert(inputs_.acks.end(), acks.begin(), acks.end());
+    const double before = seconds();
     const exec::executive::Outputs outputs = executive_.step(now_, std::exchange(inputs_, {}));
+    if (flight_.processor_time) out_.events.push_back(seconds() - before);
     executive_wake_ = outputs.next_wake;
     if (executive_wake_) executive_wake_ = std::max(*executive_wake_, now_ + std::chrono::microseconds(1));
     for (const auto& status : outputs.changes) take(status);
@@ -187,7 +231,7 @@ class TaskFlight {
     if (task == nullptr) return;
     if (status.state == ActivityState::running && task->commands.empty()) draw(status.activity, *task, 1);
     if (!temporal::is_over(status.state)) return;
-    settle_draw(status.activity, status.state == ActivityState::succeeded);
+    settle_draw(status.activity, status.state == ActivityState::succeeded, "done");
     if (status.state == ActivityState::succeeded) {
       ++out_.tasks;
       if (flight_.succeeded) flight_.succeeded(task->id);
@@ -213,18 +257,32 @@ class TaskFlight {
       if (other && planner::utility_htn::cycle::block_of(*other) == block) out_.utility += link.utility;
     }
     out_.course.push_back({budget_.initial - left_, out_.utility, token->second.timeline});
+    completed_.insert(block);
     blocks_.erase(token);
   }
 
   void draw(const std::string& activity, const Task& task, double factor) {
     Draw out;
+    double at_start = 0;
     for (const model::Impact& impact : task.impacts) {
       if (impact.timeline != flight_.network.budget) continue;
       const double amount = -factor * model::evaluate(impact.amount, values_);
       if (impact.kind == temporal::ImpactKind::rate) out.power += amount;
       if (impact.kind != temporal::ImpactKind::delta) continue;
       if (impact.moment == temporal::ImpactWhen::at_end) out.at_end += amount;
-      if (impact.moment == temporal::ImpactWhen::at_start) spend(amount);
+      if (impact.moment == temporal::ImpactWhen::at_start) at_start += amount;
+    }
+    out.execution = out_.executions.size();
+    out_.executions.push_back({task.id, {}, 0, now_, now_, spend(at_start), {}});
+    if (const auto id = adapter::task_of(activity)) {
+      const std::uint32_t block = planner::utility_htn::cycle::block_of(*id);
+      out_.executions.back().block = block;
+      const auto of = std::ranges::find_if(plan_.tokens, [&](const temporal::Token& token) {
+        const auto* const held = std::get_if<temporal::State>(&token.held);
+        return token.start_point != temporal::origin_point && held != nullptr &&
+               held->arguments == std::vector{std::to_string(block)};
+      });
+      if (of != plan_.tokens.end()) out_.executions.back().chain = std::get<temporal::State>(of->held).name;
     }
     draws_[activity] = out;
   }
@@ -242,11 +300,34 @@ class TaskFlight {
     }
   }
 
-  void settle_draw(const std::string& activity, bool succeeded) {
+  void settle_draw(const std::string& activity, bool succeeded, const std::string& result) {
     const auto found = draws_.find(activity);
     if (found == draws_.end()) return;
-    if (succeeded) spend(found->second.at_end);
+    Execution& execution = out_.executions[found->second.execution];
+    if (succeeded) execution.spent += spend(found->second.at_end);
+    execution.end = now_;
+    if (execution.result.empty()) execution.result = succeeded ? result : "failed";
     draws_.erase(found);
+  }
+
+  void settle_energy() {
+    std::set<std::string> fixed;
+    for (const Task& task : flight_.network.tasks)
+      if (task.fixed) fixed.insert(task.id);
+    out_.energy.recovering = recovering_;
+    for (const Execution& one : out_.executions) {
+      if (fixed.contains(one.task)) {
+        out_.energy.fixed += one.spent;
+      } else if (!completed_.contains(one.block)) {
+        out_.energy.broken_off += one.spent;
+      } else if (one.result == "failed") {
+        out_.energy.recovering += one.spent;
+      } else {
+        const double wasted = one.result == "by ground" ? one.spent / 2 : 0;  // of two equal attempts one
+        out_.energy.completed += one.spent - wasted;
+        out_.energy.recovering += wasted;
+      }
+    }
   }
 
   void begin(const Command& command) {
@@ -258,6 +339,7 @@ class TaskFlight {
     if (task == nullptr) return;
     inputs_.acks.push_back({command.activity, command.attempt, CommandStage::accepted, "", ""});
     const Fate fate = fate_of(*task, command);
+    settle_draw(command.activity, false, {});  // of the attempt before
     draw(command.activity, *task, fate.energy);
     report_effects(*task, temporal::ImpactWhen::at_start);
     const double length = fate.duration * model::evaluate(task->duration, values_);
@@ -265,12 +347,13 @@ class TaskFlight {
     CommandStage stage = CommandStage::completed;
     if (fate.failure != Resolution::none) {
       ++out_.failures;
-      stage = resolve(*task, fate.failure, end);
+      stage = resolve(command.activity, *task, fate.failure, end);
     }
     ends_.emplace(end, CommandAck{command.activity, command.attempt, stage, "", ""});
   }
 
-  // What was resolved once works: the next attempt of the same activity, and the next execution of the task, do not fail.
+  // What was resolved once works: the next attempt of the same activity, or the next execution of the task, does not fail. What the
+  // ground resolves is done again by the same execution.
   Fate fate_of(const Task& task, const Command& command) {
     if (command.attempt == 1)
       activity_fates_[command.activity] = flight_.fates(task.id, executions_[task.id]++);
@@ -279,34 +362,55 @@ class TaskFlight {
     return fate;
   }
 
-  CommandStage resolve(const Task& task, Resolution failure, Time& end) {
+  CommandStage resolve(const std::string& activity, const Task& task, Resolution failure, Time& end) {
     const Strategy strategy = flight_.strategy;
-    resolved_.insert(task.id);
     if (strategy == Strategy::as_planned) {
       fails_at_ = end;
     } else if (failure == Resolution::flexible && strategy >= Strategy::flexible_execution) {
       ++out_.retried;
+      resolved_.insert(task.id);
       return CommandStage::failed;
     } else if (failure != Resolution::ground && strategy == Strategy::replanning) {
       ++out_.replanned;
-      spend(flight_.costs.replanning_j);
+      resolved_.insert(task.id);
+      recovering_ += spend(flight_.costs.replanning_j);
       // Retries would not help: the executive gives up, and the engine plans anew.
       return task.control.retries > 0 ? CommandStage::rejected : CommandStage::failed;
     } else {
       ++out_.by_ground;
-      spend(flight_.costs.ground_j);
-      end += flight_.costs.ground_wait + temporal::seconds(model::evaluate(task.duration, values_));
+      recovering_ += spend(flight_.costs.ground_j);
+      out_.executions[draws_.at(activity).execution].result = "by ground";
+      const Time failed = end;
+      end += flight_.costs.ground_wait + (end - now_);
+      rests_.emplace(failed, Rest{activity, true});
+      rests_.emplace(failed + flight_.costs.ground_wait, Rest{activity, false});
       return CommandStage::completed;
     }
     return CommandStage::failed;
   }
 
-  void spend(double amount) { left_ = std::max(budget_.lowest, left_ - amount); }
+  // Returns how much of it there was.
+  double spend(double amount) {
+    const double before = left_;
+    left_ = std::max(budget_.lowest, left_ - amount);
+    return before - left_;
+  }
 
   double power() const {
     double out = 0;
-    for (const auto& [activity, draw] : draws_) out += draw.power;
+    for (const auto& [activity, draw] : draws_) out += draw.rests ? 0 : draw.power;
     return out;
+  }
+
+  void spend_for(double seconds) {
+    for (const auto& [activity, draw] : draws_)
+      if (!draw.rests) out_.executions[draw.execution].spent += draw.power * seconds;
+  }
+
+  void change_rests() {
+    for (auto rest = rests_.begin(); rest != rests_.end() && rest->first <= now_; rest = rests_.erase(rest))
+      if (const auto draw = draws_.find(rest->second.activity); draw != draws_.end())
+        draw->second.rests = rest->second.begins;
   }
 
   Time next_time() const {
@@ -315,6 +419,7 @@ class TaskFlight {
     if (engine_wake_ && !idle()) sooner(*engine_wake_);
     if (executive_wake_) sooner(*executive_wake_);
     if (!ends_.empty()) sooner(ends_.begin()->first);
+    if (!rests_.empty()) sooner(rests_.begin()->first);
     if (fails_at_) sooner(*fails_at_);
     return next;
   }
@@ -330,13 +435,17 @@ class TaskFlight {
     const double drawn = power();
     const double needed = drawn * temporal::to_seconds(to - now_);
     if (left_ - needed <= budget_.lowest) {
-      if (drawn > 0) now_ += temporal::seconds(std::max(0.0, left_ - budget_.lowest) / drawn);
+      const double lasts = drawn > 0 ? std::max(0.0, left_ - budget_.lowest) / drawn : 0;
+      spend_for(lasts);
+      now_ += temporal::seconds(lasts);
       left_ = std::min(left_, budget_.lowest);
       out_.ended_by = "budget";
       return;
     }
+    spend_for(temporal::to_seconds(to - now_));
     left_ -= needed;
     now_ = to;
+    change_rests();
     idle_cycles_ = finished_ ? idle_cycles_ + 1 : 0;
     if (fails_at_ && now_ >= *fails_at_) out_.ended_by = "failure";
     if (now_ >= flight_.until) out_.ended_by = "time";
@@ -354,8 +463,11 @@ class TaskFlight {
   StepInputs heard_;
   exec::executive::Inputs inputs_;
   bool stepped_ = true;
-  std::optional<Time> engine_wake_, executive_wake_, fails_at_;
+  std::optional<Time> engine_wake_, told_wake_, executive_wake_, fails_at_;
   std::multimap<Time, CommandAck> ends_;
+  std::multimap<Time, Rest> rests_;
+  double recovering_ = 0;
+  std::set<std::uint32_t> completed_;                   // blocks
   std::map<std::string, Draw> draws_;                   // by activity
   std::map<temporal::timelines::Index, double> world_;  // true values of reported timelines that were changed
   std::map<std::string, std::uint32_t> executions_;

@@ -37,6 +37,8 @@ struct Flight {
   temporal::Time until = temporal::no_bound;
   /// Is told of every task that has succeeded, before the engine hears of it; may be empty.
   std::function<void(const std::string& task)> succeeded{};
+  /// Returns seconds of the thread's processor time; where it is given, Flown tells what each step took.
+  std::function<double()> processor_time{};
 };
 
 /// Is the utility that was reached when so much was spent (figures 10 and 11).
@@ -44,6 +46,35 @@ struct Reached {
   double spent = 0;
   temporal::RankVector utility;
   std::string chain;  ///< that was completed
+};
+
+/// Is one attempt of a task as it went (figures 5 and 8).
+struct Execution {
+  std::string task;
+  std::string chain;        ///< of which it was a link
+  std::uint32_t block = 0;  ///< of that chain
+  temporal::Time start{0};
+  temporal::Time end{0};
+  double spent = 0;    ///< from the budget
+  std::string result;  ///< "done", "failed", "by ground", or "cut off" by the end of the flight
+};
+
+/// Says where a flight's energy went; the sum is what was spent.
+struct Energy {
+  double completed = 0;   ///< attempts that succeeded, of chains that were completed
+  double recovering = 0;  ///< c_r, c_g, and failed attempts in chains that were completed
+  double broken_off = 0;  ///< chains that were not completed
+  double fixed = 0;       ///< requests with a fixed time, as the hotel load
+};
+
+/// Says what one step of the engine took.
+struct EngineStep {
+  temporal::Time at{0};
+  double seconds = 0;
+  bool cycle = false;    ///< the planning cycle ran; otherwise the engine only listened
+  std::size_t done = 0;  ///< parts of the cycle that had something to do
+  std::uint64_t explored = 0;
+  bool sent = false;  ///< a version came of it
 };
 
 /// Says how a flight went.
@@ -59,7 +90,12 @@ struct Flown {
   std::uint32_t replanned = 0;
   std::uint32_t by_ground = 0;
   std::uint32_t versions = 0;
-  std::vector<std::string> faults;  ///< versions that the executive would refuse, and why; none is expected
+  std::vector<std::string> faults;    ///< versions that the executive would refuse, and why; none is expected
+  std::vector<Execution> executions;  ///< by start
+  Energy energy;
+  std::uint64_t decisions = 0;    ///< hash of all versions that came: equal ones mean equal decisions
+  std::vector<EngineStep> steps;  ///< of the engine, if there is a processor_time
+  std::vector<double> events;     ///< seconds that each step of the executive took, likewise
 };
 
 /// Flies until the budget is spent, nothing is left to do, a failure ends it (as_planned), or `until`.

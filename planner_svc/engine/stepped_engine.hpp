@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,16 @@ struct StepStatus {
   temporal::ActivityProgress progress;
   std::string cause;          ///< of a failure
   std::uint32_t attempt = 0;  ///< counts from 1; 0: no command was sent
+};
+
+/// What a command took and brought, as its owner said when it was completed. The command of an activity's second try, and the second of a
+/// sequence, have attempt 2.
+struct CommandResult {
+  std::string activity;
+  std::uint32_t attempt = 0;
+  std::optional<double> energy_j{};        ///< drawn by it alone; nothing: not measured
+  std::map<std::string, double> values{};  ///< numbers that it brought, all finite
+  friend bool operator==(const CommandResult&, const CommandResult&) = default;
 };
 
 /// What became of a goal in the end: in the order of GoalState in idl/goal.idl.
@@ -94,6 +105,8 @@ struct StepInputs {
   std::vector<EndedGoal> ended_goals;
   std::vector<Observation> observations;
   std::vector<StepStatus> steps;
+  /// May come before or after the step's own end.
+  std::vector<CommandResult> results;
   std::vector<DataProduct> products;
   std::vector<ModelChange> model_changes;
   std::optional<Receipt> receipt;  ///< the newest

@@ -88,6 +88,9 @@ void UtilityEngine::hear(const StepInputs& inputs) {
   for (const engine::EndedGoal& ended : inputs.ended_goals) hear_end(ended);
   for (const engine::Observation& observation : inputs.observations) hear_observation(observation);
   for (const engine::StepStatus& step : inputs.steps) hear_step(step, inputs.now);
+  for (const engine::CommandResult& result : inputs.results)
+    if (task_of(result.activity)) measurements_.hear(result);
+  measure();
   for (const engine::DataProduct& product : inputs.products) hear_product(product);
   if (inputs.receipt) hear_receipt(*inputs.receipt, inputs.now);
 }
@@ -171,7 +174,7 @@ void UtilityEngine::hear_step(const engine::StepStatus& step, Time now) {
       index < network_.tasks.size() && step.progress.started)
     delivery_.executed(*task, index, *step.progress.started, at, cycle_->past().values);
   cycle_->ended(*task, at, step.progress.state == ActivityState::succeeded, step.cause);
-  measure(*task, step.progress);
+  measurements_.hear(step);
 }
 
 void UtilityEngine::hear_receipt(const engine::Receipt& receipt, Time now) {
@@ -198,7 +201,7 @@ void UtilityEngine::go_on_with(const FlexiblePlan& executed, Time now) {
   for (const temporal::PlanActivity& gone : fitted.gone)
     recovered.points.set(*task_of(gone.id), gone.start_point, gone.end_point);
   to_tell_ = to_tell_ || fitted.foreign;
-  taken_up_ = now;
+  measurements_.resume(std::move(recovered.measured));
   origin_ = executed.origin;
   points_ = recovered.points;
   cycle_->resume(recovered.past, std::move(recovered.blocks), recovered.last_block, now);
@@ -235,7 +238,9 @@ void UtilityEngine::send(const StepInputs& inputs, StepOutput& out) {
     origin_ = inputs.now;
     points_ = {};
   }
-  const Frame frame{setup_.engine, setup_.robot, inputs.last_version + 1, origin_, served_goals()};
+  forget_measurements();
+  const Frame frame{setup_.engine, setup_.robot,   inputs.last_version + 1,
+                    origin_,       served_goals(), measurements_.taken()};
   points_.keep_only(cycle_->blocks(), initial_.has_value());
   FlexiblePlan plan = plan_of(network_, chains_, *cycle_, frame, told_, points_);
   serve_requests(plan);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "planner_svc/engine/stepped_engine.hpp"
+#include "planner_svc/utility_htn/adapter/measurements.hpp"
 #include "planner_svc/utility_htn/adapter/outlook.hpp"
 #include "planner_svc/utility_htn/adapter/plan_of.hpp"
 #include "planner_svc/utility_htn/cycle/cycle.hpp"
@@ -35,8 +36,8 @@ class UtilityEngine final : public engine::SteppedEngine {
   std::vector<std::string> in_the_way_of(const model::Network& next, const flattening::Chains& chains) const;
   void go_on_with(model::Network next, temporal::Time now);
   // measuring.cpp
-  void measure(cycle::TaskId task, const temporal::ActivityProgress& progress);
-  std::optional<model::TaskIndex> primitive_of(cycle::TaskId id) const;
+  void measure();
+  void forget_measurements();
 
   void hear(const engine::StepInputs& inputs);
   void hear_goal(const engine::Goal& goal);
@@ -69,7 +70,7 @@ class UtilityEngine final : public engine::SteppedEngine {
   std::vector<std::string> doubted_;
   std::set<std::string> unannounced_;  // internal timelines of which the executive does not know yet
   bool to_tell_ = false;               // the next cycle sends a version, whatever it does
-  temporal::Time taken_up_{0};         // what ended before was measured by another process
+  Measurements measurements_;
   Points points_;
   temporal::FlexiblePlan told_;                           // newest version
   temporal::FlexiblePlan accepted_;                       // newest that the executive has taken

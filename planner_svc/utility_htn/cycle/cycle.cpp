@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "planner_svc/utility_htn/search/robust.hpp"
+
 namespace roci::planner::utility_htn::cycle {
 
 using model::TaskIndex;
@@ -142,11 +144,11 @@ std::string Cycle::set_value(model::ParameterIndex parameter, double value) {
            " and " + std::to_string(known.highest) + "; the value before stays";
   if (past_.values[parameter] == value) return {};
   past_.values[parameter] = value;
-  // What has not begun is placed anew: its starts are those of the value before.
+  // What has not begun is placed anew: its starts are those of the value before. The rest of what has begun takes what it takes now.
   for (Block& one : blocks_) {
-    if (one.begun()) continue;
     take_out(one);
-    if (!settings_.schedules_again) put_in(one);
+    if (one.begun()) last_anew(one);
+    if (one.begun() || !settings_.schedules_again) put_in(one);
   }
   if (settings_.schedules_again) std::erase_if(blocks_, [](const Block& one) { return !one.begun(); });
   to_schedule_ = to_optimize_ = true;
@@ -168,7 +170,8 @@ void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t la
   last_block_ = last_block;
   timelines_ = temporal::timelines::Timelines(network_.timelines, now);
   for (Index i = 0; i < network_.timelines.size(); ++i)
-    if (!network_.timelines[i].reported) timelines_.observe(i, now, past_.internal[i]);
+    if (!network_.timelines[i].reported && !network_.timelines[i].is_claim())
+      timelines_.observe(i, now, past_.internal[i]);
   blocks_ = std::move(blocks);
   for (const Block& one : blocks_) put_in(one);
   to_schedule_ = to_optimize_ = true;
@@ -240,8 +243,11 @@ bool Cycle::follow(Time now) {
     for (std::size_t i = 0; i < one.links.size(); ++i) {
       const Link before = one.links[i];
       if (before.stage == Stage::committed) await_start(one, i, now);
-      if (before.stage == Stage::running && before.end < now)
-        one.links[i].end = expected(before.start + duration(before.task), now);
+      if (before.stage == Stage::running && before.end <= now) {
+        // What is due just now may have ended; what is overdue has not.
+        const Time due = before.start + duration(before.task);
+        if (due < now) one.links[i].end = expected(due, now);
+      }
       if (one.links[i] == before) continue;
       changed |= one.links[i].end != before.end;
       timelines_.move(task_id(one.number, i), one.links[i].start, one.links[i].end);
@@ -265,6 +271,34 @@ void Cycle::await_start(Block& of, std::size_t index, Time now) {
     late.start = now;
     if (late.end - length < now) late.end = expected(late.planned, now) + length;
   }
+  if (const Time free = free_for(late); free > late.start) {
+    late.start = free;
+    late.end = std::max(late.end, free + length);
+  }
+}
+
+// Returns when what the link claims is given back by all that runs, and by all that waits longer than it does.
+Time Cycle::free_for(const Link& waiting) const {
+  Time out{0};
+  for (const model::Impact& claim : network_.tasks[waiting.task].impacts) {
+    const auto& timeline = network_.timelines[claim.timeline];
+    if (!timeline.is_claim()) continue;
+    double taken = model::evaluate(claim.amount, past_.values);
+    Time given_back{0};
+    for (const Block& one : blocks_)
+      for (const Link& holder : one.links) {
+        const bool holds = holder.stage == Stage::running ||
+                           (holder.stage == Stage::committed && holder.planned < waiting.planned);
+        if (!holds || &holder == &waiting || holder.end <= waiting.start) continue;
+        for (const model::Impact& impact : network_.tasks[holder.task].impacts) {
+          if (impact.timeline != claim.timeline) continue;
+          taken += model::evaluate(impact.amount, past_.values);
+          given_back = std::max(given_back, holder.end);
+        }
+      }
+    if (taken > timeline.highest) out = std::max(out, given_back);
+  }
+  return out;
 }
 
 // Returns whether anything was folded that had been kept.
@@ -274,7 +308,8 @@ bool Cycle::consolidate(Time now) {
   timelines_.consolidate(now);
   const temporal::timelines::Kept after = timelines_.kept();
   for (Index i = 0; i < network_.timelines.size(); ++i)
-    if (!network_.timelines[i].reported) past_.internal[i] = timelines_.value(i, now);
+    if (!network_.timelines[i].reported && !network_.timelines[i].is_claim())
+      past_.internal[i] = timelines_.value(i, now);
   return after.tasks != before.tasks || after.events != before.events || after.asks != before.asks;
 }
 
@@ -298,6 +333,12 @@ void Cycle::forget_over(Report& report) {
     to_schedule_ = true;
     return true;
   });
+}
+
+void Cycle::last_anew(Block& begun) const {
+  for (Link& each : begun.links)
+    if (each.stage == Stage::planned || each.stage == Stage::committed)
+      each.end = each.start + duration(each.task);
 }
 
 void Cycle::take_out(const Block& gone) {
@@ -357,7 +398,8 @@ double Cycle::budget() const {
   return timelines_.value(network_.budget, end) - network_.timelines[network_.budget].lowest;
 }
 
-search::Plan Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Report& report) {
+Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Report& report,
+                             const search::Plan* known) {
   const std::vector<double> newest = values_now(now);
   search::Problem problem{network_, past_.values, chains_, assessor_, scheduler_, timelines_};
   problem.from = now + network_.cycle.commit_window;
@@ -376,9 +418,23 @@ search::Plan Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Re
     if (!candidates.contains(chain.task) && !placed.contains(chain.task))
       problem.closed.push_back(chain.task);
   if (delivery_ != nullptr) delivery_->join(problem, now);
-  const search::Outcome outcome = search::search(problem);
-  report.explored += outcome.statistics.entries;
-  return outcome.plan;
+  const auto beats = [](const auto& worth, double cost, const auto& known_worth, double known_cost) {
+    return worth > known_worth || (worth == known_worth && cost < known_cost - 1e-6);
+  };
+  if (!settings_.robust) {
+    search::Outcome outcome = search::search(problem);
+    report.explored += outcome.statistics.entries;
+    const search::Plan& plan = outcome.plan;
+    const bool better = known == nullptr || beats(plan.utility, plan.cost, known->utility, known->cost);
+    return {std::move(outcome.plan), better};
+  }
+  const search::RobustSettings judging;
+  search::RobustOutcome robust = search::search_robust(problem, judging, network_.exploration_bound);
+  report.explored += robust.explored;
+  const search::Candidate& chosen = robust.candidates[robust.chosen];
+  const bool better = known == nullptr || beats(chosen.judged, chosen.plan.cost,
+                                                search::judged(problem, *known, judging), known->cost);
+  return {std::move(robust.outcome.plan), better};
 }
 
 bool Cycle::schedule(Time now, Report& report) {
@@ -387,7 +443,7 @@ bool Cycle::schedule(Time now, Report& report) {
   scheduled_ = true;
   const std::set<TaskIndex> waiting_requests = candidates(now);
   if (waiting_requests.empty()) return false;
-  const search::Plan plan = plan_for(now, waiting_requests, report);
+  const search::Plan plan = plan_for(now, waiting_requests, report).plan;
   adopt(plan);
   return !plan.placed.empty();
 }
@@ -418,7 +474,9 @@ search::Plan Cycle::planned(Time now) const {
       const assessor::Context context{network_, past_.values, chains_, newest, existing, before, {}};
       out.utility += assessor_.predicted(one->chain, context);
       out.cost += flattening::cost(network_, chains_.chains[one->chain], past_.values);
-      out.placed.push_back({one->chain, {}});
+      search::Placed standing{one->chain, {}};
+      for (const Link& each : one->links) standing.starts.push_back(each.start);
+      out.placed.push_back(std::move(standing));
     }
     before.push_back(one->chain);
   }
@@ -436,11 +494,9 @@ bool Cycle::optimize(Time now, Report& report) {
     if (!one.begun()) before.push_back(one);
   for (const Block& one : before) take_out(one);
   std::erase_if(blocks_, [](const Block& one) { return !one.begun(); });
-  const search::Plan plan = plan_for(now, candidates(now), report);
-  const bool better =
-      plan.utility > old.utility || (plan.utility == old.utility && plan.cost < old.cost - 1e-6);
-  if (better) {
-    adopt(plan);
+  const Found found = plan_for(now, candidates(now), report, &old);
+  if (found.better) {
+    adopt(found.plan);
     return true;
   }
   for (Block& one : before) {

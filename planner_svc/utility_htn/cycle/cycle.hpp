@@ -29,6 +29,7 @@ struct Settings {
   bool optimizes = true;
   bool downlinks = true;        ///< data without a downlink are not generated (R127); otherwise all get home
   bool schedules_again = true;  ///< also after the first time; otherwise the first plan is all there is
+  bool robust = false;          ///< plans are judged by the worst of more, less and predicted energy
   /// What was observed must differ from what was foreseen by this share of the timeline's first value before the cycle optimizes anew.
   double noticeable = 0.005;
   /// A request that failed so often is withdrawn.
@@ -98,6 +99,7 @@ class Cycle {
   bool follow(temporal::Time now);
   temporal::Time expected(temporal::Time due, temporal::Time now) const;
   void await_start(Block& of, std::size_t index, temporal::Time now);
+  temporal::Time free_for(const Link& waiting) const;
   bool consolidate(temporal::Time now);
   bool schedule(temporal::Time now, Report& report);
   bool repair(temporal::Time now, Report& report);
@@ -110,12 +112,18 @@ class Cycle {
   bool keep_order(temporal::Time now, Report& report);
   void push(Block& late, temporal::Time from);
   bool shift(Block& late, temporal::Time from);
+  void last_anew(Block& begun) const;
   void take_out(const Block& gone);
   void put_in(const Block& placed);
   void abandon(Block& begun, const std::string& why, Report& report);
   void forget_over(Report& report);
   void edit_network(model::TaskIndex task);
-  search::Plan plan_for(temporal::Time now, const std::set<model::TaskIndex>& candidates, Report& report);
+  struct Found {
+    search::Plan plan;
+    bool better = true;  // than the plan that was held against it
+  };
+  Found plan_for(temporal::Time now, const std::set<model::TaskIndex>& candidates, Report& report,
+                 const search::Plan* known = nullptr);
   void adopt(const search::Plan& plan);
   std::set<model::TaskIndex> candidates(temporal::Time now) const;
   std::vector<const Block*> by_start() const;

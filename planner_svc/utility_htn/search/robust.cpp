@@ -45,6 +45,13 @@ RankVector score_under(const Problem& problem, const Plan& plan, double factor) 
   return scored(problem, ChainTable(problem), plan, factor);
 }
 
+RankVector judged(const Problem& problem, const Plan& plan, const RobustSettings& settings) {
+  const ChainTable table(problem);
+  std::vector<RankVector> scores;
+  for (const double factor : settings.factors) scores.push_back(scored(problem, table, plan, factor));
+  return judged(scores, settings.judgement);
+}
+
 RobustOutcome search_robust(const Problem& problem, const RobustSettings& settings, std::uint64_t entries) {
   if (settings.factors.empty())
     throw std::invalid_argument("a robust search needs at least one factor of energy, as 1");
@@ -59,6 +66,7 @@ RobustOutcome search_robust(const Problem& problem, const RobustSettings& settin
     Problem smaller = problem;
     smaller.budget = problem.budget / factor;
     outcomes.push_back(search(smaller, entries));
+    out.explored += outcomes.back().statistics.entries;
     Candidate& candidate = out.candidates.emplace_back();
     candidate.made_for = factor;
     candidate.plan = outcomes.back().plan;

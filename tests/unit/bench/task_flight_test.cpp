@@ -86,6 +86,36 @@ TEST(TaskFlight, TheGroundResolvesEverythingAtItsPrice) {
   EXPECT_EQ(out.ended_by, "nothing left");
 }
 
+TEST(TaskFlight, WaitingForTheGroundDrawsNothingButItsPrice) {
+  const model::Network network = commanded_network();
+  const Fates fates = failing_once("image", Resolution::flexible);
+  const Flown brief = flown(network, Strategy::ground, fates, {0, 40, 100s});
+  const Flown lasting = flown(network, Strategy::ground, fates, {0, 40, 200s});
+  EXPECT_NEAR(brief.energy.recovering, lasting.energy.recovering, 1e-6);
+  const Flown free = flown(network, Strategy::ground, fates, {0, 0, 100s});
+  EXPECT_NEAR(brief.energy.recovering - free.energy.recovering, 40, 1e-6);
+  EXPECT_GT(free.energy.recovering, 0) << "the attempt that failed";
+}
+
+TEST(TaskFlight, TellsWhereItsEnergyWentAndWhatItDid) {
+  const model::Network network = commanded_network();
+  const Flown out = flown(network, Strategy::flexible_execution, failing_once("dig", Resolution::flexible));
+  EXPECT_NEAR(out.energy.completed + out.energy.recovering + out.energy.broken_off + out.energy.fixed,
+              out.spent, 1e-6);
+  std::vector<std::string> dug;
+  for (const Execution& one : out.executions)
+    if (one.task == "dig") dug.push_back(one.result);
+  EXPECT_THAT(dug, ElementsAre("failed", "done"));
+}
+
+TEST(TaskFlight, EqualFlightsDecideAlike) {
+  const model::Network network = commanded_network();
+  const Fates fates = failing_once("dig", Resolution::replanning);
+  const Flown one = flown(network, Strategy::replanning, fates);
+  EXPECT_EQ(one.decisions, flown(network, Strategy::replanning, fates).decisions);
+  EXPECT_NE(one.decisions, flown(network, Strategy::replanning, kAsPlanned).decisions);
+}
+
 TEST(TaskFlight, WhatFlexibleExecutionCannotResolveIsPlannedAnew) {
   const model::Network network = commanded_network();
   const Flown out =
