@@ -111,6 +111,7 @@ class Course {
     svg_.polygon(band, {.fill = kPaleBlue, .opacity = 0.5});
     svg_.polyline(line, {.stroke = kBlue, .width = 2.5});
     for (const v1::EnergyPoint& point : outlook_.energy()) {
+      if (point.activity().empty()) continue;
       svg_.open(lib::clock_text(point.at_us()) + "  " + point.activity() + "  " +
                 joules_text(point.predicted_j()));
       svg_.circle(x_of(point.at_us()), y_of(point.predicted_j()), outlook_.energy().size() > 60 ? 1.5 : 3,
@@ -156,7 +157,7 @@ std::string energy_text(const v1::MissionOutlook& outlook) {
   for (const v1::EnergyPoint& point : outlook.energy())
     rows.push_back({lib::clock_text(point.at_us()), joules_text(point.predicted_j()),
                     joules_text(point.worst_j()), joules_text(point.best_j()),
-                    point.activity().empty() ? "now" : point.activity()});
+                    &point == &outlook.energy().front() ? "now" : point.activity()});
   return out + table_text(rows);
 }
 

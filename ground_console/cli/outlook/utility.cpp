@@ -77,7 +77,7 @@ class Picture {
     find_columns(outlook.chains());
     find_columns(outlook.products());
     std::ranges::sort(columns_, {}, &Column::rank);
-    width_ = kLabels + kColumn * static_cast<double>(std::max<std::size_t>(columns_.size(), 2)) + 210;
+    width_ = std::max(860.0, kLabels + kColumn * static_cast<double>(columns_.size()) + 210);
   }
 
   std::string draw() {
