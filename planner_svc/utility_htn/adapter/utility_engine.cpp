@@ -34,14 +34,27 @@ UtilityEngine::UtilityEngine(const engine::Setup& setup, model::Network network,
       assessor_(std::make_unique<assessor::SubwayAssessor>(network_, chains_)),
       scheduler_(search::make_scheduler("nearest")),
       settings_(settings),
-      delivery_(network_) {
-  // The first cycle cannot commit what would have to start at once.
-  for (model::Task& task : network_.tasks)
-    if (task.fixed && temporal::bounded(task.preferred_start))
-      task.preferred_start = std::max(task.preferred_start, network_.cycle.commit_window);
-}
+      delivery_(network_) {}
 
 UtilityEngine::~UtilityEngine() = default;
+
+// The first cycle cannot commit what would have to start at once. What began before it and has no command, as a view of Earth, holds for
+// the rest of its time; a command that is late is missed.
+void UtilityEngine::begin_fixed(Time origin) {
+  if (std::exchange(has_begun_, true)) return;
+  const Time first = origin + network_.cycle.commit_window;
+  for (model::Task& task : network_.tasks) {
+    if (!task.fixed || task.preferred_start >= first) continue;
+    if (task.commands.empty()) {
+      const double late = temporal::to_seconds(first - task.preferred_start);
+      if (late >= model::duration_s(task, cycle_->past().values)) continue;
+      task.duration.constant -= late;
+    } else if (task.preferred_start < origin) {
+      continue;
+    }
+    task.preferred_start = first;
+  }
+}
 
 StepOutput UtilityEngine::step(const StepInputs& inputs) {
   if (cycle_ == nullptr) {
@@ -58,6 +71,7 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
   await_ends(inputs.now);
   if (open_ && !goals_.empty() && inputs.now >= next_cycle_ && !plan_ended_) {
     const bool lost = versions_.give_up();  // for a whole interval nobody has answered
+    begin_fixed(inputs.now);
     std::vector<cycle::Block> begun;
     std::ranges::copy_if(cycle_->blocks(), std::back_inserter(begun), &cycle::Block::begun);
     const cycle::Report report = cycle_->run(inputs.now);
@@ -217,6 +231,7 @@ void UtilityEngine::go_on_with(const FlexiblePlan& executed, Time now) {
   measurements_.resume(std::move(recovered.measured));
   origin_ = executed.origin;
   points_ = recovered.points;
+  begin_fixed(origin_);
   initial_.reset();
   for (const temporal::PlanActivity& activity : executed.activities)
     if (is_initial(activity)) {
