@@ -374,8 +374,8 @@ class TaskFlight {
       ++out_.replanned;
       resolved_.insert(task.id);
       recovering_ += spend(flight_.costs.replanning_j);
-      // Retries would not help: the executive gives up, and the engine plans anew.
-      return task.control.retries > 0 ? CommandStage::rejected : CommandStage::failed;
+      // What its owner has given up the executive does not try again: the chain is broken off, and the engine plans anew.
+      return CommandStage::cancelled;
     } else {
       ++out_.by_ground;
       recovering_ += spend(flight_.costs.ground_j);

@@ -108,6 +108,10 @@ class Reader {
     const auto went =
         progress_ == nullptr ? temporal::Progress::const_iterator{} : progress_->find(activity.id);
     const bool known = progress_ != nullptr && went != progress_->end();
+    // It has failed or was skipped, perhaps before it began: what follows it in its chain is skipped, too.
+    if (known && temporal::is_over(went->second.state) &&
+        went->second.state != temporal::ActivityState::succeeded)
+      failed_.insert(name->block);
     if (known && went->second.started) {
       step.start = *went->second.started;
       const Time end = went->second.ended.value_or(std::max(now_, step.start + *step.duration));
@@ -130,7 +134,7 @@ class Reader {
   // A block of which a link has failed is no plan any more: what is committed of it is skipped.
   void keep(std::uint32_t number, Block& block) {
     std::ranges::sort(block.steps, {}, &Step::id);
-    bool whole = whole_.contains(number);
+    bool whole = whole_.contains(number) && !failed_.contains(number);
     for (std::size_t link = 0; link < block.steps.size(); ++link)
       whole = whole && block.steps[link].id == ((std::uint64_t{number} << 32U) | link);
     if (!whole) {
@@ -153,6 +157,7 @@ class Reader {
   std::map<std::uint32_t, std::size_t> running_;       // steps that are not over
   std::set<std::uint64_t> effective_;                  // steps that have begun and have not failed
   std::set<std::uint32_t> whole_;                      // blocks that have it
+  std::set<std::uint32_t> failed_;                     // blocks of which a step has ended without success
   Version out_;
 };
 

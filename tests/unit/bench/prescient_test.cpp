@@ -152,8 +152,8 @@ TEST(BaseDomain, ACollectionThatCameToNothingUsesUpNoSample) {
                                                       {.downlinks = false});
   Flight flight{.network = network, .engine = engine, .fates = {}, .until = network.cycle.plan_end};
   flight.fates = [](const std::string& task, std::uint32_t execution) {
-    const bool fails = task == "transport_sample" && execution < 3;
-    return Fate{1, 0.8, fails && execution != 1 ? Resolution::replanning : Resolution::none};
+    const bool fails = task.starts_with("science_analyze_raw_0_") && !task.ends_with("2") && execution == 0;
+    return Fate{1, 0.7, fails ? Resolution::replanning : Resolution::none};
   };
   const Flown out = fly(flight);
   std::map<char, int> samples;  // by site
