@@ -40,7 +40,7 @@ Fate Experiment::fate_of(double bias, std::uint64_t seed, const std::string& tas
 }
 
 Flown Experiment::flown(Strategy strategy, double bias, std::uint64_t seed,
-                        const std::function<double()>& processor_time) const {
+                        const std::function<double()>& processor_time, temporal::Time until) const {
   planner::utility_htn::cycle::Settings settings;
   if (strategy != Strategy::replanning)
     settings = {.repairs = false, .optimizes = false, .schedules_again = false};
@@ -57,7 +57,7 @@ Flown Experiment::flown(Strategy strategy, double bias, std::uint64_t seed,
                 .fates = {},
                 .strategy = strategy,
                 .costs = setting_.costs,
-                .until = network.cycle.plan_end,
+                .until = std::min(until, network.cycle.plan_end),
                 .succeeded = {},
                 .processor_time = processor_time};
   flight.fates = [&](const std::string& task, std::uint32_t execution) {

@@ -39,8 +39,10 @@ class Experiment {
   Experiment(const planner::utility_htn::model::Network& network, const Setting& setting)
       : network_(network), setting_(setting) {}
 
+  /// Flies until `until`, or the end of the plan if that is sooner; see Flight::processor_time.
   Flown flown(Strategy strategy, double bias, std::uint64_t seed,
-              const std::function<double()>& processor_time = {}) const;
+              const std::function<double()>& processor_time = {},
+              temporal::Time until = temporal::no_bound) const;
 
   /// Flies so that everything goes as the network has it, on a battery that bears the bias.
   Flown without_failures(double bias) const;
