@@ -11,6 +11,10 @@ inline constexpr std::size_t kGoals = 10'000;
 inline constexpr std::size_t kTimelines = 10'000;
 /// Activities of the executed version whose progress is kept: those of the largest plan that the wire carries.
 inline constexpr std::size_t kActivities = 100'000;
+/// Numbers that one command brought.
+inline constexpr std::size_t kResultValues = 64;
+/// Commands whose results are kept until their activity has left the plan.
+inline constexpr std::size_t kResults = 10'000;
 /// Data products that such an engine hears of.
 inline constexpr std::size_t kProducts = 2'000;
 /// Offers of functions: a module for each of 256 owners.
@@ -22,6 +26,8 @@ inline constexpr std::size_t kNetworkBytes = 8U << 20U;
 inline constexpr std::size_t kNetworksWaiting = 4;
 inline constexpr std::size_t kReasons = 50;
 inline constexpr std::size_t kReasonBytes = 2'000;
+/// Bytes of a downlink schedule or a mission outlook, well below what their topics carry: what has no room is counted in them.
+inline constexpr std::size_t kOutlookBytes = 8U << 20U;
 /// Bytes of a name that is kept.
 inline constexpr std::size_t kNameBytes = 1'024;
 

@@ -7,6 +7,7 @@
 
 #include "planner_svc/engine/checked_answer.hpp"
 #include "planner_svc/limits.hpp"
+#include "planner_svc/outlook_wire_service.hpp"
 #include "planner_svc/wire_service.hpp"
 #include "services/node/make_event.hpp"
 #include "services/wire/plan_wire.hpp"
@@ -26,6 +27,9 @@ std::size_t size_of(const std::string& name) { return name.size(); }
 std::size_t size_of(const std::pair<std::string, std::string>& name) {
   return name.first.size() + name.second.size();
 }
+std::size_t size_of(const std::tuple<std::string, std::string, std::uint32_t>& name) {
+  return std::get<0>(name).size() + std::get<1>(name).size();
+}
 
 std::string version_text(std::uint32_t version) { return "version " + std::to_string(version); }
 
@@ -40,6 +44,8 @@ SteppedHost::SteppedHost(services::Node& node, const Settings& settings, const e
       engine_(make_engine()),
       checker_(entry.make_checker()),
       deltas_(services::advertise(node, topics::plan_delta)),
+      schedules_(services::advertise(node, topics::downlink_schedule)),
+      outlooks_(services::advertise(node, topics::mission_outlook)),
       events_(services::advertise(node, topics::event)),
       worker_(node) {
   subscribe_all();
@@ -69,7 +75,9 @@ void SteppedHost::subscribe_all() {
                       [this](const v1::GoalStatus& status) { hear_status(status); });
   services::subscribe(node_, topics::plan, [this](const v1::Plan& plan) { hear_plan(plan); });
   services::subscribe(node_, topics::plan_receipt, [this](const v1::PlanReceipt& receipt) {
-    if (is_ours(receipt.header())) hear_receipt(from_wire(receipt));
+    if (!is_ours(receipt.header())) return;
+    note_executive(receipt.executive());
+    hear_receipt(from_wire(receipt));
   });
   services::subscribe(node_, topics::step_status, [this](const v1::StepStatus& step) {
     if (!is_ours(step.header())) return;
@@ -78,6 +86,7 @@ void SteppedHost::subscribe_all() {
     progress_.insert_or_assign(step.activity(), heard_.steps.back().progress);
     step_soon();
   });
+  services::subscribe(node_, topics::command_ack, [this](const v1::CommandAck& ack) { hear_result(ack); });
   services::subscribe(node_, topics::data_product, [this](const v1::DataProduct& product) {
     if (!is_ours(product.header()) || !has_room(products_, product.id(), kProducts, "data product")) return;
     engine::DataProduct heard = from_wire(product);
@@ -164,6 +173,29 @@ void SteppedHost::hear_plan(const v1::Plan& plan) {
   step_soon();
 }
 
+// Before this is known results are kept of whoever commands.
+void SteppedHost::note_executive(const std::string& executive) {
+  if (!executive_.empty()) return;
+  executive_ = executive;
+  std::erase_if(results_, [&](const auto& one) { return std::get<0>(one.first) != executive_; });
+  for (const auto& [key, result] : results_) heard_.results.push_back(result);
+}
+
+// The executive tells of owners in whose place another one speaks.
+void SteppedHost::hear_result(const v1::CommandAck& ack) {
+  if (ack.stage() != v1::STAGE_COMPLETED || ack.epoch() == 0 || ack.header().sender() != ack.owner()) return;
+  if (!executive_.empty() && ack.commander() != executive_) return;
+  const ResultKey key{ack.commander(), ack.activity(), ack.attempt()};
+  if (!has_room(results_, key, kResults, "result")) return;
+  engine::CommandResult result = from_wire(ack);
+  const auto known = results_.find(key);
+  if (known != results_.end() && known->second == result) return;
+  results_.insert_or_assign(key, result);
+  if (executive_.empty()) return;
+  heard_.results.push_back(std::move(result));
+  step_soon();
+}
+
 void SteppedHost::hear_receipt(const Receipt& receipt) {
   newest_ = receipt;
   last_version_ = std::max({last_version_, receipt.version, receipt.refused});
@@ -180,6 +212,7 @@ void SteppedHost::take_receipt() {
     forget_steps_of_others(*history_.version(newest_->version));
   } else {
     progress_.clear();
+    results_.clear();
   }
   step_soon();
 }
@@ -189,6 +222,7 @@ void SteppedHost::forget_steps_of_others(const FlexiblePlan& plan) {
   std::unordered_set<std::string_view> ids;
   for (const temporal::PlanActivity& activity : plan.activities) ids.insert(activity.id);
   std::erase_if(progress_, [&](const auto& step) { return !ids.contains(step.first); });
+  std::erase_if(results_, [&](const auto& one) { return !ids.contains(std::get<1>(one.first)); });
 }
 
 void SteppedHost::step_soon() {
@@ -223,7 +257,7 @@ void SteppedHost::end_step(Time now, StepResult result) {
   stepping_ = false;
   const bool heard_more = !heard_.goals.empty() || !heard_.ended_goals.empty() ||
                           !heard_.observations.empty() || !heard_.steps.empty() || !heard_.products.empty() ||
-                          heard_.receipt || heard_.executed || orders_.waiting();
+                          !heard_.results.empty() || heard_.receipt || heard_.executed || orders_.waiting();
   if (!result.error.empty()) {
     report(v1::SEVERITY_ERROR, "planner.defect",
            "engine '" + setup_.engine + "' failed and is made anew: " + result.error);
@@ -239,6 +273,7 @@ void SteppedHost::end_step(Time now, StepResult result) {
       report(v1::SEVERITY_WARNING, "planner.measured", doubt);
     tell_account(result.output);
     if (result.output.delta) send(now, *result.output.delta);
+    tell_outlook(now, result.output);
     tell_blocking(std::move(result.output.blocking));
     const auto wake = result.output.wake;
     if (wake && *wake > node_.now())
@@ -292,6 +327,7 @@ void SteppedHost::make_anew() {
     if (heard.told) heard_.goals.push_back(*heard.goal);
   for (const auto& [timeline, value] : state_) heard_.observations.push_back({timeline, value, node_.now()});
   for (const auto& [id, product] : products_) heard_.products.push_back(product);
+  for (const auto& [key, result] : results_) heard_.results.push_back(result);
   heard_.receipt = newest_;
   if (newest_ && newest_->version != 0)
     if (const FlexiblePlan* executed = history_.version(newest_->version)) heard_.executed = *executed;
@@ -309,6 +345,20 @@ void SteppedHost::tell_account(const engine::StepOutput& output) {
   if (output.delta) text += "; " + version_text(output.delta->added.version);
   for (const std::string& note : account.notes) text += "; " + note;
   report(v1::SEVERITY_INFO, "planner.cycle", text);
+}
+
+void SteppedHost::tell_outlook(Time now, const engine::StepOutput& output) {
+  const auto tell = [&](auto sample, const auto& publisher) {
+    sample.robot(setup_.robot);
+    sample.version(publisher.written() + 1);
+    sample.plan_version(last_version_);
+    sample.made_us(now.count());
+    sample.network(output.model.name);
+    sample.network_version(output.model.version);
+    publisher.write(std::move(sample));
+  };
+  if (output.schedule) tell(to_wire(*output.schedule), schedules_);
+  if (output.outlook) tell(to_wire(*output.outlook), outlooks_);
 }
 
 void SteppedHost::tell_blocking(std::vector<BlockingGoal> blocking) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "planner_svc/settings.hpp"
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
+#include "roci_idl/outlook.h"
 #include "roci_idl/plan.h"
 #include "roci_idl/planner.h"
 #include "services/bounds/tally.hpp"
@@ -36,7 +38,8 @@ class SteppedHost {
   SteppedHost& operator=(const SteppedHost&) = delete;
 
  private:
-  using Key = std::pair<std::string, std::string>;  // issuer, id
+  using Key = std::pair<std::string, std::string>;                        // issuer, id
+  using ResultKey = std::tuple<std::string, std::string, std::uint32_t>;  // commander, activity, attempt
   struct HeardGoal {
     std::optional<engine::Goal> goal;
     std::optional<engine::GoalState> state;  // as the executive says
@@ -56,6 +59,8 @@ class SteppedHost {
   void hear_status(const v1::GoalStatus& status);
   void note_goal(const Key& key, HeardGoal& heard, bool changed);
   void hear_plan(const v1::Plan& plan);
+  void note_executive(const std::string& executive);
+  void hear_result(const v1::CommandAck& ack);
   void hear_receipt(const engine::Receipt& receipt);
   void take_receipt();
   void forget_steps_of_others(const temporal::FlexiblePlan& plan);
@@ -68,6 +73,7 @@ class SteppedHost {
   std::shared_ptr<engine::SteppedEngine> make_engine();
   void make_anew();
   void tell_account(const engine::StepOutput& output);
+  void tell_outlook(temporal::Time now, const engine::StepOutput& output);
   void tell_blocking(std::vector<engine::BlockingGoal> blocking);
   void report(v1::Severity severity, const std::string& code, const std::string& text);
 
@@ -78,13 +84,17 @@ class SteppedHost {
   std::shared_ptr<engine::SteppedEngine> engine_;
   std::unique_ptr<engine::Checker> checker_;
   services::Publisher<v1::PlanDelta> deltas_;
+  services::Publisher<v1::DownlinkSchedule> schedules_;
+  services::Publisher<v1::MissionOutlook> outlooks_;
   services::Publisher<v1::Event> events_;
 
   engine::StepInputs heard_;                             // since the step before
+  std::string executive_;                                // whose plan it is; empty: not known yet
   std::map<Key, HeardGoal> goals_;                       // all of this run
   engine::Timelines state_;                              // newest observations
   std::map<std::string, engine::DataProduct> products_;  // by id
   temporal::Progress progress_;                          // of the executed version
+  std::map<ResultKey, engine::CommandResult> results_;   // likewise, of completed commands
   std::optional<engine::Receipt> newest_;                // receipt
   engine::PlanHistory history_;
   std::uint32_t last_version_ = 0;

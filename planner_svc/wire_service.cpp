@@ -239,6 +239,7 @@ engine::Observation from_wire(const v1::Observation& in) {
 engine::DataProduct from_wire(const v1::DataProduct& in) {
   engine::DataProduct out;
   out.id = in.id();
+  out.kind = in.product_kind();
   out.source = in.source();
   out.tier = static_cast<engine::DataTier>(std::min<std::uint32_t>(in.tier(), v1::TIER_RESIDUAL));
   out.bytes = in.bytes();
@@ -258,6 +259,19 @@ engine::StepStatus from_wire(const v1::StepStatus& in) {
   out.progress.started = if_happened(in.started_us());
   out.progress.ended = if_happened(in.ended_us());
   out.cause = in.cause();
+  return out;
+}
+
+engine::CommandResult from_wire(const v1::CommandAck& in) {
+  engine::CommandResult out;
+  out.activity = in.activity();
+  out.attempt = in.attempt();
+  if (std::isfinite(in.outcome().energy_j())) out.energy_j = in.outcome().energy_j();
+  for (const v1::NamedValue& one : in.outcome().measured()) {
+    if (out.values.size() == kResultValues) break;
+    if (one.name().size() > kNameBytes || one.held().kind() != v1::VALUE_NUMBER) continue;
+    if (std::isfinite(one.held().number())) out.values.insert_or_assign(one.name(), one.held().number());
+  }
   return out;
 }
 

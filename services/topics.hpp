@@ -11,6 +11,7 @@
 #include "roci_idl/motion.h"
 #include "roci_idl/network.h"
 #include "roci_idl/order.h"
+#include "roci_idl/outlook.h"
 #include "roci_idl/plan.h"
 #include "roci_idl/planner.h"
 #include "roci_idl/rpc.h"
@@ -75,6 +76,10 @@ inline constexpr Topic<v1::DecisionReceipt> decision_receipt{"roci/decision/rece
 // Task networks and values of their parameters from the ground, for an engine that plans all the time.
 inline constexpr Topic<v1::NetworkOrder>  network_order {"roci/network/order",    "roci::v1::NetworkOrder",  Qos::state, clocked, robot, PayloadLimit::batch};
 inline constexpr Topic<v1::NetworkStatus> network_status{"roci/network/status",   "roci::v1::NetworkStatus", Qos::state, clocked, robot, PayloadLimit::page};
+
+// What such an engine expects of its plan: data and their downlinks, utility, energy, the subway map.
+inline constexpr Topic<v1::DownlinkSchedule> downlink_schedule{"roci/downlink/schedule", "roci::v1::DownlinkSchedule", Qos::state, clocked, robot, PayloadLimit::batch};
+inline constexpr Topic<v1::MissionOutlook> mission_outlook{"roci/mission/outlook", "roci::v1::MissionOutlook",  Qos::state, clocked, robot, PayloadLimit::batch};
 
 // An engine that plans all the time uses these.
 inline constexpr Topic<v1::PlanDelta>     plan_delta    {"roci/planner/delta",    "roci::v1::PlanDelta",     Qos::request, clocked, robot, PayloadLimit::plan};

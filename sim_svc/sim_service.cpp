@@ -30,6 +30,7 @@ using world::Image;
 using world::MotionWanted;
 using world::Observed;
 using world::PathWanted;
+using world::Product;
 using world::RockSeen;
 using world::TaskReport;
 using world::TaskStage;
@@ -118,6 +119,7 @@ class SimService final : public services::Service, private owner::Driver {
       std::visit(Match{[this](const TaskReport& task) { report(task); },
                        [this](const Observed& observed) { observations_.write(wire::to_wire(observed)); },
                        [this](const Image& image) { publish(image); },
+                       [this](const Product& product) { publish(product); },
                        [this](const RockSeen& rock) { warn_of(rock); },
                        [this](const PathWanted& path) { ask(path); },
                        [this](const MotionWanted& motion) { ask(motion); }},
@@ -141,6 +143,12 @@ class SimService final : public services::Service, private owner::Driver {
     products_.write(product);
     // Nothing more will be said of what is sent, and of what is not kept.
     if (image.sent || image.kind != "image") products_.dispose(product);
+  }
+
+  void publish(const Product& product) {
+    const v1::DataProduct sample = wire::to_wire(product);
+    products_.write(sample);
+    if (world::is_final(product.fate)) products_.dispose(sample);
   }
 
   void report(const TaskReport& task) {
@@ -203,9 +211,9 @@ class SimService final : public services::Service, private owner::Driver {
                      },
                      [this](const NetworkStimulus& order) { network_orders_.write(wire::to_wire(order)); },
                      [this, &stimulus](const world::Disturbance& disturbance) {
-                       // An earlier process has lost this energy already; a fall of rocks is no part of its memory.
-                       const bool lost = std::holds_alternative<world::EnergyLoss>(disturbance);
-                       if (lost && goes_on_from_ && stimulus.at <= *goes_on_from_) return;
+                       // An earlier process has suffered this already; a fall of rocks is no part of its memory.
+                       if (world::adds_up(disturbance) && goes_on_from_ && stimulus.at <= *goes_on_from_)
+                         return;
                        tell(world_.disturb(node_.now(), disturbance));
                      }},
                stimulus.what);

@@ -98,6 +98,24 @@ v1::DataProduct to_wire(const world::Image& image) {
   return out;
 }
 
+static_assert(static_cast<int>(world::Fate::lost) == v1::PRODUCT_LOST &&
+                  static_cast<int>(world::Fate::sent) == v1::PRODUCT_SENT &&
+                  static_cast<int>(world::Tier::residual) == v1::TIER_RESIDUAL,
+              "fates and tiers have the order of the wire");
+
+v1::DataProduct to_wire(const world::Product& product) {
+  v1::DataProduct out;
+  out.id(product.id);
+  out.product_kind(product.kind);
+  out.source(product.source);
+  out.bytes(product.bytes);
+  out.fate(static_cast<v1::ProductFate>(product.fate));
+  out.tier(static_cast<v1::DataTier>(product.tier));
+  out.created_us(product.created.count());
+  out.utility(product.utility);
+  return out;
+}
+
 v1::Hazard to_wire(const world::RockSeen& rock, const std::string& finder) {
   v1::Hazard out;
   out.found_by(finder);

@@ -27,6 +27,7 @@ world::Trajectory trajectory_of(const v1::ArmMotionReply&);
 /// These translate what goes out.
 v1::Observation to_wire(const world::Observed&);
 v1::DataProduct to_wire(const world::Image&);
+v1::DataProduct to_wire(const world::Product&);
 v1::Hazard to_wire(const world::RockSeen&, const std::string& finder);
 v1::PathRequest to_wire(const world::PathWanted&);
 v1::ArmMotionRequest to_wire(const world::MotionWanted&);

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <system_error>
 
 #include "services/log/log.hpp"
@@ -16,6 +17,7 @@ using temporal::Time;
 using world::Image;
 using world::Memory;
 using world::Pose;
+using world::Product;
 using world::RobotMemory;
 using world::WorldMemory;
 
@@ -45,11 +47,57 @@ Image image_in(const std::string& id, const json& in) {
           in.at("preview").get<std::vector<std::uint8_t>>()};
 }
 
+json to_json(const Product& product) {
+  return {{"id", product.id},
+          {"kind", product.kind},
+          {"robot", product.robot},
+          {"source", product.source},
+          {"bytes", product.bytes},
+          {"tier", static_cast<int>(product.tier)},
+          {"fate", static_cast<int>(product.fate)},
+          {"created_us", product.created.count()},
+          {"utility", product.utility}};
+}
+
+// Throws for a number that names none.
+template <class Named>
+Named named_in(const json& in, Named last) {
+  const auto number = in.get<int>();
+  if (number < 0 || number > static_cast<int>(last)) throw std::invalid_argument("no such number");
+  return static_cast<Named>(number);
+}
+
+Product product_in(const json& in) {
+  return {in.at("id").get<std::string>(),
+          in.at("kind").get<std::string>(),
+          in.at("robot").get<std::string>(),
+          in.at("source").get<std::string>(),
+          in.at("bytes").get<std::uint64_t>(),
+          named_in(in.at("tier"), world::Tier::residual),
+          named_in(in.at("fate"), world::Fate::lost),
+          Time(in.at("created_us").get<std::int64_t>()),
+          in.at("utility").get<std::vector<double>>()};
+}
+
+// Worlds that were kept before there was such data are read, too.
+void read_body(const json& in, RobotMemory& out) {
+  if (in.contains("temperatures_k"))
+    out.temperatures_k = in["temperatures_k"].get<std::map<std::string, double>>();
+  if (!in.contains("data")) return;
+  for (const json& product : in["data"].at("products")) out.data.products.push_back(product_in(product));
+  out.data.made = in["data"].at("made").get<std::map<std::string, std::uint32_t>>();
+}
+
 json to_json(const RobotMemory& robot) {
   json out{{"images", json::object()}, {"components", json::object()}};
   if (robot.pose) out["pose"] = to_json(*robot.pose);
   if (robot.energy_j) out["energy_j"] = *robot.energy_j;
   for (const auto& [id, image] : robot.images) out["images"][id] = to_json(image);
+  if (!robot.temperatures_k.empty()) out["temperatures_k"] = robot.temperatures_k;
+  if (!robot.data.made.empty()) {
+    out["data"] = {{"products", json::array()}, {"made", robot.data.made}};
+    for (const Product& product : robot.data.products) out["data"]["products"].push_back(to_json(product));
+  }
   for (const auto& [name, memory] : robot.components) {
     json& component = out["components"][name] = json::object();
     for (const auto& [key, value] : memory) component[key] = services::owner::to_json(value);
@@ -62,6 +110,7 @@ RobotMemory robot_in(const json& in) {
   if (in.contains("pose")) out.pose = pose_in(in["pose"]);
   if (in.contains("energy_j")) out.energy_j = in["energy_j"].get<double>();
   for (const auto& [id, image] : in.at("images").items()) out.images.emplace(id, image_in(id, image));
+  read_body(in, out);
   for (const auto& [name, memory] : in.at("components").items())
     for (const auto& [key, value] : memory.items())
       out.components[name][key] = services::owner::value_in(value);

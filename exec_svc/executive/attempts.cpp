@@ -100,7 +100,7 @@ bool Attempts::retry(Index activity, Time now, const std::string& reason) {
     return false;
   const auto within = state_->settings.retry_within.find(planned.name);
   if (within != state_->settings.retry_within.end() && now > plus(*run.started, within->second)) return false;
-  if (evaluate(planned.pre, state_->lookup()) != Truth::yes) return false;
+  if (evaluate(planned.pre, state_->lookup_to_retry(activity)) != Truth::yes) return false;
   ++run.retries_used;
   state_->report_recovery(RecoveryAction::retry, activity,
                           "retry " + std::to_string(run.retries_used) + " of " +

@@ -114,7 +114,8 @@ std::optional<ContingencyEnd> ContingencyRuns::check(Index activity, Time now) {
   Record& record = records_[activity];
   if (record.command == running.commands.size()) {
     const std::string unmet =
-        running.retries ? explain(state_->plan.activities[activity].pre, state_->lookup()) : "";
+        running.retries ? explain(state_->plan.activities[activity].pre, state_->lookup_to_retry(activity))
+                        : "";
     if (!unmet.empty() && now < record.command_since + state_->settings.settle_time) return std::nullopt;
     return ended(activity, unmet.empty() ? "" : "then the activity lacks " + unmet);
   }

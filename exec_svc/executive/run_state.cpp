@@ -29,12 +29,25 @@ RunState::RunState(temporal::FlexiblePlan flexible_plan, const ExecutiveSettings
 
 temporal::Lookup RunState::lookup() const {
   return [this](const std::string& timeline) {
-    const std::string id = temporal::activity_of(timeline);
-    if (id.empty()) return store.value_of(timeline);
-    const auto activity = index_of.find(id);
-    const bool absent = activity == index_of.end();
-    return std::optional(temporal::state(absent ? "absent" : temporal::to_string(runs[activity->second].state)));
+    const auto progress = progress_named(timeline);
+    return progress ? progress : store.value_of(timeline);
   };
+}
+
+temporal::Lookup RunState::lookup_to_retry(Index activity) const {
+  return [this, &id = plan.activities[activity].id](const std::string& timeline) {
+    const auto progress = progress_named(timeline);
+    return progress ? progress : store.value_without(id, timeline);
+  };
+}
+
+// Returns how an activity of the plan went, if the timeline's name asks for that.
+std::optional<temporal::Value> RunState::progress_named(const std::string& timeline) const {
+  const std::string id = temporal::activity_of(timeline);
+  if (id.empty()) return std::nullopt;
+  const auto activity = index_of.find(id);
+  const bool absent = activity == index_of.end();
+  return temporal::state(absent ? "absent" : temporal::to_string(runs[activity->second].state));
 }
 
 StepStatus RunState::status(Index activity) const {

@@ -55,6 +55,8 @@ struct RunState {
   /// Returns whether activities may start and fail; else what runs is only followed to its end.
   bool starting() const { return outcome.kind == OutcomeKind::running; }
   temporal::Lookup lookup() const;
+  /// The same as a running activity will find it that is tried again: what it has taken is given back.
+  temporal::Lookup lookup_to_retry(Index activity) const;
   StepStatus status(Index activity) const;
 
   /// The arguments of a command of the activity, `planned`, with those that decisions have bound: in each
@@ -79,6 +81,9 @@ struct RunState {
   void break_plan(Breakage breakage, const std::string& who, const std::string& reason,
                   const std::string& contingency);
   void update_outcome();
+
+ private:
+  std::optional<temporal::Value> progress_named(const std::string& timeline) const;
 };
 
 }  // namespace roci::exec::executive

@@ -15,6 +15,17 @@ std::optional<Value> TimelineStore::value_of(const std::string& timeline) const 
   return std::nullopt;
 }
 
+std::optional<Value> TimelineStore::value_without(const std::string& activity,
+                                                  const std::string& timeline) const {
+  std::optional<Value> out = value_of(timeline);
+  const auto taken = lasting_.find(activity);
+  auto* const number = out ? std::get_if<double>(&*out) : nullptr;
+  if (taken == lasting_.end() || number == nullptr || observed_.contains(timeline)) return out;
+  for (const Lasting& impact : taken->second)
+    if (impact.kind == ImpactKind::delta && impact.timeline == timeline) *number -= impact.amount;
+  return out;
+}
+
 void TimelineStore::advance(temporal::Time now) {
   const double elapsed = now_ ? temporal::to_seconds(now - *now_) : 0.0;
   now_ = now;

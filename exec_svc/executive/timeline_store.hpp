@@ -20,6 +20,9 @@ class TimelineStore {
  public:
   void observe(const std::string& timeline, const temporal::Value& value);
   std::optional<temporal::Value> value_of(const std::string& timeline) const;
+  /// Returns the value that it would have if the activity, which runs, gave back what it has taken for as long as it runs.
+  std::optional<temporal::Value> value_without(const std::string& activity,
+                                               const std::string& timeline) const;
 
   /// Lets the rates of running activities act up to now.
   void advance(temporal::Time now);

@@ -75,7 +75,8 @@ ResourceMonitor::ResourceMonitor(const temporal::FlexiblePlan& plan) {
   }
   for (const PlanActivity& activity : plan.activities)
     for (const temporal::Impact& impact : activity.impacts)
-      if (impact.kind != temporal::ImpactKind::delta) timelines_.erase(impact.timeline);
+      if (impact.kind != temporal::ImpactKind::delta || impact.moment == temporal::ImpactWhen::during)
+        timelines_.erase(impact.timeline);
   std::map<std::string, std::vector<Segment>> stretches;
   for (std::size_t i = 0; i < plan.activities.size(); ++i) {
     const PlanActivity& activity = plan.activities[i];

@@ -16,7 +16,8 @@
 
 namespace roci::exec::reactor {
 
-/// For every numeric timeline that the plan's activities change by a known amount, and in no other way: the
+/// For every numeric timeline that the plan's activities change by a known amount for good, and in no other way (what is given
+/// back at an activity's end is waited for): the
 /// range in which its value must lie now, so that the pre conditions of all waiting activities hold in plan
 /// order. Nobody sees how much of it the first attempt of a running activity has taken or given already: it may still
 /// do any part of what was planned, and whatever part would do is reckoned with, so that no alarm is false. What another

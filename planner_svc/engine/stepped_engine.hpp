@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "core/temporal/plan_delta.hpp"
 #include "core/temporal/projection.hpp"
 #include "planner_svc/engine/answer.hpp"
+#include "planner_svc/engine/data_product.hpp"
+#include "planner_svc/engine/outlook.hpp"
 #include "planner_svc/engine/request.hpp"
 
 namespace roci::planner::engine {
@@ -40,21 +43,14 @@ struct StepStatus {
   std::uint32_t attempt = 0;  ///< counts from 1; 0: no command was sent
 };
 
-/// How soon data must reach the ground, in the order of DataTier in idl/command.idl.
-enum class DataTier { critical, decisional, mandatory, residual };
-/// What has become of data, in the order of ProductFate in idl/command.idl.
-enum class DataFate { stored, sent, received, discarded, left_behind, lost };
-
-/// Data that were generated, as they stand now.
-struct DataProduct {
-  std::string id;
-  std::string source;  ///< activity that made it
-  DataTier tier = DataTier::mandatory;
-  std::uint64_t bytes = 0;
-  temporal::Time created{0};
-  temporal::RankVector utility;  ///< as computed from the data; none: it was not
-  DataFate fate = DataFate::stored;
-  friend bool operator==(const DataProduct&, const DataProduct&) = default;
+/// What a command took and brought, as its owner said when it was completed. The command of an activity's second try, and the second of a
+/// sequence, have attempt 2.
+struct CommandResult {
+  std::string activity;
+  std::uint32_t attempt = 0;
+  std::optional<double> energy_j{};        ///< drawn by it alone; nothing: not measured
+  std::map<std::string, double> values{};  ///< numbers that it brought, all finite
+  friend bool operator==(const CommandResult&, const CommandResult&) = default;
 };
 
 /// What became of a goal in the end: in the order of GoalState in idl/goal.idl.
@@ -109,6 +105,8 @@ struct StepInputs {
   std::vector<EndedGoal> ended_goals;
   std::vector<Observation> observations;
   std::vector<StepStatus> steps;
+  /// May come before or after the step's own end.
+  std::vector<CommandResult> results;
   std::vector<DataProduct> products;
   std::vector<ModelChange> model_changes;
   std::optional<Receipt> receipt;  ///< the newest
@@ -139,6 +137,9 @@ struct StepOutput {
   std::vector<std::string> doubted;
   /// Told as the event planner.cycle where it is not empty.
   StepAccount account;
+  /// Each whole, and only where it is another one than was told before; at most once a cycle.
+  std::optional<DownlinkSchedule> schedule;
+  std::optional<MissionOutlook> outlook;
   /// Mission time of the next step if nothing is heard before; a past one counts as none.
   std::optional<temporal::Time> wake;
 };

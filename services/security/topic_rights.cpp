@@ -61,7 +61,7 @@ std::vector<TopicRights> make_table() {
       row(topics::goal,            {executive, analyst, world, console},     {executive, planner, listener, console}),
       row(topics::goal_status,     {executive},                              {planner, analyst, listener, console}),
       row(topics::command,         {executive},                              {listener, owner}),
-      row(topics::command_ack,     {owner},                                  {executive, listener}),
+      row(topics::command_ack,     {owner},                                  {executive, planner, listener}),
       row(topics::observation,     {owner, executive},                       {executive, planner, analyst, listener, console}),
       row(topics::data_product,    {owner, analyst},                         {planner, analyst, listener, console}),
       row(topics::hazard,          {owner},                                  {path_planner, listener, console}),
@@ -78,6 +78,8 @@ std::vector<TopicRights> make_table() {
 
       row(topics::network_order,   {world, console},                         {planner}),
       row(topics::network_status,  {planner},                                {console}),
+      row(topics::downlink_schedule,{planner},                               {world, console}),
+      row(topics::mission_outlook, {planner},                                {world, console}),
 
       row(topics::plan_delta,      {planner},                                {executive}),
       row(topics::plan_receipt,    {executive},                              {planner}),

@@ -41,8 +41,7 @@ Ending Camera::begin(const world::Task& task, Time now, Surroundings& around) {
   if (wheels && !wheels->place()) {
     return Failure{"driving", "the robot drives and the image would be blurred; stop it first"};
   }
-  const double duration =
-      settings_.duration_s * std::max(0.5, 1 + settings_.duration_noise * noise_.normal());
+  const double duration = settings_.duration_s * noise_.factor(settings_.duration_noise);
   shot_ = Shot{task.arguments.at("image"), task.key.activity, now + temporal::seconds(duration)};
   return std::nullopt;
 }

@@ -15,8 +15,6 @@ using world::Surroundings;
 
 namespace {
 
-constexpr double kShortestWork = 0.5;  // share of a duration that noise leaves at least
-
 template <class Things>
 std::string unknown(const std::string& what, const std::string& name, const Things& things) {
   std::vector<std::string> known;
@@ -130,8 +128,7 @@ Ending Grapple::begin(const world::Task& task, Time now, Surroundings& around) {
     nominal = grasp ? settings_.grasp_s : settings_.place_s;
   }
   if (Ending refused = refusal(work)) return refused;
-  work.end = now + temporal::seconds(nominal *
-                                     std::max(kShortestWork, 1 + settings_.duration_noise * noise_.normal()));
+  work.end = now + temporal::seconds(nominal * noise_.factor(settings_.duration_noise));
   if (work.kind == Kind::localize && !settings_.light.empty()) {
     const auto& windows = around.environment.windows;
     const auto light = std::ranges::find(windows, settings_.light, &world::Window::timeline);

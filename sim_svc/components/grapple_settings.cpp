@@ -22,12 +22,6 @@ Names names_of(const Things& things) {
   return out;
 }
 
-// A name becomes part of a timeline's.
-void check_name(const std::string& name, const Entry& entry) {
-  if (name.empty() || name.find_first_of(". *{}") != std::string::npos)
-    entry.fail("'" + name + "' is no name for a timeline; use letters, digits, - and _");
-}
-
 double mass_of(const Entry& entry) {
   const double mass = entry.number();
   if (!(mass > 0)) entry.fail("a mass must be above 0 kg; correct the number");
@@ -114,7 +108,7 @@ class StructureReader {
   }
 
   void slot(const std::string& name, const Entry& entry) {
-    check_name(name, entry);
+    setup::check_name(name, entry);
     SlotSettings out{name};
     if (entry.is_mapping()) {
       entry.allow_only({"at", "blocked"});
@@ -134,7 +128,7 @@ class StructureReader {
 
   // A module that is known already keeps what the entry does not say.
   void module(const std::string& name, const Entry& entry) {
-    check_name(name, entry);
+    setup::check_name(name, entry);
     entry.allow_only({"slot", "mass_kg", "true_mass_kg", "size_m", "health", "latch_tries"});
     const auto before = out_.modules.find(name);
     const bool is_new = before == out_.modules.end();

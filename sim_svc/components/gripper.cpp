@@ -48,7 +48,7 @@ Ending Gripper::begin(const world::Task& task, Time now, Surroundings& around) {
   if (Ending refused = arm_elsewhere(around.components, pose)) return refused;
   if (Ending refused = pick ? begin_pick(task, around.environment) : begin_drop(task)) return refused;
   const double nominal = pick ? settings_.pick_s : settings_.drop_s;
-  const double duration = nominal * std::max(0.5, 1 + settings_.duration_noise * noise_.normal());
+  const double duration = nominal * noise_.factor(settings_.duration_noise);
   work_ = Work{pick, task.arguments.at("sample"), place, now + temporal::seconds(duration)};
   return std::nullopt;
 }

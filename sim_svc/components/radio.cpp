@@ -50,6 +50,17 @@ Ending Radio::finish(Surroundings& around) {
   return std::nullopt;
 }
 
+// What is sent already stays sent; a window that is shut before the end cuts the rest off.
+void Radio::surroundings_changed(Time now, Surroundings& around) {
+  if (!transfer_) return;
+  const auto& windows = around.environment.windows;
+  const auto window = std::ranges::find(windows, settings_.window, &world::Window::timeline);
+  const Time closes = window != windows.end() && window->is_open(now) ? *window->next_change(now) : now;
+  if (closes >= transfer_->end) return;
+  transfer_->end = closes;
+  transfer_->cut_off = true;
+}
+
 double Radio::energy_j(Time from, Time to) const {
   return busy() ? settings_.power_w * temporal::to_seconds(to - from) : 0;
 }

@@ -37,6 +37,8 @@ class Radio final : public world::Component {
   world::Ending finish(world::Surroundings&) override;
   void halt(temporal::Time, world::Surroundings&) override { transfer_.reset(); }
 
+  void surroundings_changed(temporal::Time now, world::Surroundings&) override;
+
   double energy_j(temporal::Time from, temporal::Time to) const override;
   double peak_power_w() const override { return busy() ? settings_.power_w : 0; }
 

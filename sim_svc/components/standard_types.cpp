@@ -7,18 +7,26 @@
 #include "sim_svc/components/arm.hpp"
 #include "sim_svc/components/arm_settings.hpp"
 #include "sim_svc/components/camera.hpp"
+#include "sim_svc/components/direct_radio_settings.hpp"
 #include "sim_svc/components/drive.hpp"
 #include "sim_svc/components/dynamic_arm.hpp"
 #include "sim_svc/components/dynamic_arm_settings.hpp"
 #include "sim_svc/components/grapple.hpp"
 #include "sim_svc/components/grapple_settings.hpp"
 #include "sim_svc/components/gripper.hpp"
+#include "sim_svc/components/laboratory.hpp"
+#include "sim_svc/components/laboratory_settings.hpp"
 #include "sim_svc/components/radio.hpp"
+#include "sim_svc/components/sampling_arm.hpp"
+#include "sim_svc/components/sampling_arm_settings.hpp"
+#include "sim_svc/components/seismometer_settings.hpp"
+#include "sim_svc/components/survey_camera_settings.hpp"
 #include "sim_svc/components/task.hpp"
 #include "sim_svc/components/task_settings.hpp"
 
 namespace roci::sim::components {
 
+using setup::ComponentType;
 using setup::Settings;
 
 namespace {
@@ -64,8 +72,8 @@ double between(Settings& in, std::string_view key, double fallback, double least
   if (!entry) return fallback;
   const double value = entry->number();
   if (value < least || value > most) {
-    entry->fail("'" + std::string(key) + "' must lie between " + std::to_string(least) + " and " + std::to_string(most) +
-                "; correct the number");
+    entry->fail("'" + std::string(key) + "' must lie between " + std::to_string(least) + " and " +
+                std::to_string(most) + "; correct the number");
   }
   return value;
 }
@@ -124,7 +132,20 @@ setup::Registry standard_types() {
   out.add("camera", {read_camera, true});
   out.add("gripper", {read_gripper});
   out.add("radio", {read_radio});
-  out.add("task", {[](Settings& in) { return making<TaskComponent>(read_task_settings(in)); }, false, true});
+  out.add("sampling_arm", {[](Settings& in) { return making<SamplingArm>(read_sampling_arm_settings(in)); },
+                           false, true, true});
+  out.add("laboratory",
+          {[](Settings& in) { return making<Laboratory>(read_laboratory_settings(in)); }, false, true, true});
+  out.add("task",
+          {[](Settings& in) { return making<TaskComponent>(read_task_settings(in)); }, false, true, true});
+  ComponentType radio{[](Settings& in) { return making<DirectRadio>(read_direct_radio_settings(in)); }};
+  radio.can_be_hollow = radio.has_rate = true;
+  out.add("direct_radio", radio);
+  out.add("survey_camera",
+          {[](Settings& in) { return making<SurveyCamera>(read_survey_camera_settings(in)); }, false, true,
+           true});
+  out.add("seismometer", {[](Settings& in) { return making<Seismometer>(read_seismometer_settings(in)); },
+                          false, true, true});
   return out;
 }
 

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 #include <utility>
+
+#include "sim_svc/components/argument_slots.hpp"
 
 namespace roci::sim::components {
 
@@ -14,21 +17,9 @@ using world::Surroundings;
 
 namespace {
 
-constexpr double kShortest = 0.5;  // share of the duration that noise leaves at least
-
-std::string filled(std::string text, const std::map<std::string, std::string>& arguments) {
-  for (const auto& [name, value] : arguments) {
-    const std::string slot = "{" + name + "}";
-    for (auto at = text.find(slot); at != std::string::npos; at = text.find(slot, at + value.size())) {
-      text.replace(at, slot.size(), value);
-    }
-  }
-  return text;
-}
-
 State filled(const StateTemplate& form, const std::map<std::string, std::string>& arguments) {
-  State out{filled(form.name, arguments), {}};
-  for (const std::string& argument : form.arguments) out.arguments.push_back(filled(argument, arguments));
+  State out{fill_slots(form.name, arguments), {}};
+  for (const std::string& argument : form.arguments) out.arguments.push_back(fill_slots(argument, arguments));
   return out;
 }
 
@@ -48,6 +39,7 @@ Ending unmet(const std::map<std::string, std::string>& needs, const world::Compo
 TaskComponent::TaskComponent(TaskSettings settings, world::RandomStream noise)
     : settings_(std::move(settings)), state_(filled(settings_.start, {})), noise_(std::move(noise)) {
   for (const TaskNumber& number : settings_.numbers) values_.push_back(number.start);
+  for (const auto& [thing, state] : settings_.things) things_[thing] = filled(state, {});
 }
 
 std::vector<world::CommandForm> TaskComponent::commands() const {
@@ -70,9 +62,12 @@ std::vector<world::StateForm> TaskComponent::state_forms() const {
 
 std::vector<world::ThingForm> TaskComponent::thing_forms() const {
   std::map<std::string, std::set<world::StateForm>> families;
-  for (const TaskCommand& command : settings_.commands)
-    for (const auto& [thing, state] : command.leaves)
+  const auto add = [&](const std::map<std::string, StateTemplate>& states) {
+    for (const auto& [thing, state] : states)
       families[thing.substr(0, thing.find('.'))].insert({state.name, state.arguments.size()});
+  };
+  add(settings_.things);
+  for (const TaskCommand& command : settings_.commands) add(command.leaves);
   std::vector<world::ThingForm> out;
   for (const auto& [family, states] : families) out.push_back({family, {states.begin(), states.end()}});
   return out;
@@ -83,23 +78,20 @@ Ending TaskComponent::begin(const world::Task& task, Time now, Surroundings& aro
                                   [&](const TaskCommand& one) { return one.name == task.command; });
   const TaskCommand& command = *found;
   if (Ending refused = unmet(command.needs, around.components)) return refused;
-  const double noise = command.duration_noise > 0 ? command.duration_noise * noise_.normal() : 0;
-  const double duration = command.duration_s * std::max(kShortest, 1 + noise);
+  const double duration =
+      command.duration_s * (command.duration_noise > 0 ? noise_.factor(command.duration_noise) : 1);
   const auto form = [&](const std::optional<StateTemplate>& state) {
     return state ? filled(*state, task.arguments) : state_;
   };
   run_ = Run{static_cast<std::size_t>(found - settings_.commands.begin()),
-             temporal::seconds(duration),
-             {},
-             now,
-             {},
              form(command.then),
              form(command.stopped),
+             state_,
              values_,
              {}};
   for (const auto& [thing, state] : command.leaves)
-    run_->leaves[filled(thing, task.arguments)] = filled(state, task.arguments);
-  run_->end = end_of(*run_);
+    run_->leaves[fill_slots(thing, task.arguments)] = filled(state, task.arguments);
+  work_.start(temporal::seconds(duration), now);
   std::string object;
   for (const auto& [name, value] : task.arguments) object += (object.empty() ? "" : " ") + value;
   around.deeds.push_back({command.name, std::move(object)});
@@ -109,16 +101,21 @@ Ending TaskComponent::begin(const world::Task& task, Time now, Surroundings& aro
 
 std::optional<Time> TaskComponent::next_change() const {
   if (!run_) return std::nullopt;
-  return run_->end;
+  return work_.end();
 }
 
 Ending TaskComponent::finish(Surroundings&) {
   const Run done = *std::exchange(run_, std::nullopt);
+  if (hollow_.take(settings_.commands[done.command].name)) {
+    values_ = done.numbers_before;
+    state_ = done.before;
+    return std::nullopt;
+  }
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const auto& changes = settings_.commands[done.command].changes;
     const auto change = changes.find(settings_.numbers[i].name);
     if (change == changes.end()) continue;
-    values_[i] = change->second.to.value_or(done.before[i] + change->second.by);
+    values_[i] = change->second.to.value_or(done.numbers_before[i] + change->second.by);
   }
   for (const auto& [thing, state] : done.leaves) things_.insert_or_assign(thing, state);
   state_ = done.then;
@@ -131,39 +128,14 @@ void TaskComponent::halt(Time now, Surroundings& around) {
   run_.reset();
 }
 
-void TaskComponent::slow_down(double pace, Time until, Time now, Surroundings&) {
-  if (run_) {
-    run_->done = done_by(*run_, now);
-    run_->since = now;
-  }
-  pace_ = pace;
-  slow_until_ = until;
-  if (run_) run_->end = end_of(*run_);
-}
-
-temporal::Duration TaskComponent::done_by(const Run& run, Time now) const {
-  const Time slow_end = std::clamp(slow_until_, run.since, std::max(run.since, now));
-  const temporal::Duration slow = temporal::seconds(pace_ * temporal::to_seconds(slow_end - run.since));
-  return std::min(run.work, run.done + slow + (std::max(now, slow_end) - slow_end));
-}
-
-Time TaskComponent::end_of(const Run& run) const {
-  const temporal::Duration left = run.work - run.done;
-  if (run.since >= slow_until_ || left.count() <= 0) return run.since + left;
-  const temporal::Duration slow = temporal::seconds(pace_ * temporal::to_seconds(slow_until_ - run.since));
-  if (slow < left) return slow_until_ + (left - slow);
-  return run.since + temporal::seconds(temporal::to_seconds(left) / pace_);
-}
-
 void TaskComponent::settle(Time now, world::Body&) {
-  if (!run_ || run_->work.count() <= 0) return;
-  const double share =
-      std::clamp(temporal::to_seconds(done_by(*run_, now)) / temporal::to_seconds(run_->work), 0.0, 1.0);
+  if (!run_ || work_.work().count() <= 0) return;
+  const double share = work_.share_by(now);
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const auto& changes = settings_.commands[run_->command].changes;
     const auto change = changes.find(settings_.numbers[i].name);
     if (change != changes.end() && !change->second.to)
-      values_[i] = run_->before[i] + share * change->second.by;
+      values_[i] = run_->numbers_before[i] + share * change->second.by;
   }
 }
 
@@ -193,9 +165,10 @@ std::map<std::string, temporal::Value> TaskComponent::results() const {
   return out;
 }
 
-// A colon parts the names of numbers, which are the mission's, from the state's.
+// A colon parts the names of numbers and things, which are the mission's, from the state's.
 world::Memory TaskComponent::memory() const {
   world::Memory out{{"state", run_ ? run_->stopped : state_}};
+  for (const auto& [thing, state] : things_) out["thing:" + thing] = state;
   for (std::size_t i = 0; i < values_.size(); ++i) out["number:" + settings_.numbers[i].name] = values_[i];
   return out;
 }
@@ -207,6 +180,11 @@ void TaskComponent::restore(const world::Memory& memory) {
     const auto number = memory.find("number:" + settings_.numbers[i].name);
     const auto* value = number == memory.end() ? nullptr : std::get_if<double>(&number->second);
     if (value) values_[i] = *value;
+  }
+  constexpr std::string_view kThing = "thing:";
+  for (const auto& [name, value] : memory) {
+    const auto* state = name.starts_with(kThing) ? std::get_if<State>(&value) : nullptr;
+    if (state) things_.insert_or_assign(name.substr(kThing.size()), *state);
   }
 }
 

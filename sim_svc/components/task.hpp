@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "sim_svc/components/hollow_commands.hpp"
+#include "sim_svc/components/paced_work.hpp"
 #include "sim_svc/world/component.hpp"
 #include "sim_svc/world/random_stream.hpp"
 
@@ -53,6 +55,7 @@ struct TaskSettings {
   StateTemplate start{"idle", {}};
   std::vector<TaskCommand> commands;
   std::vector<TaskNumber> numbers;
+  std::map<std::string, StateTemplate> things{};  ///< family.name → the state at the start
 };
 
 /// Runs the tasks. A task that is broken off leaves the numbers as they are by then; a number set `to` a
@@ -71,7 +74,10 @@ class TaskComponent final : public world::Component {
   std::optional<temporal::Time> next_change() const override;
   world::Ending finish(world::Surroundings&) override;
   /// A running task ends the later; what it has done stays done.
-  void slow_down(double pace, temporal::Time until, temporal::Time now, world::Surroundings&) override;
+  void slow_down(double pace, temporal::Time until, temporal::Time now, world::Surroundings&) override {
+    work_.slow_down(pace, until, now);
+  }
+  void hollow_next(const std::string& command) override { hollow_.add(command); }
   void halt(temporal::Time now, world::Surroundings&) override;
   void settle(temporal::Time now, world::Body&) override;
 
@@ -79,7 +85,7 @@ class TaskComponent final : public world::Component {
   double peak_power_w() const override;
   bool moves() const override { return run_ && !settings_.commands[run_->command].changes.empty(); }
   std::vector<world::NamedNumber> numbers() const override;
-  /// Returns the states of all things that tasks have left in one.
+  /// Returns the states of all things that were in one at the start or that tasks have left in one.
   std::vector<world::NamedState> states() const override;
   /// Returns the component's numbers, as the task left them.
   std::map<std::string, temporal::Value> results() const override;
@@ -88,28 +94,21 @@ class TaskComponent final : public world::Component {
 
  private:
   struct Run {
-    std::size_t command = 0;    // index into the settings
-    temporal::Duration work{};  // what it takes at the usual pace
-    temporal::Duration done{};  // of that, at `since`
-    temporal::Time since{};
-    temporal::Time end{};
+    std::size_t command = 0;  // index into the settings
     temporal::State then;
     temporal::State stopped;
-    std::vector<double> before;  // the numbers at the start
+    temporal::State before;
+    std::vector<double> numbers_before;
     std::map<std::string, temporal::State> leaves;
   };
-
-  // How much of its work a run has done by `now`.
-  temporal::Duration done_by(const Run&, temporal::Time now) const;
-  temporal::Time end_of(const Run&) const;
 
   TaskSettings settings_;
   temporal::State state_;
   std::vector<double> values_;  // one per number
   std::map<std::string, temporal::State> things_;
   std::optional<Run> run_;
-  double pace_ = 1;
-  temporal::Time slow_until_{};
+  PacedWork work_;  // of the run
+  HollowCommands hollow_;
   world::RandomStream noise_;
 };
 

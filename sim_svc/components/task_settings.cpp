@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim_svc/components/argument_slots.hpp"
 #include "sim_svc/world/robot.hpp"
 
 namespace roci::sim::components {
@@ -36,22 +37,12 @@ StateTemplate read_state(const Entry& entry) {
   return out;
 }
 
-// Braces in the word must name arguments of the command.
-void check_slots(const Entry& entry, std::string word, const TaskCommand& command) {
-  for (const std::string& argument : command.arguments) {
-    const auto at = word.find("{" + argument + "}");
-    if (at != std::string::npos) word.erase(at, argument.size() + 2);
-  }
-  if (word.find_first_of("{}") != std::string::npos) {
-    entry.fail("'" + word + "' names no argument of '" + command.name + "'; add it to its arguments");
-  }
-}
-
 // Reads a state in which braces name arguments of the command.
 StateTemplate read_state_of(const Entry& entry, const TaskCommand& command) {
   StateTemplate out = read_state(entry);
-  check_slots(entry, out.name, command);
-  for (const std::string& argument : out.arguments) check_slots(entry, argument, command);
+  check_slots(entry, out.name, command.name, command.arguments);
+  for (const std::string& argument : out.arguments)
+    check_slots(entry, argument, command.name, command.arguments);
   return out;
 }
 
@@ -70,16 +61,33 @@ std::map<std::string, NumberChange> read_changes(const Entry& entry, const std::
   return out;
 }
 
+// A thing is family.name; only the name may hold braces.
+void check_thing(const std::string& thing, const Entry& entry) {
+  const std::size_t dot = thing.find('.');
+  const std::size_t name = dot == std::string::npos ? thing.size() : dot + 1;
+  if (dot == 0 || name >= thing.size() || thing.find('{') < dot)
+    entry.fail("'" + thing + "' is no thing; write family.name, e.g. hole.{hole}");
+}
+
 // Reads "hole.{hole}: bored".
 std::map<std::string, StateTemplate> read_leaves(const Entry& entry, const TaskCommand& command) {
   std::map<std::string, StateTemplate> out;
   for (const auto& [thing, state] : entry.fields()) {
-    const std::size_t dot = thing.find('.');
-    const std::size_t name = dot == std::string::npos ? thing.size() : dot + 1;
-    if (dot == 0 || name >= thing.size() || thing.find('{') < dot)
-      state.fail("'" + thing + "' is no thing; write family.name, e.g. hole.{hole}");
-    check_slots(state, thing, command);
+    check_thing(thing, state);
+    check_slots(state, thing, command.name, command.arguments);
     out[thing] = read_state_of(state, command);
+  }
+  return out;
+}
+
+// Reads "hole.h1: untouched", of a thing that has a state from the start.
+std::map<std::string, StateTemplate> read_things(const Entry& entry) {
+  std::map<std::string, StateTemplate> out;
+  for (const auto& [thing, state] : entry.fields()) {
+    check_thing(thing, state);
+    if (thing.find_first_of("{}") != std::string::npos)
+      state.fail("'" + thing + "' has braces, and no command runs at the start; write each thing's name");
+    out[thing] = read_state(state);
   }
   return out;
 }
@@ -129,6 +137,7 @@ TaskSettings read_task_settings(Settings& in) {
   if (const auto numbers = in.find("numbers")) {
     for (const auto& [name, entry] : numbers->fields()) out.numbers.push_back(read_number(name, entry));
   }
+  if (const auto things = in.find("things")) out.things = read_things(*things);
   if (const auto commands = in.find("commands")) {
     for (const auto& [name, entry] : commands->fields()) {
       out.commands.push_back(read_command(name, entry, out.numbers));

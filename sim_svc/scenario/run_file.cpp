@@ -8,6 +8,7 @@
 #include "core/mission/scenario.hpp"
 #include "core/terrain/map_error.hpp"
 #include "core/terrain/site_file.hpp"
+#include "sim_svc/scenario/body_conditions.hpp"
 #include "sim_svc/scenario/scenario_file.hpp"
 #include "sim_svc/scenario/surface_file.hpp"
 
@@ -81,6 +82,42 @@ void check_mishap(const world::ComponentMishap& mishap, const Entry& entry, cons
   entry.complain(why);
 }
 
+// A success can be hollow only of a command that the component has.
+void check_hollow(const world::HollowSuccess& hollow, const Entry& entry, const world::WorldSetup& world) {
+  const auto robot = std::ranges::find(world.robots, hollow.robot, &world::RobotSetup::name);
+  if (robot == world.robots.end()) return;
+  const auto part = std::ranges::find(robot->components, hollow.component, &world::ComponentSetup::name);
+  if (part == robot->components.end()) return;
+  std::vector<std::string> known;
+  for (const auto& form : part->make(world::RandomStream(0, part->type))->commands())
+    known.push_back(form.name);
+  if (std::ranges::find(known, hollow.command) == known.end())
+    entry.at("command").complain("'" + hollow.component + "' has no command '" + hollow.command +
+                                 "'; known: " + setup::known_names(hollow.command, known));
+}
+
+// A component works in zones that its robot has.
+void check_zones(const world::ComponentSetup& component, const Entry& entry, const RobotEntry& robot) {
+  std::vector<std::string> known;
+  if (robot.thermal)
+    for (const world::ZoneParameters& zone : robot.thermal->zones) known.push_back(zone.name);
+  const auto part = component.make ? component.make(world::RandomStream(0, component.type)) : nullptr;
+  if (!part) return;
+  for (const std::string& zone : part->zones())
+    if (std::ranges::find(known, zone) == known.end())
+      entry.complain("'" + component.name + "' works in the zone '" + zone + "', which '" + robot.name +
+                     "' has not; known: " + setup::known_names(zone, known) +
+                     "; name another, or add it to thermal");
+}
+
+void check_block(const world::ViewBlock& block, const Entry& entry, const world::WorldSetup& world) {
+  std::vector<std::string> known;
+  for (const Window& window : world.windows) known.push_back(window.timeline);
+  if (std::ranges::find(known, block.window) == known.end())
+    entry.at("window").complain("no window '" + block.window +
+                                "'; known: " + setup::known_names(block.window, known));
+}
+
 void check_on_map(const Start& start, const std::string& robot, const world::Ground& ground) {
   if (!start.pose || !ground.site) return;
   if (ground.site->grid().contains(terrain::Point{start.pose->x, start.pose->y})) return;
@@ -96,6 +133,8 @@ world::RobotSetup read_robot(const RobotEntry& robot, const Start& start, const 
   out.name = robot.name;
   out.pose = start.pose;
   out.telemetry = robot.telemetry;
+  out.thermal = robot.thermal;
+  out.data_bytes = robot.data_bytes;
   if (robot.power) out.power = world::PowerSetup{*robot.power, start.battery_j.value_or(0)};
   for (const setup::ComponentEntry& component : robot.components) {
     const auto begin = start.components.find(component.name);
@@ -107,6 +146,8 @@ world::RobotSetup read_robot(const RobotEntry& robot, const Start& start, const 
       settings.refuse_unknown();
     });
     known.insert(settings.known().begin(), settings.known().end());
+    if (!out.components.empty() && out.components.back().name == component.name)
+      check_zones(out.components.back(), component.entry, robot);
   }
   return out;
 }
@@ -138,11 +179,16 @@ RunSetup load_run(const std::filesystem::path& mission_folder, const std::string
     check_on_map(start, robot.name, run.world.ground);
     run.world.robots.push_back(read_robot(robot, start, mission, types, run.scenario, known));
   }
+  if (conditions) apply_body_conditions(*conditions, run.world.robots, known);
   if (conditions) setup::refuse_unknown_keys(*conditions, known);
   for (const Stimulus& stimulus : run.scenario.stimuli) {
     const auto* disturbance = std::get_if<world::Disturbance>(&stimulus.what);
     const auto* mishap = disturbance ? std::get_if<world::ComponentMishap>(disturbance) : nullptr;
+    const auto* hollow = disturbance ? std::get_if<world::HollowSuccess>(disturbance) : nullptr;
     if (mishap && stimulus.entry) check_mishap(*mishap, *stimulus.entry, run.world);
+    const auto* block = disturbance ? std::get_if<world::ViewBlock>(disturbance) : nullptr;
+    if (block && stimulus.entry) check_block(*block, *stimulus.entry, run.world);
+    if (hollow && stimulus.entry) check_hollow(*hollow, *stimulus.entry, run.world);
   }
   return run;
 }

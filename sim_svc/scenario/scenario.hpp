@@ -61,7 +61,8 @@ struct NetworkStimulus {
 struct Stimulus {
   temporal::Time at{};
   std::variant<GoalStimulus, RecallStimulus, HazardStimulus, NetworkStimulus, world::Disturbance> what;
-  std::optional<mission::Entry> entry{};  ///< is where a ComponentMishap stands in the file
+  std::optional<mission::Entry>
+      entry{};  ///< is where a ComponentMishap, HollowSuccess or ViewBlock stands in the file
 };
 
 /// Says how a robot begins.

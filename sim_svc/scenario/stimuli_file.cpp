@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "sim_svc/scenario/body_stimuli_file.hpp"
 #include "sim_svc/scenario/file_values.hpp"
 
 namespace roci::sim::scenario {
@@ -16,12 +17,13 @@ using temporal::Time;
 using world::ComponentFault;
 using world::ComponentMishap;
 using world::Disturbance;
-using world::EnergyLoss;
 using world::GenerationLoss;
+using world::HollowSuccess;
 using world::JointWear;
 using world::ModuleFailure;
 using world::RockFall;
 using world::SlotBlock;
+using world::TrenchCollapse;
 
 namespace {
 
@@ -102,27 +104,17 @@ HazardStimulus read_hazard(const Entry& entry) {
 
 ComponentFault read_fault(const Entry& entry, const RobotEntry& robot, Time at) {
   entry.allow_only({"component", "for_s", "slow", "stuck"});
-  const Entry name = entry.at("component");
-  const auto component = std::ranges::find(robot.components, name.text(), &setup::ComponentEntry::name);
-  if (component == robot.components.end()) {
-    name.fail("unknown component '" + name.text() +
-              "'; known: " + setup::known_names(name.text(), robot.component_names()));
-  }
-  ComponentFault out{robot.name, name.text(), at + time_of(entry.at("for_s"))};
+  const setup::ComponentEntry& component = component_of(entry.at("component"), robot);
+  ComponentFault out{robot.name, component.name, at + time_of(entry.at("for_s"))};
   const auto slow = entry.find("slow");
   const bool stuck = entry.truth_or("stuck", false);
   if (slow && stuck) entry.fail("it is either slow or stuck; keep one");
   if (slow) out.pace = 1 / at_least(*slow, 1);
   if (stuck) out.pace = 0;
-  if (out.pace && !component->can_be_slowed)
-    entry.fail("a component of type " + component->type +
+  if (out.pace && !component.can_be_slowed)
+    entry.fail("a component of type " + component.type +
                " can only fail; drop slow and stuck, or model it as a task");
   return out;
-}
-
-EnergyLoss read_loss(const Entry& entry, const RobotEntry& robot) {
-  if (!robot.power) entry.fail("'" + robot.name + "' has no battery to lose energy from; drop the stimulus");
-  return {robot.name, at_least(entry, 0)};
 }
 
 double share_of(const Entry& entry) {
@@ -151,10 +143,25 @@ JointWear read_joint_wear(const Entry& entry) {
   return out;
 }
 
+TrenchCollapse read_collapse(const Entry& entry) {
+  entry.allow_only({"site", "share"});
+  TrenchCollapse out{entry.at("site").text()};
+  if (const auto share = entry.find("share")) out.share = share_of(*share);
+  return out;
+}
+
+HollowSuccess read_hollow(const Entry& entry, const RobotEntry& robot) {
+  entry.allow_only({"component", "command"});
+  const setup::ComponentEntry& component = component_of(entry.at("component"), robot);
+  if (!component.can_be_hollow)
+    entry.fail("a component of type " + component.type +
+               " cannot succeed without effect; drop the stimulus, or model it as a task");
+  return {robot.name, component.name, entry.at("command").text()};
+}
+
 GenerationLoss read_eclipse(const Entry& entry, const RobotEntry& robot, Time at) {
   entry.allow_only({"generation", "for_s"});
-  if (!robot.power ||
-      (robot.power->solar_peak_w <= 0 && (!robot.power->orbit || robot.power->orbit->solar_w <= 0)))
+  if (!robot.power || !has_panel(*robot.power))
     entry.fail("'" + robot.name + "' has no panel that could give less; drop the stimulus");
   return {robot.name, share_of(entry.at("generation")), at + time_of(entry.at("for_s"))};
 }
@@ -172,13 +179,18 @@ const RobotEntry& robot_of(const Entry& entry, const Roster& roster) {
 }
 
 Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
-  entry.allow_only({"at_s", "robot", "goal", "recall", "hazard", "fault", "rock", "battery_loss_j",
-                    "module_fails", "slot_blocked", "slow_joint", "eclipse", "network", "parameter"});
+  entry.allow_only(
+      {"at_s",    "robot",          "goal",         "recall",           "hazard",       "fault",
+       "rock",    "battery_loss_j", "battery_to_j", "module_fails",     "slot_blocked", "slow_joint",
+       "eclipse", "network",        "parameter",    "trench_collapses", "hollow",       "surroundings",
+       "heat",    "rate",           "blocked_view"});
   const std::size_t frame = entry.find("robot") ? 2 : 1;
   if (entry.fields().size() != frame + 1) {
     entry.fail(
         "a stimulus is at_s (and robot) and one of goal, recall, hazard, fault, rock, battery_loss_j, "
-        "module_fails, slot_blocked, slow_joint, eclipse, network, parameter; split it into several");
+        "battery_to_j, "
+        "module_fails, slot_blocked, slow_joint, eclipse, network, parameter, trench_collapses, hollow, "
+        "surroundings, heat, rate, blocked_view; split it into several");
   }
   Stimulus out;
   out.at = time_of(entry.at("at_s"));
@@ -192,7 +204,19 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
   }
   if (const auto rock = entry.find("rock")) out.what = Disturbance{RockFall{read_rock(*rock)}};
   if (const auto loss = entry.find("battery_loss_j")) {
-    out.what = Disturbance{read_loss(*loss, robot_of(entry, roster))};
+    out.what = Disturbance{read_energy_loss(*loss, robot_of(entry, roster))};
+  }
+  if (const auto drop = entry.find("battery_to_j"))
+    out.what = Disturbance{read_energy_drop(*drop, robot_of(entry, roster))};
+  if (const auto change = entry.find("surroundings"))
+    out.what = Disturbance{read_surroundings_change(*change, roster)};
+  if (const auto heat = entry.find("heat"))
+    out.what = Disturbance{read_sudden_heat(*heat, robot_of(entry, roster))};
+  if (const auto rate = entry.find("rate"))
+    out.what = Disturbance{read_rate_change(*rate, robot_of(entry, roster))};
+  if (const auto block = entry.find("blocked_view")) {
+    out.what = Disturbance{read_view_block(*block, out.at)};
+    out.entry = *block;
   }
   const auto befalls = [&](const Entry& where, world::Mishap what) {
     out.what = Disturbance{ComponentMishap{robot_of(entry, roster).name, std::move(what)}};
@@ -201,6 +225,11 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
   if (const auto failure = entry.find("module_fails")) befalls(*failure, read_module_failure(*failure));
   if (const auto block = entry.find("slot_blocked")) befalls(*block, read_slot_block(*block));
   if (const auto wear = entry.find("slow_joint")) befalls(*wear, read_joint_wear(*wear));
+  if (const auto collapse = entry.find("trench_collapses")) befalls(*collapse, read_collapse(*collapse));
+  if (const auto hollow = entry.find("hollow")) {
+    out.what = Disturbance{read_hollow(*hollow, robot_of(entry, roster))};
+    out.entry = *hollow;
+  }
   if (const auto eclipse = entry.find("eclipse"))
     out.what = Disturbance{read_eclipse(*eclipse, robot_of(entry, roster), out.at)};
   return out;

@@ -18,6 +18,8 @@ struct ComponentType {
   ReadComponent read;
   bool on_ground = false;      ///< its robot needs a place on the map at the start, and the mission a site
   bool can_be_slowed = false;  ///< its tasks can be slowed by a fault (Component::slow_down)
+  bool can_be_hollow = false;  ///< its tasks can succeed without effect (Component::hollow_next)
+  bool has_rate = false;       ///< it sends data, at a rate that can change (Component::change_rate)
 };
 
 /// Holds the types of components that a mission may name. components/standard_types.hpp has those that come

@@ -4,58 +4,14 @@
 #include <array>
 
 #include "core/words/nearest_word.hpp"
+#include "sim_svc/setup/power_file.hpp"
+#include "sim_svc/setup/thermal_file.hpp"
 
 namespace roci::sim::setup {
 
 using mission::Entry;
 
 namespace {
-
-// Returns a number of the section that is no less than `least`, or the fallback where it is not given.
-double number(const Entry& section, std::string_view key, double fallback, double least = 0) {
-  const auto entry = section.find(key);
-  if (!entry) return fallback;
-  const double value = entry->number();
-  if (value < least) {
-    entry->fail("'" + std::string(key) + "' must be at least " + std::to_string(least) +
-                "; correct the number");
-  }
-  return value;
-}
-
-constexpr double kShortestOrbit = 60;  // s
-
-world::Orbit read_orbit(const Entry& entry) {
-  entry.allow_only({"orbit_s", "eclipse_s", "first_eclipse_s", "solar_w", "window"});
-  world::Orbit out;
-  out.orbit_s = number(entry, "orbit_s", out.orbit_s, kShortestOrbit);
-  out.eclipse_s = number(entry, "eclipse_s", out.eclipse_s);
-  out.first_eclipse_s = number(entry, "first_eclipse_s", out.first_eclipse_s);
-  out.solar_w = number(entry, "solar_w", out.solar_w);
-  out.window = entry.text_or("window", out.window);
-  if (out.eclipse_s >= out.orbit_s)
-    entry.find("eclipse_s")
-        .value_or(entry)
-        .fail("the eclipse would last as long as the orbit; shorten it, or lengthen orbit_s");
-  return out;
-}
-
-world::PowerParameters read_power(const Entry& entry) {
-  entry.allow_only({"capacity_j", "idle_w", "solar_peak_w", "solar_noon_s", "day_s", "orbit"});
-  world::PowerParameters out;
-  if (const auto orbit = entry.find("orbit")) {
-    for (const char* key : {"solar_peak_w", "solar_noon_s", "day_s"})
-      if (const auto day = entry.find(key))
-        day->fail("a robot in orbit has no day of a planet; drop " + std::string(key) + ", or orbit");
-    out.orbit = read_orbit(*orbit);
-  }
-  out.capacity_j = number(entry, "capacity_j", out.capacity_j, 1);
-  out.idle_w = number(entry, "idle_w", out.idle_w);
-  out.solar_peak_w = number(entry, "solar_peak_w", out.solar_peak_w);
-  out.solar_noon_s = number(entry, "solar_noon_s", out.solar_noon_s);
-  out.day_s = number(entry, "day_s", out.day_s, 1);
-  return out;
-}
 
 world::TelemetryParameters read_telemetry(const Entry& entry) {
   entry.allow_only({"moving_s", "idle_s"});
@@ -67,15 +23,15 @@ world::TelemetryParameters read_telemetry(const Entry& entry) {
 
 // Reads a name, which becomes part of a timeline's.
 std::string read_name(const Entry& entry) {
-  const std::string name = entry.text();
-  if (name.empty() || name.find_first_of(". *{}") != std::string::npos) {
-    entry.fail("'" + name + "' is no name for a timeline; use letters, digits, - and _");
-  }
+  std::string name = entry.text();
+  check_name(name, entry);
   return name;
 }
 
+constexpr double kDataBytes = 1e9;  // where data: says nothing else
+
 // The robot's own timelines and its start have these names.
-constexpr std::array<std::string_view, 6> kTaken{"x", "y", "heading", "battery", "image", "sample"};
+constexpr std::array<std::string_view, 7> kTaken{"x", "y", "heading", "battery", "image", "sample", "heat"};
 
 ComponentEntry read_component(const Entry& entry, const Registry& registry) {
   const Entry type = entry.at("type");
@@ -87,11 +43,12 @@ ComponentEntry read_component(const Entry& entry, const Registry& registry) {
   if (std::find(kTaken.begin(), kTaken.end(), name.text()) != kTaken.end()) {
     name.fail("'" + name.text() + "' is taken by the robot itself; choose another name");
   }
-  return {read_name(name), type.text(), entry, registry.find(type.text())->can_be_slowed};
+  const ComponentType& known = *registry.find(type.text());
+  return {read_name(name), type.text(), entry, known.can_be_slowed, known.can_be_hollow, known.has_rate};
 }
 
 RobotEntry read_robot(const Entry& entry, const Registry& registry) {
-  entry.allow_only({"name", "components", "power", "telemetry"});
+  entry.allow_only({"name", "components", "power", "telemetry", "thermal", "data"});
   RobotEntry out;
   out.name = read_name(entry.at("name"));
   entry.at("components").each([&](const Entry& item) {
@@ -103,6 +60,17 @@ RobotEntry read_robot(const Entry& entry, const Registry& registry) {
   if (const auto power = entry.find("power")) {
     out.power.emplace();
     power->attempt([&] { out.power = read_power(*power); });
+  }
+  if (const auto thermal = entry.find("thermal")) {
+    out.thermal.emplace();
+    thermal->attempt([&] { out.thermal = read_thermal(*thermal); });
+  }
+  if (const auto data = entry.find("data")) {
+    out.data_bytes = kDataBytes;
+    data->attempt([&] {
+      data->allow_only({"capacity_bytes"});
+      out.data_bytes = number(*data, "capacity_bytes", kDataBytes, 1);
+    });
   }
   if (const auto telemetry = entry.find("telemetry"))
     telemetry->attempt([&] { out.telemetry = read_telemetry(*telemetry); });
@@ -147,6 +115,13 @@ std::vector<std::string> robot_names(const Roster& roster) {
   std::vector<std::string> out;
   for (const RobotEntry& one : roster) out.push_back(one.name);
   return out;
+}
+
+const ComponentEntry& component_of(const Entry& name, const RobotEntry& robot) {
+  const auto found = std::ranges::find(robot.components, name.text(), &ComponentEntry::name);
+  if (found != robot.components.end()) return *found;
+  name.fail("unknown component '" + name.text() +
+            "'; known: " + known_names(name.text(), robot.component_names()));
 }
 
 std::string known_names(std::string_view word, const std::vector<std::string>& known) {

@@ -14,6 +14,8 @@ struct ComponentEntry {
   std::string type;
   mission::Entry entry;
   bool can_be_slowed = false;
+  bool can_be_hollow = false;
+  bool has_rate = false;
 };
 
 /// Is a robot as `simulation.robots` of mission.yaml lists it.
@@ -22,7 +24,9 @@ struct RobotEntry {
   std::vector<ComponentEntry> components;
   std::optional<world::PowerParameters> power;  ///< empty: it has no battery
   world::TelemetryParameters telemetry;
-  bool on_ground = false;  ///< one of its components is
+  std::optional<world::ThermalParameters> thermal{};  ///< empty: it is warm enough everywhere
+  std::optional<double> data_bytes{};                 ///< room for data products; empty: it makes none
+  bool on_ground = false;                             ///< one of its components is
 
   bool has(std::string_view component) const;
   std::vector<std::string> component_names() const;
@@ -38,6 +42,8 @@ Roster read_roster(const mission::Entry& simulation, const Registry&);
 /// Returns the robot of that name, or the only one when the name is empty. Returns null if there is none.
 const RobotEntry* robot_named(const Roster&, std::string_view name);
 std::vector<std::string> robot_names(const Roster&);
+/// Returns the component that the entry names; throws mission::FileError if the robot has none of that name.
+const ComponentEntry& component_of(const mission::Entry& name, const RobotEntry&);
 /// "rover, scout; did you mean 'scout'?", to be put behind "known: ".
 std::string known_names(std::string_view word, const std::vector<std::string>& known);
 

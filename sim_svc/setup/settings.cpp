@@ -22,14 +22,36 @@ std::optional<Entry> Settings::find(std::string_view key) {
   return component_.find(key);
 }
 
-double Settings::number(std::string_view key, double fallback, double least) {
-  const auto entry = find(key);
+namespace {
+
+double checked(const std::optional<Entry>& entry, std::string_view key, double fallback, double least) {
   if (!entry) return fallback;
   const double value = entry->number();
   if (value < least) {
     entry->fail("'" + std::string(key) + "' must be at least " + std::to_string(least) +
                 "; correct the number");
   }
+  return value;
+}
+
+}  // namespace
+
+double number(const Entry& section, std::string_view key, double fallback, double least) {
+  return checked(section.find(key), key, fallback, least);
+}
+
+void check_name(const std::string& name, const Entry& where) {
+  if (name.empty() || name.find_first_of(". *{}") != std::string::npos)
+    where.fail("'" + name + "' is no name for a timeline; use letters, digits, - and _");
+}
+
+double Settings::number(std::string_view key, double fallback, double least) {
+  return checked(find(key), key, fallback, least);
+}
+
+double Settings::share(std::string_view key, double fallback) {
+  const double value = number(key, fallback);
+  if (value > 1) find(key)->fail("'" + std::string(key) + "' is a share, at most 1; correct the number");
   return value;
 }
 

@@ -10,6 +10,10 @@
 
 namespace roci::sim::setup {
 
+/// Returns a number of the section that is no less than `least`, or the fallback where it is not given; throws
+/// mission::FileError.
+double number(const mission::Entry& section, std::string_view key, double fallback, double least = 0);
+
 /// Holds what the files say of one component. A setting is looked up in the scenario's `world` first, then in
 /// the component's entry of mission.yaml; keys that nobody asked for are errors, so that a misspelt one is no
 /// silent default. All reading throws mission::FileError with place and remedy.
@@ -21,6 +25,8 @@ class Settings {
            const std::map<std::string, mission::Entry>& conditions);
 
   double number(std::string_view key, double fallback, double least = 0);
+  /// Returns a number from 0 to 1.
+  double share(std::string_view key, double fallback);
   std::string text(std::string_view key, std::string fallback);
   /// Returns a setting of any form, or nothing if it is not given.
   std::optional<mission::Entry> find(std::string_view key);
@@ -42,6 +48,8 @@ class Settings {
   bool start_read_ = false;
 };
 
+/// Throws mission::FileError for a name that cannot be part of a timeline's.
+void check_name(const std::string& name, const mission::Entry& where);
 /// Throws mission::FileError when a field's key is not among the known ones.
 void refuse_unknown_keys(const mission::Entry&, const std::set<std::string, std::less<>>& known);
 

@@ -6,6 +6,15 @@
 
 namespace roci::sim::world {
 
+double told_j(const Gauge& gauge, double energy_j) {
+  if (energy_j >= gauge.below_j) return energy_j;
+  return std::max(0.0, gauge.below_j - gauge.factor * (gauge.below_j - energy_j));
+}
+
+bool has_panel(const PowerParameters& parameters) {
+  return parameters.orbit ? parameters.orbit->solar_w > 0 : parameters.solar_peak_w > 0;
+}
+
 double solar_power_w(const PowerParameters& parameters, temporal::Time t) {
   const double angle =
       2 * std::numbers::pi * (temporal::to_seconds(t) - parameters.solar_noon_s) / parameters.day_s;

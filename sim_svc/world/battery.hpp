@@ -23,6 +23,16 @@ double sunlit_s(const Orbit&, temporal::Time from, temporal::Time to);
 /// Returns the intervals of sunlight that begin before `end`, ascending.
 std::vector<std::pair<temporal::Time, temporal::Time>> sunlight(const Orbit&, temporal::Time end);
 
+/// Describes what tells the charge of a battery: below `below_j` it falls `factor` times as fast as the charge does, but not below
+/// 0. What is there is another matter.
+struct Gauge {
+  double below_j = 0;
+  double factor = 1;
+};
+
+/// Returns what the gauge tells of a charge, in J.
+double told_j(const Gauge&, double energy_j);
+
 /// Describes a robot's store of energy and what always draws from it or charges it.
 struct PowerParameters {
   double capacity_j = 1000000;
@@ -32,7 +42,12 @@ struct PowerParameters {
   double day_s = 88775;         ///< length of a day, by default a Martian one
   /// Takes the place of the panel and the day above.
   std::optional<Orbit> orbit{};
+  double use_factor = 1;  ///< of all that is drawn, as against what the parts would need
+  Gauge gauge{};
 };
+
+/// Returns whether there is a panel that can charge it.
+bool has_panel(const PowerParameters&);
 
 /// Returns the power of the panel in W: the positive half of a cosine over the day.
 double solar_power_w(const PowerParameters&, temporal::Time);

@@ -4,6 +4,8 @@
 #include <string>
 
 #include "sim_svc/world/battery.hpp"
+#include "sim_svc/world/data_store.hpp"
+#include "sim_svc/world/thermal.hpp"
 #include "sim_svc/world/values.hpp"
 
 namespace roci::sim::world {
@@ -13,6 +15,8 @@ struct Body {
   std::optional<Pose> pose;             ///< empty: it stands nowhere on the map
   std::optional<Battery> battery;       ///< empty: its power comes from elsewhere and never ends
   std::map<std::string, Image> images;  ///< are on board, by id
+  std::optional<Thermal> thermal{};     ///< empty: it is warm enough everywhere
+  std::optional<DataStore> data{};      ///< empty: nothing can be kept but images
 };
 
 }  // namespace roci::sim::world

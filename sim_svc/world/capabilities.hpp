@@ -34,6 +34,21 @@ class SampleHolder {
   virtual std::optional<std::string> held() const = 0;
 };
 
+/// Names a sample by where it was collected.
+struct SampleOrigin {
+  std::string site;
+  std::string target;
+  bool operator==(const SampleOrigin&) const = default;
+};
+
+/// Brings samples to the inlet of a laboratory.
+class SampleCarrier {
+ public:
+  virtual ~SampleCarrier() = default;
+  /// Returns the sample that lies in the inlet.
+  virtual std::optional<SampleOrigin> delivered() const = 0;
+};
+
 /// Is a load as a tool holds it.
 struct Payload {
   double told_kg = 0;            ///< as the robot believes it to be

@@ -13,6 +13,7 @@
 #include "sim_svc/world/body.hpp"
 #include "sim_svc/world/component_set.hpp"
 #include "sim_svc/world/disturbance.hpp"
+#include "sim_svc/world/downlink_schedule.hpp"
 #include "sim_svc/world/environment.hpp"
 #include "sim_svc/world/values.hpp"
 
@@ -107,6 +108,14 @@ class Component {
   /// Lets its tasks get on at this share of their usual speed until then; a component that cannot be slowed
   /// (ComponentType::can_be_slowed) does not hear of it.
   virtual void slow_down(double /*pace*/, temporal::Time /*until*/, temporal::Time /*now*/, Surroundings&) {}
+  /// Lets the next success of the command be told without being true: time and energy are used, and nothing else has changed;
+  /// a component that cannot do so (ComponentType::can_be_hollow) does not hear of it.
+  virtual void hollow_next(const std::string& /*command*/) {}
+  /// Takes in which data are to go with which downlink from now on.
+  virtual void heed(const DownlinkSchedule&) {}
+  /// Lets data go at this share of the usual rate from now on; a component without a rate (ComponentType::has_rate) does not hear of
+  /// it.
+  virtual void change_rate(double /*factor*/, temporal::Time /*now*/) {}
   /// Breaks the running task off at once.
   virtual void halt(temporal::Time now, Surroundings&) = 0;
 
@@ -123,6 +132,12 @@ class Component {
 
   /// Brings what the component says, and the body that it moves, up to `now`.
   virtual void settle(temporal::Time /*now*/, Body&) {}
+  /// Returns the thermal zones of the body in which it works. Who checks a mission reads it.
+  virtual std::vector<std::string> zones() const { return {}; }
+  /// Returns the zone that it keeps warm for work now, whose heater then counts as its task's; empty: none.
+  virtual std::string held_zone() const { return {}; }
+  /// Takes in that a window, or the heat of the body, is another one from now on than was to be foreseen.
+  virtual void surroundings_changed(temporal::Time /*now*/, Surroundings&) {}
   /// Takes in that the ground is another one from now on.
   virtual void ground_changed(temporal::Time /*now*/, Surroundings&) {}
 

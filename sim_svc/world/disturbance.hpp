@@ -51,8 +51,14 @@ struct JointWear {
   double growth = 0;    ///< by which it grows for each rad or m of travel
 };
 
+/// The walls of a trench fall in.
+struct TrenchCollapse {
+  std::string site;
+  double share = 0.5;  ///< of its depth that is left, 0 … 1
+};
+
 /// Is what can go wrong within a component, whichever has the thing that is named.
-using Mishap = std::variant<ModuleFailure, SlotBlock, JointWear>;
+using Mishap = std::variant<ModuleFailure, SlotBlock, JointWear, TrenchCollapse>;
 
 /// Lets a mishap befall the first component of the robot that has the thing.
 struct ComponentMishap {
@@ -60,6 +66,50 @@ struct ComponentMishap {
   Mishap what;
 };
 
-using Disturbance = std::variant<ComponentFault, RockFall, EnergyLoss, GenerationLoss, ComponentMishap>;
+/// Lets the next success of the command be told without being true: nothing but time and energy has changed.
+struct HollowSuccess {
+  std::string robot;
+  std::string component;
+  std::string command;
+};
+
+/// Leaves no more than this in the robot's battery.
+struct EnergyDrop {
+  std::string robot;
+  double to_j = 0;
+};
+
+/// Lets it be so warm around all robots from now on.
+struct SurroundingsChange {
+  double kelvin = 0;
+};
+
+/// Heats a thermal zone at once, or, negative, cools it.
+struct SuddenHeat {
+  std::string robot;
+  std::string zone;
+  double joules = 0;
+};
+
+/// Lets a component send at this share of its usual rate from now on.
+struct RateChange {
+  std::string robot;
+  std::string component;
+  double factor = 1;  ///< above 0
+};
+
+/// Shuts a window until then, as an object before the antenna would.
+struct ViewBlock {
+  std::string window;
+  temporal::Time until{};
+};
+
+using Disturbance =
+    std::variant<ComponentFault, RockFall, EnergyLoss, GenerationLoss, ComponentMishap, HollowSuccess,
+                 EnergyDrop, SurroundingsChange, SuddenHeat, RateChange, ViewBlock>;
+
+/// Returns whether it would be another one if it came twice. What has happened to a robot is part of its world's memory, so
+/// that such a disturbance does not come again when the process that simulates it is started again.
+bool adds_up(const Disturbance&);
 
 }  // namespace roci::sim::world

@@ -1,5 +1,6 @@
 #include "sim_svc/world/random_stream.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -29,5 +30,7 @@ double RandomStream::normal() {
   const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
   return radius * std::cos(2.0 * std::numbers::pi * uniform());
 }
+
+double RandomStream::factor(double deviation) { return std::max(0.5, 1 + deviation * normal()); }
 
 }  // namespace roci::sim::world

@@ -20,6 +20,9 @@ class RandomStream {
   /// Returns a standard normal number by Box and Muller, "A note on the generation of random normal deviates"
   /// (1958).
   double normal();
+  /// Returns a normal number around 1 with that standard deviation, no less than a half: what noise makes of a duration or a
+  /// power.
+  double factor(double deviation);
 
  private:
   std::uint64_t origin_;

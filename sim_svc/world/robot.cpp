@@ -27,6 +27,8 @@ Robot::Robot(RobotSetup setup, bool first, std::uint64_t seed)
     power_ = setup.power->parameters;
     body_.battery.emplace(setup.power->start_j, power_->capacity_j);
   }
+  if (setup.thermal) body_.thermal.emplace(std::move(*setup.thermal));
+  if (setup.data_bytes) body_.data.emplace(*setup.data_bytes);
   std::set<std::string> types;
   for (const ComponentSetup& one : setup.components) {
     const bool first_of_type = types.insert(one.type).second;
@@ -37,8 +39,10 @@ Robot::Robot(RobotSetup setup, bool first, std::uint64_t seed)
   for (Part& one : parts_) one.component->meet(components_);
 }
 
-RobotMemory Robot::memory() const {
+RobotMemory Robot::memory(Time now) const {
   RobotMemory out{body_.pose, std::nullopt, body_.images, {}};
+  if (body_.thermal) out.temperatures_k = body_.thermal->memory(now);
+  if (body_.data) out.data = body_.data->memory();
   if (body_.battery) out.energy_j = body_.battery->energy_j();
   for (const Part& one : parts_) out.components[one.name] = one.component->memory();
   return out;
@@ -49,6 +53,8 @@ void Robot::restore(const RobotMemory& memory, Time at) {
   if (body_.pose && memory.pose) body_.pose = memory.pose;
   if (body_.battery && memory.energy_j) body_.battery.emplace(*memory.energy_j, power_->capacity_j);
   body_.images = memory.images;
+  if (body_.thermal) body_.thermal->restore(memory.temperatures_k, at);
+  if (body_.data) body_.data->restore(memory.data);
   for (Part& one : parts_)
     if (const auto own = memory.components.find(one.name); own != memory.components.end())
       one.component->restore(own->second);
@@ -193,6 +199,10 @@ void Robot::slow_component(const std::string& component, double pace, Time until
   one->component->slow_down(pace, until, now, surroundings);
 }
 
+void Robot::hollow_success(const std::string& component, const std::string& command) {
+  if (Part* one = part(component)) one->component->hollow_next(command);
+}
+
 void Robot::ground_changed(Time now, Environment& environment, Outputs& out) {
   Surroundings surroundings = around(environment, out);
   for (Part& one : parts_) one.component->ground_changed(now, surroundings);
@@ -200,6 +210,36 @@ void Robot::ground_changed(Time now, Environment& environment, Outputs& out) {
 
 void Robot::lose_energy(double joules) {
   if (body_.battery) body_.battery->add(-joules);
+}
+
+void Robot::drop_energy(double to_j) {
+  if (body_.battery) body_.battery->add(std::min(0.0, to_j - body_.battery->energy_j()));
+}
+
+void Robot::set_surroundings(double kelvin, Time now, Environment& environment, Outputs& out) {
+  if (!body_.thermal) return;
+  body_.thermal->set_surroundings(kelvin, now);
+  surroundings_changed(now, environment, out);
+}
+
+void Robot::add_heat(const std::string& zone, double joules, Time now, Environment& environment,
+                     Outputs& out) {
+  if (!body_.thermal || !body_.thermal->has(zone)) return;
+  body_.thermal->add_heat(zone, joules, now);
+  surroundings_changed(now, environment, out);
+}
+
+void Robot::change_rate(const std::string& component, double factor, Time now) {
+  if (Part* one = part(component)) one->component->change_rate(factor, now);
+}
+
+void Robot::surroundings_changed(Time now, Environment& environment, Outputs& out) {
+  Surroundings surroundings = around(environment, out);
+  for (Part& one : parts_) one.component->surroundings_changed(now, surroundings);
+}
+
+void Robot::heed(const DownlinkSchedule& schedule) {
+  for (Part& one : parts_) one.component->heed(schedule);
 }
 
 void Robot::lose_generation(double share, Time until) {
@@ -217,12 +257,15 @@ void Robot::suffer(const Mishap& what, Time now, Environment& environment, Outpu
 }
 
 void Robot::settle(Time from, Time to, Environment& environment, Outputs& out) {
-  double used = power_ ? power_->idle_w * to_seconds(to - from) : 0;
+  const double factor = power_ ? power_->use_factor : 1;
+  double used = power_ ? factor * power_->idle_w * to_seconds(to - from) : 0;
   for (Part& one : parts_) {
     const double energy = one.component->energy_j(from, to);
-    if (one.running) one.running->energy_j += energy;
-    used += energy;
+    const double drawn = energy > 0 ? factor * energy : energy;
+    if (one.running) one.running->energy_j += drawn;
+    used += drawn;
   }
+  used += heaters_j(from, to);
   if (body_.battery) {
     const double share = from < dim_until_ ? generation_ : 1;
     body_.battery->add(share * solar_energy_j(*power_, from, to) - used);
@@ -232,6 +275,30 @@ void Robot::settle(Time from, Time to, Environment& environment, Outputs& out) {
   for (Part& one : parts_) {
     break_off(one, TaskStage::failed, {"battery-flat", "the battery is empty"}, to, environment, out);
   }
+  if (!has_panel(*power_)) leave_behind(out);
+}
+
+// Returns what all heaters use. That of a zone which is held for work counts as used by the task of the first that holds it.
+double Robot::heaters_j(Time from, Time to) {
+  if (!body_.thermal || to == from) return 0;
+  const double factor = power_ ? power_->use_factor : 1;
+  double out = 0;
+  for (const ZoneParameters& zone : body_.thermal->zones()) {
+    const double joules = factor * body_.thermal->heater_j(zone.name, from, to);
+    out += joules;
+    if (joules <= 0 || !body_.thermal->held(zone.name)) continue;
+    const auto holder = std::ranges::find_if(
+        parts_, [&](const Part& one) { return one.running && one.component->held_zone() == zone.name; });
+    if (holder != parts_.end()) holder->running->energy_j += joules;
+  }
+  return out;
+}
+
+// Nothing brings energy any more, so what is still on board stays there.
+void Robot::leave_behind(Outputs& out) {
+  if (!body_.data) return;
+  for (const Product& one : std::vector<Product>(body_.data->products()))
+    if (one.fate == Fate::stored) out.push_back(*body_.data->set_fate(one.id, Fate::left_behind));
 }
 
 void Robot::note_deeds(const Part& one, const TaskKey& cause, Time now, Surroundings& surroundings) {

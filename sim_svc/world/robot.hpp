@@ -49,6 +49,8 @@ struct RobotSetup {
   std::optional<PowerSetup> power;  ///< empty: its power never ends
   TelemetryParameters telemetry;
   std::vector<ComponentSetup> components;
+  std::optional<ThermalParameters> thermal{};  ///< empty: it is warm enough everywhere
+  std::optional<double> data_bytes{};          ///< room for data products; empty: it makes none
 };
 
 /// Is a command that a component took up; bench/kill counts these.
@@ -65,6 +67,8 @@ struct RobotMemory {
   std::optional<double> energy_j;       ///< in its battery
   std::map<std::string, Image> images;  ///< on board, by id
   std::map<std::string, Memory> components;
+  std::map<std::string, double> temperatures_k{};  ///< by thermal zone
+  DataMemory data{};
 };
 
 /// Runs the tasks of one robot's components; the world calls it in order of time.
@@ -78,7 +82,8 @@ class Robot {
   const std::string& name() const { return name_; }
   std::string component_names() const;  ///< "nav, arm, …"
   bool runs(const TaskKey&) const;
-  RobotMemory memory() const;
+  /// At the time up to which the robot was settled.
+  RobotMemory memory(temporal::Time now) const;
   /// Before the first task; the memory is of `at`.
   void restore(const RobotMemory&, temporal::Time at);
   /// Returns when a task ends or numbers are due.
@@ -103,8 +108,17 @@ class Robot {
                        Outputs& out);
   void slow_component(const std::string& component, double pace, temporal::Time until, temporal::Time now,
                       Environment&, Outputs& out);
+  void hollow_success(const std::string& component, const std::string& command);
   void ground_changed(temporal::Time now, Environment&, Outputs& out);
   void lose_energy(double joules);
+  /// Leaves no more than this in the battery.
+  void drop_energy(double to_j);
+  void set_surroundings(double kelvin, temporal::Time now, Environment&, Outputs& out);
+  void add_heat(const std::string& zone, double joules, temporal::Time now, Environment&, Outputs& out);
+  void change_rate(const std::string& component, double factor, temporal::Time now);
+  /// Says that windows or heat are otherwise than was to be foreseen.
+  void surroundings_changed(temporal::Time now, Environment&, Outputs& out);
+  void heed(const DownlinkSchedule&);
   /// The panel gives this share of its told power until then.
   void lose_generation(double share, temporal::Time until);
   void suffer(const Mishap&, temporal::Time now, Environment&, Outputs& out);
@@ -145,6 +159,9 @@ class Robot {
   Ending refusal_of(const Part&, const Task&) const;
   bool flat() const { return body_.battery && body_.battery->flat(); }
   bool moves() const;
+
+  double heaters_j(temporal::Time from, temporal::Time to);
+  void leave_behind(Outputs& out);
 
   std::string name_;
   Body body_;

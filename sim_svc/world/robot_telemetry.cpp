@@ -13,6 +13,7 @@ namespace {
 constexpr double kMillimetre = 1e-3;
 constexpr double kMilliradian = 1e-3;
 constexpr double kJoule = 1;
+constexpr double kKelvin = 1;
 constexpr double kLeastPower = 1e-3;  // W; nothing lasts for ever
 constexpr double kLongestLife = 1e9;  // s
 
@@ -31,6 +32,8 @@ std::optional<Time> Robot::flat_at(Time now) const {
   if (!body_.battery || flat()) return std::nullopt;
   double power = power_->idle_w;
   for (const Part& one : parts_) power += one.component->peak_power_w();
+  if (body_.thermal) power += body_.thermal->peak_power_w();
+  power *= std::max(1.0, power_->use_factor);
   return now + seconds(std::min(kLongestLife, body_.battery->energy_j() / std::max(kLeastPower, power)));
 }
 
@@ -66,7 +69,13 @@ void Robot::report_numbers_if_due(Time now, Reporter& reporter, Outputs& out) {
     reporter.report_number(name_ + ".heading", body_.pose->heading, kMilliradian, now, out);
   }
   if (body_.battery) {
-    reporter.report_number(name_ + ".battery", body_.battery->energy_j(), kJoule, now, out);
+    reporter.report_number(name_ + ".battery", told_j(power_->gauge, body_.battery->energy_j()), kJoule, now,
+                           out);
+  }
+  if (body_.thermal) {
+    for (const ZoneParameters& zone : body_.thermal->zones())
+      reporter.report_number(name_ + ".heat." + zone.name, body_.thermal->temperature_k(zone.name, now),
+                             kKelvin, now, out);
   }
   for (const Part& one : parts_) {
     for (const NamedNumber& number : one.component->numbers()) {

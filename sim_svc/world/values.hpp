@@ -12,6 +12,7 @@
 #include "core/temporal/duration.hpp"
 #include "core/temporal/value.hpp"
 #include "core/terrain/grid.hpp"
+#include "sim_svc/world/data_store.hpp"
 
 namespace roci::sim::world {
 
@@ -152,7 +153,8 @@ struct MotionWanted {
   bool operator==(const MotionWanted&) const = default;
 };
 
-using Output = std::variant<TaskReport, Observed, Image, RockSeen, PathWanted, MotionWanted>;
+/// A Product says what has become of it by now.
+using Output = std::variant<TaskReport, Observed, Image, RockSeen, PathWanted, MotionWanted, Product>;
 using Outputs = std::vector<Output>;
 
 // Other services answer a component's wish with these.

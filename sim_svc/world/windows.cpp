@@ -1,5 +1,7 @@
 #include "sim_svc/world/windows.hpp"
 
+#include <algorithm>
+
 namespace roci::sim::world {
 
 bool Window::is_open(temporal::Time t) const {
@@ -15,6 +17,15 @@ std::optional<temporal::Time> Window::next_change(temporal::Time t) const {
     if (t < closes) return closes;
   }
   return std::nullopt;
+}
+
+void Window::shut(temporal::Time from, temporal::Time until) {
+  std::vector<std::pair<temporal::Time, temporal::Time>> left;
+  for (const auto& [opens, closes] : open) {
+    if (opens < from) left.emplace_back(opens, std::min(closes, from));
+    if (closes > until) left.emplace_back(std::max(opens, until), closes);
+  }
+  open = std::move(left);
 }
 
 }  // namespace roci::sim::world

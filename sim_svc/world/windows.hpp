@@ -17,6 +17,8 @@ struct Window {
   bool is_open(temporal::Time) const;
   /// Returns the first opening or closing after `t`, or nothing.
   std::optional<temporal::Time> next_change(temporal::Time t) const;
+  /// Shuts it in [from, until).
+  void shut(temporal::Time from, temporal::Time until);
 };
 
 }  // namespace roci::sim::world

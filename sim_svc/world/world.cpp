@@ -12,6 +12,11 @@ using temporal::Time;
 
 namespace {
 
+template <class... Cases>
+struct Match : Cases... {
+  using Cases::operator()...;
+};
+
 constexpr Duration kTick{1000000};  // batteries are settled at least this often
 
 void keep_earlier(std::optional<Time>& best, std::optional<Time> candidate) {
@@ -59,7 +64,7 @@ bool World::runs(const TaskKey& key) const {
 
 WorldMemory World::memory() const {
   WorldMemory out{now_, {}, environment_.samples};
-  for (const Robot& one : robots_) out.robots[one.name()] = one.memory();
+  for (const Robot& one : robots_) out.robots[one.name()] = one.memory(now_);
   return out;
 }
 
@@ -109,25 +114,66 @@ Outputs World::answer(Time now, const TaskKey& key, const Answer& answer) {
 Outputs World::disturb(Time now, const Disturbance& disturbance) {
   advance_to(now);
   settle(now);
-  if (const auto* fault = std::get_if<ComponentFault>(&disturbance)) {
-    Robot* one = robot(fault->robot);
-    if (one && fault->pace) {
-      one->slow_component(fault->component, *fault->pace, fault->until, now, environment_, out_);
-    } else if (one) {
-      one->break_component(fault->component, fault->until, now, environment_, out_);
-    }
-  } else if (const auto* fall = std::get_if<RockFall>(&disturbance)) {
-    environment_.ground.hidden_rocks.push_back(fall->rock);
-    for (Robot& one : robots_) one.ground_changed(now, environment_, out_);
-  } else if (const auto* loss = std::get_if<EnergyLoss>(&disturbance)) {
-    if (Robot* one = robot(loss->robot)) one->lose_energy(loss->joules);
-    settle(now);
-  } else if (const auto* dim = std::get_if<GenerationLoss>(&disturbance)) {
-    if (Robot* one = robot(dim->robot)) one->lose_generation(dim->share, dim->until);
-  } else {
-    const auto& mishap = std::get<ComponentMishap>(disturbance);
-    if (Robot* one = robot(mishap.robot)) one->suffer(mishap.what, now, environment_, out_);
-  }
+  apply(now, disturbance);
+  return done(now);
+}
+
+void World::apply(Time now, const Disturbance& disturbance) {
+  const auto with = [this](const std::string& name, const auto& act) {
+    if (Robot* one = robot(name)) act(*one);
+  };
+  std::visit(
+      Match{[&](const ComponentFault& fault) {
+              with(fault.robot, [&](Robot& one) {
+                if (fault.pace)
+                  one.slow_component(fault.component, *fault.pace, fault.until, now, environment_, out_);
+                else
+                  one.break_component(fault.component, fault.until, now, environment_, out_);
+              });
+            },
+            [&](const RockFall& fall) {
+              environment_.ground.hidden_rocks.push_back(fall.rock);
+              for (Robot& one : robots_) one.ground_changed(now, environment_, out_);
+            },
+            [&](const EnergyLoss& loss) {
+              with(loss.robot, [&](Robot& one) { one.lose_energy(loss.joules); });
+              settle(now);
+            },
+            [&](const EnergyDrop& drop) {
+              with(drop.robot, [&](Robot& one) { one.drop_energy(drop.to_j); });
+              settle(now);
+            },
+            [&](const GenerationLoss& dim) {
+              with(dim.robot, [&](Robot& one) { one.lose_generation(dim.share, dim.until); });
+            },
+            [&](const ComponentMishap& mishap) {
+              with(mishap.robot, [&](Robot& one) { one.suffer(mishap.what, now, environment_, out_); });
+            },
+            [&](const HollowSuccess& hollow) {
+              with(hollow.robot, [&](Robot& one) { one.hollow_success(hollow.component, hollow.command); });
+            },
+            [&](const SurroundingsChange& change) {
+              for (Robot& one : robots_) one.set_surroundings(change.kelvin, now, environment_, out_);
+            },
+            [&](const SuddenHeat& heat) {
+              with(heat.robot,
+                   [&](Robot& one) { one.add_heat(heat.zone, heat.joules, now, environment_, out_); });
+            },
+            [&](const RateChange& change) {
+              with(change.robot, [&](Robot& one) { one.change_rate(change.component, change.factor, now); });
+            },
+            [&](const ViewBlock& block) {
+              for (Window& window : environment_.windows)
+                if (window.timeline == block.window) window.shut(now, block.until);
+              for (Robot& one : robots_) one.surroundings_changed(now, environment_, out_);
+            }},
+      disturbance);
+}
+
+Outputs World::heed(Time now, const DownlinkSchedule& schedule) {
+  advance_to(now);
+  settle(now);
+  if (Robot* one = robot(schedule.robot)) one->heed(schedule);
   return done(now);
 }
 

@@ -58,6 +58,9 @@ class World {
   /// Applies a disturbance. One that names a robot or a component that is not there changes nothing.
   Outputs disturb(temporal::Time now, const Disturbance&);
 
+  /// Lets the robot send its data as the schedule says from now on. One of a robot that is not there changes nothing.
+  Outputs heed(temporal::Time now, const DownlinkSchedule&);
+
   WorldMemory memory() const;
   /// Goes on from an earlier world's memory; robots that it does not know stay as they are. Before the first advance().
   void restore(const WorldMemory&);
@@ -76,6 +79,7 @@ class World {
   void advance_to(temporal::Time now);
   void settle(temporal::Time t);
   void publish(temporal::Time t);
+  void apply(temporal::Time now, const Disturbance&);
   Outputs done(temporal::Time now);
   temporal::Time next_tick() const;
   temporal::Time next_event() const;

@@ -43,6 +43,13 @@ class EngineAndExecutive : public ::testing::TestWithParam<Vendors> {
     });
     services::subscribe(robot_, topics::mission_status,
                         [this](const v1::MissionStatus& status) { mission_ = status; });
+    services::subscribe(robot_, topics::downlink_schedule,
+                        [this](const v1::DownlinkSchedule& schedule) { schedules_.push_back(schedule); });
+    services::subscribe(robot_, topics::mission_outlook,
+                        [this](const v1::MissionOutlook& outlook) { outlooks_.push_back(outlook); });
+    services::subscribe(robot_, topics::plan, [this](const v1::Plan& plan) {
+      for (const v1::PlanActivity& one : plan.activities()) activities_.insert(one.id());
+    });
     robot_.at(0s, [this] {
       observe("lander.arm", temporal::state("rests"));
       observe("lander.eye", temporal::state("idle"));
@@ -129,6 +136,18 @@ class EngineAndExecutive : public ::testing::TestWithParam<Vendors> {
     acks_.write(out);
   }
 
+  void make_picture(const std::string& activity, const std::string& deed) {
+    v1::DataProduct out;
+    out.id("picture" + deed.substr(deed.find(' ')));
+    out.product_kind("picture");
+    out.source(activity);
+    out.bytes(1000);
+    out.fate(v1::PRODUCT_STORED);
+    out.tier(v1::TIER_MANDATORY);
+    out.created_us(robot_.now().count());
+    products_.write(out);
+  }
+
   // Everything takes 100 s; a command that comes again is answered as before.
   void obey(const v1::Command& command) {
     const auto word = words_.find({command.activity(), command.attempt()});
@@ -139,6 +158,8 @@ class EngineAndExecutive : public ::testing::TestWithParam<Vendors> {
       std::string deed = command.command_name();
       for (const auto& argument : command.arguments()) deed += " " + argument.value();
       done_.push_back(deed);
+      if (command.command_name() == "image" && deed != "image horizon")
+        make_picture(command.activity(), deed);
       if (deed == "farewell") observe("lander.radio", temporal::state("gone"));
       tell(command, v1::STAGE_COMPLETED);
     });
@@ -151,6 +172,7 @@ class EngineAndExecutive : public ::testing::TestWithParam<Vendors> {
   services::Node& robot_ = waiting(run_);
   services::Publisher<v1::Goal> goals_ = services::advertise(robot_, topics::goal);
   services::Publisher<v1::Observation> observations_ = services::advertise(robot_, topics::observation);
+  services::Publisher<v1::DataProduct> products_ = services::advertise(robot_, topics::data_product);
   services::Publisher<v1::CommandAck> acks_ = services::advertise(robot_, topics::command_ack);
   std::unique_ptr<services::Service> planner_;
   std::unique_ptr<services::Service> executive_;
@@ -168,6 +190,9 @@ class EngineAndExecutive : public ::testing::TestWithParam<Vendors> {
 
  protected:
   std::vector<std::string> cycles_;  // texts of planner.cycle
+  std::vector<v1::DownlinkSchedule> schedules_;
+  std::vector<v1::MissionOutlook> outlooks_;
+  std::set<std::string> activities_;  // of all versions of the plan
 };
 
 TEST_P(EngineAndExecutive, DoAllThatTheNetworkAsksForAndTellPartsOfCyclesInTheirOrder) {
@@ -188,6 +213,38 @@ TEST_P(EngineAndExecutive, DoAllThatTheNetworkAsksForAndTellPartsOfCyclesInTheir
     }
   }
   EXPECT_THAT(seen, IsSupersetOf({"commit", "consolidate", "schedule"}));
+}
+
+// Every downlink that is told is one of the plan, versions go up, and what the pictures were is sent under their own ids once they exist.
+TEST_P(EngineAndExecutive, TellTheDownlinkScheduleAndWhatThePlanIsExpectedToBring) {
+  fly();
+  ASSERT_FALSE(schedules_.empty());
+  std::set<std::string> planned;
+  std::set<std::string> existing;
+  for (std::size_t i = 0; i < schedules_.size(); ++i) {
+    const v1::DownlinkSchedule& one = schedules_[i];
+    EXPECT_EQ(one.version(), i + 1);
+    EXPECT_EQ(one.network(), "small-lander");
+    EXPECT_TRUE(one.limited());
+    EXPECT_EQ(one.omitted(), 0U);
+    for (const v1::ScheduledDownlink& downlink : one.downlinks()) {
+      EXPECT_TRUE(activities_.contains(downlink.activity())) << downlink.activity();
+      for (const v1::ScheduledProduct& data : downlink.products())
+        (data.exists() ? existing : planned).insert(data.id());
+    }
+  }
+  EXPECT_THAT(planned,
+              UnorderedElementsAre("sample_near/image_near/picture", "sample_far/image_far/picture"));
+  EXPECT_THAT(existing, UnorderedElementsAre("picture near", "picture far"));
+  ASSERT_FALSE(outlooks_.empty());
+  const v1::MissionOutlook& last = outlooks_.back();
+  EXPECT_EQ(last.ranks().size(), 1U);
+  EXPECT_EQ(last.products().size(), 2U);
+  EXPECT_EQ(last.budget(), "lander.battery");
+  std::set<std::string> done;
+  for (const v1::ChainOutlook& one : last.chains())
+    if (one.stage() == v1::CHAIN_DONE) done.insert(one.request());
+  EXPECT_THAT(done, IsSupersetOf({"sample_near", "sample_far", "view"}));
 }
 
 TEST_P(EngineAndExecutive, TheEngineDiesAndGoesOnWithThePlanThatRuns) {

@@ -28,6 +28,8 @@ struct Definition {
   double lowest = -std::numeric_limits<double>::infinity();  ///< range of possible values, bounds included
   double highest = std::numeric_limits<double>::infinity();
   bool reported = true;  ///< by the spacecraft; otherwise an internal state, which only tasks change (R73)
+  /// Returns whether its value follows from the tasks that run, and from nothing else.
+  bool is_claim() const { return !reported && (kind == Kind::atomic || kind == Kind::claimable); }
   friend bool operator==(const Definition&, const Definition&) = default;
 };
 

@@ -1,4 +1,4 @@
-// What executed tasks tell of themselves (R116).
+// What executed tasks tell of themselves replaces what was foreseen of their site (R101, R116).
 #include <utility>
 
 #include "planner_svc/utility_htn/adapter/utility_engine.hpp"
@@ -6,25 +6,27 @@
 
 namespace roci::planner::utility_htn::adapter {
 
-// What ended before this process took the plan up was measured then, and stands in the plan.
-void UtilityEngine::measure(cycle::TaskId id, const temporal::ActivityProgress& progress) {
-  if (progress.state != temporal::ActivityState::succeeded || !progress.started || !progress.ended) return;
-  if (*progress.ended <= taken_up_) return;
-  const auto task = primitive_of(id);
-  if (!task || network_.tasks[*task].learns.empty()) return;
-  assessor::Measured measured;
-  measured.duration_s = temporal::to_seconds(*progress.ended - *progress.started);
-  model::Values values = cycle_->past().values;
-  assessor::Learned learned = assessor::learn(network_, *task, measured, values);
-  for (const model::ParameterIndex one : learned.replaced) cycle_->set_value(one, values[one]);
-  for (std::string& refusal : learned.refused) doubted_.push_back(std::move(refusal));
+void UtilityEngine::measure() {
+  for (const Measurements::Measurement& one : measurements_.take(network_)) {
+    model::Values values = cycle_->past().values;
+    assessor::Learned learned = assessor::learn(network_, one.task, one.measured, values);
+    for (const model::ParameterIndex parameter : learned.replaced) {
+      if (cycle_->past().values[parameter] == values[parameter]) continue;
+      cycle_->set_value(parameter, values[parameter]);
+      to_tell_ = true;  // a plan that tells it outlives this process
+    }
+    for (std::string& refusal : learned.refused) doubted_.push_back(std::move(refusal));
+  }
 }
 
-std::optional<model::TaskIndex> UtilityEngine::primitive_of(cycle::TaskId id) const {
-  for (const cycle::Block& block : cycle_->blocks())
-    if (block.number == cycle::block_of(id) && cycle::link_of(id) < block.links.size())
-      return block.links[cycle::link_of(id)].task;
-  return std::nullopt;
+// What has left the plan is never heard of again.
+void UtilityEngine::forget_measurements() {
+  std::set<std::uint32_t> numbers;
+  for (const cycle::Block& block : cycle_->blocks()) numbers.insert(block.number);
+  measurements_.keep_only([&](const std::string& activity) {
+    const auto id = task_of(activity);
+    return id && numbers.contains(cycle::block_of(*id));
+  });
 }
 
 }  // namespace roci::planner::utility_htn::adapter

@@ -68,7 +68,7 @@ engine::ModelAnswer UtilityEngine::change(const engine::ModelChange& change, Tim
     out.refused.push_back(std::move(fault));
   }
   if (out.refused.empty()) {
-    to_tell_ = true;
+    to_tell_ = to_look_ = true;
     next_cycle_ = now;
   }
   return out;

@@ -44,6 +44,18 @@ Condition condition_of(const model::Network& network, const std::vector<Constrai
   return parts.size() == 1 ? parts.front() : temporal::all_of(parts);
 }
 
+// What a task claims must be free when it starts: tasks that are late may otherwise hold it at once.
+Condition claims_of(const model::Network& network, const model::Task& task, const model::Values& values) {
+  std::vector<Condition> parts;
+  for (const model::Impact& impact : task.impacts) {
+    const Definition& timeline = network.timelines[impact.timeline];
+    if (timeline.is_claim())
+      parts.push_back(temporal::compare(timeline.name, ConditionOp::le,
+                                        timeline.highest - model::evaluate(impact.amount, values)));
+  }
+  return parts.empty() ? Condition{} : temporal::all_of(parts);
+}
+
 Condition both(const Condition& a, const Condition& b) {
   if (a.empty()) return b;
   return b.empty() ? a : temporal::all_of({a, b});
@@ -83,7 +95,7 @@ PlanActivity activity_of(const model::Network& network, const model::Values& val
   impacts(network, task, values, out);
   out.duration_lower = temporal::seconds(model::duration_s(task, values));
   out.preferred_start = link.start - frame.origin;
-  out.pre = condition_of(network, task.constraints, Phase::pre);
+  out.pre = both(condition_of(network, task.constraints, Phase::pre), claims_of(network, task, values));
   out.maintenance = condition_of(network, task.constraints, Phase::maintenance);
   out.post = condition_of(network, task.constraints, Phase::post);
   out.skip_if = condition_of(network, task.control.skip_if, std::nullopt);
@@ -199,8 +211,9 @@ FlexiblePlan plan_of(const model::Network& network, const flattening::Chains& ch
     if (past.values[i] != network.parameters[i].prior)
       remember("parameter." + network.parameters[i].name, past.values[i]);
   for (std::size_t i = 0; i < network.timelines.size(); ++i)
-    if (!network.timelines[i].reported)
+    if (!network.timelines[i].reported && !network.timelines[i].is_claim())
       remember("internal." + network.timelines[i].name, value_of(network.timelines[i], past.internal[i]));
+  for (const std::string& activity : frame.measured) remember("measured." + activity, true);
   out.point_count = points.count();
   return out;
 }

@@ -18,7 +18,8 @@ struct Frame {
   std::string robot;
   std::uint32_t version = 0;
   temporal::Time origin{0};
-  std::vector<std::string> goals;  ///< keys of those that every activity serves
+  std::vector<std::string> goals;    ///< keys of those that every activity serves
+  std::set<std::string> measured{};  ///< activities whose measurements are in the values already
 };
 
 /// Gives time points to links; they keep them as long as they are in the plan, and then others may have them. So the number of points is
@@ -60,6 +61,7 @@ struct Recovered {
   std::vector<cycle::Block> blocks;
   std::uint32_t last_block = 0;
   Points points;
+  std::set<std::string> measured{};  ///< as in Frame
 };
 
 /// Reads a plan of plan_of() for the same network. Times are the planned ones, stages planned or committed. Throws

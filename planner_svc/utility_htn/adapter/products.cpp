@@ -25,7 +25,15 @@ delivery::Existing existing(const model::Network& network, const flattening::Cha
     const auto block = std::ranges::find(cycle.blocks(), cycle::block_of(*id), &cycle::Block::number);
     if (block != cycle.blocks().end()) out.request = chains.chains[block->chain].task;
   }
-  if (product.utility.scores().empty() && out.task != none && !network.tasks[out.task].products.empty()) {
+  if (out.task != none) {
+    const auto& products = network.tasks[out.task].products;
+    const auto named = std::ranges::find(products, product.kind, &model::Product::name);
+    if (named != products.end()) out.predicted = named->utility;
+  }
+  if (product.utility.scores().empty() && !out.predicted.scores().empty()) {
+    out.data.utility = out.predicted;
+  } else if (product.utility.scores().empty() && out.task != none &&
+             !network.tasks[out.task].products.empty()) {
     const model::Task& task = network.tasks[out.task];
     out.data.utility =
         model::utility(task, cycle.past().values) * (1.0 / static_cast<double>(task.products.size()));

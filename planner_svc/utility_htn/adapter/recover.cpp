@@ -62,6 +62,8 @@ class Recovery {
       const auto number = number_of(network_.timelines[timeline], token.held);
       if (!number) foreign("value " + temporal::to_text(token.held) + " of " + std::string(rest));
       out_.past.internal[timeline] = *number;
+    } else if (name.starts_with("measured.")) {
+      out_.measured.emplace(rest);
     }
   }
 

@@ -59,12 +59,15 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
     const bool lost = told_.version != accepted_.version;
     // Nobody has answered for a whole interval: the executive died before it took that version.
     if (lost) told_ = accepted_;
+    std::vector<cycle::Block> begun;
+    std::ranges::copy_if(cycle_->blocks(), std::back_inserter(begun), &cycle::Block::begun);
     const cycle::Report report = cycle_->run(inputs.now);
     for (const cycle::Activity part : report.done) out.account.parts.emplace_back(to_string(part));
     out.account.explored = report.explored;
     out.account.notes = report.notes;
     while (next_cycle_ <= inputs.now) next_cycle_ += network_.cycle.process_interval;
     if (report.changed || lost || told_.version == 0 || to_tell_) send(inputs, out);
+    tell_outlook(report, begun, inputs.now, out);
   }
   out.blocking = blocking_;
   out.doubted = std::exchange(doubted_, {});
@@ -85,6 +88,9 @@ void UtilityEngine::hear(const StepInputs& inputs) {
   for (const engine::EndedGoal& ended : inputs.ended_goals) hear_end(ended);
   for (const engine::Observation& observation : inputs.observations) hear_observation(observation);
   for (const engine::StepStatus& step : inputs.steps) hear_step(step, inputs.now);
+  for (const engine::CommandResult& result : inputs.results)
+    if (task_of(result.activity)) measurements_.hear(result);
+  measure();
   for (const engine::DataProduct& product : inputs.products) hear_product(product);
   if (inputs.receipt) hear_receipt(*inputs.receipt, inputs.now);
 }
@@ -134,7 +140,22 @@ void UtilityEngine::hear_observation(const engine::Observation& observation) {
 }
 
 void UtilityEngine::hear_product(const engine::DataProduct& product) {
-  if (delivery_.hear(existing(network_, chains_, *cycle_, product))) cycle_->doubt();
+  if (!delivery_.hear(existing(network_, chains_, *cycle_, product))) return;
+  cycle_->doubt();
+  to_look_ = true;
+}
+
+// Only where something has changed: what is observed while all goes as foreseen moves no outlook.
+void UtilityEngine::tell_outlook(const cycle::Report& report, const std::vector<cycle::Block>& begun_before,
+                                 Time now, StepOutput& out) {
+  const Situation situation{network_, chains_, *assessor_, *cycle_, delivery_, now};
+  outlooks_.forgotten(situation, begun_before);
+  if (!report.changed && report.explored == 0 && !std::exchange(to_look_, false)) return;
+  to_look_ = false;
+  if (engine::DownlinkSchedule schedule = schedule_of(situation); schedule != told_schedule_)
+    out.schedule = told_schedule_ = std::move(schedule);
+  if (engine::MissionOutlook outlook = outlooks_.make(situation); outlook != told_outlook_)
+    out.outlook = told_outlook_ = std::move(outlook);
 }
 
 void UtilityEngine::hear_step(const engine::StepStatus& step, Time now) {
@@ -153,7 +174,7 @@ void UtilityEngine::hear_step(const engine::StepStatus& step, Time now) {
       index < network_.tasks.size() && step.progress.started)
     delivery_.executed(*task, index, *step.progress.started, at, cycle_->past().values);
   cycle_->ended(*task, at, step.progress.state == ActivityState::succeeded, step.cause);
-  measure(*task, step.progress);
+  measurements_.hear(step);
 }
 
 void UtilityEngine::hear_receipt(const engine::Receipt& receipt, Time now) {
@@ -180,7 +201,7 @@ void UtilityEngine::go_on_with(const FlexiblePlan& executed, Time now) {
   for (const temporal::PlanActivity& gone : fitted.gone)
     recovered.points.set(*task_of(gone.id), gone.start_point, gone.end_point);
   to_tell_ = to_tell_ || fitted.foreign;
-  taken_up_ = now;
+  measurements_.resume(std::move(recovered.measured));
   origin_ = executed.origin;
   points_ = recovered.points;
   cycle_->resume(recovered.past, std::move(recovered.blocks), recovered.last_block, now);
@@ -217,7 +238,9 @@ void UtilityEngine::send(const StepInputs& inputs, StepOutput& out) {
     origin_ = inputs.now;
     points_ = {};
   }
-  const Frame frame{setup_.engine, setup_.robot, inputs.last_version + 1, origin_, served_goals()};
+  forget_measurements();
+  const Frame frame{setup_.engine, setup_.robot,   inputs.last_version + 1,
+                    origin_,       served_goals(), measurements_.taken()};
   points_.keep_only(cycle_->blocks(), initial_.has_value());
   FlexiblePlan plan = plan_of(network_, chains_, *cycle_, frame, told_, points_);
   serve_requests(plan);

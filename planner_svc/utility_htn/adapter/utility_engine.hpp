@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "planner_svc/engine/stepped_engine.hpp"
+#include "planner_svc/utility_htn/adapter/measurements.hpp"
+#include "planner_svc/utility_htn/adapter/outlook.hpp"
 #include "planner_svc/utility_htn/adapter/plan_of.hpp"
 #include "planner_svc/utility_htn/cycle/cycle.hpp"
 
@@ -34,8 +36,8 @@ class UtilityEngine final : public engine::SteppedEngine {
   std::vector<std::string> in_the_way_of(const model::Network& next, const flattening::Chains& chains) const;
   void go_on_with(model::Network next, temporal::Time now);
   // measuring.cpp
-  void measure(cycle::TaskId task, const temporal::ActivityProgress& progress);
-  std::optional<model::TaskIndex> primitive_of(cycle::TaskId id) const;
+  void measure();
+  void forget_measurements();
 
   void hear(const engine::StepInputs& inputs);
   void hear_goal(const engine::Goal& goal);
@@ -46,6 +48,8 @@ class UtilityEngine final : public engine::SteppedEngine {
   void hear_receipt(const engine::Receipt& receipt, temporal::Time now);
   void go_on_with(const temporal::FlexiblePlan& executed, temporal::Time now);
   void send(const engine::StepInputs& inputs, engine::StepOutput& out);
+  void tell_outlook(const cycle::Report& report, const std::vector<cycle::Block>& begun_before,
+                    temporal::Time now, engine::StepOutput& out);
   void serve_requests(temporal::FlexiblePlan& plan) const;
   std::vector<std::string> served_goals() const;
   std::optional<model::TaskIndex> requested_by(const engine::Goal& goal) const;
@@ -66,12 +70,16 @@ class UtilityEngine final : public engine::SteppedEngine {
   std::vector<std::string> doubted_;
   std::set<std::string> unannounced_;  // internal timelines of which the executive does not know yet
   bool to_tell_ = false;               // the next cycle sends a version, whatever it does
-  temporal::Time taken_up_{0};         // what ended before was measured by another process
+  Measurements measurements_;
   Points points_;
   temporal::FlexiblePlan told_;                           // newest version
   temporal::FlexiblePlan accepted_;                       // newest that the executive has taken
   std::map<std::uint32_t, temporal::FlexiblePlan> sent_;  // by version, of which no receipt has come
   std::optional<temporal::PlanActivity> initial_;         // until it is over
+  Outlooks outlooks_;
+  engine::DownlinkSchedule told_schedule_;
+  engine::MissionOutlook told_outlook_;
+  bool to_look_ = true;  // something was heard that an outlook tells
   temporal::Time origin_{0};
   temporal::Time next_cycle_{0};
   bool open_ = false;

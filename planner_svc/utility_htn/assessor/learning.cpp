@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/temporal/value.hpp"
 
@@ -20,6 +21,8 @@ const char* word(Measure measure) {
       return "energy";
     case Measure::power:
       return "power";
+    case Measure::value:
+      return "value";
   }
   return "";
 }
@@ -34,7 +37,7 @@ double predicted(const Network& network, const Task& task, Measure measure, cons
 }
 
 std::optional<double> measured_value(const Measured& measured, Measure measure) {
-  const auto& [duration, energy, power] = measured;
+  const auto& [duration, energy, power, values] = measured;
   switch (measure) {
     case Measure::duration_s:
       return duration;
@@ -44,6 +47,8 @@ std::optional<double> measured_value(const Measured& measured, Measure measure) 
     case Measure::power:
       if (power) return power;
       return energy && duration && *duration > 0 ? std::optional(*energy / *duration) : std::nullopt;
+    case Measure::value:
+      break;
   }
   return std::nullopt;
 }
@@ -60,39 +65,66 @@ std::optional<double> solve(const Network& network, const Task& task, const Lear
   return here + (wanted - predicted_here) / slope;
 }
 
+/// Collects what becomes of the measurements of one task.
+class Learning {
+ public:
+  Learning(const Network& network, const Task& task, Values& values)
+      : network_(network), task_(task), values_(values) {}
+
+  void take(const Learns& learns, double wanted) {
+    const std::string what = std::string("the measured ") + word(learns.measure) + " " + number(wanted);
+    if (!std::isfinite(wanted) || wanted < 0) return refuse(what, "it is not a number from 0 on");
+    const std::optional<double> value = solve(network_, task_, learns, wanted, values_);
+    if (!value)
+      return refuse(what,
+                    "what is predicted of the task does not depend on '" + parameter(learns).name + "'");
+    set(learns, *value, what);
+  }
+
+  void take_value(const Learns& learns, const std::map<std::string, double>& brought) {
+    const auto found = brought.find(learns.result);
+    if (found == brought.end())
+      return refuse("the value '" + learns.result + "'", "its commands brought no number of this name");
+    set(learns, found->second, "the value '" + learns.result + "' " + number(found->second));
+  }
+
+  Learned done() { return std::move(out_); }
+
+ private:
+  const Parameter& parameter(const Learns& learns) const { return network_.parameters.at(learns.parameter); }
+
+  void set(const Learns& learns, double value, const std::string& what) {
+    const Parameter& known = parameter(learns);
+    if (!known.permits(value) || !std::isfinite(value))
+      return refuse(what, "'" + known.name + "' would be " + number(value) + ", outside of " +
+                              number(known.lowest) + " to " + number(known.highest));
+    values_[learns.parameter] = value;
+    out_.replaced.push_back(learns.parameter);
+  }
+
+  void refuse(const std::string& what, const std::string& why) {
+    out_.refused.push_back(what + " of '" + task_.id + "' is not taken over: " + why);
+  }
+
+  const Network& network_;
+  const Task& task_;
+  Values& values_;
+  Learned out_;
+};
+
 }  // namespace
 
 Learned learn(const Network& network, model::TaskIndex index, const Measured& measured, Values& values) {
   const Task& task = network.tasks.at(index);
-  Learned out;
+  Learning out(network, task, values);
   for (const Measure measure : {Measure::duration_s, Measure::power, Measure::energy}) {
     const std::optional<double> wanted = measured_value(measured, measure);
-    if (!wanted) continue;
-    for (const Learns& learns : task.learns) {
-      if (learns.measure != measure) continue;
-      const Parameter& parameter = network.parameters.at(learns.parameter);
-      const std::string what =
-          std::string("the measured ") + word(measure) + " " + number(*wanted) + " of '" + task.id + "'";
-      if (!std::isfinite(*wanted) || *wanted < 0) {
-        out.refused.push_back(what + " is not taken over: it is not a number from 0 on");
-        continue;
-      }
-      const std::optional<double> value = solve(network, task, learns, *wanted, values);
-      if (!value) {
-        out.refused.push_back(what +
-                              " is not taken over: what is predicted of the task does not depend on '" +
-                              parameter.name + "'");
-      } else if (!parameter.permits(*value)) {
-        out.refused.push_back(what + " is not taken over: '" + parameter.name + "' would be " +
-                              number(*value) + ", outside of " + number(parameter.lowest) + " to " +
-                              number(parameter.highest));
-      } else {
-        values[learns.parameter] = *value;
-        out.replaced.push_back(learns.parameter);
-      }
-    }
+    for (const Learns& learns : task.learns)
+      if (wanted && learns.measure == measure) out.take(learns, *wanted);
   }
-  return out;
+  for (const Learns& learns : task.learns)
+    if (measured.values && learns.measure == Measure::value) out.take_value(learns, *measured.values);
+  return out.done();
 }
 
 }  // namespace roci::planner::utility_htn::assessor

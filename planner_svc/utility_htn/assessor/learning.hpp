@@ -1,6 +1,7 @@
 // Measured values replace priors (MEXEC, section IV.C.3, R101, R116).
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ struct Measured {
   std::optional<double> duration_s{};
   std::optional<double> energy{};  ///< in the unit of the budget
   std::optional<double> power{};   ///< energy per second, the mean over the task
+  /// Are numbers that its commands brought, by name (R108); nothing: they have not said yet.
+  std::optional<std::map<std::string, double>> values{};
 };
 
 struct Learned {
@@ -23,7 +26,8 @@ struct Learned {
 
 /// Replaces the parameters that the task learns (Task::learns), and no others, by what gives exactly the measured duration, energy or
 /// power in later predictions of the task; a site's parameters are its own, so other sites' predictions stay. A value that is not finite
-/// or out of the parameter's range is refused. The duration is learned first, since energy depends on it.
+/// or out of the parameter's range is refused. The duration is learned first, since energy depends on it. A parameter that is learned from
+/// a value gets this value; one that the commands did not bring is refused, too.
 Learned learn(const model::Network& network, model::TaskIndex task, const Measured& measured,
               model::Values& values);
 

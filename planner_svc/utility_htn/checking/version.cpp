@@ -121,6 +121,10 @@ class Reader {
       const auto state = went->second.state;
       if (!temporal::is_over(state) || state == temporal::ActivityState::succeeded)
         effective_.insert(step.id);
+      else
+        failed_.insert(step.id);
+    } else if (known && temporal::is_over(went->second.state)) {
+      failed_.insert(step.id);
     } else if (step.committed) {
       step.due = step.start <= now_;
       step.overdue = step.start < now_;
@@ -131,7 +135,8 @@ class Reader {
     block->second.steps.push_back(step);
   }
 
-  // A block of which a link has failed is no plan any more: what is committed of it is skipped.
+  // A block that is not whole is no plan any more. What has begun of it counts; what is committed does up to the link that has failed, and
+  // is skipped behind it.
   void keep(std::uint32_t number, Block& block) {
     std::ranges::sort(block.steps, {}, &Step::id);
     bool whole = whole_.contains(number) && !failed_.contains(number);
@@ -139,8 +144,13 @@ class Reader {
       whole = whole && block.steps[link].id == ((std::uint64_t{number} << 32U) | link);
     if (!whole) {
       out_.broken.insert(number);
-      std::ranges::copy_if(block.steps, std::back_inserter(out_.rests),
-                           [&](const Step& step) { return effective_.contains(step.id); });
+      bool follows = true;
+      for (std::size_t link = 0; link < block.steps.size(); ++link) {
+        const Step& step = block.steps[link];
+        follows = follows && step.id == ((std::uint64_t{number} << 32U) | link) && step.committed &&
+                  !failed_.contains(step.id);
+        if (follows || effective_.contains(step.id)) out_.rests.push_back(step);
+      }
       return;
     }
     if (running_[number] == 0) out_.over.insert(number);
@@ -156,6 +166,7 @@ class Reader {
   std::map<std::uint32_t, temporal::TimePoint> ends_;  // of the last link
   std::map<std::uint32_t, std::size_t> running_;       // steps that are not over
   std::set<std::uint64_t> effective_;                  // steps that have begun and have not failed
+  std::set<std::uint64_t> failed_;                     // steps that are over without success
   std::set<std::uint32_t> whole_;                      // blocks that have it
   std::set<std::uint32_t> failed_;                     // blocks of which a step has ended without success
   Version out_;

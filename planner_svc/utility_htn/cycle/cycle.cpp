@@ -144,11 +144,11 @@ std::string Cycle::set_value(model::ParameterIndex parameter, double value) {
            " and " + std::to_string(known.highest) + "; the value before stays";
   if (past_.values[parameter] == value) return {};
   past_.values[parameter] = value;
-  // What has not begun is placed anew: its starts are those of the value before.
+  // What has not begun is placed anew: its starts are those of the value before. The rest of what has begun takes what it takes now.
   for (Block& one : blocks_) {
-    if (one.begun()) continue;
     take_out(one);
-    if (!settings_.schedules_again) put_in(one);
+    if (one.begun()) last_anew(one);
+    if (one.begun() || !settings_.schedules_again) put_in(one);
   }
   if (settings_.schedules_again) std::erase_if(blocks_, [](const Block& one) { return !one.begun(); });
   to_schedule_ = to_optimize_ = true;
@@ -170,7 +170,8 @@ void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t la
   last_block_ = last_block;
   timelines_ = temporal::timelines::Timelines(network_.timelines, now);
   for (Index i = 0; i < network_.timelines.size(); ++i)
-    if (!network_.timelines[i].reported) timelines_.observe(i, now, past_.internal[i]);
+    if (!network_.timelines[i].reported && !network_.timelines[i].is_claim())
+      timelines_.observe(i, now, past_.internal[i]);
   blocks_ = std::move(blocks);
   for (const Block& one : blocks_) put_in(one);
   to_schedule_ = to_optimize_ = true;
@@ -207,10 +208,11 @@ Report Cycle::run(Time now) {
 search::PlannedData Cycle::data() const {
   search::PlannedData out;
   for (const Block* one : by_start()) {
-    for (const Link& each : one->links) {
+    for (std::size_t i = 0; i < one->links.size(); ++i) {
+      const Link& each = one->links[i];
       if (each.stage == Stage::doomed || each.stage == Stage::failed) continue;
       const model::Task& task = network_.tasks[each.task];
-      if (task.downlinks) out.downlinks.push_back({each.task, each.start, each.end});
+      if (task.downlinks) out.downlinks.push_back({each.task, each.start, each.end, task_id(one->number, i)});
       for (const model::Product& product : task.products)
         out.products.push_back(search::predicted(network_.tasks[chains_.chains[one->chain].task], task,
                                                  product, each.end, past_.values));
@@ -241,8 +243,11 @@ bool Cycle::follow(Time now) {
     for (std::size_t i = 0; i < one.links.size(); ++i) {
       const Link before = one.links[i];
       if (before.stage == Stage::committed) await_start(one, i, now);
-      if (before.stage == Stage::running && before.end < now)
-        one.links[i].end = expected(before.start + duration(before.task), now);
+      if (before.stage == Stage::running && before.end <= now) {
+        // What is due just now may have ended; what is overdue has not.
+        const Time due = before.start + duration(before.task);
+        if (due < now) one.links[i].end = expected(due, now);
+      }
       if (one.links[i] == before) continue;
       changed |= one.links[i].end != before.end;
       timelines_.move(task_id(one.number, i), one.links[i].start, one.links[i].end);
@@ -266,6 +271,34 @@ void Cycle::await_start(Block& of, std::size_t index, Time now) {
     late.start = now;
     if (late.end - length < now) late.end = expected(late.planned, now) + length;
   }
+  if (const Time free = free_for(late); free > late.start) {
+    late.start = free;
+    late.end = std::max(late.end, free + length);
+  }
+}
+
+// Returns when what the link claims is given back by all that runs, and by all that waits longer than it does.
+Time Cycle::free_for(const Link& waiting) const {
+  Time out{0};
+  for (const model::Impact& claim : network_.tasks[waiting.task].impacts) {
+    const auto& timeline = network_.timelines[claim.timeline];
+    if (!timeline.is_claim()) continue;
+    double taken = model::evaluate(claim.amount, past_.values);
+    Time given_back{0};
+    for (const Block& one : blocks_)
+      for (const Link& holder : one.links) {
+        const bool holds = holder.stage == Stage::running ||
+                           (holder.stage == Stage::committed && holder.planned < waiting.planned);
+        if (!holds || &holder == &waiting || holder.end <= waiting.start) continue;
+        for (const model::Impact& impact : network_.tasks[holder.task].impacts) {
+          if (impact.timeline != claim.timeline) continue;
+          taken += model::evaluate(impact.amount, past_.values);
+          given_back = std::max(given_back, holder.end);
+        }
+      }
+    if (taken > timeline.highest) out = std::max(out, given_back);
+  }
+  return out;
 }
 
 // Returns whether anything was folded that had been kept.
@@ -275,7 +308,8 @@ bool Cycle::consolidate(Time now) {
   timelines_.consolidate(now);
   const temporal::timelines::Kept after = timelines_.kept();
   for (Index i = 0; i < network_.timelines.size(); ++i)
-    if (!network_.timelines[i].reported) past_.internal[i] = timelines_.value(i, now);
+    if (!network_.timelines[i].reported && !network_.timelines[i].is_claim())
+      past_.internal[i] = timelines_.value(i, now);
   return after.tasks != before.tasks || after.events != before.events || after.asks != before.asks;
 }
 
@@ -299,6 +333,12 @@ void Cycle::forget_over(Report& report) {
     to_schedule_ = true;
     return true;
   });
+}
+
+void Cycle::last_anew(Block& begun) const {
+  for (Link& each : begun.links)
+    if (each.stage == Stage::planned || each.stage == Stage::committed)
+      each.end = each.start + duration(each.task);
 }
 
 void Cycle::take_out(const Block& gone) {

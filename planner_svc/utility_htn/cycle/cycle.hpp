@@ -99,6 +99,7 @@ class Cycle {
   bool follow(temporal::Time now);
   temporal::Time expected(temporal::Time due, temporal::Time now) const;
   void await_start(Block& of, std::size_t index, temporal::Time now);
+  temporal::Time free_for(const Link& waiting) const;
   bool consolidate(temporal::Time now);
   bool schedule(temporal::Time now, Report& report);
   bool repair(temporal::Time now, Report& report);
@@ -111,6 +112,7 @@ class Cycle {
   bool keep_order(temporal::Time now, Report& report);
   void push(Block& late, temporal::Time from);
   bool shift(Block& late, temporal::Time from);
+  void last_anew(Block& begun) const;
   void take_out(const Block& gone);
   void put_in(const Block& placed);
   void abandon(Block& begun, const std::string& why, Report& report);

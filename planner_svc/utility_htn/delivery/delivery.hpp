@@ -24,6 +24,7 @@ struct Existing {
   model::TaskIndex task = 0;     ///< the primitive task that generated it
   model::TaskIndex request = 0;  ///< the requested task of which that was part
   Fate fate = Fate::stored;
+  temporal::RankVector predicted{};  ///< by the network; none: it does not know this product
   friend bool operator==(const Existing&, const Existing&) = default;
 };
 
@@ -35,7 +36,9 @@ struct Downlink {
   std::uint64_t bytes = 0;
   temporal::Duration takes{0};  ///< the transmission alone, as much of the window as is needed
   double energy_j = 0;          ///< of the transmission
+  /// In the order in which they go: by tier, then by utility, the greatest first, then the older one.
   std::vector<std::string> products{};
+  temporal::timelines::TaskId id = 0;  ///< PlannedDownlink::id
   friend bool operator==(const Downlink&, const Downlink&) = default;
 };
 
@@ -46,8 +49,17 @@ struct Unsent {
   friend bool operator==(const Unsent&, const Unsent&) = default;
 };
 
+/// Is data that a schedule speaks of.
+struct Scheduled {
+  bool exists = false;
+  std::uint64_t bytes = 0;
+  model::Tier tier = model::Tier::mandatory;
+  friend bool operator==(const Scheduled&, const Scheduled&) = default;
+};
+
 struct Schedule {
-  std::vector<Downlink> downlinks{};  ///< by start
+  std::map<std::string, Scheduled> products{};  ///< all, by id
+  std::vector<Downlink> downlinks{};            ///< by start
   std::vector<Unsent> left_out{};
   std::vector<Unsent> late{};
   friend bool operator==(const Schedule&, const Schedule&) = default;
@@ -83,6 +95,10 @@ class Delivery {
   void join(search::Problem& problem, temporal::Time now);
   /// Returns all data that were generated, whatever became of them, with what they are worth (R115).
   std::span<const assessor::ExistingProduct> products() const { return products_; }
+  /// Returns the same as they were heard, by id.
+  std::span<const Existing> existing() const { return existing_; }
+  /// Returns whether the network names a rate: otherwise all data get home without a schedule.
+  bool limited() const { return rules_.has_rate(); }
   /// Returns what was received on Earth with its last byte: executed utility, of which nothing is predicted.
   temporal::RankVector received() const;
 

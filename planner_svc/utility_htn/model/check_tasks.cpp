@@ -177,9 +177,14 @@ void check_primitive(const Task& task, Complaints& complaints) {
   for (const Amount& score : task.utility) complaints.amount("a score of its utility", score, 0, 1);
   check_products(task, complaints);
   complaints.more_than("measures to learn", task.learns.size(), kMostInList);
-  for (const Learns& learns : task.learns)
+  for (const Learns& learns : task.learns) {
     if (learns.parameter >= complaints.network.parameters.size())
       complaints.error("it learns a parameter that is not there");
+    if (learns.measure == Measure::value) complaints.name("result", learns.result);
+    if (learns.measure != Measure::duration_s && task.commands.empty())
+      complaints.warning("it learns from the results of commands and has none",
+                         "give it a command, or let it learn its duration alone");
+  }
 }
 
 void check_parent(const Task& task, Complaints& complaints) {

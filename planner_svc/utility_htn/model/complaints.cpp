@@ -93,7 +93,8 @@ void Complaints::constraint(const std::string& kind, const temporal::timelines::
   const bool bounded = constraint.lowest > -std::numeric_limits<double>::infinity() ||
                        constraint.highest < std::numeric_limits<double>::infinity();
   if (timeline.kind == Kind::state) {
-    const std::uint64_t declared = timeline.states.size() >= 64 ? ~0ULL : (1ULL << timeline.states.size()) - 1;
+    const std::uint64_t declared =
+        timeline.states.size() >= 64 ? ~0ULL : (1ULL << timeline.states.size()) - 1;
     if (bounded)
       error(kind + " compares '" + timeline.name + "', which has named states, with a number",
             "name one of its states");

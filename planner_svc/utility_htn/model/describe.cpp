@@ -54,7 +54,7 @@ std::string_view to_text(Tier tier) {
 }
 
 std::string_view to_text(Measure measure) {
-  static constexpr std::array<std::string_view, 3> words{"duration_s", "energy", "power"};
+  static constexpr std::array<std::string_view, 4> words{"duration_s", "energy", "power", "values"};
   return words.at(static_cast<std::size_t>(measure));
 }
 

@@ -99,11 +99,12 @@ struct Decomposition {
   friend bool operator==(const Decomposition&, const Decomposition&) = default;
 };
 
-/// Tells which parameter is learned when a task has ended (R116).
-enum class Measure { duration_s, energy, power };
+/// Tells which parameter is learned when a task has ended (R116): from what it took, or from a value that was computed on board (R108).
+enum class Measure { duration_s, energy, power, value };
 struct Learns {
   Measure measure = Measure::duration_s;
   ParameterIndex parameter = 0;
+  std::string result{};  ///< of a value: its name among the results of the task's commands
   friend bool operator==(const Learns&, const Learns&) = default;
 };
 

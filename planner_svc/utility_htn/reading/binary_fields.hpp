@@ -106,8 +106,9 @@ void fields(A& a, typename A::template Of<model::Decomposition> decomposition) {
 
 template <typename A>
 void fields(A& a, typename A::template Of<model::Learns> learns) {
-  a.enumeration(learns.measure, 3);
+  a.enumeration(learns.measure, 4);
   a.number(learns.parameter);
+  if (learns.measure == model::Measure::value) a.text(learns.result);
 }
 
 template <typename A>

@@ -169,7 +169,8 @@ class YamlReader {
                 words::did_you_mean(word, words));
     }
     out.kind = *known;
-    out.reported = value.truth_or("reported", true);
+    // Who has claimed something the tasks say that run; a spacecraft reports it where it says so.
+    out.reported = value.truth_or("reported", out.kind != Kind::atomic && out.kind != Kind::claimable);
     if (out.kind == Kind::state) {
       for (const Source& state : value.at("states").items()) out.states.push_back(state.text());
       const auto initial = value.find("initial");

@@ -150,13 +150,18 @@ void read_failure(const Source& source, const Vocabulary& vocabulary, Task& out)
 }
 
 void read_learns(const Source& source, const Vocabulary& vocabulary, Task& out) {
-  source.entry().allow_only({"duration_s", "energy", "power"});
+  source.entry().allow_only({"duration_s", "energy", "power", "values"});
   for (const Measure measure : {Measure::duration_s, Measure::energy, Measure::power}) {
     const auto parameters = source.find(model::to_text(measure));
     if (!parameters) continue;
     for (const Source& one : parameters->one_or_more())
-      out.learns.push_back({measure, vocabulary.parameters.index(one)});
+      out.learns.push_back({measure, vocabulary.parameters.index(one), {}});
   }
+  const auto values = source.find(model::to_text(Measure::value));
+  if (!values) return;
+  for (const auto& [result, parameters] : values->fields())
+    for (const Source& one : parameters.one_or_more())
+      out.learns.push_back({Measure::value, vocabulary.parameters.index(one), result});
 }
 
 model::Subtask read_subtask(const Source& source, const Vocabulary& vocabulary) {

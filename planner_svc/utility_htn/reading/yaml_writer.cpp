@@ -1,3 +1,4 @@
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -223,7 +224,21 @@ class YamlWriter {
       if (!names_of.empty())
         out += (out.empty() ? "" : ", ") + std::string(model::to_text(measure)) + ": " + names(names_of);
     }
+    if (const std::string values = learned_values(task); !values.empty())
+      out += (out.empty() ? "" : ", ") + std::string(model::to_text(model::Measure::value)) + ": {" + values +
+             "}";
     if (!out.empty()) line(2, "learns: {" + out + "}");
+  }
+
+  std::string learned_values(const Task& task) const {
+    std::map<std::string, std::vector<std::string>> parameters;  // by result
+    for (const model::Learns& one : task.learns)
+      if (one.measure == model::Measure::value)
+        parameters[one.result].push_back(network_.parameters.at(one.parameter).name);
+    std::string out;
+    for (const auto& [result, names_of] : parameters)
+      out += (out.empty() ? "" : ", ") + in_quotes(result) + ": " + names(names_of);
+    return out;
   }
 
   void decompositions(const Task& task) {

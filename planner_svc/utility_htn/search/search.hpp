@@ -30,6 +30,7 @@ struct PlannedDownlink {
   model::TaskIndex task = 0;
   temporal::Time start{0};
   temporal::Time end{0};
+  temporal::timelines::TaskId id = 0;  ///< in a plan that runs: the number under which timelines know it
 };
 
 /// Is what a partial plan would generate and send. What is committed comes first in both lists.

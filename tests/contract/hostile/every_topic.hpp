@@ -41,6 +41,8 @@ void for_each_topic(Use use) {
   use(topics::decision_receipt);
   use(topics::network_order);
   use(topics::network_status);
+  use(topics::downlink_schedule);
+  use(topics::mission_outlook);
   use(topics::plan_delta);
   use(topics::plan_receipt);
   use(topics::call_cancel);

@@ -47,6 +47,8 @@ const std::vector<Decoder>& decoders() {
                                         decoder(topics::decision_receipt),
                                         decoder(topics::network_order),
                                         decoder(topics::network_status),
+                                        decoder(topics::downlink_schedule),
+                                        decoder(topics::mission_outlook),
                                         decoder(topics::plan_delta),
                                         decoder(topics::plan_receipt),
                                         decoder(topics::call_cancel),

@@ -57,6 +57,15 @@ TEST(ResourceMonitor, NameTheFirstActivityThatWillLackSomething) {
   EXPECT_EQ(shortfall({{50, 30}, {60, 40}}, 49), "a1 will lack (battery) >= 50 (is 49)");
 }
 
+TEST(ResourceMonitor, WhatIsGivenBackAtAnActivitysEndIsWaitedFor) {
+  temporal::FlexiblePlan plan = plan_of({{0, 1}, {0, 1}});
+  for (temporal::PlanActivity& activity : plan.activities) {
+    activity.pre = temporal::compare("(battery)", ConditionOp::le, 0.0);
+    activity.impacts = {{"(battery)", ImpactKind::delta, ImpactWhen::during, 1.0}};
+  }
+  EXPECT_EQ(shortfall(ResourceMonitor(plan), levels({{"(battery)", 1}})), "");
+}
+
 TEST(ResourceMonitor, WhatWaitsNoMoreTakesNothing) {
   ResourceMonitor monitor(plan_of({{50, 30}, {60, 40}}));
   monitor.remove("a1");

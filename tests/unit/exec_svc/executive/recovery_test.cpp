@@ -178,6 +178,29 @@ TEST(Retries, EndWhenTheirTimeIsOver) {
   EXPECT_EQ(world.recoveries.size(), 2U);
 }
 
+// Two may not have the hand at once; an activity's own claim does not forbid it another attempt.
+TEST(Retries, GiveBackWhatTheFailedAttemptHadTakenAndOthersWaitForTheEnd) {
+  PlanBuilder b;
+  PlanActivity& begin = b.activity("begin", "", 0);
+  begin.impacts = {{"hand", temporal::ImpactKind::assign, temporal::ImpactWhen::at_start, 0.0}};
+  for (const char* id : {"drive", "image"}) {
+    PlanActivity& one = b.activity(id, "sim", 10);
+    one.pre = temporal::compare("hand", temporal::ConditionOp::le, 0.0);
+    one.impacts = {{"hand", temporal::ImpactKind::delta, temporal::ImpactWhen::during, 1.0}};
+    one.retries = 1;
+    one.lateness = temporal::LatenessPolicy::push;
+    one.wait_timeout = seconds(1000);
+    b.after("begin", id);
+  }
+  ScriptedWorld world(b.plan);
+  world.answers("drive",
+                {{.lasts = 30, .ends_with = CommandStage::failed, .reason = "stuck"}, {.lasts = 10}});
+  world.answers("image", {{.lasts = 10}});
+  EXPECT_THAT(world.run(),
+              IsSupersetOf({"0.001 execute drive#1", "30.001 execute drive#2", "40.001 drive succeeded",
+                            "40.001 execute image#1", "50.001 plan finished"}));
+}
+
 TEST(Push, IsToldWithWhatItWaitsForAndUntilWhen) {
   PlanBuilder b;
   PlanActivity& drive = b.activity("drive", "sim", 100);

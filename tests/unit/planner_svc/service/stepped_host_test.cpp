@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 
 #include "planner_svc/engine_host_service.hpp"
@@ -37,6 +38,13 @@ class ScriptedEngine final : public engine::SteppedEngine {
       heard_.push_back("product " + product.id + " of " + product.source + ", " +
                        std::to_string(product.bytes) + " bytes, fate " +
                        std::to_string(static_cast<int>(product.fate)));
+    for (const engine::CommandResult& result : inputs.results) {
+      heard_.push_back("result " + result.activity + " " + std::to_string(result.attempt) + ": " +
+                       (result.energy_j ? temporal::to_text(temporal::Value{*result.energy_j}) : "no") +
+                       " J");
+      for (const auto& [name, number] : result.values)
+        heard_.back() += ", " + name + " " + temporal::to_text(temporal::Value{number});
+    }
     for (const engine::EndedGoal& goal : inputs.ended_goals) heard_.push_back("end of " + goal.id);
     if (inputs.receipt && inputs.receipt->refused != 0)
       heard_.push_back("refused " + std::to_string(inputs.receipt->refused));
@@ -111,6 +119,33 @@ class SteppedService : public ::testing::Test {
       products_.write(product);
     });
   }
+  void tell_result(Time time, const std::string& commander, v1::CommandStage stage, double energy_j) {
+    executive_.at(time, [this, commander, stage, energy_j] {
+      v1::CommandAck ack;
+      ack.commander(commander);
+      ack.epoch(1);
+      ack.activity("dig#1.0");
+      ack.attempt(1);
+      ack.stage(stage);
+      ack.owner("exec_svc");  // who writes here
+      ack.outcome().energy_j(energy_j);
+      for (const double worth : {0.5, std::numeric_limits<double>::infinity()}) {
+        v1::NamedValue value;
+        value.name(worth < 1 ? "worth" : "depth");
+        value.held().kind(v1::VALUE_NUMBER);
+        value.held().number(worth);
+        ack.outcome().measured().push_back(value);
+      }
+      acks_.write(ack);
+    });
+  }
+  void tell_receipt(Time time) {
+    executive_.at(time, [this] {
+      v1::PlanReceipt receipt;
+      receipt.executive("exec_svc");
+      receipts_.write(receipt);
+    });
+  }
   void run_until(Time end) {
     executive_.at(end, [this] { executive_.stop(); });
     run_.run();
@@ -132,6 +167,8 @@ class SteppedService : public ::testing::Test {
   services::Publisher<v1::Goal> goals_ = services::advertise(executive_, topics::goal);
   services::Publisher<v1::GoalStatus> statuses_ = services::advertise(executive_, topics::goal_status);
   services::Publisher<v1::DataProduct> products_ = services::advertise(executive_, topics::data_product);
+  services::Publisher<v1::CommandAck> acks_ = services::advertise(executive_, topics::command_ack);
+  services::Publisher<v1::PlanReceipt> receipts_ = services::advertise(executive_, topics::plan_receipt);
   std::unique_ptr<services::Service> service_;
   std::vector<std::string> versions_;
   std::vector<std::string> events_;
@@ -182,6 +219,19 @@ TEST_F(SteppedService, DataProductsAreHeardWhenTheyChangeAndAgainByAnEngineThatI
   const std::string image = "product image of look#1.0, 60 bytes, fate ";
   EXPECT_THAT(heard_,
               ElementsAre(image + "0", image + "2", "goal trap", image + "2", "goal trap", "goal next"));
+}
+
+// Whose plan it is, a receipt tells; another executive's activities may have the same names.
+TEST_F(SteppedService, ResultsAreHeardOfCompletedCommandsOfItsExecutiveAlone) {
+  tell_result(1s, "exec_svc", v1::STAGE_ACCEPTED, 1);
+  tell_result(2s, "another", v1::STAGE_COMPLETED, 2);
+  tell_result(3s, "exec_svc", v1::STAGE_COMPLETED, 3);
+  tell_result(4s, "exec_svc", v1::STAGE_COMPLETED, 3);
+  tell_receipt(5s);
+  tell_result(6s, "another", v1::STAGE_COMPLETED, 4);
+  tell_result(7s, "exec_svc", v1::STAGE_COMPLETED, std::numeric_limits<double>::quiet_NaN());
+  run_until(10s);
+  EXPECT_THAT(heard_, ElementsAre("result dig#1.0 1: 3 J, worth 0.5", "result dig#1.0 1: no J, worth 0.5"));
 }
 
 TEST_F(SteppedService, WhatAStepDidIsToldPartByPartWithTheVersionThatCameOfIt) {

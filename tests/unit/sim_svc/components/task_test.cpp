@@ -117,6 +117,42 @@ TEST(TaskComponent, LeavesThingsInAStateOnceItIsDone) {
   EXPECT_EQ(last_value(run.said, "station.hole.h1"), temporal::state("bored", {"h1"}));
 }
 
+TEST(TaskComponent, ThingsOfTheSettingsHaveAStateFromTheBeginning) {
+  TaskSettings settings = drill();
+  settings.things = {{"hole.h1", {"untouched", {}}}, {"hole.h2", {"bored", {"by", "others"}}}};
+  world::WorldSetup setup = station();
+  setup.robots[0].components[0] = part<TaskComponent>("drill", "task", settings);
+  Flight run(setup);
+  EXPECT_EQ(run.state("station.hole.h1"), (State{"untouched", {}}));
+  EXPECT_EQ(run.state("station.hole.h2"), (State{"bored", {"by", "others"}}));
+  run.command(seconds(1), execute("c", "clamp", "close"));
+  run.command(seconds(2), execute("b", "drill", "bore", {{"hole", "h1"}}));
+  run.advance(seconds(102));
+  EXPECT_EQ(run.state("station.hole.h1"), (State{"bored", {"h1"}}));
+  const auto forms = TaskComponent(settings, world::RandomStream(1, "task")).thing_forms();
+  ASSERT_EQ(forms.size(), 1u);
+  EXPECT_EQ(forms[0].states, (std::vector<world::StateForm>{{"bored", 1}, {"bored", 2}, {"untouched", 0}}));
+  world::World again(setup, 1);
+  again.restore(run.world.memory());
+  EXPECT_EQ(last_value(again.advance(run.time_of("b")), "station.hole.h1"), temporal::state("bored", {"h1"}))
+      << "a process that is started again knows what was left";
+}
+
+TEST(TaskComponent, AHollowSuccessIsToldAndChangesNothing) {
+  Flight run = boring();
+  run.disturb(seconds(3), world::HollowSuccess{"station", "drill", "bore"});
+  run.advance(seconds(102));
+  EXPECT_EQ(run.stage("b"), Stage::completed);
+  EXPECT_EQ(run.state("station.drill"), (State{"up", {}}));
+  EXPECT_EQ(last_number(run.said, "station.drill.depth"), 1);
+  EXPECT_EQ(last_number(run.said, "station.drill.bits"), 4);
+  EXPECT_FALSE(last_value(run.said, "station.hole.h1").has_value());
+  EXPECT_NEAR(run.last_ack("b")->word.results.energy_j.value(), 5000, 1e-6) << "what it used is gone";
+  run.command(seconds(110), execute("b2", "drill", "bore", {{"hole", "h1"}}));
+  run.advance(seconds(300));
+  EXPECT_EQ(run.state("station.drill"), (State{"in", {"h1", "deep"}})) << "the next one is true again";
+}
+
 TEST(TaskComponent, NeedsOtherPartsInTheirStates) {
   Flight run(station());
   run.command(seconds(1), execute("b", "drill", "bore", {{"hole", "h1"}}));

@@ -35,6 +35,16 @@ TEST(Battery, StaysFlatUntilAHundredthIsThereAgain) {
   EXPECT_FALSE(battery.flat());
 }
 
+TEST(Battery, AGaugeMayTellLessThanThereIsBelowSomeCharge) {
+  const Gauge gauge{1000, 2};
+  EXPECT_EQ(told_j(gauge, 5000), 5000);
+  EXPECT_EQ(told_j(gauge, 1000), 1000);
+  EXPECT_EQ(told_j(gauge, 900), 800);
+  EXPECT_EQ(told_j(gauge, 300), 0);
+  EXPECT_EQ(told_j({1000, 0.5}, 900), 950) << "or more";
+  EXPECT_EQ(told_j({}, 900), 900);
+}
+
 TEST(Battery, SunIsHighestAtNoonAndGoneAtNight) {
   PowerParameters power;
   power.solar_peak_w = 40;

@@ -75,6 +75,33 @@ TEST_F(LearningTest, WhatIsOutOfRangeIsRefusedAndTold) {
   EXPECT_EQ(values, before);
 }
 
+// Nothing of the task itself depends on it: it says what its site is worth.
+TEST_F(LearningTest, AValueThatWasComputedOnBoardReplacesItsParameterAndNoOther) {
+  for (const model::ParameterIndex site : {0U, 1U})
+    network.parameters.push_back({"worth." + std::to_string(site), 0.5, 0, 1, "chosen"});
+  values = model::priors(network);
+  network.tasks[0].learns = {{Measure::value, 4, "worth"}};
+  Measured measured;
+  measured.values.emplace();
+  EXPECT_THAT(
+      learn(network, 0, measured, values).refused,
+      ElementsAre("the value 'worth' of 'collect_0' is not taken over: its commands brought no number of "
+                  "this name"));
+  measured.values->emplace("worth", 1.5);
+  EXPECT_THAT(
+      learn(network, 0, measured, values).refused,
+      ElementsAre("the value 'worth' 1.5 of 'collect_0' is not taken over: 'worth.0' would be 1.5, outside "
+                  "of 0 to 1"));
+  EXPECT_EQ(values, model::priors(network));
+  measured.values->insert_or_assign("worth", 0.9);
+  measured.values->emplace("depth", 0.1);
+  EXPECT_THAT(learn(network, 0, measured, values).replaced, ElementsAre(4));
+  EXPECT_EQ(values[4], 0.9);
+  EXPECT_EQ(values[5], 0.5);
+  measured.values.reset();
+  EXPECT_THAT(learn(network, 0, measured, values).refused, IsEmpty()) << "the commands have not said yet";
+}
+
 TEST_F(LearningTest, AParameterThatTheTaskDoesNotUseIsNotReplaced) {
   network.tasks[0].learns = {{Measure::duration_s, 2}};
   EXPECT_THAT(learn(network, 0, {400.0, {}, {}}, values).refused,

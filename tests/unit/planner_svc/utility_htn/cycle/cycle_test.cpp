@@ -221,6 +221,37 @@ TEST_F(CycleTest, WhatHasBegunIsFinishedLaterWhenItsFirstLinkTakesLonger) {
     }
 }
 
+// The sample's image takes as long as its digging.
+TEST_F(CycleTest, ANewDurationMovesTheRestOfWhatHasBegun) {
+  network_.tasks[task_named(network_, "image")].duration = {0, 0, 1};
+  Cycle cycle = make();
+  const Block first = sample_in(cycle);
+  cycle.begun(task_id(first.number, 0), first.links.front().start);
+  EXPECT_EQ(cycle.set_value(0, 200), "");
+  cycle.run(20s);
+  const Block& rest = block_of_request(cycle, "sample");
+  EXPECT_EQ(rest.links[1].end - rest.links[1].start, 200s);
+  EXPECT_GE(rest.links[2].start, rest.links[1].end);
+}
+
+// Digging and imaging claim the arm. The view is committed behind the sample's digging, which does not end.
+TEST_F(CycleTest, WhatIsCommittedIsExpectedBehindWhatHoldsItsClaim) {
+  network_.cycle.commit_window = 300s;
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  const Block sample = block_of_request(cycle, "sample"), view = block_of_request(cycle, "view");
+  cycle.run(10s);
+  cycle.begun(task_id(sample.number, 0), sample.links[0].start);
+  const Time late = view.links[0].start + 20s;
+  for (Time now = 20s; now <= late; now += 10s) cycle.run(now);
+  const Link& digging = block_of_request(cycle, "sample").links[0];
+  const Link& imaging = block_of_request(cycle, "view").links[0];
+  ASSERT_EQ(imaging.stage, Stage::committed);
+  EXPECT_GE(digging.end, late);
+  EXPECT_GE(imaging.start, digging.end);
+  EXPECT_EQ(imaging.planned, view.links[0].start) << "what is committed stands as it was told";
+}
+
 TEST_F(CycleTest, AValueOutOfItsRangeIsRefused) {
   Cycle cycle = make();
   EXPECT_THAT(cycle.set_value(0, 1000), HasSubstr("dig_s = 1000"));

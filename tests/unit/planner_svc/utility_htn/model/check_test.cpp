@@ -170,6 +170,19 @@ TEST(NetworkCheck, TellsEachFault) {
       {[](Network& n) { n.tasks[0].products[0].bytes.constant = -1; }, "the size of 'image' in bytes is -1"},
       {[](Network& n) { n.tasks[0].products[0].utility = {2}; }, "a score of product 'image' is 2"},
       {[](Network& n) { n.tasks[0].learns[0].parameter = 1; }, "it learns a parameter that is not there"},
+      {[](Network& n) {
+         n.tasks[0].learns = {{Measure::value, 0, ""}};
+       },
+       "result is empty; give it a name"},
+      {[](Network& n) {
+         n.tasks[0].learns = {{Measure::value, 0, "a value"}};
+       },
+       "result 'a value' is no name"},
+      {[](Network& n) {
+         n.tasks[0].commands.clear();
+         n.tasks[0].learns = {{Measure::energy, 0}};
+       },
+       "warning: task 'dig': it learns from the results of commands and has none"},
       {[](Network& n) { n.tasks[0].contingency->requests = {2}; },
        "on failure it requests 'site', which is requested already"},
       {[](Network& n) { n.tasks[0].contingency->withdraws = {1}; },

@@ -174,6 +174,9 @@ class Maker {
     if (!out_.parameters.empty() && chance(2))
       task.learns = {{Measure::duration_s, 0},
                      {Measure::power, static_cast<ParameterIndex>(out_.parameters.size() - 1)}};
+    if (!out_.parameters.empty() && chance(3))
+      task.learns.push_back({Measure::value, static_cast<ParameterIndex>(below(out_.parameters.size())),
+                             "result-" + std::to_string(below(3))});
   }
 
   void parent(Task& task, std::size_t own) {

@@ -43,7 +43,7 @@ templates:
     on_failure: {respond: {owner: sim_svc, command: stop}, request: stow, withdraw: hotel_load}
     utility: {analysis: 0.5}
     products: {images: {tier: decisional, bytes: 1e6, utility: {analysis: 0.25}}}
-    learns: {duration_s: "dig_s_{site}"}
+    learns: {duration_s: "dig_s_{site}", values: {"yield_{site}": "dig_s_{site}"}}
   stow: {duration_s: 10}
 tasks:
   hotel_load: {batch: outside, fixed: true, start_s: 0, duration_s: 1000, impacts: {battery: {rate: -1}}}

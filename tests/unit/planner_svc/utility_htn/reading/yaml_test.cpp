@@ -67,7 +67,8 @@ TEST(NetworkYaml, ATaskHasAllThatTheFileSays) {
   EXPECT_EQ(*dig.contingency, (model::Contingency{{2}, {3}}));
   EXPECT_EQ(model::utility(dig, model::priors(network)), temporal::RankVector({0, 0.5}));
   EXPECT_EQ(dig.products.at(0), (model::Product{"images", model::Tier::decisional, {1e6, {}, 1}, {0, 0.25}}));
-  EXPECT_THAT(dig.learns, ElementsAre(model::Learns{model::Measure::duration_s, 0}));
+  EXPECT_THAT(dig.learns, ElementsAre(model::Learns{model::Measure::duration_s, 0},
+                                      model::Learns{model::Measure::value, 0, "yield_0"}));
   EXPECT_EQ(network.timelines.at(0).highest, 180000);
   EXPECT_FALSE(network.timelines.at(1).reported);
   EXPECT_EQ(network.timelines.at(1).initial, 1);

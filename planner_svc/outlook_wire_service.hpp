@@ -1,0 +1,14 @@
+// The downlink schedule and the mission outlook in their wire form.
+#pragma once
+
+#include "planner_svc/engine/outlook.hpp"
+#include "roci_idl/outlook.h"
+
+namespace roci::planner {
+
+/// Without robot, header, version, time and names of model and plan, which are the host's to say. A sample holds what has room in
+/// kOutlookBytes; what has none is counted in `omitted`.
+v1::DownlinkSchedule to_wire(const engine::DownlinkSchedule&);
+v1::MissionOutlook to_wire(const engine::MissionOutlook&);
+
+}  // namespace roci::planner

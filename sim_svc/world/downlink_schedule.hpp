@@ -1,0 +1,16 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+namespace roci::sim::world {
+
+/// Says which products a robot is to send with which downlink, as whoever plans for it wants it now.
+struct DownlinkSchedule {
+  std::string robot;  ///< empty: the only one
+  /// Activity of the downlink → products in the order in which they go: ids of those that exist, and of those that a planned task
+  /// will make <…>/<kind>.
+  std::map<std::string, std::vector<std::string>> products;
+};
+
+}  // namespace roci::sim::world

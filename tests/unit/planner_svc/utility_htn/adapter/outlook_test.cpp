@@ -1,0 +1,282 @@
+// What the engine tells of its plan beside the plan: the downlink schedule, utility by rank, energy, the subway map (R110–R115, R127).
+#include "planner_svc/utility_htn/adapter/outlook.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "core/temporal/plan_delta.hpp"
+#include "planner_svc/utility_htn/adapter/utility_engine.hpp"
+#include "planner_svc/utility_htn/reading/load.hpp"
+
+namespace roci::planner::utility_htn::adapter {
+namespace {
+
+using engine::ChainStage, engine::DataTier, engine::SignatureOutcome, engine::StepInputs, engine::StepOutput;
+using model::Tier;
+using temporal::ActivityState, temporal::Time;
+using ::testing::AllOf, ::testing::DoubleNear, ::testing::ElementsAre, ::testing::Field, ::testing::HasSubstr,
+    ::testing::IsEmpty, ::testing::Not, ::testing::SizeIs;
+
+// The small lander; `image_SITE` makes 1,000 bytes and a downlink of 300 s carries 3,000.
+model::Network imaging_lander() {
+  model::Network out = reading::load_network(ROCI_SOURCE_DIR "/tests/missions/lander/network.yaml");
+  if (std::ranges::find(out.parameters, "rate_bytes_per_s", &model::Parameter::name) == out.parameters.end())
+    out.parameters.push_back({"rate_bytes_per_s", 10, 0, 1e9});
+  std::ranges::find(out.parameters, "rate_bytes_per_s", &model::Parameter::name)->prior = 10;
+  for (model::Task& task : out.tasks) {
+    task.products.clear();
+    if (task.id.starts_with("image_")) task.products = {{"picture", Tier::mandatory, {1000}, {0.3}}};
+  }
+  return out;
+}
+
+engine::Goal whole_mission() {
+  engine::Goal out;
+  out.issuer = "ground";
+  out.id = "network";
+  out.kind = "mission";
+  return out;
+}
+
+// Stands in for the executive and the host.
+class OutlookTest : public ::testing::Test {
+ protected:
+  void start(model::Network network = imaging_lander()) {
+    engine_ =
+        std::make_unique<UtilityEngine>(engine::Setup{"utility_htn", "lander", "", ""}, std::move(network));
+    StepInputs inputs;
+    inputs.goals.push_back(whole_mission());
+    step(std::move(inputs));
+  }
+
+  StepOutput step(StepInputs inputs = {}) {
+    inputs.now = now_;
+    inputs.last_version = plan_.version;
+    inputs.receipt = engine::Receipt{plan_.version, 0, "", "", true};
+    if (battery_) inputs.observations.push_back({"lander.battery", *battery_, now_});
+    StepOutput out = engine_->step(inputs);
+    if (out.delta) {
+      EXPECT_EQ(temporal::apply(*out.delta, plan_), "");
+    }
+    if (out.schedule) schedule_ = *out.schedule;
+    if (out.outlook) outlook_ = *out.outlook;
+    told_ += (out.schedule ? 1 : 0) + (out.outlook ? 1 : 0);
+    return out;
+  }
+  void advance_to(Time when) {
+    now_ = when;
+    step();
+  }
+  std::string activity(const std::string& task) const {
+    const auto found = std::ranges::find(plan_.activities, task, &temporal::PlanActivity::name);
+    return found == plan_.activities.end() ? "none of " + task : found->id;
+  }
+  void execute(const std::string& id, ActivityState state, Time started, std::optional<Time> ended) {
+    StepInputs inputs;
+    engine::StepStatus status;
+    status.plan_version = plan_.version;
+    status.activity = id;
+    status.progress.state = state;
+    status.progress.started = started;
+    status.progress.ended = ended;
+    inputs.steps.push_back(status);
+    step(std::move(inputs));
+  }
+  void hear(engine::DataProduct product) {
+    StepInputs inputs;
+    inputs.products.push_back(std::move(product));
+    step(std::move(inputs));
+  }
+  engine::DataProduct picture(const std::string& id, const std::string& source) const {
+    engine::DataProduct out;
+    out.id = id;
+    out.kind = "picture";
+    out.source = source;
+    out.bytes = 900;
+    out.created = now_;
+    return out;
+  }
+  const engine::ScheduledDownlink* downlink(const std::string& task) const {
+    const auto found = std::ranges::find_if(schedule_.downlinks, [&](const engine::ScheduledDownlink& one) {
+      return one.activity.starts_with(task + "#");
+    });
+    return found == schedule_.downlinks.end() ? nullptr : &*found;
+  }
+  const engine::ChainOutlook& chain(const std::string& request) const {
+    return *std::ranges::find(outlook_.chains, request, &engine::ChainOutlook::request);
+  }
+
+  Time now_ = temporal::seconds(100);
+  std::optional<double> battery_ = 600000;
+  temporal::FlexiblePlan plan_;
+  std::unique_ptr<UtilityEngine> engine_;
+  engine::DownlinkSchedule schedule_;
+  engine::MissionOutlook outlook_;
+  int told_ = 0;
+};
+
+TEST_F(OutlookTest, TheScheduleNamesActivitiesOfThePlanAndPlannedDataByTheNetwork) {
+  start();
+  ASSERT_TRUE(schedule_.limited);
+  EXPECT_THAT(schedule_.ranks, ElementsAre(Field(&engine::UtilityRank::name, "science")));
+  EXPECT_THAT(schedule_.ranks.front().meaning, HasSubstr("picture"));
+  ASSERT_THAT(schedule_.downlinks, Not(IsEmpty()));
+  std::uint64_t bytes = 0;
+  for (const engine::ScheduledDownlink& one : schedule_.downlinks) {
+    const auto planned = std::ranges::find(plan_.activities, one.activity, &temporal::PlanActivity::id);
+    ASSERT_NE(planned, plan_.activities.end()) << one.activity;
+    EXPECT_EQ(one.end - one.start, temporal::seconds(300));
+    EXPECT_EQ(one.takes, temporal::seconds(static_cast<double>(one.bytes) / 10));
+    for (const engine::ScheduledProduct& data : one.products) {
+      EXPECT_FALSE(data.exists);
+      EXPECT_THAT(data.id, HasSubstr("/picture"));
+      bytes += data.bytes;
+    }
+  }
+  EXPECT_EQ(bytes,
+            1000U * static_cast<std::uint64_t>(std::ranges::count_if(
+                        plan_.activities, [](const auto& one) { return one.name.starts_with("image_"); })));
+}
+
+TEST_F(OutlookTest, DataThatExistGoUnderTheirOwnIdAndByTier) {
+  start();
+  engine::DataProduct late = picture("dp-2", "nobody#1.0");
+  engine::DataProduct first = picture("dp-1", "nobody#1.0");
+  late.tier = DataTier::mandatory;
+  late.utility = {0.9};
+  first.tier = DataTier::decisional;
+  first.utility = {0.1};
+  StepInputs inputs;
+  inputs.products = {late, first};
+  now_ += temporal::seconds(60);
+  step(std::move(inputs));
+  const engine::ScheduledDownlink& next = schedule_.downlinks.front();
+  std::vector<std::string> going;
+  for (const engine::ScheduledProduct& one : next.products)
+    if (one.exists) going.push_back(one.id);
+  EXPECT_THAT(going, ElementsAre("dp-1", "dp-2"));
+  EXPECT_EQ(next.products.front().tier, DataTier::decisional);
+}
+
+TEST_F(OutlookTest, WhatHasNoRoomIsLeftOutWithItsReason) {
+  start();
+  engine::DataProduct huge = picture("huge", "nobody#1.0");
+  huge.bytes = 3001;
+  now_ += temporal::seconds(60);
+  hear(huge);
+  ASSERT_THAT(schedule_.left_out, SizeIs(1));
+  EXPECT_EQ(schedule_.left_out.front().data.id, "huge");
+  EXPECT_EQ(schedule_.left_out.front().data.bytes, 3001U);
+  EXPECT_TRUE(schedule_.left_out.front().data.exists);
+  EXPECT_THAT(schedule_.left_out.front().why, Not(IsEmpty()));
+}
+
+TEST_F(OutlookTest, WithoutARateNothingIsScheduled) {
+  model::Network network = imaging_lander();
+  std::ranges::find(network.parameters, "rate_bytes_per_s", &model::Parameter::name)->name = "another_rate";
+  start(std::move(network));
+  EXPECT_FALSE(schedule_.limited);
+  EXPECT_THAT(schedule_.downlinks, IsEmpty());
+  EXPECT_THAT(schedule_.ranks, SizeIs(1));
+}
+
+TEST_F(OutlookTest, ACycleInWhichNothingHasChangedTellsNothing) {
+  start();
+  battery_.reset();
+  const int told = told_;
+  EXPECT_EQ(told, 2);
+  now_ += temporal::seconds(1);
+  step();  // no cycle is due
+  EXPECT_EQ(told_, told);
+}
+
+TEST_F(OutlookTest, DataWithoutAWorthOfTheirOwnTakeThatOfTheirProduct) {
+  start();
+  const std::string image = activity("image_near");
+  now_ += temporal::seconds(60);
+  hear(picture("dp-1", image));
+  const auto told = std::ranges::find(outlook_.products, "dp-1",
+                                      [](const engine::ProductOutlook& one) { return one.data.id; });
+  ASSERT_NE(told, outlook_.products.end());
+  EXPECT_EQ(told->request, "sample_near");
+  EXPECT_EQ(told->predicted, (temporal::RankVector{0.3}));
+  EXPECT_EQ(told->executed, (temporal::RankVector{0.3}));
+  EXPECT_EQ(chain("sample_near").executed, (temporal::RankVector{0.3}));
+  EXPECT_THAT(outlook_.received.scores(), IsEmpty());
+  engine::DataProduct home = picture("dp-1", image);
+  home.utility = {0.7};
+  home.fate = engine::DataFate::received;
+  now_ += temporal::seconds(60);
+  hear(home);
+  EXPECT_EQ(outlook_.received, (temporal::RankVector{0.7}));
+}
+
+TEST_F(OutlookTest, ChainsTellWhatTheyCostAndHowTheyStandAndStayWhenTheyHaveEnded) {
+  start();
+  EXPECT_EQ(chain("view").stage, ChainStage::planned);
+  EXPECT_EQ(chain("view").predicted, (temporal::RankVector{0.1}));
+  EXPECT_NEAR(chain("view").cost_j, 120 * 40 + 300 * 100, 1e-6);
+  for (const char* const task : {"look", "send_view"}) {
+    const std::string id = activity(task);
+    advance_to(std::max(now_, chain("view").start) + temporal::seconds(60));
+    execute(id, ActivityState::running, now_, std::nullopt);
+    EXPECT_EQ(chain("view").request, "view");
+    now_ += temporal::seconds(60);
+    execute(id, ActivityState::succeeded, now_ - temporal::seconds(60), now_);
+  }
+  advance_to(now_ + temporal::seconds(60));
+  EXPECT_EQ(chain("view").stage, ChainStage::done);
+  EXPECT_EQ(chain("view").predicted, (temporal::RankVector{0.1})) << "as before it began";
+}
+
+TEST_F(OutlookTest, EnergyIsForeseenAtTheEndOfEachTaskWithMoreAndLessThanPredicted) {
+  start();
+  EXPECT_EQ(outlook_.budget, "lander.battery");
+  EXPECT_EQ(outlook_.capacity_j, 600000);
+  ASSERT_GT(outlook_.energy.size(), 3U);
+  EXPECT_EQ(outlook_.energy.front().at, now_);
+  EXPECT_EQ(outlook_.energy.front().predicted_j, 600000);
+  for (std::size_t i = 1; i < outlook_.energy.size(); ++i) {
+    const engine::EnergyPoint& point = outlook_.energy[i];
+    const double spent = 600000 - point.predicted_j;
+    EXPECT_GT(point.at, outlook_.energy[i - 1].at);
+    EXPECT_THAT(point.worst_j, DoubleNear(600000 - 1.1 * spent, 1e-6));
+    EXPECT_THAT(point.best_j, DoubleNear(600000 - 0.9 * spent, 1e-6));
+  }
+  double cost = 0;
+  for (const engine::ChainOutlook& one : outlook_.chains) cost += one.cost_j;
+  EXPECT_NEAR(outlook_.energy.back().predicted_j, 600000 - cost, 1e-3);
+}
+
+TEST(OutlookOfTheSubwayMap, SitesGoByChanceAndTargetsTellTheirOutcomes) {
+  const model::Network network = reading::load_network(ROCI_SOURCE_DIR "/missions/europa/network-rsm1.yaml");
+  const flattening::Chains chains = flattening::flatten_all(network);
+  const assessor::NetworkAssessor assessor;
+  const auto scheduler = search::make_scheduler("earliest");
+  cycle::Cycle cycle(network, chains, assessor, *scheduler, Time{0});
+  const delivery::Delivery delivery(network);
+  Outlooks outlooks;
+  const model::Site& second = network.subway.sites.at(1);
+  cycle.observe(second.targets.at(0).signature, temporal::seconds(1), 2);
+  const engine::MissionOutlook told =
+      outlooks.make({network, chains, assessor, cycle, delivery, temporal::seconds(2)});
+  ASSERT_THAT(told.sites, SizeIs(network.subway.sites.size()));
+  for (std::size_t i = 1; i < told.sites.size(); ++i)
+    EXPECT_GE(told.sites[i - 1].chance, told.sites[i].chance);
+  const auto line = std::ranges::find(told.sites, second.name, &engine::SubwaySite::name);
+  ASSERT_NE(line, told.sites.end());
+  EXPECT_GT(line->chance, line->by_vision) << "one sample was positive";
+  EXPECT_EQ(line->targets.at(0).outcome, SignatureOutcome::positive);
+  EXPECT_EQ(line->targets.at(1).outcome, SignatureOutcome::unknown);
+  EXPECT_NEAR(line->targets.at(1).estimated, line->targets.at(1).visual * line->chance, 1e-12);
+  EXPECT_TRUE(std::ranges::any_of(
+      line->targets, [&](const engine::SubwayTarget& target) { return target.task == told.next_target; }))
+      << "a site that is begun goes on: " << told.next_target;
+  EXPECT_EQ(told.most_samples, network.subway.most_samples);
+}
+
+}  // namespace
+}  // namespace roci::planner::utility_htn::adapter
