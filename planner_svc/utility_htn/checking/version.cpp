@@ -108,10 +108,6 @@ class Reader {
     const auto went =
         progress_ == nullptr ? temporal::Progress::const_iterator{} : progress_->find(activity.id);
     const bool known = progress_ != nullptr && went != progress_->end();
-    // It has failed or was skipped, perhaps before it began: what follows it in its chain is skipped, too.
-    if (known && temporal::is_over(went->second.state) &&
-        went->second.state != temporal::ActivityState::succeeded)
-      failed_.insert(name->block);
     if (known && went->second.started) {
       step.start = *went->second.started;
       const Time end = went->second.ended.value_or(std::max(now_, step.start + *step.duration));
@@ -135,11 +131,13 @@ class Reader {
     block->second.steps.push_back(step);
   }
 
-  // A block that is not whole is no plan any more. What has begun of it counts; what is committed does up to the link that has failed, and
-  // is skipped behind it.
+  // A block that is not whole, or of which a step has failed, is no plan any more. What has begun of it counts; what is committed does up
+  // to the link that has failed, and is skipped behind it.
   void keep(std::uint32_t number, Block& block) {
     std::ranges::sort(block.steps, {}, &Step::id);
-    bool whole = whole_.contains(number) && !failed_.contains(number);
+    bool whole = whole_.contains(number) && std::ranges::none_of(block.steps, [&](const Step& step) {
+                   return failed_.contains(step.id);
+                 });
     for (std::size_t link = 0; link < block.steps.size(); ++link)
       whole = whole && block.steps[link].id == ((std::uint64_t{number} << 32U) | link);
     if (!whole) {
@@ -168,7 +166,6 @@ class Reader {
   std::set<std::uint64_t> effective_;                  // steps that have begun and have not failed
   std::set<std::uint64_t> failed_;                     // steps that are over without success
   std::set<std::uint32_t> whole_;                      // blocks that have it
-  std::set<std::uint32_t> failed_;                     // blocks of which a step has ended without success
   Version out_;
 };
 
