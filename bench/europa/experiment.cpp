@@ -33,6 +33,10 @@ Setting read_setting(const std::filesystem::path& file) {
 
 Fate Experiment::fate_of(double bias, std::uint64_t seed, const std::string& task,
                          std::uint32_t execution) const {
+  if (setting_.only_failure) {
+    const auto& [failing, how] = *setting_.only_failure;
+    return {.failure = task == failing && execution == 0 ? how : Resolution::none};
+  }
   Fate out = fate(TaskWorld{seed, bias, setting_.noise, setting_.failures}, task, execution);
   if (out.failure == Resolution::flexible && setting_.without.contains("retry"))
     out.failure = Resolution::replanning;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/europa/prescient.hpp"
@@ -26,6 +27,8 @@ struct Setting {
   double discovery_utility = 0;
   /// What replanning does without: "retry" (what it resolves is planned anew), "repair", "optimize", "learning", "discovery".
   std::set<std::string> without;
+  /// Only the first execution of this task fails, so; everything else goes as the network has it (figure 5).
+  std::optional<std::pair<std::string, Resolution>> only_failure;
   bool robust = false;     ///< plans are judged by the worst of more, less and predicted energy
   bool downlinks = false;  ///< the Downlink Manager is asked
 };

@@ -36,6 +36,20 @@ constexpr struct {
                    {Strategy::flexible_execution, "fe"},
                    {Strategy::replanning, "replan"}};
 
+// Reads "TASK=KIND".
+std::pair<std::string, Resolution> failure_of(const std::string& text) {
+  constexpr std::pair<const char*, Resolution> kKinds[] = {{"none", Resolution::none},
+                                                           {"flexible", Resolution::flexible},
+                                                           {"replanning", Resolution::replanning},
+                                                           {"ground", Resolution::ground}};
+  const std::size_t mark = text.find('=');
+  const std::string kind = mark == std::string::npos ? "" : text.substr(mark + 1);
+  for (const auto& [name, resolution] : kKinds)
+    if (kind == name) return {text.substr(0, mark), resolution};
+  throw std::invalid_argument(
+      "--failure is TASK=none, TASK=flexible, TASK=replanning or TASK=ground, and not " + text);
+}
+
 json energy_of(const Energy& energy) {
   return {{"completed", energy.completed},
           {"recovering", energy.recovering},
@@ -186,6 +200,10 @@ int main(int argc, char** argv) {
   app.add_flag("--downlinks", downlinks, "the Downlink Manager is asked");
   app.add_flag("--no-prescient", no_prescient, "leaves out what a planner brings home that knows everything");
   app.add_flag("--executions", wanted.executions, "tells every attempt of every task");
+  std::string failure;
+  app.add_option("--failure", failure,
+                 "TASK=none|flexible|replanning|ground: only the first execution of this task fails, and "
+                 "energies are the model's");
   CLI11_PARSE(app, argc, argv);
   try {
     const auto network =
@@ -201,6 +219,7 @@ int main(int argc, char** argv) {
     setting.robust = robust;
     setting.downlinks = downlinks;
     wanted.prescient = !no_prescient;
+    if (!failure.empty()) setting.only_failure = failure_of(failure);
     const Experiment experiment(network, setting);
     json out{{"network", network_file},
              {"runs", setting.runs},
